@@ -1,0 +1,84 @@
+//! What an estimator works on.
+
+use crate::error::AoaError;
+use boresight_core::error::check_finite;
+use boresight_core::{Complex64, CoreError};
+use ndarray::ArrayView2;
+
+/// Measurements of one cell.
+#[derive(Debug, Clone, Copy)]
+pub enum Data<'a> {
+    /// Elements x snapshots.
+    Snapshots(ArrayView2<'a, Complex64>),
+    /// A Hermitian sample covariance, elements x elements, and the number of snapshots in it.
+    Covariance {
+        /// The matrix.
+        matrix: ArrayView2<'a, Complex64>,
+        /// Snapshots averaged.
+        snapshots: usize,
+    },
+}
+
+impl Data<'_> {
+    /// Number of snapshots.
+    pub fn snapshots(&self) -> usize {
+        match self {
+            Self::Snapshots(y) => y.ncols(),
+            Self::Covariance { snapshots, .. } => *snapshots,
+        }
+    }
+
+    /// Checks that the data has one row an element, is not empty, finite and, for a covariance,
+    /// Hermitian to 1e-6 of its largest entry with a real, non-negative diagonal.
+    ///
+    /// # Errors
+    /// [`CoreError::Shape`], [`CoreError::Empty`], [`CoreError::NotFinite`],
+    /// [`CoreError::OutOfRange`].
+    pub fn check(&self, elements: usize) -> Result<(), AoaError> {
+        match self {
+            Self::Snapshots(y) => {
+                if y.ncols() == 0 {
+                    return Err(empty("snapshots"));
+                }
+                if y.nrows() != elements {
+                    return Err(shape("snapshots", format!("[{elements}, snapshots]"), *y));
+                }
+                check_finite("snapshots", y.iter().flat_map(|z| [z.re, z.im]))?;
+            }
+            Self::Covariance { matrix, snapshots } => {
+                if *snapshots == 0 {
+                    return Err(empty("snapshots in the covariance"));
+                }
+                if matrix.dim() != (elements, elements) {
+                    let expected = format!("[{elements}, {elements}]");
+                    return Err(shape("covariance", expected, *matrix));
+                }
+                check_finite("covariance", matrix.iter().flat_map(|z| [z.re, z.im]))?;
+                let scale = matrix.iter().map(|z| z.norm()).fold(0.0, f64::max);
+                let skew = matrix
+                    .indexed_iter()
+                    .map(|((i, k), z)| (z - matrix[[k, i]].conj()).norm())
+                    .fold(0.0, f64::max);
+                let lowest = matrix.diag().iter().map(|z| z.re).fold(0.0, f64::min);
+                if skew > 1e-6 * scale || lowest < 0.0 {
+                    return Err(AoaError::Argument(CoreError::OutOfRange {
+                        what: "covariance".into(),
+                        expected: "a Hermitian matrix with a non-negative diagonal; largest \
+                                   deviation from it"
+                            .into(),
+                        given: skew.max(-lowest),
+                    }));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn empty(what: &str) -> AoaError {
+    CoreError::Empty { what: what.into(), expected: "at least one".into() }.into()
+}
+
+fn shape(what: &str, expected: String, given: ArrayView2<Complex64>) -> AoaError {
+    CoreError::Shape { what: what.into(), expected, given: given.shape().to_vec() }.into()
+}

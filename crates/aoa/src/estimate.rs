@@ -1,0 +1,126 @@
+//! What an estimator returns.
+
+use crate::method::Method;
+use boresight_core::{Complex64, Direction};
+
+/// One source found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Source {
+    /// Where it is.
+    pub direction: Direction,
+    /// Its power at one element, linear.
+    pub power: f64,
+    /// Its complex amplitude at the origin, where a single snapshot determines it.
+    pub amplitude: Option<Complex64>,
+}
+
+/// What the values of a spectrum mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpectrumKind {
+    /// Power at one element.
+    Power,
+    /// A pseudo-spectrum: its peaks tell angles, its height no power.
+    Pseudo,
+}
+
+/// Values over a grid of angles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spectrum {
+    /// Azimuths, rad, ascending.
+    pub azimuth_rad: Vec<f64>,
+    /// Elevations, rad, ascending; one zero where the array sees azimuth only.
+    pub elevation_rad: Vec<f64>,
+    /// Linear values, elevation-major: `values[e * azimuth_rad.len() + a]`.
+    pub values: Vec<f64>,
+    /// What they mean.
+    pub kind: SpectrumKind,
+}
+
+/// Something a reader of the result should know; not an error.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Fewer sources were found than asked for.
+    Unresolved {
+        /// Number asked for or counted.
+        expected: usize,
+        /// Number found.
+        found: usize,
+    },
+    /// The iteration ended at its limit.
+    NotConverged {
+        /// Iterations done.
+        iterations: usize,
+    },
+    /// The covariance has too low a rank for the method and was loaded.
+    Loaded {
+        /// Loading added to the diagonal, as a share of the mean element power.
+        share: f64,
+    },
+    /// Counting found no source.
+    NoSources,
+    /// Directions beyond the unambiguous sector of the array cannot be told from ones within.
+    Ambiguous {
+        /// Half width of the unambiguous sector, rad.
+        unambiguous_rad: f64,
+    },
+    /// The array was cut down to the part the method can use.
+    ElementsUnused {
+        /// Elements left out.
+        unused: usize,
+    },
+}
+
+impl Warning {
+    /// A stable name in kebab case.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Unresolved { .. } => "unresolved",
+            Self::NotConverged { .. } => "not-converged",
+            Self::Loaded { .. } => "loaded",
+            Self::NoSources => "no-sources",
+            Self::Ambiguous { .. } => "ambiguous",
+            Self::ElementsUnused { .. } => "elements-unused",
+        }
+    }
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Unresolved { expected, found } => {
+                write!(f, "{found} of {expected} sources were resolved")
+            }
+            Self::NotConverged { iterations } => {
+                write!(f, "not converged after {iterations} iterations")
+            }
+            Self::Loaded { share } => {
+                write!(f, "the covariance is singular; its diagonal was loaded by {share:.1e}")
+            }
+            Self::NoSources => write!(f, "no source stands out of the noise"),
+            Self::Ambiguous { unambiguous_rad } => write!(
+                f,
+                "the array is unambiguous only within {:.1} deg of boresight",
+                unambiguous_rad.to_degrees()
+            ),
+            Self::ElementsUnused { unused } => write!(f, "{unused} elements were not used"),
+        }
+    }
+}
+
+/// Result of an estimator.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// The method that made it.
+    pub method: Method,
+    /// Sources, strongest first.
+    pub sources: Vec<Source>,
+    /// The spectrum, from methods that have one.
+    pub spectrum: Option<Spectrum>,
+    /// Whether all sources asked for or counted were found.
+    pub resolved: bool,
+    /// Iterations done, 0 for closed forms.
+    pub iterations: usize,
+    /// What a reader should know.
+    pub warnings: Vec<Warning>,
+}

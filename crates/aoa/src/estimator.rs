@@ -1,0 +1,62 @@
+//! One interface for all estimators.
+
+use crate::data::Data;
+use crate::error::AoaError;
+use crate::estimate::Estimate;
+use crate::method::Method;
+use crate::options::Options;
+use boresight_core::Array;
+
+/// What each method implements: everything that depends on array and options alone (grids, FFT
+/// plans, steering vectors, scratch space) is made once, in the method's own constructor.
+pub trait Plan: Send {
+    /// Estimates the angles in data that [`Data::check`] has passed.
+    ///
+    /// # Errors
+    /// [`AoaError`] when the data does not suit the method.
+    fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError>;
+}
+
+/// An estimator ready to run on many cells.
+pub struct Estimator {
+    method: Method,
+    array: Array,
+    plan: Box<dyn Plan>,
+}
+
+impl Estimator {
+    /// Checks that method, array and options go together and prepares what does not depend on
+    /// data.
+    ///
+    /// # Errors
+    /// [`AoaError`] naming what does not fit.
+    pub fn new(method: Method, array: &Array, options: &Options) -> Result<Self, AoaError> {
+        options.check()?;
+        let plan = plan(method, array, options)?;
+        Ok(Self { method, array: array.clone(), plan })
+    }
+
+    /// The method.
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// The array.
+    pub fn array(&self) -> &Array {
+        &self.array
+    }
+
+    /// Estimates angles.
+    ///
+    /// # Errors
+    /// [`AoaError`] when the data is malformed or does not suit the method.
+    pub fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
+        data.check(self.array.len())?;
+        self.plan.estimate(data)
+    }
+}
+
+fn plan(method: Method, array: &Array, options: &Options) -> Result<Box<dyn Plan>, AoaError> {
+    let _ = (array, options);
+    Err(AoaError::NeedsSnapshots { method: method.name() })
+}

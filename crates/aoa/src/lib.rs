@@ -1,0 +1,20 @@
+//! Angle-of-arrival estimators behind one interface, source counting and Cramer-Rao bounds.
+//!
+//! [`Estimator::new`] takes a method, an array and options and checks that they go together;
+//! [`Estimator::estimate`] takes snapshots or a covariance and returns an [`Estimate`].
+
+pub mod data;
+pub mod error;
+pub mod estimate;
+pub mod estimator;
+pub mod grid;
+pub mod method;
+pub mod options;
+
+pub use data::Data;
+pub use error::AoaError;
+pub use estimate::{Estimate, Source, Spectrum, SpectrumKind, Warning};
+pub use estimator::Estimator;
+pub use grid::Grid;
+pub use method::{Method, Requirements};
+pub use options::{Options, SourceCount};

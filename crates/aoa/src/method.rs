@@ -1,0 +1,221 @@
+//! The estimators by name, and what each asks for.
+
+use boresight_core::CoreError;
+use serde::{Deserialize, Serialize};
+
+/// An angle-of-arrival estimator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Delay and sum (an FFT on a lattice).
+    Bartlett,
+    /// Minimum-variance beamformer (Capon 1969).
+    Capon,
+    /// Multiple signal classification (Schmidt 1986).
+    Music,
+    /// MUSIC on a Hankel matrix of one snapshot (Liao and Fannjiang 2016).
+    SingleSnapshotMusic,
+    /// Root-MUSIC (Barabell 1983).
+    RootMusic,
+    /// Rotational invariance (Roy and Kailath 1989), least squares or total least squares.
+    Esprit,
+    /// Minimum norm (Kumaresan and Tufts 1983).
+    MinNorm,
+    /// Iterative adaptive approach (Yardibi et al. 2010).
+    Iaa,
+    /// Newtonized orthogonal matching pursuit (Mamandipoor et al. 2016).
+    Nomp,
+    /// Deterministic maximum likelihood by alternating projection (Ziskind and Wax 1988).
+    MaximumLikelihood,
+    /// Off-grid sparse Bayesian learning (Yang, Xie and Zhang 2013).
+    SparseBayesian,
+}
+
+/// What a method needs and gives; the check and the documentation both read it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Requirements {
+    /// Name for people.
+    pub title: &'static str,
+    /// Where it was published.
+    pub reference: &'static str,
+    /// Fewest snapshots it is of use with (after smoothing where that applies).
+    pub min_snapshots: usize,
+    /// Most snapshots it takes, if there is a limit.
+    pub max_snapshots: Option<usize>,
+    /// Whether a covariance will do.
+    pub takes_covariance: bool,
+    /// Whether the elements must be evenly spaced on a line along y.
+    pub uniform_array: bool,
+    /// Whether the elements must stand on a grid along y (gaps allowed).
+    pub lattice: bool,
+    /// Whether it also estimates elevation on arrays that span an area.
+    pub elevation: bool,
+    /// Whether the number of sources must be given or counted beforehand.
+    pub source_count: bool,
+    /// Whether it returns a spectrum over angle.
+    pub spectrum: bool,
+    /// Operation count of one estimate, in words.
+    pub cost: &'static str,
+}
+
+impl Method {
+    /// All methods, in the order they are listed to users.
+    pub const ALL: [Self; 11] = [
+        Self::Bartlett,
+        Self::Capon,
+        Self::Music,
+        Self::SingleSnapshotMusic,
+        Self::RootMusic,
+        Self::Esprit,
+        Self::MinNorm,
+        Self::Iaa,
+        Self::Nomp,
+        Self::MaximumLikelihood,
+        Self::SparseBayesian,
+    ];
+
+    /// The name used in options, in JavaScript and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bartlett => "bartlett",
+            Self::Capon => "capon",
+            Self::Music => "music",
+            Self::SingleSnapshotMusic => "single-snapshot-music",
+            Self::RootMusic => "root-music",
+            Self::Esprit => "esprit",
+            Self::MinNorm => "min-norm",
+            Self::Iaa => "iaa",
+            Self::Nomp => "nomp",
+            Self::MaximumLikelihood => "maximum-likelihood",
+            Self::SparseBayesian => "sparse-bayesian",
+        }
+    }
+
+    /// Finds a method by its [`Method::name`].
+    ///
+    /// # Errors
+    /// [`CoreError::Unknown`], listing the known names.
+    pub fn from_name(name: &str) -> Result<Self, CoreError> {
+        Self::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
+            CoreError::Unknown {
+                what: "method".into(),
+                expected: Self::ALL.map(Self::name).join(", "),
+                given: name.into(),
+            }
+        })
+    }
+
+    /// What the method needs and gives.
+    pub fn requirements(self) -> Requirements {
+        let base = Requirements {
+            title: "",
+            reference: "",
+            min_snapshots: 1,
+            max_snapshots: None,
+            takes_covariance: true,
+            uniform_array: false,
+            lattice: false,
+            elevation: false,
+            source_count: false,
+            spectrum: true,
+            cost: "",
+        };
+        match self {
+            Self::Bartlett => Requirements {
+                title: "Bartlett (FFT)",
+                reference: "Bartlett 1948; Krim and Viberg 1996",
+                elevation: true,
+                cost: "G log G a snapshot",
+                ..base
+            },
+            Self::Capon => Requirements {
+                title: "Capon (MVDR)",
+                reference: "Capon 1969",
+                elevation: true,
+                cost: "K^3 + G log G",
+                ..base
+            },
+            Self::Music => Requirements {
+                title: "MUSIC",
+                reference: "Schmidt 1986",
+                min_snapshots: 2,
+                elevation: true,
+                source_count: true,
+                cost: "K^3 + G log G",
+                ..base
+            },
+            Self::SingleSnapshotMusic => Requirements {
+                title: "Single-snapshot MUSIC",
+                reference: "Liao and Fannjiang 2016",
+                max_snapshots: Some(1),
+                takes_covariance: false,
+                uniform_array: true,
+                source_count: true,
+                cost: "K^3 / 8 + G log G",
+                ..base
+            },
+            Self::RootMusic => Requirements {
+                title: "Root-MUSIC",
+                reference: "Barabell 1983",
+                min_snapshots: 2,
+                lattice: true,
+                source_count: true,
+                spectrum: false,
+                cost: "K^3 + roots of degree 2 (span - 1)",
+                ..base
+            },
+            Self::Esprit => Requirements {
+                title: "ESPRIT",
+                reference: "Roy and Kailath 1989",
+                min_snapshots: 2,
+                uniform_array: true,
+                source_count: true,
+                spectrum: false,
+                cost: "K^3 + D^3",
+                ..base
+            },
+            Self::MinNorm => Requirements {
+                title: "Min-norm",
+                reference: "Kumaresan and Tufts 1983",
+                min_snapshots: 2,
+                source_count: true,
+                cost: "K^3 + G log G",
+                ..base
+            },
+            Self::Iaa => Requirements {
+                title: "IAA",
+                reference: "Yardibi et al. 2010",
+                takes_covariance: false,
+                elevation: true,
+                cost: "(K^3 + G log G) an iteration",
+                ..base
+            },
+            Self::Nomp => Requirements {
+                title: "NOMP",
+                reference: "Mamandipoor, Ramasamy and Madhow 2016",
+                takes_covariance: false,
+                elevation: true,
+                spectrum: false,
+                cost: "D (G log G + D K)",
+                ..base
+            },
+            Self::MaximumLikelihood => Requirements {
+                title: "Deterministic maximum likelihood",
+                reference: "Ziskind and Wax 1988",
+                elevation: true,
+                source_count: true,
+                spectrum: false,
+                cost: "D G K^2 to start, D K^2 an iteration",
+                ..base
+            },
+            Self::SparseBayesian => Requirements {
+                title: "Off-grid sparse Bayesian learning",
+                reference: "Yang, Xie and Zhang 2013",
+                takes_covariance: false,
+                cost: "G K^2 an iteration",
+                ..base
+            },
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! Errors: what was wrong, what was expected and what was given.
+
+use thiserror::Error;
+
+/// The parts of an error a program can act on or a page can lay out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Details {
+    /// The argument, field, file part or quantity that was wrong.
+    pub what: String,
+    /// What would have been accepted.
+    pub expected: String,
+    /// What was given.
+    pub given: String,
+}
+
+impl Details {
+    /// Collects the three parts.
+    pub fn new(
+        what: impl Into<String>,
+        expected: impl Into<String>,
+        given: impl Into<String>,
+    ) -> Self {
+        Self { what: what.into(), expected: expected.into(), given: given.into() }
+    }
+}
+
+/// What every error of the workspace can say of itself, beside its message.
+pub trait Diagnose: std::error::Error {
+    /// A stable, machine-readable name in kebab case, such as `not-finite`.
+    fn code(&self) -> &'static str;
+
+    /// What was wrong, expected and given.
+    fn details(&self) -> Details;
+}
+
+/// Errors of arguments, shared by all crates.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CoreError {
+    /// Something that needs at least one entry has none.
+    #[error("{what} is empty; expected {expected}")]
+    Empty {
+        /// The argument.
+        what: String,
+        /// What would have been accepted.
+        expected: String,
+    },
+    /// A NaN or an infinity where a finite number is needed.
+    #[error("{what} is {given} at index {index}; expected finite numbers")]
+    NotFinite {
+        /// The argument.
+        what: String,
+        /// Position of the first offender, counted in C order.
+        index: usize,
+        /// The offender.
+        given: f64,
+    },
+    /// A wrong number of entries or axes.
+    #[error("{what} has shape {given:?}; expected {expected}")]
+    Shape {
+        /// The argument.
+        what: String,
+        /// The shape asked for, in words.
+        expected: String,
+        /// The shape given.
+        given: Vec<usize>,
+    },
+    /// A number outside its range.
+    #[error("{what} is {given}; expected {expected}")]
+    OutOfRange {
+        /// The argument.
+        what: String,
+        /// The range, in words.
+        expected: String,
+        /// The number given.
+        given: f64,
+    },
+    /// A name that is not in a fixed list.
+    #[error("{what} {given:?} is not known; expected one of {expected}")]
+    Unknown {
+        /// What the name names.
+        what: String,
+        /// The accepted names.
+        expected: String,
+        /// The name given.
+        given: String,
+    },
+    /// A matrix that has to be positive definite is not.
+    #[error("{what} is not positive definite: pivot {index} is {given}")]
+    NotPositiveDefinite {
+        /// The matrix.
+        what: String,
+        /// Row of the failing pivot.
+        index: usize,
+        /// Value of the failing pivot.
+        given: f64,
+    },
+}
+
+impl Diagnose for CoreError {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Empty { .. } => "empty",
+            Self::NotFinite { .. } => "not-finite",
+            Self::Shape { .. } => "shape",
+            Self::OutOfRange { .. } => "out-of-range",
+            Self::Unknown { .. } => "unknown-name",
+            Self::NotPositiveDefinite { .. } => "not-positive-definite",
+        }
+    }
+
+    fn details(&self) -> Details {
+        match self {
+            Self::Empty { what, expected } => Details::new(what, expected, "nothing"),
+            Self::NotFinite { what, index, given } => {
+                Details::new(what, "finite numbers", format!("{given} at index {index}"))
+            }
+            Self::Shape { what, expected, given } => {
+                Details::new(what, expected, format!("{given:?}"))
+            }
+            Self::OutOfRange { what, expected, given } => {
+                Details::new(what, expected, given.to_string())
+            }
+            Self::Unknown { what, expected, given } => Details::new(what, expected, given),
+            Self::NotPositiveDefinite { what, index, given } => Details::new(
+                what,
+                "a positive definite matrix",
+                format!("pivot {given} in row {index}"),
+            ),
+        }
+    }
+}
+
+/// Checks that a number lies in `low..=high`.
+///
+/// # Errors
+/// [`CoreError::OutOfRange`], also for NaN.
+pub fn check_range(what: &str, given: f64, low: f64, high: f64) -> Result<(), CoreError> {
+    if given >= low && given <= high {
+        return Ok(());
+    }
+    let expected = if high == f64::INFINITY {
+        format!("a number of at least {low}")
+    } else {
+        format!("a number from {low} to {high}")
+    };
+    Err(CoreError::OutOfRange { what: what.into(), expected, given })
+}
+
+/// Checks that a number is finite and greater than zero.
+///
+/// # Errors
+/// [`CoreError::OutOfRange`], also for NaN and infinity.
+pub fn check_positive(what: &str, given: f64) -> Result<(), CoreError> {
+    if given > 0.0 && given.is_finite() {
+        return Ok(());
+    }
+    Err(CoreError::OutOfRange {
+        what: what.into(),
+        expected: "a finite number greater than 0".into(),
+        given,
+    })
+}
+
+/// Checks that all numbers are finite.
+///
+/// # Errors
+/// [`CoreError::NotFinite`] for the first that is not.
+pub fn check_finite(what: &str, numbers: impl IntoIterator<Item = f64>) -> Result<(), CoreError> {
+    for (index, given) in numbers.into_iter().enumerate() {
+        if !given.is_finite() {
+            return Err(CoreError::NotFinite { what: what.into(), index, given });
+        }
+    }
+    Ok(())
+}

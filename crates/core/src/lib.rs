@@ -1,0 +1,27 @@
+//! Foundation of Boresight: units, geometry, antenna arrays, steering vectors, waveforms, dense
+//! complex linear algebra, seeded random numbers and the error types everything else builds on.
+//!
+//! Conventions (stated in full in `docs/conventions.md`): SI units and radians, with the unit in
+//! the name; the sensor frame has x forward, y left and z up; azimuth is counter-clockwise
+//! positive; range rate is positive when receding; antenna positions are in half wavelengths.
+
+pub mod array;
+pub mod direction;
+pub mod error;
+pub mod imperfections;
+pub mod lattice;
+pub mod linalg;
+pub mod presets;
+pub mod random;
+pub mod steering;
+pub mod units;
+pub mod waveform;
+
+pub use array::{Array, Channel, Extent};
+pub use direction::Direction;
+pub use error::{CoreError, Details, Diagnose};
+pub use imperfections::Imperfections;
+pub use lattice::Lattice;
+pub use num_complex::{Complex32, Complex64};
+pub use random::Random;
+pub use waveform::Waveform;

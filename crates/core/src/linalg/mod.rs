@@ -1,0 +1,29 @@
+//! Dense complex linear algebra on [`ndarray`] matrices.
+
+mod cholesky;
+mod eigenvalues;
+mod hermitian;
+mod least_squares;
+mod roots;
+
+pub use cholesky::Cholesky;
+pub use eigenvalues::eigenvalues;
+pub use hermitian::{HermitianEigen, hermitian_eigen};
+pub use least_squares::{least_squares, solve};
+pub use roots::polynomial_roots;
+
+use ndarray::{Array2, ArrayView2};
+use num_complex::Complex64;
+
+/// Conjugate transpose.
+pub fn adjoint(matrix: ArrayView2<Complex64>) -> Array2<Complex64> {
+    matrix.t().mapv(|z| z.conj())
+}
+
+fn to_nalgebra(matrix: ArrayView2<Complex64>) -> nalgebra::DMatrix<Complex64> {
+    nalgebra::DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| matrix[[i, k]])
+}
+
+fn from_nalgebra(matrix: &nalgebra::DMatrix<Complex64>) -> Array2<Complex64> {
+    Array2::from_shape_fn(matrix.shape(), |(i, k)| matrix[(i, k)])
+}

@@ -1,0 +1,125 @@
+//! Arrays of known radars.
+
+use crate::array::{Array, Position};
+use crate::error::CoreError;
+
+/// Names [`preset`] knows, beside `ula<N>`.
+pub const PRESETS: [&str; 4] = ["awr1642", "awr1843", "cascade86", "lrr48"];
+
+/// A named array: one of [`PRESETS`], or `ulaN` for N half-wavelength elements (`ula8`).
+///
+/// # Errors
+/// [`CoreError::Unknown`] for any other name; [`CoreError::OutOfRange`] or [`CoreError::Empty`]
+/// for an N that makes no array.
+pub fn preset(name: &str) -> Result<Array, CoreError> {
+    match name {
+        "awr1642" => awr1642(),
+        "awr1843" => awr1843(),
+        "cascade86" => cascade86(),
+        "lrr48" => lrr48(),
+        _ => match name.strip_prefix("ula").and_then(|digits| digits.parse().ok()) {
+            Some(elements) => Array::ula(elements),
+            None => Err(CoreError::Unknown {
+                what: "array preset".into(),
+                expected: format!("{}, ulaN (such as ula8)", PRESETS.join(", ")),
+                given: name.into(),
+            }),
+        },
+    }
+}
+
+/// Texas Instruments AWR1642BOOST: 2 transmitters and 4 receivers, 8 virtual elements in azimuth.
+/// The element index rises toward the board's right, so toward -y.
+fn awr1642() -> Result<Array, CoreError> {
+    Array::mimo(&along_y(&[0.0, -4.0]), &along_y(&[0.0, -1.0, -2.0, -3.0]))
+}
+
+/// Texas Instruments AWR1843BOOST: 3 transmitters and 4 receivers, 8 virtual elements in azimuth
+/// and 4 elevated by half a wavelength above the middle of them. Transmitters in the order of
+/// their numbers on the chip, the second being the elevated one.
+fn awr1843() -> Result<Array, CoreError> {
+    let tx = [[0.0, 0.0, 0.0], [0.0, -2.0, 1.0], [0.0, -4.0, 0.0]];
+    Array::mimo(&tx, &along_y(&[0.0, -1.0, -2.0, -3.0]))
+}
+
+/// Azimuth array of Texas Instruments' four-chip cascade board: 9 transmitters and 16 receivers in
+/// one row, 86 distinct virtual elements without a gap.
+fn cascade86() -> Result<Array, CoreError> {
+    let tx: Vec<f64> = (0..9).map(|k| -4.0 * f64::from(k)).collect();
+    let rx = [0, 1, 2, 3, 11, 12, 13, 14, 46, 47, 48, 49, 50, 51, 52, 53];
+    let array =
+        Array::mimo(&along_y(&tx), &along_y(&rx.map(|k| -f64::from(k))))?.without_duplicates();
+    let mut order: Vec<usize> = (0..array.len()).collect();
+    order.sort_by(|&a, &b| array.positions()[b][1].total_cmp(&array.positions()[a][1]));
+    array.select(&order)
+}
+
+/// A sparse long-range array of 6 transmitters and 8 receivers: 48 distinct virtual elements over
+/// 92 half wavelengths, peak sidelobe -14.5 dB. Of the size of the radar of the AAETR paper, whose
+/// positions are unpublished.
+fn lrr48() -> Result<Array, CoreError> {
+    Array::mimo(
+        &along_y(&[0.0, 18.0, 30.0, 42.0, 62.0, 78.0]),
+        &along_y(&[0.0, 3.0, 4.0, 5.0, 7.0, 8.0, 13.0, 14.0]),
+    )
+}
+
+fn along_y(ys: &[f64]) -> Vec<Position> {
+    ys.iter().map(|&y| [0.0, y, 0.0]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::array::Extent;
+
+    #[test]
+    fn presets_have_the_elements_they_promise() {
+        for (name, elements, extent) in [
+            ("awr1642", 8, Extent::Azimuth),
+            ("awr1843", 12, Extent::Area),
+            ("cascade86", 86, Extent::Azimuth),
+            ("lrr48", 48, Extent::Azimuth),
+            ("ula10", 10, Extent::Azimuth),
+        ] {
+            let array = preset(name).unwrap();
+            assert_eq!((array.len(), array.extent()), (elements, extent), "{name}");
+            assert_eq!(array.without_duplicates().len(), elements, "{name}");
+        }
+        assert!(preset("cascade86").unwrap().is_uniform());
+        assert!(preset("awr1642").unwrap().is_uniform());
+        assert_eq!(preset("lrr48").unwrap().aperture(), 92.0);
+    }
+
+    #[test]
+    fn lrr48_has_its_stated_sidelobe() {
+        let array = preset("lrr48").unwrap();
+        let response = |u: f64| -> f64 {
+            let sum: num_complex::Complex64 = array
+                .positions()
+                .iter()
+                .map(|p| num_complex::Complex64::cis(std::f64::consts::PI * p[1] * u))
+                .sum();
+            20.0 * (sum.norm() / 48.0).log10()
+        };
+        let first_null = (1..2000).map(|k| f64::from(k) * 1e-5 * 5.0);
+        let null =
+            first_null.clone().zip(first_null.skip(1)).find(|(a, b)| response(*b) > response(*a));
+        let (start, _) = null.unwrap();
+        let peak = (0..40_000)
+            .map(|k| f64::from(k) / 40_000.0)
+            .filter(|u| *u > start)
+            .map(response)
+            .fold(f64::NEG_INFINITY, f64::max);
+        assert!((peak + 14.5).abs() < 0.1, "{peak}");
+    }
+
+    #[test]
+    fn unknown_names_list_the_known_ones() {
+        for name in ["", "ula", "ulax", "awr9999"] {
+            let message = preset(name).unwrap_err().to_string();
+            assert!(message.contains("lrr48"), "{message}");
+        }
+        assert!(preset("ula0").is_err());
+    }
+}

@@ -1,0 +1,133 @@
+//! The FMCW waveform of a time-division MIMO radar and the numbers that follow from it.
+
+use crate::error::{CoreError, check_positive, check_range};
+use crate::units::SPEED_OF_LIGHT_MPS;
+use serde::{Deserialize, Serialize};
+
+/// Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each,
+/// `samples` complex samples a chirp.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Waveform {
+    /// Frequency at the start of the ramp, Hz.
+    pub start_frequency_hz: f64,
+    /// Slope of the ramp, Hz per second.
+    pub slope_hz_per_s: f64,
+    /// Complex sample rate, Hz.
+    pub sample_rate_hz: f64,
+    /// Samples a chirp.
+    pub samples: usize,
+    /// Time from the start of the ramp to the first sample, s.
+    pub adc_start_s: f64,
+    /// Time from the start of one chirp to the start of the next, s.
+    pub chirp_interval_s: f64,
+    /// Number of transmitters, which take turns.
+    pub transmitters: usize,
+    /// Chirps of each transmitter in a frame.
+    pub loops: usize,
+    /// Time from the start of one frame to the start of the next, s.
+    pub frame_interval_s: f64,
+}
+
+impl Waveform {
+    /// Checks that every quantity is finite, in its domain and consistent with the others.
+    ///
+    /// # Errors
+    /// [`CoreError::OutOfRange`] naming the first that is not.
+    pub fn check(&self) -> Result<(), CoreError> {
+        check_positive("start_frequency_hz", self.start_frequency_hz)?;
+        check_positive("slope_hz_per_s", self.slope_hz_per_s)?;
+        check_positive("sample_rate_hz", self.sample_rate_hz)?;
+        check_range("samples", self.samples as f64, 2.0, 65_536.0)?;
+        check_range("adc_start_s", self.adc_start_s, 0.0, 1.0)?;
+        check_range("transmitters", self.transmitters as f64, 1.0, 64.0)?;
+        check_range("loops", self.loops as f64, 1.0, 65_536.0)?;
+        check_range("chirp_interval_s", self.chirp_interval_s, self.sweep_s(), 1.0)?;
+        let active = self.chirp_interval_s * (self.loops * self.transmitters) as f64;
+        check_range("frame_interval_s", self.frame_interval_s, active * (1.0 - 1e-9), 1e3)
+    }
+
+    /// Time over which samples are taken, s.
+    pub fn sweep_s(&self) -> f64 {
+        self.samples as f64 / self.sample_rate_hz
+    }
+
+    /// Bandwidth swept while samples are taken, Hz.
+    pub fn bandwidth_hz(&self) -> f64 {
+        self.slope_hz_per_s * self.sweep_s()
+    }
+
+    /// Frequency in the middle of the samples, Hz.
+    pub fn centre_frequency_hz(&self) -> f64 {
+        self.start_frequency_hz + self.slope_hz_per_s * (self.adc_start_s + self.sweep_s() / 2.0)
+    }
+
+    /// Wavelength at the centre frequency, m.
+    pub fn wavelength_m(&self) -> f64 {
+        SPEED_OF_LIGHT_MPS / self.centre_frequency_hz()
+    }
+
+    /// Range resolution `c / 2B`, m; the width of a range bin where the transform is not padded.
+    pub fn range_resolution_m(&self) -> f64 {
+        SPEED_OF_LIGHT_MPS / (2.0 * self.bandwidth_hz())
+    }
+
+    /// Largest unambiguous range with complex samples: `c fs / 2 slope`, m.
+    pub fn max_range_m(&self) -> f64 {
+        SPEED_OF_LIGHT_MPS * self.sample_rate_hz / (2.0 * self.slope_hz_per_s)
+    }
+
+    /// Time from one chirp of a transmitter to its next, s.
+    pub fn loop_interval_s(&self) -> f64 {
+        self.chirp_interval_s * self.transmitters as f64
+    }
+
+    /// Range-rate resolution `lambda / 2 T`, m/s, T being the time the loops take.
+    pub fn rate_resolution_mps(&self) -> f64 {
+        self.wavelength_m() / (2.0 * self.loops as f64 * self.loop_interval_s())
+    }
+
+    /// Largest unambiguous range rate `lambda / 4 Tloop`, m/s, of either sign.
+    pub fn max_rate_mps(&self) -> f64 {
+        self.wavelength_m() / (4.0 * self.loop_interval_s())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn awr1642() -> Waveform {
+        Waveform {
+            start_frequency_hz: 77e9,
+            slope_hz_per_s: 60e12,
+            sample_rate_hz: 5.209e6,
+            samples: 256,
+            adc_start_s: 7e-6,
+            chirp_interval_s: 97.14e-6,
+            transmitters: 2,
+            loops: 16,
+            frame_interval_s: 40e-3,
+        }
+    }
+
+    #[test]
+    fn derived_numbers_of_the_awr1642_profile() {
+        let waveform = awr1642();
+        waveform.check().unwrap();
+        assert!((waveform.range_resolution_m() - 0.0508).abs() < 2e-4);
+        assert!((waveform.max_range_m() - 13.013).abs() < 0.01);
+        assert!((waveform.max_rate_mps() - 4.88).abs() < 0.1);
+        assert!((waveform.rate_resolution_mps() - 0.61).abs() < 0.02);
+    }
+
+    #[test]
+    fn impossible_waveforms_name_the_quantity() {
+        let broken = Waveform { chirp_interval_s: 1e-6, ..awr1642() };
+        assert!(broken.check().unwrap_err().to_string().contains("chirp_interval_s"));
+        let broken = Waveform { slope_hz_per_s: f64::NAN, ..awr1642() };
+        assert!(broken.check().unwrap_err().to_string().contains("slope_hz_per_s"));
+        let broken = Waveform { frame_interval_s: 1e-3, ..awr1642() };
+        assert!(broken.check().unwrap_err().to_string().contains("frame_interval_s"));
+    }
+}

@@ -1,0 +1,1 @@
+//! From raw FMCW captures to detections with angles.

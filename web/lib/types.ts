@@ -1,0 +1,360 @@
+/**
+ * Options and results of the package. Angles are in degrees, all else in SI units; the unit is in
+ * the name. Azimuth is positive to the left of boresight, range rate positive when receding.
+ */
+
+/** Interleaved [re, im] numbers in C order with their shape (complex numbers, not floats). */
+export interface ComplexData {
+  data: Float32Array | Float64Array;
+  shape: readonly number[];
+}
+
+/** Real numbers in C order with their shape. */
+export interface RealData {
+  data: Float32Array | Float64Array;
+  shape: readonly number[];
+}
+
+/** Antenna position in half wavelengths: x forward, y left, z up. */
+export type Position = readonly [x: number, y: number, z: number];
+
+/** A preset's name (`lrr48`, `awr1642`, `awr1843`, `cascade86`, `ula8` for any N) or positions. */
+export type ArrayInput =
+  | string
+  | { positions: readonly Position[] }
+  | { tx: readonly Position[]; rx: readonly Position[]; withoutDuplicates?: boolean };
+
+export interface ArrayGeometry {
+  positions: Position[];
+  tx: Position[];
+  rx: Position[];
+  /** Transmitter and receiver of each element. */
+  channels: { tx: number; rx: number }[];
+  /** Length along y, half wavelengths. */
+  aperture: number;
+  extent: 'point' | 'azimuth' | 'line' | 'area';
+  uniform: boolean;
+  /** Half width of the sector without grating lobes; 90 when there is none. */
+  unambiguousDeg: number;
+}
+
+export interface Imperfections {
+  /** Standard deviations drawn from the seed. */
+  gainDb?: number;
+  phaseDeg?: number;
+  /** Along y, half wavelengths. */
+  position?: number;
+  /** Coupling of elements half a wavelength apart, dB; absent for none. */
+  couplingDb?: number;
+  seed?: number | bigint;
+}
+
+export type Method =
+  | 'bartlett' | 'capon' | 'music' | 'single-snapshot-music' | 'root-music' | 'esprit'
+  | 'min-norm' | 'iaa' | 'nomp' | 'maximum-likelihood' | 'sparse-bayesian';
+
+/** What a method needs and gives. */
+export interface MethodInfo {
+  name: Method;
+  title: string;
+  reference: string;
+  minSnapshots: number;
+  maxSnapshots: number | null;
+  takesCovariance: boolean;
+  uniformArray: boolean;
+  lattice: boolean;
+  elevation: boolean;
+  sourceCount: boolean;
+  spectrum: boolean;
+  cost: string;
+}
+
+export interface EstimatorOptions {
+  method: Method;
+  array: ArrayInput;
+  /** Number of sources, or how to count them. Default `mdl`. */
+  sources?: number | 'aic' | 'mdl';
+  /** Half width of the field of view, default 90. */
+  fieldOfViewDeg?: number;
+  elevationFieldOfViewDeg?: number;
+  /** Points of the azimuth grid over sin(azimuth) in [-1, 1), default 1024. */
+  gridPoints?: number;
+  elevationPoints?: number;
+  forwardBackward?: boolean;
+  /** Subarray length of spatial smoothing. */
+  smoothing?: number;
+  /** Diagonal loading as a share of the mean element power. */
+  loading?: number;
+  dynamicRangeDb?: number;
+  maxPeaks?: number;
+  esprit?: 'least-squares' | 'total-least-squares';
+  iaa?: {
+    iterations?: number;
+    thresholding?: 'none' | 'hard' | 'soft';
+    thresholdDb?: number;
+    regularisation?: number;
+    form?: 'auto' | 'fast' | 'dense';
+  };
+  nomp?: {
+    falseAlarm?: number;
+    noisePower?: number;
+    oversampling?: number;
+    singleRefinements?: number;
+    cyclicRefinements?: number;
+    maxSources?: number;
+  };
+  maxIterations?: number;
+  tolerance?: number;
+}
+
+/** Snapshots (elements x snapshots, or a vector of elements) or a covariance. */
+export type EstimateInput =
+  | { snapshots: ComplexData }
+  | { covariance: ComplexData; snapshotCount: number };
+
+export interface Warning { code: string; message: string }
+
+export interface Source {
+  azimuthDeg: number;
+  elevationDeg: number;
+  powerDb: number;
+  /** Complex amplitude at the array's origin, where one snapshot determines it. */
+  amplitude?: readonly [re: number, im: number];
+}
+
+export interface Spectrum {
+  azimuthDeg: Float64Array;
+  /** One zero where the array sees azimuth only. */
+  elevationDeg: Float64Array;
+  /** Elevation-major, dB. */
+  valuesDb: Float64Array;
+  kind: 'power' | 'pseudo';
+}
+
+export interface Estimate {
+  method: Method;
+  /** Strongest first. */
+  sources: Source[];
+  spectrum?: Spectrum;
+  resolved: boolean;
+  iterations: number;
+  warnings: Warning[];
+}
+
+export interface CountResult {
+  count: number;
+  /** Eigenvalues, largest first. */
+  eigenvalues: Float64Array;
+  /** Criterion for 0, 1, 2 ... sources. */
+  criterion: Float64Array;
+}
+
+export interface BoundOptions {
+  array: ArrayInput;
+  targets: readonly { azimuthDeg: number; elevationDeg?: number; snrDb: number; phaseDeg?: number }[];
+  snapshots: number;
+  kind: 'deterministic' | 'stochastic';
+}
+
+export interface Bound {
+  /** Standard deviation bound of each target's azimuth. */
+  azimuthDeg: Float64Array;
+  /** Of each elevation; present where the array sees elevation. */
+  elevationDeg?: Float64Array;
+}
+
+export interface SnapshotTarget {
+  azimuthDeg: number;
+  elevationDeg?: number;
+  /** Power at one element, dB. Default 0. */
+  powerDb?: number;
+  /** Phase of the first snapshot; random if absent. */
+  phaseDeg?: number;
+}
+
+export interface SnapshotOptions {
+  array: ArrayInput;
+  /** Given targets, or a rule to sample them from. */
+  targets:
+    | readonly SnapshotTarget[]
+    | { count: readonly [fewest: number, most: number]; fieldOfViewDeg?: number; powerDb?: readonly [number, number] };
+  snrDb: number;
+  /** Snapshots a scene, default 1. */
+  snapshots?: number;
+  /** Scenes, default 1. */
+  scenes?: number;
+  /** First scene's number, for splitting a sweep; default 0. */
+  firstScene?: number;
+  /** Whether targets fluctuate from snapshot to snapshot (default), or all move in step. */
+  coherent?: boolean;
+  imperfections?: Imperfections;
+  seed: number | bigint;
+}
+
+export interface SnapshotResult extends ComplexData {
+  /** scenes x elements x snapshots. */
+  data: Float64Array;
+  shape: [scenes: number, elements: number, snapshots: number];
+  /** Targets of each scene. */
+  truth: { azimuthDeg: number; elevationDeg: number; powerDb: number }[][];
+}
+
+export interface Waveform {
+  startFrequencyHz: number;
+  slopeHzPerS: number;
+  sampleRateHz: number;
+  samples: number;
+  adcStartS: number;
+  chirpIntervalS: number;
+  transmitters: number;
+  loops: number;
+  frameIntervalS: number;
+}
+
+/** Numbers engineers look for first. */
+export interface WaveformSummary {
+  bandwidthHz: number;
+  centreFrequencyHz: number;
+  wavelengthM: number;
+  rangeResolutionM: number;
+  maxRangeM: number;
+  rateResolutionMps: number;
+  maxRateMps: number;
+  frameTimeS: number;
+}
+
+export interface CubeTarget {
+  rangeM: number;
+  rateMps?: number;
+  azimuthDeg?: number;
+  elevationDeg?: number;
+  /** Power of one raw sample at one element, dB. Default 0. */
+  powerDb?: number;
+}
+
+export interface CubeOptions {
+  waveform: Waveform;
+  array: ArrayInput;
+  targets: readonly CubeTarget[];
+  /** Power of a 0 dB target over noise power, both per raw sample. */
+  snrDb: number;
+  frames?: number;
+  /** Spherical wavefronts instead of plane ones. */
+  nearField?: boolean;
+  imperfections?: Imperfections;
+  seed: number | bigint;
+}
+
+/** frames x loops x transmitters x receivers x samples. */
+export interface CubeResult extends ComplexData {
+  data: Float32Array;
+  shape: [frames: number, loops: number, transmitters: number, receivers: number, samples: number];
+}
+
+export type WindowName = 'rectangular' | 'hann' | 'hamming' | 'blackman' | 'blackman-harris' | 'chebyshev' | 'taylor';
+export type CfarKind = 'cell-averaging' | 'greatest-of' | 'smallest-of' | 'ordered-statistic';
+
+export interface ChainOptions {
+  /** Default: the preset whose virtual elements match the capture. */
+  array?: ArrayInput;
+  rangeWindow?: WindowName;
+  dopplerWindow?: WindowName;
+  /** Transform lengths as a multiple of the data's; powers of two. */
+  rangePadding?: number;
+  dopplerPadding?: number;
+  staticClutterRemoval?: boolean;
+  cfar?: {
+    kind?: CfarKind;
+    /** One-dimensional along range, along Doppler, or two-dimensional. */
+    axes?: 'range' | 'doppler' | 'both';
+    falseAlarm?: number;
+    guardCells?: readonly [range: number, doppler: number];
+    trainingCells?: readonly [range: number, doppler: number];
+    /** Rank of the ordered statistic as a share of the training cells. */
+    rank?: number;
+  };
+  peakGrouping?: boolean;
+  /** Limits outside which detections are dropped (and counted). */
+  region?: { rangeM?: readonly [number, number]; rateMps?: readonly [number, number]; azimuthDeg?: readonly [number, number] };
+  /** Estimator for each detection's angle; its array is the chain's. */
+  angle?: Omit<EstimatorOptions, 'array'>;
+  maxDetections?: number;
+}
+
+export interface Detection {
+  frame: number;
+  rangeM: number;
+  rateMps: number;
+  azimuthDeg: number;
+  elevationDeg: number;
+  /** Power at one element, dB relative to full scale (1.0). */
+  powerDb: number;
+  /** Over the local noise estimate. */
+  snrDb: number;
+  rangeBin: number;
+  dopplerBin: number;
+}
+
+export interface FrameResult {
+  frame: number;
+  rangeM: Float64Array;
+  rateMps: Float64Array;
+  /** Mean over channels, Doppler summed, dB. */
+  rangeProfileDb: Float64Array;
+  /** range x Doppler, dB, mean over channels. */
+  rangeDopplerDb: Float32Array;
+  shape: [range: number, doppler: number];
+  detections: Detection[];
+  /** What was dropped, and why. */
+  counts: { cellsOverThreshold: number; grouped: number; outsideRegion: number; beyondLimit: number; clippedSamples: number };
+  warnings: Warning[];
+}
+
+export interface RadarConfig {
+  waveform: Waveform;
+  summary: WaveformSummary;
+  /** Receivers, in board order. */
+  receivers: number;
+  transmitters: number;
+  /** Preset that fits the platform and channels, if there is one. */
+  array: string | null;
+  platform: string | null;
+  /** Lines that were not understood, and other remarks. */
+  warnings: Warning[];
+}
+
+export interface CaptureInfo {
+  config: RadarConfig;
+  frames: number;
+  /** Bytes after the last whole frame. */
+  trailingBytes: number;
+  array: ArrayGeometry;
+}
+
+export interface BoardObject {
+  rangeM: number;
+  rateMps: number;
+  azimuthDeg: number;
+  elevationDeg: number;
+  xM: number;
+  yM: number;
+  zM: number;
+  peak: number;
+}
+
+export interface BoardFrame {
+  frameNumber: number;
+  platform: string;
+  objects: BoardObject[];
+  /** Range profile as sent, where present. */
+  rangeProfileDb?: Float64Array;
+}
+
+export interface BoardLog {
+  frames: BoardFrame[];
+  /** Bytes between packets that belong to none. */
+  skippedBytes: number;
+  /** Packets that were cut or damaged. */
+  damagedPackets: number;
+  warnings: Warning[];
+}
