@@ -1,0 +1,18 @@
+import { delimiter, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+export const root = fileURLToPath(new URL('../../', import.meta.url));
+export const tools = join(root, '.tools');
+export const toolsBin = join(tools, 'bin');
+export const modulesBin = join(root, 'node_modules', '.bin');
+export const dist = join(root, 'dist');
+export const coreWasm = join(dist, 'wasm', 'boresight_bg.wasm');
+
+const exe = process.platform === 'win32' ? '.exe' : '';
+export const tool = (name) => join(toolsBin, name + exe);
+
+/** Environment in which the checkout's own tools come first. */
+export const environment = {
+  ...process.env,
+  PATH: [toolsBin, modulesBin, process.env.PATH].join(delimiter),
+};

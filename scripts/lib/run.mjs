@@ -1,0 +1,62 @@
+import { spawn, spawnSync } from 'node:child_process';
+import { realpathSync } from 'node:fs';
+import { pathToFileURL } from 'node:url';
+import { environment, root } from './paths.mjs';
+
+/** Runs a command in the checkout, showing its output; rejects if it fails. */
+export function run(command, args, options = {}) {
+  return new Promise((resolve, reject) => {
+    const child = spawn(command, args, { cwd: root, env: environment, stdio: 'inherit', ...options });
+    child.once('error', (error) => reject(new Error(`${command} could not be started: ${error.message}`)));
+    child.once('close', (code, signal) => {
+      if (code === 0) resolve();
+      else reject(new Error(`${[command, ...args].join(' ')} ended with ${signal ?? `status ${code}`}`));
+    });
+  });
+}
+
+/** Runs a command showing its output and keeping a copy; gives status and text. */
+export function runTee(command, args, options = {}) {
+  return new Promise((resolve) => {
+    const child = spawn(command, args, { cwd: root, env: environment, stdio: ['ignore', 'pipe', 'pipe'], ...options });
+    let text = '';
+    const keep = (stream, sink) => {
+      stream.setEncoding('utf8');
+      stream.on('data', (piece) => {
+        text += piece;
+        sink.write(piece);
+      });
+    };
+    keep(child.stdout, process.stdout);
+    keep(child.stderr, process.stderr);
+    child.once('error', (error) => resolve({ ok: false, text: `${text}${command}: ${error.message}\n` }));
+    child.once('close', (code) => resolve({ ok: code === 0, text }));
+  });
+}
+
+/** Output of a command, or null if it is missing or fails. */
+export function output(command, args, options = {}) {
+  const result = spawnSync(command, args, {
+    cwd: root,
+    env: environment,
+    encoding: 'utf8',
+    maxBuffer: 1 << 28,
+    stdio: ['ignore', 'pipe', 'ignore'],
+    ...options,
+  });
+  return result.status === 0 ? result.stdout : null;
+}
+
+/** Runs the main function of a script: one line and status 1 on failure. */
+export async function main(body) {
+  try {
+    await body();
+  } catch (error) {
+    console.error(`\n${error.message}`);
+    process.exitCode = 1;
+  }
+}
+
+/** Whether a module is the script that Node was started with. */
+export const isMain = (meta) =>
+  process.argv[1] !== undefined && meta.url === pathToFileURL(realpathSync(process.argv[1])).href;

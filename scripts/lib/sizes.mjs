@@ -1,0 +1,26 @@
+import { brotliCompressSync, constants, gzipSync } from 'node:zlib';
+
+/** Bytes raw, with gzip -9 and with Brotli at quality 11. */
+export function sizes(content) {
+  return {
+    raw: content.length,
+    gzip: gzipSync(content, { level: 9 }).length,
+    brotli: brotliCompressSync(content, {
+      params: {
+        [constants.BROTLI_PARAM_QUALITY]: 11,
+        [constants.BROTLI_PARAM_SIZE_HINT]: content.length,
+      },
+    }).length,
+  };
+}
+
+const kilobytes = (bytes) => `${(bytes / 1000).toFixed(1)} KB`;
+
+export const describeSize = (name, { raw, gzip, brotli }) =>
+  `${name}: ${kilobytes(raw)} raw, ${kilobytes(gzip)} gzip, ${kilobytes(brotli)} brotli`;
+
+export const brotliLimit = 400_000;
+
+/** What is wrong with a size, or null. */
+export const overLimit = ({ brotli }, limit = brotliLimit) =>
+  brotli > limit ? `${kilobytes(brotli)} brotli, the limit is ${kilobytes(limit)}` : null;

@@ -1,0 +1,75 @@
+// Everything a fresh checkout needs besides git, rustup and Node. Uses Node built-ins only.
+import { existsSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { root, tool, tools } from './lib/paths.mjs';
+import { isMain, main, output, run } from './lib/run.mjs';
+import { whenChanged } from './lib/stamp.mjs';
+import { atLeast, lockedVersion } from './lib/versions.mjs';
+
+const wasmTarget = 'wasm32-unknown-unknown';
+const wasmPackVersion = '0.15.1';
+const say = (text) => console.log(`setup: ${text}`);
+const npm = process.platform === 'win32' ? 'npm.cmd' : 'npm';
+
+function checkNode() {
+  if (!atLeast(process.versions.node, '20.19.0')) {
+    throw new Error(`Node 20.19 or newer is needed to build Boresight; this is ${process.versions.node}`);
+  }
+}
+
+function checkRust() {
+  const manifest = readFileSync(join(root, 'Cargo.toml'), 'utf8');
+  const needed = /^rust-version = "([^"]+)"/m.exec(manifest)?.[1] ?? '0';
+  const found = /^rustc (\S+)/.exec(output('rustc', ['--version']) ?? '')?.[1];
+  if (!found || !output('cargo', ['--version'])) {
+    throw new Error('Rust was not found: install rustup from https://rustup.rs, then run this again');
+  }
+  if (!atLeast(found, needed)) {
+    throw new Error(`Rust ${needed} or newer is needed, this is ${found}: run \`rustup update stable\``);
+  }
+}
+
+async function javascriptPackages() {
+  const done = await whenChanged(
+    'packages',
+    { inputs: ['package-lock.json', '.npmrc'], extra: [process.versions.modules], outputs: ['node_modules/vite', 'node_modules/typescript'] },
+    () => {
+      say('JavaScript packages (npm ci)');
+      return run(npm, ['ci', '--no-audit', '--no-fund'], { shell: process.platform === 'win32' });
+    },
+  );
+  if (!done) say('JavaScript packages are there');
+}
+
+async function rustTarget() {
+  const sysroot = output('rustc', ['--print', 'sysroot'])?.trim() ?? '';
+  if (existsSync(join(sysroot, 'lib', 'rustlib', wasmTarget, 'lib'))) {
+    say(`Rust target ${wasmTarget} is there`);
+    return;
+  }
+  say(`Rust target ${wasmTarget} (rustup target add)`);
+  await run('rustup', ['target', 'add', wasmTarget]);
+}
+
+async function cargoTool(binary, crate, version) {
+  const found = output(tool(binary), ['--version'])?.trim().split(/\s+/)[1];
+  if (found === version) {
+    say(`${binary} ${version} is there`);
+    return;
+  }
+  say(`${crate} ${version} into .tools (about two minutes)`);
+  // Without --locked: the lock file these crates carry may name versions a registry mirror lacks.
+  await run('cargo', ['install', '--quiet', '--root', tools, crate, '--version', `=${version}`]);
+}
+
+export async function setup() {
+  checkNode();
+  checkRust();
+  await javascriptPackages();
+  await rustTarget();
+  const lock = readFileSync(join(root, 'Cargo.lock'), 'utf8');
+  await cargoTool('wasm-bindgen', 'wasm-bindgen-cli', lockedVersion(lock, 'wasm-bindgen'));
+  await cargoTool('wasm-pack', 'wasm-pack', wasmPackVersion);
+}
+
+if (isMain(import.meta)) await main(setup);

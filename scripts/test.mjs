@@ -1,0 +1,92 @@
+// Sets up, builds and runs every test. `npm test -- --only rust,node` runs some steps; their names
+// are in the closing table. Nothing is skipped where CI=true.
+import { existsSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { buildDemo, buildPackage } from './build.mjs';
+import { browserMissing, findBrowser } from './lib/browser.mjs';
+import { root } from './lib/paths.mjs';
+import { main, runTee } from './lib/run.mjs';
+import { cargoCounts, checkCounts, nodeCounts, summary } from './lib/summary.mjs';
+import { setup } from './setup.mjs';
+
+const node = process.execPath;
+const script = (name) => ({ name, command: [node, `scripts/${name}.mjs`], counts: checkCounts });
+
+/** Test files of a folder, named one by one: what a folder means to `node --test` depends on its version. */
+function nodeTests(folder, ...options) {
+  const files = readdirSync(join(root, folder), { recursive: true })
+    .filter((name) => name.endsWith('.test.mjs'))
+    .map((name) => `${folder}/${name}`)
+    .sort();
+  return [node, '--test', '--test-reporter=spec', ...options, ...files];
+}
+
+const steps = [
+  { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
+  {
+    name: 'clippy',
+    command: ['cargo', 'clippy', '--workspace', '--all-targets', '--quiet', '--', '-D', 'warnings'],
+    counts: checkCounts,
+  },
+  script('check-dependencies'),
+  script('check-licences'),
+  { name: 'rust', command: ['cargo', 'test', '--workspace', '--no-fail-fast', '--quiet'], counts: cargoCounts },
+  {
+    name: 'wasm',
+    command: ['wasm-pack', '--log-level', 'warn', 'test', '--node', '--mode', 'no-install', 'crates/wasm'],
+    counts: cargoCounts,
+  },
+  { name: 'build', work: buildPackage, counts: checkCounts },
+  script('check-size'),
+  script('check-simd'),
+  { name: 'build-demo', work: buildDemo, counts: checkCounts },
+  { name: 'types', command: ['tsc', '-p', 'tsconfig.json'], counts: checkCounts },
+  { name: 'node', command: () => nodeTests('tests/node'), counts: nodeCounts },
+  { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
+  { name: 'browser', command: () => nodeTests('tests/browser', '--test-concurrency=1'), counts: nodeCounts },
+];
+
+async function runStep({ command, work, counts }) {
+  const started = performance.now();
+  let result;
+  if (work) {
+    result = await work().then(() => ({ ok: true, text: '' }), ({ message }) => {
+      console.error(message);
+      return { ok: false, text: '' };
+    });
+  } else {
+    const [program, ...args] = typeof command === 'function' ? command() : command;
+    result = await runTee(program, args);
+  }
+  const counted = counts(result.text, result.ok);
+  // A step that fails without a failed test (it did not compile, it was ended) is a failure too;
+  // so is one that ran no test at all.
+  const silent = counted.failed === 0 && (!result.ok || counted.passed + counted.skipped === 0);
+  return { ...counted, failed: silent ? 1 : counted.failed, seconds: (performance.now() - started) / 1000 };
+}
+
+function chosenSteps(args) {
+  const at = args.indexOf('--only');
+  if (at < 0) return steps;
+  const names = (args[at + 1] ?? '').split(',');
+  const unknown = names.filter((name) => !steps.some((step) => step.name === name));
+  if (unknown.length > 0) {
+    throw new Error(`no step ${unknown.join(', ')}; there are ${steps.map(({ name }) => name).join(', ')}`);
+  }
+  return steps.filter(({ name }) => names.includes(name));
+}
+
+await main(async () => {
+  const chosen = chosenSteps(process.argv.slice(2));
+  const inCi = Boolean(process.env.CI);
+  await setup();
+  const results = [];
+  for (const step of chosen) {
+    console.log(`\n=== ${step.name}`);
+    results.push({ name: step.name, ...(await runStep(step)) });
+  }
+  const total = (key) => results.reduce((sum, result) => sum + result[key], 0);
+  if (!findBrowser()) console.log(`\nBrowser tests did not run: ${browserMissing}`);
+  console.log(`\n${summary(results)}`);
+  if (total('failed') > 0 || (inCi && total('skipped') > 0)) process.exitCode = 1;
+});
