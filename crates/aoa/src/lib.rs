@@ -3,6 +3,8 @@
 //! [`Estimator::new`] takes a method, an array and options and checks that they go together;
 //! [`Estimator::estimate`] takes snapshots or a covariance and returns an [`Estimate`].
 
+mod checks;
+pub mod counting;
 pub mod data;
 pub mod error;
 pub mod estimate;
@@ -10,6 +12,9 @@ pub mod estimator;
 pub mod grid;
 pub mod method;
 pub mod options;
+mod peaks;
+mod powers;
+mod quadratic;
 
 pub use data::Data;
 pub use error::AoaError;

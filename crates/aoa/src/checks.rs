@@ -1,0 +1,96 @@
+//! Checks and remarks all methods share.
+
+use crate::error::AoaError;
+use crate::estimate::{Estimate, Source, Spectrum, Warning};
+use crate::method::Method;
+use crate::options::{Options, SourceCount};
+use boresight_core::steering::unambiguous_sine;
+use boresight_core::{Array, CoreError, Extent};
+
+/// Most grid points of a spectrum; keeps its memory at tens of megabytes.
+const MAX_GRID: usize = 1 << 22;
+
+/// Checks that the array tells angles apart and has the shape `method` asks for, and that the grid
+/// is of a size that can be held.
+pub(crate) fn check_array(
+    method: Method,
+    array: &Array,
+    options: &Options,
+) -> Result<(), AoaError> {
+    let unsuitable = |expected: &str, given: &str| AoaError::Array {
+        method: method.name(),
+        expected: expected.into(),
+        given: given.into(),
+    };
+    let extent = array.extent();
+    if extent == Extent::Point || array.aperture() < 1e-6 {
+        return Err(unsuitable(
+            "elements at different places along y",
+            "has them all at one place along y",
+        ));
+    }
+    let needs = method.requirements();
+    if needs.uniform_array && !array.is_uniform() {
+        return Err(unsuitable("elements evenly spaced along y, in order", "is not evenly spaced"));
+    }
+    if needs.lattice && array.lattice().is_none() {
+        return Err(unsuitable("elements on a grid along y", "stands on no such grid"));
+    }
+    if extent == Extent::Area && !needs.elevation {
+        return Err(unsuitable("elements along y only", "spans an area"));
+    }
+    let points = options.grid_points.saturating_mul(options.elevation_points);
+    if extent == Extent::Area && points > MAX_GRID {
+        return Err(AoaError::Argument(CoreError::OutOfRange {
+            what: "grid_points times elevation_points".into(),
+            expected: format!("at most {MAX_GRID}"),
+            given: points as f64,
+        }));
+    }
+    Ok(())
+}
+
+/// Checks a known number of sources against the most the method can find.
+pub(crate) fn check_sources(
+    method: Method,
+    wanted: SourceCount,
+    most: usize,
+) -> Result<(), AoaError> {
+    match wanted {
+        SourceCount::Known(given) if given > most => {
+            Err(AoaError::TooManySources { method: method.name(), most, given })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A warning where the field of view is wider than the sector without grating lobes.
+pub(crate) fn ambiguity(array: &Array, options: &Options) -> Option<Warning> {
+    let sine = unambiguous_sine(&array.lattice()?);
+    (sine < options.field_of_view_rad.sin() - 1e-9)
+        .then(|| Warning::Ambiguous { unambiguous_rad: sine.asin() })
+}
+
+/// Puts an estimate together: sources in order of power, `resolved`, and the warnings that follow
+/// from the number found. `expected` is the number asked for or counted; nothing for methods that
+/// report what stands out.
+pub(crate) fn conclude(
+    method: Method,
+    mut sources: Vec<Source>,
+    expected: Option<usize>,
+    spectrum: Option<Spectrum>,
+    iterations: usize,
+    mut warnings: Vec<Warning>,
+) -> Estimate {
+    sources.sort_by(|a, b| b.power.total_cmp(&a.power));
+    let found = sources.len();
+    match expected {
+        Some(expected) if found < expected => {
+            warnings.push(Warning::Unresolved { expected, found });
+        }
+        _ if found == 0 => warnings.push(Warning::NoSources),
+        _ => {}
+    }
+    let resolved = found > 0 && expected.is_none_or(|expected| found >= expected);
+    Estimate { method, sources, spectrum, resolved, iterations, warnings }
+}

@@ -1,0 +1,123 @@
+//! Counting sources by information criteria on the eigenvalues of the covariance (Wax and Kailath
+//! 1985).
+
+use crate::options::SourceCount;
+
+/// Penalty on the number of free parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Criterion {
+    /// Akaike's information criterion: `2 L(k) + 2 p(k)`. Tends to count too many.
+    Aic,
+    /// Rissanen's and Schwarz's minimum description length: `L(k) + p(k) ln(N) / 2`. Consistent.
+    Mdl,
+}
+
+/// What the eigenvalues come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CountSizes {
+    /// Vectors averaged: snapshots, times subarrays under spatial smoothing. Backward copies are
+    /// not counted, since they are no new data. Subarrays overlap, so that under smoothing this is
+    /// an upper limit of the number of independent vectors and MDL counts rather too many.
+    pub vectors: usize,
+    /// Whether the covariance was averaged with its reversal. It then is determined by real
+    /// numbers only, and `k` sources have `k (2 K - k + 1) / 2` free parameters in place of
+    /// `k (2 K - k)` (Xu, Pierre and Kaveh 1994).
+    pub forward_backward: bool,
+}
+
+/// Outcome of a count.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Count {
+    /// Number of sources: where `values` is smallest.
+    pub sources: usize,
+    /// The criterion for 0, 1, 2, ... sources.
+    pub values: Vec<f64>,
+}
+
+/// Counts sources from the eigenvalues of a covariance, largest first.
+///
+/// With `K` eigenvalues `l`, `N` vectors and `k` sources, `L(k) = N (K - k) ln(A / G)` where `A`
+/// and `G` are arithmetic and geometric mean of the `K - k` smallest. With fewer vectors than
+/// elements the covariance has rank `N` and only the `N` largest eigenvalues are judged. Rounding
+/// errors of data without noise are levelled at 1e-12 of the largest eigenvalue. No eigenvalue,
+/// or none above zero, makes no source.
+pub fn count_sources(eigenvalues: &[f64], sizes: CountSizes, criterion: Criterion) -> Count {
+    let largest = eigenvalues.first().copied().unwrap_or(0.0);
+    let judged = eigenvalues.len().min(sizes.vectors);
+    if largest.is_nan() || largest <= 0.0 || judged == 0 {
+        return Count { sources: 0, values: vec![0.0] };
+    }
+    let logs: Vec<f64> =
+        eigenvalues[..judged].iter().map(|l| (l / largest).max(1e-12).ln()).collect();
+    let n = sizes.vectors as f64;
+    let mut values = vec![0.0; judged];
+    let (mut sum, mut log_sum) = (0.0, 0.0);
+    for k in (0..judged).rev() {
+        sum += logs[k].exp();
+        log_sum += logs[k];
+        let left = (judged - k) as f64;
+        let misfit = n * (left * (sum / left).ln() - log_sum);
+        let sources = k as f64;
+        let parameters = if sizes.forward_backward {
+            0.5 * sources * (2.0 * judged as f64 - sources + 1.0)
+        } else {
+            sources * (2.0 * judged as f64 - sources)
+        };
+        values[k] = match criterion {
+            Criterion::Aic => 2.0 * (misfit + parameters),
+            Criterion::Mdl => misfit + 0.5 * parameters * n.ln(),
+        };
+    }
+    let sources = (0..judged).min_by(|&i, &k| values[i].total_cmp(&values[k])).unwrap_or(0);
+    Count { sources, values }
+}
+
+/// The number of sources `wanted` means for these eigenvalues (largest first), at most `most`.
+pub(crate) fn resolve_count(
+    wanted: SourceCount,
+    eigenvalues: &[f64],
+    sizes: CountSizes,
+    most: usize,
+) -> usize {
+    let count = |criterion| count_sources(eigenvalues, sizes, criterion).sources;
+    match wanted {
+        SourceCount::Known(sources) => sources.min(most),
+        SourceCount::Aic => count(Criterion::Aic).min(most),
+        SourceCount::Mdl => count(Criterion::Mdl).min(most),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZES: CountSizes = CountSizes { vectors: 100, forward_backward: false };
+
+    #[test]
+    fn agrees_with_the_formula_worked_by_hand() {
+        let count = count_sources(&[4.0, 1.0], SIZES, Criterion::Mdl);
+        let misfit = 100.0 * (2.0 * 2.5f64.ln() - 4.0f64.ln());
+        assert!((count.values[0] - misfit).abs() < 1e-9);
+        assert!((count.values[1] - 0.5 * 3.0 * 100f64.ln()).abs() < 1e-9);
+        assert_eq!(count.sources, 1);
+        let count = count_sources(&[4.0, 1.0], SIZES, Criterion::Aic);
+        assert!((count.values[0] - 2.0 * misfit).abs() < 1e-9);
+        assert!((count.values[1] - 6.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn noise_free_eigenvalues_count_the_rank() {
+        let values = [5.0, 2.0, 3e-16, 1e-17, -2e-16];
+        assert_eq!(count_sources(&values, SIZES, Criterion::Mdl).sources, 2);
+        assert_eq!(count_sources(&values, SIZES, Criterion::Aic).sources, 2);
+    }
+
+    #[test]
+    fn hopeless_input_counts_nothing() {
+        for values in [&[][..], &[0.0, 0.0], &[f64::NAN, 1.0], &[1.0, 1.0, 1.0]] {
+            assert_eq!(count_sources(values, SIZES, Criterion::Aic).sources, 0, "{values:?}");
+        }
+        let single = CountSizes { vectors: 1, forward_backward: false };
+        assert_eq!(count_sources(&[3.0, 0.0], single, Criterion::Mdl).sources, 0);
+    }
+}

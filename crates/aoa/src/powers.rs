@@ -1,0 +1,95 @@
+//! Powers and amplitudes of sources whose directions are known.
+
+use crate::data::Data;
+use crate::estimate::Source;
+use boresight_core::linalg::{adjoint, least_squares};
+use boresight_core::steering::steering_matrix;
+use boresight_core::{Array, Complex64, Direction};
+use ndarray::Array2;
+
+/// Sources at `directions`, with the amplitude (one snapshot) or power (several snapshots, or a
+/// covariance) that fits the data best in the least-squares sense: `s = A^+ y`, or the diagonal of
+/// `A^+ R A^+^H`. The power contains the noise that falls into the fit, about the noise power over
+/// the number of elements. Where the directions are too many or too close to tell apart, each
+/// power is that of a beam steered there, `a^H R a / K^2`, and there is no amplitude.
+pub(crate) fn sources_at(array: &Array, directions: &[Direction], data: Data<'_>) -> Vec<Source> {
+    if directions.is_empty() {
+        return Vec::new();
+    }
+    let steering = steering_matrix(array, directions);
+    let elements = array.len();
+    let weights = if directions.len() <= elements {
+        least_squares(steering.view(), Array2::eye(elements).view()).ok().flatten()
+    } else {
+        None
+    };
+    let resolved = weights.is_some();
+    let weights = weights.unwrap_or_else(|| adjoint(steering.view()).mapv(|z| z / elements as f64));
+    let (powers, amplitudes): (Vec<f64>, Option<Vec<Complex64>>) = match data {
+        Data::Snapshots(y) => {
+            let signals = weights.dot(&y);
+            let count = y.ncols() as f64;
+            let power = |row: ndarray::ArrayView1<Complex64>| {
+                row.iter().map(|z| z.norm_sqr()).sum::<f64>() / count
+            };
+            let single = resolved && y.ncols() == 1;
+            (
+                signals.rows().into_iter().map(power).collect(),
+                single.then(|| signals.column(0).to_vec()),
+            )
+        }
+        Data::Covariance { matrix, .. } => {
+            let filtered = weights.dot(&matrix);
+            let power = |i: usize| {
+                let row = filtered.row(i).into_iter().zip(weights.row(i));
+                row.map(|(f, w)| (f * w.conj()).re).sum::<f64>().max(0.0)
+            };
+            ((0..directions.len()).map(power).collect(), None)
+        }
+    };
+    directions
+        .iter()
+        .zip(&powers)
+        .enumerate()
+        .map(|(i, (&direction, &power))| Source {
+            direction,
+            power,
+            amplitude: amplitudes.as_ref().map(|s| s[i]),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use boresight_core::steering::steering_vector;
+
+    #[test]
+    fn a_single_snapshot_gives_amplitudes_and_its_covariance_the_same_powers() {
+        let array = Array::ula(8).unwrap();
+        let at = [Direction::azimuth(-0.2), Direction::azimuth(0.15)];
+        let s = [Complex64::new(1.0, -0.5), Complex64::new(0.0, 0.3)];
+        let y = steering_vector(&array, at[0]) * s[0] + steering_vector(&array, at[1]) * s[1];
+        let y = y.insert_axis(ndarray::Axis(1));
+        let found = sources_at(&array, &at, Data::Snapshots(y.view()));
+        let r = y.dot(&adjoint(y.view()));
+        let data = Data::Covariance { matrix: r.view(), snapshots: 1 };
+        let again = sources_at(&array, &at, data);
+        for i in 0..2 {
+            assert!((found[i].amplitude.unwrap() - s[i]).norm() < 1e-12);
+            assert!((found[i].power - s[i].norm_sqr()).abs() < 1e-12);
+            assert!((again[i].power - s[i].norm_sqr()).abs() < 1e-12);
+            assert!(again[i].amplitude.is_none());
+        }
+    }
+
+    #[test]
+    fn coinciding_directions_get_beam_powers() {
+        let array = Array::ula(4).unwrap();
+        let at = [Direction::azimuth(0.1); 2];
+        let y = steering_vector(&array, at[0]).insert_axis(ndarray::Axis(1));
+        let found = sources_at(&array, &at, Data::Snapshots(y.view()));
+        assert!(found.iter().all(|s| (s.power - 1.0).abs() < 1e-12 && s.amplitude.is_none()));
+        assert!(sources_at(&array, &[], Data::Snapshots(y.view())).is_empty());
+    }
+}
