@@ -1,11 +1,12 @@
 //! One interface for all estimators.
 
+use crate::bartlett::Bartlett;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::Estimate;
 use crate::method::Method;
 use crate::options::Options;
-use boresight_core::Array;
+use boresight_core::{Array, CoreError};
 
 /// What each method implements: everything that depends on array and options alone (grids, FFT
 /// plans, steering vectors, scratch space) is made once, in the method's own constructor.
@@ -57,6 +58,14 @@ impl Estimator {
 }
 
 fn plan(method: Method, array: &Array, options: &Options) -> Result<Box<dyn Plan>, AoaError> {
-    let _ = (array, options);
-    Err(AoaError::NeedsSnapshots { method: method.name() })
+    Ok(match method {
+        Method::Bartlett => Box::new(Bartlett::new(array, options)?),
+        other => {
+            return Err(AoaError::Argument(CoreError::Unknown {
+                what: "method".into(),
+                expected: Method::Bartlett.name().into(),
+                given: other.name().into(),
+            }));
+        }
+    })
 }

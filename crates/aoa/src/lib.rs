@@ -3,8 +3,10 @@
 //! [`Estimator::new`] takes a method, an array and options and checks that they go together;
 //! [`Estimator::estimate`] takes snapshots or a covariance and returns an [`Estimate`].
 
+mod bartlett;
 mod checks;
 pub mod counting;
+mod covariance;
 pub mod data;
 pub mod error;
 pub mod estimate;

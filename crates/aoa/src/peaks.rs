@@ -172,7 +172,7 @@ pub(crate) fn wrap(x: f64, period: f64) -> f64 {
 /// Offset, in steps within -0.5..=0.5, of the top of the parabola through the logarithms of three
 /// values, the middle one being the largest.
 pub(crate) fn parabola_top(left: f64, middle: f64, right: f64) -> f64 {
-    let log = |x: f64| x.max(f64::MIN_POSITIVE).min(f64::MAX).ln();
+    let log = |x: f64| x.clamp(f64::MIN_POSITIVE, f64::MAX).ln();
     let (l, m, r) = (log(left), log(middle), log(right));
     let bend = l - 2.0 * m + r;
     if bend < 0.0 { (0.5 * (l - r) / bend).clamp(-0.5, 0.5) } else { 0.0 }

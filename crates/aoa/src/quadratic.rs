@@ -80,7 +80,7 @@ impl QuadraticSpectrum {
                             if nk >= nl { (nk - nl, value) } else { (nl - nk, value.conj()) };
                         let shift = spacing * lag;
                         // exp(j pi d m) moves the first grid point to u = -1.
-                        let sign = if shift % 2 == 0 { 2.0 } else { -2.0 };
+                        let sign = if shift.is_multiple_of(2) { 2.0 } else { -2.0 };
                         bins[shift % size] += value * sign;
                     }
                 }

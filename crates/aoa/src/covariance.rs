@@ -1,0 +1,118 @@
+//! From data to the covariance a method works on: averaging, smoothing, loading.
+
+use crate::counting::CountSizes;
+use crate::data::Data;
+use crate::error::AoaError;
+use crate::method::Method;
+use crate::options::Options;
+use boresight_core::error::check_range;
+use boresight_core::{Array, Complex64, CoreError};
+use boresight_signal::{SignalError, forward_backward, load_diagonal, sample_covariance};
+use ndarray::Array2;
+
+/// How a method gets its covariance, as `options` ask.
+#[derive(Debug, Clone)]
+pub(crate) struct CovariancePlan {
+    method: Method,
+    array: Array,
+    subarrays: usize,
+    forward_backward: bool,
+    loading: f64,
+}
+
+/// A covariance ready for an estimator.
+#[derive(Debug, Clone)]
+pub(crate) struct Prepared {
+    /// Hermitian, of the size of [`CovariancePlan::array`], without loading.
+    pub matrix: Array2<Complex64>,
+    /// What the eigenvalues are worth when sources are counted.
+    pub sizes: CountSizes,
+    /// Mean element power.
+    pub power: f64,
+}
+
+impl CovariancePlan {
+    /// Checks forward-backward averaging and smoothing against the array.
+    pub fn new(method: Method, array: &Array, options: &Options) -> Result<Self, AoaError> {
+        let averaged = options.forward_backward || options.smoothing.is_some();
+        if averaged && !array.is_uniform() {
+            return Err(AoaError::Array {
+                method: method.name(),
+                expected: "evenly spaced elements for averaging or smoothing".into(),
+                given: "is not evenly spaced".into(),
+            });
+        }
+        let length = options.smoothing.unwrap_or(array.len());
+        check_range("smoothing", length as f64, 1.0, array.len() as f64)?;
+        let part: Vec<usize> = (0..length).collect();
+        Ok(Self {
+            method,
+            array: array.select(&part)?,
+            subarrays: array.len() - length + 1,
+            forward_backward: options.forward_backward,
+            loading: options.loading,
+        })
+    }
+
+    /// The elements the covariance belongs to: the first subarray under smoothing, else all.
+    pub fn array(&self) -> &Array {
+        &self.array
+    }
+
+    /// The covariance of `data`.
+    ///
+    /// # Errors
+    /// [`AoaError::Snapshots`] if there are too few for the method, [`CoreError::OutOfRange`] if
+    /// the powers overflow.
+    pub fn prepare(&self, data: Data<'_>) -> Result<Prepared, AoaError> {
+        let snapshots = data.snapshots();
+        let least = self.method.requirements().min_snapshots;
+        let vectors = snapshots.saturating_mul(self.subarrays);
+        if vectors.saturating_mul(if self.forward_backward { 2 } else { 1 }) < least {
+            return Err(AoaError::Snapshots {
+                method: self.method.name(),
+                expected: format!("at least {least} snapshots, averaging or smoothing"),
+                given: snapshots,
+            });
+        }
+        let mut matrix = match data {
+            Data::Snapshots(y) => sample_covariance(y),
+            Data::Covariance { matrix, .. } => {
+                let reversed = boresight_core::linalg::adjoint(matrix);
+                (reversed + matrix).mapv(|z| z * 0.5)
+            }
+        };
+        if self.forward_backward {
+            matrix = forward_backward(matrix.view());
+        }
+        if self.subarrays > 1 {
+            matrix = boresight_signal::spatial_smoothing(matrix.view(), self.array.len()).map_err(
+                |error| match error {
+                    SignalError::Argument(error) => AoaError::Argument(error),
+                    other => AoaError::Argument(CoreError::Shape {
+                        what: other.to_string(),
+                        expected: "a covariance that can be smoothed".into(),
+                        given: vec![self.array.len()],
+                    }),
+                },
+            )?;
+        }
+        let power = matrix.diag().iter().map(|z| z.re).sum::<f64>() / self.array.len() as f64;
+        if !power.is_finite() {
+            return Err(AoaError::Argument(CoreError::OutOfRange {
+                what: "mean element power".into(),
+                expected: "a finite number".into(),
+                given: power,
+            }));
+        }
+        let sizes = CountSizes { vectors, forward_backward: self.forward_backward };
+        Ok(Prepared { matrix, sizes, power })
+    }
+
+    /// Adds the loading asked for.
+    pub fn load(&self, matrix: &mut Array2<Complex64>) {
+        if self.loading > 0.0 {
+            load_diagonal(matrix, self.loading);
+        }
+    }
+}
