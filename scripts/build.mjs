@@ -21,7 +21,7 @@ async function wasm() {
     say('crates/wasm -> dist/wasm (wasm-pack; a first build takes minutes)');
     const out = join(dist, 'wasm');
     await run('wasm-pack', [
-      '--log-level', 'warn', 'build', 'crates/wasm', '--target', 'web', '--release', '--no-opt', '--no-pack',
+      '--log-level', 'error', 'build', 'crates/wasm', '--target', 'web', '--release', '--no-opt', '--no-pack',
       '--mode', 'no-install', '--out-dir', out, '--out-name', 'boresight',
     ]);
     rmSync(join(out, '.gitignore'), { force: true });

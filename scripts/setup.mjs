@@ -1,12 +1,11 @@
 // Everything a fresh checkout needs besides git, rustup and Node. Uses Node built-ins only.
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { root, tool, tools } from './lib/paths.mjs';
+import { root, tool, tools, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, output, run } from './lib/run.mjs';
 import { whenChanged } from './lib/stamp.mjs';
 import { atLeast, lockedVersion } from './lib/versions.mjs';
 
-const wasmTarget = 'wasm32-unknown-unknown';
 const wasmPackVersion = '0.15.1';
 const say = (text) => console.log(`setup: ${text}`);
 const npm = process.platform === 'win32' ? 'npm.cmd' : 'npm';

@@ -5,6 +5,7 @@ export const root = fileURLToPath(new URL('../../', import.meta.url));
 export const tools = join(root, '.tools');
 export const toolsBin = join(tools, 'bin');
 export const modulesBin = join(root, 'node_modules', '.bin');
+export const wasmTarget = 'wasm32-unknown-unknown';
 export const dist = join(root, 'dist');
 export const coreWasm = join(dist, 'wasm', 'boresight_bg.wasm');
 

@@ -1,0 +1,71 @@
+/** Serving a built site and opening its pages in headless Chromium. */
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { browserArguments, browserMissing, findBrowser } from '../../scripts/lib/browser.mjs';
+import { root } from '../../scripts/lib/paths.mjs';
+
+export const viewports = {
+  desktop: { width: 1280, height: 800 },
+  phone: { width: 390, height: 844 },
+};
+export const schemes = ['light', 'dark'];
+export const outputFolder = join(root, 'tests', '.output');
+
+/** Serves a built site on a free port of this machine. */
+export async function serve(siteRoot = join(root, 'web', 'app'), options = {}) {
+  const { preview } = await import('vite');
+  const server = await preview({
+    configFile: false,
+    root: siteRoot,
+    logLevel: 'error',
+    preview: { host: '127.0.0.1', port: 0, open: false },
+    ...options,
+  });
+  const { port } = server.httpServer.address();
+  return { url: `http://127.0.0.1:${port}/`, close: () => server.close() };
+}
+
+/** Starts Chromium with an empty profile of its own. */
+export async function launch() {
+  const executablePath = findBrowser();
+  if (!executablePath) throw new Error(browserMissing);
+  const { chromium } = await import('playwright-core');
+  return chromium.launch({ executablePath, headless: true, args: browserArguments });
+}
+
+/** Opens a page in a fresh context and keeps a list of what goes wrong on it. */
+export async function openPage(browser, url, { viewport = 'desktop', scheme = 'light', path = '', ...rest } = {}) {
+  const context = await browser.newContext({
+    viewport: viewports[viewport],
+    colorScheme: scheme,
+    reducedMotion: 'reduce',
+    hasTouch: viewport === 'phone',
+    ...rest,
+  });
+  const problems = [];
+  const { origin } = new URL(url);
+  context.on('weberror', (error) => problems.push(`uncaught: ${error.error().stack ?? error.error()}`));
+  context.on('console', (message) => {
+    if (message.type() === 'error') problems.push(`console: ${message.text()}`);
+  });
+  context.on('request', (request) => {
+    const target = new URL(request.url());
+    if (target.protocol.startsWith('http') && target.origin !== origin) problems.push(`request to ${target.href}`);
+  });
+  context.on('requestfailed', (request) => problems.push(`failed: ${request.url()} ${request.failure()?.errorText}`));
+  context.on('response', (response) => {
+    if (response.status() >= 400) problems.push(`status ${response.status()}: ${response.url()}`);
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(20_000);
+  await page.goto(new URL(path, url).href, { waitUntil: 'load' });
+
+  const screenshot = async (name, options = {}) => {
+    const folder = join(outputFolder, 'screenshots');
+    mkdirSync(folder, { recursive: true });
+    const file = join(folder, `${name}-${viewport}-${scheme}.png`);
+    await page.screenshot({ path: file, ...options });
+    return file;
+  };
+  return { page, context, problems, screenshot, close: () => context.close() };
+}

@@ -1,0 +1,123 @@
+import assert from 'node:assert/strict';
+import { randomBytes } from 'node:crypto';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { problems, workspaceGraph } from '../../scripts/lib/dependency-rules.mjs';
+import { crateLicences, licenceAllowed, npmLicences } from '../../scripts/lib/licences.mjs';
+import { overLimit, sizes } from '../../scripts/lib/sizes.mjs';
+import { atLeast, lockedVersion } from '../../scripts/lib/versions.mjs';
+import { countVectorOpcodes, vectorInstructions } from '../../scripts/lib/wasm-simd.mjs';
+
+const graph = (crates) =>
+  workspaceGraph({
+    packages: Object.entries(crates).map(([name, dependencies]) => ({
+      name: `boresight-${name}`,
+      dependencies: dependencies.map(([dependency, kind = null]) => ({
+        name: dependency,
+        kind,
+        ...(dependency.startsWith('boresight-') && { path: '/somewhere' }),
+      })),
+    })),
+  });
+
+test('dependencies that point the right way pass', () => {
+  const good = graph({
+    core: [['ndarray']],
+    signal: [['boresight-core'], ['boresight-simulate', 'dev']],
+    pipeline: [['boresight-core'], ['boresight-signal'], ['boresight-aoa']],
+    wasm: [['boresight-pipeline'], ['wasm-bindgen']],
+    neural: [['tract-onnx'], ['boresight-core']],
+  });
+  assert.deepEqual(problems(good), []);
+});
+
+test('each dependency rule fails when broken', () => {
+  const breaches = {
+    'core depends on signal': { core: [['boresight-signal']] },
+    'formats depends on signal': { formats: [['boresight-signal']] },
+    'calibrate depends on aoa': { calibrate: [['boresight-aoa']] },
+    'core names wasm-bindgen': { core: [['wasm-bindgen']] },
+    'signal names js-sys': { signal: [['js-sys', 'dev']] },
+    'aoa names tract-onnx': { aoa: [['tract-onnx']] },
+    'cli depends on the binding crate wasm': { cli: [['boresight-wasm']] },
+    'wasm-neural depends on the binding crate wasm': { 'wasm-neural': [['boresight-wasm']] },
+    'extra: no rule': { extra: [] },
+  };
+  for (const [expected, crates] of Object.entries(breaches)) {
+    const found = problems(graph(crates));
+    assert.equal(found.length, 1, expected);
+    assert.ok(found[0].startsWith(expected), `${found[0]} should start with ${expected}`);
+  }
+});
+
+test('licence expressions are read as SPDX has them', () => {
+  const good = [
+    'MIT', 'MIT OR Apache-2.0', 'MIT/Apache-2.0', '(MIT OR Apache-2.0) AND Unicode-3.0', 'MPL-2.0',
+    'Apache-2.0 WITH LLVM-exception OR Apache-2.0', 'GPL-3.0-only OR MIT',
+  ];
+  const bad = [undefined, '', 'GPL-3.0-only', 'MIT AND GPL-3.0-only', '(MIT OR ISC) AND LGPL-2.1', 'SSPL-1.0', '(MIT', 'MIT MIT'];
+  for (const expression of good) assert.equal(licenceAllowed(expression), true, expression);
+  for (const expression of bad) assert.equal(licenceAllowed(expression), false, expression);
+});
+
+test('licences are found for every crate and npm package but our own', () => {
+  const crates = crateLicences({
+    packages: [
+      { id: 'a', name: 'boresight-core', version: '1.0.0', license: null },
+      { id: 'b', name: 'libm', version: '0.2.0', license: 'MIT' },
+    ],
+    workspace_members: ['a'],
+  });
+  assert.deepEqual(crates, [{ name: 'libm 0.2.0 (crate)', licence: 'MIT' }]);
+  const packages = { '': { license: 'X' }, 'node_modules/a/node_modules/@b/c': { version: '2.0.0', license: 'ISC' } };
+  assert.deepEqual(npmLicences({ packages }), [{ name: '@b/c 2.0.0 (npm)', licence: 'ISC' }]);
+});
+
+test('the size limit is on Brotli and is exact', () => {
+  assert.equal(overLimit({ brotli: 400_000 }), null);
+  assert.match(overLimit({ brotli: 400_001 }), /limit is 400\.0 KB/);
+  const noise = sizes(randomBytes(500_000));
+  assert.equal(noise.raw, 500_000);
+  assert.ok(noise.brotli > 490_000 && overLimit(noise), 'noise does not compress');
+  assert.equal(overLimit(sizes(Buffer.alloc(500_000))), null);
+});
+
+const assemble = async (text) => {
+  const { default: binaryen } = await import('binaryen');
+  const module = binaryen.parseText(text);
+  module.setFeatures(binaryen.Features.All);
+  const binary = module.emitBinary();
+  module.dispose();
+  return binary;
+};
+
+test('SIMD instructions are counted in function bodies', async () => {
+  const binary = await assemble(`(module (func (export "f") (param v128 v128) (result v128)
+    (f32x4.add (f32x4.mul (local.get 0) (local.get 1)) (local.get 1))))`);
+  const counts = await vectorInstructions(binary);
+  assert.equal(counts.get('f32x4.add'), 1);
+  assert.equal(counts.get('f32x4.mul'), 1);
+});
+
+test('a module that only speaks of SIMD has none', async () => {
+  const binary = await assemble(`(module (memory 1) (data (i32.const 0) "(f32x4.add (v128.load")
+    (func (export "f32x4.add") (param f32 f32) (result f32) (f32.add (local.get 0) (local.get 1))))`);
+  assert.equal((await vectorInstructions(binary)).size, 0);
+  assert.equal(countVectorOpcodes(';; (i8x16.swizzle\n(func)').size, 0);
+});
+
+test('Cargo.lock gives the version of one package only', () => {
+  const lock = readFileSync(new URL('../../Cargo.lock', import.meta.url), 'utf8');
+  assert.match(lockedVersion(lock, 'ndarray'), /^\d+\.\d+\.\d+$/);
+  assert.throws(() => lockedVersion(lock, 'no-such-crate'), /0 versions of no-such-crate/);
+  const entry = (version) => `[[package]]\nname = "twice"\nversion = "${version}"\n\n`;
+  assert.equal(lockedVersion(entry('1.2.3'), 'twice'), '1.2.3');
+  assert.throws(() => lockedVersion(entry('1.0.0') + entry('2.0.0'), 'twice'), /2 versions of twice/);
+});
+
+test('versions compare by number', () => {
+  assert.ok(atLeast('20.19.0', '20.19.0'));
+  assert.ok(atLeast('1.100.0', '1.95'));
+  assert.ok(!atLeast('20.9.0', '20.19.0'));
+  assert.ok(!atLeast('1.94.9', '1.95'));
+});
