@@ -4,8 +4,18 @@
 //! Powers are per raw sample: a cell that holds a target has the power one sample of that target
 //! has, whatever the windows and the transform lengths.
 
+pub mod clutter;
 pub mod covariance;
 pub mod error;
+pub mod power;
+pub mod range;
+pub mod range_doppler;
+pub mod tdm;
+pub mod window;
 
+pub use clutter::remove_static_clutter;
 pub use covariance::{forward_backward, load_diagonal, sample_covariance, spatial_smoothing};
 pub use error::SignalError;
+pub use power::power_map;
+pub use range_doppler::{RangeDoppler, RangeDopplerMap, RangeDopplerOptions};
+pub use window::Window;
