@@ -5,7 +5,7 @@ use crate::estimate::{Estimate, Source, Spectrum, Warning};
 use crate::method::Method;
 use crate::options::{Options, SourceCount};
 use boresight_core::steering::unambiguous_sine;
-use boresight_core::{Array, CoreError, Extent};
+use boresight_core::{Array, Complex64, CoreError, Direction, Extent, Lattice};
 
 /// Most grid points of a spectrum; keeps its memory at tens of megabytes.
 const MAX_GRID: usize = 1 << 22;
@@ -69,6 +69,25 @@ pub(crate) fn ambiguity(array: &Array, options: &Options) -> Option<Warning> {
     let sine = unambiguous_sine(&array.lattice()?);
     (sine < options.field_of_view_rad.sin() - 1e-9)
         .then(|| Warning::Ambiguous { unambiguous_rad: sine.asin() })
+}
+
+/// From phase turns between neighbouring points of a lattice to directions.
+#[derive(Debug, Clone)]
+pub(crate) struct LatticeAngles {
+    spacing: f64,
+    limit: f64,
+}
+
+impl LatticeAngles {
+    pub fn new(lattice: &Lattice, options: &Options) -> Self {
+        Self { spacing: lattice.spacing, limit: options.field_of_view_rad.sin() + 1e-12 }
+    }
+
+    /// The direction for which `turn` has the phase `pi d u`, if it is in the field of view.
+    pub fn direction(&self, turn: Complex64) -> Option<Direction> {
+        let sine = turn.arg() / (std::f64::consts::PI * self.spacing);
+        (sine.abs() <= self.limit).then(|| Direction::azimuth(sine.clamp(-1.0, 1.0).asin()))
+    }
 }
 
 /// Puts an estimate together: sources in order of power, `resolved`, and the warnings that follow

@@ -27,8 +27,38 @@ pub(crate) struct Prepared {
     pub matrix: Array2<Complex64>,
     /// What the eigenvalues are worth when sources are counted.
     pub sizes: CountSizes,
+    /// Snapshots it was made from.
+    pub snapshots: usize,
     /// Mean element power.
     pub power: f64,
+}
+
+impl Prepared {
+    /// Takes a Hermitian matrix and checks that its powers are finite.
+    ///
+    /// # Errors
+    /// [`CoreError::OutOfRange`] if they are not.
+    pub fn new(
+        matrix: Array2<Complex64>,
+        sizes: CountSizes,
+        snapshots: usize,
+    ) -> Result<Self, AoaError> {
+        let power = matrix.diag().iter().map(|z| z.re).sum::<f64>() / matrix.nrows() as f64;
+        if !power.is_finite() {
+            return Err(AoaError::Argument(CoreError::OutOfRange {
+                what: "mean element power".into(),
+                expected: "a finite number".into(),
+                given: power,
+            }));
+        }
+        Ok(Self { matrix, sizes, snapshots, power })
+    }
+
+    /// The most its rank can be with that many vectors.
+    pub fn rank(&self) -> usize {
+        let copies = if self.sizes.forward_backward { 2 } else { 1 };
+        self.sizes.vectors.saturating_mul(copies).min(self.matrix.nrows())
+    }
 }
 
 impl CovariancePlan {
@@ -97,16 +127,13 @@ impl CovariancePlan {
                 },
             )?;
         }
-        let power = matrix.diag().iter().map(|z| z.re).sum::<f64>() / self.array.len() as f64;
-        if !power.is_finite() {
-            return Err(AoaError::Argument(CoreError::OutOfRange {
-                what: "mean element power".into(),
-                expected: "a finite number".into(),
-                given: power,
-            }));
-        }
         let sizes = CountSizes { vectors, forward_backward: self.forward_backward };
-        Ok(Prepared { matrix, sizes, power })
+        Prepared::new(matrix, sizes, snapshots)
+    }
+
+    /// Whether loading was asked for.
+    pub fn loads(&self) -> bool {
+        self.loading > 0.0
     }
 
     /// Adds the loading asked for.

@@ -1,11 +1,17 @@
 //! One interface for all estimators.
 
 use crate::bartlett::Bartlett;
+use crate::capon::Capon;
 use crate::data::Data;
 use crate::error::AoaError;
+use crate::esprit::Esprit;
 use crate::estimate::Estimate;
 use crate::method::Method;
+use crate::min_norm::MinNorm;
+use crate::music::Music;
 use crate::options::Options;
+use crate::root_music::RootMusic;
+use crate::single_snapshot_music::SingleSnapshotMusic;
 use boresight_core::{Array, CoreError};
 
 /// What each method implements: everything that depends on array and options alone (grids, FFT
@@ -60,10 +66,16 @@ impl Estimator {
 fn plan(method: Method, array: &Array, options: &Options) -> Result<Box<dyn Plan>, AoaError> {
     Ok(match method {
         Method::Bartlett => Box::new(Bartlett::new(array, options)?),
+        Method::Capon => Box::new(Capon::new(array, options)?),
+        Method::Music => Box::new(Music::new(array, options)?),
+        Method::SingleSnapshotMusic => Box::new(SingleSnapshotMusic::new(array, options)?),
+        Method::RootMusic => Box::new(RootMusic::new(array, options)?),
+        Method::Esprit => Box::new(Esprit::new(array, options)?),
+        Method::MinNorm => Box::new(MinNorm::new(array, options)?),
         other => {
             return Err(AoaError::Argument(CoreError::Unknown {
                 what: "method".into(),
-                expected: Method::Bartlett.name().into(),
+                expected: "a method this build has".into(),
                 given: other.name().into(),
             }));
         }

@@ -4,19 +4,27 @@
 //! [`Estimator::estimate`] takes snapshots or a covariance and returns an [`Estimate`].
 
 mod bartlett;
+mod capon;
 mod checks;
 pub mod counting;
 mod covariance;
 pub mod data;
 pub mod error;
+mod esprit;
 pub mod estimate;
 pub mod estimator;
 pub mod grid;
 pub mod method;
+mod min_norm;
+mod music;
+mod null_spectrum;
 pub mod options;
 mod peaks;
 mod powers;
 mod quadratic;
+mod root_music;
+mod single_snapshot_music;
+mod subspace;
 
 pub use data::Data;
 pub use error::AoaError;
