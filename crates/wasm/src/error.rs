@@ -1,0 +1,135 @@
+//! Errors that cross into JavaScript.
+
+use crate::write::Record;
+use boresight_aoa::AoaError;
+use boresight_core::{CoreError, Details, Diagnose};
+use thiserror::Error;
+use wasm_bindgen::JsValue;
+
+/// Result of a binding function.
+pub type Fallible<T> = Result<T, BindingError>;
+
+/// Why a call from JavaScript failed.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BindingError {
+    /// An argument is wrong in itself.
+    #[error(transparent)]
+    Argument(#[from] CoreError),
+    /// The estimators refused.
+    #[error(transparent)]
+    Aoa(#[from] AoaError),
+    /// A value of the wrong type.
+    #[error("{what} is {given}; expected {expected}")]
+    Type {
+        /// Path of the value in the argument, such as `iaa.iterations`.
+        what: String,
+        /// The type asked for.
+        expected: String,
+        /// The value, in words.
+        given: String,
+    },
+    /// A field that has to be there is not.
+    #[error("{what} is missing; expected {expected}")]
+    Missing {
+        /// Path of the field.
+        what: String,
+        /// Its type.
+        expected: String,
+    },
+    /// A field nobody asked for, most likely a slip of the pen.
+    #[error("{what} is not an option; expected one of {expected}")]
+    UnknownField {
+        /// Path of the field.
+        what: String,
+        /// The fields there are.
+        expected: String,
+    },
+    /// The data does not fit into the memory of the module.
+    #[error("{what} needs {given} bytes; expected what fits into memory")]
+    TooLarge {
+        /// What was to be stored.
+        what: String,
+        /// Bytes asked for.
+        given: usize,
+    },
+}
+
+impl Diagnose for BindingError {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Argument(error) => error.code(),
+            Self::Aoa(error) => error.code(),
+            Self::Type { .. } => "wrong-type",
+            Self::Missing { .. } => "missing",
+            Self::UnknownField { .. } => "unknown-option",
+            Self::TooLarge { .. } => "too-large",
+        }
+    }
+
+    fn details(&self) -> Details {
+        match self {
+            Self::Argument(error) => error.details(),
+            Self::Aoa(error) => error.details(),
+            Self::Type { what, expected, given } => Details::new(what, expected, given),
+            Self::Missing { what, expected } => Details::new(what, expected, "nothing"),
+            Self::UnknownField { what, expected } => {
+                Details::new(what, expected, "an unknown option")
+            }
+            Self::TooLarge { what, given } => {
+                Details::new(what, "what fits into memory", format!("{given} bytes"))
+            }
+        }
+    }
+}
+
+impl From<BindingError> for JsValue {
+    fn from(error: BindingError) -> Self {
+        let Details { what, expected, given } = error.details();
+        let name = in_camel_case(&what);
+        let message = match name.as_str() {
+            same if same == what => error.to_string(),
+            renamed => error.to_string().replace(&what, renamed),
+        };
+        Record::new()
+            .with("code", error.code())
+            .with("message", message)
+            .with("what", name)
+            .with("expected", expected)
+            .with("given", given)
+            .into()
+    }
+}
+
+/// The JavaScript name of an option (`gridPoints` for `grid_points`); other text stays as it is.
+fn in_camel_case(what: &str) -> String {
+    let is_name = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_.[]".contains(c);
+    if !what.chars().all(is_name) {
+        return what.into();
+    }
+    let mut name = String::with_capacity(what.len());
+    let mut upper = false;
+    for c in what.chars() {
+        match c {
+            '_' => upper = true,
+            c if upper => {
+                name.push(c.to_ascii_uppercase());
+                upper = false;
+            }
+            c => name.push(c),
+        }
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_camel_case;
+
+    #[test]
+    fn option_names_are_those_of_javascript() {
+        assert_eq!(in_camel_case("nomp.false_alarm"), "nomp.falseAlarm");
+        assert_eq!(in_camel_case("array preset"), "array preset");
+        assert_eq!(in_camel_case("targets[2].power_db"), "targets[2].powerDb");
+    }
+}

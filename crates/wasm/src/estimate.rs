@@ -1,0 +1,181 @@
+//! Angle estimation.
+
+use crate::complex::ComplexData;
+use crate::error::{BindingError, Fallible};
+use crate::options::read_options;
+use crate::read::{Fields, Read};
+use crate::write::{Record, degrees, finite_db, float64, list};
+use boresight_aoa::{self as aoa, Data, Method, SpectrumKind};
+use boresight_core::{Array, Complex64, CoreError};
+use ndarray::ArrayView2;
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The estimators and what each needs and gives.
+#[wasm_bindgen]
+pub fn methods() -> js_sys::Array {
+    list(Method::ALL.map(|method| {
+        let needs = method.requirements();
+        let max_snapshots = needs.max_snapshots.map_or(JsValue::NULL, JsValue::from);
+        Record::new()
+            .with("name", method.name())
+            .with("title", needs.title)
+            .with("reference", needs.reference)
+            .with("minSnapshots", needs.min_snapshots)
+            .with("maxSnapshots", max_snapshots)
+            .with("takesCovariance", needs.takes_covariance)
+            .with("uniformArray", needs.uniform_array)
+            .with("lattice", needs.lattice)
+            .with("elevation", needs.elevation)
+            .with("sourceCount", needs.source_count)
+            .with("spectrum", needs.spectrum)
+            .with("cost", needs.cost)
+    }))
+}
+
+/// Estimates angles once. To run one method on many cells keep an [`Estimator`].
+#[wasm_bindgen]
+pub fn estimate(input: &JsValue, options: &JsValue) -> Fallible<JsValue> {
+    Estimator::new(options)?.estimate(input)
+}
+
+/// An estimator whose preparation is kept between cells.
+#[wasm_bindgen]
+pub struct Estimator {
+    inner: aoa::Estimator,
+}
+
+#[wasm_bindgen]
+impl Estimator {
+    /// Checks that method, array and options go together, and prepares.
+    #[wasm_bindgen(constructor)]
+    pub fn new(options: &JsValue) -> Fallible<Self> {
+        let mut fields = Fields::new(options, "")?;
+        let method: Method = fields.required("method")?;
+        let array: Array = fields.required("array")?;
+        let options = read_options(&mut fields)?;
+        fields.finish()?;
+        Ok(Self { inner: aoa::Estimator::new(method, &array, &options)? })
+    }
+
+    /// Estimates the angles in `{ snapshots }` or `{ covariance, snapshotCount }`.
+    pub fn estimate(&mut self, input: &JsValue) -> Fallible<JsValue> {
+        let input = Input::read(input, "input")?;
+        Ok(estimate_record(&self.inner.estimate(input.data()?)?).into())
+    }
+}
+
+/// Snapshots or a covariance.
+pub enum Input {
+    /// Elements x snapshots, or a vector of elements.
+    Snapshots(ComplexData),
+    /// Elements x elements, and the number of snapshots in it.
+    Covariance(ComplexData, usize),
+}
+
+impl Read for Input {
+    const EXPECTED: &'static str = "{ snapshots } or { covariance, snapshotCount }";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let snapshots = fields.optional::<ComplexData>("snapshots")?;
+        let covariance = fields.optional::<ComplexData>("covariance")?;
+        let input = match (snapshots, covariance) {
+            (Some(snapshots), None) => Self::Snapshots(snapshots),
+            (None, Some(covariance)) => {
+                Self::Covariance(covariance, fields.required("snapshotCount")?)
+            }
+            (given, _) => {
+                return Err(BindingError::Type {
+                    what: path.into(),
+                    expected: Self::EXPECTED.into(),
+                    given: if given.is_some() { "both" } else { "neither" }.into(),
+                });
+            }
+        };
+        fields.finish()?;
+        Ok(input)
+    }
+}
+
+impl Input {
+    /// The data as the estimators take it.
+    ///
+    /// # Errors
+    /// For a shape that is neither a vector nor a matrix.
+    pub fn data(&self) -> Fallible<Data<'_>> {
+        match self {
+            Self::Snapshots(data) => {
+                let (rows, columns) = match data.shape[..] {
+                    [elements] => (elements, 1),
+                    [elements, snapshots] => (elements, snapshots),
+                    _ => return Err(shape_error("snapshots", "[elements, snapshots]", data)),
+                };
+                Ok(Data::Snapshots(matrix(rows, columns, data, "snapshots")?))
+            }
+            Self::Covariance(data, snapshots) => {
+                let [rows, columns] = data.shape[..] else {
+                    return Err(shape_error("covariance", "[elements, elements]", data));
+                };
+                let matrix = matrix(rows, columns, data, "covariance")?;
+                Ok(Data::Covariance { matrix, snapshots: *snapshots })
+            }
+        }
+    }
+}
+
+fn matrix<'a>(
+    rows: usize,
+    columns: usize,
+    data: &'a ComplexData,
+    what: &str,
+) -> Fallible<ArrayView2<'a, Complex64>> {
+    ArrayView2::from_shape((rows, columns), &data.data)
+        .map_err(|_| shape_error(what, "a matrix", data))
+}
+
+fn shape_error(what: &str, expected: &str, data: &ComplexData) -> BindingError {
+    let given = data.shape.clone();
+    CoreError::Shape { what: what.into(), expected: expected.into(), given }.into()
+}
+
+/// An estimate as a plain object.
+pub fn estimate_record(estimate: &aoa::Estimate) -> Record {
+    Record::new()
+        .with("method", estimate.method.name())
+        .with("sources", list(estimate.sources.iter().map(source_record)))
+        .with_some("spectrum", estimate.spectrum.as_ref().map(spectrum_record))
+        .with("resolved", estimate.resolved)
+        .with("iterations", estimate.iterations)
+        .with("warnings", warnings(&estimate.warnings))
+}
+
+/// Warnings of an estimator.
+pub fn warnings(warnings: &[aoa::Warning]) -> js_sys::Array {
+    list(
+        warnings
+            .iter()
+            .map(|w| Record::new().with("code", w.code()).with("message", w.to_string())),
+    )
+}
+
+fn source_record(source: &aoa::Source) -> Record {
+    Record::new()
+        .with("azimuthDeg", source.direction.azimuth_rad.to_degrees())
+        .with("elevationDeg", source.direction.elevation_rad.to_degrees())
+        .with("powerDb", finite_db(source.power))
+        .with_some("amplitude", source.amplitude.map(|z| list([z.re, z.im])))
+}
+
+fn spectrum_record(spectrum: &aoa::Spectrum) -> Record {
+    let values_db: Vec<f64> = spectrum.values.iter().map(|&power| finite_db(power)).collect();
+    let kind = match spectrum.kind {
+        SpectrumKind::Power => "power",
+        SpectrumKind::Pseudo => "pseudo",
+    };
+    Record::new()
+        .with("azimuthDeg", degrees(&spectrum.azimuth_rad))
+        .with("elevationDeg", degrees(&spectrum.elevation_rad))
+        .with("valuesDb", float64(&values_db))
+        .with("kind", kind)
+}

@@ -1,0 +1,23 @@
+//! JavaScript bindings: the one crate that knows `wasm_bindgen`.
+//!
+//! A binding function reads its options, calls one function of the crates beneath and writes the
+//! result as a plain object with typed arrays of its own. Degrees become radians here and nowhere
+//! else. Errors are thrown as objects `{ code, message, what, expected, given }`, which the
+//! TypeScript around this crate turns into a `BoresightError`.
+
+mod array;
+mod complex;
+mod error;
+mod estimate;
+mod options;
+mod panic;
+mod read;
+mod write;
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Version of the package.
+#[wasm_bindgen]
+pub fn version() -> String {
+    env!("CARGO_PKG_VERSION").into()
+}

@@ -1,0 +1,284 @@
+//! Options out of JavaScript objects, with errors that name the field.
+
+use crate::error::{BindingError, Fallible};
+use boresight_core::CoreError;
+use js_sys::{Array, BigInt, Object, Reflect};
+use wasm_bindgen::{JsCast, JsValue};
+
+/// Largest integer a JavaScript number holds exactly.
+const MAX_SAFE_INTEGER: f64 = 9_007_199_254_740_991.0;
+
+/// A value that can be read from JavaScript; `path` names it in errors.
+pub trait Read: Sized {
+    /// What is accepted, in words.
+    const EXPECTED: &'static str;
+
+    /// Reads a value that is not `undefined`.
+    fn read(value: &JsValue, path: &str) -> Fallible<Self>;
+}
+
+/// The fields of an options object. [`Fields::finish`] refuses fields nobody asked for.
+pub struct Fields {
+    object: Object,
+    path: String,
+    known: Vec<&'static str>,
+}
+
+impl Fields {
+    /// Reads `value`, which must be a plain object; `path` is its name in errors, empty for the
+    /// argument itself.
+    pub fn new(value: &JsValue, path: &str) -> Fallible<Self> {
+        let plain = value.is_object() && !Array::is_array(value) && !value.is_function();
+        if !plain {
+            let what = if path.is_empty() { "options" } else { path };
+            return Err(wrong_type(what, "an object", value));
+        }
+        Ok(Self { object: value.clone().unchecked_into(), path: path.into(), known: vec![] })
+    }
+
+    /// Path of a field in errors.
+    pub fn path_of(&self, name: &str) -> String {
+        if self.path.is_empty() { name.into() } else { format!("{}.{name}", self.path) }
+    }
+
+    /// The raw value of a field; nothing if absent or `undefined`.
+    pub fn raw(&mut self, name: &'static str) -> Fallible<Option<JsValue>> {
+        self.known.push(name);
+        match Reflect::get(&self.object, &name.into()) {
+            Ok(value) if value.is_undefined() => Ok(None),
+            Ok(value) => Ok(Some(value)),
+            Err(_) => Err(BindingError::Type {
+                what: self.path_of(name),
+                expected: "a value".into(),
+                given: "a property that throws".into(),
+            }),
+        }
+    }
+
+    /// A field that may be absent.
+    pub fn optional<T: Read>(&mut self, name: &'static str) -> Fallible<Option<T>> {
+        match self.raw(name)? {
+            Some(value) => T::read(&value, &self.path_of(name)).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// A field that must be there.
+    pub fn required<T: Read>(&mut self, name: &'static str) -> Fallible<T> {
+        self.optional(name)?.ok_or_else(|| BindingError::Missing {
+            what: self.path_of(name),
+            expected: T::EXPECTED.into(),
+        })
+    }
+
+    /// Puts the field's value into `target` if there is one.
+    pub fn update<T: Read>(&mut self, name: &'static str, target: &mut T) -> Fallible<()> {
+        if let Some(value) = self.optional(name)? {
+            *target = value;
+        }
+        Ok(())
+    }
+
+    /// Like [`Fields::update`] for a name out of a fixed list.
+    pub fn update_choice<T: Copy>(
+        &mut self,
+        name: &'static str,
+        choices: &[(&str, T)],
+        target: &mut T,
+    ) -> Fallible<()> {
+        if let Some(value) = self.raw(name)? {
+            *target = choice(&value, &self.path_of(name), choices)?;
+        }
+        Ok(())
+    }
+
+    /// The fields of an object in a field; nothing if absent.
+    pub fn object(&mut self, name: &'static str) -> Fallible<Option<Self>> {
+        match self.raw(name)? {
+            Some(value) => Self::new(&value, &self.path_of(name)).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Refuses fields that were not asked for, unless they are `undefined`.
+    pub fn finish(self) -> Fallible<()> {
+        for key in Object::keys(&self.object).iter() {
+            let name = key.as_string().unwrap_or_default();
+            let given = Reflect::get(&self.object, &key).unwrap_or(JsValue::NULL);
+            if !self.known.contains(&name.as_str()) && !given.is_undefined() {
+                return Err(BindingError::UnknownField {
+                    what: self.path_of(&shortened(&name)),
+                    expected: self.known.join(", "),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The error for a value of the wrong type.
+pub fn wrong_type(what: &str, expected: &str, value: &JsValue) -> BindingError {
+    BindingError::Type { what: what.into(), expected: expected.into(), given: describe(value) }
+}
+
+/// One of a list of names.
+pub fn choice<T: Copy>(value: &JsValue, path: &str, choices: &[(&str, T)]) -> Fallible<T> {
+    let names = || choices.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+    let Some(given) = value.as_string() else {
+        return Err(wrong_type(path, &format!("one of {}", names()), value));
+    };
+    match choices.iter().find(|(name, _)| *name == given) {
+        Some((_, choice)) => Ok(*choice),
+        None => Err(CoreError::Unknown {
+            what: path.into(),
+            expected: names(),
+            given: shortened(&given),
+        }
+        .into()),
+    }
+}
+
+/// The items of an array with their paths.
+pub fn items(value: &JsValue, path: &str) -> Fallible<Vec<(JsValue, String)>> {
+    if !Array::is_array(value) {
+        return Err(wrong_type(path, "an array", value));
+    }
+    let array: &Array = value.unchecked_ref();
+    Ok(array.iter().enumerate().map(|(i, item)| (item, format!("{path}[{i}]"))).collect())
+}
+
+/// A value in words, short enough for a message.
+fn describe(value: &JsValue) -> String {
+    if let Some(number) = value.as_f64() {
+        return number.to_string();
+    }
+    if let Some(text) = value.as_string() {
+        return format!("{:?}", shortened(&text));
+    }
+    match value {
+        value if value.is_null() => "null".into(),
+        value if value.is_undefined() => "undefined".into(),
+        value if value.is_function() => "a function".into(),
+        value if Array::is_array(value) => {
+            format!("an array of {}", value.unchecked_ref::<Array>().length())
+        }
+        value if value.is_object() => "an object".into(),
+        value => match value.as_bool() {
+            Some(truth) => truth.to_string(),
+            None => value.js_typeof().as_string().unwrap_or_default(),
+        },
+    }
+}
+
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 60;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text.into(),
+    }
+}
+
+impl Read for f64 {
+    const EXPECTED: &'static str = "a number";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let Some(given) = value.as_f64() else {
+            return Err(wrong_type(path, Self::EXPECTED, value));
+        };
+        if !given.is_finite() {
+            let what = path.into();
+            return Err(
+                CoreError::OutOfRange { what, expected: "a finite number".into(), given }.into()
+            );
+        }
+        Ok(given)
+    }
+}
+
+impl Read for usize {
+    const EXPECTED: &'static str = "a whole number";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let given = value.as_f64().ok_or_else(|| wrong_type(path, Self::EXPECTED, value))?;
+        if given.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&given) {
+            return Ok(given as usize);
+        }
+        let expected = format!("a whole number from 0 to {}", u32::MAX);
+        Err(CoreError::OutOfRange { what: path.into(), expected, given }.into())
+    }
+}
+
+/// A seed: a whole number or a `bigint`.
+impl Read for u64 {
+    const EXPECTED: &'static str = "a whole number or a bigint from 0 to 2^64 - 1";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        if let Some(given) = value.as_f64() {
+            if given.fract() == 0.0 && (0.0..=MAX_SAFE_INTEGER).contains(&given) {
+                return Ok(given as u64);
+            }
+            let expected = "a whole number from 0 to 2^53 - 1, or a bigint".into();
+            return Err(CoreError::OutOfRange { what: path.into(), expected, given }.into());
+        }
+        value
+            .dyn_ref::<BigInt>()
+            .and_then(|big| u64::try_from(big.clone()).ok())
+            .ok_or_else(|| wrong_type(path, Self::EXPECTED, value))
+    }
+}
+
+impl Read for bool {
+    const EXPECTED: &'static str = "true or false";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        value.as_bool().ok_or_else(|| wrong_type(path, Self::EXPECTED, value))
+    }
+}
+
+impl Read for String {
+    const EXPECTED: &'static str = "a string";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        value.as_string().ok_or_else(|| wrong_type(path, Self::EXPECTED, value))
+    }
+}
+
+impl<T: Read, const N: usize> Read for [T; N] {
+    const EXPECTED: &'static str = "an array of numbers";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let items = items(value, path)?;
+        let given = items.len();
+        let read: Vec<T> =
+            items.iter().map(|(item, path)| T::read(item, path)).collect::<Fallible<_>>()?;
+        read.try_into().map_err(|_| {
+            let expected = format!("[{N}]");
+            CoreError::Shape { what: path.into(), expected, given: vec![given] }.into()
+        })
+    }
+}
+
+impl<T: Read> Read for Vec<T> {
+    const EXPECTED: &'static str = "an array";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        items(value, path)?.iter().map(|(item, path)| T::read(item, path)).collect()
+    }
+}
+
+/// An angle given in degrees, within a quarter turn of boresight.
+#[derive(Debug, Clone, Copy)]
+pub struct Angle {
+    /// The angle, rad.
+    pub rad: f64,
+}
+
+impl Read for Angle {
+    const EXPECTED: &'static str = "an angle in degrees";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let degrees = f64::read(value, path)?;
+        boresight_core::error::check_range(path, degrees, -90.0, 90.0)?;
+        Ok(Self { rad: degrees.to_radians() })
+    }
+}

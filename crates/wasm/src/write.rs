@@ -1,0 +1,57 @@
+//! Plain JavaScript objects, lists and typed arrays out of results.
+
+use js_sys::{Array, Float64Array, Object, Reflect};
+use wasm_bindgen::JsValue;
+
+/// A plain object under construction.
+pub struct Record(Object);
+
+impl Record {
+    /// An object without fields.
+    pub fn new() -> Self {
+        Self(Object::new())
+    }
+
+    /// Adds a field.
+    #[must_use]
+    pub fn with(self, name: &str, value: impl Into<JsValue>) -> Self {
+        // Setting a property of a fresh plain object cannot fail.
+        let _ = Reflect::set(&self.0, &name.into(), &value.into());
+        self
+    }
+
+    /// Adds a field if there is a value for it.
+    #[must_use]
+    pub fn with_some(self, name: &str, value: Option<impl Into<JsValue>>) -> Self {
+        match value {
+            Some(value) => self.with(name, value),
+            None => self,
+        }
+    }
+}
+
+impl From<Record> for JsValue {
+    fn from(record: Record) -> Self {
+        record.0.into()
+    }
+}
+
+/// A list of anything.
+pub fn list<T: Into<JsValue>>(items: impl IntoIterator<Item = T>) -> Array {
+    items.into_iter().map(Into::into).collect()
+}
+
+/// A `Float64Array` of its own.
+pub fn float64(numbers: &[f64]) -> Float64Array {
+    Float64Array::new_from_slice(numbers)
+}
+
+/// Radians to a `Float64Array` in degrees.
+pub fn degrees(radians: &[f64]) -> Float64Array {
+    float64(&radians.iter().map(|x| x.to_degrees()).collect::<Vec<_>>())
+}
+
+/// Power in dB that stays finite (about -3077 dB) where there is none, for plots and JSON.
+pub fn finite_db(power: f64) -> f64 {
+    boresight_core::units::power_to_db(power.max(f64::MIN_POSITIVE))
+}
