@@ -18,13 +18,15 @@ async function wasm() {
   const inputs = ['Cargo.toml', 'Cargo.lock', '.cargo/config.toml', 'crates', 'scripts/build.mjs'];
   const outputs = ['dist/wasm/boresight.js', 'dist/wasm/boresight.d.ts', 'dist/wasm/boresight_bg.wasm'];
   const done = await whenChanged('wasm', { inputs, outputs }, async () => {
-    say('crates/wasm -> dist/wasm (wasm-pack; a first build takes minutes)');
+    say('crates/wasm -> dist/wasm (a first build takes minutes)');
     const out = join(dist, 'wasm');
-    await run('wasm-pack', [
-      '--log-level', 'error', 'build', 'crates/wasm', '--target', 'web', '--release', '--no-opt', '--no-pack',
-      '--mode', 'no-install', '--out-dir', out, '--out-name', 'boresight',
+    const target = 'wasm32-unknown-unknown';
+    await run('cargo', ['build', '--quiet', '-p', 'boresight-wasm', '--release', '--target', target, '--target-dir', join(root, 'target')]);
+    // wasm-pack cannot pass on the last flag, which makes the instance replaceable after a trap.
+    await run('wasm-bindgen', [
+      join(root, 'target', target, 'release', 'boresight_wasm.wasm'), '--target', 'web', '--out-dir', out,
+      '--out-name', 'boresight', '--omit-default-module-path', '--experimental-reset-state-function',
     ]);
-    rmSync(join(out, '.gitignore'), { force: true });
     say('wasm-opt -O3');
     await run(process.execPath, [
       join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt'), '-O3', ...wasmFeatures, coreWasm, '-o', coreWasm,

@@ -35,11 +35,18 @@ fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<Vec<f64>> {
     let value = fields
         .raw(name)?
         .ok_or_else(|| BindingError::Missing { what: path.clone(), expected: expected.into() })?;
+    // A detached array has no length, and copying from it throws.
     if let Some(array) = value.dyn_ref::<Float64Array>() {
+        if array.length() == 0 {
+            return Ok(vec![]);
+        }
         let mut numbers = zeros(&path, array.length() as usize, 0.0)?;
         array.copy_to(&mut numbers);
         Ok(numbers)
     } else if let Some(array) = value.dyn_ref::<Float32Array>() {
+        if array.length() == 0 {
+            return Ok(vec![]);
+        }
         let mut numbers = zeros(&path, array.length() as usize, 0.0_f32)?;
         array.copy_to(&mut numbers);
         Ok(numbers.into_iter().map(f64::from).collect())

@@ -1,0 +1,7 @@
+// What every runtime's entry offers beside its own init().
+export type * from './types.js';
+export { BoresightError, type ErrorDetails } from './errors.js';
+export { initSync, type WasmSource } from './instance.js';
+export { version } from './version.js';
+export { array, arrayPresets } from './arrays.js';
+export { Estimator, estimate, methods } from './estimate.js';

@@ -1,0 +1,51 @@
+/** What was wrong, what would have been accepted and what was given. */
+export interface ErrorDetails {
+  readonly what: string;
+  readonly expected: string;
+  readonly given: string;
+}
+
+/** An error as it crosses a boundary where classes are lost: out of wasm, out of a worker. */
+export interface PlainError extends ErrorDetails {
+  readonly code: string;
+  readonly message: string;
+}
+
+/** The one error this package throws. `code` is stable and meant for programs. */
+export class BoresightError extends Error {
+  override readonly name = 'BoresightError';
+  readonly code: string;
+  readonly details: ErrorDetails;
+
+  constructor(code: string, message: string, details: ErrorDetails, options?: ErrorOptions) {
+    super(message, options);
+    this.code = code;
+    this.details = details;
+  }
+
+  static fromPlain({ code, message, what, expected, given }: PlainError): BoresightError {
+    return new BoresightError(code, message, { what, expected, given });
+  }
+
+  toPlain(): PlainError {
+    return { code: this.code, message: this.message, ...this.details };
+  }
+
+  /** What `JSON.stringify` shows. */
+  toJSON(): PlainError {
+    return this.toPlain();
+  }
+}
+
+/** Whether a thrown value is an error of the bindings. */
+export function isPlainError(thrown: unknown): thrown is PlainError {
+  return typeof thrown === 'object' && thrown !== null && !(thrown instanceof Error)
+    && 'code' in thrown && 'what' in thrown;
+}
+
+/** An error made on this side of the boundary; its message is put together from the details. */
+export function failure(code: string, details: ErrorDetails, cause?: unknown): BoresightError {
+  const { what, expected, given } = details;
+  const message = `${what} is ${given}; expected ${expected}`;
+  return new BoresightError(code, message, details, cause === undefined ? undefined : { cause });
+}

@@ -1,0 +1,25 @@
+import * as glue from '../wasm/boresight.js';
+import { Handle } from './handle.js';
+import { call } from './instance.js';
+import type { Estimate, EstimateInput, EstimatorOptions, MethodInfo } from './types.js';
+
+/** The estimators and what each needs and gives. */
+export function methods(): MethodInfo[] {
+  return call(() => glue.methods() as MethodInfo[]);
+}
+
+/** Estimates angles once. To run one method on many cells, keep an {@link Estimator}. */
+export function estimate(input: EstimateInput, options: EstimatorOptions): Estimate {
+  return call(() => glue.estimate(input, options) as Estimate);
+}
+
+/** An estimator that keeps its grids, plans and scratch space between cells. */
+export class Estimator extends Handle<glue.Estimator> {
+  constructor(options: EstimatorOptions) {
+    super(() => new glue.Estimator(options));
+  }
+
+  estimate(input: EstimateInput): Estimate {
+    return this.use((raw) => raw.estimate(input) as Estimate);
+  }
+}
