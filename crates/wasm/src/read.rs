@@ -265,20 +265,3 @@ impl<T: Read> Read for Vec<T> {
         items(value, path)?.iter().map(|(item, path)| T::read(item, path)).collect()
     }
 }
-
-/// An angle given in degrees, within a quarter turn of boresight.
-#[derive(Debug, Clone, Copy)]
-pub struct Angle {
-    /// The angle, rad.
-    pub rad: f64,
-}
-
-impl Read for Angle {
-    const EXPECTED: &'static str = "an angle in degrees";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let degrees = f64::read(value, path)?;
-        boresight_core::error::check_range(path, degrees, -90.0, 90.0)?;
-        Ok(Self { rad: degrees.to_radians() })
-    }
-}
