@@ -1,6 +1,6 @@
 //! Eigendecomposition of Hermitian matrices.
 
-use super::{from_nalgebra, to_nalgebra};
+use super::tridiagonal::{Tridiagonal, ql};
 use crate::error::{CoreError, check_finite};
 use ndarray::{Array1, Array2, ArrayView2};
 use num_complex::Complex64;
@@ -14,23 +14,56 @@ pub struct HermitianEigen {
     pub vectors: Array2<Complex64>,
 }
 
-/// Eigenvalues and eigenvectors of a Hermitian matrix, largest eigenvalue first.
+/// Eigenvalues and eigenvectors of a Hermitian matrix, of which the lower triangle is read, largest
+/// eigenvalue first.
 ///
 /// # Errors
 /// [`CoreError::Shape`] if the matrix is empty or not square, [`CoreError::NotFinite`] if an entry
 /// is not finite.
 pub fn hermitian_eigen(matrix: ArrayView2<Complex64>) -> Result<HermitianEigen, CoreError> {
+    leading_hermitian_eigen(matrix, matrix.nrows())
+}
+
+/// All eigenvalues of a Hermitian matrix, of which the lower triangle is read, and the eigenvectors
+/// of the `count` largest (of all, if there are fewer): the signal subspace at a fraction of the
+/// cost of the whole basis, as orthogonal as that.
+///
+/// # Errors
+/// As [`hermitian_eigen`].
+pub fn leading_hermitian_eigen(
+    matrix: ArrayView2<Complex64>,
+    count: usize,
+) -> Result<HermitianEigen, CoreError> {
     super::eigenvalues::check_square("Hermitian matrix", matrix)?;
     check_finite("Hermitian matrix", matrix.iter().flat_map(|z| [z.re, z.im]))?;
-    let eigen = to_nalgebra(matrix).symmetric_eigen();
-    let vectors = from_nalgebra(&eigen.eigenvectors);
-    let mut order: Vec<usize> = (0..matrix.nrows()).collect();
-    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-    Ok(HermitianEigen {
-        values: order.iter().map(|&i| eigen.eigenvalues[i]).collect(),
-        vectors: vectors.select(ndarray::Axis(1), &order),
-    })
+    let n = matrix.nrows();
+    let mut reduced = Tridiagonal::new(matrix);
+    let rotations = ql(&mut reduced.diagonal, &mut reduced.off_diagonal);
+    let values = &reduced.diagonal;
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+    let mut vectors = Array2::zeros((n, count.min(n)));
+    for (block, columns) in order[..count.min(n)].chunks(LANES).enumerate() {
+        let mut real = vec![[0.0; LANES]; n];
+        for (lane, &column) in columns.iter().enumerate() {
+            real[column][lane] = 1.0;
+        }
+        for rotation in rotations.iter().rev() {
+            rotation.apply(&mut real);
+        }
+        let (re, im) = reduced.back_transform(&real);
+        for row in 0..n {
+            for lane in 0..columns.len() {
+                vectors[[row, block * LANES + lane]] = Complex64::new(re[row][lane], im[row][lane]);
+            }
+        }
+    }
+    let values = order.iter().map(|&i| values[i] * reduced.scale).collect();
+    Ok(HermitianEigen { values, vectors })
 }
+
+/// Vectors transformed together, side by side in vector registers.
+pub(super) const LANES: usize = 4;
 
 #[cfg(test)]
 mod tests {
@@ -38,19 +71,72 @@ mod tests {
     use crate::linalg::adjoint;
     use crate::random::Random;
 
+    fn random_hermitian(n: usize, seed: u64) -> Array2<Complex64> {
+        let mut random = Random::new(seed, 0);
+        let x = Array2::from_shape_fn((n, n), |_| random.complex_normal(1.0));
+        &x + &adjoint(x.view())
+    }
+
+    fn check(a: &Array2<Complex64>, tolerance: f64) {
+        let n = a.nrows();
+        let eigen = hermitian_eigen(a.view()).unwrap();
+        let scaled = &eigen.vectors * &eigen.values.mapv(|v| Complex64::new(v, 0.0));
+        let back = scaled.dot(&adjoint(eigen.vectors.view()));
+        let gram = adjoint(eigen.vectors.view()).dot(&eigen.vectors);
+        let largest = a.iter().map(|z| z.norm()).fold(0.0, f64::max);
+        assert!((back - a).iter().all(|z| z.norm() <= tolerance * largest), "n = {n}");
+        assert!((gram - Array2::<Complex64>::eye(n)).iter().all(|z| z.norm() <= tolerance));
+        assert!(eigen.values.windows(2).into_iter().all(|w| w[0] >= w[1]));
+    }
+
     #[test]
     fn rebuilds_the_matrix_from_a_unitary_basis() {
-        let mut random = Random::new(2, 0);
-        for n in [1, 2, 7, 32] {
-            let x = Array2::from_shape_fn((n, n), |_| random.complex_normal(1.0));
-            let a = &x + &adjoint(x.view());
-            let eigen = hermitian_eigen(a.view()).unwrap();
-            let scaled = &eigen.vectors * &eigen.values.mapv(|v| Complex64::new(v, 0.0));
-            let back = scaled.dot(&adjoint(eigen.vectors.view()));
-            let gram = adjoint(eigen.vectors.view()).dot(&eigen.vectors);
-            assert!((back - &a).iter().all(|z| z.norm() < 1e-12 * (n as f64 + 4.0)));
-            assert!((gram - Array2::<Complex64>::eye(n)).iter().all(|z| z.norm() < 1e-12));
-            assert!(eigen.values.windows(2).into_iter().all(|w| w[0] >= w[1]));
+        for n in [1, 2, 3, 4, 7, 8, 9, 32, 65] {
+            check(&random_hermitian(n, 2), 1e-14 * (n as f64 + 4.0));
+        }
+    }
+
+    #[test]
+    fn repeated_graded_and_extreme_eigenvalues() {
+        let n = 12;
+        let basis = hermitian_eigen(random_hermitian(n, 3).view()).unwrap().vectors;
+        let spread = |k: usize| 10.0_f64.powi(-2 * k as i32);
+        let repeated = |k: usize| if k < 5 { 2.0 } else { 1.0 };
+        let low_rank = |k: usize| if k < 2 { 1.0 } else { 0.0 };
+        for (values, scale) in [
+            (Array1::from_shape_fn(n, spread), 1.0),
+            (Array1::from_shape_fn(n, repeated), 1.0),
+            (Array1::from_shape_fn(n, low_rank), 1.0),
+            (Array1::from_shape_fn(n, repeated), 1e-200),
+            (Array1::from_shape_fn(n, repeated), 1e200),
+        ] {
+            let scaled = &basis * &values.mapv(|v| Complex64::new(v * scale, 0.0));
+            let a = scaled.dot(&adjoint(basis.view()));
+            check(&a, 1e-13);
+            let found = hermitian_eigen(a.view()).unwrap().values;
+            let error = (&found / scale - &values).fold(0.0_f64, |m, e| m.max(e.abs()));
+            assert!(error < 1e-14 * 20.0, "{error}");
+        }
+    }
+
+    #[test]
+    fn diagonal_and_permuted_matrices() {
+        let mut a = Array2::from_diag(&Array1::from_shape_fn(6, |k| Complex64::new(k as f64, 0.0)));
+        check(&a, 1e-15);
+        a[[5, 0]] = Complex64::new(0.0, 3.0);
+        a[[0, 5]] = Complex64::new(0.0, -3.0);
+        check(&a, 1e-14);
+    }
+
+    #[test]
+    fn leading_vectors_are_those_of_the_whole_basis() {
+        let a = random_hermitian(13, 4);
+        let whole = hermitian_eigen(a.view()).unwrap();
+        for count in [0, 1, 3, 5, 13, 20] {
+            let part = leading_hermitian_eigen(a.view(), count).unwrap();
+            assert_eq!(part.vectors.dim(), (13, count.min(13)));
+            assert_eq!(part.values, whole.values);
+            assert_eq!(part.vectors, whole.vectors.slice(ndarray::s![.., ..count.min(13)]));
         }
     }
 
