@@ -1,1 +1,23 @@
-//! Boresight.
+//! Readers and writers of the files radar engineers have.
+//!
+//! - [`mmwave_cfg`]: the text configuration of Texas Instruments' mmWave boards.
+//! - [`dca1000`]: raw samples recorded by the DCA1000 capture card, read with such a configuration.
+//! - [`ti_uart`]: the packets a board's demo firmware sends over its serial port.
+//! - [`npy`]: NumPy arrays.
+//! - [`tables`]: detections and snapshots as CSV.
+//!
+//! All readers work on bytes in memory, take nothing on trust from a header before comparing it
+//! with what is there, and say where a file is wrong.
+
+pub mod dca1000;
+mod error;
+pub mod mmwave_cfg;
+pub mod npy;
+pub mod tables;
+pub mod ti_uart;
+
+pub use dca1000::{Capture, RawFrame};
+pub use error::{FormatError, Remark};
+pub use mmwave_cfg::RadarConfig;
+pub use npy::{NpyArray, NpyData};
+pub use ti_uart::{BoardFrame, BoardLog, BoardObject, UartStream};

@@ -1,0 +1,137 @@
+//! Errors of the readers and writers.
+
+use boresight_core::{CoreError, Details, Diagnose};
+use thiserror::Error;
+
+/// Why a file cannot be read or written.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum FormatError {
+    /// An argument is wrong in itself.
+    #[error(transparent)]
+    Argument(#[from] CoreError),
+    /// A line of a radar configuration cannot be used.
+    #[error("configuration line {line}: {command}: {what} is {given}; expected {expected}")]
+    Config {
+        /// Line, counted from 1.
+        line: usize,
+        /// The command on it.
+        command: String,
+        /// The argument or property that is wrong.
+        what: String,
+        /// What would have been accepted.
+        expected: String,
+        /// What was given.
+        given: String,
+    },
+    /// A radar configuration lacks a command it needs.
+    #[error("the configuration has no {command} line, which gives {purpose}")]
+    MissingCommand {
+        /// The command.
+        command: &'static str,
+        /// What it says.
+        purpose: &'static str,
+    },
+    /// A raw capture is shorter than one frame of its configuration.
+    #[error(
+        "the capture holds {given} bytes; expected at least {expected}, one frame of its \
+         configuration ({layout})"
+    )]
+    NoWholeFrame {
+        /// Bytes of one frame.
+        expected: u64,
+        /// Bytes given.
+        given: u64,
+        /// The factors of a frame, in words.
+        layout: String,
+    },
+    /// A raw capture is laid out in a way that is not read.
+    #[error("capture layout: {what} is {given}; expected {expected}")]
+    Layout {
+        /// The property of the layout.
+        what: &'static str,
+        /// What would have been accepted.
+        expected: String,
+        /// What was given.
+        given: String,
+    },
+    /// Binary data breaks the rules of its format.
+    #[error("{format} at byte {offset}: {what} is {given}; expected {expected}")]
+    Binary {
+        /// Name of the format.
+        format: &'static str,
+        /// Position in the file, bytes.
+        offset: usize,
+        /// The field that is wrong.
+        what: String,
+        /// What would have been accepted.
+        expected: String,
+        /// What was given.
+        given: String,
+    },
+    /// A table breaks the rules of its format.
+    #[error("CSV line {line}: {what} is {given}; expected {expected}")]
+    Table {
+        /// Line, counted from 1.
+        line: u64,
+        /// The column or property that is wrong.
+        what: String,
+        /// What would have been accepted.
+        expected: String,
+        /// What was given.
+        given: String,
+    },
+}
+
+impl Diagnose for FormatError {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Argument(error) => error.code(),
+            Self::Config { .. } => "config-value",
+            Self::MissingCommand { .. } => "config-incomplete",
+            Self::NoWholeFrame { .. } => "capture-too-short",
+            Self::Layout { .. } => "capture-layout",
+            Self::Binary { .. } => "malformed-file",
+            Self::Table { .. } => "malformed-table",
+        }
+    }
+
+    fn details(&self) -> Details {
+        match self {
+            Self::Argument(error) => error.details(),
+            Self::Config { line, command, what, expected, given } => {
+                Details::new(format!("line {line}: {command}: {what}"), expected, given)
+            }
+            Self::MissingCommand { command, purpose } => {
+                Details::new("configuration", format!("a {command} line ({purpose})"), "none")
+            }
+            Self::NoWholeFrame { expected, given, layout } => Details::new(
+                "capture",
+                format!("at least {expected} bytes, one frame ({layout})"),
+                format!("{given} bytes"),
+            ),
+            Self::Layout { what, expected, given } => Details::new(*what, expected, given),
+            Self::Binary { format, offset, what, expected, given } => {
+                Details::new(format!("{format} at byte {offset}: {what}"), expected, given)
+            }
+            Self::Table { line, what, expected, given } => {
+                Details::new(format!("line {line}: {what}"), expected, given)
+            }
+        }
+    }
+}
+
+/// A remark on a file that was read all the same.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remark {
+    /// A stable name in kebab case.
+    pub code: &'static str,
+    /// What a reader should know.
+    pub message: String,
+}
+
+impl Remark {
+    pub(crate) fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self { code, message: message.into() }
+    }
+}

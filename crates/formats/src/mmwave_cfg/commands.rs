@@ -1,0 +1,356 @@
+//! Takes the commands one by one and makes a [`RadarConfig`] of them.
+
+use super::line::{Line, clipped};
+use super::sequence::{Chirps, transmitters};
+use super::{AdcFormat, RadarConfig, board_preset};
+use crate::error::{FormatError, Remark};
+use boresight_core::{CoreError, Waveform, presets};
+
+/// Settings of the board and its own processing: they leave the raw samples as they are.
+const WITHOUT_EFFECT: [&str; 30] = [
+    "sensorStart",
+    "sensorStop",
+    "flushCfg",
+    "lowPower",
+    "guiMonitor",
+    "cfarCfg",
+    "peakGrouping",
+    "multiObjBeamForming",
+    "clutterRemoval",
+    "calibDcRangeSig",
+    "extendedMaxVelocity",
+    "nearFieldCfg",
+    "measureRangeBiasAndRxChanPhase",
+    "CQRxSatMonitor",
+    "CQSigImgMonitor",
+    "analogMonitor",
+    "aoaFovCfg",
+    "cfarFovCfg",
+    "calibData",
+    "configDataPort",
+    "queryDemoStatus",
+    "version",
+    "rangeBias",
+    "quit",
+    "exit",
+    "idlePowerDown",
+    "trackingCfg",
+    "staticBoundaryBox",
+    "boundaryBox",
+    "sensorPosition",
+];
+
+/// Most remarks kept; further ones are counted.
+const MOST_REMARKS: usize = 50;
+
+/// What `profileCfg` says.
+#[derive(Clone, Copy)]
+struct Profile {
+    start_frequency_hz: f64,
+    idle_s: f64,
+    adc_start_s: f64,
+    ramp_s: f64,
+    slope_hz_per_s: f64,
+    samples: usize,
+    sample_rate_hz: f64,
+}
+
+/// What `frameCfg` says, with the line it stood on.
+struct Frame {
+    line: usize,
+    first: usize,
+    last: usize,
+    loops: usize,
+    frames: usize,
+    interval_s: f64,
+}
+
+/// State while reading.
+#[derive(Default)]
+pub(super) struct Commands {
+    platform: Option<String>,
+    sdk_version: Option<String>,
+    masks: Option<(u32, u32)>,
+    adc: Option<(u32, usize)>,
+    buffer: Option<(bool, bool)>,
+    profiles: Vec<(usize, Profile)>,
+    chirps: Vec<Chirps>,
+    frame: Option<Frame>,
+    remarks: Vec<Remark>,
+    further_remarks: usize,
+}
+
+impl Commands {
+    /// Looks for what the visualizer writes in comments.
+    pub fn comment(&mut self, comment: &str) {
+        let value = |key: &str| {
+            let rest = comment.trim().strip_prefix(key)?.trim();
+            Some(clipped(rest.split_whitespace().next()?))
+        };
+        if let Some(platform) = value("Platform:") {
+            self.platform = Some(platform);
+        } else if let Some(version) = value("Created for SDK ver:") {
+            self.sdk_version = Some(version);
+        }
+    }
+
+    /// Takes one command.
+    pub fn take(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
+        match line.command {
+            "dfeDataOutputMode" => {
+                let mode = line.integer(0, "mode", 1, 3)?;
+                if mode != 1 {
+                    return Err(line.error("mode", "1 (frames of chirps)", mode.to_string()));
+                }
+            }
+            "channelCfg" => self.channels(line)?,
+            "adcCfg" => {
+                let bits = [12, 14, 16][line.index(0, "number of bits", 2)?];
+                let format = line.index(1, "output format", 2)?;
+                if format == 0 {
+                    return Err(line.error("output format", "1 or 2 (complex)", "0 (real)"));
+                }
+                self.adc = Some((bits, format));
+            }
+            "adcbufCfg" | "adcbufcfg" => self.buffer(line)?,
+            "profileCfg" => self.profile(line)?,
+            "chirpCfg" => self.chirp(line)?,
+            "frameCfg" => self.frame(line)?,
+            "bpmCfg" => {
+                if line.index(1, "enabled", 1)? == 1 {
+                    return Err(line.error("enabled", "0 (time division)", "1 (phase coding)"));
+                }
+            }
+            "lvdsStreamCfg" => {
+                for (index, what) in [(1, "header"), (3, "software session")] {
+                    if line.index(index, what, 1)? == 1 {
+                        return Err(line.error(what, "0 (samples alone in the capture)", "1"));
+                    }
+                }
+            }
+            "compRangeBiasAndRxChanPhase" => self.compensation(line),
+            "advFrameCfg" | "subFrameCfg" | "contModeCfg" => {
+                return Err(line.error("frame mode", "frameCfg", line.command));
+            }
+            name if WITHOUT_EFFECT.contains(&name) => {}
+            name => {
+                let text = format!("line {}: {} is not known; ignored", line.number, clipped(name));
+                self.remark("unknown-command", text);
+            }
+        }
+        Ok(())
+    }
+
+    fn remark(&mut self, code: &'static str, message: String) {
+        if self.remarks.len() < MOST_REMARKS {
+            self.remarks.push(Remark::new(code, message));
+        } else {
+            self.further_remarks += 1;
+        }
+    }
+
+    fn channels(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
+        line.count(3, 3)?;
+        let mask =
+            |index, what| line.integer(index, what, 1, 0xffff).map(|m| m.unsigned_abs() as u32);
+        self.masks = Some((mask(0, "receiver mask")?, mask(1, "transmitter mask")?));
+        if line.integer(2, "cascading", 0, 2)? != 0 {
+            return Err(line.error("cascading", "0 (one chip)", line.arguments[2]));
+        }
+        Ok(())
+    }
+
+    fn buffer(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
+        line.count(4, 5)?;
+        // SDK 1 has no sub-frame number in front.
+        let at = line.arguments.len() - 4;
+        if line.index(at, "output format", 1)? == 1 {
+            return Err(line.error("output format", "0 (complex)", "1 (real)"));
+        }
+        let q_first = line.index(at + 1, "sample swap", 1)? == 1;
+        let receiver_major = line.index(at + 2, "channel interleave", 1)? == 1;
+        self.buffer = Some((q_first, receiver_major));
+        Ok(())
+    }
+
+    fn profile(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
+        line.count(14, 14)?;
+        let id = line.index(0, "profile", 3)?;
+        let profile = Profile {
+            start_frequency_hz: line.number(1, "start frequency (GHz)", 1.0, 300.0)? * 1e9,
+            idle_s: line.number(2, "idle time (us)", 0.0, 1e5)? * 1e-6,
+            adc_start_s: line.number(3, "ADC start time (us)", 0.0, 1e5)? * 1e-6,
+            ramp_s: line.number(4, "ramp end time (us)", 0.0, 1e5)? * 1e-6,
+            slope_hz_per_s: line.number(7, "slope (MHz/us)", 1e-3, 1e3)? * 1e12,
+            samples: line.index(9, "samples", 65_536)?,
+            sample_rate_hz: line.number(10, "sample rate (ksps)", 1.0, 1e6)? * 1e3,
+        };
+        if profile.samples < 2 {
+            return Err(line.error("samples", "at least 2", profile.samples.to_string()));
+        }
+        let end_s = profile.adc_start_s + profile.samples as f64 / profile.sample_rate_hz;
+        if end_s > profile.ramp_s * (1.0 + 1e-9) {
+            return Err(line.error(
+                "time of the last sample",
+                format!("at most the ramp end time, {:.3} us", profile.ramp_s * 1e6),
+                format!("{:.3} us", end_s * 1e6),
+            ));
+        }
+        self.profiles.retain(|(known, _)| *known != id);
+        self.profiles.push((id, profile));
+        Ok(())
+    }
+
+    fn chirp(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
+        line.count(8, 8)?;
+        let first = line.index(0, "first chirp", 511)?;
+        let last = line.integer(1, "last chirp", first as i64, 511)?.unsigned_abs() as usize;
+        let profile = line.index(2, "profile", 3)?;
+        let variations = ["start frequency", "slope", "idle time", "ADC start time"];
+        for (k, what) in variations.into_iter().enumerate() {
+            let value = line.number(3 + k, what, -1e12, 1e12)?;
+            if value != 0.0 {
+                let what = format!("variation of the {what}");
+                return Err(line.error(what, "0 (all chirps alike)", value.to_string()));
+            }
+        }
+        let tx_mask = line.integer(7, "transmitter mask", 1, 0xffff)?.unsigned_abs() as u32;
+        if tx_mask.count_ones() != 1 {
+            return Err(line.error(
+                "transmitter mask",
+                "one transmitter a chirp (time division)",
+                format!("{tx_mask} ({} transmitters)", tx_mask.count_ones()),
+            ));
+        }
+        self.chirps.push(Chirps { first, last, profile, tx_mask });
+        Ok(())
+    }
+
+    fn frame(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
+        line.count(7, 8)?;
+        let first = line.index(0, "first chirp", 511)?;
+        let last = line.integer(1, "last chirp", first as i64, 511)?.unsigned_abs() as usize;
+        let loops = line.integer(2, "loops", 1, 65_535)?.unsigned_abs() as usize;
+        let frames = line.index(3, "frames", 65_535)?;
+        // SDK 4 puts the number of ADC samples before the period.
+        let at = line.arguments.len() - 3;
+        let interval_s = line.number(at, "frame period (ms)", 1e-3, 1e6)? * 1e-3;
+        self.frame = Some(Frame { line: line.number, first, last, loops, frames, interval_s });
+        Ok(())
+    }
+
+    /// Coefficients other than unity bear on angles and are not applied.
+    fn compensation(&mut self, line: &Line<'_>) {
+        let numbers: Vec<f64> =
+            line.arguments.iter().filter_map(|word| word.parse().ok()).collect();
+        let neutral = numbers.first().is_none_or(|&bias| bias == 0.0)
+            && numbers.iter().skip(1).enumerate().all(|(k, &c)| c == f64::from(k % 2 == 0));
+        if !neutral || numbers.len() != line.arguments.len() {
+            let text = format!(
+                "line {}: range bias and channel phases are not applied to raw samples",
+                line.number
+            );
+            self.remark("compensation-not-applied", text);
+        }
+    }
+
+    /// Puts the parts together and checks them against each other.
+    pub fn finish(mut self) -> Result<RadarConfig, FormatError> {
+        let missing = |command, purpose| FormatError::MissingCommand { command, purpose };
+        let (rx_mask, tx_mask) =
+            self.masks.ok_or(missing("channelCfg", "receivers and transmitters"))?;
+        if self.profiles.is_empty() {
+            return Err(missing("profileCfg", "the ramp and its samples"));
+        }
+        if self.chirps.is_empty() {
+            return Err(missing("chirpCfg", "the transmitter of each chirp"));
+        }
+        let frame = self.frame.take().ok_or(missing("frameCfg", "chirps and loops of a frame"))?;
+        let frame_line = Line { number: frame.line, command: "frameCfg", arguments: vec![] };
+        let (order, repeats) = transmitters(&frame_line, &self.chirps, frame.first, frame.last)?;
+        if let Some(&tx) = order.iter().find(|&&tx| tx_mask >> tx & 1 == 0) {
+            return Err(frame_line.error(
+                "transmitters of its chirps",
+                format!("those channelCfg enables (mask {tx_mask})"),
+                format!("transmitter {tx} (mask {})", 1 << tx),
+            ));
+        }
+        let profile = self.used_profile(&frame, &frame_line)?;
+        let waveform = Waveform {
+            start_frequency_hz: profile.start_frequency_hz,
+            slope_hz_per_s: profile.slope_hz_per_s,
+            sample_rate_hz: profile.sample_rate_hz,
+            samples: profile.samples,
+            adc_start_s: profile.adc_start_s,
+            chirp_interval_s: profile.idle_s + profile.ramp_s,
+            transmitters: order.len(),
+            loops: frame.loops * repeats,
+            frame_interval_s: frame.interval_s,
+        };
+        waveform.check().map_err(|error| match error {
+            CoreError::OutOfRange { what, expected, given } => {
+                frame_line.error(what, expected, given.to_string())
+            }
+            other => other.into(),
+        })?;
+        let (bits, format) = self.adc.unwrap_or_else(|| {
+            self.remark("assumed", "no adcCfg line: 16 bits, complex assumed".into());
+            (16, 1)
+        });
+        if format == 2 {
+            let text = "complex 2x sampling: negative beat frequencies hold the image band";
+            self.remark("complex-2x", text.into());
+        }
+        let (q_first, receiver_major) = self.buffer.unwrap_or_else(|| {
+            let text = "no adcbufCfg line: I before Q and receivers one after another assumed";
+            self.remark("assumed", text.into());
+            (false, true)
+        });
+        if self.further_remarks > 0 {
+            let text = format!("{} further remarks left out", self.further_remarks);
+            self.remarks.push(Remark::new("remarks-left-out", text));
+        }
+        let receivers = (0..16).filter(|rx| rx_mask >> rx & 1 == 1).collect();
+        let mut config = RadarConfig {
+            waveform,
+            receivers,
+            transmitters: order,
+            array_preset: None,
+            platform: self.platform,
+            sdk_version: self.sdk_version,
+            adc: AdcFormat { bits, q_first, receiver_major },
+            frames: (frame.frames > 0).then_some(frame.frames),
+            remarks: self.remarks,
+        };
+        let board = config.platform.as_deref().and_then(board_preset);
+        config.array_preset = board.filter(|name| {
+            let board = presets::preset(name).ok();
+            board.is_some() && board == config.array()
+        });
+        Ok(config)
+    }
+
+    /// The one profile all chirps of the frame follow.
+    fn used_profile(&mut self, frame: &Frame, line: &Line<'_>) -> Result<Profile, FormatError> {
+        let mut used: Vec<usize> = self
+            .chirps
+            .iter()
+            .filter(|c| c.first <= frame.last && c.last >= frame.first)
+            .map(|c| c.profile)
+            .collect();
+        used.sort_unstable();
+        used.dedup();
+        if used.len() > 1 {
+            return Err(line.error("profiles of its chirps", "one", format!("{used:?}")));
+        }
+        let id = used.first().copied().unwrap_or_default();
+        let found = self.profiles.iter().find(|(known, _)| *known == id).map(|(_, p)| *p);
+        if self.profiles.len() > 1 {
+            let text = format!("several profiles; the frame uses profile {id}");
+            self.remark("several-profiles", text);
+        }
+        found.ok_or_else(|| {
+            line.error("profile of its chirps", format!("a profileCfg line for {id}"), "none")
+        })
+    }
+}

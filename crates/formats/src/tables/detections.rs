@@ -1,0 +1,95 @@
+//! The table of detections.
+
+use super::{Columns, field, finite, from_csv};
+use crate::error::FormatError;
+
+/// One detection of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DetectionRow {
+    /// Frame, from 0.
+    pub frame: usize,
+    /// Range, m.
+    pub range_m: f64,
+    /// Range rate, m/s, positive when receding.
+    pub rate_mps: f64,
+    /// Azimuth, rad, positive to the left.
+    pub azimuth_rad: f64,
+    /// Elevation, rad.
+    pub elevation_rad: f64,
+    /// Power at one element, dB over full scale.
+    pub power_db: f64,
+    /// Over the local noise, dB.
+    pub snr_db: f64,
+    /// Range bin.
+    pub range_bin: usize,
+    /// Doppler bin.
+    pub doppler_bin: usize,
+}
+
+const COLUMNS: [&str; 9] = [
+    "frame",
+    "range_m",
+    "rate_mps",
+    "azimuth_deg",
+    "elevation_deg",
+    "power_db",
+    "snr_db",
+    "range_bin",
+    "doppler_bin",
+];
+
+/// The table as text: the columns `frame`, `range_m`, `rate_mps`, `azimuth_deg`, `elevation_deg`,
+/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`.
+pub fn write_detections(rows: &[DetectionRow]) -> String {
+    let mut text = COLUMNS.join(",");
+    text.push('\n');
+    for row in rows {
+        let numbers = [
+            row.range_m,
+            row.rate_mps,
+            row.azimuth_rad.to_degrees(),
+            row.elevation_rad.to_degrees(),
+            row.power_db,
+            row.snr_db,
+        ];
+        text.push_str(&row.frame.to_string());
+        for number in numbers {
+            text.push_str(&format!(",{number}"));
+        }
+        text.push_str(&format!(",{},{}\n", row.range_bin, row.doppler_bin));
+    }
+    text
+}
+
+/// Reads a table as [`write_detections`] makes it. Columns may come in any order, and others
+/// beside them; `range_m` and `azimuth_deg` must be there, missing ones are zero.
+///
+/// # Errors
+/// [`FormatError::Table`] naming line and column.
+pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
+    let mut reader = csv::Reader::from_reader(bytes);
+    let columns = Columns::read(&mut reader)?;
+    columns.need("range_m")?;
+    columns.need("azimuth_deg")?;
+    let places = COLUMNS.map(|name| columns.find(name));
+    let mut rows = vec![];
+    for record in reader.records() {
+        let record = record.map_err(|error| from_csv(&error))?;
+        let number = |k: usize| places[k].map_or(Ok(0.0), |at| finite(&record, at, COLUMNS[k]));
+        let index = |k: usize| {
+            places[k].map_or(Ok(0), |at| field(&record, at, COLUMNS[k], "an integer of at least 0"))
+        };
+        rows.push(DetectionRow {
+            frame: index(0)?,
+            range_m: number(1)?,
+            rate_mps: number(2)?,
+            azimuth_rad: number(3)?.to_radians(),
+            elevation_rad: number(4)?.to_radians(),
+            power_db: number(5)?,
+            snr_db: number(6)?,
+            range_bin: index(7)?,
+            doppler_bin: index(8)?,
+        });
+    }
+    Ok(rows)
+}

@@ -1,0 +1,108 @@
+//! Whatever the bytes, readers return: no panic, nothing allocated on a header's word.
+
+#![allow(clippy::unwrap_used)]
+
+use boresight_formats::tables::{read_detections, read_snapshots};
+use boresight_formats::ti_uart::MAGIC;
+use boresight_formats::{BoardLog, Capture, NpyArray, RadarConfig, UartStream, npy};
+use proptest::prelude::*;
+
+const CFG: &[u8] = include_bytes!("../../../recordings/awr1642/profile.cfg");
+const DAT: &[u8] =
+    include_bytes!("../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat");
+
+fn every_reader(bytes: &[u8]) {
+    let recorded = RadarConfig::parse(CFG).unwrap();
+    let _ = NpyArray::parse(bytes);
+    let _ = read_detections(bytes);
+    let _ = read_snapshots(bytes);
+    let _ = BoardLog::parse(bytes, Some(&recorded));
+    if let Ok(config) = RadarConfig::parse(bytes) {
+        assert!(config.waveform.check().is_ok());
+        let _ = Capture::new(bytes, &config).map(|capture| capture.frame(0));
+    }
+    if let Ok(capture) = Capture::new(bytes, &recorded) {
+        assert_eq!(capture.frames() * 131_072 + capture.trailing_bytes(), bytes.len());
+    }
+}
+
+/// Some bytes of a file, replaced, removed or inserted.
+fn mutated(file: &'static [u8]) -> impl Strategy<Value = Vec<u8>> {
+    let edit = (any::<prop::sample::Index>(), any::<u8>(), 0..3_u8);
+    (proptest::collection::vec(edit, 1..12), any::<prop::sample::Index>()).prop_map(
+        move |(edits, end)| {
+            let mut bytes = file.to_vec();
+            for (place, value, kind) in edits {
+                if bytes.is_empty() {
+                    break;
+                }
+                let at = place.index(bytes.len());
+                match kind {
+                    0 => bytes[at] = value,
+                    1 => drop(bytes.remove(at)),
+                    _ => bytes.insert(at, value),
+                }
+            }
+            bytes.truncate(bytes.len() - end.index(bytes.len() + 1) / 4);
+            bytes
+        },
+    )
+}
+
+fn npy_file() -> &'static [u8] {
+    use std::sync::OnceLock;
+    static FILE: OnceLock<Vec<u8>> = OnceLock::new();
+    FILE.get_or_init(|| npy::write(&[2, 3], &[1.0_f64, 2.0, 3.0, 4.0, 5.0, 6.0]).unwrap())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 200, failure_persistence: None, ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn readers_survive_garbage(bytes in proptest::collection::vec(any::<u8>(), 0..2000)) {
+        every_reader(&bytes);
+    }
+
+    #[test]
+    fn readers_survive_edited_configurations(bytes in mutated(CFG)) {
+        every_reader(&bytes);
+    }
+
+    #[test]
+    fn readers_survive_edited_arrays(bytes in mutated(npy_file())) {
+        every_reader(&bytes);
+    }
+
+    #[test]
+    fn readers_survive_edited_tables(
+        bytes in mutated(b"snapshot,element,re,im\n0,0,1,2\n0,1,3,4\nrange_m,azimuth_deg\n1,2\n")
+    ) {
+        every_reader(&bytes);
+    }
+
+    #[test]
+    fn every_byte_of_a_stream_is_accounted_for(bytes in mutated(&DAT[..6000]), size in 1..900_usize) {
+        let mut stream = UartStream::new(None);
+        let mut frames: Vec<_> = bytes.chunks(size).flat_map(|piece| stream.push(piece)).collect();
+        frames.extend(stream.finish());
+        let log = BoardLog::parse(&bytes, None);
+        prop_assert_eq!(&frames, &log.frames);
+        prop_assert_eq!(stream.skipped_bytes(), log.skipped_bytes);
+        // What is not skipped is in packets, and a whole one has at least a header.
+        let kept = bytes.len() as u64 - log.skipped_bytes;
+        prop_assert!(kept >= 36 * frames.len() as u64);
+        let words = bytes.windows(8).filter(|window| **window == MAGIC).count();
+        prop_assert!(frames.iter().filter(|f| f.complete).count() <= words);
+    }
+
+    #[test]
+    fn arrays_come_back(shape in proptest::collection::vec(0..5_usize, 0..4), seed in any::<f64>()) {
+        let data: Vec<f64> = (0..shape.iter().product()).map(|k| seed * k as f64).collect();
+        let array = NpyArray::parse(&npy::write(&shape, &data).unwrap()).unwrap();
+        prop_assert_eq!(&array.shape, &shape);
+        let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        prop_assert_eq!(bits(&array.to_f64().unwrap()), bits(&data));
+    }
+}
