@@ -1,0 +1,61 @@
+/** Packs the package and installs it into empty projects in a temporary folder. */
+import { execFile } from 'node:child_process';
+import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { promisify } from 'node:util';
+import { root } from '../../scripts/lib/paths.mjs';
+
+const execute = promisify(execFile);
+const npm = process.platform === 'win32' ? 'npm.cmd' : 'npm';
+const here = dirname(fileURLToPath(import.meta.url));
+const manifest = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
+
+/** Runs a program; on failure the error holds what it printed. */
+export async function run(program, args, options = {}) {
+  try {
+    return await execute(program, args, { maxBuffer: 1 << 26, shell: program === npm && npm.endsWith('.cmd'), ...options });
+  } catch (error) {
+    throw new Error(`${program} ${args.join(' ')} failed\n${error.stdout ?? ''}\n${error.stderr ?? error.message}`);
+  }
+}
+
+export const temporaryFolder = () => mkdtempSync(join(tmpdir(), 'boresight-'));
+
+/** Packs what `npm publish` would upload; gives the tarball and the list of its files. */
+export async function pack(folder) {
+  const { stdout } = await run(npm, ['pack', '--json', '--ignore-scripts', '--pack-destination', folder], { cwd: root });
+  const [packed] = JSON.parse(stdout);
+  return { tarball: join(folder, packed.filename), files: packed.files.map(({ path }) => path), size: packed.size };
+}
+
+/**
+ * An empty project with the packed package installed. `files` maps a name to its text; `fixtures`
+ * are copied from this folder; `tools` are packages at the version that this checkout uses.
+ */
+export async function consumer({ files = {}, fixtures = [], tools = [] }) {
+  const parent = temporaryFolder();
+  const folder = join(parent, 'project');
+  mkdirSync(folder);
+  const { tarball } = await pack(parent);
+  const devDependencies = Object.fromEntries(tools.map((name) => [name, manifest.devDependencies[name]]));
+  const all = {
+    'package.json': JSON.stringify({
+      name: 'consumer', private: true, type: 'module', dependencies: { boresight: `file:${tarball}` }, devDependencies,
+    }),
+    ...files,
+  };
+  for (const [name, text] of Object.entries(all)) {
+    mkdirSync(dirname(join(folder, name)), { recursive: true });
+    writeFileSync(join(folder, name), text);
+  }
+  for (const name of fixtures) copyFileSync(join(here, 'fixtures', name), join(folder, name));
+  await run(npm, ['install', '--prefer-offline', '--no-audit', '--no-fund', '--no-package-lock'], { cwd: folder });
+  return {
+    folder,
+    run: (program, args) => run(program, args, { cwd: folder }),
+    bin: (name) => join(folder, 'node_modules', '.bin', name),
+    remove: () => rmSync(parent, { recursive: true, force: true }),
+  };
+}

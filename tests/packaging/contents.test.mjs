@@ -1,0 +1,51 @@
+import assert from 'node:assert/strict';
+import { readFileSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { publint } from 'publint';
+import { root } from '../../scripts/lib/paths.mjs';
+import { pack, temporaryFolder } from './consumer.mjs';
+
+const manifest = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
+const folder = temporaryFolder();
+let files;
+let size;
+before(async () => ({ files, size } = await pack(folder)));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+const targets = (value) => (typeof value === 'string' ? [value] : Object.values(value).flatMap(targets));
+
+test('every file that the export map names is in the package', () => {
+  for (const target of targets(manifest.exports)) {
+    assert.ok(files.includes(target.replace('./', '')), `${target} is missing`);
+  }
+});
+
+test('licence, notice, readme and change log are in the package', () => {
+  for (const name of ['LICENSE', 'LICENSE-APACHE', 'NOTICE', 'README.md', 'CHANGELOG.md']) {
+    assert.ok(files.includes(name), `${name} is missing`);
+  }
+});
+
+test('each script has its types, and nothing else is in the package', () => {
+  const scripts = files.filter((name) => /^dist\/(lib|worker)\/.*\.js$/.test(name));
+  assert.ok(scripts.length > 0);
+  for (const name of scripts) assert.ok(files.includes(name.replace(/\.js$/, '.d.ts')), `${name} has no types`);
+  const belongs = /^(dist\/.*\.(js|d\.ts|wasm)|package\.json|LICENSE(-APACHE)?|NOTICE|README\.md|CHANGELOG\.md)$/;
+  assert.deepEqual(files.filter((name) => !belongs.test(name)), []);
+});
+
+test('the package is small: one core wasm and little besides', () => {
+  assert.equal(files.filter((name) => name === 'dist/wasm/boresight_bg.wasm').length, 1);
+  assert.ok(size < 1_500_000, `${size} bytes packed`);
+});
+
+test('installing the package runs nothing and brings nothing', () => {
+  for (const name of ['preinstall', 'install', 'postinstall']) assert.equal(manifest.scripts[name], undefined);
+  assert.equal(manifest.dependencies, undefined);
+});
+
+test('publint has nothing to say', async () => {
+  const { messages } = await publint({ pkgDir: root, strict: true });
+  assert.deepEqual(messages, []);
+});

@@ -1,0 +1,51 @@
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { consumer } from './consumer.mjs';
+
+let project;
+before(async () => {
+  project = await consumer({
+    fixtures: ['program.mjs'],
+    files: {
+      'plain.mjs': `
+        import * as boresight from 'boresight';
+        import { planeWaveAzimuth } from './program.mjs';
+        await boresight.init();
+        console.log(planeWaveAzimuth(boresight, 20));
+      `,
+      'bytes.mjs': `
+        import { readFileSync } from 'node:fs';
+        import { fileURLToPath } from 'node:url';
+        import * as boresight from 'boresight';
+        import { planeWaveAzimuth } from './program.mjs';
+        boresight.initSync(readFileSync(fileURLToPath(import.meta.resolve('boresight/boresight.wasm'))));
+        console.log(planeWaveAzimuth(boresight, -35));
+      `,
+      'uninitialised.mjs': `
+        import { BoresightError, estimate } from 'boresight';
+        try {
+          estimate({}, {});
+        } catch (error) {
+          console.log(error instanceof BoresightError, error.code);
+        }
+      `,
+    },
+  });
+});
+after(() => project?.remove());
+
+const printed = async (script) => (await project.run(process.execPath, [script])).stdout.trim();
+const near = (text, expected) =>
+  assert.ok(Math.abs(Number(text) - expected) < 0.1, `${text} deg should be within 0.1 of ${expected}`);
+
+test('an empty Node project imports the package and estimates an angle', async () => {
+  near(await printed('plain.mjs'), 20);
+});
+
+test('the wasm can be had by name and given to initSync', async () => {
+  near(await printed('bytes.mjs'), -35);
+});
+
+test('using the package before init() is a typed error', async () => {
+  assert.equal(await printed('uninitialised.mjs'), 'true not-initialised');
+});

@@ -1,0 +1,61 @@
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { consumer } from './consumer.mjs';
+
+const program = `
+  import { BoresightError, Estimator, array, estimate, init } from 'boresight';
+  import type { Estimate, EstimatorOptions, Source } from 'boresight';
+
+  await init();
+  const options: EstimatorOptions = { method: 'music', array: 'ula8', sources: 2 };
+  const data = new Float64Array(2 * array(options.array).positions.length);
+  const result: Estimate = estimate({ snapshots: { data, shape: [8, 1] } }, options);
+  const strongest: Source | undefined = result.sources[0];
+  export const azimuthDeg: number | undefined = strongest?.azimuthDeg;
+  const kept = new Estimator(options);
+  try {
+    kept.estimate({ snapshots: { data, shape: [8, 1] } });
+  } catch (error) {
+    if (error instanceof BoresightError) console.log(error.code satisfies string);
+  } finally {
+    kept.free();
+  }
+`;
+const wrong = `
+  import { estimate } from 'boresight';
+  estimate({ snapshots: { data: [1, 2, 3], shape: [8, 1] } }, { method: 'musik', array: 'ula8' });
+`;
+const tsconfig = (module, moduleResolution) =>
+  JSON.stringify({
+    compilerOptions: {
+      target: 'ES2022', lib: ['ES2022', 'DOM', 'ESNext.Disposable'], module, moduleResolution, strict: true, noEmit: true,
+      skipLibCheck: false, exactOptionalPropertyTypes: true, types: [],
+    },
+    files: ['program.ts'],
+  });
+
+let project;
+before(async () => {
+  project = await consumer({
+    tools: ['typescript'],
+    files: {
+      'program.ts': program,
+      'wrong.ts': wrong,
+      'bundler.json': tsconfig('ESNext', 'Bundler'),
+      'node16.json': tsconfig('Node16', 'Node16'),
+      'nodenext.json': tsconfig('NodeNext', 'NodeNext'),
+      'wrong.json': JSON.stringify({ extends: './node16.json', files: ['wrong.ts'] }),
+    },
+  });
+}, { timeout: 120_000 });
+after(() => project?.remove());
+
+for (const resolution of ['bundler', 'node16', 'nodenext']) {
+  test(`a strict TypeScript project compiles with moduleResolution ${resolution}`, async () => {
+    await project.run(project.bin('tsc'), ['-p', `${resolution}.json`]);
+  });
+}
+
+test('wrong options do not compile', async () => {
+  await assert.rejects(project.run(project.bin('tsc'), ['-p', 'wrong.json']), /wrong\.ts.*error TS2/s);
+});
