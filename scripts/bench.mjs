@@ -1,0 +1,32 @@
+// Sets up, builds, and runs the benchmarks; arguments go to bench/main.mjs. NumPy, which they
+// compare with, is installed in .tools/python unless the environment variable PYTHON names an
+// interpreter that has it.
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
+import { buildPackage } from './build.mjs';
+import { environment, root, tools } from './lib/paths.mjs';
+import { main, output, run } from './lib/run.mjs';
+import { setup } from './setup.mjs';
+
+async function python() {
+  if (process.env.PYTHON) return process.env.PYTHON;
+  const folder = join(tools, 'python');
+  const program = process.platform === 'win32' ? join(folder, 'Scripts', 'python.exe') : join(folder, 'bin', 'python');
+  const ready = () => existsSync(program) && output(program, ['-c', 'import numpy, scipy']) !== null;
+  if (!ready()) {
+    console.log('bench: NumPy and SciPy into .tools/python');
+    const system = process.platform === 'win32' ? 'python' : 'python3';
+    await run(system, ['-m', 'venv', folder]);
+    await run(program, ['-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '-r', join(root, 'bench', 'requirements.txt')]);
+  }
+  return program;
+}
+
+await main(async () => {
+  await setup();
+  await buildPackage();
+  const interpreter = await python();
+  await run(process.execPath, [join(root, 'bench', 'main.mjs'), ...process.argv.slice(2)], {
+    env: { ...environment, PYTHON: interpreter },
+  });
+});
