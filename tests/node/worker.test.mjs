@@ -1,0 +1,154 @@
+import assert from 'node:assert/strict';
+import { after, before, describe, test } from 'node:test';
+import { BoresightError, estimate, init } from 'boresight';
+import { createPool } from 'boresight/worker';
+import { Crew } from '../../dist/worker/pool.js';
+import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
+
+const options = { method: 'bartlett', array: 'ula10' };
+const angles = Array.from({ length: 40 }, (_, i) => -50 + 2.5 * i);
+const inputs = angles.map((angle) => ({ snapshots: planeWaves(10, 2, [angle]) }));
+
+/** More work than any test waits for: some 20 s on one worker. */
+const endless = () => {
+  const snapshots = planeWaves(10, 200, [3]);
+  return [Array.from({ length: 2000 }, () => ({ snapshots })), { ...options, gridPoints: 65536 }];
+};
+
+describe('a pool of worker threads', () => {
+  let pool;
+  before(async () => {
+    await init();
+    pool = createPool({ workers: 2 });
+  });
+  after(() => pool.terminate());
+
+  test('gives what the functions give', async () => {
+    assert.deepEqual(await pool.estimate(inputs[3], options), estimate(inputs[3], options));
+    const [version, presets, methods, geometry] = await Promise.all([
+      pool.version(), pool.arrayPresets(), pool.methods(), pool.array('ula8'),
+    ]);
+    assert.match(version, /^\d+\.\d+\.\d+/);
+    assert.ok(presets.includes('lrr48'));
+    assert.equal(methods.length, 11);
+    assert.equal(geometry.positions.length, 8);
+  });
+
+  test('splits many inputs, keeps their order and says how far it is', async () => {
+    const progress = [];
+    const estimates = await pool.estimateMany(inputs, options, { onProgress: (done, total) => progress.push([done, total]) });
+    const found = estimates.map(({ sources }) => sources[0].azimuthDeg);
+    // A single noiseless source: only the grid of 1024 sines and the parabola stand in between.
+    found.forEach((angle, i) => assert.ok(Math.abs(angle - angles[i]) < 0.05, `${angle} for ${angles[i]}`));
+    assert.equal(progress.length, 16);
+    assert.deepEqual(progress.at(-1), [40, 40]);
+    assert.ok(progress.every(([done], i) => i === 0 || done > progress[i - 1][0]));
+    assert.deepEqual(await pool.estimateMany([], options), []);
+  });
+
+  test('leaves the caller its arrays, unless they are given away', async () => {
+    const snapshots = planeWaves(10, 2, [5]);
+    const whole = new Float64Array(snapshots.data.length + 8);
+    whole.set(snapshots.data, 8);
+    const view = { snapshots: { data: whole.subarray(8), shape: snapshots.shape } };
+    const kept = await pool.estimate(view, options);
+    assert.deepEqual(kept, await pool.estimate({ snapshots }, options));
+    assert.equal(whole.length, snapshots.data.length + 8);
+    await pool.estimate({ snapshots }, options, { transfer: true });
+    assert.equal(snapshots.data.length, 0);
+  });
+
+  test('rejects with the typed error of the function and goes on', async () => {
+    await rejectsTyped(pool.estimate(inputs[0], { ...options, gridPoints: 2 }), 'out-of-range', 'gridPoints');
+    await rejectsTyped(pool.estimateMany([inputs[0], {}], options), 'wrong-type', 'input');
+    await rejectsTyped(pool.estimate(inputs[0], { ...options, method: () => {} }), 'wrong-type', 'arguments');
+    assert.equal((await pool.estimate(inputs[0], options)).method, 'bartlett');
+  });
+
+  test('cancels promptly although the workers are busy, and works on', async () => {
+    const controller = new AbortController();
+    const job = pool.estimateMany(...endless(), { signal: controller.signal });
+    const outcome = assert.rejects(job, { name: 'AbortError' });
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    controller.abort();
+    await outcome;
+    assert.equal((await pool.estimate(inputs[0], options)).method, 'bartlett');
+  });
+
+  test('rejects at once where the signal is aborted already, with its reason', async () => {
+    const reason = new Error('enough');
+    const signal = AbortSignal.abort(reason);
+    await assert.rejects(pool.estimate(inputs[0], options, { signal }), reason);
+  });
+
+  test('passes on what onProgress throws', async () => {
+    const onProgress = () => { throw new RangeError('mine'); };
+    await assert.rejects(pool.estimateMany(inputs, options, { onProgress }), { name: 'RangeError', message: 'mine' });
+    assert.equal((await pool.estimate(inputs[0], options)).method, 'bartlett');
+  });
+
+  test('ends what is under way when terminated', async () => {
+    const short = createPool({ workers: 1 });
+    const outcomes = [short.estimateMany(...endless()), short.version()].map((job) => rejectsTyped(job, 'terminated'));
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    short.terminate();
+    await Promise.all(outcomes);
+    await rejectsTyped(short.version(), 'terminated');
+  });
+
+  test('refuses an impossible number of workers', () => {
+    for (const workers of [0, -1, 1.5, 65, Number.NaN, '2']) throwsTyped(() => createPool({ workers }), 'out-of-range', 'workers');
+  });
+});
+
+describe('the crew', () => {
+  /** Workers that do what `behave` says when they are given a piece. */
+  const crewOf = (behave, size = 1) => {
+    const spawned = [];
+    const runtime = {
+      workers: () => size,
+      compile: async () => new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])),
+      spawn(events) {
+        const worker = { alive: true, terminate() { this.alive = false; }, keepAlive() {} };
+        worker.post = (message) => 'id' in message && queueMicrotask(() => behave(events, message, spawned.length));
+        spawned.push(worker);
+        return worker;
+      },
+    };
+    return { crew: new Crew(runtime, undefined), spawned };
+  };
+  const piece = { name: 'version', args: [], units: 1 };
+
+  test('replaces a worker that died and rejects its job with a typed error', async () => {
+    const { crew, spawned } = crewOf((events, { id }, nth) =>
+      nth === 1 ? events.lost('out of memory') : events.reply({ id, result: nth }));
+    const [first, second] = [crew.run([piece]), crew.run([piece])];
+    await rejectsTyped(first, 'worker-lost', 'worker');
+    assert.deepEqual(await second, [2]);
+    assert.deepEqual(spawned.map(({ alive }) => alive), [false, true]);
+  });
+
+  test('drops the rest of a job whose first piece failed', async () => {
+    const plain = { code: 'shape', message: 'm', what: 'w', expected: 'e', given: 'g' };
+    let pieces = 0;
+    const { crew } = crewOf((events, { id }) => {
+      pieces += 1;
+      events.reply({ id, error: plain });
+    });
+    await assert.rejects(crew.run([piece, piece, piece]), (error) => error instanceof BoresightError && error.code === 'shape');
+    assert.equal(pieces, 1);
+  });
+
+  test('tries to load the module again after a failure', async () => {
+    let tries = 0;
+    const { crew } = crewOf((events, { id }) => events.reply({ id, result: 'ok' }));
+    const broken = new Crew({
+      workers: () => 1,
+      compile: async () => { if (++tries === 1) throw new Error('offline'); return new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])); },
+      spawn: () => { throw new Error('not reached'); },
+    }, 1);
+    await rejectsTyped(broken.run([piece]), 'not-loaded');
+    assert.deepEqual(await broken.run([]), []);
+    assert.deepEqual(await crew.run([piece]), ['ok']);
+  });
+});

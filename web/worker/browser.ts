@@ -1,0 +1,38 @@
+// Entry for browsers and bundlers.
+import { Pool, type PoolOptions } from './api.js';
+import type { Runtime } from './pool.js';
+import type { Reply } from './protocol.js';
+
+export type { JobOptions } from './pool.js';
+export { BoresightError } from '../lib/errors.js';
+export { Pool, type PoolOptions };
+
+const runtime: Runtime = {
+  workers: () => Math.min(navigator.hardwareConcurrency || 2, 8),
+
+  async compile() {
+    const response = await fetch(new URL('../wasm/boresight_bg.wasm', import.meta.url));
+    if (!response.ok) throw new Error(`${response.url} answered ${response.status}`);
+    // Streaming needs the right media type, which not every server sends.
+    const typed = response.headers.get('Content-Type')?.startsWith('application/wasm');
+    if (typed) return WebAssembly.compileStreaming(response);
+    return WebAssembly.compile(await response.arrayBuffer());
+  },
+
+  spawn(events) {
+    const worker = new Worker(new URL('./browser-worker.js', import.meta.url), { type: 'module' });
+    worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => events.reply(data));
+    worker.addEventListener('messageerror', () => events.lost('its answer could not be read'));
+    worker.addEventListener('error', (event) => events.lost(event.message || 'it could not be started'));
+    return {
+      post: (message, transfer) => worker.postMessage(message, transfer),
+      keepAlive: () => {},
+      terminate: () => worker.terminate(),
+    };
+  },
+};
+
+/** Makes a pool of module workers. */
+export function createPool(options?: PoolOptions): Pool {
+  return new Pool(runtime, options);
+}

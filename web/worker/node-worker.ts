@@ -1,0 +1,7 @@
+// Runs in a Node worker thread.
+import { type TransferListItem, parentPort } from 'node:worker_threads';
+import type { Request, Setup } from './protocol.js';
+import { serve } from './serve.js';
+
+const answer = serve((reply, transfer) => parentPort?.postMessage(reply, transfer as TransferListItem[]));
+parentPort?.on('message', (message: Setup | Request) => answer(message));

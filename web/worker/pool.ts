@@ -1,0 +1,243 @@
+// A pool of single-thread workers: queue, progress, cancelling, replacement of what died.
+import { BoresightError, failure } from '../lib/errors.js';
+import type { OperationName, Operations, Reply, WorkerEvents, WorkerLike } from './protocol.js';
+import { packed } from './transfer.js';
+
+/** Options of one job. */
+export interface JobOptions {
+  /** Cancels the job, which then rejects with the signal's reason, an `AbortError` by default. */
+  signal?: AbortSignal;
+  /** Called as pieces of the job are done, in the job's own units (inputs, frames, scenes). */
+  onProgress?: (done: number, total: number) => void;
+  /** Gives the typed arrays among the arguments away instead of copying them. */
+  transfer?: boolean;
+}
+
+/** A piece of a job for one worker. */
+export interface Piece<N extends OperationName> {
+  name: N;
+  args: Parameters<Operations[N]>;
+  /** Its share of the progress. */
+  units: number;
+}
+
+/** How a runtime makes workers. */
+export interface Runtime {
+  /** Number of workers where the user names none. */
+  workers(): number;
+  compile(): Promise<WebAssembly.Module>;
+  spawn(events: WorkerEvents): WorkerLike;
+}
+
+/** How long a cancelled piece may run on before its worker is replaced, ms. */
+const GRACE_MS = 50;
+
+interface Job {
+  pieces: Piece<OperationName>[];
+  results: unknown[];
+  /** Pieces done. */
+  finished: number;
+  /** Units done. */
+  done: number;
+  total: number;
+  options: JobOptions;
+  settled: boolean;
+  resolve(results: unknown[]): void;
+  reject(reason: unknown): void;
+}
+
+interface Task {
+  job: Job;
+  index: number;
+}
+
+interface Member {
+  worker: WorkerLike;
+  task: Task | undefined;
+}
+
+/** The queue and the workers; the API over it is in api.ts. */
+export class Crew {
+  readonly size: number;
+  readonly #runtime: Runtime;
+  readonly #members = new Set<Member>();
+  #queue: Task[] = [];
+  #module: Promise<WebAssembly.Module> | undefined;
+  #compiled: WebAssembly.Module | undefined;
+  #terminated = false;
+  #lastId = 0;
+
+  constructor(runtime: Runtime, workers: number | undefined) {
+    const size = workers ?? runtime.workers();
+    if (!Number.isInteger(size) || size < 1 || size > 64) {
+      throw failure('out-of-range', { what: 'workers', expected: 'a whole number from 1 to 64', given: String(workers) });
+    }
+    this.#runtime = runtime;
+    this.size = size;
+  }
+
+  /** Runs the pieces on the workers; their results in the order of the pieces. */
+  async run<N extends OperationName>(pieces: Piece<N>[], options: JobOptions = {}): Promise<ReturnType<Operations[N]>[]> {
+    options.signal?.throwIfAborted();
+    if (this.#terminated) throw terminated();
+    await this.#load();
+    options.signal?.throwIfAborted();
+    return new Promise((resolve, reject) => {
+      const job: Job = {
+        pieces,
+        results: [],
+        finished: 0,
+        done: 0,
+        total: pieces.reduce((sum, piece) => sum + piece.units, 0),
+        options,
+        settled: false,
+        resolve: resolve as (results: unknown[]) => void,
+        reject,
+      };
+      this.#watch(job);
+      if (pieces.length === 0) job.resolve([]);
+      this.#queue.push(...pieces.map((_, index) => ({ job, index })));
+      this.#dispatch();
+    });
+  }
+
+  /** Ends all workers; jobs under way reject. */
+  terminate(): void {
+    this.#terminated = true;
+    const jobs = new Set([...this.#queue, ...[...this.#members].flatMap(({ task }) => task ?? [])].map(({ job }) => job));
+    for (const member of this.#members) this.#dismiss(member);
+    for (const job of jobs) job.reject(terminated());
+    this.#queue = [];
+  }
+
+  async #load(): Promise<void> {
+    this.#module ??= this.#runtime.compile();
+    try {
+      this.#compiled = await this.#module;
+    } catch (cause) {
+      this.#module = undefined;
+      const given = cause instanceof Error ? cause.message : String(cause);
+      const details = { what: 'WebAssembly module', expected: 'the boresight_bg.wasm of this package', given };
+      throw failure('not-loaded', details, cause);
+    }
+    if (this.#terminated) throw terminated();
+  }
+
+  /** Makes the job settle once, and takes its pieces back when it fails or is cancelled. */
+  #watch(job: Job): void {
+    const { resolve, reject } = job;
+    const { signal } = job.options;
+    const onAbort = (): void => job.reject(signal?.reason);
+    const settle = <T>(then: (value: T) => void) => (value: T): void => {
+      if (job.settled) return;
+      job.settled = true;
+      signal?.removeEventListener('abort', onAbort);
+      then(value);
+    };
+    job.resolve = settle(resolve);
+    job.reject = settle((reason: unknown) => {
+      reject(reason);
+      this.#withdraw(job);
+    });
+    signal?.addEventListener('abort', onAbort);
+  }
+
+  #withdraw(job: Job): void {
+    this.#queue = this.#queue.filter((task) => task.job !== job);
+    for (const member of this.#members) {
+      const task = member.task;
+      if (task?.job !== job) continue;
+      // A piece about to end costs less than a new worker.
+      setTimeout(() => {
+        if (member.task !== task) return;
+        this.#dismiss(member);
+        this.#dispatch();
+      }, GRACE_MS);
+    }
+  }
+
+  #dispatch(): void {
+    while (this.#queue.length > 0 && !this.#terminated) {
+      const member = [...this.#members].find(({ task }) => task === undefined) ?? this.#hire();
+      const task = member && this.#queue.shift();
+      if (!member || !task) return;
+      this.#give(member, task);
+    }
+  }
+
+  #give(member: Member, task: Task): void {
+    const { job, index } = task;
+    const piece = job.pieces[index];
+    if (!piece) return;
+    try {
+      const { value, buffers } = packed(piece.args, job.options.transfer ?? false);
+      member.task = task;
+      member.worker.keepAlive(true);
+      member.worker.post({ id: ++this.#lastId, name: piece.name, args: value }, buffers);
+    } catch (cause) {
+      this.#release(member);
+      job.reject(failure('wrong-type', { what: 'arguments', expected: 'what can be sent to a worker', given: String(cause) }, cause));
+    }
+  }
+
+  #hire(): Member | undefined {
+    if (this.#members.size >= this.size || this.#compiled === undefined) return undefined;
+    const events: WorkerEvents = {
+      reply: (reply) => this.#finish(member, reply),
+      lost: (reason) => this.#lose(member, reason),
+    };
+    const member: Member = { worker: this.#runtime.spawn(events), task: undefined };
+    this.#members.add(member);
+    member.worker.post({ module: this.#compiled }, []);
+    return member;
+  }
+
+  #finish(member: Member, reply: Reply): void {
+    const task = member.task;
+    if (!task) return;
+    this.#release(member);
+    this.#settle(task, reply);
+    this.#dispatch();
+  }
+
+  #settle({ job, index }: Task, reply: Reply): void {
+    if (job.settled) return;
+    if ('error' in reply) {
+      job.reject(BoresightError.fromPlain(reply.error));
+      return;
+    }
+    job.results[index] = reply.result;
+    job.finished += 1;
+    job.done += job.pieces[index]?.units ?? 0;
+    try {
+      job.options.onProgress?.(job.done, job.total);
+    } catch (thrown) {
+      job.reject(thrown);
+    }
+    if (job.finished === job.pieces.length) job.resolve(job.results);
+  }
+
+  #lose(member: Member, reason: string): void {
+    const task = member.task;
+    if (!this.#members.has(member)) return;
+    this.#dismiss(member);
+    const details = { what: 'worker', expected: 'an answer', given: reason };
+    task?.job.reject(new BoresightError('worker-lost', `a worker was lost: ${reason}`, details));
+    this.#dispatch();
+  }
+
+  #release(member: Member): void {
+    member.task = undefined;
+    member.worker.keepAlive(false);
+  }
+
+  #dismiss(member: Member): void {
+    this.#members.delete(member);
+    member.task = undefined;
+    member.worker.terminate();
+  }
+}
+
+function terminated(): BoresightError {
+  return failure('terminated', { what: 'worker pool', expected: 'a running pool', given: 'terminated' });
+}

@@ -1,0 +1,36 @@
+// What travels between the pool and a worker.
+import type { PlainError } from '../lib/errors.js';
+import type { operations } from './operations.js';
+
+export type Operations = typeof operations;
+export type OperationName = keyof Operations;
+
+/** First message to a worker: the compiled module it instantiates. */
+export interface Setup {
+  module: WebAssembly.Module;
+}
+
+/** One piece of work. */
+export interface Request {
+  id: number;
+  name: OperationName;
+  args: readonly unknown[];
+}
+
+/** Its outcome. */
+export type Reply = { id: number; result: unknown } | { id: number; error: PlainError };
+
+/** What the pool needs of a worker, whichever runtime it lives in. */
+export interface WorkerLike {
+  post(message: Setup | Request, transfer: Transferable[]): void;
+  /** Whether the process stays alive for its sake; nothing in browsers. */
+  keepAlive(busy: boolean): void;
+  terminate(): void;
+}
+
+/** What a worker tells the pool. */
+export interface WorkerEvents {
+  reply(reply: Reply): void;
+  /** The worker is gone and will say nothing more. */
+  lost(reason: string): void;
+}

@@ -1,0 +1,32 @@
+// The inside of a worker.
+import { BoresightError, failure } from '../lib/errors.js';
+import { initSync } from '../lib/instance.js';
+import { operations } from './operations.js';
+import type { Reply, Request, Setup } from './protocol.js';
+import { buffersOf } from './transfer.js';
+
+/** Answers messages of the pool; `post` sends the answer. */
+export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (message: Setup | Request) => void {
+  let module: WebAssembly.Module | undefined;
+  return (message) => {
+    if ('module' in message) {
+      module = message.module;
+      return;
+    }
+    const { id, name, args } = message;
+    try {
+      if (module === undefined) throw failure('not-initialised', { what: 'worker', expected: 'a module', given: 'none' });
+      initSync(module); // makes a fresh instance where the last one stopped
+      const operation = operations[name] as (...args: readonly unknown[]) => unknown;
+      const result = operation(...args);
+      post({ id, result }, buffersOf(result));
+    } catch (thrown) {
+      post({ id, error: asTyped(thrown).toPlain() }, []);
+    }
+  };
+}
+
+function asTyped(thrown: unknown): BoresightError {
+  if (thrown instanceof BoresightError) return thrown;
+  return failure('worker-failed', { what: 'worker', expected: 'a result', given: String(thrown) }, thrown);
+}
