@@ -4,6 +4,7 @@
 //! [`Estimator::estimate`] takes snapshots or a covariance and returns an [`Estimate`].
 
 mod bartlett;
+pub mod bounds;
 mod capon;
 mod checks;
 pub mod counting;
@@ -11,6 +12,7 @@ mod covariance;
 pub mod data;
 pub mod error;
 mod esprit;
+pub mod esprit_error;
 pub mod estimate;
 pub mod estimator;
 pub mod grid;
