@@ -17,6 +17,8 @@ pub(crate) struct RowTransform {
     /// Window times scale.
     pub weights: Vec<f32>,
     pub noise_bandwidth_bins: f64,
+    /// Neighbouring bins that count as one independent bin.
+    pub correlation: f64,
     fft: Arc<dyn Fft<f32>>,
     scratch: Vec<Complex32>,
 }
@@ -28,9 +30,13 @@ impl RowTransform {
         let coefficients = window.coefficients(length)?;
         let scale = 1.0 / coefficients.iter().sum::<f64>();
         let fft = FftPlanner::new().plan_fft_forward(length * padding);
+        // Sum of the squared correlation of powers over all lags, by Parseval's theorem.
+        let squares: f64 = coefficients.iter().map(|w| w.powi(2)).sum();
+        let fourths: f64 = coefficients.iter().map(|w| w.powi(4)).sum();
         Ok(Self {
             weights: coefficients.iter().map(|w| (w * scale) as f32).collect(),
             noise_bandwidth_bins: noise_bandwidth_bins(&coefficients),
+            correlation: (length * padding) as f64 * fourths / (squares * squares),
             scratch: vec![Complex32::default(); fft.get_inplace_scratch_len()],
             fft,
         })

@@ -1,0 +1,336 @@
+//! Detection at a constant false-alarm rate (CFAR): a cell is a detection where its power exceeds
+//! a multiple of the noise its training cells show, the multiple following from the probability of
+//! false alarm.
+//!
+//! The map's cells are taken as means over `looks` channels of exponentially distributed powers
+//! (square-law detection of complex normal noise, integrated without phase), for which every
+//! factor is exact, at the edges too: Doppler wraps, and where the window leaves the map along
+//! range the factor follows from the training cells that are left.
+
+mod cell_averaging;
+mod gamma;
+mod greatest_of;
+mod ordered_statistic;
+mod smallest_of;
+mod stencil;
+mod sums;
+mod threshold;
+
+use crate::error::SignalError;
+use boresight_core::CoreError;
+use boresight_core::error::check_range;
+use ndarray::{Array2, ArrayView2};
+use stencil::{Rectangle, Stencil};
+use sums::CumulativeSums;
+use threshold::factors;
+pub use threshold::{Factors, TrainingCells};
+
+/// Most cells of a map.
+pub const MAX_CELLS: usize = 1 << 26;
+
+/// How noise is estimated from the training cells.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum CfarKind {
+    /// The mean of all (Finn and Johnson 1968): the least loss in even noise.
+    #[default]
+    CellAveraging,
+    /// The larger of the means of the halves (Hansen and Sawyers 1980): keeps the rate at clutter
+    /// edges.
+    GreatestOf,
+    /// The smaller of the means of the halves (Trunk 1978): keeps targets apart.
+    SmallestOf,
+    /// The cell of a rank (Rohling 1983): keeps targets apart and most of the rate.
+    OrderedStatistic {
+        /// Rank as a share of the training cells, 0 to 1; 0.75 is usual.
+        rank: f64,
+    },
+}
+
+/// Along which axes training cells lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CfarAxes {
+    /// Range only.
+    Range,
+    /// Doppler only.
+    Doppler,
+    /// A ring around the cell in both.
+    #[default]
+    Both,
+}
+
+/// How detection works.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CfarOptions {
+    /// Noise estimate.
+    pub kind: CfarKind,
+    /// Axes of the window.
+    pub axes: CfarAxes,
+    /// Probability that a cell of noise becomes a detection, 1e-15 to 0.5.
+    pub false_alarm: f64,
+    /// Cells left out on each side of the cell under test, along range and Doppler.
+    pub guard: [usize; 2],
+    /// Training cells on each side beyond the guard cells, along range and Doppler.
+    pub training: [usize; 2],
+    /// Channels averaged in each cell.
+    pub looks: usize,
+    /// Neighbouring cells that count as one independent cell, along range and Doppler: 1 without
+    /// window and padding, else [`crate::RangeDoppler::cell_correlation`].
+    pub correlation: [f64; 2],
+}
+
+impl Default for CfarOptions {
+    fn default() -> Self {
+        Self {
+            kind: CfarKind::CellAveraging,
+            axes: CfarAxes::Both,
+            false_alarm: 1e-6,
+            guard: [2, 2],
+            training: [6, 4],
+            looks: 1,
+            correlation: [1.0; 2],
+        }
+    }
+}
+
+/// A cell above its threshold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Detection {
+    /// Range bin.
+    pub range_bin: usize,
+    /// Doppler bin.
+    pub doppler_bin: usize,
+    /// Power of the cell.
+    pub power: f64,
+    /// Noise power around it, without the bias of the kind's statistic. Zero in a map without
+    /// noise.
+    pub noise_power: f64,
+    /// The threshold it exceeds.
+    pub threshold: f64,
+}
+
+/// A plan for maps of one shape. It keeps its thresholds and scratch space.
+pub struct Cfar {
+    kind: CfarKind,
+    shape: (usize, usize),
+    stencil: Stencil,
+    /// Training cells and factors of each row.
+    rows: Vec<(TrainingCells, Factors)>,
+    sums: CumulativeSums,
+    /// The map with its Doppler bins repeated on both sides, for ordered statistics.
+    wrapped: Array2<f32>,
+}
+
+impl Cfar {
+    /// Plans detection on maps of `ranges` x `dopplers`.
+    ///
+    /// # Errors
+    /// [`CoreError::OutOfRange`] for an option out of range, [`SignalError::Window`] where the
+    /// window is larger than the map, [`SignalError::TooLarge`] above [`MAX_CELLS`].
+    pub fn new(ranges: usize, dopplers: usize, options: &CfarOptions) -> Result<Self, SignalError> {
+        check_range("false_alarm", options.false_alarm, 1e-15, 0.5)?;
+        check_range("looks", options.looks as f64, 1.0, 1024.0)?;
+        for (what, correlation) in
+            ["range correlation", "Doppler correlation"].into_iter().zip(options.correlation)
+        {
+            check_range(what, correlation, 1.0, 1e3)?;
+        }
+        if let CfarKind::OrderedStatistic { rank } = options.kind {
+            check_range("rank", rank, 0.0, 1.0)?;
+        }
+        check_range("range bins", ranges as f64, 1.0, MAX_CELLS as f64)?;
+        check_range("Doppler bins", dopplers as f64, 1.0, MAX_CELLS as f64)?;
+        let cells = ranges.saturating_mul(dopplers);
+        if cells > MAX_CELLS {
+            let what = "the range-Doppler map";
+            return Err(SignalError::TooLarge { what, most: MAX_CELLS, given: cells });
+        }
+        let stencil = Stencil::new(ranges, dopplers, options)?;
+        let reach = stencil.doppler_reach();
+        let ordered = matches!(options.kind, CfarKind::OrderedStatistic { .. });
+        Ok(Self {
+            kind: options.kind,
+            shape: (ranges, dopplers),
+            rows: row_factors(ranges, &stencil, options),
+            sums: CumulativeSums::new(if ordered { 0 } else { ranges }, dopplers, reach),
+            wrapped: Array2::zeros((if ordered { ranges } else { 0 }, dopplers + 2 * reach)),
+            stencil,
+        })
+    }
+
+    /// Training cells and factors of each range bin.
+    pub fn rows(&self) -> &[(TrainingCells, Factors)] {
+        &self.rows
+    }
+
+    /// All cells of `power` (range x Doppler, linear) above their threshold, in the order of range
+    /// and Doppler bins.
+    ///
+    /// # Errors
+    /// [`CoreError::Shape`] if the map has another shape than planned, [`CoreError::NotFinite`] or
+    /// [`CoreError::OutOfRange`] if it holds NaN, infinity or a negative power.
+    pub fn detect(&mut self, power: ArrayView2<f32>) -> Result<Vec<Detection>, SignalError> {
+        check_power(power, self.shape)?;
+        let mut detections = Vec::new();
+        if let CfarKind::OrderedStatistic { rank } = self.kind {
+            self.detect_by_rank(power, rank, &mut detections);
+        } else {
+            self.detect_by_mean(power, &mut detections);
+        }
+        Ok(detections)
+    }
+
+    fn detect_by_mean(&mut self, power: ArrayView2<f32>, detections: &mut Vec<Detection>) {
+        self.sums.fill(power);
+        let mut totals = [vec![0.0; self.shape.1], vec![0.0; self.shape.1]];
+        for (range_bin, row) in power.outer_iter().enumerate() {
+            let (cells, factors) = self.rows[range_bin];
+            for (half, totals) in self.stencil.halves(range_bin).iter().zip(&mut totals) {
+                totals.fill(0.0);
+                for rectangle in half {
+                    self.sums.add(rectangle, totals);
+                }
+            }
+            let [before, after] = [cells.before, cells.after].map(|n| 1.0 / n.max(1) as f64);
+            let all = 1.0 / cells.total() as f64;
+            let one_sided = cells.before == 0 || cells.after == 0;
+            let statistic = |b: f64, a: f64| match self.kind {
+                CfarKind::GreatestOf if !one_sided => (b * before).max(a * after),
+                CfarKind::SmallestOf if !one_sided => (b * before).min(a * after),
+                _ => (b + a) * all,
+            };
+            let halves = totals[0].iter().zip(&totals[1]);
+            for (doppler_bin, (&power, (&b, &a))) in row.iter().zip(halves).enumerate() {
+                let power = f64::from(power);
+                let statistic = statistic(b, a).max(0.0);
+                let threshold = factors.threshold * statistic;
+                if power > threshold {
+                    let noise_power = statistic / factors.bias;
+                    detections.push(Detection {
+                        range_bin,
+                        doppler_bin,
+                        power,
+                        noise_power,
+                        threshold,
+                    });
+                }
+            }
+        }
+    }
+
+    /// A cell exceeds `factor` times the training cell of rank `k` exactly where at least `k`
+    /// training cells lie below the cell over `factor`; counting needs no sorting.
+    fn detect_by_rank(
+        &mut self,
+        power: ArrayView2<f32>,
+        share: f64,
+        detections: &mut Vec<Detection>,
+    ) {
+        let reach = self.stencil.doppler_reach();
+        let dopplers = self.shape.1;
+        for (row, mut wrapped) in power.outer_iter().zip(self.wrapped.outer_iter_mut()) {
+            for (column, value) in wrapped.iter_mut().enumerate() {
+                *value = row[(column + dopplers - reach) % dopplers];
+            }
+        }
+        let mut limits = vec![0.0_f32; dopplers];
+        let mut counts = vec![0_u32; dopplers];
+        let mut training = Vec::new();
+        for (range_bin, row) in power.outer_iter().enumerate() {
+            let (cells, factors) = self.rows[range_bin];
+            let rank = ordered_statistic::rank_of(share, cells.total());
+            let inverse = (1.0 / factors.threshold) as f32;
+            limits.iter_mut().zip(row).for_each(|(limit, &p)| *limit = p * inverse);
+            counts.fill(0);
+            let halves = self.stencil.halves(range_bin);
+            for (r, column) in training_columns(&halves, reach) {
+                let row = self.wrapped.row(r);
+                let row = row.as_slice().unwrap_or(&[]);
+                for ((count, limit), value) in
+                    counts.iter_mut().zip(&limits).zip(&row[column..column + dopplers])
+                {
+                    *count += u32::from(value < limit);
+                }
+            }
+            for (doppler_bin, &count) in counts.iter().enumerate() {
+                if (count as usize) < rank {
+                    continue;
+                }
+                training.clear();
+                training.extend(
+                    training_columns(&halves, reach)
+                        .map(|(r, c)| self.wrapped[[r, c + doppler_bin]]),
+                );
+                let (_, statistic, _) = training.select_nth_unstable_by(rank - 1, f32::total_cmp);
+                let statistic = f64::from(*statistic);
+                detections.push(Detection {
+                    range_bin,
+                    doppler_bin,
+                    power: f64::from(row[doppler_bin]),
+                    noise_power: statistic / factors.bias,
+                    threshold: factors.threshold * statistic,
+                });
+            }
+        }
+    }
+}
+
+/// Row and first column in the wrapped map of each training cell.
+fn training_columns(
+    halves: &[Vec<Rectangle>; 2],
+    reach: usize,
+) -> impl Iterator<Item = (usize, usize)> {
+    halves.iter().flatten().flat_map(move |rectangle| {
+        let offsets = rectangle.offsets.clone();
+        rectangle.rows.clone().flat_map(move |r| {
+            offsets.clone().map(move |offset| (r, (reach as isize + offset) as usize))
+        })
+    })
+}
+
+/// Rows with equal training cells share their factors.
+fn row_factors(
+    ranges: usize,
+    stencil: &Stencil,
+    options: &CfarOptions,
+) -> Vec<(TrainingCells, Factors)> {
+    let correlation = match options.axes {
+        CfarAxes::Range => options.correlation[0],
+        CfarAxes::Doppler => options.correlation[1],
+        CfarAxes::Both => options.correlation[0] * options.correlation[1],
+    };
+    let mut known: Vec<(TrainingCells, Factors)> = Vec::new();
+    (0..ranges)
+        .map(|row| {
+            let cells = stencil.training(row);
+            // The two halves are alike, so that an edge and its mirror share factors as well.
+            let mirrored = TrainingCells { before: cells.after, after: cells.before };
+            if let Some((_, factors)) = known.iter().find(|(c, _)| *c == cells || *c == mirrored) {
+                return (cells, *factors);
+            }
+            let new = factors(options.kind, cells, options.looks, correlation, options.false_alarm);
+            known.push((cells, new));
+            (cells, new)
+        })
+        .collect()
+}
+
+fn check_power(power: ArrayView2<f32>, shape: (usize, usize)) -> Result<(), SignalError> {
+    if power.dim() != shape {
+        return Err(SignalError::Argument(CoreError::Shape {
+            what: "power map".into(),
+            expected: format!("[{}, {}]", shape.0, shape.1),
+            given: power.shape().to_vec(),
+        }));
+    }
+    // One pass that vectorises; which cell it was is looked up only when there is one.
+    if power.iter().all(|p| (0.0..=f32::MAX).contains(p)) {
+        return Ok(());
+    }
+    boresight_core::error::check_finite("power map", power.iter().map(|&p| f64::from(p)))?;
+    let given = power.iter().copied().fold(0.0, f32::min);
+    Err(SignalError::Argument(CoreError::OutOfRange {
+        what: "power map".into(),
+        expected: "powers of at least 0".into(),
+        given: given.into(),
+    }))
+}

@@ -1,0 +1,117 @@
+//! Threshold factors from false-alarm probabilities.
+
+use super::{CfarKind, cell_averaging, greatest_of, ordered_statistic, smallest_of};
+
+/// Training cells around a cell under test: in the half before it and in the half after it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TrainingCells {
+    /// Cells of smaller range, or of the same range and smaller rate.
+    pub before: usize,
+    /// Cells of greater range, or of the same range and greater rate.
+    pub after: usize,
+}
+
+impl TrainingCells {
+    /// Both halves.
+    pub fn total(self) -> usize {
+        self.before + self.after
+    }
+}
+
+/// What turns the noise statistic of a kind of CFAR into threshold and noise power.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Factors {
+    /// Threshold over the statistic.
+    pub threshold: f64,
+    /// Expectation of the statistic over the noise power.
+    pub bias: f64,
+}
+
+/// Factors that give `false_alarm` in independent noise whose cells are means of `looks`
+/// exponential powers, exact for each kind and any number of training cells of at least one;
+/// `correlation` is the number of training cells that count as one independent cell.
+pub fn factors(
+    kind: CfarKind,
+    cells: TrainingCells,
+    looks: usize,
+    correlation: f64,
+    false_alarm: f64,
+) -> Factors {
+    let independent = |n: usize| (n as f64 / correlation).max(1.0);
+    let shape = |n: usize| looks as f64 * independent(n);
+    let halves = [shape(cells.before), shape(cells.after)];
+    let one_sided = cells.before == 0 || cells.after == 0;
+    match kind {
+        CfarKind::OrderedStatistic { rank } => {
+            let total = independent(cells.total());
+            let share =
+                ordered_statistic::rank_of(rank, cells.total()) as f64 / cells.total() as f64;
+            let rank = (share * total).max(1.0);
+            Factors {
+                threshold: solve(false_alarm, |factor| {
+                    ordered_statistic::false_alarm(factor, looks, total, rank)
+                }),
+                bias: ordered_statistic::expectation(looks, total, rank),
+            }
+        }
+        CfarKind::GreatestOf if !one_sided => Factors {
+            threshold: solve(false_alarm, |f| greatest_of::false_alarm(f, looks, halves)),
+            bias: greatest_of::expectation(halves),
+        },
+        CfarKind::SmallestOf if !one_sided => Factors {
+            threshold: solve(false_alarm, |f| smallest_of::false_alarm(f, looks, halves)),
+            bias: smallest_of::expectation(halves),
+        },
+        _ => Factors {
+            threshold: solve(false_alarm, |factor| {
+                cell_averaging::false_alarm(factor, looks, shape(cells.total()))
+            }),
+            bias: 1.0,
+        },
+    }
+}
+
+/// The factor at which a falling probability reaches `false_alarm`: regula falsi with Illinois
+/// weights on logarithms of both.
+fn solve(false_alarm: f64, probability: impl Fn(f64) -> f64) -> f64 {
+    let excess = |ln_factor: f64| (probability(ln_factor.exp()).ln() - false_alarm.ln()).max(-1e3);
+    let (mut low, mut high) = (0.0, 0.0);
+    let mut at_low = excess(low);
+    let mut at_high = at_low;
+    let mut step = 1.0;
+    while at_low < 0.0 && low > -60.0 {
+        (high, at_high) = (low, at_low);
+        low -= step;
+        step *= 2.0;
+        at_low = excess(low);
+    }
+    step = 1.0;
+    while at_high >= 0.0 && high < 60.0 {
+        (low, at_low) = (high, at_high);
+        high += step;
+        step *= 1.5;
+        at_high = excess(high);
+    }
+    let mut last_side = 0;
+    for _ in 0..100 {
+        let middle = (low * at_high - high * at_low) / (at_high - at_low);
+        let at_middle = excess(middle);
+        if at_middle.abs() < 1e-9 || high - low < 1e-12 {
+            return middle.exp();
+        }
+        if at_middle > 0.0 {
+            (low, at_low) = (middle, at_middle);
+            if last_side == 1 {
+                at_high *= 0.5;
+            }
+            last_side = 1;
+        } else {
+            (high, at_high) = (middle, at_middle);
+            if last_side == -1 {
+                at_low *= 0.5;
+            }
+            last_side = -1;
+        }
+    }
+    (0.5 * (low + high)).exp()
+}
