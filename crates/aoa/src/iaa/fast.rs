@@ -1,0 +1,275 @@
+//! IAA on a lattice: three FFTs and one small inverse an iteration.
+
+use super::fourier::{LatticeFourier, real};
+use super::inverse::{HermitianTiles, Real, Singular, TILE};
+use super::kernel::{Kernel, weighted_power};
+use boresight_core::{Complex64, Lattice};
+use ndarray::ArrayView2;
+use rustfft::num_complex::Complex;
+use rustfft::num_traits::Zero;
+
+/// The fast form, in double or single precision.
+///
+/// The covariance depends on lags alone, `R_kl = r[p_k - p_l]`, with `r` the transform of the power
+/// spectrum; `a^H R^-1 a` is the transform of the sums of `R^-1` along equal lags, and `a^H R^-1 y`
+/// that of `R^-1 y` put on its positions.
+pub struct FastKernel<T: Real> {
+    fourier: LatticeFourier<T>,
+    span: usize,
+    elements: usize,
+    /// Elements by rising lattice index; the indices themselves in that order.
+    order: Vec<usize>,
+    indices: Vec<usize>,
+    /// For each entry of each tile, its lag plus `span - 1`; two more slots hold what the rows that
+    /// fill up the last tile read.
+    slots: Vec<[[u32; TILE]; TILE]>,
+    table: Vec<Complex<T>>,
+    matrix: HermitianTiles<T>,
+    lags: Vec<Complex<T>>,
+    sums: Vec<Complex<T>>,
+    diagonal_sums: Vec<Complex<T>>,
+    /// Snapshots in the order of rising index, filled up to whole tiles; and `R^-1` times them.
+    snapshots: Vec<Split<T>>,
+    solved: Split<T>,
+    scattered: Vec<Complex<T>>,
+    power: Vec<T>,
+    denominator: Vec<T>,
+    numerator: Vec<T>,
+}
+
+/// A vector in blocks of one tile, real and imaginary parts apart.
+#[derive(Debug, Clone)]
+struct Split<T> {
+    re: Vec<[T; TILE]>,
+    im: Vec<[T; TILE]>,
+}
+
+impl<T: Real> Split<T> {
+    fn zero(blocks: usize) -> Self {
+        let zero = vec![[T::zero(); TILE]; blocks];
+        Self { re: zero.clone(), im: zero }
+    }
+}
+
+impl<T: Real> FastKernel<T> {
+    /// Plans for a lattice and a grid of `grid` points uniform in the sine over `[-1, 1)`.
+    pub fn new(lattice: &Lattice, grid: usize) -> Self {
+        let elements = lattice.indices.len();
+        let span = lattice.span();
+        let mut order: Vec<usize> = (0..elements).collect();
+        order.sort_by_key(|&k| lattice.indices[k]);
+        let indices: Vec<usize> = order.iter().map(|&k| lattice.indices[k]).collect();
+        let matrix = HermitianTiles::new(elements);
+        let (zero_slot, one_slot) = (2 * span - 1, 2 * span);
+        let mut slots = Vec::with_capacity(matrix.tiles().len());
+        for i in 0..matrix.blocks() {
+            for j in 0..=i {
+                let mut tile = [[0; TILE]; TILE];
+                for (r, row) in tile.iter_mut().enumerate() {
+                    for (c, slot) in row.iter_mut().enumerate() {
+                        let (k, l) = (TILE * i + r, TILE * j + c);
+                        *slot = if k < elements && l < elements {
+                            indices[k] + span - 1 - indices[l]
+                        } else if k == l {
+                            one_slot
+                        } else {
+                            zero_slot
+                        } as u32;
+                    }
+                }
+                slots.push(tile);
+            }
+        }
+        let blocks = matrix.blocks();
+        Self {
+            fourier: LatticeFourier::new(grid, lattice.spacing, span),
+            span,
+            elements,
+            order,
+            indices,
+            slots,
+            table: vec![Complex::zero(); 2 * span + 1],
+            matrix,
+            lags: vec![Complex::zero(); span],
+            sums: vec![Complex::zero(); 2 * span + 1],
+            diagonal_sums: vec![Complex::zero(); 2 * span + 1],
+            snapshots: Vec::new(),
+            solved: Split::zero(blocks),
+            scattered: vec![Complex::zero(); span],
+            power: vec![T::zero(); grid],
+            denominator: vec![T::zero(); grid],
+            numerator: vec![T::zero(); grid],
+        }
+    }
+
+    /// Fills the tiles from the lags and `loading` on the diagonal.
+    fn fill(&mut self, loading: T) {
+        let last = self.span - 1;
+        for (m, lag) in self.lags.iter().enumerate() {
+            self.table[last + m] = *lag;
+            self.table[last - m] = lag.conj();
+        }
+        let zero_lag = Complex::new(self.lags[0].re + loading, T::zero());
+        self.table[2 * last + 1] = Complex::zero();
+        self.table[2 * last + 2] = zero_lag;
+        for (tile, slots) in self.matrix.tiles_mut().iter_mut().zip(&self.slots) {
+            for r in 0..TILE {
+                for c in 0..TILE {
+                    let z = self.table[slots[r][c] as usize];
+                    tile.re[r][c] = z.re;
+                    tile.im[r][c] = z.im;
+                }
+            }
+        }
+        // Added here and not to lag zero, which elements at one place share off the diagonal.
+        for i in 0..self.matrix.blocks() {
+            let tile = &mut self.matrix.tiles_mut()[i * (i + 1) / 2 + i];
+            for r in 0..TILE {
+                tile.re[r][r] = zero_lag.re;
+            }
+        }
+    }
+
+    /// Sums of the inverse along equal lags, into `lags`.
+    fn sum_lags(&mut self) {
+        self.sums.fill(Complex::zero());
+        self.diagonal_sums.fill(Complex::zero());
+        let mut tiles = self.matrix.tiles().iter().zip(&self.slots);
+        for i in 0..self.matrix.blocks() {
+            for (tile, slots) in tiles.by_ref().take(i) {
+                add_tile(&mut self.sums, tile, slots);
+            }
+            if let Some((tile, slots)) = tiles.next() {
+                add_tile(&mut self.diagonal_sums, tile, slots);
+            }
+        }
+        let last = self.span - 1;
+        for (m, lag) in self.lags.iter_mut().enumerate() {
+            let below = self.sums[last + m] + self.sums[last - m].conj();
+            // The tiles hold minus the inverse.
+            *lag = -(below + self.diagonal_sums[last + m]);
+        }
+    }
+
+    /// `solved = R^-1 y` for one snapshot.
+    fn apply(&mut self, snapshot: usize) {
+        let y = &self.snapshots[snapshot];
+        for x in self.solved.re.iter_mut().chain(&mut self.solved.im) {
+            *x = [T::zero(); TILE];
+        }
+        let mut tiles = self.matrix.tiles().iter();
+        for i in 0..self.matrix.blocks() {
+            for (j, tile) in tiles.by_ref().take(i + 1).enumerate() {
+                for r in 0..TILE {
+                    // Row r of the tile times y_j, and its conjugate times y_i into x_j.
+                    let (mut re, mut im) = (T::zero(), T::zero());
+                    for c in 0..TILE {
+                        let (a, b) = (tile.re[r][c], tile.im[r][c]);
+                        let (p, q) = (y.re[j][c], y.im[j][c]);
+                        re = re + a * p - b * q;
+                        im = im + a * q + b * p;
+                    }
+                    self.solved.re[i][r] = self.solved.re[i][r] - re;
+                    self.solved.im[i][r] = self.solved.im[i][r] - im;
+                    if j < i {
+                        let (p, q) = (y.re[i][r], y.im[i][r]);
+                        for c in 0..TILE {
+                            let (a, b) = (tile.re[r][c], tile.im[r][c]);
+                            self.solved.re[j][c] = self.solved.re[j][c] - (a * p + b * q);
+                            self.solved.im[j][c] = self.solved.im[j][c] - (a * q - b * p);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds `|sum_i x_i exp(-j pi d i u_g)|^2` to the numerator for the vector in `solved`.
+    fn add_numerator(&mut self) {
+        self.scattered.fill(Complex::zero());
+        for (k, &index) in self.indices.iter().enumerate() {
+            let (block, entry) = (k / TILE, k % TILE);
+            let x = Complex::new(self.solved.re[block][entry], self.solved.im[block][entry]);
+            self.scattered[index] = self.scattered[index] + x;
+        }
+        let spectrum = self.fourier.vector(&self.scattered);
+        for (sum, x) in self.numerator.iter_mut().zip(spectrum) {
+            *sum = *sum + x.norm_sqr();
+        }
+    }
+}
+
+#[inline(always)]
+fn add_tile<T: Real>(
+    sums: &mut [Complex<T>],
+    tile: &super::inverse::Tile<T>,
+    slots: &[[u32; TILE]; TILE],
+) {
+    for r in 0..TILE {
+        for c in 0..TILE {
+            let sum = &mut sums[slots[r][c] as usize];
+            *sum = Complex::new(sum.re + tile.re[r][c], sum.im + tile.im[r][c]);
+        }
+    }
+}
+
+impl<T: Real> Kernel for FastKernel<T> {
+    fn points(&self) -> usize {
+        self.power.len()
+    }
+
+    fn start(&mut self, y: ArrayView2<Complex64>, scale: f64) {
+        self.snapshots.clear();
+        self.numerator.fill(T::zero());
+        for column in y.columns() {
+            let mut split = Split::zero(self.matrix.blocks());
+            for (k, &element) in self.order.iter().enumerate() {
+                let z = column[element] * scale;
+                split.re[k / TILE][k % TILE] = real(z.re);
+                split.im[k / TILE][k % TILE] = real(z.im);
+            }
+            self.solved.clone_from(&split);
+            self.snapshots.push(split);
+            self.add_numerator();
+        }
+        let gain: T = real(1.0 / (self.elements * self.elements * y.ncols()) as f64);
+        for (power, numerator) in self.power.iter_mut().zip(&self.numerator) {
+            *power = *numerator * gain;
+        }
+    }
+
+    fn iterate(&mut self, loading: f64) -> Result<(), Singular> {
+        self.fourier.lags(&self.power, &mut self.lags);
+        let loading: T = real(loading);
+        let smallest =
+            real::<T>(4.0 * self.elements as f64) * T::epsilon() * (self.lags[0].re + loading);
+        self.fill(loading);
+        self.matrix.negative_inverse(smallest)?;
+        self.sum_lags();
+        self.fourier.hermitian(&self.lags, &mut self.denominator);
+        self.numerator.fill(T::zero());
+        for snapshot in 0..self.snapshots.len() {
+            self.apply(snapshot);
+            self.add_numerator();
+        }
+        let count: T = real(self.snapshots.len() as f64);
+        for ((power, n), d) in self.power.iter_mut().zip(&self.numerator).zip(&self.denominator) {
+            *power = weighted_power(*n, *d, count);
+        }
+        Ok(())
+    }
+
+    fn element_power(&self) -> f64 {
+        self.power.iter().map(|p| p.to_f64().unwrap_or(0.0)).sum()
+    }
+
+    fn power(&self) -> Vec<f64> {
+        self.power.iter().map(|p| p.to_f64().unwrap_or(0.0)).collect()
+    }
+
+    fn map_power(&mut self, change: &mut dyn FnMut(f64) -> f64) {
+        for power in &mut self.power {
+            *power = real(change(power.to_f64().unwrap_or(0.0)));
+        }
+    }
+}
