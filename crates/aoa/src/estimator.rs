@@ -6,6 +6,7 @@ use crate::data::Data;
 use crate::error::AoaError;
 use crate::esprit::Esprit;
 use crate::estimate::Estimate;
+use crate::iaa::Iaa;
 use crate::method::Method;
 use crate::min_norm::MinNorm;
 use crate::music::Music;
@@ -72,6 +73,7 @@ fn plan(method: Method, array: &Array, options: &Options) -> Result<Box<dyn Plan
         Method::RootMusic => Box::new(RootMusic::new(array, options)?),
         Method::Esprit => Box::new(Esprit::new(array, options)?),
         Method::MinNorm => Box::new(MinNorm::new(array, options)?),
+        Method::Iaa => Box::new(Iaa::new(array, options)?),
         other => {
             return Err(AoaError::Argument(CoreError::Unknown {
                 what: "method".into(),

@@ -16,6 +16,7 @@ pub mod esprit_error;
 pub mod estimate;
 pub mod estimator;
 pub mod grid;
+mod iaa;
 pub mod method;
 mod min_norm;
 mod music;

@@ -87,7 +87,12 @@ fn block(array: &Array, directions: &[Direction]) -> Block {
 }
 
 /// `sum conj(a) b`, in eight running sums.
-fn dot(a_re: &[f64; BLOCK], a_im: &[f64; BLOCK], b_re: &[f64; BLOCK], b_im: &[f64; BLOCK]) -> Complex64 {
+fn dot(
+    a_re: &[f64; BLOCK],
+    a_im: &[f64; BLOCK],
+    b_re: &[f64; BLOCK],
+    b_im: &[f64; BLOCK],
+) -> Complex64 {
     const LANES: usize = 8;
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for at in (0..BLOCK).step_by(LANES) {
@@ -145,10 +150,6 @@ fn quadratic_form(block: &Block, m: &Array2<Complex64>) -> [f64; BLOCK] {
 }
 
 impl Kernel for DenseKernel {
-    fn points(&self) -> usize {
-        self.power.len()
-    }
-
     fn start(&mut self, y: ArrayView2<Complex64>, scale: f64) {
         let snapshots: Vec<Vec<Complex64>> =
             y.columns().into_iter().map(|c| c.iter().map(|z| z * scale).collect()).collect();
@@ -178,10 +179,8 @@ impl Kernel for DenseKernel {
         }
         let inverse = factor.inverse();
         let snapshots = std::mem::take(&mut self.snapshots);
-        let solved: Vec<Vec<Complex64>> = snapshots
-            .iter()
-            .map(|y| factor.solve(ndarray::ArrayView1::from(y)).to_vec())
-            .collect();
+        let solved: Vec<Vec<Complex64>> =
+            snapshots.iter().map(|y| factor.solve(ndarray::ArrayView1::from(y)).to_vec()).collect();
         self.snapshots = snapshots;
         let count = solved.len() as f64;
         self.for_blocks(|block, power| {

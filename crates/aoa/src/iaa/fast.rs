@@ -214,10 +214,6 @@ fn add_tile<T: Real>(
 }
 
 impl<T: Real> Kernel for FastKernel<T> {
-    fn points(&self) -> usize {
-        self.power.len()
-    }
-
     fn start(&mut self, y: ArrayView2<Complex64>, scale: f64) {
         self.snapshots.clear();
         self.numerator.fill(T::zero());

@@ -6,9 +6,6 @@ use ndarray::ArrayView2;
 
 /// One form of IAA with its state, iterated from outside.
 pub trait Kernel: Send {
-    /// Number of grid points.
-    fn points(&self) -> usize;
-
     /// Takes the snapshots (elements x snapshots) times `scale` and sets the power of every point
     /// to that of delay and sum.
     fn start(&mut self, y: ArrayView2<Complex64>, scale: f64);

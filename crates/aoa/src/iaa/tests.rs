@@ -1,0 +1,172 @@
+use super::*;
+use boresight_core::Random;
+use boresight_core::presets::preset;
+use boresight_core::steering::{cis, steering_vector};
+use ndarray::{Array2, Axis};
+
+fn scene(
+    array: &Array,
+    at: &[(Direction, f64)],
+    noise: f64,
+    snapshots: usize,
+) -> Array2<Complex64> {
+    let mut random = Random::new(21, array.len() as u64);
+    let mut y = Array2::zeros((array.len(), snapshots));
+    for mut column in y.columns_mut() {
+        for &(direction, amplitude) in at {
+            let s = cis(random.phase()) * amplitude;
+            column.scaled_add(s, &steering_vector(array, direction));
+        }
+        column.iter_mut().for_each(|z| *z += random.complex_normal(noise));
+    }
+    y
+}
+
+fn with_form(form: IaaForm, options: &Options) -> Options {
+    Options { iaa: IaaOptions { form, ..options.iaa }, ..*options }
+}
+
+fn spaced(ys: &[f64]) -> Array {
+    Array::new(&ys.iter().map(|&y| [0.0, y, 0.0]).collect::<Vec<_>>()).unwrap()
+}
+
+#[test]
+fn fast_equals_dense() {
+    let thinned = [5.0, 0.0, 1.0, 4.0, 11.0, 12.0, 7.0];
+    let arrays = [
+        preset("lrr48").unwrap(),
+        preset("awr1642").unwrap(),
+        Array::ula(10).unwrap(),
+        spaced(&thinned.map(|y| 0.5 * y)),
+        spaced(&thinned.map(|y| 2.0 * y + 0.3)),
+        spaced(&thinned.map(|y| 0.483 * y)),
+        spaced(&[0.0, 1.0, 1.0, 2.0, 5.0, 9.0, 7.0]),
+    ];
+    let at = [
+        (Direction::azimuth(-0.41), 1.0),
+        (Direction::azimuth(0.1), 0.5),
+        (Direction::azimuth(0.19), 0.7),
+    ];
+    for (case, array) in arrays.iter().enumerate() {
+        for (snapshots, thresholding) in
+            [(1, Thresholding::None), (3, Thresholding::None), (1, Thresholding::Soft)]
+        {
+            let y = scene(array, &at, 1e-2, snapshots);
+            let base = Options {
+                grid_points: 360,
+                iaa: IaaOptions { thresholding, regularisation: 1e-4, ..Options::default().iaa },
+                ..Options::default()
+            };
+            let spectrum = |form| {
+                let mut plan = Iaa::new(array, &with_form(form, &base)).unwrap();
+                let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
+                assert_eq!(estimate.iterations, 15);
+                estimate.spectrum.unwrap().values
+            };
+            let (fast, dense) = (spectrum(IaaForm::Fast), spectrum(IaaForm::Dense));
+            let scale = dense.iter().copied().fold(0.0, f64::max);
+            for (g, (f, d)) in fast.iter().zip(&dense).enumerate() {
+                let error = (f - d).abs() / scale;
+                assert!(error < 1e-8, "array {case}, {thresholding:?}, point {g}: {f} {d}");
+            }
+        }
+    }
+}
+
+#[test]
+fn single_precision_gives_the_same_picture() {
+    let array = preset("lrr48").unwrap();
+    let at = [(Direction::azimuth(-0.41), 1.0), (Direction::azimuth(0.1), 0.5)];
+    let y = scene(&array, &at, 1e-3, 1);
+    let lattice = array.lattice().unwrap();
+    let mut single = FastKernel::<f32>::new(&lattice, 1024);
+    let mut double = FastKernel::<f64>::new(&lattice, 1024);
+    for kernel in [&mut single as &mut dyn Kernel, &mut double] {
+        kernel.start(y.view(), 1.0);
+        for _ in 0..15 {
+            kernel.iterate(0.0).unwrap();
+        }
+    }
+    let (single, double) = (single.power(), double.power());
+    let scale = double.iter().copied().fold(0.0, f64::max);
+    // Rounding of 6e-8 times the condition of R, about 1e4 here.
+    for (s, d) in single.iter().zip(&double) {
+        assert!((s - d).abs() < 1e-2 * scale, "{s} {d}");
+    }
+}
+
+#[test]
+fn two_close_sources_and_their_powers() {
+    let array = preset("lrr48").unwrap();
+    let at = [(Direction::azimuth(0.2), 1.0), (Direction::azimuth(0.225), 0.5)];
+    let y = scene(&array, &at, 1e-4, 1);
+    let mut plan = Iaa::new(&array, &Options::default()).unwrap();
+    let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
+    assert_eq!(estimate.sources.len(), 2, "{:?}", estimate.sources);
+    for (source, (direction, amplitude)) in estimate.sources.iter().zip(at) {
+        let off = source.direction.azimuth_rad - direction.azimuth_rad;
+        assert!(off.abs() < 1e-3, "{off}");
+        let db = 10.0 * (source.power / (amplitude * amplitude)).log10();
+        assert!(db.abs() < 0.5, "{db}");
+    }
+}
+
+#[test]
+fn planes_see_elevation() {
+    let array = preset("awr1843").unwrap();
+    let at = [(Direction::new(0.3, 0.12), 1.0)];
+    let y = scene(&array, &at, 1e-3, 2);
+    let options = Options { grid_points: 128, elevation_points: 31, ..Options::default() };
+    let mut plan = Iaa::new(&array, &options).unwrap();
+    let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
+    let first = estimate.sources[0].direction;
+    assert!((first.azimuth_rad - 0.3).abs() < 0.01, "{first:?}");
+    assert!((first.elevation_rad - 0.12).abs() < 0.02, "{first:?}");
+    let fast = Iaa::new(&array, &with_form(IaaForm::Fast, &options));
+    assert!(matches!(fast.err(), Some(AoaError::Array { .. })));
+}
+
+#[test]
+fn singular_covariances_are_loaded_and_said() {
+    let array = Array::ula(8).unwrap();
+    let y = (steering_vector(&array, Direction::azimuth(0.25f64.asin()))).insert_axis(Axis(1));
+    for form in [IaaForm::Fast, IaaForm::Dense] {
+        let iaa = IaaOptions {
+            thresholding: Thresholding::Hard,
+            threshold_db: 3.0,
+            iterations: 30,
+            form,
+            ..Options::default().iaa
+        };
+        let mut plan = Iaa::new(&array, &Options { iaa, ..Options::default() }).unwrap();
+        let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
+        assert!(estimate.warnings.iter().any(|w| matches!(w, Warning::Loaded { .. })));
+        assert!((estimate.sources[0].direction.azimuth_rad.sin() - 0.25).abs() < 1e-3);
+        assert!(estimate.spectrum.unwrap().values.iter().all(|v| v.is_finite()));
+    }
+}
+
+#[test]
+fn silence_has_no_source_and_covariances_are_refused() {
+    let array = Array::ula(8).unwrap();
+    let mut plan = Iaa::new(&array, &Options::default()).unwrap();
+    let estimate = plan.estimate(Data::Snapshots(Array2::zeros((8, 2)).view())).unwrap();
+    assert_eq!(estimate.warnings, [Warning::NoSources]);
+    assert!(estimate.sources.is_empty() && !estimate.resolved);
+    let r = Array2::eye(8);
+    let refused = plan.estimate(Data::Covariance { matrix: r.view(), snapshots: 5 });
+    assert!(matches!(refused, Err(AoaError::NeedsSnapshots { .. })));
+}
+
+#[test]
+fn extreme_amplitudes_stay_finite() {
+    let array = Array::ula(8).unwrap();
+    let a = steering_vector(&array, Direction::azimuth(0.3)).insert_axis(Axis(1));
+    for scale in [1e-160, 1e-120, 1e140, 1e300] {
+        let mut plan = Iaa::new(&array, &Options::default()).unwrap();
+        let y = a.mapv(|z| z * scale);
+        let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
+        assert!(estimate.spectrum.unwrap().values.iter().all(|v| v.is_finite() && *v >= 0.0));
+        assert!(estimate.sources.iter().all(|s| s.power.is_finite()));
+    }
+}
