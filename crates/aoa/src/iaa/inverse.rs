@@ -175,8 +175,7 @@ fn invert_tile<T: Real>(tile: &Tile<T>, smallest: T) -> Option<Tile<T>> {
     let mut m = *tile;
     for s in 0..TILE {
         let d = m.re[s][s];
-        // Also false for NaN.
-        if !(d > smallest) {
+        if d.is_nan() || d <= smallest {
             return None;
         }
         let inverse = d.recip();
