@@ -5,3 +5,6 @@ export { initSync, type WasmSource } from './instance.js';
 export { version } from './version.js';
 export { array, arrayPresets } from './arrays.js';
 export { Estimator, estimate, methods } from './estimate.js';
+export { parseConfig, waveformSummary } from './config.js';
+export { BoardLogStream, parseBoardLog } from './board.js';
+export { readDetectionsCsv, readNpy, readSnapshotsCsv, writeDetectionsCsv, writeNpy, writeSnapshotsCsv } from './files.js';

@@ -1,8 +1,8 @@
-//! Complex data out of interleaved typed arrays.
+//! Numbers out of typed arrays with their shape.
 
 use crate::error::{BindingError, Fallible};
 use crate::read::{Fields, Read, wrong_type};
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex32, Complex64, CoreError};
 use js_sys::{Float32Array, Float64Array};
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -12,24 +12,61 @@ pub struct ComplexData {
     pub data: Vec<Complex64>,
     /// Their shape; its product is the number of them.
     pub shape: Vec<usize>,
+    /// Whether they came in single precision.
+    pub single: bool,
+}
+
+impl ComplexData {
+    /// Reads `data` and `shape`, and refuses other fields.
+    pub fn of(fields: Fields) -> Fallible<Self> {
+        let RealData { data, shape, single } = numbers(fields, 2)?;
+        let data = data.chunks_exact(2).map(|z| Complex64::new(z[0], z[1])).collect();
+        Ok(Self { data, shape, single })
+    }
+
+    /// The numbers in single precision.
+    pub fn to_complex32(&self) -> Vec<Complex32> {
+        self.data.iter().map(|z| Complex32::new(z.re as f32, z.im as f32)).collect()
+    }
 }
 
 impl Read for ComplexData {
     const EXPECTED: &'static str = "{ data, shape } with interleaved [re, im] numbers";
 
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let mut fields = Fields::new(value, path)?;
-        let numbers = float_array(&mut fields, "data")?;
-        let shape: Vec<usize> = fields.required("shape")?;
-        fields.finish()?;
-        check_length(path, &shape, numbers.len(), 2)?;
-        let data = numbers.chunks_exact(2).map(|z| Complex64::new(z[0], z[1])).collect();
-        Ok(Self { data, shape })
+        Self::of(Fields::new(value, path)?)
     }
 }
 
-/// The numbers of a `Float32Array` or `Float64Array` in a field.
-fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<Vec<f64>> {
+/// Real numbers in C order with their shape.
+pub struct RealData {
+    /// The numbers.
+    pub data: Vec<f64>,
+    /// Their shape; its product is the number of them.
+    pub shape: Vec<usize>,
+    /// Whether they came in single precision.
+    pub single: bool,
+}
+
+impl RealData {
+    /// Reads `data` and `shape`, and refuses other fields.
+    pub fn of(fields: Fields) -> Fallible<Self> {
+        numbers(fields, 1)
+    }
+}
+
+/// Reads `data` and `shape`, with `each` numbers for every entry of the shape.
+fn numbers(mut fields: Fields, each: usize) -> Fallible<RealData> {
+    let (data, single) = float_array(&mut fields, "data")?;
+    let shape: Vec<usize> = fields.required("shape")?;
+    let path = fields.path_of("data");
+    fields.finish()?;
+    check_length(path, &shape, data.len(), each)?;
+    Ok(RealData { data, shape, single })
+}
+
+/// The numbers of a `Float32Array` or `Float64Array` in a field, and whether it is the former.
+fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<(Vec<f64>, bool)> {
     let expected = "a Float32Array or Float64Array";
     let path = fields.path_of(name);
     let value = fields
@@ -37,19 +74,17 @@ fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<Vec<f64>> {
         .ok_or_else(|| BindingError::Missing { what: path.clone(), expected: expected.into() })?;
     // A detached array has no length, and copying from it throws.
     if let Some(array) = value.dyn_ref::<Float64Array>() {
-        if array.length() == 0 {
-            return Ok(vec![]);
-        }
         let mut numbers = zeros(&path, array.length() as usize, 0.0)?;
-        array.copy_to(&mut numbers);
-        Ok(numbers)
-    } else if let Some(array) = value.dyn_ref::<Float32Array>() {
-        if array.length() == 0 {
-            return Ok(vec![]);
+        if !numbers.is_empty() {
+            array.copy_to(&mut numbers);
         }
+        Ok((numbers, false))
+    } else if let Some(array) = value.dyn_ref::<Float32Array>() {
         let mut numbers = zeros(&path, array.length() as usize, 0.0_f32)?;
-        array.copy_to(&mut numbers);
-        Ok(numbers.into_iter().map(f64::from).collect())
+        if !numbers.is_empty() {
+            array.copy_to(&mut numbers);
+        }
+        Ok((numbers.into_iter().map(f64::from).collect(), true))
     } else {
         Err(wrong_type(&path, expected, &value))
     }
@@ -67,19 +102,15 @@ pub fn zeros<T: Clone>(what: &str, len: usize, zero: T) -> Fallible<Vec<T>> {
 }
 
 /// Checks that `given` numbers fill `shape` with `each` of them an entry.
-fn check_length(path: &str, shape: &[usize], given: usize, each: usize) -> Fallible<()> {
+fn check_length(what: String, shape: &[usize], given: usize, each: usize) -> Fallible<()> {
     if given == 0 {
-        let expected = "at least one number".into();
-        return Err(CoreError::Empty { what: format!("{path}.data"), expected }.into());
+        return Err(CoreError::Empty { what, expected: "at least one number".into() }.into());
     }
     let entries = shape.iter().try_fold(each, |product, &n| product.checked_mul(n));
     if entries == Some(given) {
         return Ok(());
     }
-    Err(CoreError::Shape {
-        what: format!("{path}.data"),
-        expected: format!("{each} numbers for each entry of shape {shape:?}"),
-        given: vec![given],
-    }
-    .into())
+    let numbers = if each == 1 { "1 number" } else { "2 numbers" };
+    let expected = format!("{numbers} for each entry of shape {shape:?}");
+    Err(CoreError::Shape { what, expected, given: vec![given] }.into())
 }

@@ -3,6 +3,7 @@
 use crate::write::Record;
 use boresight_aoa::AoaError;
 use boresight_core::{CoreError, Details, Diagnose};
+use boresight_formats::FormatError;
 use thiserror::Error;
 use wasm_bindgen::JsValue;
 
@@ -19,6 +20,9 @@ pub enum BindingError {
     /// The estimators refused.
     #[error(transparent)]
     Aoa(#[from] AoaError),
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    Format(#[from] FormatError),
     /// A value of the wrong type.
     #[error("{what} is {given}; expected {expected}")]
     Type {
@@ -60,6 +64,7 @@ impl Diagnose for BindingError {
         match self {
             Self::Argument(error) => error.code(),
             Self::Aoa(error) => error.code(),
+            Self::Format(error) => error.code(),
             Self::Type { .. } => "wrong-type",
             Self::Missing { .. } => "missing",
             Self::UnknownField { .. } => "unknown-option",
@@ -71,6 +76,7 @@ impl Diagnose for BindingError {
         match self {
             Self::Argument(error) => error.details(),
             Self::Aoa(error) => error.details(),
+            Self::Format(error) => error.details(),
             Self::Type { what, expected, given } => Details::new(what, expected, given),
             Self::Missing { what, expected } => Details::new(what, expected, "nothing"),
             Self::UnknownField { what, expected } => {

@@ -105,14 +105,7 @@ impl Input {
     /// For a shape that is neither a vector nor a matrix.
     pub fn data(&self) -> Fallible<Data<'_>> {
         match self {
-            Self::Snapshots(data) => {
-                let (rows, columns) = match data.shape[..] {
-                    [elements] => (elements, 1),
-                    [elements, snapshots] => (elements, snapshots),
-                    _ => return Err(shape_error("snapshots", "[elements, snapshots]", data)),
-                };
-                Ok(Data::Snapshots(matrix(rows, columns, data, "snapshots")?))
-            }
+            Self::Snapshots(data) => Ok(Data::Snapshots(as_matrix(data, "snapshots")?)),
             Self::Covariance(data, snapshots) => {
                 let [rows, columns] = data.shape[..] else {
                     return Err(shape_error("covariance", "[elements, elements]", data));
@@ -121,6 +114,15 @@ impl Input {
                 Ok(Data::Covariance { matrix, snapshots: *snapshots })
             }
         }
+    }
+}
+
+/// Snapshots as elements x snapshots; a vector is one snapshot.
+pub fn as_matrix<'a>(data: &'a ComplexData, what: &str) -> Fallible<ArrayView2<'a, Complex64>> {
+    match data.shape[..] {
+        [elements] => matrix(elements, 1, data, what),
+        [elements, snapshots] => matrix(elements, snapshots, data, what),
+        _ => Err(shape_error(what, "[elements, snapshots]", data)),
     }
 }
 

@@ -6,12 +6,18 @@
 //! TypeScript around this crate turns into a `BoresightError`.
 
 mod array;
+mod board;
+mod bytes;
 mod complex;
+mod config;
 mod error;
 mod estimate;
+mod npy;
 mod options;
 mod panic;
 mod read;
+mod tables;
+mod waveform;
 mod write;
 
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -1,6 +1,7 @@
 //! Plain JavaScript objects, lists and typed arrays out of results.
 
-use js_sys::{Array, Float64Array, Object, Reflect};
+use boresight_core::{Complex32, Complex64};
+use js_sys::{Array, Float32Array, Float64Array, Object, Reflect};
 use wasm_bindgen::JsValue;
 
 /// A plain object under construction.
@@ -44,6 +45,21 @@ pub fn list<T: Into<JsValue>>(items: impl IntoIterator<Item = T>) -> Array {
 /// A `Float64Array` of its own.
 pub fn float64(numbers: &[f64]) -> Float64Array {
     Float64Array::new_from_slice(numbers)
+}
+
+/// A `Float32Array` of its own.
+pub fn float32(numbers: &[f32]) -> Float32Array {
+    Float32Array::new_from_slice(numbers)
+}
+
+/// Interleaved [re, im] numbers.
+pub fn complex64(numbers: &[Complex64]) -> Float64Array {
+    float64(&numbers.iter().flat_map(|z| [z.re, z.im]).collect::<Vec<_>>())
+}
+
+/// Interleaved [re, im] numbers in single precision.
+pub fn complex32(numbers: &[Complex32]) -> Float32Array {
+    float32(&numbers.iter().flat_map(|z| [z.re, z.im]).collect::<Vec<_>>())
 }
 
 /// Radians to a `Float64Array` in degrees.
