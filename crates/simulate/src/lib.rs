@@ -1,1 +1,15 @@
-//! Boresight.
+//! Seeded simulation of what a radar's array receives: snapshots of scenes, and FMCW data cubes.
+//! The same seed gives the same bits natively and in wasm.
+
+pub mod cube;
+pub mod digest;
+pub mod error;
+pub mod snapshots;
+pub mod waveforms;
+
+pub use cube::{CubeOptions, CubeTarget, Field, simulate_cube};
+pub use error::SimulateError;
+pub use snapshots::{
+    Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Snapshots, Target,
+};
+pub use waveforms::{waveform_3dcnn_experiment, waveform_3dcnn_simulated, waveform_awr1642};

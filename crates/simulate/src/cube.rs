@@ -1,0 +1,294 @@
+//! FMCW data cubes of a time-division MIMO radar, after equation 9 of the 3D-CNN paper (Sang et
+//! al. 2021), bit for bit the same natively and in wasm.
+//!
+//! A sample at time `t` after the start of its ramp is
+//! `alpha exp(j 2 pi (2 R / c) (f_0 + S t))`, with start frequency `f_0`, slope `S` and the range
+//! `R` at that very moment. So the beat frequency is positive and grows with range, and the phase
+//! `4 pi R / lambda` rises from chirp to chirp for a receding target, whose Doppler is positive.
+//!
+//! In the far field element `k` adds the phase `+pi p_k . u` of [`boresight_core::steering`].
+//! Positions thus describe the response as measured. With the sign of the beat above, a path that
+//! is *longer* gives more phase, so the near field takes the path over the point-reflected
+//! position `-p_k lambda / 2`, which tends to the far field's phase with growing range.
+
+use crate::error::{SimulateError, check_values};
+use boresight_core::array::{MAX_ELEMENTS, Position};
+use boresight_core::error::check_range;
+use boresight_core::steering::cis;
+use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_amplitude, db_to_power};
+use boresight_core::{
+    Array, Complex32, Complex64, CoreError, Direction, Imperfections, Random, Waveform,
+};
+use ndarray::{Array1, Array5};
+use std::f64::consts::{PI, TAU};
+
+/// Most complex values one call returns (1 GiB).
+pub const MAX_VALUES: usize = 1 << 27;
+
+/// Most targets.
+pub const MAX_TARGETS: usize = 1024;
+
+/// A point target that moves along the line of sight.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct CubeTarget {
+    /// Distance from the array's origin at the start of the first chirp, m.
+    pub range_m: f64,
+    /// Rate at which the range grows, m/s.
+    pub rate_mps: f64,
+    /// Where it is.
+    pub direction: Direction,
+    /// Power of one raw sample at one element, dB.
+    pub power_db: f64,
+    /// Phase of its reflection; drawn from the seed if absent.
+    pub phase_rad: Option<f64>,
+}
+
+/// Shape of the wavefronts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Field {
+    /// Plane waves.
+    #[default]
+    Far,
+    /// Spherical waves: exact paths from each transmitter and to each receiver.
+    Near,
+}
+
+/// How to simulate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CubeOptions {
+    /// Power of a 0 dB target over noise power, both of one raw sample, dB.
+    pub snr_db: f64,
+    /// Frames.
+    pub frames: usize,
+    /// Plane or spherical waves.
+    pub field: Field,
+    /// Errors of the virtual elements, transmitter-major, all transmitters x all receivers.
+    /// Coupling acts on the response of the virtual array.
+    pub imperfections: Option<Imperfections>,
+    /// Reflection phases come from stream 0 of this seed, the noise of frame `i` from stream
+    /// `i + 1`.
+    pub seed: u64,
+}
+
+impl Default for CubeOptions {
+    fn default() -> Self {
+        Self { snr_db: 20.0, frames: 1, field: Field::Far, imperfections: None, seed: 0 }
+    }
+}
+
+/// Simulates frames x loops x transmitters x receivers x samples. Transmitters and receivers are
+/// those of the array ([`Array::tx`], [`Array::rx`]), whichever of their pairs it keeps.
+///
+/// # Errors
+/// [`CoreError::OutOfRange`] for a number out of range, among them a target that is, at any time,
+/// not between the radar and the waveform's unambiguous range; [`CoreError::Shape`] if waveform
+/// and array have different numbers of transmitters or the imperfections another number of
+/// elements; [`SimulateError::TooLarge`] above [`MAX_VALUES`].
+pub fn simulate_cube(
+    waveform: &Waveform,
+    array: &Array,
+    targets: &[CubeTarget],
+    options: &CubeOptions,
+) -> Result<Array5<Complex32>, SimulateError> {
+    check(waveform, array, targets, options)?;
+    let (tx, rx) = (array.tx().len(), array.rx().len());
+    let shape = [options.frames, waveform.loops, tx, rx, waveform.samples];
+    check_values("the data cube", &shape, MAX_VALUES)?;
+    let model = Model::new(waveform, array, options);
+    let mut phases = Random::new(options.seed, 0);
+    let echoes: Vec<Echo> = targets.iter().map(|t| model.echo(t, &mut phases)).collect();
+    let noise_power = db_to_power(-options.snr_db);
+    let mut cube = Array5::zeros(shape);
+    let mut block = vec![Complex64::ZERO; rx * waveform.samples];
+    for (frame_index, mut frame) in cube.outer_iter_mut().enumerate() {
+        let mut random = Random::new(options.seed, frame_index as u64 + 1);
+        for (l, mut chirps) in frame.outer_iter_mut().enumerate() {
+            for (t, mut chirp) in chirps.outer_iter_mut().enumerate() {
+                let start_s = frame_index as f64 * waveform.frame_interval_s
+                    + (l * tx + t) as f64 * waveform.chirp_interval_s;
+                block.fill(Complex64::ZERO);
+                for echo in &echoes {
+                    model.add(echo, t, start_s, &mut block);
+                }
+                for (out, value) in chirp.iter_mut().zip(&block) {
+                    let noisy = value + random.complex_normal(noise_power);
+                    *out = Complex32::new(noisy.re as f32, noisy.im as f32);
+                }
+            }
+        }
+    }
+    Ok(cube)
+}
+
+fn check(
+    waveform: &Waveform,
+    array: &Array,
+    targets: &[CubeTarget],
+    options: &CubeOptions,
+) -> Result<(), CoreError> {
+    waveform.check()?;
+    if waveform.transmitters != array.tx().len() {
+        return Err(CoreError::Shape {
+            what: "transmitters of the array".into(),
+            expected: format!("[{}], as in the waveform", waveform.transmitters),
+            given: vec![array.tx().len()],
+        });
+    }
+    let elements = array.tx().len() * array.rx().len();
+    check_range("virtual elements", elements as f64, 1.0, MAX_ELEMENTS as f64)?;
+    if let Some(imperfections) = &options.imperfections {
+        imperfections.check(elements)?;
+    }
+    check_range("snr_db", options.snr_db, -200.0, 300.0)?;
+    check_range("frames", options.frames as f64, 1.0, MAX_VALUES as f64)?;
+    check_range("targets", targets.len() as f64, 0.0, MAX_TARGETS as f64)?;
+    let end_s = options.frames as f64 * waveform.frame_interval_s;
+    for target in targets {
+        target.direction.check()?;
+        check_range("rate_mps", target.rate_mps, -1e5, 1e5)?;
+        check_range("power_db", target.power_db, -200.0, 200.0)?;
+        check_range("phase_rad", target.phase_rad.unwrap_or(0.0), -1e6, 1e6)?;
+        let far = waveform.max_range_m();
+        check_range("range_m", target.range_m, 1e-3, far)?;
+        let last = target.range_m + target.rate_mps * end_s;
+        check_range("range_m at the end of the last frame", last, 1e-3, far)?;
+    }
+    Ok(())
+}
+
+/// What all chirps share.
+struct Model<'a> {
+    waveform: &'a Waveform,
+    field: Field,
+    imperfections: Option<&'a Imperfections>,
+    /// Metres, reflected through the origin.
+    tx_m: Vec<[f64; 3]>,
+    /// Metres, reflected through the origin, of each virtual element's receiver.
+    rx_m: Vec<[f64; 3]>,
+    /// Virtual elements as they really are, half wavelengths.
+    elements: Vec<Position>,
+}
+
+/// A target as the cube sees it.
+struct Echo {
+    range_m: f64,
+    rate_mps: f64,
+    unit: [f64; 3],
+    /// Factor of each virtual element; in the near field without the phase of its path.
+    gains: Vec<Complex64>,
+}
+
+impl<'a> Model<'a> {
+    fn new(waveform: &'a Waveform, array: &Array, options: &'a CubeOptions) -> Self {
+        let metres = -waveform.wavelength_m() / 2.0;
+        let imperfections = options.imperfections.as_ref();
+        let moved = |p: Position, q: Position| [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
+        let (mut elements, mut rx_m) = (vec![], vec![]);
+        for tx in array.tx() {
+            for rx in array.rx() {
+                let error = imperfections.map_or([0.0; 3], |i| i.displacement[elements.len()]);
+                let rx = moved(*rx, error);
+                rx_m.push(rx.map(|x| x * metres));
+                elements.push(moved(*tx, rx));
+            }
+        }
+        let tx_m = array.tx().iter().map(|p| p.map(|x| x * metres)).collect();
+        Self { waveform, field: options.field, imperfections, tx_m, rx_m, elements }
+    }
+
+    fn echo(&self, target: &CubeTarget, phases: &mut Random) -> Echo {
+        let unit = target.direction.unit();
+        let phase = target.phase_rad.unwrap_or_else(|| phases.phase());
+        let amplitude = cis(phase) * db_to_amplitude(target.power_db);
+        let receivers = self.elements.len() / self.tx_m.len();
+        let ideal: Array1<Complex64> = match self.field {
+            Field::Far => self.elements.iter().map(|p| cis(PI * dot(p, &unit))).collect(),
+            Field::Near => (0..self.elements.len())
+                .map(|k| {
+                    let path = self.path_m(k / receivers, k, target.range_m, &unit);
+                    cis(TAU * (path - 2.0 * target.range_m) / self.waveform.wavelength_m())
+                })
+                .collect(),
+        };
+        let mut gains = ideal.clone();
+        if let Some(imperfections) = self.imperfections {
+            imperfections.apply(&mut gains);
+        }
+        if self.field == Field::Near {
+            gains.zip_mut_with(&ideal, |gain, ideal| *gain *= ideal.conj());
+        }
+        let gains = gains.iter().map(|gain| gain * amplitude).collect();
+        Echo { range_m: target.range_m, rate_mps: target.rate_mps, unit, gains }
+    }
+
+    /// Adds the echo in the chirp of transmitter `tx` that starts at `start_s` to receivers x
+    /// samples.
+    fn add(&self, echo: &Echo, tx: usize, start_s: f64, block: &mut [Complex64]) {
+        let samples = self.waveform.samples;
+        let receivers = block.len() / samples;
+        let gains = &echo.gains[tx * receivers..(tx + 1) * receivers];
+        let first_s = start_s + self.waveform.adc_start_s;
+        let last_s = first_s + (samples - 1) as f64 / self.waveform.sample_rate_hz;
+        let range_m = |time_s: f64| echo.range_m + echo.rate_mps * time_s;
+        match self.field {
+            Field::Far => {
+                let wave = self.tone(2.0 * range_m(first_s), 2.0 * range_m(last_s));
+                let gains = gains.iter().zip(block.chunks_exact_mut(samples));
+                let mut rows: Vec<(&Complex64, &mut [Complex64])> = gains.collect();
+                wave.enumerate().take(samples).for_each(|(n, wave)| {
+                    for (gain, row) in &mut rows {
+                        row[n] += wave * **gain;
+                    }
+                });
+            }
+            Field::Near => {
+                for (r, row) in block.chunks_exact_mut(samples).enumerate() {
+                    let element = tx * receivers + r;
+                    let path = |time_s| self.path_m(tx, element, range_m(time_s), &echo.unit);
+                    let wave = self.tone(path(first_s), path(last_s));
+                    for (out, wave) in row.iter_mut().zip(wave) {
+                        *out += wave * gains[r];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Length of the path from transmitter `tx` to a target and back to the receiver of a virtual
+    /// element, m.
+    fn path_m(&self, tx: usize, element: usize, range_m: f64, unit: &[f64; 3]) -> f64 {
+        let leg = |from: &[f64; 3]| {
+            let d = [0, 1, 2].map(|a| range_m * unit[a] - from[a]);
+            dot(&d, &d).sqrt()
+        };
+        leg(&self.tx_m[tx]) + leg(&self.rx_m[element])
+    }
+
+    /// `exp(j 2 pi (d / c) f)` over the samples of a chirp, in which the path `d` and the frequency
+    /// `f` change linearly: a phase of second order, by recurrence.
+    fn tone(&self, first_m: f64, last_m: f64) -> impl Iterator<Item = Complex64> + use<> {
+        let waveform = self.waveform;
+        let frequency_hz =
+            waveform.start_frequency_hz + waveform.slope_hz_per_s * waveform.adc_start_s;
+        let hz_per_sample = waveform.slope_hz_per_s / waveform.sample_rate_hz;
+        let delay_s = first_m / SPEED_OF_LIGHT_MPS;
+        let per_sample_s = (last_m - first_m) / SPEED_OF_LIGHT_MPS / (waveform.samples - 1) as f64;
+        let turns = delay_s * frequency_hz;
+        let linear = delay_s * hz_per_sample + per_sample_s * frequency_hz;
+        let quadratic = per_sample_s * hz_per_sample;
+        let cis_turns = |turns: f64| cis(TAU * (turns - turns.floor()));
+        let mut value = cis_turns(turns);
+        let mut step = cis_turns(linear + quadratic);
+        let growth = cis_turns(2.0 * quadratic);
+        std::iter::repeat_with(move || {
+            let now = value;
+            value *= step;
+            step *= growth;
+            now
+        })
+    }
+}
+
+fn dot(p: &[f64; 3], q: &[f64; 3]) -> f64 {
+    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+}

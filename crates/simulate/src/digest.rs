@@ -1,0 +1,97 @@
+//! Digests of simulated numbers, by which every platform can check that it gets the same bits.
+
+use crate::cube::{CubeOptions, CubeTarget, Field, simulate_cube};
+use crate::error::SimulateError;
+use crate::snapshots::{Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator};
+use crate::waveforms::waveform_awr1642;
+use boresight_core::imperfections::ImperfectionSpread;
+use boresight_core::presets::preset;
+use boresight_core::{Direction, Imperfections, Waveform};
+
+/// What [`reference_snapshots`] returns on every platform.
+pub const REFERENCE_SNAPSHOTS: u64 = 0xe26d_71a2_27fb_8d59;
+
+/// What [`reference_cube`] returns on every platform.
+pub const REFERENCE_CUBE: u64 = 0xb0e4_f2ee_454c_6c6e;
+
+/// FNV-1a over the bytes, low first, of the numbers' bits.
+pub fn fnv1a(bits: impl IntoIterator<Item = u64>) -> u64 {
+    bits.into_iter().flat_map(u64::to_le_bytes).fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+/// Digest of 20 sampled scenes of 3 snapshots of each fluctuation on `lrr48` with imperfections.
+///
+/// # Errors
+/// None, unless the simulator is broken.
+pub fn reference_snapshots() -> Result<u64, SimulateError> {
+    let array = preset("lrr48")?;
+    let spread = ImperfectionSpread {
+        gain_db: 0.5,
+        phase_rad: 0.1,
+        position: 0.05,
+        coupling_db: Some(-25.0),
+    };
+    let mut bits = Vec::new();
+    for fluctuation in [Fluctuation::RandomPhase, Fluctuation::ComplexNormal, Fluctuation::Coherent]
+    {
+        let options = SnapshotOptions {
+            scene: Scene::Sampled(SceneSampling::default()),
+            snr_db: 20.0,
+            snapshots: 3,
+            fluctuation,
+            imperfections: Some(Imperfections::random(&array, spread, 5)?),
+            seed: 2024,
+        };
+        let snapshots = SnapshotSimulator::new(&array, &options)?.scenes(7, 20)?;
+        bits.extend(snapshots.values.iter().flat_map(|z| [z.re.to_bits(), z.im.to_bits()]));
+    }
+    Ok(fnv1a(bits))
+}
+
+/// Digest of two frames of two moving targets, in the far and in the near field.
+///
+/// # Errors
+/// None, unless the simulator is broken.
+pub fn reference_cube() -> Result<u64, SimulateError> {
+    let array = preset("awr1642")?;
+    let waveform = Waveform { loops: 4, samples: 64, ..waveform_awr1642() };
+    let target = |range_m, rate_mps, azimuth_rad| CubeTarget {
+        range_m,
+        rate_mps,
+        direction: Direction::new(azimuth_rad, 0.1),
+        ..CubeTarget::default()
+    };
+    let targets = [target(2.5, 1.5, 0.3), target(4.0, -3.0, -0.7)];
+    let mut bits = Vec::new();
+    for field in [Field::Far, Field::Near] {
+        let options = CubeOptions { snr_db: 10.0, frames: 2, field, imperfections: None, seed: 77 };
+        let cube = simulate_cube(&waveform, &array, &targets, &options)?;
+        bits.extend(cube.iter().flat_map(|z| [z.re, z.im].map(|x| u64::from(x.to_bits()))));
+    }
+    Ok(fnv1a(bits))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn snapshots_have_the_bits_they_always_had() {
+        assert_eq!(reference_snapshots().unwrap(), REFERENCE_SNAPSHOTS);
+    }
+
+    #[test]
+    fn cubes_have_the_bits_they_always_had() {
+        assert_eq!(reference_cube().unwrap(), REFERENCE_CUBE);
+    }
+
+    /// Test vector of the FNV authors: the empty string, and "a".
+    #[test]
+    fn fnv1a_is_the_published_one() {
+        assert_eq!(fnv1a([]), 0xcbf2_9ce4_8422_2325);
+        let byte_a = (0xcbf2_9ce4_8422_2325_u64 ^ 0x61).wrapping_mul(0x0100_0000_01b3);
+        assert_eq!(byte_a, 0xaf63_dc4c_8601_ec8c);
+    }
+}

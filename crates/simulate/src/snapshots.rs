@@ -1,0 +1,260 @@
+//! Snapshots of an array: `y(t) = sum_m alpha_m a(theta_m) s_m(t) + n(t)` (equations 4 to 6 of
+//! AAETR), bit for bit the same natively and in wasm.
+
+use crate::error::{SimulateError, check_values};
+use boresight_core::array::Position;
+use boresight_core::error::check_range;
+use boresight_core::steering::{cis, steering_vector};
+use boresight_core::units::{db_to_amplitude, db_to_power};
+use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections, Random};
+use ndarray::{Array1, Array2, Array3, ArrayViewMut2, Axis};
+use std::f64::consts::FRAC_PI_2;
+
+/// Most complex values one call returns (1 GiB).
+pub const MAX_VALUES: usize = 1 << 26;
+
+/// Most targets of a scene.
+pub const MAX_TARGETS: usize = 1024;
+
+/// Something that reflects.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Target {
+    /// Where it is.
+    pub direction: Direction,
+    /// Its power at one element, dB: `20 log10 |alpha|`.
+    pub power_db: f64,
+    /// Phase of its amplitude in the first snapshot; drawn uniformly if absent. Complex normal
+    /// amplitudes have none.
+    pub phase_rad: Option<f64>,
+}
+
+/// Rule by which scenes are drawn: every quantity uniform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneSampling {
+    /// Fewest and most targets.
+    pub targets: [usize; 2],
+    /// Azimuths lie within plus and minus this.
+    pub field_of_view_rad: f64,
+    /// Elevations lie within plus and minus this; 0 keeps targets in the horizontal plane.
+    pub elevation_field_of_view_rad: f64,
+    /// Lowest and highest power, dB.
+    pub power_db: [f64; 2],
+}
+
+impl Default for SceneSampling {
+    /// Up to 16 targets within 60 degrees, powers from -13 to 0 dB.
+    fn default() -> Self {
+        Self {
+            targets: [0, 16],
+            field_of_view_rad: 60.0_f64.to_radians(),
+            elevation_field_of_view_rad: 0.0,
+            power_db: [-13.0, 0.0],
+        }
+    }
+}
+
+/// Where the targets of a scene come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scene {
+    /// The same targets in every scene.
+    Given(Vec<Target>),
+    /// New targets for every scene.
+    Sampled(SceneSampling),
+}
+
+/// How amplitudes change from snapshot to snapshot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Fluctuation {
+    /// Constant magnitude, a new phase for each target and snapshot: uncorrelated targets of
+    /// exactly the given powers.
+    #[default]
+    RandomPhase,
+    /// A new complex normal amplitude of the given mean power for each target and snapshot: the
+    /// stochastic model of the bounds.
+    ComplexNormal,
+    /// Constant magnitude, a new phase for each snapshot that all targets share: fully correlated
+    /// targets.
+    Coherent,
+}
+
+/// What to simulate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SnapshotOptions {
+    /// The targets.
+    pub scene: Scene,
+    /// Power of a 0 dB target at one element over noise power at one element, dB: noise power is
+    /// `10^(-snr_db / 10)`.
+    pub snr_db: f64,
+    /// Snapshots a scene.
+    pub snapshots: usize,
+    /// How amplitudes change between them.
+    pub fluctuation: Fluctuation,
+    /// What is wrong with the array.
+    pub imperfections: Option<Imperfections>,
+    /// Scene `i` draws from stream `i` of this seed, whatever else is simulated.
+    pub seed: u64,
+}
+
+/// Snapshots of several scenes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshots {
+    /// Scenes x elements x snapshots.
+    pub values: Array3<Complex64>,
+    /// Targets of each scene, with their phase in the first snapshot where they have one.
+    pub truth: Vec<Vec<Target>>,
+}
+
+/// A simulator for one array and one set of options.
+#[derive(Debug, Clone)]
+pub struct SnapshotSimulator {
+    /// The array with its elements where they really are.
+    array: Array,
+    options: SnapshotOptions,
+}
+
+impl SnapshotSimulator {
+    /// Checks array and options.
+    ///
+    /// # Errors
+    /// [`CoreError::OutOfRange`] for a number out of range, [`CoreError::Shape`] or
+    /// [`CoreError::NotFinite`] for imperfections that do not fit the array.
+    pub fn new(array: &Array, options: &SnapshotOptions) -> Result<Self, SimulateError> {
+        check_range("snr_db", options.snr_db, -300.0, 300.0)?;
+        check_range("snapshots", options.snapshots as f64, 1.0, MAX_VALUES as f64)?;
+        match &options.scene {
+            Scene::Given(targets) => {
+                check_range("targets", targets.len() as f64, 0.0, MAX_TARGETS as f64)?;
+                for target in targets {
+                    target.direction.check()?;
+                    check_range("power_db", target.power_db, -300.0, 300.0)?;
+                    check_range("phase_rad", target.phase_rad.unwrap_or(0.0), -1e6, 1e6)?;
+                }
+            }
+            Scene::Sampled(sampling) => check_sampling(sampling)?,
+        }
+        let mut array = array.clone();
+        if let Some(imperfections) = &options.imperfections {
+            imperfections.check(array.len())?;
+            let moved: Vec<Position> = array
+                .positions()
+                .iter()
+                .zip(&imperfections.displacement)
+                .map(|(p, d)| [p[0] + d[0], p[1] + d[1], p[2] + d[2]])
+                .collect();
+            array = Array::new(&moved)?;
+        }
+        Ok(Self { array, options: options.clone() })
+    }
+
+    /// Snapshots (elements x snapshots) and targets of scene `index`.
+    ///
+    /// # Errors
+    /// [`SimulateError::TooLarge`] above [`MAX_VALUES`].
+    pub fn scene(&self, index: u64) -> Result<(Array2<Complex64>, Vec<Target>), SimulateError> {
+        let shape = [self.array.len(), self.options.snapshots];
+        check_values("the snapshots", &shape, MAX_VALUES)?;
+        let mut values = Array2::zeros(shape);
+        let truth = self.fill(index, values.view_mut());
+        Ok((values, truth))
+    }
+
+    /// Scenes `first` to `first + count - 1`.
+    ///
+    /// # Errors
+    /// [`SimulateError::TooLarge`] above [`MAX_VALUES`].
+    pub fn scenes(&self, first: u64, count: usize) -> Result<Snapshots, SimulateError> {
+        let shape = [count, self.array.len(), self.options.snapshots];
+        check_values("the snapshots", &shape, MAX_VALUES)?;
+        let mut values = Array3::zeros(shape);
+        let truth = values
+            .axis_iter_mut(Axis(0))
+            .zip(0..)
+            .map(|(scene, i)| self.fill(first.wrapping_add(i), scene))
+            .collect();
+        Ok(Snapshots { values, truth })
+    }
+
+    fn fill(&self, index: u64, mut values: ArrayViewMut2<Complex64>) -> Vec<Target> {
+        let mut random = Random::new(self.options.seed, index);
+        let mut targets = self.targets(&mut random);
+        let responses: Vec<Array1<Complex64>> =
+            targets.iter().map(|target| self.response(target.direction)).collect();
+        let powers: Vec<f64> = targets.iter().map(|t| db_to_power(t.power_db)).collect();
+        let magnitudes: Vec<f64> = targets.iter().map(|t| db_to_amplitude(t.power_db)).collect();
+        let noise_power = db_to_power(-self.options.snr_db);
+        let mut amplitudes = vec![Complex64::ZERO; targets.len()];
+        for (t, mut snapshot) in values.axis_iter_mut(Axis(1)).enumerate() {
+            let common = if t > 0 && self.options.fluctuation == Fluctuation::Coherent {
+                random.phase()
+            } else {
+                0.0
+            };
+            for (m, amplitude) in amplitudes.iter_mut().enumerate() {
+                let first = targets[m].phase_rad.unwrap_or(0.0);
+                *amplitude = match self.options.fluctuation {
+                    Fluctuation::ComplexNormal => random.complex_normal(powers[m]),
+                    Fluctuation::RandomPhase if t > 0 => cis(random.phase()) * magnitudes[m],
+                    _ => cis(first + common) * magnitudes[m],
+                };
+            }
+            for (k, value) in snapshot.iter_mut().enumerate() {
+                let mut sum = Complex64::ZERO;
+                for (response, amplitude) in responses.iter().zip(&amplitudes) {
+                    sum += response[k] * amplitude;
+                }
+                *value = sum + random.complex_normal(noise_power);
+            }
+        }
+        if self.options.fluctuation == Fluctuation::ComplexNormal {
+            targets.iter_mut().for_each(|target| target.phase_rad = None);
+        }
+        targets
+    }
+
+    /// The targets of a scene, each with a phase.
+    fn targets(&self, random: &mut Random) -> Vec<Target> {
+        match &self.options.scene {
+            Scene::Given(targets) => targets
+                .iter()
+                .map(|t| Target {
+                    phase_rad: Some(t.phase_rad.unwrap_or_else(|| random.phase())),
+                    ..*t
+                })
+                .collect(),
+            Scene::Sampled(s) => {
+                let count = random.integer(s.targets[0] as u64, s.targets[1] as u64);
+                let symmetric = |random: &mut Random, half: f64| random.uniform(-half, half);
+                (0..count)
+                    .map(|_| Target {
+                        direction: Direction {
+                            azimuth_rad: symmetric(random, s.field_of_view_rad),
+                            elevation_rad: symmetric(random, s.elevation_field_of_view_rad),
+                        },
+                        power_db: random.uniform(s.power_db[0], s.power_db[1]),
+                        phase_rad: Some(random.phase()),
+                    })
+                    .collect()
+            }
+        }
+    }
+
+    fn response(&self, direction: Direction) -> Array1<Complex64> {
+        let mut response = steering_vector(&self.array, direction);
+        if let Some(imperfections) = &self.options.imperfections {
+            imperfections.apply(&mut response);
+        }
+        response
+    }
+}
+
+fn check_sampling(sampling: &SceneSampling) -> Result<(), CoreError> {
+    let [fewest, most] = sampling.targets;
+    check_range("most targets", most as f64, 0.0, MAX_TARGETS as f64)?;
+    check_range("fewest targets", fewest as f64, 0.0, most as f64)?;
+    check_range("field_of_view_rad", sampling.field_of_view_rad, 0.0, FRAC_PI_2)?;
+    let elevation = sampling.elevation_field_of_view_rad;
+    check_range("elevation_field_of_view_rad", elevation, 0.0, FRAC_PI_2)?;
+    let [lowest, highest] = sampling.power_db;
+    check_range("highest power_db", highest, -300.0, 300.0)?;
+    check_range("lowest power_db", lowest, -300.0, highest)
+}

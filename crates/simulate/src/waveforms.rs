@@ -1,0 +1,73 @@
+//! Waveforms of the literature and of boards.
+
+use boresight_core::Waveform;
+
+/// Table 3 of the 3D-CNN paper (Sang et al. 2021): 150 MHz in 256 samples at 3.476 MHz/us, so
+/// range bins of 1 m, one transmitter; 4 chirps, as its network takes. The paper names no chirp
+/// interval; 50 us leaves 7 us between chirps.
+pub fn waveform_3dcnn_simulated() -> Waveform {
+    let slope_hz_per_s = 3.476e12;
+    Waveform {
+        start_frequency_hz: 77e9,
+        slope_hz_per_s,
+        sample_rate_hz: 256.0 * slope_hz_per_s / 0.15e9,
+        samples: 256,
+        adc_start_s: 0.0,
+        chirp_interval_s: 50e-6,
+        transmitters: 1,
+        loops: 4,
+        frame_interval_s: 40e-3,
+    }
+}
+
+/// Table 4 of the 3D-CNN paper: 3.5 GHz in 512 samples at 4.2 MHz/us, so range bins of 43 mm, two
+/// transmitters in turn; 4 loops. The paper names no chirp interval; 850 us leaves 17 us between
+/// chirps.
+pub fn waveform_3dcnn_experiment() -> Waveform {
+    let slope_hz_per_s = 4.2e12;
+    Waveform {
+        start_frequency_hz: 77e9,
+        slope_hz_per_s,
+        sample_rate_hz: 512.0 * slope_hz_per_s / 3.5e9,
+        samples: 512,
+        adc_start_s: 0.0,
+        chirp_interval_s: 850e-6,
+        transmitters: 2,
+        loops: 4,
+        frame_interval_s: 40e-3,
+    }
+}
+
+/// A short-range profile of Texas Instruments' AWR1642: 60 MHz/us, 256 samples at 5.209 Msps, two
+/// transmitters in turn, 16 loops.
+pub fn waveform_awr1642() -> Waveform {
+    Waveform {
+        start_frequency_hz: 77e9,
+        slope_hz_per_s: 60e12,
+        sample_rate_hz: 5.209e6,
+        samples: 256,
+        adc_start_s: 7e-6,
+        chirp_interval_s: 97.14e-6,
+        transmitters: 2,
+        loops: 16,
+        frame_interval_s: 40e-3,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn presets_are_sound_and_have_the_papers_bins() {
+        for (waveform, bandwidth_hz, bin_m) in [
+            (waveform_3dcnn_simulated(), 0.15e9, 0.9993),
+            (waveform_3dcnn_experiment(), 3.5e9, 0.04283),
+            (waveform_awr1642(), 2.949e9, 0.0508),
+        ] {
+            waveform.check().unwrap();
+            assert!((waveform.bandwidth_hz() / bandwidth_hz - 1.0).abs() < 1e-3);
+            assert!((waveform.range_resolution_m() / bin_m - 1.0).abs() < 1e-3);
+        }
+    }
+}
