@@ -1,1 +1,22 @@
-//! From raw FMCW captures to detections with angles.
+//! From raw FMCW frames to detections with angles: range and Doppler transforms, constant
+//! false-alarm rate detection, peak grouping, compensation of the transmitters' turns, and an
+//! angle estimate for each cell found.
+//!
+//! [`Chain::new`] plans for one waveform, array and set of options; [`Chain::process`] takes one
+//! frame, [`Chain::each`] all frames of a [`FrameSource`] one by one, and [`Chain::combine`] all of
+//! them together, which suits scenes that do not move.
+
+mod beam;
+mod capture;
+mod chain;
+mod error;
+mod options;
+mod result;
+mod source;
+mod warnings;
+
+pub use chain::Chain;
+pub use error::PipelineError;
+pub use options::{ChainOptions, Limits};
+pub use result::{Counts, Detection, FrameResult, Remark};
+pub use source::{CubeFrames, Frame, FrameSource, Progress};

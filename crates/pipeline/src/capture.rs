@@ -1,0 +1,135 @@
+//! The chain over several frames.
+
+use crate::chain::Chain;
+use crate::error::PipelineError;
+use crate::result::FrameResult;
+use crate::source::{FrameSource, Progress};
+use boresight_core::{Complex64, CoreError};
+use ndarray::{Array2, Axis};
+use std::ops::{ControlFlow, Range};
+
+/// Most snapshots kept for one cell when frames are combined; further frames still count in the
+/// power map.
+const MAX_SNAPSHOTS: usize = 1024;
+
+/// Called between frames; breaking stops the run.
+type Report<'a> = &'a mut dyn FnMut(Progress) -> ControlFlow<()>;
+
+impl Chain {
+    /// Processes the frames in `frames` one by one and hands each result to `take`.
+    ///
+    /// # Errors
+    /// As [`Chain::process`] and what the source gives; [`PipelineError::Cancelled`] if `report`
+    /// breaks.
+    pub fn each<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        mut take: impl FnMut(FrameResult),
+        report: Report<'_>,
+    ) -> Result<(), S::Error> {
+        let total = frames.len();
+        for (done, index) in frames.enumerate() {
+            proceed(report, Progress { done, total })?;
+            let frame = source.frame(index)?;
+            let mut result = self.process(frame.samples.view())?;
+            result.counts.clipped_samples = frame.clipped;
+            result.frame = index;
+            result.detections.iter_mut().for_each(|d| d.frame = index);
+            take(result);
+        }
+        proceed(report, Progress { done: total, total })?;
+        Ok(())
+    }
+
+    /// Processes the frames in `frames` together: cells are found in the mean of their power maps,
+    /// and angles estimated from one snapshot a frame, which methods that need a covariance call
+    /// for. Targets have to stay in their range and Doppler cell over the frames.
+    ///
+    /// Frames are read twice, so that memory does not grow with their number; the report counts
+    /// both readings.
+    ///
+    /// # Errors
+    /// As [`Chain::each`]; [`CoreError::Empty`] without frames.
+    pub fn combine<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        report: Report<'_>,
+    ) -> Result<FrameResult, S::Error> {
+        let count = frames.len();
+        if count == 0 {
+            let empty = CoreError::Empty { what: "frames".into(), expected: "at least one".into() };
+            return Err(PipelineError::from(empty).into());
+        }
+        let total = 2 * count;
+        let mut mean = Array2::<f64>::zeros(self.map.power.dim());
+        let mut clipped = 0;
+        for (done, index) in frames.clone().enumerate() {
+            proceed(report, Progress { done, total })?;
+            clipped += self.load(source, index)?;
+            mean.zip_mut_with(&self.map.power, |sum, &p| *sum += f64::from(p));
+        }
+        let mean = mean.mapv(|sum| (sum / count as f64) as f32);
+        self.map.power.assign(&mean);
+        let found = self.detect()?;
+        let used = count.min(MAX_SNAPSHOTS);
+        let mut snapshots =
+            vec![Array2::<Complex64>::zeros((self.array().len(), used)); found.cells.len()];
+        for (done, index) in frames.clone().take(used).enumerate() {
+            proceed(report, Progress { done: count + done, total })?;
+            self.load(source, index)?;
+            for (cell, snapshots) in found.cells.iter().zip(&mut snapshots) {
+                snapshots.index_axis_mut(Axis(1), done).assign(&self.snapshot(cell)?);
+            }
+        }
+        self.map.power.assign(&mean);
+        let mut result = self.conclude(found, &snapshots)?;
+        proceed(report, Progress { done: total, total })?;
+        result.frame = frames.start;
+        result.frames = count;
+        result.counts.clipped_samples = clipped;
+        result.detections.iter_mut().for_each(|d| d.frame = frames.start);
+        Ok(result)
+    }
+
+    /// Snapshots (elements x frames) of one cell.
+    ///
+    /// # Errors
+    /// A bin outside the map; what the source gives; [`CoreError::OutOfRange`] for more frames
+    /// than are kept.
+    pub fn cell_snapshots<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        range_bin: usize,
+        doppler_bin: usize,
+    ) -> Result<Array2<Complex64>, S::Error> {
+        let most = MAX_SNAPSHOTS as f64;
+        boresight_core::error::check_range("number of frames", frames.len() as f64, 1.0, most)
+            .map_err(PipelineError::from)?;
+        let mut snapshots = Array2::zeros((self.array().len(), frames.len()));
+        for (n, index) in frames.enumerate() {
+            self.load(source, index)?;
+            let snapshot = self.cell_snapshot(range_bin, doppler_bin)?;
+            snapshots.index_axis_mut(Axis(1), n).assign(&snapshot);
+        }
+        Ok(snapshots)
+    }
+
+    /// Transforms a frame and tells how many of its samples are clipped.
+    fn load<S: FrameSource>(&mut self, source: &S, index: usize) -> Result<usize, S::Error> {
+        let frame = source.frame(index)?;
+        self.transform.process(frame.samples.view(), &mut self.map).map_err(PipelineError::from)?;
+        Ok(frame.clipped)
+    }
+}
+
+fn proceed(report: Report<'_>, progress: Progress) -> Result<(), PipelineError> {
+    match report(progress) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => {
+            Err(PipelineError::Cancelled { done: progress.done, total: progress.total })
+        }
+    }
+}

@@ -1,0 +1,321 @@
+//! The chain for one frame.
+
+use crate::beam::suited;
+use crate::error::PipelineError;
+use crate::options::{ChainOptions, Limits};
+use crate::result::{Counts, Detection, FrameResult, Remark};
+use crate::warnings::Warnings;
+use boresight_aoa::{Data, Estimate, Estimator, Method, Options};
+use boresight_core::{Array, Complex32, Complex64, Direction, Waveform};
+use boresight_signal::peaks::{Peak, group_peaks, interpolate};
+use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
+use boresight_signal::{Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, tdm};
+use ndarray::{Array1, Array2, ArrayView2, ArrayView4, Axis};
+
+/// Least power in decibels of an empty cell, so that plots and tables need no infinities.
+const FLOOR_DB: f64 = -300.0;
+
+/// A plan for frames of one waveform seen by one array.
+pub struct Chain {
+    options: ChainOptions,
+    array: Array,
+    /// Channel of the cube (`tx * receivers + rx`) of each element of the array.
+    channels: Vec<usize>,
+    region: Region,
+    pub(crate) transform: RangeDoppler,
+    pub(crate) map: RangeDopplerMap,
+    cfar: Cfar,
+    estimator: Estimator,
+}
+
+/// Limits with the waveform's own filled in.
+#[derive(Debug, Clone, Copy)]
+struct Region {
+    range_m: [f64; 2],
+    rate_mps: [f64; 2],
+    azimuth_rad: [f64; 2],
+}
+
+/// A cell to estimate angles in.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cell {
+    pub peak: Peak,
+    pub range_m: f64,
+    pub rate_mps: f64,
+}
+
+/// Cells found in a power map.
+pub(crate) struct Found {
+    pub cells: Vec<Cell>,
+    pub counts: Counts,
+}
+
+impl Chain {
+    /// Plans for frames of `waveform.loops` x `waveform.transmitters` x receivers x
+    /// `waveform.samples`, whose channels are the elements of `array`: those of a MIMO array by
+    /// their transmitter and receiver; of an array of plain positions, element `k` is channel
+    /// `tx * receivers + rx`.
+    ///
+    /// # Errors
+    /// [`PipelineError::Channels`] if the array has other channels than the frames; what the steps
+    /// say of their options.
+    pub fn new(
+        waveform: &Waveform,
+        receivers: usize,
+        array: &Array,
+        options: &ChainOptions,
+    ) -> Result<Self, PipelineError> {
+        options.check()?;
+        waveform.check()?;
+        let channels = channels_of(array, waveform.transmitters, receivers)?;
+        let transform = RangeDoppler::new(waveform, receivers, &options.range_doppler)?;
+        let map = transform.output();
+        let (ranges, dopplers) = map.power.dim();
+        let cfar = Cfar::new(ranges, dopplers, &cfar_options(options, &transform))?;
+        let angle = suited(options.method, array, &options.angle);
+        let anything = [f64::NEG_INFINITY, f64::INFINITY];
+        Ok(Self {
+            options: *options,
+            array: array.clone(),
+            channels,
+            region: Region {
+                range_m: options.region.range_m.unwrap_or_else(|| Limits::usable_range_m(waveform)),
+                rate_mps: options.region.rate_mps.unwrap_or(anything),
+                azimuth_rad: options.region.azimuth_rad.unwrap_or(anything),
+            },
+            transform,
+            map,
+            cfar,
+            estimator: Estimator::new(options.method, array, &angle)?,
+        })
+    }
+
+    /// The array.
+    pub fn array(&self) -> &Array {
+        &self.array
+    }
+
+    /// The options.
+    pub fn options(&self) -> &ChainOptions {
+        &self.options
+    }
+
+    /// The waveform.
+    pub fn waveform(&self) -> &Waveform {
+        self.transform.waveform()
+    }
+
+    /// Range of each range bin, m.
+    pub fn range_m(&self) -> &[f64] {
+        self.transform.range_m()
+    }
+
+    /// Range rate of each Doppler bin, m/s, ascending.
+    pub fn rate_mps(&self) -> &[f64] {
+        self.transform.rate_mps()
+    }
+
+    /// Detections in one frame of loops x transmitters x receivers x samples.
+    ///
+    /// # Errors
+    /// Another shape than planned; samples that are not finite; a method that needs more than one
+    /// snapshot without averaging or smoothing.
+    pub fn process(
+        &mut self,
+        frame: ArrayView4<'_, Complex32>,
+    ) -> Result<FrameResult, PipelineError> {
+        self.transform.process(frame, &mut self.map)?;
+        let found = self.detect()?;
+        let snapshots = found
+            .cells
+            .iter()
+            .map(|cell| Ok(self.snapshot(cell)?.insert_axis(Axis(1))))
+            .collect::<Result<Vec<_>, PipelineError>>()?;
+        self.conclude(found, &snapshots)
+    }
+
+    /// The array's snapshot of a cell of the frame processed last, the transmitters' Doppler phase
+    /// taken off.
+    ///
+    /// # Errors
+    /// A bin outside the map.
+    pub fn cell_snapshot(
+        &self,
+        range_bin: usize,
+        doppler_bin: usize,
+    ) -> Result<Array1<Complex64>, PipelineError> {
+        self.compensated(range_bin, doppler_bin, doppler_bin as f64)
+    }
+
+    /// Angles and spectrum of snapshots (elements x snapshots) of one cell, by any method, under the
+    /// same adjustments as in the chain (see [`ChainOptions::angle`]).
+    ///
+    /// # Errors
+    /// What the method says of array, options and snapshots.
+    pub fn cell_spectrum(
+        &self,
+        snapshots: ArrayView2<'_, Complex64>,
+        method: Method,
+        options: &Options,
+    ) -> Result<Estimate, PipelineError> {
+        let options = suited(method, &self.array, options);
+        let mut estimator = Estimator::new(method, &self.array, &options)?;
+        Ok(estimator.estimate(Data::Snapshots(snapshots))?)
+    }
+
+    /// Cells of the power map above the threshold, grouped, within the region and the limit,
+    /// strongest first.
+    pub(crate) fn detect(&mut self) -> Result<Found, PipelineError> {
+        let power = self.map.power.view();
+        let over = self.cfar.detect(power)?;
+        let mut counts = Counts { cells_over_threshold: over.len(), ..Counts::default() };
+        let peaks = if self.options.peak_grouping {
+            let grouped = group_peaks(power, &over);
+            counts.grouped = grouped.grouped;
+            grouped.peaks
+        } else {
+            over.iter().map(|detection| interpolate(power, *detection)).collect()
+        };
+        let mut cells: Vec<Cell> = peaks.into_iter().map(|peak| self.cell(peak)).collect();
+        let before = cells.len();
+        cells.retain(|cell| {
+            within(self.region.range_m, cell.range_m) && within(self.region.rate_mps, cell.rate_mps)
+        });
+        counts.outside_region = before - cells.len();
+        cells.sort_by(|a, b| b.peak.power.total_cmp(&a.peak.power));
+        counts.beyond_limit = cells.len().saturating_sub(self.options.max_detections);
+        cells.truncate(self.options.max_detections);
+        Ok(Found { cells, counts })
+    }
+
+    fn cell(&self, peak: Peak) -> Cell {
+        let waveform = self.transform.waveform();
+        let rates = self.transform.rate_mps();
+        let step = match rates {
+            [first, second, ..] => second - first,
+            _ => 0.0,
+        };
+        let rate_mps = rates.first().copied().unwrap_or_default() + step * peak.doppler_bin;
+        let bins = self.transform.range_m().len();
+        let range_m = range_of_bin_m(waveform, bins, peak.range_bin)
+            - range_doppler_coupling_m(waveform, rate_mps);
+        Cell { peak, range_m, rate_mps }
+    }
+
+    /// The snapshot of a cell of the frame transformed last.
+    pub(crate) fn snapshot(&self, cell: &Cell) -> Result<Array1<Complex64>, PipelineError> {
+        let detection = cell.peak.detection;
+        self.compensated(detection.range_bin, detection.doppler_bin, cell.peak.doppler_bin)
+    }
+
+    fn compensated(
+        &self,
+        range_bin: usize,
+        doppler_bin: usize,
+        exact_doppler_bin: f64,
+    ) -> Result<Array1<Complex64>, PipelineError> {
+        let mut all = self.map.snapshot(range_bin, doppler_bin)?.to_vec();
+        let transmitters = self.transform.waveform().transmitters;
+        let dopplers = self.map.power.ncols();
+        let step = tdm::phase_step_rad(exact_doppler_bin, dopplers, transmitters, 0);
+        tdm::compensate(&mut all, transmitters, step)?;
+        Ok(self.channels.iter().map(|&channel| all[channel]).collect())
+    }
+
+    /// Angles in the cells found in the power map, and everything a result holds.
+    pub(crate) fn conclude(
+        &mut self,
+        found: Found,
+        snapshots: &[Array2<Complex64>],
+    ) -> Result<FrameResult, PipelineError> {
+        let Found { cells, mut counts } = found;
+        let mut detections = vec![];
+        let mut warnings = Warnings::default();
+        for (cell, snapshots) in cells.iter().zip(snapshots) {
+            let estimate = self.estimator.estimate(Data::Snapshots(snapshots.view()))?;
+            warnings.add(&estimate.warnings);
+            counts.without_angle += usize::from(estimate.sources.is_empty());
+            detections
+                .extend(estimate.sources.iter().map(|s| detection(cell, s.direction, s.power)));
+        }
+        let before = detections.len();
+        detections.retain(|d| within(self.region.azimuth_rad, d.azimuth_rad));
+        counts.outside_region += before - detections.len();
+        detections.sort_by(|a, b| b.power.total_cmp(&a.power));
+        counts.beyond_limit += detections.len().saturating_sub(self.options.max_detections);
+        detections.truncate(self.options.max_detections);
+        let mut warnings = warnings.into_remarks();
+        if counts.without_angle > 0 {
+            let message = format!("{} cells have no angle", counts.without_angle);
+            warnings.push(Remark { code: "cells-without-angle", message });
+        }
+        let profile = self.transform.range_profile(&self.map)?;
+        Ok(FrameResult {
+            frame: 0,
+            frames: 1,
+            range_m: self.transform.range_m().to_vec(),
+            rate_mps: self.transform.rate_mps().to_vec(),
+            range_profile_db: profile.into_iter().map(decibels).collect(),
+            range_doppler_db: self.map.power.mapv(|p| decibels(f64::from(p)) as f32),
+            detections,
+            counts,
+            warnings,
+        })
+    }
+}
+
+fn detection(cell: &Cell, direction: Direction, power: f64) -> Detection {
+    let found = cell.peak.detection;
+    Detection {
+        frame: 0,
+        range_m: cell.range_m,
+        rate_mps: cell.rate_mps,
+        azimuth_rad: direction.azimuth_rad,
+        elevation_rad: direction.elevation_rad,
+        power,
+        snr: power / found.noise_power.max(f64::MIN_POSITIVE),
+        range_bin: found.range_bin,
+        doppler_bin: found.doppler_bin,
+    }
+}
+
+fn decibels(power: f64) -> f64 {
+    (10.0 * power.log10()).max(FLOOR_DB)
+}
+
+fn within([low, high]: [f64; 2], value: f64) -> bool {
+    (low..=high).contains(&value)
+}
+
+/// Guard and training cells for padded transforms, and what follows from windows and channels.
+fn cfar_options(options: &ChainOptions, transform: &RangeDoppler) -> CfarOptions {
+    let padding = [options.range_doppler.range_padding, options.range_doppler.doppler_padding];
+    let padded = |cells: [usize; 2]| [0, 1].map(|axis| cells[axis].saturating_mul(padding[axis]));
+    CfarOptions {
+        guard: padded(options.cfar.guard),
+        training: padded(options.cfar.training),
+        looks: transform.channels(),
+        correlation: transform.cell_correlation(),
+        ..options.cfar
+    }
+}
+
+/// The channel of the frames each element of the array is.
+fn channels_of(
+    array: &Array,
+    transmitters: usize,
+    receivers: usize,
+) -> Result<Vec<usize>, PipelineError> {
+    let given = |what: String| PipelineError::Channels {
+        expected: format!("{transmitters} transmitters x {receivers} receivers"),
+        given: what,
+    };
+    let (tx, rx) = (array.tx().len(), array.rx().len());
+    if (tx, rx) == (transmitters, receivers) {
+        return Ok(array.channels().iter().map(|c| c.tx * receivers + c.rx).collect());
+    }
+    if tx == 1 && array.len() == transmitters * receivers {
+        return Ok((0..array.len()).collect());
+    }
+    Err(given(format!("has {tx} transmitters x {rx} receivers, {} elements", array.len())))
+}

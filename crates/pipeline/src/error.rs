@@ -1,0 +1,61 @@
+//! Errors of the chain.
+
+use boresight_aoa::AoaError;
+use boresight_core::{CoreError, Details, Diagnose};
+use boresight_signal::SignalError;
+use thiserror::Error;
+
+/// Why a chain cannot be planned or a frame not be processed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PipelineError {
+    /// An argument is wrong in itself.
+    #[error(transparent)]
+    Argument(#[from] CoreError),
+    /// A step of signal processing refused.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+    /// Angle estimation refused.
+    #[error(transparent)]
+    Angle(#[from] AoaError),
+    /// The array has other channels than the frames.
+    #[error("the array {given}; the frames have {expected}")]
+    Channels {
+        /// Transmitters and receivers of the frames, in words.
+        expected: String,
+        /// What the array has instead.
+        given: String,
+    },
+    /// The caller asked to stop.
+    #[error("stopped after {done} of {total} steps")]
+    Cancelled {
+        /// Steps done.
+        done: usize,
+        /// Steps there would have been.
+        total: usize,
+    },
+}
+
+impl Diagnose for PipelineError {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Argument(error) => error.code(),
+            Self::Signal(error) => error.code(),
+            Self::Angle(error) => error.code(),
+            Self::Channels { .. } => "channels",
+            Self::Cancelled { .. } => "cancelled",
+        }
+    }
+
+    fn details(&self) -> Details {
+        match self {
+            Self::Argument(error) => error.details(),
+            Self::Signal(error) => error.details(),
+            Self::Angle(error) => error.details(),
+            Self::Channels { expected, given } => Details::new("array", expected, given),
+            Self::Cancelled { done, total } => {
+                Details::new("steps", total.to_string(), format!("{done}, then a request to stop"))
+            }
+        }
+    }
+}
