@@ -1,7 +1,11 @@
 //! Counting sources by information criteria on the eigenvalues of the covariance (Wax and Kailath
 //! 1985).
 
+use crate::data::Data;
+use crate::error::AoaError;
 use crate::options::SourceCount;
+use boresight_core::linalg::hermitian_eigen;
+use boresight_signal::{forward_backward, sample_covariance};
 
 /// Penalty on the number of free parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,6 +74,35 @@ pub fn count_sources(eigenvalues: &[f64], sizes: CountSizes, criterion: Criterio
     }
     let sources = (0..judged).min_by(|&i, &k| values[i].total_cmp(&values[k])).unwrap_or(0);
     Count { sources, values }
+}
+
+/// Eigenvalues of the covariance of `data`, largest first, and what `criterion` makes of them.
+/// Averaging with the reversal is for arrays that are evenly spaced.
+///
+/// # Errors
+/// As [`Data::check`].
+pub fn count_sources_in(
+    data: Data<'_>,
+    average_reversed: bool,
+    criterion: Criterion,
+) -> Result<(Vec<f64>, Count), AoaError> {
+    let mut covariance = match data {
+        Data::Snapshots(y) => {
+            data.check(y.nrows())?;
+            sample_covariance(y)
+        }
+        Data::Covariance { matrix, .. } => {
+            data.check(matrix.nrows())?;
+            matrix.to_owned()
+        }
+    };
+    if average_reversed {
+        covariance = forward_backward(covariance.view());
+    }
+    let eigenvalues = hermitian_eigen(covariance.view())?.values.to_vec();
+    let sizes = CountSizes { vectors: data.snapshots(), forward_backward: average_reversed };
+    let count = count_sources(&eigenvalues, sizes, criterion);
+    Ok((eigenvalues, count))
 }
 
 /// The number of sources `wanted` means for these eigenvalues (largest first), at most `most`.
