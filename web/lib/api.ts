@@ -8,3 +8,4 @@ export { Estimator, estimate, methods } from './estimate.js';
 export { parseConfig, waveformSummary } from './config.js';
 export { BoardLogStream, parseBoardLog } from './board.js';
 export { readDetectionsCsv, readNpy, readSnapshotsCsv, writeDetectionsCsv, writeNpy, writeSnapshotsCsv } from './files.js';
+export { countSources, cramerRaoBound } from './theory.js';

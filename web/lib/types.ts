@@ -141,6 +141,13 @@ export interface Estimate {
   warnings: Warning[];
 }
 
+export interface CountOptions {
+  /** Default `mdl`. */
+  criterion?: 'aic' | 'mdl';
+  /** Average the covariance with its reversal (evenly spaced arrays). */
+  forwardBackward?: boolean;
+}
+
 export interface CountResult {
   count: number;
   /** Eigenvalues, largest first. */
@@ -151,13 +158,15 @@ export interface CountResult {
 
 export interface BoundOptions {
   array: ArrayInput;
+  /** Uncorrelated targets; their phases matter to the deterministic bound of one snapshot only. */
   targets: readonly { azimuthDeg: number; elevationDeg?: number; snrDb: number; phaseDeg?: number }[];
   snapshots: number;
-  kind: 'deterministic' | 'stochastic';
+  /** Default `deterministic`. */
+  kind?: 'deterministic' | 'stochastic';
 }
 
 export interface Bound {
-  /** Standard deviation bound of each target's azimuth. */
+  /** Standard deviation of each target's azimuth; infinite where the data do not determine it. */
   azimuthDeg: Float64Array;
   /** Of each elevation; present where the array sees elevation. */
   elevationDeg?: Float64Array;

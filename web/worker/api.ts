@@ -44,6 +44,50 @@ export class Pool {
     return this.#one('estimate', [input, options], job);
   }
 
+  countSources(input: lib.EstimateInput, options?: lib.CountOptions, job?: JobOptions): Promise<lib.CountResult> {
+    return this.#one('countSources', [input, options], job);
+  }
+
+  cramerRaoBound(options: lib.BoundOptions, job?: JobOptions): Promise<lib.Bound> {
+    return this.#one('cramerRaoBound', [options], job);
+  }
+
+  waveformSummary(waveform: lib.Waveform, job?: JobOptions): Promise<lib.WaveformSummary> {
+    return this.#one('waveformSummary', [waveform], job);
+  }
+
+  parseConfig(text: lib.TextInput, job?: JobOptions): Promise<lib.RadarConfig> {
+    return this.#one('parseConfig', [text], job);
+  }
+
+  parseBoardLog(bytes: lib.BytesInput, config?: lib.TextInput, job?: JobOptions): Promise<lib.BoardLog> {
+    return this.#one('parseBoardLog', [bytes, config], job);
+  }
+
+  readNpy(bytes: lib.BytesInput, job?: JobOptions): Promise<lib.NpyArray> {
+    return this.#one('readNpy', [bytes], job);
+  }
+
+  writeNpy(array: lib.NpyArray, job?: JobOptions): Promise<Uint8Array> {
+    return this.#one('writeNpy', [array], job);
+  }
+
+  readDetectionsCsv(table: lib.TextInput, job?: JobOptions): Promise<lib.Detection[]> {
+    return this.#one('readDetectionsCsv', [table], job);
+  }
+
+  writeDetectionsCsv(detections: readonly lib.Detection[], job?: JobOptions): Promise<string> {
+    return this.#one('writeDetectionsCsv', [detections], job);
+  }
+
+  readSnapshotsCsv(table: lib.TextInput, job?: JobOptions): Promise<lib.ComplexData> {
+    return this.#one('readSnapshotsCsv', [table], job);
+  }
+
+  writeSnapshotsCsv(snapshots: lib.ComplexData, job?: JobOptions): Promise<string> {
+    return this.#one('writeSnapshotsCsv', [snapshots], job);
+  }
+
   /** Estimates of many inputs, split over the workers; progress counts inputs. */
   async estimateMany(
     inputs: readonly lib.EstimateInput[],

@@ -7,9 +7,11 @@
 
 mod array;
 mod board;
+mod bounds;
 mod bytes;
 mod complex;
 mod config;
+mod count;
 mod error;
 mod estimate;
 mod npy;

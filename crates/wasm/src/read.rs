@@ -36,6 +36,11 @@ impl Fields {
         Ok(Self { object: value.clone().unchecked_into(), path: path.into(), known: vec![] })
     }
 
+    /// Options that may be left out altogether.
+    pub fn of_optional(value: &JsValue) -> Fallible<Self> {
+        if value.is_undefined() { Self::new(&Object::new(), "") } else { Self::new(value, "") }
+    }
+
     /// Path of a field in errors.
     pub fn path_of(&self, name: &str) -> String {
         if self.path.is_empty() { name.into() } else { format!("{}.{name}", self.path) }
@@ -263,5 +268,21 @@ impl<T: Read> Read for Vec<T> {
 
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
         items(value, path)?.iter().map(|(item, path)| T::read(item, path)).collect()
+    }
+}
+/// An angle given in degrees, within a quarter turn of boresight.
+#[derive(Debug, Clone, Copy)]
+pub struct Angle {
+    /// The angle, rad.
+    pub rad: f64,
+}
+
+impl Read for Angle {
+    const EXPECTED: &'static str = "an angle in degrees";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let degrees = f64::read(value, path)?;
+        boresight_core::error::check_range(path, degrees, -90.0, 90.0)?;
+        Ok(Self { rad: degrees.to_radians() })
     }
 }
