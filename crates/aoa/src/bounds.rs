@@ -168,7 +168,7 @@ fn inverse(matrix: &Array2<f64>) -> Option<Array2<f64>> {
         Complex64::new(matrix[[i, k]] / (scale[i] * scale[k]), 0.0)
     });
     let factor = Cholesky::new(unit.view()).ok()?;
-    if factor.lower().diag().iter().any(|z| z.re < 1e-7) {
+    if factor.diagonal().any(|pivot| pivot < 1e-7) {
         return None;
     }
     let inverse = factor.inverse();

@@ -70,9 +70,8 @@ impl Capon {
 
 /// Whether the pivots leave some digits to the inverse.
 fn is_regular(factor: &Cholesky) -> bool {
-    let pivots = factor.lower().diag().mapv(|z| z.re * z.re);
-    let largest = pivots.iter().copied().fold(0.0, f64::max);
-    pivots.iter().all(|&p| p > 1e-12 * largest)
+    let largest = factor.diagonal().fold(0.0, f64::max);
+    factor.diagonal().all(|pivot| pivot > 1e-6 * largest)
 }
 
 impl Plan for Capon {

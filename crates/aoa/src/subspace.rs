@@ -7,9 +7,9 @@ use crate::data::Data;
 use crate::error::AoaError;
 use crate::method::Method;
 use crate::options::{Options, SourceCount};
-use boresight_core::linalg::{adjoint, hermitian_eigen};
+use boresight_core::linalg::{adjoint, leading_hermitian_eigen_by};
 use boresight_core::{Array, Complex64};
-use ndarray::{Array2, s};
+use ndarray::Array2;
 
 /// How a method gets its signal subspace.
 #[derive(Debug, Clone)]
@@ -74,10 +74,10 @@ pub(crate) fn signal_basis(
             });
         }
     }
-    let eigen = hermitian_eigen(prepared.matrix.view())?;
-    let values = eigen.values.to_vec();
-    let count = resolve_count(sources, &values, prepared.sizes, most);
-    Ok(eigen.vectors.slice(s![.., ..count]).to_owned())
+    let eigen = leading_hermitian_eigen_by(prepared.matrix.view(), |values| {
+        resolve_count(sources, values, prepared.sizes, most)
+    })?;
+    Ok(eigen.vectors)
 }
 
 /// `I - E E^H` for an orthonormal basis `E`.

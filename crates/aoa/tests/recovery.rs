@@ -1,5 +1,7 @@
 //! Every method finds sources exactly, or as exactly as it can, when there is no noise.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
 mod support;
 
 use boresight_aoa::{Data, Estimator, Method, Options, SourceCount, Warning};

@@ -1,5 +1,7 @@
 //! Estimators against the bounds of theory, and the bounds against closed forms.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
 mod support;
 
 use boresight_aoa::bounds::{

@@ -34,6 +34,18 @@ pub fn leading_hermitian_eigen(
     matrix: ArrayView2<Complex64>,
     count: usize,
 ) -> Result<HermitianEigen, CoreError> {
+    leading_hermitian_eigen_by(matrix, |_| count)
+}
+
+/// As [`leading_hermitian_eigen`], the number of vectors being decided on the eigenvalues, which
+/// `count` is given largest first.
+///
+/// # Errors
+/// As [`hermitian_eigen`].
+pub fn leading_hermitian_eigen_by(
+    matrix: ArrayView2<Complex64>,
+    count: impl FnOnce(&[f64]) -> usize,
+) -> Result<HermitianEigen, CoreError> {
     super::eigenvalues::check_square("Hermitian matrix", matrix)?;
     check_finite("Hermitian matrix", matrix.iter().flat_map(|z| [z.re, z.im]))?;
     let n = matrix.nrows();
@@ -42,8 +54,10 @@ pub fn leading_hermitian_eigen(
     let values = &reduced.diagonal;
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    let mut vectors = Array2::zeros((n, count.min(n)));
-    for (block, columns) in order[..count.min(n)].chunks(LANES).enumerate() {
+    let sorted: Vec<f64> = order.iter().map(|&i| values[i] * reduced.scale).collect();
+    let count = count(&sorted).min(n);
+    let mut vectors = Array2::zeros((n, count));
+    for (block, columns) in order[..count].chunks(LANES).enumerate() {
         let mut real = vec![[0.0; LANES]; n];
         for (lane, &column) in columns.iter().enumerate() {
             real[column][lane] = 1.0;
@@ -58,8 +72,7 @@ pub fn leading_hermitian_eigen(
             }
         }
     }
-    let values = order.iter().map(|&i| values[i] * reduced.scale).collect();
-    Ok(HermitianEigen { values, vectors })
+    Ok(HermitianEigen { values: Array1::from(sorted), vectors })
 }
 
 /// Vectors transformed together, side by side in vector registers.
@@ -137,6 +150,30 @@ mod tests {
             assert_eq!(part.vectors.dim(), (13, count.min(13)));
             assert_eq!(part.values, whole.values);
             assert_eq!(part.vectors, whole.vectors.slice(ndarray::s![.., ..count.min(13)]));
+        }
+    }
+
+    #[test]
+    fn eigenvalues_are_those_of_an_independent_implementation() {
+        let mut random = Random::new(6, 0);
+        for (n, rank, fade) in [(5, 5, 1.0), (32, 32, 1.0), (32, 3, 1e-4), (20, 20, 0.1)] {
+            let x = Array2::from_shape_fn((n, rank), |(i, k)| {
+                random.complex_normal(f64::powi(fade, (i + k) as i32 % 12))
+            });
+            let a = x.dot(&adjoint(x.view()));
+            check(&a, 1e-14 * (n as f64 + 4.0));
+            let found = hermitian_eigen(a.view()).unwrap().values;
+            let mut wanted =
+                super::super::to_nalgebra(a.view()).symmetric_eigenvalues().as_slice().to_vec();
+            wanted.sort_by(|x, y| y.total_cmp(x));
+            for (found, wanted) in found.iter().zip(&wanted) {
+                assert!(
+                    (found - wanted).abs()
+                        < 1e-14 * n as f64 * wanted.abs().max(found.abs())
+                            + 1e-14 * a.diag().sum().re,
+                    "{found} {wanted}"
+                );
+            }
         }
     }
 

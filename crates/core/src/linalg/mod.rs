@@ -5,11 +5,14 @@ mod eigenvalues;
 mod hermitian;
 mod least_squares;
 mod roots;
+mod split;
 mod tridiagonal;
 
 pub use cholesky::Cholesky;
 pub use eigenvalues::eigenvalues;
-pub use hermitian::{HermitianEigen, hermitian_eigen, leading_hermitian_eigen};
+pub use hermitian::{
+    HermitianEigen, hermitian_eigen, leading_hermitian_eigen, leading_hermitian_eigen_by,
+};
 pub use least_squares::{least_squares, solve};
 pub use roots::polynomial_roots;
 
