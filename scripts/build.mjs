@@ -1,7 +1,7 @@
 // The package: crates/wasm -> dist/wasm, web/lib and web/worker -> dist. The demo: web/app/dist.
 import { existsSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
-import { coreWasm, dist, root } from './lib/paths.mjs';
+import { coreWasm, dist, root, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, run } from './lib/run.mjs';
 import { describeSize, sizes } from './lib/sizes.mjs';
 import { whenChanged } from './lib/stamp.mjs';
@@ -20,11 +20,10 @@ async function wasm() {
   const done = await whenChanged('wasm', { inputs, outputs }, async () => {
     say('crates/wasm -> dist/wasm (a first build takes minutes)');
     const out = join(dist, 'wasm');
-    const target = 'wasm32-unknown-unknown';
-    await run('cargo', ['build', '--quiet', '-p', 'boresight-wasm', '--release', '--target', target, '--target-dir', join(root, 'target')]);
+    await run('cargo', ['build', '-p', 'boresight-wasm', '--release', '--target', wasmTarget, '--target-dir', join(root, 'target')]);
     // wasm-pack cannot pass on the last flag, which makes the instance replaceable after a trap.
     await run('wasm-bindgen', [
-      join(root, 'target', target, 'release', 'boresight_wasm.wasm'), '--target', 'web', '--out-dir', out,
+      join(root, 'target', wasmTarget, 'release', 'boresight_wasm.wasm'), '--target', 'web', '--out-dir', out,
       '--out-name', 'boresight', '--omit-default-module-path', '--experimental-reset-state-function',
     ]);
     say('wasm-opt -O3');

@@ -4,7 +4,7 @@ import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { buildDemo, buildPackage } from './build.mjs';
 import { browserMissing, findBrowser } from './lib/browser.mjs';
-import { root, wasmTarget } from './lib/paths.mjs';
+import { root } from './lib/paths.mjs';
 import { main, runTee } from './lib/run.mjs';
 import { cargoCounts, checkCounts, nodeCounts, summary } from './lib/summary.mjs';
 import { setup } from './setup.mjs';
@@ -34,7 +34,7 @@ const steps = [
   { name: 'rust', command: ['cargo', 'test', '--workspace', '--no-fail-fast', '--quiet'], counts: cargoCounts },
   {
     name: 'wasm',
-    command: ['cargo', 'test', '--package', 'boresight-wasm', '--target', wasmTarget],
+    command: ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', 'crates/wasm'],
     counts: cargoCounts,
   },
   { name: 'build', work: buildPackage, counts: checkCounts },

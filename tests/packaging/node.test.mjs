@@ -11,7 +11,7 @@ before(async () => {
         import * as boresight from 'boresight';
         import { planeWaveAzimuth } from './program.mjs';
         await boresight.init();
-        console.log(planeWaveAzimuth(boresight, 20));
+        console.log(await planeWaveAzimuth(boresight, 20));
       `,
       'bytes.mjs': `
         import { readFileSync } from 'node:fs';
@@ -19,7 +19,12 @@ before(async () => {
         import * as boresight from 'boresight';
         import { planeWaveAzimuth } from './program.mjs';
         boresight.initSync(readFileSync(fileURLToPath(import.meta.resolve('boresight/boresight.wasm'))));
-        console.log(planeWaveAzimuth(boresight, -35));
+        console.log(await planeWaveAzimuth(boresight, -35));
+      `,
+      'pool.mjs': `
+        import { createPool } from 'boresight/worker';
+        import { planeWaveAzimuth } from './program.mjs';
+        console.log(await planeWaveAzimuth(createPool({ workers: 2 }), 50));
       `,
       'uninitialised.mjs': `
         import { BoresightError, estimate } from 'boresight';
@@ -40,6 +45,10 @@ const near = (text, expected) =>
 
 test('an empty Node project imports the package and estimates an angle', async () => {
   near(await printed('plain.mjs'), 20);
+});
+
+test('its workers run too, and do not keep the process alive', async () => {
+  near(await printed('pool.mjs'), 50);
 });
 
 test('the wasm can be had by name and given to initSync', async () => {

@@ -4,6 +4,7 @@ import { consumer } from './consumer.mjs';
 
 const program = `
   import { BoresightError, Estimator, array, estimate, init } from 'boresight';
+  import { createPool, type Pool } from 'boresight/worker';
   import type { Estimate, EstimatorOptions, Source } from 'boresight';
 
   await init();
@@ -20,6 +21,10 @@ const program = `
   } finally {
     kept.free();
   }
+  const pool: Pool = createPool({ workers: 1 });
+  const later: Estimate = await pool.estimate({ snapshots: { data, shape: [8, 1] } }, options, { signal: AbortSignal.timeout(1000) });
+  console.log(later.resolved);
+  pool.terminate();
 `;
 const wrong = `
   import { estimate } from 'boresight';

@@ -17,9 +17,12 @@ before(async () => {
       'index.html': '<!doctype html><link rel="icon" href="data:,"><title>consumer</title><main></main><script type="module" src="./page.js"></script>',
       'page.js': `
         import * as boresight from 'boresight';
+        import { createPool } from 'boresight/worker';
         import { planeWaveAzimuth } from './program.mjs';
         await boresight.init();
-        document.querySelector('main').textContent = planeWaveAzimuth(boresight, 20);
+        const here = await planeWaveAzimuth(boresight, 20);
+        const inWorker = await planeWaveAzimuth(createPool({ workers: 1 }), -35);
+        document.querySelector('main').textContent = JSON.stringify([here, inWorker]);
       `,
     },
   });
@@ -31,19 +34,34 @@ after(async () => {
   project?.remove();
 });
 
-async function azimuthOnPage(url) {
+async function checkPage(url) {
   const opened = await openPage(browser, url);
   await opened.page.waitForFunction(() => document.querySelector('main').textContent !== '', null, { timeout: 20_000 }).catch(() => {});
   const text = await opened.page.textContent('main');
   await opened.close();
   assert.deepEqual(opened.problems, []);
-  return text;
+  const [here, inWorker] = JSON.parse(text);
+  assert.ok(Math.abs(here - 20) < 0.1, `the page found ${here} deg, expected 20`);
+  assert.ok(Math.abs(inWorker + 35) < 0.1, `the worker found ${inWorker} deg, expected -35`);
 }
 
 test('a Vite project builds with the package and runs in Chromium', { skip: skipWithoutBrowser, timeout: 120_000 }, async () => {
   await project.run(process.execPath, [join(project.folder, 'node_modules', 'vite', 'bin', 'vite.js'), 'build']);
   const server = await serve(project.folder);
   servers.push(server);
-  const text = await azimuthOnPage(server.url);
-  assert.ok(Math.abs(Number(text) - 20) < 0.1, `page shows "${text}", expected 20`);
+  await checkPage(server.url);
+});
+
+test('the Vite development server serves it too', { skip: skipWithoutBrowser, timeout: 120_000 }, async () => {
+  const { createServer } = await import('vite');
+  const server = await createServer({
+    configFile: false,
+    root: project.folder,
+    logLevel: 'error',
+    server: { host: '127.0.0.1', port: 0 },
+  });
+  servers.push(server);
+  await server.listen();
+  const { port } = server.httpServer.address();
+  await checkPage(`http://127.0.0.1:${port}/`);
 });

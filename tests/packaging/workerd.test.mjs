@@ -13,7 +13,7 @@ const main = `
     async fetch(request) {
       await boresight.init();
       const azimuthDeg = Number(new URL(request.url).searchParams.get('azimuthDeg'));
-      return Response.json({ azimuthDeg: planeWaveAzimuth(boresight, azimuthDeg) });
+      return Response.json({ azimuthDeg: await planeWaveAzimuth(boresight, azimuthDeg) });
     },
   };
 `;

@@ -1,0 +1,44 @@
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { createServer } from 'node:net';
+import { test } from 'node:test';
+import { root } from '../../scripts/lib/paths.mjs';
+
+async function freePort() {
+  const server = createServer().listen(0, '127.0.0.1');
+  await once(server, 'listening');
+  const { port } = server.address();
+  server.close();
+  await once(server, 'close');
+  return port;
+}
+
+test('npm start says what it does and serves the demo', { timeout: 120_000 }, async () => {
+  const port = await freePort();
+  const started = spawn(process.execPath, ['scripts/start.mjs', '--host', '127.0.0.1', '--port', `${port}`, '--strictPort'], {
+    cwd: root,
+    detached: process.platform !== 'win32',
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
+  let said = '';
+  try {
+    for await (const piece of started.stdout.setEncoding('utf8')) {
+      said += piece;
+      if (said.includes(`:${port}`)) break;
+    }
+    assert.match(said, /setup: .*\n(.*\n)*build: .*\n(.*\n)*start: serving/);
+    const response = await fetch(`http://127.0.0.1:${port}/`);
+    assert.equal(response.status, 200);
+    const page = await response.text();
+    const script = /<script[^>]* src="([^"]+)"/.exec(page)?.[1];
+    assert.ok(script, 'the page names its script');
+    assert.equal((await fetch(new URL(script, response.url))).status, 200);
+  } finally {
+    if (started.exitCode === null) {
+      // The server is a child of the script, so the whole group is ended.
+      process.kill(process.platform === 'win32' ? started.pid : -started.pid);
+      await once(started, 'exit');
+    }
+  }
+});
