@@ -4,52 +4,83 @@ use crate::error::SignalError;
 use boresight_core::error::check_range;
 use boresight_core::{Complex64, CoreError};
 use ndarray::{Array2, ArrayView2, s};
+use wide::f64x2;
 
-/// Partial sums of the inner loop; independent, so that they vectorise.
-const LANES: usize = 4;
+/// Snapshots handled together, in the lanes of a vector register.
+const LANES: usize = 2;
+
+/// Rows handled together; each entry loaded serves this many products.
+const ROWS: usize = 2;
 
 /// Sample covariance `R = Y Y^H / L` of elements x snapshots `Y` with `L` snapshots: elements x
 /// elements, exactly Hermitian with a real diagonal. Zero where there are no snapshots.
 pub fn sample_covariance(snapshots: ArrayView2<Complex64>) -> Array2<Complex64> {
     let (elements, count) = snapshots.dim();
-    let padded = count.next_multiple_of(LANES);
-    let mut re = vec![0.0; elements * padded];
-    let mut im = vec![0.0; elements * padded];
-    for (k, row) in snapshots.outer_iter().enumerate() {
-        for (l, z) in row.iter().enumerate() {
-            re[k * padded + l] = z.re;
-            im[k * padded + l] = z.im;
-        }
-    }
-    let row = |k: usize| (&re[k * padded..(k + 1) * padded], &im[k * padded..(k + 1) * padded]);
+    let rows = split_rows(snapshots);
     let scale = 1.0 / count.max(1) as f64;
     let mut covariance = Array2::zeros((elements, elements));
-    for i in 0..elements {
-        for k in i..elements {
-            let mut value = inner_product(row(i), row(k)) * scale;
-            if i == k {
-                value.im = 0.0;
+    for (i, left) in rows.chunks_exact(ROWS).enumerate() {
+        for (k, right) in rows.chunks_exact(ROWS).enumerate().take(i + 1) {
+            let products = inner_products(left, right);
+            for (row, products) in products.iter().enumerate() {
+                for (column, value) in products.iter().enumerate() {
+                    let at = [i * ROWS + row, k * ROWS + column];
+                    if at[0] < elements && at[1] <= at[0] {
+                        let im = if at[0] == at[1] { 0.0 } else { value.im };
+                        let value = Complex64::new(value.re, im) * scale;
+                        covariance[at] = value;
+                        covariance[[at[1], at[0]]] = value.conj();
+                    }
+                }
             }
-            covariance[[i, k]] = value;
-            covariance[[k, i]] = value.conj();
         }
     }
     covariance
 }
 
-/// `sum x conj(y)` over split real and imaginary parts, lengths a multiple of [`LANES`].
-fn inner_product(x: (&[f64], &[f64]), y: (&[f64], &[f64])) -> Complex64 {
-    let mut re = [0.0; LANES];
-    let mut im = [0.0; LANES];
-    let left = x.0.chunks_exact(LANES).zip(x.1.chunks_exact(LANES));
-    let right = y.0.chunks_exact(LANES).zip(y.1.chunks_exact(LANES));
-    for ((xr, xi), (yr, yi)) in left.zip(right) {
-        for l in 0..LANES {
-            re[l] += xr[l] * yr[l] + xi[l] * yi[l];
-            im[l] += xi[l] * yr[l] - xr[l] * yi[l];
+/// A row of snapshots, real and imaginary parts apart.
+#[derive(Clone, Default)]
+struct Row {
+    re: Vec<f64x2>,
+    im: Vec<f64x2>,
+}
+
+/// The rows of a matrix, filled up with zeros to whole groups of lanes and of rows.
+fn split_rows(matrix: ArrayView2<Complex64>) -> Vec<Row> {
+    let groups = matrix.ncols().div_ceil(LANES);
+    let zero = Row { re: vec![f64x2::ZERO; groups], im: vec![f64x2::ZERO; groups] };
+    let mut rows = vec![zero; matrix.nrows().next_multiple_of(ROWS)];
+    for (from, to) in matrix.outer_iter().zip(&mut rows) {
+        for (g, (re, im)) in to.re.iter_mut().zip(&mut to.im).enumerate() {
+            let z = from[g * LANES];
+            let next = from.get(g * LANES + 1).copied().unwrap_or(Complex64::ZERO);
+            (*re, *im) = (f64x2::new([z.re, next.re]), f64x2::new([z.im, next.im]));
         }
     }
-    Complex64::new((re[0] + re[1]) + (re[2] + re[3]), (im[0] + im[1]) + (im[2] + im[3]))
+    rows
+}
+
+/// `sum x conj(y)` for every `x` of one group of rows and `y` of another.
+fn inner_products(x: &[Row], y: &[Row]) -> [[Complex64; ROWS]; ROWS] {
+    let ([x0, x1], [y0, y1]) = (x, y) else {
+        return [[Complex64::ZERO; ROWS]; ROWS];
+    };
+    let mut re = [f64x2::ZERO; ROWS * ROWS];
+    let mut im = [f64x2::ZERO; ROWS * ROWS];
+    let left = x0.re.iter().zip(&x0.im).zip(x1.re.iter().zip(&x1.im));
+    let right = y0.re.iter().zip(&y0.im).zip(y1.re.iter().zip(&y1.im));
+    for (((&ar, &ai), (&br, &bi)), ((&cr, &ci), (&dr, &di))) in left.zip(right) {
+        re[0] = re[0] + ar * cr + ai * ci;
+        im[0] = im[0] + ai * cr - ar * ci;
+        re[1] = re[1] + ar * dr + ai * di;
+        im[1] = im[1] + ai * dr - ar * di;
+        re[2] = re[2] + br * cr + bi * ci;
+        im[2] = im[2] + bi * cr - br * ci;
+        re[3] = re[3] + br * dr + bi * di;
+        im[3] = im[3] + bi * dr - br * di;
+    }
+    let sum = |k: usize| Complex64::new(re[k].reduce_add(), im[k].reduce_add());
+    [[sum(0), sum(1)], [sum(2), sum(3)]]
 }
 
 /// Forward-backward average `(R + J R* J) / 2`, `J` reversing the elements. For arrays that look
