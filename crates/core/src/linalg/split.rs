@@ -1,8 +1,8 @@
 //! Inner loops over complex vectors held as separate real and imaginary parts, which compilers
-//! turn into SIMD instructions.
+//! turn into SIMD instructions. They do so with sums into a vector by themselves; sums of products
+//! into one number name their vectors.
 
-/// Partial sums of a reduction; independent, so that they vectorise.
-const LANES: usize = 4;
+use wide::f64x2;
 
 /// Real and imaginary parts of a complex vector.
 pub(super) type Parts<'a> = (&'a [f64], &'a [f64]);
@@ -14,32 +14,23 @@ pub(super) type PartsMut<'a> = (&'a mut [f64], &'a mut [f64]);
 #[inline]
 pub(super) fn dot_conjugate(x: Parts<'_>, y: Parts<'_>) -> (f64, f64) {
     let n = x.0.len().min(y.0.len());
-    let (xr, xi, yr, yi) = (&x.0[..n], &x.1[..n], &y.0[..n], &y.1[..n]);
-    let (mut rr, mut ii, mut ri, mut ir) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
-    let whole = n - n % LANES;
-    let (a, b, c, d) = (
-        xr[..whole].chunks_exact(LANES),
-        xi[..whole].chunks_exact(LANES),
-        yr[..whole].chunks_exact(LANES),
-        yi[..whole].chunks_exact(LANES),
-    );
-    for (((a, b), c), d) in a.zip(b).zip(c).zip(d) {
-        for l in 0..LANES {
-            rr[l] += a[l] * c[l];
-            ii[l] += b[l] * d[l];
-            ri[l] += a[l] * d[l];
-            ir[l] += b[l] * c[l];
-        }
+    let ((xr, xr_end), (xi, xi_end)) = (x.0[..n].as_chunks(), x.1[..n].as_chunks());
+    let ((yr, yr_end), (yi, yi_end)) = (y.0[..n].as_chunks(), y.1[..n].as_chunks());
+    let (mut rr, mut ii, mut ri, mut ir) = (f64x2::ZERO, f64x2::ZERO, f64x2::ZERO, f64x2::ZERO);
+    for ((&xr, &xi), (&yr, &yi)) in xr.iter().zip(xi).zip(yr.iter().zip(yi)) {
+        let (xr, xi) = (f64x2::new(xr), f64x2::new(xi));
+        let (yr, yi) = (f64x2::new(yr), f64x2::new(yi));
+        rr += xr * yr;
+        ii += xi * yi;
+        ri += xr * yi;
+        ir += xi * yr;
     }
-    for k in whole..n {
-        rr[0] += xr[k] * yr[k];
-        ii[0] += xi[k] * yi[k];
-        ri[0] += xr[k] * yi[k];
-        ir[0] += xi[k] * yr[k];
+    let (mut re, mut im) = ((rr + ii).reduce_add(), (ri - ir).reduce_add());
+    if let ([xr], [xi], [yr], [yi]) = (xr_end, xi_end, yr_end, yi_end) {
+        re += xr * yr + xi * yi;
+        im += xr * yi - xi * yr;
     }
-    let total = |s: [f64; LANES]| (s[0] + s[1]) + (s[2] + s[3]);
-    let (rr, ii, ri, ir) = (total(rr), total(ii), total(ri), total(ir));
-    (rr + ii, ri - ir)
+    (re, im)
 }
 
 /// `y += (re + j im) x`.

@@ -5,6 +5,7 @@
 use super::hermitian::LANES;
 use ndarray::ArrayView2;
 use num_complex::Complex64;
+use wide::f64x2;
 
 /// A row of four numbers, one of each of the vectors transformed together.
 type Lanes = [f64; LANES];
@@ -187,32 +188,31 @@ fn product_and_spread(
     wre: &mut [f64],
     wim: &mut [f64],
 ) -> (f64, f64) {
-    const STEP: usize = 2;
-    let n = a.0.len();
-    let even = n - n % STEP;
-    let (mut rr, mut ii, mut ri, mut ir) = ([0.0; STEP], [0.0; STEP], [0.0; STEP], [0.0; STEP]);
-    for start in (0..even).step_by(STEP) {
-        let span = start..start + STEP;
-        let (ar, ai) = (&a.0[span.clone()], &a.1[span.clone()]);
-        let (vr, vi) = (&v.0[span.clone()], &v.1[span.clone()]);
-        let (wr, wi) = (&mut wre[span.clone()], &mut wim[span]);
-        for k in 0..STEP {
-            rr[k] += ar[k] * vr[k];
-            ii[k] += ai[k] * vi[k];
-            ri[k] += ar[k] * vi[k];
-            ir[k] += ai[k] * vr[k];
-            wr[k] += ar[k] * s.0 + ai[k] * s.1;
-            wi[k] += ar[k] * s.1 - ai[k] * s.0;
-        }
+    let (sr, si) = (f64x2::splat(s.0), f64x2::splat(s.1));
+    let (mut rr, mut ii, mut ri, mut ir) = (f64x2::ZERO, f64x2::ZERO, f64x2::ZERO, f64x2::ZERO);
+    let ((a_re, a_re_end), (a_im, a_im_end)) = (a.0.as_chunks(), a.1.as_chunks());
+    let ((v_re, v_re_end), (v_im, v_im_end)) = (v.0.as_chunks(), v.1.as_chunks());
+    let ((w_re, w_re_end), (w_im, w_im_end)) = (wre.as_chunks_mut(), wim.as_chunks_mut());
+    let row = a_re.iter().zip(a_im).zip(v_re.iter().zip(v_im)).zip(w_re.iter_mut().zip(w_im));
+    for (((&ar, &ai), (&vr, &vi)), (wr, wi)) in row {
+        let (ar, ai) = (f64x2::new(ar), f64x2::new(ai));
+        let (vr, vi) = (f64x2::new(vr), f64x2::new(vi));
+        rr += ar * vr;
+        ii += ai * vi;
+        ri += ar * vi;
+        ir += ai * vr;
+        *wr = (f64x2::new(*wr) + (ar * sr + ai * si)).to_array();
+        *wi = (f64x2::new(*wi) + (ar * si - ai * sr)).to_array();
     }
-    let mut re = rr.iter().sum::<f64>() - ii.iter().sum::<f64>();
-    let mut im = ri.iter().sum::<f64>() + ir.iter().sum::<f64>();
-    for k in even..n {
-        let (ar, ai) = (a.0[k], a.1[k]);
-        re += ar * v.0[k] - ai * v.1[k];
-        im += ar * v.1[k] + ai * v.0[k];
-        wre[k] += ar * s.0 + ai * s.1;
-        wim[k] += ar * s.1 - ai * s.0;
+    let mut re = (rr - ii).reduce_add();
+    let mut im = (ri + ir).reduce_add();
+    if let ([ar], [ai], [vr], [vi], [wr], [wi]) =
+        (a_re_end, a_im_end, v_re_end, v_im_end, w_re_end, w_im_end)
+    {
+        re += ar * vr - ai * vi;
+        im += ar * vi + ai * vr;
+        *wr += ar * s.0 + ai * s.1;
+        *wi += ar * s.1 - ai * s.0;
     }
     (re, im)
 }
