@@ -2,7 +2,7 @@
 
 use crate::chain::Chain;
 use crate::error::PipelineError;
-use crate::result::FrameResult;
+use crate::result::{Detection, FrameResult, Remark};
 use crate::source::{FrameSource, Progress};
 use boresight_core::{Complex64, CoreError};
 use ndarray::{Array2, Axis};
@@ -90,7 +90,24 @@ impl Chain {
         result.frames = count;
         result.counts.clipped_samples = clipped;
         result.detections.iter_mut().for_each(|d| d.frame = frames.start);
+        self.remark_on_motion(&mut result);
         Ok(result)
+    }
+
+    /// A target that leaves its range cell makes several detections, one behind the other.
+    fn remark_on_motion(&self, result: &mut FrameResult) {
+        let waveform = self.waveform();
+        let time_s = (result.frames - 1) as f64 * waveform.frame_interval_s;
+        let cell_m = waveform.range_resolution_m();
+        let moving = |d: &&Detection| d.rate_mps.abs() * time_s > cell_m;
+        let count = result.detections.iter().filter(moving).count();
+        if count > 0 {
+            let message = format!(
+                "{count} detections move through more than one range cell in {time_s:.2} s; \
+                 frames by themselves suit them better"
+            );
+            result.warnings.push(Remark { code: "moving-targets", message });
+        }
     }
 
     /// Snapshots (elements x frames) of one cell.

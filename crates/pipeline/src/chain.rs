@@ -266,13 +266,15 @@ impl Chain {
 
 fn detection(cell: &Cell, direction: Direction, power: f64) -> Detection {
     let found = cell.peak.detection;
+    // What windows and transforms lose between bins, the parabolas give back.
+    let straddling = if found.power > 0.0 { cell.peak.power / found.power } else { 1.0 };
     Detection {
         frame: 0,
         range_m: cell.range_m,
         rate_mps: cell.rate_mps,
         azimuth_rad: direction.azimuth_rad,
         elevation_rad: direction.elevation_rad,
-        power,
+        power: power * straddling,
         snr: power / found.noise_power.max(f64::MIN_POSITIVE),
         range_bin: found.range_bin,
         doppler_bin: found.doppler_bin,

@@ -15,7 +15,7 @@ pub struct Detection {
     pub azimuth_rad: f64,
     /// Elevation, rad, positive upwards; 0 where the array does not see it.
     pub elevation_rad: f64,
-    /// Power of one raw sample at one element; 1 is full scale.
+    /// Power of one raw sample at one element, interpolated between bins; 1 is full scale.
     pub power: f64,
     /// Its power in its cell over the noise around the cell, linear.
     pub snr: f64,

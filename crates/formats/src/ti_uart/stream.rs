@@ -108,12 +108,12 @@ impl UartStream {
     pub fn remarks(&self) -> Vec<Remark> {
         let mut remarks = vec![];
         if self.skipped_bytes > 0 {
-            let text = format!("{} bytes belong to no packet", self.skipped_bytes);
+            let text = format!("bytes that belong to no packet: {}", self.skipped_bytes);
             remarks.push(Remark::new("skipped-bytes", text));
         }
         if self.damaged_packets > 0 {
             let cut = if self.cut_at_end { ", the last one by the end of the input" } else { "" };
-            let text = format!("{} packets were cut or damaged{cut}", self.damaged_packets);
+            let text = format!("packets cut or damaged: {}{cut}", self.damaged_packets);
             remarks.push(Remark::new("damaged-packets", text));
         }
         remarks

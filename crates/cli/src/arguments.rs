@@ -1,0 +1,308 @@
+//! What the command line takes.
+
+use boresight_aoa::Method;
+use boresight_signal::Window;
+use clap::builder::PossibleValuesParser;
+use clap::{ArgGroup, Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  Angles in a raw capture of a TI board, all frames together:
+    boresight estimate capture.bin --config profile.cfg
+  One frame, by IAA, as JSON:
+    boresight estimate capture.bin --config profile.cfg --method iaa --frame 0 --json
+  What the board itself detected:
+    boresight estimate board.dat
+  Two targets seen by an 8-element array, and their angles by MUSIC:
+    boresight simulate snapshots --array ula8 --target azimuth=-5 --target azimuth=20,power=-3 \\
+      --snapshots 50 --seed 1 --out two.npy
+    boresight estimate two.npy --array ula8 --method music --sources 2
+
+Angles are in degrees, positive to the left; range rates are positive when receding.";
+
+/// Automotive radar: angles from captures and snapshots, and simulation.
+#[derive(Debug, Parser)]
+#[command(name = "boresight", version, after_help = EXAMPLES, max_term_width = 100)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// Commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Print the detections in a capture, or the angles in snapshots.
+    Estimate(Box<EstimateArguments>),
+    /// Simulate data of which the truth is known, as a .npy file.
+    Simulate {
+        /// What to simulate.
+        #[command(subcommand)]
+        what: SimulateCommand,
+    },
+    /// List the methods of angle estimation, and what each needs.
+    Methods(ListFormat),
+    /// List the arrays known by name.
+    Arrays(ListFormat),
+}
+
+/// How lists are printed.
+#[derive(Debug, Args)]
+pub struct ListFormat {
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How results are printed.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("format").args(["json", "csv"]))]
+pub struct OutputFormat {
+    /// Print a JSON array of objects (rangeM, rateMps, azimuthDeg, elevationDeg, powerDb, snrDb...).
+    #[arg(long)]
+    pub json: bool,
+    /// Print comma-separated values with a header line.
+    #[arg(long)]
+    pub csv: bool,
+}
+
+/// Arguments of `estimate`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+FILE is, by its ending:
+  .bin  raw samples of a DCA1000 capture card, with --config
+  .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or
+        --waveform; or snapshots (elements, elements x snapshots or scenes x elements x snapshots),
+        with --array
+  .csv  snapshots with the columns snapshot, element, re, im, with --array
+  .dat  packets of a TI board's data port: the board's own detections are printed")]
+pub struct EstimateArguments {
+    /// The capture or the snapshots.
+    pub file: PathBuf,
+    /// The board's configuration (.cfg).
+    #[arg(long, value_name = "CFG")]
+    pub config: Option<PathBuf>,
+    /// Waveform of a data cube: awr1642, 3dcnn-simulated, 3dcnn-experiment, or a JSON file, such as
+    /// the truth that `simulate cube` writes.
+    #[arg(long, value_name = "NAME|JSON", conflicts_with = "config")]
+    pub waveform: Option<String>,
+    /// Array: a name (see `boresight arrays`), ulaN for N elements, or a JSON file with `positions`
+    /// or `tx` and `rx` in half wavelengths. A capture's is taken from --config where it says.
+    #[arg(long, value_name = "NAME|JSON")]
+    pub array: Option<String>,
+    /// Only this frame (of snapshots: this scene), from 0.
+    #[arg(long, value_name = "I", conflicts_with_all = ["each", "all"])]
+    pub frame: Option<usize>,
+    /// Every frame by itself.
+    #[arg(long, conflicts_with = "all")]
+    pub each: bool,
+    /// All frames together, for scenes that stand still; this is the default where the method
+    /// takes several snapshots.
+    #[arg(long)]
+    pub all: bool,
+    /// Output.
+    #[command(flatten)]
+    pub output: OutputFormat,
+    /// Angle estimation.
+    #[command(flatten)]
+    pub angle: AngleArguments,
+    /// Detection.
+    #[command(flatten)]
+    pub chain: ChainArguments,
+}
+
+/// Options of angle estimation.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Angle estimation")]
+pub struct AngleArguments {
+    /// Method.
+    #[arg(long, default_value = "bartlett",
+          value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
+    pub method: String,
+    /// Number of sources in a cell, or aic or mdl to count them (methods that need it).
+    #[arg(long, value_name = "N|aic|mdl", default_value = "mdl")]
+    pub sources: String,
+    /// Half width of the field of view, deg.
+    #[arg(long, value_name = "DEG", default_value_t = 90.0)]
+    pub field_of_view: f64,
+    /// Points of the azimuth grid.
+    #[arg(long, value_name = "N", default_value_t = 1024)]
+    pub grid_points: usize,
+    /// Average the covariance with its reversal (evenly spaced arrays).
+    #[arg(long)]
+    pub forward_backward: bool,
+    /// Length of the subarrays of spatial smoothing (evenly spaced arrays).
+    #[arg(long, value_name = "N")]
+    pub smoothing: Option<usize>,
+    /// Diagonal loading, as a share of the mean element power.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    pub loading: f64,
+    /// Peaks this far below the strongest of a cell are not reported, dB.
+    #[arg(long, value_name = "DB", default_value_t = 20.0)]
+    pub dynamic_range: f64,
+    /// Most angles in a cell.
+    #[arg(long, value_name = "N", default_value_t = 16)]
+    pub max_peaks: usize,
+}
+
+/// Options of the chain.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Detection (captures and data cubes)")]
+pub struct ChainArguments {
+    /// Window over the samples of a chirp.
+    #[arg(long, default_value = "hann", value_parser = PossibleValuesParser::new(Window::NAMES))]
+    pub range_window: String,
+    /// Window over the chirps of a frame.
+    #[arg(long, default_value = "hann", value_parser = PossibleValuesParser::new(Window::NAMES))]
+    pub doppler_window: String,
+    /// Range bins as a multiple of the samples.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub range_padding: usize,
+    /// Doppler bins as a multiple of the loops.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub doppler_padding: usize,
+    /// Remove what does not move.
+    #[arg(long)]
+    pub remove_static: bool,
+    /// How noise is estimated.
+    #[arg(long, default_value = "cell-averaging",
+          value_parser = ["cell-averaging", "greatest-of", "smallest-of", "ordered-statistic"])]
+    pub cfar: String,
+    /// Along which axes.
+    #[arg(long, default_value = "range", value_parser = ["range", "doppler", "both"])]
+    pub cfar_axes: String,
+    /// Probability that a cell of noise is detected.
+    #[arg(long, value_name = "P", default_value_t = 1e-6)]
+    pub false_alarm: f64,
+    /// Guard cells on each side, along range and Doppler.
+    #[arg(long, value_name = "R,D", default_value = "4,2", value_parser = pair::<usize>)]
+    pub guard: [usize; 2],
+    /// Training cells on each side, along range and Doppler.
+    #[arg(long, value_name = "R,D", default_value = "8,4", value_parser = pair::<usize>)]
+    pub training: [usize; 2],
+    /// Rank of the ordered statistic, as a share of the training cells.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.75)]
+    pub rank: f64,
+    /// Keep every cell over the threshold instead of one a peak.
+    #[arg(long)]
+    pub no_grouping: bool,
+    /// Report ranges within these, m; without it from 4 bins to 0.9 of the unambiguous range.
+    #[arg(long, value_name = "LOW,HIGH", value_parser = pair::<f64>, allow_hyphen_values = true)]
+    pub range_limits: Option<[f64; 2]>,
+    /// Report range rates within these, m/s.
+    #[arg(long, value_name = "LOW,HIGH", value_parser = pair::<f64>, allow_hyphen_values = true)]
+    pub rate_limits: Option<[f64; 2]>,
+    /// Report azimuths within these, deg.
+    #[arg(long, value_name = "LOW,HIGH", value_parser = pair::<f64>, allow_hyphen_values = true)]
+    pub azimuth_limits: Option<[f64; 2]>,
+    /// Most detections a frame; the strongest are kept.
+    #[arg(long, value_name = "N", default_value_t = 256)]
+    pub max_detections: usize,
+}
+
+/// What to simulate.
+#[derive(Debug, Subcommand)]
+pub enum SimulateCommand {
+    /// Snapshots of an array (scenes x elements x snapshots, complex).
+    Snapshots(Box<SnapshotArguments>),
+    /// FMCW data cubes (frames x loops x transmitters x receivers x samples, complex).
+    Cube(Box<CubeArguments>),
+}
+
+/// Arguments shared by both simulations.
+#[derive(Debug, Args)]
+pub struct SimulateArguments {
+    /// Array: a name (see `boresight arrays`), ulaN, or a JSON file.
+    #[arg(long, value_name = "NAME|JSON")]
+    pub array: String,
+    /// Power of a 0 dB target at one element over the noise power there, dB.
+    #[arg(long, value_name = "DB", default_value_t = 20.0, allow_hyphen_values = true)]
+    pub snr: f64,
+    /// Seed; the same one gives the same numbers on every machine.
+    #[arg(long, value_name = "S")]
+    pub seed: u64,
+    /// File to write, .npy.
+    #[arg(long, value_name = "F.npy")]
+    pub out: PathBuf,
+    /// File for the truth, JSON; without it beside the data, ending in .json.
+    #[arg(long, value_name = "F.json")]
+    pub truth: Option<PathBuf>,
+    /// Standard deviation of the elements' gain, dB.
+    #[arg(long, value_name = "DB", default_value_t = 0.0)]
+    pub gain_error: f64,
+    /// Standard deviation of the elements' phase, deg.
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    pub phase_error: f64,
+    /// Standard deviation of the elements' position, half wavelengths.
+    #[arg(long, value_name = "HALF-WAVELENGTHS", default_value_t = 0.0)]
+    pub position_error: f64,
+    /// Coupling of elements half a wavelength apart, dB.
+    #[arg(long, value_name = "DB", allow_hyphen_values = true)]
+    pub coupling: Option<f64>,
+}
+
+/// Arguments of `simulate snapshots`.
+#[derive(Debug, Args)]
+pub struct SnapshotArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: SimulateArguments,
+    /// A target, such as azimuth=12,power=-3: azimuth and elevation in deg, power in dB, phase in
+    /// deg. Repeat for more.
+    #[arg(long = "target", value_name = "KEY=VALUE,...", allow_hyphen_values = true)]
+    pub targets: Vec<String>,
+    /// Draw the number of targets between these, and their angles and powers, for each scene.
+    #[arg(long, value_name = "FEWEST,MOST", value_parser = pair::<usize>, conflicts_with = "targets")]
+    pub random_targets: Option<[usize; 2]>,
+    /// Half width of the sector random targets are drawn from, deg.
+    #[arg(long, value_name = "DEG", default_value_t = 60.0)]
+    pub field_of_view: f64,
+    /// Snapshots a scene.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub snapshots: usize,
+    /// Scenes.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub scenes: usize,
+    /// Number of the first scene, to split a sweep.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub first_scene: u64,
+    /// How targets change from snapshot to snapshot.
+    #[arg(long, default_value = "random-phase",
+          value_parser = ["random-phase", "complex-normal", "coherent"])]
+    pub fluctuation: String,
+}
+
+/// Arguments of `simulate cube`.
+#[derive(Debug, Args)]
+pub struct CubeArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: SimulateArguments,
+    /// Waveform: awr1642, 3dcnn-simulated, 3dcnn-experiment, a JSON file or a board's .cfg.
+    #[arg(long, value_name = "NAME|FILE", default_value = "awr1642")]
+    pub waveform: String,
+    /// A target, such as range=5,rate=-1.5,azimuth=10,power=-3: range in m, rate in m/s, azimuth,
+    /// elevation and phase in deg, power of one raw sample in dB. Repeat for more.
+    #[arg(
+        long = "target",
+        value_name = "KEY=VALUE,...",
+        required = true,
+        allow_hyphen_values = true
+    )]
+    pub targets: Vec<String>,
+    /// Frames.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub frames: usize,
+    /// Spherical wavefronts instead of plane ones.
+    #[arg(long)]
+    pub near_field: bool,
+}
+
+/// Two numbers with a comma between.
+fn pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
+    let number = |part: &str| part.trim().parse::<T>().ok();
+    text.split_once(',')
+        .and_then(|(a, b)| Some([number(a)?, number(b)?]))
+        .ok_or_else(|| "expected two numbers with a comma between, such as 4,2".into())
+}

@@ -1,0 +1,59 @@
+//! What a board detected itself.
+
+use super::estimate::frame_within;
+use crate::arguments::EstimateArguments;
+use crate::error::CliError;
+use crate::files;
+use crate::output::{Column, Table, remark};
+use boresight_formats::{BoardLog, RadarConfig};
+
+/// The board's detections of each packet; `--frame` counts packets from 0.
+pub fn run(arguments: &EstimateArguments, bytes: &[u8]) -> Result<String, CliError> {
+    let config = match &arguments.config {
+        Some(path) => Some(RadarConfig::parse(&files::read(path)?)?),
+        None => None,
+    };
+    let log = BoardLog::parse(bytes, config.as_ref());
+    remark(
+        std::iter::once(format!("packets: {}", log.frames.len()))
+            .chain(log.remarks.iter().map(|remark| remark.message.clone())),
+    );
+    let frames = match arguments.frame {
+        Some(frame) => {
+            let frame = frame_within(frame, log.frames.len())?;
+            &log.frames[frame..=frame]
+        }
+        None => &log.frames[..],
+    };
+    let rows = frames
+        .iter()
+        .flat_map(|frame| {
+            frame.objects.iter().map(|object| {
+                vec![
+                    f64::from(frame.frame_number),
+                    object.range_m,
+                    object.rate_mps.unwrap_or(f64::NAN),
+                    object.azimuth_rad.to_degrees(),
+                    object.elevation_rad.to_degrees(),
+                    object.peak.unwrap_or(f64::NAN),
+                    object.snr_db.unwrap_or(f64::NAN),
+                ]
+            })
+        })
+        .collect();
+    let column = |json, csv, digits| Column { json, csv, digits };
+    let table = Table {
+        columns: vec![
+            column("frame", "frame", 0),
+            column("rangeM", "range_m", 3),
+            column("rateMps", "rate_mps", 2),
+            column("azimuthDeg", "azimuth_deg", 2),
+            column("elevationDeg", "elevation_deg", 2),
+            column("peak", "peak", 0),
+            column("snrDb", "snr_db", 1),
+        ],
+        rows,
+        empty: "the board detected nothing",
+    };
+    table.render(&arguments.output)
+}

@@ -1,0 +1,53 @@
+//! Raw captures of boards.
+
+use super::chain::{chain_options, detections};
+use crate::arguments::EstimateArguments;
+use crate::error::CliError;
+use crate::output::remark;
+use crate::{array, files};
+use boresight_core::Array;
+use boresight_formats::{Capture, RadarConfig};
+use boresight_pipeline::{Chain, Frame, FrameSource};
+
+struct CaptureFrames<'a>(Capture<'a>);
+
+impl FrameSource for CaptureFrames<'_> {
+    type Error = CliError;
+
+    fn frames(&self) -> usize {
+        self.0.frames()
+    }
+
+    fn frame(&self, index: usize) -> Result<Frame, CliError> {
+        let raw = self.0.frame(index)?;
+        Ok(Frame { samples: raw.samples, clipped: raw.clipped })
+    }
+}
+
+/// Detections in a capture.
+pub fn run(arguments: &EstimateArguments, bytes: &[u8]) -> Result<String, CliError> {
+    let path = arguments.config.as_ref().ok_or_else(|| CliError::Option {
+        option: "--config",
+        expected: "the board's .cfg file, which tells how to read a .bin file".into(),
+        given: "nothing".into(),
+    })?;
+    let config = RadarConfig::parse(&files::read(path)?)?;
+    let capture = Capture::new(bytes, &config)?;
+    remark(config.remarks.iter().chain(capture.remarks()).map(|remark| remark.message.clone()));
+    let array = array_of(arguments, &config)?;
+    let receivers = config.receivers.len();
+    let mut chain = Chain::new(&config.waveform, receivers, &array, &chain_options(arguments)?)?;
+    detections(arguments, &mut chain, &CaptureFrames(capture))
+}
+
+/// The array asked for, or the board's.
+pub fn array_of(arguments: &EstimateArguments, config: &RadarConfig) -> Result<Array, CliError> {
+    match &arguments.array {
+        Some(name) => array::array(name),
+        None => config.array().ok_or_else(|| CliError::Option {
+            option: "--array",
+            expected: "an array, since the configuration names no board with a known one".into(),
+            given: "nothing".into(),
+        }),
+    }
+}

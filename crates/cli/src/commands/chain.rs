@@ -1,0 +1,177 @@
+//! From arguments to the chain, and from its results to a table.
+
+use crate::arguments::{AngleArguments, ChainArguments, EstimateArguments};
+use crate::commands::estimate::frame_within;
+use crate::error::CliError;
+use crate::output::{Column, Table, remark};
+use crate::run::Run;
+use boresight_aoa::{Method, Options, SourceCount};
+use boresight_core::error::check_range;
+use boresight_core::units::power_to_db;
+use boresight_pipeline::{Chain, ChainOptions, Detection, FrameResult, FrameSource, Limits};
+use boresight_signal::{CfarAxes, CfarKind, CfarOptions, RangeDopplerOptions, Window};
+
+/// Method and options of angle estimation.
+pub fn angle_options(arguments: &AngleArguments) -> Result<(Method, Options), CliError> {
+    let sources = match arguments.sources.as_str() {
+        "aic" => SourceCount::Aic,
+        "mdl" => SourceCount::Mdl,
+        text => SourceCount::Known(text.parse().map_err(|_| CliError::Option {
+            option: "--sources",
+            expected: "a number, aic or mdl".into(),
+            given: format!("{text:?}"),
+        })?),
+    };
+    check_range("--field-of-view (deg)", arguments.field_of_view, 0.1, 90.0)?;
+    let options = Options {
+        sources,
+        field_of_view_rad: arguments.field_of_view.to_radians(),
+        grid_points: arguments.grid_points,
+        forward_backward: arguments.forward_backward,
+        smoothing: arguments.smoothing,
+        loading: arguments.loading,
+        dynamic_range_db: arguments.dynamic_range,
+        max_peaks: arguments.max_peaks,
+        ..Options::default()
+    };
+    Ok((Method::from_name(&arguments.method)?, options))
+}
+
+/// Options of the chain.
+pub fn chain_options(arguments: &EstimateArguments) -> Result<ChainOptions, CliError> {
+    let (method, angle) = angle_options(&arguments.angle)?;
+    let chain: &ChainArguments = &arguments.chain;
+    let kind = match chain.cfar.as_str() {
+        "greatest-of" => CfarKind::GreatestOf,
+        "smallest-of" => CfarKind::SmallestOf,
+        "ordered-statistic" => CfarKind::OrderedStatistic { rank: chain.rank },
+        _ => CfarKind::CellAveraging,
+    };
+    let axes = match chain.cfar_axes.as_str() {
+        "doppler" => CfarAxes::Doppler,
+        "both" => CfarAxes::Both,
+        _ => CfarAxes::Range,
+    };
+    Ok(ChainOptions {
+        range_doppler: RangeDopplerOptions {
+            range_window: Window::named(&chain.range_window)?,
+            doppler_window: Window::named(&chain.doppler_window)?,
+            range_padding: chain.range_padding,
+            doppler_padding: chain.doppler_padding,
+            static_clutter_removal: chain.remove_static,
+        },
+        cfar: CfarOptions {
+            kind,
+            axes,
+            false_alarm: chain.false_alarm,
+            guard: chain.guard,
+            training: chain.training,
+            ..CfarOptions::default()
+        },
+        peak_grouping: !chain.no_grouping,
+        region: Limits {
+            range_m: chain.range_limits,
+            rate_mps: chain.rate_limits,
+            azimuth_rad: chain.azimuth_limits.map(|limits| limits.map(f64::to_radians)),
+        },
+        method,
+        angle,
+        max_detections: chain.max_detections,
+    })
+}
+
+/// Runs the chain over the frames asked for and returns what is printed.
+pub fn detections<S: FrameSource>(
+    arguments: &EstimateArguments,
+    chain: &mut Chain,
+    source: &S,
+) -> Result<String, CliError>
+where
+    CliError: From<S::Error>,
+{
+    let frames = source.frames();
+    let single = chain.options().method.requirements().max_snapshots == Some(1);
+    let run = Run::start()?;
+    let mut results = vec![];
+    let report = &mut |progress| run.report(progress);
+    match arguments.frame {
+        Some(frame) => {
+            let frame = frame_within(frame, frames)?;
+            chain.each(source, frame..frame + 1, |r| results.push(r), report)?;
+        }
+        None if arguments.each || (single && !arguments.all) => {
+            chain.each(source, 0..frames, |result| results.push(without_maps(result)), report)?;
+        }
+        None => results.push(chain.combine(source, 0..frames, report)?),
+    }
+    run.finish();
+    remark(remarks(&results));
+    table(results.iter().flat_map(|result| &result.detections)).render(&arguments.output)
+}
+
+/// A result without its map, of which there may be many.
+fn without_maps(mut result: FrameResult) -> FrameResult {
+    result.range_doppler_db = ndarray::Array2::zeros((0, 0));
+    result
+}
+
+fn remarks(results: &[FrameResult]) -> Vec<String> {
+    let sum = |count: fn(&FrameResult) -> usize| results.iter().map(count).sum::<usize>();
+    let mut lines = vec![format!(
+        "frames: {}; cells over the threshold: {}, of which grouped under a stronger neighbour: {}",
+        sum(|r| r.frames),
+        sum(|r| r.counts.cells_over_threshold),
+        sum(|r| r.counts.grouped),
+    )];
+    for (count, what) in [
+        (sum(|r| r.counts.outside_region), "outside the limits"),
+        (sum(|r| r.counts.beyond_limit), "beyond the most to report"),
+        (sum(|r| r.counts.clipped_samples), "samples clipped by the converter"),
+    ] {
+        if count > 0 {
+            lines.push(format!("{what}: {count}"));
+        }
+    }
+    let mut seen: Vec<&str> = vec![];
+    for warning in results.iter().flat_map(|result| &result.warnings) {
+        if !seen.contains(&warning.code) {
+            seen.push(warning.code);
+            lines.push(warning.message.clone());
+        }
+    }
+    lines
+}
+
+/// The table of detections, as [`boresight_formats::tables::write_detections`] names its columns.
+fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
+    let column = |json, csv, digits| Column { json, csv, digits };
+    Table {
+        columns: vec![
+            column("frame", "frame", 0),
+            column("rangeM", "range_m", 3),
+            column("rateMps", "rate_mps", 2),
+            column("azimuthDeg", "azimuth_deg", 2),
+            column("elevationDeg", "elevation_deg", 2),
+            column("powerDb", "power_db", 1),
+            column("snrDb", "snr_db", 1),
+            column("rangeBin", "range_bin", 0),
+            column("dopplerBin", "doppler_bin", 0),
+        ],
+        rows: detections
+            .map(|d| {
+                vec![
+                    d.frame as f64,
+                    d.range_m,
+                    d.rate_mps,
+                    d.azimuth_rad.to_degrees(),
+                    d.elevation_rad.to_degrees(),
+                    power_to_db(d.power),
+                    power_to_db(d.snr),
+                    d.range_bin as f64,
+                    d.doppler_bin as f64,
+                ]
+            })
+            .collect(),
+        empty: "no detections",
+    }
+}

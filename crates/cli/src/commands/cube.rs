@@ -1,0 +1,50 @@
+//! Data cubes.
+
+use super::capture::array_of;
+use super::chain::{chain_options, detections};
+use crate::arguments::EstimateArguments;
+use crate::error::CliError;
+use crate::{array, files};
+use boresight_core::CoreError;
+use boresight_formats::{NpyArray, RadarConfig};
+use boresight_pipeline::{Chain, CubeFrames};
+use ndarray::Array5;
+
+/// Detections in a data cube of frames x loops x transmitters x receivers x samples; a cube of one
+/// frame may lack the first axis.
+pub fn run(arguments: &EstimateArguments, file: &NpyArray) -> Result<String, CliError> {
+    let mut shape = file.shape.clone();
+    if shape.len() == 4 {
+        shape.insert(0, 1);
+    }
+    let wrong = || CoreError::Shape {
+        what: "the .npy file".into(),
+        expected: "1 to 3 axes (snapshots), or 4 or 5 (a data cube)".into(),
+        given: file.shape.clone(),
+    };
+    let shape: [usize; 5] = shape.try_into().map_err(|_| wrong())?;
+    let cube = Array5::from_shape_vec(shape, file.to_complex32()).map_err(|_| wrong())?;
+    let (waveform, array) = match (&arguments.config, &arguments.waveform) {
+        (Some(path), _) => {
+            let config = RadarConfig::parse(&files::read(path)?)?;
+            (config.waveform, array_of(arguments, &config)?)
+        }
+        (None, Some(name)) => {
+            let array = arguments.array.as_ref().ok_or_else(|| CliError::Option {
+                option: "--array",
+                expected: "the array of the cube".into(),
+                given: "nothing".into(),
+            })?;
+            (files::waveform(name)?, array::array(array)?)
+        }
+        (None, None) => {
+            return Err(CliError::Option {
+                option: "--waveform",
+                expected: "the waveform of the cube, or --config".into(),
+                given: "nothing".into(),
+            });
+        }
+    };
+    let mut chain = Chain::new(&waveform, shape[3], &array, &chain_options(arguments)?)?;
+    detections(arguments, &mut chain, &CubeFrames(cube.view()))
+}

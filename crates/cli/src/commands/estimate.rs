@@ -1,0 +1,49 @@
+//! `boresight estimate`.
+
+use super::{board, capture, cube, snapshots};
+use crate::arguments::EstimateArguments;
+use crate::error::CliError;
+use crate::files;
+use boresight_formats::{NpyArray, tables};
+use ndarray::Array3;
+
+/// Runs the command and returns what it prints.
+pub fn run(arguments: &EstimateArguments) -> Result<String, CliError> {
+    let path = &arguments.file;
+    match files::ending(path).as_str() {
+        "bin" => capture::run(arguments, &files::read(path)?),
+        "dat" => board::run(arguments, &files::read(path)?),
+        "csv" => {
+            let matrix = tables::read_snapshots(&files::read(path)?)?;
+            let scenes: Array3<_> = matrix.insert_axis(ndarray::Axis(0));
+            snapshots::run(arguments, &scenes)
+        }
+        "npy" => {
+            let array = NpyArray::parse(&files::read(path)?)?;
+            match array.shape.len() {
+                1..=3 => snapshots::run(arguments, &snapshots::scenes(&array)?),
+                _ => cube::run(arguments, &array),
+            }
+        }
+        other => Err(CliError::Option {
+            option: "FILE",
+            expected: "a file ending in .bin, .npy, .csv or .dat".into(),
+            given: if other.is_empty() { "no ending".into() } else { format!(".{other}") },
+        }),
+    }
+}
+
+/// The index `--frame` asks for, checked against their number.
+pub fn frame_within(frame: usize, count: usize) -> Result<usize, CliError> {
+    if frame < count {
+        return Ok(frame);
+    }
+    Err(CliError::Option {
+        option: "--frame",
+        expected: match count {
+            0 => "no frame, since there is none".into(),
+            _ => format!("0 to {}", count - 1),
+        },
+        given: frame.to_string(),
+    })
+}

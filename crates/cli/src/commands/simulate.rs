@@ -1,0 +1,194 @@
+//! `boresight simulate`.
+
+use super::targets::TargetText;
+use crate::arguments::{CubeArguments, SimulateArguments, SimulateCommand, SnapshotArguments};
+use crate::error::CliError;
+use crate::{array, files};
+use boresight_core::error::check_range;
+use boresight_core::imperfections::ImperfectionSpread;
+use boresight_core::{Array, Direction, Imperfections};
+use boresight_formats::npy;
+use boresight_simulate::{
+    CubeOptions, CubeTarget, Field, Fluctuation, Scene, SceneSampling, SnapshotOptions,
+    SnapshotSimulator, Target, simulate_cube,
+};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Runs the command and returns what it prints.
+pub fn run(what: &SimulateCommand) -> Result<String, CliError> {
+    match what {
+        SimulateCommand::Snapshots(arguments) => snapshots(arguments),
+        SimulateCommand::Cube(arguments) => cube(arguments),
+    }
+}
+
+fn snapshots(arguments: &SnapshotArguments) -> Result<String, CliError> {
+    let shared = &arguments.shared;
+    let array = array::array(&shared.array)?;
+    let scene = match arguments.random_targets {
+        Some(targets) => {
+            check_range("--field-of-view (deg)", arguments.field_of_view, 0.1, 90.0)?;
+            let field_of_view_rad = arguments.field_of_view.to_radians();
+            Scene::Sampled(SceneSampling { targets, field_of_view_rad, ..Default::default() })
+        }
+        None if arguments.targets.is_empty() => {
+            return Err(CliError::Option {
+                option: "--target",
+                expected: "at least one target, or --random-targets".into(),
+                given: "none".into(),
+            });
+        }
+        None => {
+            Scene::Given(arguments.targets.iter().map(|t| target(t)).collect::<Result<_, _>>()?)
+        }
+    };
+    let options = SnapshotOptions {
+        scene,
+        snr_db: shared.snr,
+        snapshots: arguments.snapshots,
+        fluctuation: match arguments.fluctuation.as_str() {
+            "complex-normal" => Fluctuation::ComplexNormal,
+            "coherent" => Fluctuation::Coherent,
+            _ => Fluctuation::RandomPhase,
+        },
+        imperfections: imperfections(shared, &array)?,
+        seed: shared.seed,
+    };
+    let result = SnapshotSimulator::new(&array, &options)?
+        .scenes(arguments.first_scene, arguments.scenes)?;
+    let scenes: Vec<Value> = result
+        .truth
+        .iter()
+        .map(|targets| targets.iter().map(target_json).collect::<Value>())
+        .collect();
+    let truth = json!({
+        "array": positions(&array),
+        "snrDb": shared.snr,
+        "seed": shared.seed,
+        "firstScene": arguments.first_scene,
+        "scenes": scenes,
+    });
+    let shape = result.values.shape().to_vec();
+    let values: Vec<_> = result.values.into_iter().collect();
+    write(shared, &shape, &npy::write(&shape, &values)?, &truth)
+}
+
+fn cube(arguments: &CubeArguments) -> Result<String, CliError> {
+    let shared = &arguments.shared;
+    let array = array::array(&shared.array)?;
+    let waveform = files::waveform(&arguments.waveform)?;
+    let targets: Vec<CubeTarget> =
+        arguments.targets.iter().map(|t| cube_target(t)).collect::<Result<_, _>>()?;
+    let options = CubeOptions {
+        snr_db: shared.snr,
+        frames: arguments.frames,
+        field: if arguments.near_field { Field::Near } else { Field::Far },
+        imperfections: imperfections(shared, &array)?,
+        seed: shared.seed,
+    };
+    let result = simulate_cube(&waveform, &array, &targets, &options)?;
+    let truth = json!({
+        "waveform": waveform,
+        "array": positions(&array),
+        "snrDb": shared.snr,
+        "seed": shared.seed,
+        "targets": targets.iter().map(cube_target_json).collect::<Value>(),
+    });
+    let shape = result.shape().to_vec();
+    let values: Vec<_> = result.into_iter().collect();
+    write(shared, &shape, &npy::write(&shape, &values)?, &truth)
+}
+
+/// Writes data and truth, and says so.
+fn write(
+    shared: &SimulateArguments,
+    shape: &[usize],
+    data: &[u8],
+    truth: &Value,
+) -> Result<String, CliError> {
+    let truth_path: PathBuf =
+        shared.truth.clone().unwrap_or_else(|| shared.out.with_extension("json"));
+    if truth_path == shared.out {
+        return Err(CliError::Option {
+            option: "--truth",
+            expected: "another file than --out".into(),
+            given: truth_path.display().to_string(),
+        });
+    }
+    files::write(&shared.out, data)?;
+    files::write(&truth_path, format!("{truth:#}\n").as_bytes())?;
+    Ok(format!(
+        "{}: complex numbers of shape {shape:?}\n{}: the truth\n",
+        shared.out.display(),
+        truth_path.display()
+    ))
+}
+
+fn imperfections(
+    shared: &SimulateArguments,
+    array: &Array,
+) -> Result<Option<Imperfections>, CliError> {
+    let spread = ImperfectionSpread {
+        gain_db: shared.gain_error,
+        phase_rad: shared.phase_error.to_radians(),
+        position: shared.position_error,
+        coupling_db: shared.coupling,
+    };
+    if spread == ImperfectionSpread::default() {
+        return Ok(None);
+    }
+    Ok(Some(Imperfections::random(array, spread, shared.seed)?))
+}
+
+fn direction(text: &TargetText<'_>) -> Result<Direction, CliError> {
+    let (azimuth_deg, elevation_deg) =
+        (text.get("azimuth").unwrap_or(0.0), text.get("elevation").unwrap_or(0.0));
+    check_range("azimuth (deg)", azimuth_deg, -90.0, 90.0)?;
+    check_range("elevation (deg)", elevation_deg, -90.0, 90.0)?;
+    Ok(Direction::new(azimuth_deg.to_radians(), elevation_deg.to_radians()))
+}
+
+fn target(text: &str) -> Result<Target, CliError> {
+    let text = TargetText::parse(text, &["azimuth", "elevation", "power", "phase"])?;
+    text.need("azimuth")?;
+    Ok(Target {
+        direction: direction(&text)?,
+        power_db: text.get("power").unwrap_or(0.0),
+        phase_rad: text.get("phase").map(f64::to_radians),
+    })
+}
+
+fn cube_target(text: &str) -> Result<CubeTarget, CliError> {
+    let keys = ["range", "rate", "azimuth", "elevation", "power", "phase"];
+    let text = TargetText::parse(text, &keys)?;
+    Ok(CubeTarget {
+        range_m: text.need("range")?,
+        rate_mps: text.get("rate").unwrap_or(0.0),
+        direction: direction(&text)?,
+        power_db: text.get("power").unwrap_or(0.0),
+        phase_rad: text.get("phase").map(f64::to_radians),
+    })
+}
+
+fn target_json(target: &Target) -> Value {
+    json!({
+        "azimuthDeg": target.direction.azimuth_rad.to_degrees(),
+        "elevationDeg": target.direction.elevation_rad.to_degrees(),
+        "powerDb": target.power_db,
+    })
+}
+
+fn cube_target_json(target: &CubeTarget) -> Value {
+    json!({
+        "rangeM": target.range_m,
+        "rateMps": target.rate_mps,
+        "azimuthDeg": target.direction.azimuth_rad.to_degrees(),
+        "elevationDeg": target.direction.elevation_rad.to_degrees(),
+        "powerDb": target.power_db,
+    })
+}
+
+fn positions(array: &Array) -> Value {
+    json!({ "positions": array.positions(), "tx": array.tx(), "rx": array.rx() })
+}

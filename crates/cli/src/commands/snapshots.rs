@@ -1,0 +1,82 @@
+//! Snapshots of an array.
+
+use super::chain::angle_options;
+use super::estimate::frame_within;
+use crate::arguments::EstimateArguments;
+use crate::array;
+use crate::error::CliError;
+use crate::output::{Column, Table, remark};
+use boresight_aoa::{Data, Estimator};
+use boresight_core::units::power_to_db;
+use boresight_core::{Complex64, CoreError};
+use boresight_formats::NpyArray;
+use ndarray::{Array3, Axis};
+
+/// Scenes x elements x snapshots; a vector is one snapshot, a matrix elements x snapshots.
+pub fn scenes(file: &NpyArray) -> Result<Array3<Complex64>, CliError> {
+    let shape = match file.shape[..] {
+        [elements] => [1, elements, 1],
+        [elements, snapshots] => [1, elements, snapshots],
+        [scenes, elements, snapshots] => [scenes, elements, snapshots],
+        _ => [0; 3],
+    };
+    Array3::from_shape_vec(shape, file.to_complex64()).map_err(|_| {
+        CoreError::Shape {
+            what: "snapshots".into(),
+            expected: "1 to 3 axes".into(),
+            given: file.shape.clone(),
+        }
+        .into()
+    })
+}
+
+/// Angles in each scene.
+pub fn run(arguments: &EstimateArguments, scenes: &Array3<Complex64>) -> Result<String, CliError> {
+    let name = arguments.array.as_ref().ok_or_else(|| CliError::Option {
+        option: "--array",
+        expected: "the array that took the snapshots".into(),
+        given: "nothing".into(),
+    })?;
+    let (method, options) = angle_options(&arguments.angle)?;
+    let mut estimator = Estimator::new(method, &array::array(name)?, &options)?;
+    let count = scenes.len_of(Axis(0));
+    let chosen = match arguments.frame {
+        Some(frame) => {
+            let frame = frame_within(frame, count)?;
+            frame..frame + 1
+        }
+        None => 0..count,
+    };
+    let mut rows = vec![];
+    let mut notes: Vec<String> = vec![];
+    for scene in chosen {
+        let estimate = estimator.estimate(Data::Snapshots(scenes.index_axis(Axis(0), scene)))?;
+        for warning in &estimate.warnings {
+            let note = warning.to_string();
+            if !notes.contains(&note) && notes.len() < 20 {
+                notes.push(note);
+            }
+        }
+        rows.extend(estimate.sources.iter().map(|source| {
+            vec![
+                scene as f64,
+                source.direction.azimuth_rad.to_degrees(),
+                source.direction.elevation_rad.to_degrees(),
+                power_to_db(source.power),
+            ]
+        }));
+    }
+    remark(notes);
+    let column = |json, csv, digits| Column { json, csv, digits };
+    let table = Table {
+        columns: vec![
+            column("scene", "scene", 0),
+            column("azimuthDeg", "azimuth_deg", 3),
+            column("elevationDeg", "elevation_deg", 3),
+            column("powerDb", "power_db", 2),
+        ],
+        rows,
+        empty: "no sources",
+    };
+    table.render(&arguments.output)
+}

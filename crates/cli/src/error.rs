@@ -1,0 +1,140 @@
+//! Errors of the command line, and the one place that prints them.
+
+use boresight_aoa::AoaError;
+use boresight_core::{CoreError, Details, Diagnose};
+use boresight_formats::FormatError;
+use boresight_pipeline::PipelineError;
+use boresight_signal::SignalError;
+use boresight_simulate::SimulateError;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use thiserror::Error;
+
+/// Exit code of a run stopped by Ctrl-C: 128 and the signal's number.
+const INTERRUPTED: u8 = 130;
+
+/// What can go wrong.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum CliError {
+    /// An argument is wrong in itself.
+    #[error(transparent)]
+    Argument(#[from] CoreError),
+    /// A file breaks the rules of its format.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// Signal processing refused.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+    /// Angle estimation refused.
+    #[error(transparent)]
+    Angle(#[from] AoaError),
+    /// The chain refused, or was stopped.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// Simulation refused.
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
+    /// The system refused a file.
+    #[error("cannot {action} {}: {error}", path.display())]
+    File {
+        /// What was tried.
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// A JSON file breaks its rules.
+    #[error("{}: {error}; expected {expected}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What would have been accepted.
+        expected: &'static str,
+        /// What the reader says.
+        error: serde_json::Error,
+    },
+    /// An option that the file needs is not there, or does not go with it.
+    #[error("{option} is {given}; expected {expected}")]
+    Option {
+        /// The option.
+        option: &'static str,
+        /// What would have been accepted.
+        expected: String,
+        /// What was given.
+        given: String,
+    },
+    /// The handler of Ctrl-C cannot be set.
+    #[error("cannot watch for Ctrl-C: {0}")]
+    Interrupts(#[from] ctrlc::Error),
+}
+
+impl CliError {
+    /// The code the process ends with: 2 for a wrong use of options, as for errors of the option
+    /// parser; 130 for Ctrl-C; 1 otherwise.
+    pub fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Pipeline(PipelineError::Cancelled { .. }) => ExitCode::from(INTERRUPTED),
+            Self::Option { .. } => ExitCode::from(2),
+            _ => ExitCode::FAILURE,
+        }
+    }
+
+    /// Message, and what was expected and given, in lines.
+    pub fn report(&self) -> String {
+        let details = self.details();
+        format!(
+            "error: {self}\n  what:     {}\n  expected: {}\n  given:    {}\n  code:     {}\n",
+            details.what,
+            details.expected,
+            details.given,
+            self.code()
+        )
+    }
+
+    fn inner(&self) -> Option<&dyn Diagnose> {
+        Some(match self {
+            Self::Argument(error) => error,
+            Self::Format(error) => error,
+            Self::Signal(error) => error,
+            Self::Angle(error) => error,
+            Self::Pipeline(error) => error,
+            Self::Simulate(error) => error,
+            _ => return None,
+        })
+    }
+}
+
+impl Diagnose for CliError {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::File { .. } => "file",
+            Self::Json { .. } => "malformed-file",
+            Self::Option { .. } => "option",
+            Self::Interrupts(_) => "interrupts",
+            _ => self.inner().map_or("unknown", Diagnose::code),
+        }
+    }
+
+    fn details(&self) -> Details {
+        match self {
+            Self::File { action, path, error } => Details::new(
+                path.display().to_string(),
+                format!(
+                    "a file that can be {}",
+                    if *action == "read" { "read" } else { "written" }
+                ),
+                error.to_string(),
+            ),
+            Self::Json { path, expected, error } => {
+                Details::new(path.display().to_string(), *expected, error.to_string())
+            }
+            Self::Option { option, expected, given } => Details::new(*option, expected, given),
+            Self::Interrupts(error) => {
+                Details::new("Ctrl-C", "a handler that can be set", error.to_string())
+            }
+            _ => self.inner().map_or_else(|| Details::new("", "", ""), Diagnose::details),
+        }
+    }
+}

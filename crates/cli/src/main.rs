@@ -1,0 +1,46 @@
+//! `boresight`: angles from radar captures and snapshots, and simulation, on the command line.
+//!
+//! Angles are in degrees here and in radians behind it.
+
+mod arguments;
+mod array;
+mod commands;
+mod error;
+mod files;
+mod output;
+mod run;
+
+use arguments::{Cli, Command};
+use clap::Parser;
+use error::CliError;
+use std::io::Write;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let result = match cli.command {
+        Command::Estimate(arguments) => commands::estimate::run(&arguments),
+        Command::Simulate { what } => commands::simulate::run(&what),
+        Command::Methods(format) => commands::lists::methods(format.json),
+        Command::Arrays(format) => commands::lists::arrays(format.json),
+    };
+    match result.and_then(|text| print(&text)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // Nothing is left to do where even the standard error is closed.
+            let _ = std::io::stderr().write_all(error.report().as_bytes());
+            error.exit_code()
+        }
+    }
+}
+
+/// Writes to the standard output. A reader that has seen enough is no error.
+fn print(text: &str) -> Result<(), CliError> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(CliError::File { action: "write", path: "the standard output".into(), error })
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,44 @@
+//! Progress on the standard error, and Ctrl-C.
+
+use crate::error::CliError;
+use boresight_pipeline::Progress;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Shows progress where the standard error is a terminal, and stops at Ctrl-C.
+pub struct Run {
+    bar: ProgressBar,
+    stop: Arc<AtomicBool>,
+}
+
+impl Run {
+    /// Starts watching; once in a process.
+    pub fn start() -> Result<Self, CliError> {
+        let stop = Arc::new(AtomicBool::new(false));
+        let asked = stop.clone();
+        ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed))?;
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left") {
+            bar.set_style(style);
+        }
+        Ok(Self { bar, stop })
+    }
+
+    /// Shows where the run is; breaks if Ctrl-C was pressed.
+    pub fn report(&self, progress: Progress) -> ControlFlow<()> {
+        self.bar.set_length(progress.total as u64);
+        self.bar.set_position(progress.done as u64);
+        if self.stop.load(Ordering::Relaxed) {
+            self.bar.finish_and_clear();
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Takes the bar off the terminal.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
