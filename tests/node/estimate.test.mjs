@@ -145,8 +145,8 @@ describe('handles', () => {
     const estimator = new Estimator(options);
     estimator.estimate(input);
     estimator.free();
-    throwsTyped(() => estimator.estimate(input), 'freed', 'Estimator');
-    throwsTyped(() => estimator.free(), 'freed', 'Estimator');
+    throwsTyped(() => estimator.estimate(input), 'handle-freed', 'Estimator');
+    throwsTyped(() => estimator.free(), 'handle-freed', 'Estimator');
     estimator[Symbol.dispose]();
   });
 

@@ -42,9 +42,9 @@ test('after a trap calls say so, and init() gives a fresh instance', async () =>
   throwsTyped(() => stale.estimate(input), 'trap');
   await Promise.all([init(), init()]);
   assert.ok(estimate(input, options).sources.length > 0);
-  throwsTyped(() => stale.estimate(input), 'stale-handle', 'Estimator');
+  throwsTyped(() => stale.estimate(input), 'handle-stale', 'Estimator');
   stale.free();
-  throwsTyped(() => stale.free(), 'freed', 'Estimator');
+  throwsTyped(() => stale.free(), 'handle-freed', 'Estimator');
 });
 
 test('errors show their parts as JSON', () => {

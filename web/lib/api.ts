@@ -9,3 +9,5 @@ export { parseConfig, waveformSummary } from './config.js';
 export { BoardLogStream, parseBoardLog } from './board.js';
 export { readDetectionsCsv, readNpy, readSnapshotsCsv, writeDetectionsCsv, writeNpy, writeSnapshotsCsv } from './files.js';
 export { countSources, cramerRaoBound } from './theory.js';
+export { simulateCube, simulateSnapshots } from './simulate.js';
+export { Capture, processCube } from './capture.js';

@@ -7,6 +7,7 @@ const dispose: typeof Symbol.dispose = Symbol.dispose ?? Symbol.for('Symbol.disp
 export class Handle<Raw extends { free(): void }> {
   readonly #instance = instanceNumber();
   #raw: Raw | undefined;
+  #busy = false;
 
   protected constructor(make: () => Raw) {
     this.#raw = call(make);
@@ -14,13 +15,20 @@ export class Handle<Raw extends { free(): void }> {
 
   /** Runs a method of the raw handle. */
   protected use<T>(work: (raw: Raw) => T): T {
-    return call(() => work(this.#live()));
+    const raw = this.#idle();
+    this.#busy = true;
+    try {
+      return call(() => work(raw));
+    } finally {
+      this.#busy = false;
+    }
   }
 
   /** Gives the memory back. The handle cannot be used any more, nor freed again. */
   free(): void {
     const raw = this.#raw;
     if (raw === undefined) throw this.#misuse('freed');
+    if (this.#busy) throw this.#misuse('busy');
     this.#raw = undefined;
     // The memory of a dead instance went with it.
     if (isAlive(this.#instance)) call(() => raw.free());
@@ -31,14 +39,18 @@ export class Handle<Raw extends { free(): void }> {
     if (this.#raw !== undefined) this.free();
   }
 
-  #live(): Raw {
+  #idle(): Raw {
     if (this.#raw === undefined) throw this.#misuse('freed');
-    if (this.#instance !== instanceNumber()) throw this.#misuse('of an instance that stopped');
+    if (this.#instance !== instanceNumber()) throw this.#misuse('stale');
+    // A callback of a running method called another one.
+    if (this.#busy) throw this.#misuse('busy');
     return this.#raw;
   }
 
-  #misuse(given: string): Error {
-    const code = given === 'freed' ? 'freed' : 'stale-handle';
-    return failure(code, { what: this.constructor.name, expected: 'a live handle', given });
+  #misuse(state: keyof typeof misuses): Error {
+    const given = misuses[state];
+    return failure(`handle-${state}`, { what: this.constructor.name, expected: 'a live, idle handle', given });
   }
 }
+
+const misuses = { freed: 'freed', stale: 'of an instance that stopped', busy: 'busy with another call' };

@@ -181,12 +181,24 @@ export interface SnapshotTarget {
   phaseDeg?: number;
 }
 
+/** Rule by which scenes are drawn, every quantity uniform. */
+export interface SceneSampling {
+  /** Default 0 to 16. */
+  count?: readonly [fewest: number, most: number];
+  /** Half width, default 60. */
+  fieldOfViewDeg?: number;
+  /** Half width, default 0. */
+  elevationFieldOfViewDeg?: number;
+  /** Default -13 to 0. */
+  powerDb?: readonly [lowest: number, highest: number];
+}
+
 export interface SnapshotOptions {
   array: ArrayInput;
   /** Given targets, or a rule to sample them from. */
   targets:
     | readonly SnapshotTarget[]
-    | { count: readonly [fewest: number, most: number]; fieldOfViewDeg?: number; powerDb?: readonly [number, number] };
+    | SceneSampling;
   snrDb: number;
   /** Snapshots a scene, default 1. */
   snapshots?: number;
@@ -194,10 +206,21 @@ export interface SnapshotOptions {
   scenes?: number;
   /** First scene's number, for splitting a sweep; default 0. */
   firstScene?: number;
-  /** Whether targets fluctuate from snapshot to snapshot (default), or all move in step. */
-  coherent?: boolean;
+  /**
+   * How amplitudes change from snapshot to snapshot: a new phase for each target (default), a new
+   * complex normal amplitude (the model of the stochastic bound), or one new phase for all.
+   */
+  fluctuation?: 'random-phase' | 'complex-normal' | 'coherent';
   imperfections?: Imperfections;
   seed: number | bigint;
+}
+
+export interface TrueTarget {
+  azimuthDeg: number;
+  elevationDeg: number;
+  powerDb: number;
+  /** Phase of the first snapshot, unless amplitudes are complex normal. */
+  phaseDeg?: number;
 }
 
 export interface SnapshotResult extends ComplexData {
@@ -205,7 +228,7 @@ export interface SnapshotResult extends ComplexData {
   data: Float64Array;
   shape: [scenes: number, elements: number, snapshots: number];
   /** Targets of each scene. */
-  truth: { azimuthDeg: number; elevationDeg: number; powerDb: number }[][];
+  truth: TrueTarget[][];
 }
 
 export interface Waveform {
@@ -239,6 +262,8 @@ export interface CubeTarget {
   elevationDeg?: number;
   /** Power of one raw sample at one element, dB. Default 0. */
   powerDb?: number;
+  /** Phase of the reflection; drawn from the seed if absent. */
+  phaseDeg?: number;
 }
 
 export interface CubeOptions {
@@ -286,8 +311,32 @@ export interface ChainOptions {
   /** Limits outside which detections are dropped (and counted). */
   region?: { rangeM?: readonly [number, number]; rateMps?: readonly [number, number]; azimuthDeg?: readonly [number, number] };
   /** Estimator for each detection's angle; its array is the chain's. */
-  angle?: Omit<EstimatorOptions, 'array'>;
+  angle?: AngleOptions;
   maxDetections?: number;
+}
+
+/** Options of an estimator whose array is known; default method `bartlett`. */
+export type AngleOptions = Omit<EstimatorOptions, 'array' | 'method'> & { method?: Method };
+
+export interface CombineOptions extends ChainOptions {
+  /** Default 0. */
+  firstFrame?: number;
+  /** Default all that are left. */
+  frameCount?: number;
+}
+
+/** Options of the chain over a cube, of which nothing else is known. */
+export interface CubeChainOptions extends ChainOptions {
+  waveform: Waveform;
+  array: ArrayInput;
+}
+
+/** A cell of the range-Doppler map. */
+export interface Cell {
+  rangeBin: number;
+  dopplerBin: number;
+  /** One frame, for one snapshot; else one snapshot of each frame. */
+  frame?: number;
 }
 
 export interface Detection {
@@ -304,8 +353,24 @@ export interface Detection {
   dopplerBin: number;
 }
 
+/** What became of cells and samples. */
+export interface FrameCounts {
+  cellsOverThreshold: number;
+  /** Of these, cells grouped under a stronger neighbour. */
+  grouped: number;
+  outsideRegion: number;
+  beyondLimit: number;
+  /** Cells in which the method found no angle. */
+  withoutAngle: number;
+  /** Samples at an end of the converter's range. */
+  clippedSamples: number;
+}
+
 export interface FrameResult {
+  /** The first one where frames were combined. */
   frame: number;
+  /** Frames that went in. */
+  frames: number;
   rangeM: Float64Array;
   rateMps: Float64Array;
   /** Mean over channels, Doppler summed, dB. */
@@ -314,8 +379,7 @@ export interface FrameResult {
   rangeDopplerDb: Float32Array;
   shape: [range: number, doppler: number];
   detections: Detection[];
-  /** What was dropped, and why. */
-  counts: { cellsOverThreshold: number; grouped: number; outsideRegion: number; beyondLimit: number; clippedSamples: number };
+  counts: FrameCounts;
   warnings: Warning[];
 }
 
@@ -352,7 +416,9 @@ export interface CaptureInfo {
   frames: number;
   /** Bytes after the last whole frame. */
   trailingBytes: number;
-  array: ArrayGeometry;
+  /** Virtual array of the configured channels; null for a platform that is not known. */
+  array: ArrayGeometry | null;
+  warnings: Warning[];
 }
 
 /** An object the board itself detected. */

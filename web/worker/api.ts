@@ -52,6 +52,95 @@ export class Pool {
     return this.#one('cramerRaoBound', [options], job);
   }
 
+  /** Scenes are split over the workers; progress counts scenes. */
+  async simulateSnapshots(options: lib.SnapshotOptions, job?: JobOptions): Promise<lib.SnapshotResult> {
+    const { scenes = 1, firstScene = 0 } = options;
+    if (!Number.isInteger(scenes) || scenes < 2) return this.#one('simulateSnapshots', [options], job);
+    const pieces = split(scenes, this.workers).map(({ first, count }): Piece<'simulateSnapshots'> => ({
+      name: 'simulateSnapshots',
+      args: [{ ...options, scenes: count, firstScene: firstScene + first }],
+      units: count,
+    }));
+    return joined(await this.#crew.run(pieces, job));
+  }
+
+  simulateCube(options: lib.CubeOptions, job?: JobOptions): Promise<lib.CubeResult> {
+    return this.#one('simulateCube', [options], job);
+  }
+
+  processCube(cube: lib.ComplexData, options: lib.CubeChainOptions, job?: JobOptions): Promise<lib.FrameResult[]> {
+    return this.#one('processCube', [cube, options], job);
+  }
+
+  /** What is known of a capture before any processing. */
+  captureInfo(bytes: lib.BytesInput, config: lib.TextInput, job?: JobOptions): Promise<lib.CaptureInfo> {
+    return this.#one('captureInfo', [bytes, config], job);
+  }
+
+  /** Detections of one frame. */
+  processFrame(
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    frame: number,
+    options?: lib.ChainOptions,
+    job?: JobOptions,
+  ): Promise<lib.FrameResult> {
+    return this.#one('processFrame', [bytes, config, frame, options], job);
+  }
+
+  /** Detections of every frame, each by itself, split over the workers; progress counts frames. */
+  async processFrames(
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    options?: lib.ChainOptions,
+    job: JobOptions = {},
+  ): Promise<lib.FrameResult[]> {
+    const { signal } = job;
+    const { frameBytes } = await this.parseConfig(config, signal ? { signal } : {});
+    const all = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
+    // Without a whole frame one worker gets the bytes, for its error.
+    const frames = Math.max(1, Math.floor(all.byteLength / frameBytes));
+    const pieces = split(frames, this.workers).map(({ first, count }): Piece<'processStretch'> => ({
+      name: 'processStretch',
+      args: [all.subarray(first * frameBytes, (first + count) * frameBytes), config, first, options],
+      units: count,
+    }));
+    return (await this.#crew.run(pieces, { ...job, transfer: false })).flat();
+  }
+
+  /** Detections of all frames, or of some, together. */
+  combineFrames(
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    options?: lib.CombineOptions,
+    job?: JobOptions,
+  ): Promise<lib.FrameResult> {
+    return this.#one('combineFrames', [bytes, config, options], job);
+  }
+
+  /** Snapshots of a cell (elements x frames). */
+  cellSnapshots(
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    cell: lib.Cell,
+    options?: lib.ChainOptions,
+    job?: JobOptions,
+  ): Promise<lib.ComplexData> {
+    return this.#one('cellSnapshots', [bytes, config, cell, options], job);
+  }
+
+  /** Angles and spectrum of a cell by any method. */
+  cellSpectrum(
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    cell: lib.Cell,
+    angle?: lib.AngleOptions,
+    options?: lib.ChainOptions,
+    job?: JobOptions,
+  ): Promise<lib.Estimate> {
+    return this.#one('cellSpectrum', [bytes, config, cell, angle, options], job);
+  }
+
   waveformSummary(waveform: lib.Waveform, job?: JobOptions): Promise<lib.WaveformSummary> {
     return this.#one('waveformSummary', [waveform], job);
   }
@@ -115,4 +204,18 @@ export class Pool {
     const [result] = await this.#crew.run([{ name, args, units: 1 }], job);
     return result as ReturnType<Operations[N]>;
   }
+}
+
+/** The scenes of several results, one after another. */
+function joined(results: lib.SnapshotResult[]): lib.SnapshotResult {
+  const [first] = results;
+  const [, elements, snapshots] = first?.shape ?? [0, 0, 0];
+  const data = new Float64Array(results.reduce((sum, result) => sum + result.data.length, 0));
+  let at = 0;
+  for (const result of results) {
+    data.set(result.data, at);
+    at += result.data.length;
+  }
+  const truth = results.flatMap((result) => result.truth);
+  return { data, shape: [truth.length, elements, snapshots], truth };
 }

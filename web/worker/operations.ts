@@ -1,15 +1,65 @@
 // What a worker can do: the plain functions of the package, and pieces of the batch helpers.
 import * as api from '../lib/api.js';
-import type { Estimate, EstimateInput, EstimatorOptions } from '../lib/api.js';
+import type {
+  AngleOptions, BytesInput, CaptureInfo, Cell, ChainOptions, CombineOptions, ComplexData, Estimate, EstimateInput,
+  EstimatorOptions, FrameResult, TextInput,
+} from '../lib/api.js';
+
+/** What an operation is called on. */
+export interface Context {
+  /** Tells the pool how far the piece is. */
+  report(done: number, total: number): void;
+}
+
+/** Runs `work` with a handle and frees it. */
+function freeing<H extends { free(): void }, T>(handle: H, work: (handle: H) => T): T {
+  try {
+    return work(handle);
+  } finally {
+    handle.free();
+  }
+}
 
 /** Estimates of many inputs with one estimator. */
 function estimateMany(inputs: readonly EstimateInput[], options: EstimatorOptions): Estimate[] {
-  const estimator = new api.Estimator(options);
-  try {
-    return inputs.map((input) => estimator.estimate(input));
-  } finally {
-    estimator.free();
-  }
+  return freeing(new api.Estimator(options), (estimator) => inputs.map((input) => estimator.estimate(input)));
+}
+
+function captureInfo(bytes: BytesInput, config: TextInput): CaptureInfo {
+  return freeing(new api.Capture(bytes, config), ({ info }) => info);
+}
+
+function processFrame(bytes: BytesInput, config: TextInput, frame: number, options?: ChainOptions): FrameResult {
+  return freeing(new api.Capture(bytes, config), (capture) => capture.processFrame(frame, options));
+}
+
+/** Every frame of a stretch of a capture that begins with frame `first`. */
+function processStretch(bytes: BytesInput, config: TextInput, first: number, options?: ChainOptions): FrameResult[] {
+  return freeing(new api.Capture(bytes, config), (capture) =>
+    Array.from({ length: capture.info.frames }, (_, index) => {
+      const result = capture.processFrame(index, options);
+      for (const part of [result, ...result.detections]) part.frame += first;
+      return result;
+    }));
+}
+
+function combineFrames(this: Context, bytes: BytesInput, config: TextInput, options?: CombineOptions): FrameResult {
+  return freeing(new api.Capture(bytes, config), (capture) =>
+    capture.combineFrames(options, (done, total) => this.report(done, total)));
+}
+
+function cellSnapshots(bytes: BytesInput, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
+  return freeing(new api.Capture(bytes, config), (capture) => capture.cellSnapshots(cell, options));
+}
+
+function cellSpectrum(
+  bytes: BytesInput,
+  config: TextInput,
+  cell: Cell,
+  angle?: AngleOptions,
+  options?: ChainOptions,
+): Estimate {
+  return freeing(new api.Capture(bytes, config), (capture) => capture.cellSpectrum(cell, angle, options));
 }
 
 export const operations = {
@@ -18,10 +68,20 @@ export const operations = {
   arrayPresets: api.arrayPresets,
   array: api.array,
   estimate: api.estimate,
+  estimateMany,
   countSources: api.countSources,
   cramerRaoBound: api.cramerRaoBound,
+  simulateSnapshots: api.simulateSnapshots,
+  simulateCube: api.simulateCube,
+  processCube: api.processCube,
   waveformSummary: api.waveformSummary,
   parseConfig: api.parseConfig,
+  captureInfo,
+  processFrame,
+  processStretch,
+  combineFrames,
+  cellSnapshots,
+  cellSpectrum,
   parseBoardLog: api.parseBoardLog,
   readNpy: api.readNpy,
   writeNpy: api.writeNpy,
@@ -29,5 +89,4 @@ export const operations = {
   writeDetectionsCsv: api.writeDetectionsCsv,
   readSnapshotsCsv: api.readSnapshotsCsv,
   writeSnapshotsCsv: api.writeSnapshotsCsv,
-  estimateMany,
 };

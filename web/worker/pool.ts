@@ -40,11 +40,16 @@ interface Job {
   /** Units done. */
   done: number;
   total: number;
+  /** Whether the worker itself says how far the job is. */
+  reported: boolean;
   options: JobOptions;
   settled: boolean;
   resolve(results: unknown[]): void;
   reject(reason: unknown): void;
 }
+
+/** How a piece ended. */
+type Outcome = Exclude<Reply, { done: number }>;
 
 interface Task {
   job: Job;
@@ -89,6 +94,7 @@ export class Crew {
         finished: 0,
         done: 0,
         total: pieces.reduce((sum, piece) => sum + piece.units, 0),
+        reported: false,
         options,
         settled: false,
         resolve: resolve as (results: unknown[]) => void,
@@ -195,12 +201,16 @@ export class Crew {
   #finish(member: Member, reply: Reply): void {
     const task = member.task;
     if (!task) return;
+    if ('done' in reply) {
+      this.#report(task.job, reply.done, reply.total);
+      return;
+    }
     this.#release(member);
     this.#settle(task, reply);
     this.#dispatch();
   }
 
-  #settle({ job, index }: Task, reply: Reply): void {
+  #settle({ job, index }: Task, reply: Outcome): void {
     if (job.settled) return;
     if ('error' in reply) {
       job.reject(BoresightError.fromPlain(reply.error));
@@ -209,12 +219,19 @@ export class Crew {
     job.results[index] = reply.result;
     job.finished += 1;
     job.done += job.pieces[index]?.units ?? 0;
+    // A job of one piece that reports by itself has done so.
+    if (!job.reported) this.#report(job, job.done, job.total);
+    if (job.finished === job.pieces.length) job.resolve(job.results);
+  }
+
+  #report(job: Job, done: number, total: number): void {
+    if (job.settled) return;
+    job.reported ||= job.finished === 0;
     try {
-      job.options.onProgress?.(job.done, job.total);
+      job.options.onProgress?.(done, total);
     } catch (thrown) {
       job.reject(thrown);
     }
-    if (job.finished === job.pieces.length) job.resolve(job.results);
   }
 
   #lose(member: Member, reason: string): void {

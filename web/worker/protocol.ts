@@ -17,8 +17,11 @@ export interface Request {
   args: readonly unknown[];
 }
 
-/** Its outcome. */
-export type Reply = { id: number; result: unknown } | { id: number; error: PlainError };
+/** Its outcome, or how far it is. */
+export type Reply =
+  | { id: number; result: unknown }
+  | { id: number; error: PlainError }
+  | { id: number; done: number; total: number };
 
 /** What the pool needs of a worker, whichever runtime it lives in. */
 export interface WorkerLike {

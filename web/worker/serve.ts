@@ -1,7 +1,7 @@
 // The inside of a worker.
 import { BoresightError, failure } from '../lib/errors.js';
 import { initSync } from '../lib/instance.js';
-import { operations } from './operations.js';
+import { type Context, operations } from './operations.js';
 import type { Reply, Request, Setup } from './protocol.js';
 import { buffersOf } from './transfer.js';
 
@@ -17,8 +17,9 @@ export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (
     try {
       if (module === undefined) throw failure('not-initialised', { what: 'worker', expected: 'a module', given: 'none' });
       initSync(module); // makes a fresh instance where the last one stopped
-      const operation = operations[name] as (...args: readonly unknown[]) => unknown;
-      const result = operation(...args);
+      const operation = operations[name] as (this: Context, ...args: readonly unknown[]) => unknown;
+      const report = (done: number, total: number): void => post({ id, done, total }, []);
+      const result = operation.apply({ report }, args as unknown[]);
       post({ id, result }, buffersOf(result));
     } catch (thrown) {
       post({ id, error: asTyped(thrown).toPlain() }, []);

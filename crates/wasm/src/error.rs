@@ -4,6 +4,9 @@ use crate::write::Record;
 use boresight_aoa::AoaError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_formats::FormatError;
+use boresight_pipeline::PipelineError;
+use boresight_signal::SignalError;
+use boresight_simulate::SimulateError;
 use thiserror::Error;
 use wasm_bindgen::JsValue;
 
@@ -23,6 +26,15 @@ pub enum BindingError {
     /// A file cannot be read or written.
     #[error(transparent)]
     Format(#[from] FormatError),
+    /// The chain from frames to detections refused.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// A step of signal processing refused.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+    /// A simulation is impossible.
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
     /// A value of the wrong type.
     #[error("{what} is {given}; expected {expected}")]
     Type {
@@ -65,6 +77,9 @@ impl Diagnose for BindingError {
             Self::Argument(error) => error.code(),
             Self::Aoa(error) => error.code(),
             Self::Format(error) => error.code(),
+            Self::Pipeline(error) => error.code(),
+            Self::Signal(error) => error.code(),
+            Self::Simulate(error) => error.code(),
             Self::Type { .. } => "wrong-type",
             Self::Missing { .. } => "missing",
             Self::UnknownField { .. } => "unknown-option",
@@ -77,6 +92,9 @@ impl Diagnose for BindingError {
             Self::Argument(error) => error.details(),
             Self::Aoa(error) => error.details(),
             Self::Format(error) => error.details(),
+            Self::Pipeline(error) => error.details(),
+            Self::Signal(error) => error.details(),
+            Self::Simulate(error) => error.details(),
             Self::Type { what, expected, given } => Details::new(what, expected, given),
             Self::Missing { what, expected } => Details::new(what, expected, "nothing"),
             Self::UnknownField { what, expected } => {

@@ -108,7 +108,7 @@ impl Input {
             Self::Snapshots(data) => Ok(Data::Snapshots(as_matrix(data, "snapshots")?)),
             Self::Covariance(data, snapshots) => {
                 let [rows, columns] = data.shape[..] else {
-                    return Err(shape_error("covariance", "[elements, elements]", data));
+                    return Err(shape_error("covariance", "[elements, elements]", &data.shape));
                 };
                 let matrix = matrix(rows, columns, data, "covariance")?;
                 Ok(Data::Covariance { matrix, snapshots: *snapshots })
@@ -122,7 +122,7 @@ pub fn as_matrix<'a>(data: &'a ComplexData, what: &str) -> Fallible<ArrayView2<'
     match data.shape[..] {
         [elements] => matrix(elements, 1, data, what),
         [elements, snapshots] => matrix(elements, snapshots, data, what),
-        _ => Err(shape_error(what, "[elements, snapshots]", data)),
+        _ => Err(shape_error(what, "[elements, snapshots]", &data.shape)),
     }
 }
 
@@ -133,11 +133,12 @@ fn matrix<'a>(
     what: &str,
 ) -> Fallible<ArrayView2<'a, Complex64>> {
     ArrayView2::from_shape((rows, columns), &data.data)
-        .map_err(|_| shape_error(what, "a matrix", data))
+        .map_err(|_| shape_error(what, "a matrix", &data.shape))
 }
 
-fn shape_error(what: &str, expected: &str, data: &ComplexData) -> BindingError {
-    let given = data.shape.clone();
+/// The error for data of the wrong shape.
+pub fn shape_error(what: &str, expected: &str, given: &[usize]) -> BindingError {
+    let given = given.to_vec();
     CoreError::Shape { what: what.into(), expected: expected.into(), given }.into()
 }
 

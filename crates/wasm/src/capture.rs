@@ -1,0 +1,240 @@
+//! Recorded and simulated frames through the chain.
+
+use crate::array::geometry;
+use crate::bytes::Bytes;
+use crate::chain::{read_angle, read_chain};
+use crate::complex::ComplexData;
+use crate::config::{config_record, read_config, remarks};
+use crate::error::{BindingError, Fallible};
+use crate::estimate::{estimate_record, shape_error};
+use crate::frames::frame_record;
+use crate::read::{Fields, Read};
+use crate::write::{Record, complex64, list};
+use boresight_aoa::Method;
+use boresight_core::error::check_range;
+use boresight_core::{Array, Complex64, Waveform};
+use boresight_formats::{self as formats, RadarConfig};
+use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameSource, Progress};
+use js_sys::Function;
+use ndarray::{Array2, ArrayView5};
+use std::ops::{ControlFlow, Range};
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// A raw capture with its configuration. The chain planned last is kept.
+#[wasm_bindgen]
+pub struct Capture {
+    bytes: Vec<u8>,
+    config: RadarConfig,
+    array: Option<Array>,
+    frames: usize,
+    chain: Option<Chain>,
+}
+
+/// The frames of a capture.
+struct Recording<'a>(formats::Capture<'a>);
+
+impl FrameSource for Recording<'_> {
+    type Error = BindingError;
+
+    fn frames(&self) -> usize {
+        self.0.frames()
+    }
+
+    fn frame(&self, index: usize) -> Fallible<Frame> {
+        let raw = self.0.frame(index)?;
+        Ok(Frame { samples: raw.samples, clipped: raw.clipped })
+    }
+}
+
+#[wasm_bindgen]
+impl Capture {
+    /// Lays the configuration over the bytes.
+    #[wasm_bindgen(constructor)]
+    pub fn new(bytes: &JsValue, config: &JsValue) -> Fallible<Self> {
+        let config = read_config(config, "configuration")?;
+        let bytes = Bytes::read(bytes, "capture")?.0;
+        let frames = formats::Capture::new(&bytes, &config)?.frames();
+        let array = config.array();
+        Ok(Self { bytes, config, array, frames, chain: None })
+    }
+
+    /// What is known before any processing.
+    pub fn info(&self) -> Fallible<JsValue> {
+        let layout = formats::Capture::new(&self.bytes, &self.config)?;
+        Ok(Record::new()
+            .with("config", config_record(&self.config))
+            .with("frames", layout.frames())
+            .with("trailingBytes", layout.trailing_bytes())
+            .with("array", self.array.as_ref().map_or(JsValue::NULL, |a| geometry(a).into()))
+            .with("warnings", remarks(layout.remarks()))
+            .into())
+    }
+
+    /// Detections of one frame.
+    #[wasm_bindgen(js_name = processFrame)]
+    pub fn process_frame(&mut self, frame: &JsValue, options: &JsValue) -> Fallible<JsValue> {
+        let frame = self.read_frame(frame)?;
+        let mut fields = Fields::of_optional(options)?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let (chain, recording) = self.planned(array, &options)?;
+        let mut results = vec![];
+        let report = &mut |_| ControlFlow::Continue(());
+        chain.each(&recording, frame..frame + 1, |result| results.push(result), report)?;
+        Ok(results.first().map_or(JsValue::UNDEFINED, |result| frame_record(result).into()))
+    }
+
+    /// Detections of several frames together. `report`, a function or `undefined`, is called with
+    /// the steps done and in all, and stops the run by returning `false`.
+    #[wasm_bindgen(js_name = combineFrames)]
+    pub fn combine_frames(
+        &mut self,
+        options: &JsValue,
+        report: Option<Function>,
+    ) -> Fallible<JsValue> {
+        let mut fields = Fields::of_optional(options)?;
+        let first = fields.optional("firstFrame")?.unwrap_or(0);
+        let count = fields.optional("frameCount")?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let frames = self.frame_range(first, count)?;
+        let (chain, recording) = self.planned(array, &options)?;
+        let mut report = reporter(report);
+        Ok(frame_record(&chain.combine(&recording, frames, &mut report)?).into())
+    }
+
+    /// Snapshots of one cell, elements x frames; of all frames if `frame` is `undefined`.
+    #[wasm_bindgen(js_name = cellSnapshots)]
+    pub fn cell_snapshots(&mut self, cell: &JsValue, options: &JsValue) -> Fallible<JsValue> {
+        let mut fields = Fields::of_optional(options)?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let (_, snapshots) = self.snapshots(cell, array, &options)?;
+        Ok(Record::new()
+            .with("data", complex64(&snapshots.iter().copied().collect::<Vec<_>>()))
+            .with("shape", list([snapshots.nrows(), snapshots.ncols()]))
+            .into())
+    }
+
+    /// Angles and spectrum of one cell by any method.
+    #[wasm_bindgen(js_name = cellSpectrum)]
+    pub fn cell_spectrum(
+        &mut self,
+        cell: &JsValue,
+        angle: &JsValue,
+        options: &JsValue,
+    ) -> Fallible<JsValue> {
+        let (method, angle) = read_angle(Fields::of_optional(angle)?, Method::Bartlett)?;
+        let mut fields = Fields::of_optional(options)?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let (chain, snapshots) = self.snapshots(cell, array, &options)?;
+        let estimate = chain.cell_spectrum(snapshots.view(), method, &angle)?;
+        Ok(estimate_record(&estimate).into())
+    }
+}
+
+impl Capture {
+    fn read_frame(&self, frame: &JsValue) -> Fallible<usize> {
+        let index = usize::read(frame, "frame")?;
+        check_range("frame", index as f64, 0.0, (self.frames - 1) as f64)?;
+        Ok(index)
+    }
+
+    /// `count` frames from `first`, all that are left if absent.
+    fn frame_range(&self, first: usize, count: Option<usize>) -> Fallible<Range<usize>> {
+        check_range("first_frame", first as f64, 0.0, (self.frames - 1) as f64)?;
+        let left = self.frames - first;
+        let count = count.unwrap_or(left);
+        check_range("frame_count", count as f64, 1.0, left as f64)?;
+        Ok(first..first + count)
+    }
+
+    /// Plans the chain, unless the one planned last will do.
+    fn planned(
+        &mut self,
+        array: Option<Array>,
+        options: &ChainOptions,
+    ) -> Fallible<(&mut Chain, Recording<'_>)> {
+        let recording = Recording(formats::Capture::new(&self.bytes, &self.config)?);
+        let array = array.or_else(|| self.array.clone()).ok_or_else(|| BindingError::Missing {
+            what: "array".into(),
+            expected: "an array, since that of the platform is not known".into(),
+        })?;
+        let kept = self.chain.take().filter(|c| c.array() == &array && c.options() == options);
+        let chain = match kept {
+            Some(chain) => chain,
+            None => {
+                let receivers = self.config.receivers.len();
+                Chain::new(&self.config.waveform, receivers, &array, options)?
+            }
+        };
+        Ok((self.chain.insert(chain), recording))
+    }
+
+    fn snapshots(
+        &mut self,
+        cell: &JsValue,
+        array: Option<Array>,
+        options: &ChainOptions,
+    ) -> Fallible<(&Chain, Array2<Complex64>)> {
+        let mut fields = Fields::new(cell, "cell")?;
+        let range_bin = fields.required("rangeBin")?;
+        let doppler_bin = fields.required("dopplerBin")?;
+        let frames = match fields.raw("frame")? {
+            Some(frame) => {
+                let frame = self.read_frame(&frame)?;
+                frame..frame + 1
+            }
+            None => 0..self.frames,
+        };
+        fields.finish()?;
+        let (chain, recording) = self.planned(array, options)?;
+        let snapshots = chain.cell_snapshots(&recording, frames, range_bin, doppler_bin)?;
+        Ok((chain, snapshots))
+    }
+}
+
+/// Detections of each frame of a cube: frames x loops x transmitters x receivers x samples.
+#[wasm_bindgen(js_name = processCube)]
+pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array> {
+    let cube = ComplexData::read(cube, "cube")?;
+    let [frames, loops, transmitters, receivers, samples] = cube.shape[..] else {
+        let expected = "[frames, loops, transmitters, receivers, samples]";
+        return Err(shape_error("cube", expected, &cube.shape));
+    };
+    let mut fields = Fields::new(options, "")?;
+    let waveform: Waveform = fields.required("waveform")?;
+    let (array, options) = read_chain(&mut fields)?;
+    fields.finish()?;
+    let array = array.ok_or_else(|| BindingError::Missing {
+        what: "array".into(),
+        expected: Array::EXPECTED.into(),
+    })?;
+    let values = cube.to_complex32();
+    let shape = (frames, loops, transmitters, receivers, samples);
+    let source = CubeFrames(
+        ArrayView5::from_shape(shape, &values)
+            .map_err(|_| shape_error("cube", "five axes", &cube.shape))?,
+    );
+    let mut chain = Chain::new(&waveform, receivers, &array, &options)?;
+    let results = js_sys::Array::new();
+    let take = |result| {
+        results.push(&frame_record(&result).into());
+    };
+    chain.each(&source, 0..frames, take, &mut |_| ControlFlow::Continue(()))?;
+    Ok(results)
+}
+
+/// Calls `report`; an exception in it counts as a request to stop.
+fn reporter(report: Option<Function>) -> impl FnMut(Progress) -> ControlFlow<()> {
+    move |Progress { done, total }| {
+        let Some(report) = &report else { return ControlFlow::Continue(()) };
+        let (done, total) = (JsValue::from(done), JsValue::from(total));
+        match report.call2(&JsValue::UNDEFINED, &done, &total) {
+            Ok(answer) if answer.as_bool() != Some(false) => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        }
+    }
+}
