@@ -87,7 +87,9 @@ describe('a recorded capture', () => {
     }
     const ordered = { kind: 'ordered-statistic', axes: 'both' };
     assert.ok(over({ ...ordered, rank: 0.5 }) !== over({ ...ordered, rank: 0.9 }));
-    assertTargets(capture.processFrame(0, { rangeWindow: 'chebyshev', dopplerWindow: 'taylor' }).detections);
+    const windowed = capture.processFrame(0, { rangeWindow: 'chebyshev', dopplerWindow: 'taylor' });
+    assert.notDeepEqual(windowed.rangeDopplerDb, all.rangeDopplerDb);
+    assert.ok(windowed.detections.some((d) => Math.abs(d.rangeM - 2.95) < 0.05));
   });
 
   test('refuses bad options by name and goes on', () => {
@@ -98,7 +100,8 @@ describe('a recorded capture', () => {
     bad({ cfar: { kind: 'median' } }, 'unknown-name', 'cfar.kind');
     bad({ cfar: { falseAlarm: 2 } }, 'out-of-range');
     bad({ cfar: { guardCells: [1] } }, 'shape', 'cfar.guardCells');
-    bad({ cfar: { trainingCells: [1e9, 1] } }, 'cfar-window');
+    bad({ cfar: { trainingCells: [1e9, 1] } }, 'out-of-range');
+    bad({ cfar: { trainingCells: [500, 1] } }, 'cfar-window');
     bad({ region: { rangeM: [4, 2] } }, 'out-of-range', 'region.rangeM');
     bad({ region: { azimuthDeg: [-100, 0] } }, 'out-of-range', 'region.azimuthDeg[0]');
     bad({ angle: { method: 'musik' } }, 'unknown-name', 'angle.method');
