@@ -101,7 +101,7 @@ describe('a recorded capture', () => {
     bad({ cfar: { falseAlarm: 2 } }, 'out-of-range');
     bad({ cfar: { guardCells: [1] } }, 'shape', 'cfar.guardCells');
     bad({ cfar: { trainingCells: [1e9, 1] } }, 'out-of-range');
-    bad({ cfar: { trainingCells: [500, 1] } }, 'cfar-window');
+    bad({ cfar: { axes: 'doppler', trainingCells: [1, 500] } }, 'cfar-window');
     bad({ region: { rangeM: [4, 2] } }, 'out-of-range', 'region.rangeM');
     bad({ region: { azimuthDeg: [-100, 0] } }, 'out-of-range', 'region.azimuthDeg[0]');
     bad({ angle: { method: 'musik' } }, 'unknown-name', 'angle.method');
