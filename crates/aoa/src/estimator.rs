@@ -7,9 +7,11 @@ use crate::error::AoaError;
 use crate::esprit::Esprit;
 use crate::estimate::Estimate;
 use crate::iaa::Iaa;
+use crate::maximum_likelihood::MaximumLikelihood;
 use crate::method::Method;
 use crate::min_norm::MinNorm;
 use crate::music::Music;
+use crate::nomp::Nomp;
 use crate::options::Options;
 use crate::root_music::RootMusic;
 use crate::single_snapshot_music::SingleSnapshotMusic;
@@ -74,6 +76,8 @@ fn plan(method: Method, array: &Array, options: &Options) -> Result<Box<dyn Plan
         Method::Esprit => Box::new(Esprit::new(array, options)?),
         Method::MinNorm => Box::new(MinNorm::new(array, options)?),
         Method::Iaa => Box::new(Iaa::new(array, options)?),
+        Method::Nomp => Box::new(Nomp::new(array, options)?),
+        Method::MaximumLikelihood => Box::new(MaximumLikelihood::new(array, options)?),
         other => {
             return Err(AoaError::Argument(CoreError::Unknown {
                 what: "method".into(),

@@ -1,0 +1,269 @@
+//! Deterministic maximum likelihood by alternating projection (Ziskind and Wax 1988), then
+//! Gauss-Newton steps on all directions together.
+//!
+//! The likelihood is highest where the steering vectors leave the least power `tr(P R)`, `P` being
+//! the projection away from them. Given all directions but one, the best grid point for that one
+//! maximises `a^H P R P a / a^H P a`: two Hermitian forms over the grid.
+
+use crate::checks::{ambiguity, check_array, check_sources, conclude};
+use crate::cosines::{Geometry, Point};
+use crate::counting::resolve_count;
+use crate::covariance::CovariancePlan;
+use crate::data::Data;
+use crate::error::AoaError;
+use crate::estimate::{Estimate, Warning};
+use crate::estimator::Plan;
+use crate::gauss_newton::{Limits, refine_points};
+use crate::grid::Grid;
+use crate::method::Method;
+use crate::options::{Options, SourceCount};
+use crate::powers::sources_at;
+use crate::quadratic::QuadraticSpectrum;
+use boresight_core::linalg::{adjoint, hermitian_eigen};
+use boresight_core::{Array, Complex64};
+use ndarray::{Array1, Array2, Axis};
+
+/// Most sources searched for; keeps the search bounded on large arrays.
+const MAX_SOURCES: usize = 64;
+
+/// Rounds of alternating projection on the grid; it settles in a few.
+const MAX_ROUNDS: usize = 20;
+
+/// Complex multiplications after which no further round is begun.
+const MAX_WORK: usize = 4_000_000_000;
+
+/// Share of the power below which nothing but rounding is left.
+const EXHAUSTED: f64 = 1e-12;
+
+/// Maximum likelihood prepared for one array and grid.
+pub(crate) struct MaximumLikelihood {
+    array: Array,
+    geometry: Geometry,
+    covariance: CovariancePlan,
+    spectrum: QuadraticSpectrum,
+    wanted: SourceCount,
+    most: usize,
+    limits: Limits,
+    ambiguity: Option<Warning>,
+}
+
+impl MaximumLikelihood {
+    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+        let method = Method::MaximumLikelihood;
+        check_array(method, array, options)?;
+        let covariance = CovariancePlan::new(method, array, options)?;
+        let grid = Grid::new(covariance.array(), options);
+        let most = (covariance.array().len() - 1).min(MAX_SOURCES).min(grid.len());
+        check_sources(method, options.sources, most)?;
+        Ok(Self {
+            array: array.clone(),
+            geometry: Geometry::new(covariance.array()),
+            spectrum: QuadraticSpectrum::new(covariance.array(), &grid),
+            covariance,
+            wanted: options.sources,
+            most,
+            limits: Limits { iterations: options.max_iterations, tolerance: options.tolerance },
+            ambiguity: ambiguity(array, options),
+        })
+    }
+
+    /// Alternating projection: grid points of up to `count` sources.
+    fn search(&mut self, r: &Array2<Complex64>, count: usize) -> Vec<usize> {
+        let elements = r.nrows();
+        let total: f64 = r.diag().iter().map(|z| z.re).sum();
+        let mut chosen: Vec<usize> = Vec::with_capacity(count);
+        while chosen.len() < count {
+            match self.best(r, &chosen) {
+                Some((point, gain)) if gain > EXHAUSTED * total => chosen.push(point),
+                _ => break,
+            }
+        }
+        let round = elements.saturating_mul(elements).saturating_mul(chosen.len().pow(2));
+        let rounds = if chosen.len() < 2 { 0 } else { MAX_ROUNDS.min(MAX_WORK / round.max(1)) };
+        for _ in 0..rounds {
+            let before = chosen.clone();
+            for i in 0..chosen.len() {
+                let others: Vec<usize> =
+                    chosen.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, &g)| g).collect();
+                if let Some((point, _)) = self.best(r, &others) {
+                    chosen[i] = point;
+                }
+            }
+            if chosen == before {
+                break;
+            }
+        }
+        chosen
+    }
+
+    /// The grid point that explains most of what the others leave, and how much.
+    fn best(&mut self, r: &Array2<Complex64>, others: &[usize]) -> Option<(usize, f64)> {
+        let elements = r.nrows() as f64;
+        let basis = self.basis(others);
+        let left = adjoint(basis.view());
+        let numerator = if others.is_empty() {
+            self.spectrum.evaluate(r.view())
+        } else {
+            // P R P = R - Q Q^H R - R Q Q^H + Q (Q^H R Q) Q^H.
+            let seen = r.dot(&basis);
+            let inner = left.dot(&seen);
+            let half = seen - basis.dot(&inner).mapv(|z| 0.5 * z);
+            let twice = half.dot(&left);
+            let projected = r - &twice - adjoint(twice.view());
+            self.spectrum.evaluate(projected.view())
+        };
+        let explained = if others.is_empty() {
+            vec![0.0; numerator.len()]
+        } else {
+            self.spectrum.evaluate(basis.dot(&left).view())
+        };
+        let mut best: Option<(usize, f64)> = None;
+        for (g, (n, e)) in numerator.iter().zip(&explained).enumerate() {
+            // Next to another source there is nothing to divide by.
+            if elements - e > 1e-6 * elements {
+                let gain = n / (elements - e);
+                if best.is_none_or(|(_, most)| gain > most) && gain.is_finite() {
+                    best = Some((g, gain));
+                }
+            }
+        }
+        best
+    }
+
+    /// Orthonormal basis of the steering vectors of grid points, by twice-applied Gram-Schmidt.
+    fn basis(&self, points: &[usize]) -> Array2<Complex64> {
+        let elements = self.geometry.elements();
+        let mut columns: Vec<Array1<Complex64>> = Vec::with_capacity(points.len());
+        for &g in points {
+            let point = self.geometry.point(self.spectrum.grid().direction(g));
+            let mut a = Array1::from(self.geometry.steering(point).vector);
+            for _ in 0..2 {
+                for q in &columns {
+                    let along: Complex64 = q.iter().zip(&a).map(|(q, a)| q.conj() * a).sum();
+                    a.scaled_add(-along, q);
+                }
+            }
+            let norm = a.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
+            if norm > 1e-6 * (elements as f64).sqrt() {
+                columns.push(a.mapv(|z| z / norm));
+            }
+        }
+        let mut basis = Array2::zeros((elements, columns.len()));
+        for (mut to, from) in basis.axis_iter_mut(Axis(1)).zip(&columns) {
+            to.assign(from);
+        }
+        basis
+    }
+}
+
+impl Plan for MaximumLikelihood {
+    fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
+        let mut prepared = self.covariance.prepare(data)?;
+        let count = match self.wanted {
+            SourceCount::Known(count) => count,
+            counted => {
+                let values = hermitian_eigen(prepared.matrix.view())?.values;
+                resolve_count(counted, &values.to_vec(), prepared.sizes, self.most)
+            }
+        };
+        let mut warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
+        if prepared.power <= f64::MIN_POSITIVE {
+            return Ok(conclude(Method::MaximumLikelihood, vec![], None, None, 0, warnings));
+        }
+        let power = prepared.power;
+        prepared.matrix.mapv_inplace(|z| z / power);
+        let chosen = self.search(&prepared.matrix, count);
+        let mut iterations = 0;
+        let mut points: Vec<Point> = chosen
+            .iter()
+            .map(|&g| self.geometry.point(self.spectrum.grid().direction(g)))
+            .collect();
+        if !points.is_empty() {
+            let whole = Data::Covariance { matrix: prepared.matrix.view(), snapshots: 1 };
+            let (refined, outcome) = refine_points(&self.geometry, points, whole, self.limits);
+            points = refined;
+            iterations = outcome.iterations;
+            if !outcome.converged {
+                warnings.push(Warning::NotConverged { iterations });
+            }
+        }
+        let directions: Vec<_> = points.iter().map(|&p| self.geometry.direction(p)).collect();
+        let sources = sources_at(&self.array, &directions, data);
+        let method = Method::MaximumLikelihood;
+        Ok(conclude(method, sources, Some(count), None, iterations, warnings))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use boresight_core::presets::preset;
+    use boresight_core::steering::steering_matrix;
+    use boresight_core::{Direction, Random};
+
+    fn known(sources: usize) -> Options {
+        Options { sources: SourceCount::Known(sources), ..Options::default() }
+    }
+
+    #[test]
+    fn coherent_sources_of_one_snapshot_are_found_exactly() {
+        let truth = [(-0.31, 0.1), (0.02, -0.05), (0.4, 0.2)];
+        for name in ["ula10", "lrr48", "awr1843"] {
+            let array = preset(name).unwrap();
+            let flat = name != "awr1843";
+            let wanted: Vec<Direction> =
+                truth.iter().map(|&(a, e)| Direction::new(a, if flat { 0.0 } else { e })).collect();
+            let s = ndarray::array![
+                [Complex64::new(1.0, 0.0)],
+                [Complex64::new(0.0, 0.7)],
+                [Complex64::new(-0.5, 0.0)]
+            ];
+            let y = steering_matrix(&array, &wanted).dot(&s);
+            let options = Options { grid_points: 256, elevation_points: 31, ..known(3) };
+            let mut plan = MaximumLikelihood::new(&array, &options).unwrap();
+            let result = plan.estimate(Data::Snapshots(y.view())).unwrap();
+            assert!(result.resolved && result.warnings.is_empty(), "{name} {result:?}");
+            for (source, (wanted, s)) in result.sources.iter().zip(wanted.iter().zip(&s)) {
+                let at = source.direction;
+                assert!((at.azimuth_rad - wanted.azimuth_rad).abs() < 1e-5, "{name} {result:?}");
+                assert!((at.elevation_rad - wanted.elevation_rad).abs() < 1e-5, "{name}");
+                assert!((source.amplitude.unwrap() - s).norm() < 1e-4, "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_known_number_beyond_what_is_there_is_unresolved() {
+        let array = Array::ula(6).unwrap();
+        let y = steering_matrix(&array, &[Direction::azimuth(0.25f64.asin())])
+            .dot(&ndarray::array![[Complex64::new(1.0, 0.0)]]);
+        let mut plan = MaximumLikelihood::new(&array, &known(2)).unwrap();
+        let result = plan.estimate(Data::Snapshots(y.view())).unwrap();
+        assert!(!result.resolved);
+        assert!(result.warnings.contains(&Warning::Unresolved { expected: 2, found: 1 }));
+        let silence = Array2::zeros((6, 3));
+        let result = plan.estimate(Data::Snapshots(silence.view())).unwrap();
+        assert_eq!(result.warnings, [Warning::NoSources]);
+        let too_many = MaximumLikelihood::new(&array, &known(6));
+        assert!(matches!(too_many.err(), Some(AoaError::TooManySources { most: 5, given: 6, .. })));
+    }
+
+    #[test]
+    fn snapshots_and_their_covariance_give_the_same_angles() {
+        let array = preset("ula8").unwrap();
+        let mut random = Random::new(61, 0);
+        let at = [Direction::azimuth(-0.1), Direction::azimuth(0.15)];
+        let s = Array2::from_shape_fn((2, 40), |_| random.complex_normal(1.0));
+        let y = steering_matrix(&array, &at).dot(&s)
+            + Array2::from_shape_fn((8, 40), |_| random.complex_normal(0.01));
+        let r = boresight_signal::sample_covariance(y.view());
+        let options = Options { sources: SourceCount::Mdl, ..Options::default() };
+        let mut plan = MaximumLikelihood::new(&array, &options).unwrap();
+        let one = plan.estimate(Data::Snapshots(y.view())).unwrap();
+        let other = plan.estimate(Data::Covariance { matrix: r.view(), snapshots: 40 }).unwrap();
+        assert_eq!(one.sources.len(), 2);
+        for (a, b) in one.sources.iter().zip(&other.sources) {
+            assert!((a.direction.azimuth_rad - b.direction.azimuth_rad).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! Newtonized orthogonal matching pursuit (Mamandipoor, Ramasamy and Madhow 2016), of one or
+//! several snapshots with common directions.
+//!
+//! Sources are taken from the residual one by one: the strongest beam of a coarse grid, Newton
+//! steps on it, Newton steps on all sources in turn, amplitudes by least squares. It ends when the
+//! strongest beam is what noise alone would make with the false-alarm probability. The paper tests
+//! the beams of an unoversampled DFT; here the exact peak is tested against the distribution of the
+//! maximum over all directions, so that the rate holds for any array (see `false_alarm`).
+//!
+//! With `noise_power` absent, each test is against the residual itself, whose power under the
+//! hypothesis that nothing is left is all noise: the peak's share of the residual power is compared
+//! with what a share of noise of unknown power can be with the residual's degrees of freedom,
+//! `N (K - D) - D/2` for `N` snapshots, `K` elements and `D` sources so far (`D` in place of `D/2`
+//! with elevation).
+
+mod false_alarm;
+mod newton;
+
+use crate::checks::{ambiguity, check_array, conclude};
+use crate::cosines::{Geometry, Point};
+use crate::data::Data;
+use crate::error::AoaError;
+use crate::estimate::{Estimate, Source, Warning};
+use crate::estimator::Plan;
+use crate::gauss_newton::{Limits, refine_points};
+use crate::grid::Grid;
+use crate::method::Method;
+use crate::options::{NompOptions, Options};
+use crate::powers::sources_at;
+use crate::quadratic::QuadraticSpectrum;
+use boresight_core::linalg::least_squares;
+use boresight_core::{Array, Complex64, Direction};
+use boresight_signal::sample_covariance;
+use false_alarm::Volumes;
+use ndarray::Array2;
+use newton::{beam_power, step};
+use std::f64::consts::FRAC_PI_2;
+
+/// Most azimuths and most elevations of the coarse grid.
+const MAX_POINTS: usize = 1 << 14;
+const MAX_ELEVATIONS: usize = 1 << 7;
+
+/// Share of the power below which the residual is nothing but rounding.
+const EXHAUSTED: f64 = 1e-24;
+
+/// Gauss-Newton steps over all sources at the end.
+const POLISH: Limits = Limits { iterations: 10, tolerance: 1e-10 };
+
+/// NOMP prepared for one array.
+pub(crate) struct Nomp {
+    array: Array,
+    geometry: Geometry,
+    options: NompOptions,
+    spectrum: QuadraticSpectrum,
+    volumes: Volumes,
+    field_of_view: [f64; 2],
+    ambiguity: Option<Warning>,
+    /// The last level computed, and the number of snapshots it holds for.
+    level: Option<(usize, f64)>,
+}
+
+/// Sources so far.
+struct Fitted {
+    points: Vec<Point>,
+    /// Sources x snapshots.
+    amplitudes: Array2<Complex64>,
+    residual: Array2<Complex64>,
+}
+
+impl Nomp {
+    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+        let method = Method::Nomp;
+        check_array(method, array, options)?;
+        let geometry = Geometry::new(array);
+        let extent = |axis: usize| {
+            let along = |p: &[f64; 3]| p[axis];
+            let low = array.positions().iter().map(along).fold(f64::INFINITY, f64::min);
+            let high = array.positions().iter().map(along).fold(f64::NEG_INFINITY, f64::max);
+            (high - low + 1.0).ceil() as usize
+        };
+        let points = |axis: usize, least: usize, most: usize| {
+            let wanted = options.nomp.oversampling.saturating_mul(extent(axis));
+            wanted.clamp(least, most).next_power_of_two().min(most)
+        };
+        let coarse = Options {
+            field_of_view_rad: FRAC_PI_2,
+            grid_points: points(1, 16, MAX_POINTS),
+            elevation_points: points(2, 4, MAX_ELEVATIONS) + 1,
+            ..*options
+        };
+        let grid = Grid::new(array, &coarse);
+        let period = array.lattice().map(|lattice| 2.0 / lattice.spacing);
+        Ok(Self {
+            array: array.clone(),
+            volumes: Volumes::new(&geometry, period, options.elevation_field_of_view_rad),
+            geometry,
+            options: options.nomp,
+            spectrum: QuadraticSpectrum::new(array, &grid),
+            field_of_view: [options.field_of_view_rad, options.elevation_field_of_view_rad],
+            ambiguity: ambiguity(array, options),
+            level: None,
+        })
+    }
+
+    /// The strongest beam in `residual`, refined, and its power.
+    fn strongest(&mut self, residual: &Array2<Complex64>) -> (Point, f64) {
+        let values = self.spectrum.evaluate(sample_covariance(residual.view()).view());
+        let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
+        let mut point = self.geometry.point(self.spectrum.grid().direction(best));
+        for _ in 0..self.options.single_refinements {
+            point = step(&self.geometry, residual, point);
+            // The false-alarm rate counts the directions within these elevations.
+            let highest = self.field_of_view[1].sin();
+            point[1] = point[1].clamp(-highest, highest);
+        }
+        (point, beam_power(&self.geometry, residual, point))
+    }
+
+    /// Whether a beam of this power is more than noise makes, after `found` sources.
+    fn stands_out(
+        &mut self,
+        power: f64,
+        residual: &Array2<Complex64>,
+        found: usize,
+        noise_power: Option<f64>,
+    ) -> bool {
+        let (elements, snapshots) = residual.dim();
+        let gain = power / elements as f64;
+        match noise_power {
+            Some(noise) => {
+                let level = match self.level {
+                    Some((count, level)) if count == snapshots => level,
+                    _ => self.volumes.level(self.options.false_alarm, snapshots),
+                };
+                self.level = Some((snapshots, level));
+                gain > level * noise
+            }
+            None => {
+                let angles = 0.5 * (self.geometry.axes * found) as f64;
+                let freedom = (snapshots * (elements - found)) as f64 - angles;
+                let share = self.volumes.share(self.options.false_alarm, snapshots, freedom);
+                share.is_some_and(|share| gain > share * energy(residual))
+            }
+        }
+    }
+
+    /// Newton steps on every source in turn, with all others taken off.
+    fn cycle(&self, fitted: &mut Fitted) {
+        for i in 0..fitted.points.len() {
+            let before = self.geometry.steering(fitted.points[i]).vector;
+            let own = add_source(&fitted.residual, &before, fitted.amplitudes.row(i), 1.0);
+            fitted.points[i] = step(&self.geometry, &own, fitted.points[i]);
+            let after = self.geometry.steering(fitted.points[i]).vector;
+            let elements = self.geometry.elements() as f64;
+            for (n, column) in own.columns().into_iter().enumerate() {
+                let x: Complex64 = after.iter().zip(column).map(|(a, y)| a.conj() * y).sum();
+                fitted.amplitudes[[i, n]] = x / elements;
+            }
+            fitted.residual = add_source(&own, &after, fitted.amplitudes.row(i), -1.0);
+        }
+    }
+
+    /// Least-squares amplitudes of `points`, and what they leave; nothing if two sources coincide.
+    fn fit(&self, y: &Array2<Complex64>, points: Vec<Point>) -> Option<Fitted> {
+        let vectors: Vec<Vec<Complex64>> =
+            points.iter().map(|&p| self.geometry.steering(p).vector).collect();
+        let a = Array2::from_shape_fn((y.nrows(), points.len()), |(k, i)| vectors[i][k]);
+        let amplitudes = least_squares(a.view(), y.view()).ok().flatten()?;
+        let residual = y - &a.dot(&amplitudes);
+        Some(Fitted { points, amplitudes, residual })
+    }
+
+    /// Pursues sources; also whether it ended for another reason than its limit on sources.
+    fn pursue(&mut self, y: &Array2<Complex64>, noise_power: Option<f64>) -> (Fitted, bool) {
+        let snapshots = y.ncols();
+        let total = energy(y);
+        let none = Array2::zeros((0, snapshots));
+        let mut fitted = Fitted { points: Vec::new(), amplitudes: none, residual: y.clone() };
+        loop {
+            let found = fitted.points.len();
+            if energy(&fitted.residual) <= EXHAUSTED * total || found + 1 >= y.nrows() {
+                return (fitted, true);
+            }
+            let (point, power) = self.strongest(&fitted.residual);
+            if !self.stands_out(power, &fitted.residual, found, noise_power) {
+                return (fitted, true);
+            }
+            if found >= self.options.max_sources {
+                return (fitted, false);
+            }
+            let apart = 1e-3 * self.geometry.half_beam();
+            if fitted.points.iter().any(|&p| self.geometry.distance(p, point) < apart) {
+                return (fitted, true);
+            }
+            let mut points = fitted.points.clone();
+            points.push(point);
+            let Some(mut next) = self.fit(y, points) else {
+                return (fitted, true);
+            };
+            for _ in 0..self.options.cyclic_refinements {
+                self.cycle(&mut next);
+            }
+            // Two sources that have run into each other are one.
+            match self.fit(y, next.points) {
+                Some(next) if energy(&next.residual) < energy(&fitted.residual) => fitted = next,
+                _ => return (fitted, true),
+            }
+        }
+    }
+}
+
+fn energy(y: &Array2<Complex64>) -> f64 {
+    y.iter().map(|z| z.norm_sqr()).sum()
+}
+
+/// `y + sign a s^T`.
+fn add_source(
+    y: &Array2<Complex64>,
+    a: &[Complex64],
+    s: ndarray::ArrayView1<Complex64>,
+    sign: f64,
+) -> Array2<Complex64> {
+    let mut sum = y.clone();
+    for (mut row, a) in sum.rows_mut().into_iter().zip(a) {
+        for (z, s) in row.iter_mut().zip(s) {
+            *z += a * s * sign;
+        }
+    }
+    sum
+}
+
+impl Plan for Nomp {
+    fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
+        let method = Method::Nomp;
+        let Data::Snapshots(y) = data else {
+            return Err(AoaError::NeedsSnapshots { method: method.name() });
+        };
+        let mut warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
+        let largest = y.iter().map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max);
+        if largest < 1e-150 {
+            return Ok(conclude(method, vec![], None, None, 0, warnings));
+        }
+        let y = y.mapv(|z| z / largest);
+        let noise_power = self.options.noise_power.map(|power| power / largest / largest);
+        let (fitted, ended) = self.pursue(&y, noise_power);
+        let found = fitted.points.len();
+        if !ended {
+            warnings.push(Warning::NotConverged { iterations: found });
+        }
+        let scaled = Data::Snapshots(y.view());
+        let points = if found > 0 {
+            refine_points(&self.geometry, fitted.points, scaled, POLISH).0
+        } else {
+            Vec::new()
+        };
+        let directions: Vec<Direction> =
+            points.iter().map(|&p| self.geometry.direction(p)).collect();
+        let [azimuth, elevation] = self.field_of_view;
+        let sources: Vec<Source> = sources_at(&self.array, &directions, scaled)
+            .into_iter()
+            .filter(|source| {
+                source.direction.azimuth_rad.abs() <= azimuth + 1e-9
+                    && source.direction.elevation_rad.abs() <= elevation + 1e-9
+            })
+            .map(|source| Source {
+                power: (source.power * largest * largest).min(f64::MAX),
+                amplitude: source.amplitude.map(|s| s * largest),
+                ..source
+            })
+            .collect();
+        Ok(conclude(method, sources, None, None, found, warnings))
+    }
+}
+
+#[cfg(test)]
+mod tests;
