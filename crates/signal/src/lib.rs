@@ -12,6 +12,7 @@ pub mod peaks;
 pub mod power;
 pub mod range;
 pub mod range_doppler;
+pub mod region;
 pub mod tdm;
 pub mod window;
 
@@ -22,4 +23,5 @@ pub use error::SignalError;
 pub use peaks::{Peak, Peaks, group_peaks};
 pub use power::power_map;
 pub use range_doppler::{RangeDoppler, RangeDopplerMap, RangeDopplerOptions};
+pub use region::Region;
 pub use window::Window;

@@ -29,7 +29,9 @@ pub struct Factors {
 
 /// Factors that give `false_alarm` in independent noise whose cells are means of `looks`
 /// exponential powers, exact for each kind and any number of training cells of at least one;
-/// `correlation` is the number of training cells that count as one independent cell.
+/// `correlation` is the number of training cells that count as one independent cell. Behind
+/// windows that is an approximation which keeps the rate a little low: by the variance of the mean,
+/// for a rank by its root, since whether a cell lies below a level is less correlated than powers.
 pub fn factors(
     kind: CfarKind,
     cells: TrainingCells,
@@ -37,6 +39,10 @@ pub fn factors(
     correlation: f64,
     false_alarm: f64,
 ) -> Factors {
+    let correlation = match kind {
+        CfarKind::OrderedStatistic { .. } => correlation.sqrt(),
+        _ => correlation,
+    };
     let independent = |n: usize| (n as f64 / correlation).max(1.0);
     let shape = |n: usize| looks as f64 * independent(n);
     let halves = [shape(cells.before), shape(cells.after)];

@@ -1,0 +1,209 @@
+//! Regions of interest: limits on detections, and the part of a data cube around a target.
+
+use crate::error::SignalError;
+use crate::range::RowTransform;
+use crate::window::Window;
+use boresight_core::error::check_range;
+use boresight_core::{Complex32, Complex64, CoreError};
+use ndarray::{Array2, Array3, Array4, ArrayView3, ArrayView4, s};
+
+/// Limits, both ends inside; absent ones hold nothing back.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Region {
+    /// Least and greatest range, m.
+    pub range_m: Option<[f64; 2]>,
+    /// Least and greatest range rate, m/s.
+    pub rate_mps: Option<[f64; 2]>,
+    /// Least and greatest azimuth, rad.
+    pub azimuth_rad: Option<[f64; 2]>,
+}
+
+impl Region {
+    /// Checks that no limit is NaN and each least one is not above its greatest. Infinite limits
+    /// are fine.
+    ///
+    /// # Errors
+    /// [`CoreError::OutOfRange`] naming the limit.
+    pub fn check(&self) -> Result<(), SignalError> {
+        for (what, limits) in [
+            ("range_m", self.range_m),
+            ("rate_mps", self.rate_mps),
+            ("azimuth_rad", self.azimuth_rad),
+        ] {
+            if let Some([least, greatest]) = limits
+                && (least.is_nan() || greatest.is_nan() || least > greatest)
+            {
+                return Err(SignalError::Argument(CoreError::OutOfRange {
+                    what: format!("{what} of the region of interest"),
+                    expected: format!("a greatest value of at least {least}"),
+                    given: greatest,
+                }));
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether range and rate lie within the limits; for detections without an angle yet.
+    pub fn contains(&self, range_m: f64, rate_mps: f64) -> bool {
+        within(range_m, self.range_m) && within(rate_mps, self.rate_mps)
+    }
+
+    /// Whether an azimuth lies within the limits.
+    pub fn contains_azimuth(&self, azimuth_rad: f64) -> bool {
+        within(azimuth_rad, self.azimuth_rad)
+    }
+
+    /// Keeps the items for which `contains` holds and counts the others.
+    pub fn retain<T>(items: &mut Vec<T>, contains: impl FnMut(&T) -> bool) -> usize {
+        let before = items.len();
+        items.retain(contains);
+        before - items.len()
+    }
+}
+
+fn within(value: f64, limits: Option<[f64; 2]>) -> bool {
+    limits.is_none_or(|[least, greatest]| value >= least && value <= greatest)
+}
+
+/// Range spectrum of a frame: loops x transmitters x receivers x samples to loops x channels x
+/// range bins, with the scale of [`crate::RangeDoppler`], before any Doppler transform.
+///
+/// # Errors
+/// [`CoreError::Empty`] for a frame without values, [`CoreError::OutOfRange`] for a window out of
+/// range.
+pub fn range_spectrum(
+    frame: ArrayView4<Complex32>,
+    window: Window,
+) -> Result<Array3<Complex32>, SignalError> {
+    let (loops, tx, rx, samples) = frame.dim();
+    if frame.is_empty() {
+        return Err(SignalError::Argument(CoreError::Empty {
+            what: "frame".into(),
+            expected: "loops x transmitters x receivers x samples".into(),
+        }));
+    }
+    let mut transform = RowTransform::new(window, samples, 1)?;
+    let mut rows: Vec<Complex32> = Vec::with_capacity(frame.len());
+    for chirp in frame.rows() {
+        rows.extend(chirp.iter().zip(&transform.weights).map(|(x, &w)| x * w));
+    }
+    transform.transform(&mut rows);
+    Array3::from_shape_vec((loops, tx * rx, samples), rows).map_err(|_| {
+        SignalError::Argument(CoreError::Shape {
+            what: "frame".into(),
+            expected: "loops x transmitters x receivers x samples".into(),
+            given: vec![loops, tx, rx, samples],
+        })
+    })
+}
+
+/// The region of interest of the 3D-CNN paper (Sang et al. 2021): the `length` range bins around
+/// `centre`, all channels, the first `chirps` loops, as range x channels x chirps. Range bins wrap,
+/// as the transform's do.
+///
+/// # Errors
+/// [`CoreError::OutOfRange`] where the spectrum has fewer range bins or loops, or `centre` lies
+/// outside it.
+pub fn crop_region(
+    spectrum: ArrayView3<Complex32>,
+    centre: usize,
+    length: usize,
+    chirps: usize,
+) -> Result<Array3<Complex32>, SignalError> {
+    let (loops, channels, ranges) = spectrum.dim();
+    check_range("region length", length as f64, 1.0, ranges as f64)?;
+    check_range("region chirps", chirps as f64, 1.0, loops as f64)?;
+    check_range("region centre", centre as f64, 0.0, ranges as f64 - 1.0)?;
+    let first = centre + ranges - length / 2;
+    Ok(Array3::from_shape_fn((length, channels, chirps), |(j, m, c)| {
+        spectrum[[c, m, (first + j) % ranges]]
+    }))
+}
+
+/// Covariance of what passes a band-pass filter around a region of interest, channels x channels:
+/// by Parseval's theorem the mean over chirps of the sum over its range bins, so that a target in
+/// the middle of a bin gives its power of one raw sample where the window was rectangular.
+pub fn region_covariance(region: ArrayView3<Complex32>) -> Array2<Complex64> {
+    let (length, channels, chirps) = region.dim();
+    let mut snapshots = Array2::zeros((channels, length * chirps));
+    for (j, plane) in region.outer_iter().enumerate() {
+        snapshots
+            .slice_mut(s![.., j * chirps..(j + 1) * chirps])
+            .zip_mut_with(&plane, |out, z| *out = Complex64::new(z.re.into(), z.im.into()));
+    }
+    let mean = crate::covariance::sample_covariance(snapshots.view());
+    mean.mapv(|z| z * length as f64)
+}
+
+/// The three real channels in which the 3D-CNN takes a region: magnitude, real and imaginary part,
+/// as range x channels x chirps x 3.
+pub fn region_channels(region: ArrayView3<Complex32>) -> Array4<f32> {
+    let (length, channels, chirps) = region.dim();
+    Array4::from_shape_fn((length, channels, chirps, 3), |(j, m, c, part)| {
+        let z = region[[j, m, c]];
+        [z.norm(), z.re, z.im][part]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Four chirps of a tone of power 4 in bin 20 whose phase grows by half a radian a channel.
+    fn frame() -> Array4<Complex32> {
+        Array4::from_shape_fn((4, 2, 3, 64), |(_, t, r, n)| {
+            let z = Complex64::cis(TAU * 20.0 * n as f64 / 64.0 + 0.5 * (3 * t + r) as f64) * 2.0;
+            Complex32::new(z.re as f32, z.im as f32)
+        })
+    }
+
+    #[test]
+    fn limits_keep_what_is_within_and_count_the_rest() {
+        let region = Region {
+            range_m: Some([1.0, 5.0]),
+            azimuth_rad: Some([-0.5, f64::INFINITY]),
+            ..Region::default()
+        };
+        region.check().unwrap();
+        let mut cells = vec![(0.5, 0.0), (1.0, 99.0), (5.0, -3.0), (f64::NAN, 0.0)];
+        let dropped = Region::retain(&mut cells, |&(range, rate)| region.contains(range, rate));
+        assert_eq!((cells.len(), dropped), (2, 2));
+        assert!(region.contains_azimuth(-0.5) && !region.contains_azimuth(-0.6));
+        for limits in [[2.0, 1.0], [f64::NAN, 1.0], [0.0, f64::NAN]] {
+            assert!(Region { rate_mps: Some(limits), ..region }.check().is_err());
+        }
+    }
+
+    #[test]
+    fn the_region_is_centred_on_the_target_and_wraps() {
+        let spectrum = range_spectrum(frame().view(), Window::Rectangular).unwrap();
+        let region = crop_region(spectrum.view(), 20, 9, 3).unwrap();
+        assert_eq!(region.dim(), (9, 6, 3));
+        assert!((region[[4, 0, 2]].norm() - 2.0).abs() < 1e-5);
+        assert!(region.index_axis(ndarray::Axis(0), 3).iter().all(|z| z.norm() < 1e-4));
+        let wrapped = crop_region(spectrum.view(), 63, 64, 1).unwrap();
+        assert!((wrapped[[(20 + 64 - 31) % 64, 1, 0]].norm() - 2.0).abs() < 1e-5);
+        let parts = region_channels(region.view());
+        assert_eq!(parts[[4, 1, 0, 1]], region[[4, 1, 0]].re);
+        assert_eq!(parts[[4, 1, 0, 0]], region[[4, 1, 0]].norm());
+    }
+
+    #[test]
+    fn the_covariance_holds_power_and_phase() {
+        let spectrum = range_spectrum(frame().view(), Window::Rectangular).unwrap();
+        let region = crop_region(spectrum.view(), 20, 9, 4).unwrap();
+        let covariance = region_covariance(region.view());
+        assert!((covariance[[0, 0]].re - 4.0).abs() < 1e-4);
+        assert!((covariance[[3, 1]] - Complex64::cis(1.0) * 4.0).norm() < 1e-4);
+    }
+
+    #[test]
+    fn regions_beyond_the_spectrum_are_refused() {
+        let spectrum = range_spectrum(frame().view(), Window::Hann).unwrap();
+        for (centre, length, chirps) in [(64, 9, 1), (3, 65, 1), (3, 0, 1), (3, 9, 5), (3, 9, 0)] {
+            assert!(crop_region(spectrum.view(), centre, length, chirps).is_err());
+        }
+        assert!(range_spectrum(Array4::zeros((0, 1, 1, 8)).view(), Window::Hann).is_err());
+    }
+}
