@@ -14,8 +14,12 @@ async function python() {
   const program = process.platform === 'win32' ? join(folder, 'Scripts', 'python.exe') : join(folder, 'bin', 'python');
   const ready = () => existsSync(program) && output(program, ['-c', 'import numpy, scipy']) !== null;
   if (!ready()) {
-    console.log('bench: NumPy and SciPy into .tools/python');
     const system = process.platform === 'win32' ? 'python' : 'python3';
+    if (output(system, ['--version']) === null) {
+      console.log(`bench: ${system} was not found: ratios to NumPy will not be measured`);
+      return '';
+    }
+    console.log('bench: NumPy and SciPy into .tools/python');
     await run(system, ['-m', 'venv', folder]);
     await run(program, ['-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '-r', join(root, 'bench', 'requirements.txt')]);
   }

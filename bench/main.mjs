@@ -1,0 +1,244 @@
+// `npm run bench`: times the built package, one thread, beside NumPy and fft.js on the same data.
+//
+//   --only NAMES   rows whose name contains one of these, comma-separated
+//   --quick        fewer rounds: for a look, not for figures to keep
+//   --json         prints the report as JSON in place of the table (bench.json is written always)
+//   --check        exit status 1 where a target is missed, not measured or in error
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { parseArgs } from 'node:util';
+import { classical, cube, iaa48, scenesOf } from './cases.mjs';
+import { makeCube } from './data.mjs';
+import { rangeDopplerPlan } from './fft-js.mjs';
+import { initSeconds, machine, wasmModule } from './machine.mjs';
+import { compare, here } from './measure.mjs';
+import { NumPy } from './numpy.mjs';
+import { table, tally, verdict } from './report.mjs';
+
+const root = fileURLToPath(new URL('..', import.meta.url));
+const { values: options } = parseArgs({
+  options: {
+    only: { type: 'string' },
+    quick: { type: 'boolean', default: false },
+    json: { type: 'boolean', default: false },
+    check: { type: 'boolean', default: false },
+  },
+});
+const pace = options.quick
+  ? { rounds: 7, batchS: 0.01, warmUpS: 0.1 }
+  : { rounds: 40, batchS: 0.025, warmUpS: 0.4 };
+const wanted = options.only?.split(',').map((name) => name.trim()).filter(Boolean);
+const say = (text) => process.stderr.write(`${text}\n`);
+
+const entry = pathToFileURL(join(root, 'dist', 'lib', 'node.js')).href;
+const boresight = await import(entry);
+await boresight.init();
+
+let numpy;
+let withoutNumPy;
+try {
+  if (!process.env.PYTHON) throw new Error('no Python with NumPy was found');
+  numpy = await NumPy.start(process.env.PYTHON);
+} catch (error) {
+  withoutNumPy = `not measured: ${error.message}`;
+  say(`bench: ${withoutNumPy}; ratios to NumPy are left out`);
+}
+
+const rows = [];
+
+/** Runs a row's work if it is wanted; what it throws is the row's result. */
+async function row(name, base, work) {
+  if (wanted && !wanted.some((part) => name.includes(part))) return;
+  say(`bench: ${name}`);
+  const own = { name, ...base };
+  try {
+    Object.assign(own, await work());
+  } catch (error) {
+    own.error = error.message.split('\n')[0];
+  }
+  rows.push({ ...own, verdict: verdict(own) });
+}
+
+/** The strongest angles of each scene, ascending. */
+const strongest = (azimuths, count) => azimuths.slice(0, count).sort((a, b) => a - b);
+
+function largestDifference(ours, theirs, what) {
+  let largest = 0;
+  for (const [scene, angles] of ours.entries()) {
+    if (angles.length !== theirs[scene].length) {
+      throw new Error(`${what} finds ${theirs[scene].length} sources where Boresight finds ${angles.length}`);
+    }
+    angles.forEach((angle, k) => {
+      largest = Math.max(largest, Math.abs(angle - theirs[scene][k]));
+    });
+  }
+  return largest;
+}
+
+function agree(ours, theirs, limit, what) {
+  const difference = largestDifference(ours, theirs, what);
+  if (!(difference <= limit)) throw new Error(`${what} differs by ${difference.toPrecision(2)} deg`);
+  return difference;
+}
+
+const inputsOf = (scenes) => scenes.map(({ data, shape }) => ({ snapshots: { data, shape } }));
+const anglesOf = (estimator, inputs, sources) =>
+  inputs.map((input) => strongest(estimator.estimate(input).sources.map((source) => source.azimuthDeg), sources));
+
+/** Plans a method in NumPy for scenes and returns its angles and a side to time. */
+async function numpySide(id, scenes, positions, { method, options: given }, sources) {
+  const shape = [scenes.length, ...scenes[0].shape];
+  await numpy.prepare('prepare', id, scenes.map((scene) => scene.data), { method, options: given, positions, shape });
+  const { azimuthDeg } = await numpy.ask({ do: 'estimate', id });
+  return {
+    angles: azimuthDeg.map((angles) => strongest(angles, sources)),
+    side: (calls) => numpy.seconds(id, calls),
+  };
+}
+
+async function classicalRow({ name, scenes: what, sources, differDeg, options: given, numpy: theirs }) {
+  await row(`${name}, 32 elements`, { unit: 'x', otherName: 'NumPy', target: { least: 1 } }, async () => {
+    const scenes = scenesOf(what);
+    const inputs = inputsOf(scenes);
+    const estimator = new boresight.Estimator(given);
+    try {
+      const ours = anglesOf(estimator, inputs, sources);
+      const errorDeg = largestDifference(ours, scenes.map((scene) => scene.truthDeg), 'the truth');
+      const own = here((input) => estimator.estimate(input), inputs);
+      if (!numpy) {
+        const [{ seconds }] = await compare([own], pace);
+        return { ours: seconds, errorDeg, missing: withoutNumPy };
+      }
+      const { angles, side } = await numpySide(name, scenes, what.positions, theirs, sources);
+      const differenceDeg = agree(ours, angles, differDeg, 'NumPy');
+      const [first, second] = await compare([own, side], pace);
+      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median, differenceDeg, errorDeg };
+    } finally {
+      estimator.free();
+    }
+  });
+}
+
+async function iaaRows() {
+  const scenes = scenesOf(iaa48.scenes);
+  const inputs = inputsOf(scenes);
+  const name = 'IAA, lrr48, 1024 angles, 15 iterations';
+  const fast = new boresight.Estimator(iaa48.fast);
+  const dense = new boresight.Estimator(iaa48.dense);
+  const angles = anglesOf(fast, inputs, iaa48.sources);
+  const own = here((input) => fast.estimate(input), inputs);
+  const slowPace = { ...pace, rounds: Math.max(5, pace.rounds / 4) };
+  let time;
+  await row(`${name}: beside its dense form`, { unit: 'x', otherName: 'dense', target: { least: 20 } }, async () => {
+    agree(angles, anglesOf(dense, inputs, iaa48.sources), 1e-6, 'the dense form');
+    const [first, second] = await compare([own, here((input) => dense.estimate(input), inputs)], slowPace);
+    time = first.seconds;
+    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+  });
+  await row(`${name}: a snapshot`, { unit: 's', target: { most: 1.5e-3 } }, async () => {
+    time ??= (await compare([own], pace))[0].seconds;
+    return { ours: time, value: time.median };
+  });
+  if (numpy) {
+    await row(`${name}: beside NumPy's fast form`, { unit: 'x', otherName: 'NumPy' }, async () => {
+      const theirs = await numpySide('iaa48', scenes, iaa48.scenes.positions, iaa48.numpy('iaa'), iaa48.sources);
+      agree(angles, theirs.angles, 1e-6, 'NumPy');
+      const [first, second] = await compare([own, theirs.side], pace);
+      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+    });
+  }
+  fast.free();
+  dense.free();
+}
+
+async function cubeRows() {
+  const { loops, channels, samples, cells } = cube;
+  const name = `${samples} x ${loops} x ${channels} cube`;
+  const { data } = makeCube(cube);
+  const planned = (frames) => {
+    const all = new Float32Array(frames * data.length);
+    for (let frame = 0; frame < frames; frame++) all.set(data, frame * data.length);
+    const input = { data: all, shape: [frames, loops, 2, channels / 2, samples] };
+    return () => boresight.processCube(input, cube.options);
+  };
+  const [one, four] = [planned(1), planned(4)];
+  const expected = cells.map(([range, doppler]) => [range, (doppler + loops / 2) % loops]);
+  const missingIn = (found) => expected.filter((cell) => !found.some((other) => other[0] === cell[0] && other[1] === cell[1]));
+  const own = here(one, [0]);
+  await row(`${name}: windows, FFTs, CFAR and the rest of the chain`, { unit: 's', target: { most: 50e-3 } }, async () => {
+    const [frame] = one();
+    const missing = missingIn(frame.detections.map((d) => [d.rangeBin, d.dopplerBin]));
+    if (missing.length > 0) throw new Error(`targets not detected: ${JSON.stringify(missing)}`);
+    const [{ seconds }] = await compare([own], pace);
+    return { ours: seconds, value: seconds.median };
+  });
+  await row(`${name}: the same, four frames in one call, a frame`, { unit: 's' }, async () => {
+    const [{ seconds: all }] = await compare([here(four, [0])], pace);
+    const seconds = { median: all.median / 4, low: all.low / 4, high: all.high / 4 };
+    return { ours: seconds, value: seconds.median };
+  });
+  if (numpy) {
+    await row(`${name}: beside NumPy's windows, FFTs and CFAR`, { unit: 'x', otherName: 'NumPy' }, async () => {
+      const { guardCells, trainingCells, falseAlarm } = cube.options.cfar;
+      await numpy.prepare('prepare-chain', 'cube', [data], {
+        shape: [loops, channels, samples], options: { guardCells, trainingCells, falseAlarm },
+      });
+      const { detections } = await numpy.ask({ do: 'chain', id: 'cube' });
+      if (missingIn(detections).length > 0) throw new Error('NumPy misses targets');
+      const [first, second] = await compare([own, (calls) => numpy.seconds('cube', calls)], pace);
+      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+    });
+  }
+  await row(`${name}: beside fft.js, windows and FFTs alone`, { unit: 'x', otherName: 'fft.js' }, async () => {
+    const transform = rangeDopplerPlan(cube);
+    const power = transform(data);
+    const isPeak = ([range, doppler]) => power[range * loops + doppler] > 0.2 * cube.amplitude ** 2;
+    if (!expected.every(isPeak)) throw new Error('fft.js misses targets');
+    const [first, second] = await compare([own, here(() => transform(data), [0])], pace);
+    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+  });
+}
+
+async function boundaryRows() {
+  const { options: given, scenes: what } = classical.find(({ name }) => name === 'bartlett, 1 snapshot');
+  const inputs = inputsOf(scenesOf(what));
+  await row('one call of estimate() beside a kept Estimator (bartlett, 1 snapshot)', { unit: 'x', otherName: 'estimate()' }, async () => {
+    const estimator = new boresight.Estimator(given);
+    const kept = here((input) => estimator.estimate(input), inputs);
+    const [first, second] = await compare([kept, here((input) => boresight.estimate(input, given), inputs)], pace);
+    estimator.free();
+    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+  });
+  await row('crossing the boundary and back (bartlett, 4 elements, 16 angles)', { unit: 's' }, async () => {
+    const estimator = new boresight.Estimator({ method: 'bartlett', array: 'ula4', gridPoints: 16 });
+    const input = { snapshots: { data: new Float64Array([1, 0, 1, 0, 1, 0, 1, 0]), shape: [4] } };
+    const [{ seconds }] = await compare([here(() => estimator.estimate(input), [0])], pace);
+    estimator.free();
+    return { ours: seconds, value: seconds.median };
+  });
+}
+
+const wasm = wasmModule(join(root, 'dist', 'wasm', 'boresight_bg.wasm'));
+await iaaRows();
+for (const one of classical) await classicalRow(one);
+await cubeRows();
+await boundaryRows();
+await row('init() in a fresh process', { unit: 's' }, () => ({ value: initSeconds(entry, options.quick ? 3 : 15) }));
+await row('core .wasm, raw', { unit: 'bytes' }, () => ({ value: wasm.bytes }));
+await row('core .wasm, Brotli', { unit: 'bytes', target: { most: 400_000 } }, () => ({ value: wasm.brotliBytes }));
+
+const report = { date: new Date().toISOString(), quick: options.quick, machine: machine(), numpy: numpy?.versions ?? null, wasm, rows };
+numpy?.stop();
+writeFileSync(join(root, 'bench.json'), `${JSON.stringify(report, null, 2)}\n`);
+const counts = tally(rows);
+if (options.json) {
+  console.log(JSON.stringify(report, null, 2));
+} else {
+  const { cpu, node } = report.machine;
+  const beside = report.numpy ? `NumPy ${report.numpy.numpy} (${report.numpy.blas})` : 'no NumPy';
+  console.log(`\n${cpu}, Node ${node}, ${beside}, one thread; wasm ${wasm.sha256.slice(0, 12)}\n`);
+  console.log(table(rows));
+  console.log(`\ntargets: ${counts.met} met, ${counts.missed} missed, ${counts.errors} in error, ${counts.notMeasured} not measured`);
+}
+if (options.check && counts.missed + counts.errors + counts.notMeasured > 0) process.exitCode = 1;
