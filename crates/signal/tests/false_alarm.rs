@@ -1,5 +1,7 @@
 //! Measured false-alarm rates of every kind of CFAR, inside the map and at its edges.
 
+#![allow(clippy::unwrap_used)]
+
 use boresight_core::{Complex32, Random, Waveform};
 use boresight_signal::{
     Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,

@@ -1,5 +1,7 @@
 //! The range-Doppler plan against the definition of the transforms.
 
+#![allow(clippy::unwrap_used)]
+
 use boresight_core::{Complex32, Complex64, CoreError, Random, Waveform};
 use boresight_signal::range_doppler::MAX_CUBE_VALUES;
 use boresight_signal::{

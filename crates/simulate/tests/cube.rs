@@ -1,5 +1,7 @@
 //! Data cubes against closed forms, and through the range-Doppler transform back to the targets.
 
+#![allow(clippy::unwrap_used)]
+
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
 use boresight_core::steering::steering_vector;

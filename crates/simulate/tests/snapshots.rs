@@ -1,5 +1,7 @@
 //! Snapshots against the model they are drawn from.
 
+#![allow(clippy::unwrap_used)]
+
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::presets::preset;

@@ -52,7 +52,7 @@ pub fn integrate_log_concave(ln_integrand: impl Fn(f64) -> f64) -> f64 {
     const NEGLIGIBLE: f64 = 40.0;
     const NODES: u32 = 160;
     let (mut a, mut b) = (LOW, HIGH);
-    while b - a > 1e-4 {
+    while b - a > 1e-3 {
         let (left, right) = (a + (b - a) * 0.382, a + (b - a) * 0.618);
         if ln_integrand(left) < ln_integrand(right) { a = left } else { b = right }
     }

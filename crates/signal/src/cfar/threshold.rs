@@ -102,7 +102,7 @@ fn solve(false_alarm: f64, probability: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..100 {
         let middle = (low * at_high - high * at_low) / (at_high - at_low);
         let at_middle = excess(middle);
-        if at_middle.abs() < 1e-9 || high - low < 1e-12 {
+        if at_middle.abs() < 1e-7 || high - low < 1e-12 {
             return middle.exp();
         }
         if at_middle > 0.0 {
