@@ -1,0 +1,45 @@
+/** Numbers for people: a true minus sign, fixed digits, engineering prefixes. */
+
+export function fixed(value: number, digits = 1): string {
+  if (!Number.isFinite(value)) return '–';
+  const text = value.toFixed(digits);
+  return (Number(text) === 0 ? text.replace('-', '') : text).replace('-', '−');
+}
+
+/** A signed number, for differences and angles. */
+export function signed(value: number, digits = 1): string {
+  const text = fixed(value, digits);
+  return Number.isFinite(value) && Number(value.toFixed(digits)) > 0 ? `+${text}` : text;
+}
+
+/** At least `digits` significant figures, never in exponent form. */
+export function significant(value: number, digits = 3): string {
+  if (!Number.isFinite(value)) return '–';
+  if (value === 0) return '0';
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value))));
+  return fixed(value, Math.min(decimals, 6));
+}
+
+const PREFIXES: [number, string][] = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'], [1e-9, 'n']];
+
+/** A value with an SI prefix and its unit: `3.07 GHz`. */
+export function engineering(value: number, unit: string, digits = 3): string {
+  if (!Number.isFinite(value)) return '–';
+  const size = Math.abs(value);
+  const [scale, prefix] = PREFIXES.find(([limit]) => size >= limit) ?? (size === 0 ? [1, ''] : [1e-9, 'n']);
+  return `${significant(value / scale, digits)}\u00a0${prefix}${unit}`;
+}
+
+/** Tick labels with as many decimals as their step needs. */
+export function ticks(splits: number[], step: number): string[] {
+  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  return splits.map((value) => (value == null ? '' : fixed(value, Math.min(decimals, 6))));
+}
+
+/** A duration of a computation. */
+export function milliseconds(value: number): string {
+  if (value < 0.1) return '<0.1\u00a0ms';
+  if (value < 10) return `${fixed(value, 1)}\u00a0ms`;
+  if (value < 10_000) return `${fixed(value, 0)}\u00a0ms`;
+  return `${fixed(value / 1000, 1)}\u00a0s`;
+}

@@ -1,0 +1,96 @@
+/** Colour-coded maps: an image under the axes and a colour bar beside them. */
+import { type ColorMapName, colorTable } from './colormap.ts';
+import { fixed } from './format.ts';
+import type { Layer } from './layers.ts';
+
+export interface HeatMap {
+  /** Centres of the columns and rows, ascending and evenly spaced. */
+  x: ArrayLike<number>;
+  y: ArrayLike<number>;
+  /** Value of column i and row j at `i * y.length + j`. */
+  values: ArrayLike<number>;
+  /** Values of the first and last colour. */
+  limits: readonly [number, number];
+  colors: ColorMapName;
+}
+
+/** Interval the cells cover: half a cell beyond the outer centres. */
+export function cellExtent(centres: ArrayLike<number>): [number, number] {
+  const first = centres[0] ?? 0;
+  const last = centres[centres.length - 1] ?? 1;
+  const half = centres.length > 1 ? (last - first) / (centres.length - 1) / 2 : 0.5;
+  return [first - half, last + half];
+}
+
+/** The image, painted once; the layer only scales it. */
+export function heatImage(map: HeatMap): Layer {
+  const columns = map.x.length;
+  const rows = map.y.length;
+  if (!columns || !rows) return () => {};
+  const image = document.createElement('canvas');
+  image.width = columns;
+  image.height = rows;
+  const target = image.getContext('2d');
+  if (!target) return () => {};
+  const pixels = target.createImageData(columns, rows);
+  const table = new Uint32Array(colorTable(map.colors).slice().buffer);
+  const out = new Uint32Array(pixels.data.buffer);
+  const [low, high] = map.limits;
+  const scale = 255 / (high - low || 1);
+  for (let i = 0; i < columns; i++) {
+    for (let j = 0; j < rows; j++) {
+      const value = map.values[i * rows + j] as number;
+      const level = Math.min(Math.max(Math.round((value - low) * scale), 0), 255) || 0;
+      out[(rows - 1 - j) * columns + i] = table[level] as number;
+    }
+  }
+  target.putImageData(pixels, 0, 0);
+  const [left, right] = cellExtent(map.x);
+  const [bottom, top] = cellExtent(map.y);
+  return ({ ctx, x, y }) => {
+    ctx.imageSmoothingEnabled = false;
+    ctx.drawImage(image, x(left), y(top), x(right) - x(left), y(bottom) - y(top));
+  };
+}
+
+/** Colour bar in the space right of the plot. */
+export function colorBar(limits: readonly [number, number], colors: ColorMapName, label: string): Layer {
+  const table = colorTable(colors);
+  return ({ ctx, plot, theme, ratio }) => {
+    const { left, top, width, height } = plot.bbox;
+    const x = left + width + 12 * ratio;
+    const bar = 12 * ratio;
+    for (let row = 0; row < height; row++) {
+      const level = Math.round(255 * (1 - row / Math.max(height - 1, 1))) * 4;
+      ctx.fillStyle = `rgb(${table[level]}, ${table[level + 1]}, ${table[level + 2]})`;
+      ctx.fillRect(x, top + row, bar, 1.5);
+    }
+    ctx.strokeStyle = theme.muted;
+    ctx.lineWidth = ratio;
+    ctx.strokeRect(x + 0.5, top + 0.5, bar, height - 1);
+    ctx.fillStyle = theme.muted;
+    ctx.font = `${11 * ratio}px ${theme.font}`;
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'middle';
+    const [low, high] = limits;
+    const step = [1, 2, 5, 10, 20, 50].find((s) => ((high - low) / s) * 26 * ratio <= height) ?? 50;
+    for (let value = Math.ceil(low / step) * step; value <= high; value += step) {
+      const at = top + height * (1 - (value - low) / (high - low));
+      ctx.beginPath();
+      ctx.moveTo(x + bar, at);
+      ctx.lineTo(x + bar + 3 * ratio, at);
+      ctx.stroke();
+      ctx.fillText(fixed(value, 0), x + bar + 5 * ratio, Math.min(Math.max(at, top + 6 * ratio), top + height - 6 * ratio));
+    }
+    ctx.textAlign = 'center';
+    ctx.save();
+    ctx.translate(x + bar + 40 * ratio, top + height / 2);
+    ctx.rotate(-Math.PI / 2);
+    ctx.font = `${12 * ratio}px ${theme.font}`;
+    ctx.fillText(label, 0, 0);
+    ctx.restore();
+  };
+}
+
+/** Width a colour bar needs, CSS pixels. */
+export const COLOR_BAR_WIDTH = 74;

@@ -1,0 +1,158 @@
+/** Things drawn on a plot besides its series: functions of canvas, plot and theme. */
+import type uPlot from 'uplot';
+import type { MarkerShape, PlotTheme, SeriesStyle, ThemeName } from './theme.ts';
+
+export interface LayerContext {
+  ctx: CanvasRenderingContext2D;
+  plot: uPlot;
+  theme: PlotTheme;
+  themeName: ThemeName;
+  /** Device pixels a CSS pixel. */
+  ratio: number;
+  x(value: number): number;
+  y(value: number): number;
+}
+
+export type Layer = (c: LayerContext) => void;
+
+/** Vertical lines at given abscissae, full height, with an optional label at the top. */
+export function verticalLines(
+  lines: readonly { x: number; label?: string }[],
+  style: { color?: (t: PlotTheme) => string; dash?: number[]; width?: number } = {},
+): Layer {
+  return ({ ctx, plot, theme, ratio, x }) => {
+    const { top, height } = plot.bbox;
+    ctx.strokeStyle = style.color?.(theme) ?? theme.truth;
+    ctx.fillStyle = ctx.strokeStyle;
+    ctx.lineWidth = (style.width ?? 1) * ratio;
+    ctx.setLineDash((style.dash ?? []).map((d) => d * ratio));
+    ctx.font = `${11 * ratio}px ${theme.font}`;
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'top';
+    for (const line of lines) {
+      const at = Math.round(x(line.x)) + 0.5;
+      ctx.beginPath();
+      ctx.moveTo(at, top);
+      ctx.lineTo(at, top + height);
+      ctx.stroke();
+      if (line.label) ctx.fillText(line.label, at + 4 * ratio, top + 3 * ratio);
+    }
+    ctx.setLineDash([]);
+  };
+}
+
+/** Horizontal line across the plot with a label at its right end. */
+export function horizontalLine(value: number, label: string): Layer {
+  return ({ ctx, plot, theme, ratio, y }) => {
+    const { left, top, width, height } = plot.bbox;
+    const at = Math.round(y(value)) + 0.5;
+    if (at < top || at > top + height) return;
+    ctx.strokeStyle = theme.muted;
+    ctx.fillStyle = theme.muted;
+    ctx.lineWidth = ratio;
+    ctx.setLineDash([2 * ratio, 3 * ratio]);
+    ctx.beginPath();
+    ctx.moveTo(left, at);
+    ctx.lineTo(left + width, at);
+    ctx.stroke();
+    ctx.setLineDash([]);
+    ctx.font = `${11 * ratio}px ${theme.font}`;
+    ctx.textAlign = 'right';
+    ctx.textBaseline = 'bottom';
+    ctx.fillText(label, left + width - 5 * ratio, at - 2 * ratio);
+  };
+}
+
+/** Shaded intervals of the abscissa: error bands, or sectors that are out of bounds. */
+export function bands(intervals: readonly (readonly [number, number])[], fill: (t: PlotTheme) => string): Layer {
+  return ({ ctx, plot, theme, x }) => {
+    const { top, height } = plot.bbox;
+    ctx.fillStyle = fill(theme);
+    for (const [from, to] of intervals) {
+      const a = x(from);
+      const b = x(to);
+      ctx.fillRect(Math.min(a, b), top, Math.max(Math.abs(b - a), 1), height);
+    }
+  };
+}
+
+export interface Marker {
+  x: number;
+  y: number;
+  style: SeriesStyle;
+  size?: number;
+  hollow?: boolean;
+}
+
+export function markers(points: readonly Marker[]): Layer {
+  return ({ ctx, plot, theme, themeName, ratio, x, y }) => {
+    const { left, top, width, height } = plot.bbox;
+    for (const point of points) {
+      const size = (point.size ?? 4.5) * ratio;
+      const px = x(point.x);
+      if (px < left - 1 || px > left + width + 1) continue;
+      const py = Math.min(Math.max(y(point.y), top + size), top + height - size);
+      drawMarker(ctx, point.style.marker ?? 'circle', px, py, size, {
+        stroke: point.style.color[themeName],
+        fill: point.hollow ? null : point.style.color[themeName],
+        halo: theme.background,
+        ratio,
+      });
+    }
+  };
+}
+
+export function drawMarker(
+  ctx: CanvasRenderingContext2D,
+  shape: MarkerShape,
+  x: number,
+  y: number,
+  r: number,
+  look: { stroke: string; fill: string | null; halo?: string; ratio: number },
+): void {
+  const path = new Path2D();
+  const polygon = (corners: [number, number][]): void => {
+    corners.forEach(([dx, dy], i) => (i ? path.lineTo(x + dx * r, y + dy * r) : path.moveTo(x + dx * r, y + dy * r)));
+    path.closePath();
+  };
+  let open = false;
+  switch (shape) {
+    case 'circle': path.arc(x, y, r * 0.95, 0, 2 * Math.PI); break;
+    case 'square': path.rect(x - r * 0.85, y - r * 0.85, 1.7 * r, 1.7 * r); break;
+    case 'diamond': polygon([[0, -1.25], [1.1, 0], [0, 1.25], [-1.1, 0]]); break;
+    case 'up': polygon([[0, -1.15], [1.1, 0.85], [-1.1, 0.85]]); break;
+    case 'down': polygon([[0, 1.15], [1.1, -0.85], [-1.1, -0.85]]); break;
+    case 'left': polygon([[-1.15, 0], [0.85, 1.1], [0.85, -1.1]]); break;
+    case 'right': polygon([[1.15, 0], [-0.85, 1.1], [-0.85, -1.1]]); break;
+    case 'star':
+      polygon(Array.from({ length: 10 }, (_, i) => {
+        const radius = i % 2 ? 0.55 : 1.35;
+        const angle = (i * Math.PI) / 5 - Math.PI / 2;
+        return [radius * Math.cos(angle), radius * Math.sin(angle)] as [number, number];
+      }));
+      break;
+    case 'plus': case 'cross': case 'bar': {
+      open = true;
+      const strokes: [number, number, number, number][] =
+        shape === 'plus' ? [[-1.2, 0, 1.2, 0], [0, -1.2, 0, 1.2]]
+        : shape === 'cross' ? [[-1, -1, 1, 1], [-1, 1, 1, -1]]
+        : [[0, -1.4, 0, 1.4], [-0.7, -1.4, 0.7, -1.4], [-0.7, 1.4, 0.7, 1.4]];
+      for (const [ax, ay, bx, by] of strokes) {
+        path.moveTo(x + ax * r, y + ay * r);
+        path.lineTo(x + bx * r, y + by * r);
+      }
+    }
+  }
+  if (look.halo) {
+    ctx.strokeStyle = look.halo;
+    ctx.lineWidth = (open ? 4.5 : 3) * look.ratio;
+    ctx.stroke(path);
+  }
+  if (!open && look.fill) {
+    ctx.fillStyle = look.fill;
+    ctx.fill(path);
+  }
+  ctx.strokeStyle = look.stroke;
+  ctx.lineWidth = (open ? 2 : 1.5) * look.ratio;
+  ctx.stroke(path);
+}

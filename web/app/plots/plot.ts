@@ -1,0 +1,411 @@
+/**
+ * A plot with axes, cursor, zoom and layers, on uPlot. Everything the demo draws is one of these:
+ * line plots give it series, maps give it a layer below the axes.
+ */
+import uPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
+import './plot.css';
+import { ticks } from './format.ts';
+import type { Layer, LayerContext } from './layers.ts';
+import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
+
+export type Interval = readonly [number, number];
+export interface View { x: Interval; y: Interval }
+
+export interface AxisOptions {
+  /** Quantity and unit: `Range (m)`. */
+  label: string;
+  /** Preferred tick steps. */
+  steps?: number[];
+}
+
+export interface PlotSeries {
+  id: string;
+  label: string;
+  y: ArrayLike<number | null>;
+  style: SeriesStyle;
+}
+
+export interface PlotContent {
+  /** Abscissae, ascending, shared by all series. */
+  x: ArrayLike<number>;
+  series: readonly PlotSeries[];
+  /** Drawn under the axes. */
+  below?: readonly Layer[];
+  /** Drawn over the series. */
+  above?: readonly Layer[];
+  /** What is shown when nothing is zoomed. */
+  extent: View;
+}
+
+export interface CursorPosition {
+  x: number;
+  y: number;
+  /** Nearest abscissa's index. */
+  index: number | null;
+}
+
+export interface PlotOptions {
+  /** What a screen reader says the plot is. */
+  label: string;
+  x: AxisOptions;
+  y: AxisOptions;
+  /** Space for a colour bar, CSS pixels. */
+  right?: number;
+  /** Smallest share of the extent a zoom may show. */
+  minZoom?: number;
+  /** Plots with the same key share their cursor's abscissa. */
+  cursorKey?: string;
+  theme: ThemeName;
+  grid?: boolean;
+  /** Equal scales on both axes. */
+  onCursor?(position: CursorPosition | null): void;
+  onClick?(position: CursorPosition): void;
+  /** Default: reset the zoom. */
+  onDoubleClick?(position: CursorPosition): void;
+  /** Called for zooms made here, not through `setView`. */
+  onView?(view: View, zoomed: boolean): void;
+  /** Return true where the key was used. */
+  onKey?(event: KeyboardEvent): boolean;
+}
+
+const AXIS_WIDTH = 52;
+const AXIS_HEIGHT = 40;
+
+export class Plot {
+  readonly host: HTMLElement;
+  readonly u: uPlot;
+  #options: PlotOptions;
+  #content: PlotContent = { x: [], series: [], extent: { x: [0, 1], y: [0, 1] } };
+  #view: View | null = null;
+  #theme: ThemeName;
+  #ids: string[] = [];
+  #observer: ResizeObserver;
+  #listeners = new Set<() => void>();
+
+  constructor(host: HTMLElement, options: PlotOptions) {
+    this.host = host;
+    this.#options = options;
+    this.#theme = options.theme;
+    host.classList.add('plot');
+    host.tabIndex = 0;
+    host.setAttribute('role', 'application');
+    host.setAttribute('aria-label', options.label);
+    this.u = new uPlot(this.#uplotOptions(), [[], []], host);
+    this.u.over.addEventListener('click', this.#click);
+    host.addEventListener('keydown', this.#key);
+    this.#observer = new ResizeObserver(() => this.#resize());
+    this.#observer.observe(host);
+    this.#resize();
+  }
+
+  get content(): PlotContent {
+    return this.#content;
+  }
+
+  get view(): View {
+    return this.#view ?? this.#content.extent;
+  }
+
+  get zoomed(): boolean {
+    return this.#view !== null;
+  }
+
+  get theme(): ThemeName {
+    return this.#theme;
+  }
+
+  /** Calls back after each drawing, for things laid over the plot. */
+  onDraw(listener: () => void): () => void {
+    this.#listeners.add(listener);
+    return () => this.#listeners.delete(listener);
+  }
+
+  setContent(content: PlotContent): void {
+    this.#content = content;
+    const ids = content.series.map((series) => series.id);
+    this.u.batch(() => {
+      if (ids.join('\n') !== this.#ids.join('\n')) {
+        while (this.u.series.length > 1) this.u.delSeries(this.u.series.length - 1);
+        content.series.forEach((series, i) => this.u.addSeries(this.#uplotSeries(series), i + 1));
+        if (!content.series.length) this.u.addSeries({ scale: 'y', show: false }, 1);
+        this.#ids = ids;
+      }
+      const columns = content.series.length ? content.series.map((series) => series.y) : [new Array(content.x.length).fill(null)];
+      this.u.setData([content.x, ...columns] as unknown as uPlot.AlignedData, false);
+      this.#applyView();
+    });
+  }
+
+  setTheme(theme: ThemeName): void {
+    this.#theme = theme;
+    this.u.redraw(false, true);
+  }
+
+  /** Shows part of the extent; `null` all of it. */
+  setView(view: View | null, report = false): void {
+    this.#view = view ? this.#within(view) : null;
+    this.#applyView();
+    if (report) this.#options.onView?.(this.view, this.zoomed);
+  }
+
+  /** Zooms about the middle; a factor below 1 shows less. */
+  zoomBy(factor: number): void {
+    const { extent } = this.#content;
+    const scaled = ([a, b]: Interval): Interval => {
+      const middle = (a + b) / 2;
+      const half = ((b - a) / 2) * factor;
+      return [middle - half, middle + half];
+    };
+    const view: View = { x: scaled(this.view.x), y: this.view.y };
+    const all = view.x[1] - view.x[0] >= extent.x[1] - extent.x[0];
+    this.setView(all ? null : view, true);
+  }
+
+  resetZoom(): void {
+    this.setView(null, true);
+  }
+
+  panBy(share: number): void {
+    if (!this.#view) return;
+    const step = (this.#view.x[1] - this.#view.x[0]) * share;
+    this.setView({ x: [this.#view.x[0] + step, this.#view.x[1] + step], y: this.#view.y }, true);
+  }
+
+  /** The plot as an image with a heading and remarks below it, at the screen's resolution. */
+  png(heading: string, remarks: readonly string[] = []): Promise<Blob> {
+    const source = this.u.ctx.canvas;
+    const ratio = uPlot.pxRatio;
+    const theme = THEMES[this.#theme];
+    const canvas = document.createElement('canvas');
+    const top = 30 * ratio;
+    const bottom = (remarks.length * 16 + (remarks.length ? 10 : 0)) * ratio;
+    canvas.width = source.width;
+    canvas.height = source.height + top + bottom;
+    const ctx = canvas.getContext('2d');
+    if (!ctx) return Promise.reject(new Error('This browser gives no 2-D canvas to draw the image on.'));
+    ctx.fillStyle = theme.background;
+    ctx.fillRect(0, 0, canvas.width, canvas.height);
+    ctx.fillStyle = theme.text;
+    ctx.textBaseline = 'middle';
+    ctx.font = `600 ${13 * ratio}px ${theme.font}`;
+    ctx.fillText(heading, 12 * ratio, top / 2, canvas.width - 24 * ratio);
+    ctx.drawImage(source, 0, top);
+    ctx.fillStyle = theme.muted;
+    ctx.font = `${11 * ratio}px ${theme.font}`;
+    remarks.forEach((remark, i) => {
+      ctx.fillText(remark, 12 * ratio, source.height + top + (i * 16 + 10) * ratio, canvas.width - 24 * ratio);
+    });
+    return new Promise((resolve, reject) => {
+      canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser could not encode the image.'))), 'image/png');
+    });
+  }
+
+  destroy(): void {
+    this.#observer.disconnect();
+    this.#listeners.clear();
+    this.host.removeEventListener('keydown', this.#key);
+    this.u.destroy();
+  }
+
+  #uplotOptions(): uPlot.Options {
+    const theme = () => THEMES[this.#theme];
+    const family = THEMES.light.font;
+    const axis = (options: AxisOptions, side: number, size: number): uPlot.Axis => ({
+      scale: side === 2 ? 'x' : 'y',
+      side,
+      size,
+      label: options.label,
+      labelSize: 18,
+      labelGap: 0,
+      gap: 4,
+      font: `11px ${family}`,
+      labelFont: `12px ${family}`,
+      space: side === 2 ? 54 : 28,
+      stroke: () => theme().muted,
+      grid: { show: this.#options.grid ?? true, stroke: () => theme().grid, width: 1 },
+      ticks: { show: true, stroke: () => theme().muted, width: 1, size: 4 },
+      border: { show: true, stroke: () => theme().muted, width: 1 },
+      values: (_u, splits, _axis, _space, step) => ticks(splits, step),
+      ...(options.steps ? { incrs: options.steps } : {}),
+    });
+    const options = this.#options;
+    return {
+      width: 300,
+      height: 200,
+      padding: [8, options.right ?? 14, 0, 0],
+      legend: { show: false },
+      scales: {
+        x: { time: false, auto: false, range: () => [...this.view.x] as [number, number] },
+        y: { auto: false, range: () => [...this.view.y] as [number, number] },
+      },
+      axes: [axis(options.x, 2, AXIS_HEIGHT - 18), axis(options.y, 3, AXIS_WIDTH - 18)],
+      series: [{}, { scale: 'y', show: false }],
+      cursor: {
+        drag: { x: true, y: true, uni: 24, setScale: false },
+        points: { size: 6 },
+        bind: {
+          dblclick: () => (event: MouseEvent) => {
+            this.#doubleClick(event);
+            return null;
+          },
+        },
+        ...(options.cursorKey
+          ? {
+              sync: {
+                key: options.cursorKey,
+                setSeries: false,
+                scales: ['x', null] as [string, null],
+                filters: { pub: (type: string) => type === 'mousemove' || type === 'mouseleave' },
+              },
+            }
+          : {}),
+      },
+      hooks: {
+        drawClear: [() => this.#drawBelow()],
+        draw: [() => this.#drawAbove()],
+        setCursor: [(u) => this.#reportCursor(u)],
+        setSelect: [(u) => this.#select(u)],
+      },
+    };
+  }
+
+  #uplotSeries(series: PlotSeries): uPlot.Series {
+    return {
+      label: series.label,
+      scale: 'y',
+      auto: false,
+      stroke: () => series.style.color[this.#theme],
+      width: series.style.width ?? 1.6,
+      ...(series.style.dash ? { dash: series.style.dash } : {}),
+      points: { show: false },
+      spanGaps: false,
+    };
+  }
+
+  #applyView(): void {
+    const { x, y } = this.view;
+    this.u.batch(() => {
+      this.u.setScale('x', { min: x[0], max: x[1] });
+      this.u.setScale('y', { min: y[0], max: y[1] });
+      this.u.redraw(true, true);
+    });
+  }
+
+  #within(view: View): View {
+    const clamp = ([a, b]: Interval, [low, high]: Interval): Interval => {
+      const width = Math.min(Math.max(b - a, (high - low) * (this.#options.minZoom ?? 1e-4)), high - low);
+      const start = Math.min(Math.max((a + b - width) / 2, low), high - width);
+      return [start, start + width];
+    };
+    return { x: clamp(view.x, this.#content.extent.x), y: clamp(view.y, this.#content.extent.y) };
+  }
+
+  #resize(): void {
+    const width = this.host.clientWidth;
+    const height = this.host.clientHeight;
+    if (width > 0 && height > 0 && (width !== this.u.width || height !== this.u.height)) {
+      this.u.setSize({ width, height });
+    }
+  }
+
+  #select(u: uPlot): void {
+    const { left, top, width, height } = u.select;
+    if (width < 4 && height < 4) return;
+    const whole = (size: number, full: number): boolean => size < 4 || size >= full - 1;
+    const x: Interval = whole(width, u.over.clientWidth) ? this.view.x : [u.posToVal(left, 'x'), u.posToVal(left + width, 'x')];
+    const y: Interval = whole(height, u.over.clientHeight) ? this.view.y : [u.posToVal(top + height, 'y'), u.posToVal(top, 'y')];
+    u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    this.setView({ x, y }, true);
+  }
+
+  #position(event: MouseEvent): CursorPosition {
+    const box = this.u.over.getBoundingClientRect();
+    const x = this.u.posToVal(event.clientX - box.left, 'x');
+    return { x, y: this.u.posToVal(event.clientY - box.top, 'y'), index: this.#content.x.length ? this.u.valToIdx(x) : null };
+  }
+
+  /** uPlot keeps clicks that end a drag to itself. */
+  #click = (event: MouseEvent): void => {
+    if (event.detail <= 1) this.#options.onClick?.(this.#position(event));
+  };
+
+  #doubleClick(event: MouseEvent): void {
+    if (this.#options.onDoubleClick) this.#options.onDoubleClick(this.#position(event));
+    else this.resetZoom();
+  }
+
+  #key = (event: KeyboardEvent): void => {
+    if (event.target !== this.host || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (this.#options.onKey?.(event) || this.#ownKey(event)) event.preventDefault();
+  };
+
+  #ownKey(event: KeyboardEvent): boolean {
+    switch (event.key) {
+      case '+': case '=': this.zoomBy(0.5); return true;
+      case '-': this.zoomBy(2); return true;
+      case '0': case 'Escape': this.resetZoom(); return true;
+      case 'PageUp': this.panBy(0.25); return true;
+      case 'PageDown': this.panBy(-0.25); return true;
+      case 'ArrowLeft': case 'ArrowRight': this.#moveCursor((event.key === 'ArrowLeft' ? -1 : 1) * (event.shiftKey ? 10 : 1)); return true;
+      default: return false;
+    }
+  }
+
+  #moveCursor(steps: number): void {
+    const { x } = this.#content;
+    if (!x.length) return;
+    const middle = this.u.valToIdx((this.view.x[0] + this.view.x[1]) / 2);
+    const from = (this.u.cursor.left ?? -1) >= 0 ? (this.u.cursor.idx ?? middle) : middle;
+    const value = x[Math.min(Math.max(from + steps, 0), x.length - 1)] as number;
+    if (value < this.view.x[0] || value > this.view.x[1]) return;
+    const first = this.#content.series[0]?.y[this.u.valToIdx(value)];
+    this.u.setCursor({
+      left: this.u.valToPos(value, 'x'),
+      top: typeof first === 'number' ? Math.min(Math.max(this.u.valToPos(first, 'y'), 0), this.u.over.clientHeight) : this.u.over.clientHeight / 2,
+    });
+  }
+
+  #reportCursor(u: uPlot): void {
+    const { left, top } = u.cursor;
+    if (left == null || top == null || left < 0) {
+      this.#options.onCursor?.(null);
+      return;
+    }
+    const x = u.posToVal(left, 'x');
+    this.#options.onCursor?.({ x, y: u.posToVal(top, 'y'), index: this.#content.x.length ? u.valToIdx(x) : null });
+  }
+
+  #context(): LayerContext {
+    const u = this.u;
+    return {
+      ctx: u.ctx, plot: u, theme: THEMES[this.#theme], themeName: this.#theme, ratio: uPlot.pxRatio,
+      x: (value) => u.valToPos(value, 'x', true),
+      y: (value) => u.valToPos(value, 'y', true),
+    };
+  }
+
+  #drawBelow(): void {
+    const { ctx, bbox, width, height } = this.u;
+    ctx.save();
+    ctx.fillStyle = THEMES[this.#theme].background;
+    ctx.fillRect(0, 0, width * uPlot.pxRatio, height * uPlot.pxRatio);
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    const context = this.#context();
+    for (const layer of this.#content.below ?? []) layer(context);
+    ctx.restore();
+  }
+
+  #drawAbove(): void {
+    const { ctx } = this.u;
+    const context = this.#context();
+    for (const layer of this.#content.above ?? []) {
+      ctx.save();
+      layer(context);
+      ctx.restore();
+    }
+    for (const listener of this.#listeners) listener();
+  }
+}

@@ -1,0 +1,33 @@
+/** What leaves a plot or table as a file. */
+
+/** A field as RFC 4180 wants it. */
+function field(value: unknown): string {
+  const text = value == null || (typeof value === 'number' && !Number.isFinite(value)) ? '' : String(value);
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+/** One header row, then the rows; the header names the units. */
+export function toCsv(header: readonly string[], rows: Iterable<readonly unknown[]>): string {
+  const lines = [header.map(field).join(',')];
+  for (const row of rows) lines.push(row.map(field).join(','));
+  return `${lines.join('\r\n')}\r\n`;
+}
+
+export function download(content: Blob | string, name: string): void {
+  const blob = typeof content === 'string' ? new Blob([content], { type: 'text/csv;charset=utf-8' }) : content;
+  const address = URL.createObjectURL(blob);
+  const link = document.createElement('a');
+  link.href = address;
+  link.download = name;
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** A safe, readable file name. */
+export function fileName(parts: readonly (string | number | undefined)[], extension: string): string {
+  const stem = parts.filter((part) => part !== undefined && part !== '').join('-')
+    .toLowerCase().replace(/[^a-z0-9.+-]+/g, '-').replace(/^-+|-+$/g, '');
+  return `boresight-${stem.slice(0, 90)}.${extension}`;
+}
