@@ -1,0 +1,29 @@
+/** The package, as the pages use it: one place that loads it, and one pool of workers. */
+import * as boresight from 'boresight';
+import { createPool, type Pool } from 'boresight/worker';
+
+export const api = boresight;
+
+/** An error as the pages show it. */
+export interface Problem { code: string; message: string }
+
+export function describeError(error: unknown): Problem {
+  if (error instanceof boresight.BoresightError) return { code: error.code, message: error.message };
+  return { code: 'unexpected', message: error instanceof Error ? error.message : String(error) };
+}
+
+export function aborted(error: unknown): boolean {
+  return error instanceof Error && error.name === 'AbortError';
+}
+
+let workers: Pool | undefined;
+
+/** Workers start with the first call that needs them. */
+export function pool(): Pool {
+  workers ??= createPool({ workers: Math.min(Math.max((navigator.hardwareConcurrency || 2) - 1, 1), 4) });
+  return workers;
+}
+
+export function load(): Promise<void> {
+  return boresight.init();
+}

@@ -1,0 +1,51 @@
+/** Estimates as the plots show them. */
+import type { Estimate } from 'boresight';
+import type { PlotSeries } from './plots/plot.ts';
+import { methodStyle } from './plots/theme.ts';
+
+/** Tick steps for degrees. */
+export const ANGLE_STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30];
+
+export interface Curve { method: string; title: string; azimuthDeg: Float64Array; valuesDb: Float64Array }
+
+/** Row of a spectrum nearest to zero elevation. */
+export function cut(elevationDeg: Float64Array): number {
+  let best = 0;
+  elevationDeg.forEach((value, i) => {
+    if (Math.abs(value) < Math.abs(elevationDeg[best] as number)) best = i;
+  });
+  return best;
+}
+
+/**
+ * The spectrum at zero elevation. A pseudo-spectrum has no power of its own: it is shifted so that
+ * its highest peak meets the strongest estimated power.
+ */
+export function curve(estimate: Estimate, title: string): Curve | null {
+  const { spectrum } = estimate;
+  if (!spectrum) return null;
+  const size = spectrum.azimuthDeg.length;
+  const row = cut(spectrum.elevationDeg);
+  let valuesDb = spectrum.valuesDb.subarray(row * size, (row + 1) * size);
+  if (spectrum.kind === 'pseudo') {
+    const shift = (estimate.sources[0]?.powerDb ?? 0) - highest(valuesDb);
+    valuesDb = valuesDb.map((value) => value + shift);
+  }
+  return { method: estimate.method, title, azimuthDeg: spectrum.azimuthDeg, valuesDb };
+}
+
+/** Curves on the first one's grid; others wait until theirs is the same. */
+export function sameGrid(curves: readonly (Curve | null)[]): Curve[] {
+  const some = curves.filter((item) => item !== null);
+  return some.filter((item) => item.azimuthDeg.length === some[0]?.azimuthDeg.length);
+}
+
+export function series(curves: readonly Curve[]): PlotSeries[] {
+  return curves.map(({ method, title, valuesDb }) => ({ id: method, label: title, y: valuesDb, style: methodStyle(method) }));
+}
+
+export function highest(values: ArrayLike<number>): number {
+  let best = Number.NEGATIVE_INFINITY;
+  for (let i = 0; i < values.length; i++) best = Math.max(best, values[i] as number);
+  return best;
+}

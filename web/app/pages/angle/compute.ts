@@ -1,0 +1,240 @@
+/**
+ * Everything computed from the state: geometry, snapshots, bounds, and each method's estimate.
+ * Quick methods run within the frame that shows them; slow ones on workers, latest state first.
+ */
+import { batch, effect, signal } from '@preact/signals';
+import type { ArrayGeometry, ArrayInput, Estimate, EstimatorOptions, Method, MethodInfo, SnapshotResult } from 'boresight';
+import { api, describeError, type Problem, pool } from '../../data.ts';
+import { cut, highest } from '../../estimates.ts';
+import { arrayInput, type AngleState, angleState } from './state.ts';
+
+export interface MethodResult {
+  estimate?: Estimate;
+  problem?: Problem;
+  /** Of the estimate alone where it ran here; with the way to the worker and back where it ran there. */
+  milliseconds?: number;
+  where?: 'page' | 'worker';
+  /** A newer state is being computed. */
+  stale: boolean;
+}
+
+export interface Scene {
+  state: AngleState;
+  geometry: ArrayGeometry;
+  snapshots: SnapshotResult;
+  /** Standard deviation bound of each target, degrees; absent with the reason in `boundProblem`. */
+  bound?: Float64Array;
+  boundKind: 'deterministic' | 'stochastic';
+  boundProblem?: Problem;
+  /** Where two equal targets begin to be told apart by a beamformer: lambda over aperture. */
+  beamWidthDeg: number;
+}
+
+export const scene = signal<Scene | null>(null);
+export const sceneProblem = signal<Problem | null>(null);
+export const results = signal<ReadonlyMap<Method, MethodResult>>(new Map());
+export const unavailable = signal<ReadonlyMap<Method, string>>(new Map());
+
+/** Above this a method moves to a worker; well below it, back. */
+const FRAME_BUDGET_MS = 8;
+const SLOW_AT_FIRST: readonly Method[] = ['nomp', 'maximum-likelihood', 'sparse-bayesian', 'iaa'];
+const typical = new Map<Method, number>(SLOW_AT_FIRST.map((method) => [method, FRAME_BUDGET_MS * 2]));
+
+export function start(): () => void {
+  let frame = 0;
+  const stop = effect(() => {
+    void angleState.value;
+    cancelAnimationFrame(frame);
+    frame = requestAnimationFrame(() => recompute(angleState.peek()));
+  });
+  return () => {
+    cancelAnimationFrame(frame);
+    stop();
+  };
+}
+
+/** Why a method cannot run here, in words; null where it can. */
+export function whyNot(info: MethodInfo, geometry: ArrayGeometry, state: AngleState): string | null {
+  const { snapshots } = state;
+  if (snapshots < info.minSnapshots) return `needs at least ${info.minSnapshots} snapshots`;
+  if (info.maxSnapshots !== null && snapshots > info.maxSnapshots) {
+    return info.maxSnapshots === 1 ? 'takes a single snapshot only' : `takes at most ${info.maxSnapshots} snapshots`;
+  }
+  if (info.uniformArray && !geometry.uniform) return 'needs a uniform linear array';
+  if (info.lattice && !onLattice(geometry)) return 'needs elements on an evenly spaced grid';
+  if (info.sourceCount && state.sources === 'known' && state.targets.length === 0) return 'needs at least one target';
+  return null;
+}
+
+/** Multiples of half a wavelength's hundredth count as a grid, as the estimators' own check does. */
+function onLattice({ positions }: ArrayGeometry): boolean {
+  const ys = positions.map(([, y]) => y).sort((a, b) => a - b);
+  const gaps = ys.slice(1).map((y, i) => y - (ys[i] as number)).filter((gap) => gap > 1e-9);
+  const step = Math.min(...gaps);
+  const flat = positions.every(([x, , z]) => x === positions[0]?.[0] && z === positions[0]?.[2]);
+  return flat && gaps.every((gap) => Math.abs(gap / step - Math.round(gap / step)) < 1e-6);
+}
+
+export function estimatorOptions(method: Method, state: AngleState): EstimatorOptions {
+  return {
+    method,
+    array: arrayInput(state.array),
+    sources: state.sources === 'known' ? state.targets.length : state.sources,
+    gridPoints: state.grid,
+    ...(state.average ? { forwardBackward: true } : {}),
+    ...(state.smoothing > 1 ? { smoothing: state.smoothing } : {}),
+    ...(state.sources === 'known' ? { maxPeaks: Math.max(state.targets.length, 1) } : {}),
+  };
+}
+
+function imperfections(state: AngleState) {
+  const { gain, phase, position, coupling, seed } = state;
+  if (!gain && !phase && !position && coupling === 'off') return {};
+  return {
+    imperfections: {
+      gainDb: gain, phaseDeg: phase, position, seed,
+      ...(coupling === 'off' ? {} : { couplingDb: Number(coupling) }),
+    },
+  };
+}
+
+function simulate(state: AngleState): Scene {
+  const array = arrayInput(state.array);
+  const geometry = api.array(array);
+  const snapshots = api.simulateSnapshots({
+    array, targets: state.targets, snrDb: state.snr, snapshots: state.snapshots, fluctuation: state.fluctuation, seed: state.seed,
+    ...imperfections(state),
+  });
+  const made: Scene = {
+    state, geometry, snapshots,
+    boundKind: state.snapshots > 1 && state.fluctuation === 'complex-normal' ? 'stochastic' : 'deterministic',
+    beamWidthDeg: geometry.aperture > 0 ? (Math.asin(Math.min(1, 2 / geometry.aperture)) * 180) / Math.PI : 90,
+  };
+  try {
+    made.bound = state.targets.length ? bound(made, array) : new Float64Array(0);
+  } catch (error) {
+    made.boundProblem = describeError(error);
+  }
+  return made;
+}
+
+/**
+ * The bound for the signals drawn. Coherent targets repeat one snapshot N times, which is one
+ * snapshot of N times the power, with the phases that were drawn.
+ */
+function bound({ state, boundKind, snapshots }: Scene, array: ArrayInput): Float64Array {
+  const fixed = state.snapshots === 1 || state.fluctuation === 'coherent';
+  const repeats = fixed ? 10 * Math.log10(state.snapshots) : 0;
+  return api.cramerRaoBound({
+    array, snapshots: fixed ? 1 : state.snapshots, kind: boundKind,
+    targets: state.targets.map((target, i) => {
+      const phaseDeg = snapshots.truth[0]?.[i]?.phaseDeg;
+      return {
+        azimuthDeg: target.azimuthDeg, snrDb: state.snr + target.powerDb + repeats,
+        ...(fixed && phaseDeg !== undefined ? { phaseDeg } : {}),
+      };
+    }),
+  }).azimuthDeg;
+}
+
+/** Elements x snapshots of the only scene. */
+function input({ snapshots }: Scene) {
+  const [, elements, count] = snapshots.shape;
+  return { snapshots: { data: snapshots.data, shape: [elements, count] } };
+}
+
+const waiting = new Map<Method, Scene>();
+const running = new Set<Method>();
+
+function recompute(state: AngleState): void {
+  let made: Scene;
+  try {
+    made = simulate(state);
+  } catch (error) {
+    sceneProblem.value = describeError(error);
+    return;
+  }
+  const next = new Map<Method, MethodResult>();
+  const reasons = new Map<Method, string>();
+  for (const info of api.methods()) {
+    const reason = whyNot(info, made.geometry, state);
+    if (reason) reasons.set(info.name, reason);
+    if (reason || !state.methods.includes(info.name)) continue;
+    const before = results.peek().get(info.name);
+    if ((typical.get(info.name) ?? 0) > FRAME_BUDGET_MS) {
+      next.set(info.name, before?.estimate ? { ...before, stale: true } : { stale: true });
+      waiting.set(info.name, made);
+    } else {
+      waiting.delete(info.name);
+      next.set(info.name, runHere(info.name, made));
+    }
+  }
+  batch(() => {
+    sceneProblem.value = null;
+    scene.value = made;
+    unavailable.value = reasons;
+    results.value = next;
+  });
+  for (const method of waiting.keys()) void runThere(method);
+}
+
+function runHere(method: Method, made: Scene): MethodResult {
+  const started = performance.now();
+  try {
+    const estimate = api.estimate(input(made), estimatorOptions(method, made.state));
+    const milliseconds = performance.now() - started;
+    learn(method, milliseconds);
+    return { estimate, milliseconds, where: 'page', stale: false };
+  } catch (error) {
+    return { problem: describeError(error), stale: false };
+  }
+}
+
+/** One call a method at a time; when it returns, the newest state goes next. */
+async function runThere(method: Method): Promise<void> {
+  if (running.has(method)) return;
+  running.add(method);
+  try {
+    for (let made = waiting.get(method); made; made = waiting.get(method)) {
+      waiting.delete(method);
+      const started = performance.now();
+      let result: MethodResult;
+      try {
+        const estimate = await pool().estimate(input(made), estimatorOptions(method, made.state));
+        const milliseconds = performance.now() - started;
+        learn(method, milliseconds * 0.9);
+        result = { estimate, milliseconds, where: 'worker', stale: false };
+      } catch (error) {
+        result = { problem: describeError(error), stale: false };
+      }
+      // Deselected meanwhile, or answered here for a newer state.
+      if (!results.peek().get(method)?.stale) continue;
+      results.value = new Map(results.peek()).set(method, { ...result, stale: made !== scene.peek() });
+    }
+  } finally {
+    running.delete(method);
+  }
+}
+
+function learn(method: Method, milliseconds: number): void {
+  const before = typical.get(method);
+  typical.set(method, before === undefined ? milliseconds : 0.7 * before + 0.3 * milliseconds);
+}
+
+/** Response of the array to a wave from boresight, through the same estimator. */
+export function beamPattern(array: string, gridPoints = 2048): { azimuthDeg: Float64Array; valuesDb: Float64Array } {
+  const input = arrayInput(array);
+  const { data, shape } = api.simulateSnapshots({
+    array: input, targets: [{ azimuthDeg: 0, powerDb: 0, phaseDeg: 0 }], snrDb: 200, seed: 0,
+  });
+  const spectrum = api.estimate(
+    { snapshots: { data, shape: [shape[1], shape[2]] } },
+    { method: 'bartlett', array: input, gridPoints, maxPeaks: 1 },
+  ).spectrum;
+  if (!spectrum) return { azimuthDeg: new Float64Array(0), valuesDb: new Float64Array(0) };
+  const row = cut(spectrum.elevationDeg);
+  const size = spectrum.azimuthDeg.length;
+  const values = spectrum.valuesDb.subarray(row * size, (row + 1) * size);
+  const peak = highest(values);
+  return { azimuthDeg: spectrum.azimuthDeg, valuesDb: values.map((value) => value - peak) };
+}

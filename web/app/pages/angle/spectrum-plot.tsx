@@ -1,0 +1,143 @@
+/** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
+import { useMemo, useRef } from 'preact/hooks';
+import { api } from '../../data.ts';
+import { ANGLE_STEPS, type Curve, curve, sameGrid, series } from '../../estimates.ts';
+import { fixed, signed } from '../../plots/format.ts';
+import { Handles } from '../../plots/handles.ts';
+import { bands, horizontalLine, type Layer, markers } from '../../plots/layers.ts';
+import type { Plot } from '../../plots/plot.ts';
+import { toCsv } from '../../plots/save.ts';
+import { methodStyle, TRUTH_STYLE } from '../../plots/theme.ts';
+import { announce } from '../../state/announce.ts';
+import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { results, type Scene } from './compute.ts';
+import { addTarget, angleState, LIMITS, removeTarget, setTarget } from './state.ts';
+
+const EXTENT = { x: [-90, 90], y: [-50, 14] } as const;
+
+function curves(): Curve[] {
+  return sameGrid(api.methods().map(({ name, title }) => {
+    const estimate = results.value.get(name)?.estimate;
+    return estimate ? curve(estimate, title) : null;
+  }));
+}
+
+/** Targets as crosshairs: a stem up to their power, a ring, and their number. */
+function truthLayer(targets: readonly { azimuthDeg: number; powerDb: number }[]): Layer {
+  return ({ ctx, plot, theme, ratio, x, y }) => {
+    const { left, top, width, height } = plot.bbox;
+    ctx.strokeStyle = theme.truth;
+    ctx.fillStyle = theme.truth;
+    ctx.font = `600 ${11 * ratio}px ${theme.font}`;
+    ctx.textAlign = 'center';
+    ctx.textBaseline = 'bottom';
+    targets.forEach((target, i) => {
+      const px = x(target.azimuthDeg);
+      if (px < left || px > left + width) return;
+      const py = Math.min(Math.max(y(target.powerDb), top), top + height);
+      const r = 8 * ratio;
+      ctx.lineWidth = ratio;
+      ctx.setLineDash([4 * ratio, 3 * ratio]);
+      ctx.beginPath();
+      ctx.moveTo(px, top + height);
+      ctx.lineTo(px, py + r);
+      ctx.stroke();
+      ctx.setLineDash([]);
+      ctx.lineWidth = 1.5 * ratio;
+      ctx.beginPath();
+      ctx.arc(px, py, r, 0, 2 * Math.PI);
+      ctx.stroke();
+      ctx.fillText(String(i + 1), px, Math.max(py - r - 3 * ratio, top + 12 * ratio));
+    });
+  };
+}
+
+export function SpectrumPlot({ scene }: { scene: Scene }) {
+  const handles = useRef<Handles | null>(null);
+  const { targets, snr } = angleState.value;
+  const found = results.value;
+  const shown = curves();
+  const content = useMemo(() => {
+    const { unambiguousDeg } = scene.geometry;
+    const outside: [number, number][] = unambiguousDeg < 89.9 ? [[-90, -unambiguousDeg], [unambiguousDeg, 90]] : [];
+    const bound = scene.state.targets.flatMap((target, i) => {
+      const sigma = scene.bound?.[i];
+      return sigma !== undefined && Number.isFinite(sigma) ? [[target.azimuthDeg - sigma, target.azimuthDeg + sigma] as const] : [];
+    });
+    const estimates = [...found].flatMap(([method, { estimate }]) =>
+      (estimate?.sources ?? []).map((source) => ({ x: source.azimuthDeg, y: source.powerDb, style: methodStyle(method) })));
+    return {
+      x: shown[0]?.azimuthDeg ?? [], series: series(shown), extent: EXTENT,
+      below: [bands(outside, (t) => t.shade), bands(bound, (t) => t.band)],
+      above: [horizontalLine(-snr, 'noise at one element'), truthLayer(targets), markers(estimates)],
+    };
+  }, [scene, found, targets, snr]);
+
+  handles.current?.set(targets.map((target, i) => ({
+    x: target.azimuthDeg, y: target.powerDb,
+    label: `Target ${i + 1}: azimuth ${signed(target.azimuthDeg, 1)} degrees, power ${signed(target.powerDb, 1)} dB. Arrows move it, plus and minus change power, Delete removes.`,
+  })));
+
+  const legend: LegendItem[] = [
+    { id: 'truth', label: 'Target, CRB ±σ band', style: { ...TRUTH_STYLE, marker: 'circle' }, line: false },
+    ...api.methods().filter(({ name }) => found.has(name)).map((info): LegendItem => {
+      const curve = shown.find(({ method }) => method === info.name);
+      return {
+        id: info.name, label: info.title, style: methodStyle(info.name), line: info.spectrum,
+        ...(curve ? { value: ({ index }) => `${fixed(curve.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB` } : {}),
+      };
+    }),
+  ];
+
+  const attach = (plot: Plot): (() => void) => {
+    const focusSoon = (index: number): void => {
+      requestAnimationFrame(() => (index >= 0 ? handles.current?.focus(index) : plot.host.focus()));
+    };
+    const made = new Handles(plot, {
+      move: (index, azimuthDeg, powerDb) => setTarget(index, { azimuthDeg, powerDb }),
+      nudge: (index, dx, dy, coarse) => {
+        const target = angleState.value.targets[index];
+        if (!target) return;
+        setTarget(index, {
+          azimuthDeg: target.azimuthDeg + dx * (coarse ? 1 : 0.1),
+          powerDb: target.powerDb + dy * (coarse ? 3 : 0.5),
+        });
+      },
+      remove: (index) => {
+        removeTarget(index);
+        announce(`Target ${index + 1} removed.`, 0);
+        focusSoon(Math.min(index, angleState.value.targets.length - 1));
+      },
+    });
+    handles.current = made;
+    made.set(angleState.value.targets.map((target, i) => ({ x: target.azimuthDeg, y: target.powerDb, label: `Target ${i + 1}` })));
+    return () => {
+      made.destroy();
+      handles.current = null;
+    };
+  };
+
+  const { state } = scene;
+  const setup = `${state.array.startsWith('at:') ? `positions ${state.array.slice(3)}` : state.array}, SNR ${fixed(state.snr, 1)} dB, `
+    + `${state.snapshots} snapshot${state.snapshots === 1 ? '' : 's'}${state.fluctuation === 'complex-normal' || state.snapshots === 1 ? '' : `, ${state.fluctuation.replace('-', ' ')}`}, seed ${state.seed}`;
+  return (
+    <PlotFrame title="Angle spectrum" name="spectrum" height="tall" content={content} legend={legend} onPlot={attach}
+      keys="Tab to a target to move it."
+      options={{
+        x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS },
+        y: { label: 'Level (dB re 0 dB target)' },
+        onDoubleClick: ({ x, y }) => {
+          if (targets.length < LIMITS.targets) addTarget({ azimuthDeg: x, powerDb: y });
+        },
+      }}
+      readout={({ x, y }) => `Azimuth ${signed(x, 2)}°   Level ${fixed(y, 1)}\u00a0dB`}
+      csv={() => toCsv(
+        ['azimuth_deg', ...shown.map(({ method }) => `${method.replaceAll('-', '_')}_db`)],
+        Array.from(shown[0]?.azimuthDeg ?? [], (azimuth, i) => [azimuth, ...shown.map(({ valuesDb }) => valuesDb[i])]),
+      )}
+      fileParts={[state.array.split(':')[0] ?? '', `seed${state.seed}`]}
+      remarks={[
+        `${setup}. Pseudo-spectra (MUSIC, min-norm) are shifted to the strongest estimated power.`,
+      ]} />
+  );
+}

@@ -1,0 +1,82 @@
+/** Page state to and from URL parameters. What cannot be read falls back to its default. */
+
+export interface Field<T> {
+  fallback: T;
+  /** Undefined for what is no valid value. */
+  read(text: string): T | undefined;
+  write(value: T): string;
+}
+
+export function number(fallback: number, [low, high]: readonly [number, number], step?: 'integer'): Field<number> {
+  return {
+    fallback,
+    read: (text) => {
+      const value = Number(text);
+      const valid = text.trim() !== '' && Number.isFinite(value) && value >= low && value <= high;
+      return valid && (step !== 'integer' || Number.isInteger(value)) ? value : undefined;
+    },
+    write: (value) => String(value),
+  };
+}
+
+export function choice<const T extends string>(fallback: T, values: readonly T[]): Field<T> {
+  return { fallback, read: (text) => values.find((value) => value === text), write: (value) => value };
+}
+
+export function flag(fallback: boolean): Field<boolean> {
+  return {
+    fallback,
+    read: (text) => (text === '1' ? true : text === '0' ? false : undefined),
+    write: (value) => (value ? '1' : '0'),
+  };
+}
+
+export function text(fallback: string, valid: (text: string) => boolean): Field<string> {
+  return { fallback, read: (value) => (valid(value) ? value : undefined), write: (value) => value };
+}
+
+/** Names from a known set, in the set's order; a dash for none. */
+export function names<T extends string>(fallback: readonly T[], known: readonly T[]): Field<readonly T[]> {
+  return {
+    fallback,
+    read: (value) => {
+      const given = value === '-' ? [] : value.split(',');
+      return given.every((name) => known.includes(name as T)) ? known.filter((name) => given.includes(name)) : undefined;
+    },
+    write: (value) => value.join(',') || '-',
+  };
+}
+
+type Fields = Record<string, Field<never>>;
+export type StateOf<F> = { [K in keyof F]: F[K] extends Field<infer T> ? T : never };
+
+export interface Codec<S> {
+  defaults: S;
+  read(params: URLSearchParams): S;
+  /** Everything but defaults that are not in `always`. */
+  write(state: S): URLSearchParams;
+}
+
+export function codec<F extends { [K in keyof F]: Field<F[K] extends Field<infer T> ? T : never> }>(
+  fields: F,
+  always: readonly (keyof F)[] = [],
+): Codec<StateOf<F>> {
+  type S = StateOf<F>;
+  const all = Object.entries(fields as unknown as Fields) as unknown as [keyof F & string, Field<unknown>][];
+  return {
+    defaults: Object.fromEntries(all.map(([key, field]) => [key, field.fallback])) as S,
+    read: (params) =>
+      Object.fromEntries(all.map(([key, field]) => {
+        const given = params.get(key);
+        return [key, (given === null ? undefined : field.read(given)) ?? field.fallback];
+      })) as S,
+    write: (state) => {
+      const params = new URLSearchParams();
+      for (const [key, field] of all) {
+        const value = field.write(state[key as keyof S]);
+        if (always.includes(key) || value !== field.write(field.fallback)) params.set(key, value);
+      }
+      return params;
+    },
+  };
+}

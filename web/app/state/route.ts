@@ -1,0 +1,56 @@
+/** Which page is shown, and its state as the address's query after the hash. */
+import { signal } from '@preact/signals';
+
+export const PAGES = ['angle', 'capture'] as const;
+export type Page = (typeof PAGES)[number];
+
+export interface Route { page: Page; params: URLSearchParams }
+
+function parse(hash: string): Route {
+  const [path = '', query = ''] = hash.replace(/^#\/?/, '').split('?', 2);
+  const page = PAGES.find((name) => name === path) ?? 'angle';
+  return { page, params: new URLSearchParams(query) };
+}
+
+/** Changes when the address is edited, a link is followed, or one goes back. */
+export const route = signal<Route>(parse(location.hash));
+
+addEventListener('hashchange', () => {
+  flush();
+  route.value = parse(location.hash);
+});
+
+export function pageAddress(page: Page, params?: URLSearchParams): string {
+  const query = params?.toString();
+  // Commas and colons may stand in a fragment as they are, and read better.
+  return `#/${page}${query ? `?${query.replaceAll('%2C', ',').replaceAll('%3A', ':').replaceAll('%3B', ';')}` : ''}`;
+}
+
+/** Each page's last parameters, so that going back to it finds it as it was. */
+const last = new Map<Page, URLSearchParams>();
+
+export function lastParams(page: Page): URLSearchParams | undefined {
+  return last.get(page);
+}
+
+let pending: { page: Page; params: URLSearchParams } | null = null;
+let timer: ReturnType<typeof setTimeout> | undefined;
+
+function flush(): void {
+  clearTimeout(timer);
+  timer = undefined;
+  pending = null;
+}
+
+/** Puts the state into the address without a new history entry; browsers limit how often. */
+export function writeParams(page: Page, params: URLSearchParams): void {
+  last.set(page, params);
+  pending = { page, params };
+  timer ??= setTimeout(() => {
+    const write = pending;
+    flush();
+    if (write && parse(location.hash).page === write.page) {
+      history.replaceState(null, '', pageAddress(write.page, write.params));
+    }
+  }, 150);
+}

@@ -1,0 +1,133 @@
+/** A plot with its heading, tools, readout, legend and remarks. */
+import { useSignal, useSignalEffect } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+import { useEffect, useId, useRef } from 'preact/hooks';
+import { type CursorPosition, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
+import { download, fileName } from '../plots/save.ts';
+import type { SeriesStyle } from '../plots/theme.ts';
+import { announce } from '../state/announce.ts';
+import { theme } from '../state/theme.ts';
+import { Swatch } from './swatch.tsx';
+
+export interface LegendItem {
+  id: string;
+  label: string;
+  style: SeriesStyle;
+  line: boolean;
+  /** Text for the cursor's position. */
+  value?(position: CursorPosition): string;
+}
+
+export interface PlotFrameProps {
+  title: string;
+  /** For file names and tests. */
+  name: string;
+  options: Omit<PlotOptions, 'label' | 'theme' | 'onCursor'>;
+  content: PlotContent;
+  /** The cursor's position as text. */
+  readout(position: CursorPosition): string;
+  legend?: readonly LegendItem[];
+  /** Said below the plot and on the exported image. */
+  remarks?: readonly string[];
+  /** How to use it without a mouse. */
+  keys?: string;
+  csv(): string;
+  fileParts?: readonly (string | number)[];
+  tools?: ComponentChildren;
+  height: 'tall' | 'medium' | 'short';
+  /** A zoom kept elsewhere, such as one shared with another plot. */
+  view?: View | null;
+  onPlot?(plot: Plot): (() => void) | undefined;
+  overlay?: ComponentChildren;
+}
+
+export function PlotFrame(props: PlotFrameProps) {
+  const host = useRef<HTMLDivElement>(null);
+  const plot = useRef<Plot | null>(null);
+  const current = useRef(props);
+  current.current = props;
+  const cursor = useSignal<CursorPosition | null>(null);
+  const id = useId();
+
+  useEffect(() => {
+    if (!host.current) return undefined;
+    const latest = () => current.current.options;
+    const made = new Plot(host.current, {
+      ...props.options,
+      label: `${props.title}. ${props.keys ?? ''} Plus and minus zoom, 0 resets, left and right move the cursor.`,
+      theme: theme.peek(),
+      onCursor: (position) => {
+        cursor.value = position;
+        if (position && document.activeElement === host.current) announce(current.current.readout(position), 250);
+      },
+      ...(props.options.onClick ? { onClick: (position) => latest().onClick?.(position) } : {}),
+      ...(props.options.onDoubleClick ? { onDoubleClick: (position) => latest().onDoubleClick?.(position) } : {}),
+      onView: (view, zoomed) => latest().onView?.(view, zoomed),
+      onKey: (event) => latest().onKey?.(event) ?? false,
+    });
+    plot.current = made;
+    made.setContent(current.current.content);
+    const stop = props.onPlot?.(made);
+    return () => {
+      stop?.();
+      made.destroy();
+      plot.current = null;
+    };
+  }, []);
+
+  useEffect(() => plot.current?.setContent(props.content), [props.content]);
+  useEffect(() => {
+    if (props.view !== undefined) plot.current?.setView(props.view);
+  }, [props.view]);
+  useSignalEffect(() => plot.current?.setTheme(theme.value));
+
+  const parts = [props.name, ...(props.fileParts ?? [])];
+  const savePng = async (): Promise<void> => {
+    const image = await plot.current?.png(props.title, props.remarks);
+    if (image) download(image, fileName(parts, 'png'));
+  };
+  return (
+    <figure class="panel plot-frame" data-plot={props.name} aria-labelledby={`${id}-title`}>
+      <div class="panel-head">
+        <h3 id={`${id}-title`}>{props.title}</h3>
+        {props.tools}
+        <div class="tools" role="group" aria-label={`${props.title}: tools`}>
+          <button type="button" aria-label="Zoom in" title="Zoom in (+). Drag across the plot to zoom to a region." onClick={() => plot.current?.zoomBy(0.5)}>+</button>
+          <button type="button" aria-label="Zoom out" title="Zoom out (−)" onClick={() => plot.current?.zoomBy(2)}>{'−'}</button>
+          <button type="button" title="Show everything again (0)" onClick={() => plot.current?.resetZoom()}>Reset</button>
+          <button type="button" title="Save the plot as an image" data-export="png" onClick={() => void savePng()}>PNG</button>
+          <button type="button" title="Save the numbers with a header row" data-export="csv" onClick={() => download(props.csv(), fileName(parts, 'csv'))}>CSV</button>
+        </div>
+      </div>
+      <Readout cursor={cursor} text={props.readout} />
+      <div ref={host} class={`plot-host ${props.height}`} />
+      {props.overlay}
+      {props.legend && props.legend.length > 0 && (
+        <ul class="legend" aria-label="Legend">
+          {props.legend.map((item) => (
+            <li key={item.id} data-series={item.id}>
+              <Swatch style={item.style} line={item.line} />
+              <span>{item.label}</span>
+              {item.value && <LegendValue cursor={cursor} value={item.value} />}
+            </li>
+          ))}
+        </ul>
+      )}
+      {props.remarks && props.remarks.length > 0 && (
+        <figcaption>{props.remarks.map((remark) => <p key={remark}>{remark}</p>)}</figcaption>
+      )}
+    </figure>
+  );
+}
+
+type Cursor = ReturnType<typeof useSignal<CursorPosition | null>>;
+
+function Readout({ cursor, text }: { cursor: Cursor; text(position: CursorPosition): string }) {
+  const position = cursor.value;
+  return <p class="readout" data-readout>{position ? text(position) : <span class="muted">Cursor: move over the plot</span>}</p>;
+}
+
+function LegendValue({ cursor, value }: { cursor: Cursor; value(position: CursorPosition): string }) {
+  const position = cursor.value;
+  return <span class="legend-value">{position ? value(position) : '–'}</span>;
+}
