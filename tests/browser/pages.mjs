@@ -1,2 +1,5 @@
 /** Pages of the demo, and a selector that is there once a page has shown its data. */
-export const pages = [{ name: 'start', path: '', ready: 'main' }];
+export const pages = [
+  { name: 'angle lab', path: '#/angle', ready: '[data-row="music"] [data-field="azimuth"][data-value]' },
+  { name: 'capture', path: '#/capture', ready: '[data-row="bartlett"]:not(.stale) [data-field="azimuth"][data-value]' },
+];

@@ -1,0 +1,195 @@
+/** Files and options of the capture page. */
+import { useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import type { Method } from 'boresight';
+import { api } from '../../data.ts';
+import { COLOR_MAPS } from '../../plots/colormap.ts';
+import { methodStyle } from '../../plots/theme.ts';
+import { showHelp } from '../../state/settings.ts';
+import { CheckField, Group, NumberField, SelectField } from '../../ui/field.tsx';
+import { Swatch } from '../../ui/swatch.tsx';
+import { fileProblem, loaded, openBundled, openFiles } from './files.ts';
+import { captureCodec, captureState, CFARS, FALSE_ALARMS, update, WINDOWS } from './state.ts';
+import { cellUnavailable } from './process.ts';
+
+const WINDOW_NAMES: Record<string, string> = {
+  rectangular: 'rectangular', hann: 'Hann', hamming: 'Hamming', blackman: 'Blackman', 'blackman-harris': 'Blackman–Harris',
+  chebyshev: 'Chebyshev', taylor: 'Taylor',
+};
+const windows = WINDOWS.map((name) => [name, WINDOW_NAMES[name] ?? name] as const);
+const CFAR_NAMES: Record<string, string> = {
+  'cell-averaging': 'cell averaging', 'greatest-of': 'greatest of', 'smallest-of': 'smallest of', 'ordered-statistic': 'ordered statistic',
+};
+
+export function Controls() {
+  const state = captureState.value;
+  const methods = api.methods();
+  return (
+    <form class="controls" aria-label="Capture settings" onSubmit={(event) => event.preventDefault()}>
+      <div class="controls-head">
+        <CheckField label="Explain the controls" value={showHelp.value} help="Shows a sentence below each control."
+          onChange={(on) => { showHelp.value = on; }} />
+        <button type="button" class="plain" title="Back to the settings a fresh visit starts with; the files stay"
+          onClick={() => { captureState.value = captureCodec.defaults; }}>Defaults</button>
+      </div>
+      <Group title="Files"><Files /></Group>
+      <Group title="Angle methods for the cell">
+        <fieldset class="methods" aria-label="Methods for the chosen cell">
+          {methods.map((info) => {
+            const reason = cellUnavailable.value.get(info.name);
+            const chosen = state.methods.includes(info.name);
+            const id = `cell-${info.name}`;
+            return (
+              <div key={info.name} class={`method${reason ? ' off' : ''}`} title={`${info.reference}. Cost: ${info.cost}.`}>
+                <input type="checkbox" id={id} name={id} checked={chosen} disabled={Boolean(reason) && !chosen} aria-describedby={`${id}-note`}
+                  onChange={(event) => {
+                    const on = event.currentTarget.checked;
+                    update({ methods: methods.map(({ name }) => name).filter((name) => (name === info.name ? on : state.methods.includes(name))) });
+                  }} />
+                <Swatch style={methodStyle(info.name)} line={info.spectrum} />
+                <label for={id}>{info.title}</label>
+                <p id={`${id}-note`} class="note" hidden={!reason}>{reason}</p>
+              </div>
+            );
+          })}
+        </fieldset>
+        <SelectField label="Sources in the cell" name="sources" value={state.sources}
+          options={[['mdl', 'counted, MDL'], ['aic', 'counted, AIC'], ['1', '1'], ['2', '2'], ['3', '3'], ['4', '4']]}
+          help="How many directions the subspace methods look for in one cell."
+          onChange={(sources) => update({ sources })} />
+      </Group>
+      <Group title="Detection">
+        <SelectField label="Virtual array" name="array" value={state.array}
+          options={[['auto', 'as configured'], ['awr1642', 'AWR1642'], ['awr1843', 'AWR1843'], ['cascade86', 'cascade'], ['lrr48', 'lrr48']]}
+          help="Where the elements are. Must have as many transmitters and receivers as the configuration names."
+          onChange={(array) => update({ array })} />
+        <SelectField label="Threshold" name="cfar" value={state.cfar} options={CFARS.map((kind) => [kind, CFAR_NAMES[kind] ?? kind] as const)}
+          help="Constant-false-alarm-rate detector: how the noise level around a cell is estimated." onChange={(cfar) => update({ cfar })} />
+        <SelectField label="Along" name="axes" value={state.axes} options={[['range', 'range'], ['doppler', 'Doppler'], ['both', 'both (2-D)']]}
+          help="Where the training cells lie." onChange={(axes) => update({ axes })} />
+        <SelectField label="False-alarm rate" name="falseAlarm" value={state.falseAlarm}
+          options={FALSE_ALARMS.map((rate) => [rate, `10^${rate.slice(2)}`.replace(/\^-(\d)/, (_, digit: string) => `⁻${'⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(digit)]}`)] as const)}
+          help="Probability that noise alone passes the threshold in one cell." onChange={(falseAlarm) => update({ falseAlarm })} />
+        <NumberField label="Guard cells, range" name="guardRange" integer value={state.guardRange} min={0} max={32}
+          help="Cells beside the tested one that are left out of the noise estimate, on each side." onChange={(guardRange) => update({ guardRange })} />
+        <NumberField label="Training cells, range" name="trainRange" integer value={state.trainRange} min={1} max={64}
+          help="Cells the noise level is estimated from, on each side." onChange={(trainRange) => update({ trainRange })} />
+        {state.axes !== 'range' && (
+          <>
+            <NumberField label="Guard cells, Doppler" name="guardDoppler" integer value={state.guardDoppler} min={0} max={32}
+              help="As above, along Doppler." onChange={(guardDoppler) => update({ guardDoppler })} />
+            <NumberField label="Training cells, Doppler" name="trainDoppler" integer value={state.trainDoppler} min={1} max={64}
+              help="As above, along Doppler." onChange={(trainDoppler) => update({ trainDoppler })} />
+          </>
+        )}
+        {state.cfar === 'ordered-statistic' && (
+          <NumberField label="Rank" name="rank" value={state.rank} min={0.05} max={1} step={0.05}
+            help="Which of the ordered training cells stands for the noise, as a share of them." onChange={(rank) => update({ rank })} />
+        )}
+        <CheckField label="Keep local peaks only" name="grouping" value={state.grouping}
+          help="Of adjacent cells over the threshold, the strongest stays." onChange={(grouping) => update({ grouping })} />
+        <CheckField label="Remove static clutter" name="clutter" value={state.clutter}
+          help="Subtracts the mean over chirps, and with it all that does not move. Targets at rest vanish too." onChange={(clutter) => update({ clutter })} />
+        <SelectField label="Angle by" name="angle" value={state.angle}
+          options={methods.filter(({ name }) => !cellUnavailable.value.has(name)).map(({ name, title }) => [name, title] as const)}
+          help="Method for the angle of each detection in the table." onChange={(angle: Method) => update({ angle })} />
+        <NumberField label="From range" unit="m" name="nearest" value={state.nearest} min={0} max={10000}
+          help="Detections nearer than this are dropped, and counted." onChange={(nearest) => update({ nearest })} />
+        <NumberField label="To range" unit="m" name="farthest" value={state.farthest} min={0} max={10000}
+          help="Detections farther than this are dropped, and counted; 0 for no limit." onChange={(farthest) => update({ farthest })} />
+        <NumberField label="Sector ±" unit="°" name="sector" value={state.sector} min={1} max={90}
+          help="Detections outside this azimuth are dropped, and counted." onChange={(sector) => update({ sector })} />
+      </Group>
+      <Group title="Transforms">
+        <SelectField label="Range window" name="window" value={state.window} options={windows}
+          help="Lowers side lobes along range at the price of a wider main lobe." onChange={(window) => update({ window })} />
+        <SelectField label="Doppler window" name="dopplerWindow" value={state.dopplerWindow} options={windows}
+          help="The same along Doppler." onChange={(dopplerWindow) => update({ dopplerWindow })} />
+        <SelectField label="Range padding" name="rangePadding" value={state.rangePadding} options={[['1', 'none'], ['2', '2 ×'], ['4', '4 ×']]}
+          help="Zeros appended before the transform: finer bins, the same resolution." onChange={(rangePadding) => update({ rangePadding })} />
+        <SelectField label="Doppler padding" name="dopplerPadding" value={state.dopplerPadding} options={[['1', 'none'], ['2', '2 ×'], ['4', '4 ×'], ['8', '8 ×']]}
+          help="The same along Doppler." onChange={(dopplerPadding) => update({ dopplerPadding })} />
+      </Group>
+      <Group title="Display">
+        <SelectField label="Colour span" name="span" value={state.span} options={['30', '40', '50', '60', '80'].map((span) => [span as '30', `${span} dB`] as const)}
+          help="From the strongest cell down." onChange={(span) => update({ span })} />
+        <SelectField label="Colour map" name="colors" value={state.colors} options={COLOR_MAPS.map((name) => [name, name] as const)}
+          help="All three are perceptually uniform; cividis is made for colour-blind readers." onChange={(colors) => update({ colors })} />
+      </Group>
+    </form>
+  );
+}
+
+function size(bytes: number): string {
+  return bytes < 1024 ? `${bytes} B` : bytes < 1024 ** 2 ? `${(bytes / 1024).toFixed(0)} KiB` : `${(bytes / 1024 ** 2).toFixed(2)} MiB`;
+}
+
+function Files() {
+  const over = useSignal(false);
+  const input = useRef<HTMLInputElement>(null);
+  const files = loaded.value?.files ?? [];
+  useEffect(() => {
+    const holdsFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
+    const drag = (event: DragEvent): void => {
+      if (!holdsFiles(event)) return;
+      event.preventDefault();
+      over.value = true;
+    };
+    const leave = (event: DragEvent): void => {
+      if (event.relatedTarget === null) over.value = false;
+    };
+    const drop = (event: DragEvent): void => {
+      if (!holdsFiles(event)) return;
+      event.preventDefault();
+      over.value = false;
+      void openFiles([...(event.dataTransfer?.files ?? [])]);
+    };
+    addEventListener('dragover', drag);
+    addEventListener('dragleave', leave);
+    addEventListener('drop', drop);
+    return () => {
+      removeEventListener('dragover', drag);
+      removeEventListener('dragleave', leave);
+      removeEventListener('drop', drop);
+    };
+  }, []);
+  return (
+    <div class={`drop${over.value ? ' over' : ''}`}>
+      <ul class="files" aria-label="Open files">
+        {files.map(({ kind, name, bytes }) => (
+          <li key={kind}><span class="kind">.{kind}</span><span class="file">{name}</span><span class="muted">{size(bytes)}</span></li>
+        ))}
+      </ul>
+      {loaded.value?.bundled && <Licence address={loaded.value.bundled.licence} />}
+      <div class="row">
+        <button type="button" onClick={() => input.current?.click()} title="A raw capture (.bin) with its configuration (.cfg), and the board’s log (.dat) if there is one">Open files</button>
+        <button type="button" onClick={() => void openBundled()} disabled={Boolean(loaded.value?.bundled) && !fileProblem.value}>Bundled capture</button>
+        <input ref={input} type="file" multiple hidden accept=".bin,.cfg,.dat,.txt" aria-label="Capture files"
+          onChange={(event) => {
+            const list = [...(event.currentTarget.files ?? [])];
+            event.currentTarget.value = '';
+            void openFiles(list);
+          }} />
+      </div>
+      <p class={showHelp.value ? 'help' : 'muted small'}>
+        Or drop a .bin with its .cfg, and a .dat, anywhere on the page. Nothing is uploaded.
+      </p>
+    </div>
+  );
+}
+
+/** Whose the bundled recording is, and on what terms. */
+function Licence({ address }: { address: string }) {
+  const text = useSignal<string | null>(null);
+  const load = async (): Promise<void> => {
+    const response = await fetch(address);
+    text.value = response.ok ? await response.text() : `The licence could not be loaded: the server answered ${response.status}.`;
+  };
+  return (
+    <details class="licence small" onToggle={(event) => event.currentTarget.open && text.value === null && void load()}>
+      <summary>Recorded at the University of Colorado Boulder, Apache-2.0</summary>
+      <p class="muted">From cstahoviak/radar-velocity-estimation. The scene is not described; the board’s log names its objects.</p>
+      <pre tabIndex={0} aria-label="Licence of the recording">{text.value ?? ''}</pre>
+    </details>
+  );
+}

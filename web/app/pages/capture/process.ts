@@ -1,0 +1,184 @@
+/** Processing of the open capture on workers: all frames when files or options change, the chosen cell when it moves. */
+import { batch, computed, effect, signal } from '@preact/signals';
+import type { Cell, ChainOptions, Estimate, FrameResult, Method } from 'boresight';
+import { aborted, api, describeError, type Problem } from '../../data.ts';
+import { type Loaded, loaded } from './files.ts';
+import { captureState, chainOptions, sourceOption } from './state.ts';
+import { estimateCell, runChain } from './source.ts';
+import { shownCell } from './view.ts';
+
+export interface CellResult {
+  estimate?: Estimate;
+  problem?: Problem;
+  milliseconds?: number;
+  stale: boolean;
+}
+
+/** What is shown: one frame, or all of them combined. */
+export const result = signal<FrameResult | null>(null);
+export const progress = signal<{ done: number; total: number } | null>(null);
+export const wasCancelled = signal<{ done: number; total: number } | null>(null);
+export const processProblem = signal<Problem | null>(null);
+export const cellResults = signal<ReadonlyMap<Method, CellResult>>(new Map());
+
+/** Options as text: effects that depend on them run when they change, not with every cell. */
+const options = computed(() => JSON.stringify(chainOptions(captureState.value)));
+const attempts = signal(0);
+
+/** The configuration's array, or the one chosen; null where the platform is not known. */
+export const usedArray = computed(() => {
+  const { array } = captureState.value;
+  return array === 'auto' ? (loaded.value?.info.array ?? null) : api.array(array);
+});
+
+/** Methods that cannot work on a cell of this capture, with the reason. */
+export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
+  const reasons = new Map<Method, string>();
+  const geometry = usedArray.value;
+  const snapshots = cellSnapshots.value;
+  if (!geometry) return reasons;
+  for (const info of api.methods()) {
+    if (info.uniformArray && !geometry.uniform) reasons.set(info.name, 'needs a uniform linear array');
+    else if (snapshots < info.minSnapshots) reasons.set(info.name, `needs ${info.minSnapshots} snapshots; a cell of one frame has ${snapshots}`);
+    else if (info.maxSnapshots !== null && snapshots > info.maxSnapshots) reasons.set(info.name, 'takes a single snapshot: choose one frame');
+  }
+  return reasons;
+});
+
+/** One a frame: the cell's value at each element. */
+const cellSnapshots = computed(() => (captureState.value.frame === 'all' ? (loaded.value?.info.frames ?? 1) : 1));
+
+let running: AbortController | undefined;
+
+export function cancel(): void {
+  running?.abort();
+}
+
+export function restart(): void {
+  attempts.value += 1;
+}
+
+/** Results of the open capture under the present options, by frame. */
+const known = new Map<number | 'all', FrameResult>();
+let knownFor = '';
+let captures = 0;
+const numbers = new WeakMap<Loaded, number>();
+
+/** Which capture and options a result belongs to. */
+function keyOf(capture: Loaded, chain: string): string {
+  if (!numbers.has(capture)) numbers.set(capture, captures++);
+  return `${numbers.get(capture)} ${chain}`;
+}
+
+/** The frame that is shown, kept within the capture. */
+function shownFrame(capture: Loaded): number | 'all' {
+  const { frame } = captureState.value;
+  return frame === 'all' ? 'all' : Math.min(frame, capture.info.frames - 1);
+}
+
+export function start(): () => void {
+  const frame = computed(() => (loaded.value ? shownFrame(loaded.value) : 'all'));
+  const stops = [
+    effect(() => {
+      void attempts.value;
+      const capture = loaded.value;
+      const chain = options.value;
+      const wanted = frame.value;
+      if (capture) void processFrame(capture, chain, wanted);
+    }),
+    effect(() => {
+      const capture = loaded.value;
+      const shown = result.value;
+      const { cell, methods } = captureState.value;
+      const sources = sourceOption(captureState.value);
+      if (capture && shown) scheduleCell(capture, options.peek(), frame.peek(), shownCell(shown, cell), methods, sources);
+    }),
+  ];
+  return () => {
+    running?.abort();
+    clearTimeout(cellTimer);
+    for (const stop of stops) stop();
+  };
+}
+
+async function processFrame(capture: Loaded, chain: string, frame: number | 'all'): Promise<void> {
+  running?.abort();
+  const key = keyOf(capture, chain);
+  if (key !== knownFor) {
+    known.clear();
+    knownFor = key;
+  }
+  wasCancelled.value = null;
+  const before = known.get(frame);
+  if (before) {
+    progress.value = null;
+    result.value = before;
+    return;
+  }
+  const controller = new AbortController();
+  running = controller;
+  let last = { done: 0, total: frame === 'all' ? capture.info.frames : 1 };
+  // A bar that only flashes tells nothing.
+  const timer = setTimeout(() => {
+    if (running === controller) progress.value = last;
+  }, 120);
+  const onProgress = (done: number, total: number): void => {
+    last = { done, total };
+    if (running === controller && progress.peek()) progress.value = last;
+  };
+  try {
+    const made = await runChain(capture, JSON.parse(chain) as ChainOptions, frame, { signal: controller.signal, onProgress });
+    if (running !== controller) return;
+    known.set(frame, made);
+    batch(() => {
+      processProblem.value = null;
+      result.value = made;
+    });
+  } catch (error) {
+    if (running !== controller) return;
+    if (aborted(error)) wasCancelled.value = last;
+    else processProblem.value = describeError(error);
+  } finally {
+    clearTimeout(timer);
+    if (running === controller) {
+      running = undefined;
+      progress.value = null;
+    }
+  }
+}
+
+let cellTimer: ReturnType<typeof setTimeout> | undefined;
+let cellJob: AbortController | undefined;
+
+/** Cells come quickly while arrows are held down; estimates follow when they settle. */
+function scheduleCell(
+  capture: Loaded, chain: string, frame: number | 'all', cell: Cell, methods: readonly Method[], sources: number | 'aic' | 'mdl',
+): void {
+  clearTimeout(cellTimer);
+  cellJob?.abort();
+  const controller = new AbortController();
+  cellJob = controller;
+  const wanted = methods.filter((method) => !cellUnavailable.peek().has(method));
+  const before = cellResults.peek();
+  cellResults.value = new Map(wanted.map((method) => [method, { ...before.get(method), stale: true }]));
+  cellTimer = setTimeout(() => {
+    for (const method of wanted) void estimateOne(capture, chain, frame, cell, method, sources, controller);
+  }, 40);
+}
+
+async function estimateOne(
+  capture: Loaded, chain: string, frame: number | 'all', cell: Cell, method: Method, sources: number | 'aic' | 'mdl', controller: AbortController,
+): Promise<void> {
+  const started = performance.now();
+  let made: CellResult;
+  try {
+    const estimate = await estimateCell(
+      capture, JSON.parse(chain) as ChainOptions, frame, cell, { method, sources }, { signal: controller.signal },
+    );
+    made = { estimate, milliseconds: performance.now() - started, stale: false };
+  } catch (error) {
+    if (aborted(error)) return;
+    made = { problem: describeError(error), stale: false };
+  }
+  if (cellJob === controller) cellResults.value = new Map(cellResults.peek()).set(method, made);
+}
