@@ -1,0 +1,42 @@
+//! Time of one estimate of every method on 32 elements, three sources at 20 dB: 64 snapshots, or
+//! one for the methods that take no more.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+use boresight_core::steering::steering_matrix;
+use boresight_core::{Array, Direction, Random};
+use criterion::{Criterion, criterion_group, criterion_main};
+use ndarray::Array2;
+use std::hint::black_box;
+
+fn estimators(criterion: &mut Criterion) {
+    let array = Array::ula(32).unwrap();
+    let directions = [-20.3f64, 5.2, 24.1].map(|deg| Direction::azimuth(deg.to_radians()));
+    let steering = steering_matrix(&array, &directions);
+    let mut random = Random::new(1, 0);
+    let options = Options { sources: SourceCount::Known(3), ..Options::default() };
+    for method in Method::ALL {
+        let single = [Method::SingleSnapshotMusic, Method::Iaa, Method::Nomp];
+        let snapshots = if single.contains(&method) { 1 } else { 64 };
+        let signals = Array2::from_shape_fn((3, snapshots), |_| random.complex_normal(1.0));
+        let noise = Array2::from_shape_fn((32, snapshots), |_| random.complex_normal(0.01));
+        let y = steering.dot(&signals) + noise;
+        let Ok(mut estimator) = Estimator::new(method, &array, &options) else {
+            continue;
+        };
+        criterion.bench_function(method.name(), |bencher| {
+            bencher.iter(|| estimator.estimate(Data::Snapshots(black_box(y.view()))).unwrap());
+        });
+    }
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(30)
+        .warm_up_time(std::time::Duration::from_millis(300))
+        .measurement_time(std::time::Duration::from_secs(1));
+    targets = estimators
+}
+criterion_main!(benches);

@@ -1,0 +1,270 @@
+//! Whatever goes in, an estimator answers with an estimate or with an error that says what was
+//! wrong.
+
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use boresight_aoa::options::{EspritForm, IaaForm, Thresholding};
+use boresight_aoa::{AoaError, Data, Estimator, Method, Options, SourceCount};
+use boresight_core::presets::preset;
+use boresight_core::{Array, Complex64, CoreError, Diagnose, Random};
+use ndarray::Array2;
+use proptest::prelude::*;
+use support::{azimuths, known, scene};
+
+fn error(method: Method, array: &Array, options: &Options) -> AoaError {
+    Estimator::new(method, array, options).err().unwrap()
+}
+
+#[test]
+fn arrays_that_do_not_suit_are_refused_by_name() {
+    let point = Array::new(&[[0.0; 3], [0.0; 3]]).unwrap();
+    let vertical = Array::new(&[[0.0; 3], [0.0, 0.0, 1.0]]).unwrap();
+    let planar = preset("awr1843").unwrap();
+    let sparse = preset("lrr48").unwrap();
+    let irregular = Array::new(&[[0.0; 3], [0.0, 1.0, 0.0], [0.0, 2.0_f64.sqrt(), 0.0]]).unwrap();
+    let array = Array::ula(8).unwrap();
+    for method in Method::ALL.into_iter().filter(|&m| Estimator::new(m, &array, &known(1)).is_ok())
+    {
+        for array in [&point, &vertical] {
+            let error = error(method, array, &known(1));
+            assert_eq!(error.code(), "unsuitable-array", "{}", method.name());
+        }
+        let needs = method.requirements();
+        let outcome = |array: &Array| Estimator::new(method, array, &known(1)).map(|_| ());
+        assert_eq!(outcome(&planar).is_ok(), needs.elevation, "{}", method.name());
+        assert_eq!(outcome(&sparse).is_ok(), !needs.uniform_array, "{}", method.name());
+        let free = !needs.uniform_array && !needs.lattice;
+        assert_eq!(outcome(&irregular).is_ok(), free, "{}", method.name());
+    }
+}
+
+#[test]
+fn too_many_sources_are_refused_with_the_limit() {
+    let array = Array::ula(8).unwrap();
+    let limits = [
+        (Method::Music, Options::default(), 7),
+        (Method::RootMusic, Options::default(), 7),
+        (Method::Esprit, Options::default(), 7),
+        (Method::MinNorm, Options::default(), 7),
+        (Method::SingleSnapshotMusic, Options::default(), 4),
+        (Method::Music, Options { smoothing: Some(5), ..Options::default() }, 4),
+    ];
+    for (method, options, limit) in limits {
+        let wanted = |n| Options { sources: SourceCount::Known(n), ..options };
+        assert!(Estimator::new(method, &array, &wanted(limit)).is_ok(), "{}", method.name());
+        let given = error(method, &array, &wanted(limit + 1));
+        assert_eq!(
+            given,
+            AoaError::TooManySources { method: method.name(), most: limit, given: limit + 1 }
+        );
+    }
+}
+
+#[test]
+fn averaging_and_smoothing_need_a_uniform_array() {
+    let sparse = preset("lrr48").unwrap();
+    for options in [
+        Options { forward_backward: true, ..Options::default() },
+        Options { smoothing: Some(8), ..Options::default() },
+    ] {
+        let error = error(Method::Music, &sparse, &options);
+        assert!(matches!(error, AoaError::Array { .. }), "{error}");
+    }
+    let long = Options { smoothing: Some(9), ..Options::default() };
+    let error = error(Method::Capon, &Array::ula(8).unwrap(), &long);
+    assert!(matches!(error, AoaError::Argument(CoreError::OutOfRange { .. })), "{error}");
+}
+
+#[test]
+fn the_number_of_snapshots_is_checked() {
+    let array = Array::ula(8).unwrap();
+    let mut random = Random::new(61, 0);
+    let one = scene(&array, &azimuths(&[10.0]), &[1.0], 0.1, 1, &mut random);
+    let three = scene(&array, &azimuths(&[10.0]), &[1.0], 0.1, 3, &mut random);
+    for method in [Method::Music, Method::RootMusic, Method::Esprit, Method::MinNorm] {
+        let mut estimator = Estimator::new(method, &array, &known(1)).unwrap();
+        let error = estimator.estimate(Data::Snapshots(one.view())).unwrap_err();
+        assert!(matches!(error, AoaError::Snapshots { given: 1, .. }), "{error}");
+        assert!(estimator.estimate(Data::Snapshots(three.view())).unwrap().resolved);
+        let mut five = Estimator::new(method, &array, &known(5)).unwrap();
+        let error = five.estimate(Data::Snapshots(three.view())).unwrap_err();
+        assert!(matches!(error, AoaError::Snapshots { given: 3, .. }), "{error}");
+        let smoothed = Options { smoothing: Some(6), ..known(1) };
+        let mut estimator = Estimator::new(method, &array, &smoothed).unwrap();
+        assert!(estimator.estimate(Data::Snapshots(one.view())).unwrap().resolved);
+    }
+    let method = Method::SingleSnapshotMusic;
+    let mut estimator = Estimator::new(method, &array, &known(1)).unwrap();
+    let error = estimator.estimate(Data::Snapshots(three.view())).unwrap_err();
+    assert_eq!(error.code(), "snapshot-count");
+    let identity = Array2::<Complex64>::eye(8);
+    let data = Data::Covariance { matrix: identity.view(), snapshots: 1 };
+    assert_eq!(estimator.estimate(data).unwrap_err().code(), "needs-snapshots");
+}
+
+#[test]
+fn malformed_data_is_refused_and_the_estimator_goes_on() {
+    let array = Array::ula(6).unwrap();
+    let mut random = Random::new(62, 0);
+    let good = scene(&array, &azimuths(&[10.0]), &[1.0], 0.1, 4, &mut random);
+    let mut nan = good.clone();
+    nan[[2, 1]] = Complex64::new(0.0, f64::NAN);
+    let mut infinite = good.clone();
+    infinite[[5, 0]] = Complex64::new(f64::INFINITY, 0.0);
+    let huge = good.mapv(|z| z * 1e200);
+    let few = Array2::zeros((5, 4));
+    let none = Array2::zeros((6, 0));
+    let mut skew = Array2::<Complex64>::eye(6);
+    skew[[0, 1]] = Complex64::new(0.5, 0.0);
+    for method in
+        [Method::Bartlett, Method::Capon, Method::Music, Method::RootMusic, Method::Esprit]
+    {
+        let mut estimator = Estimator::new(method, &array, &known(1)).unwrap();
+        for (data, code) in [
+            (&nan, "not-finite"),
+            (&infinite, "not-finite"),
+            (&huge, "out-of-range"),
+            (&few, "shape"),
+            (&none, "empty"),
+        ] {
+            let error = estimator.estimate(Data::Snapshots(data.view())).unwrap_err();
+            assert_eq!(error.code(), code, "{}: {error}", method.name());
+            let details = error.details();
+            assert!(!details.what.is_empty() && !details.expected.is_empty());
+            assert!(estimator.estimate(Data::Snapshots(good.view())).unwrap().resolved);
+        }
+        for (matrix, snapshots, code) in [
+            (&skew, 10, "out-of-range"),
+            (&good, 10, "shape"),
+            (&nan, 10, "shape"),
+            (&skew, 0, "empty"),
+        ] {
+            let data = Data::Covariance { matrix: matrix.view(), snapshots };
+            assert_eq!(estimator.estimate(data).unwrap_err().code(), code);
+        }
+    }
+}
+
+fn positions() -> impl Strategy<Value = Vec<[f64; 3]>> {
+    let anywhere = prop::collection::vec(prop::array::uniform3(-20.0..20.0f64), 1..10);
+    let line =
+        (1usize..12, prop_oneof![Just(1.0), Just(0.5), Just(2.0), 0.1..3.0f64], any::<bool>())
+            .prop_map(|(n, d, falling)| {
+                let sign = if falling { -1.0 } else { 1.0 };
+                (0..n).map(|k| [0.0, sign * d * k as f64, 0.0]).collect()
+            });
+    let plane = (1usize..4, 1usize..4)
+        .prop_map(|(n, m)| (0..n * m).map(|k| [0.0, (k % n) as f64, (k / n) as f64]).collect());
+    let sparse = prop::collection::vec(0u32..30, 1..9)
+        .prop_map(|ys| ys.iter().map(|&y| [0.0, f64::from(y), 0.0]).collect());
+    prop_oneof![anywhere, line, plane, sparse]
+}
+
+fn options() -> impl Strategy<Value = Options> {
+    let sources = prop_oneof![
+        (1usize..12).prop_map(SourceCount::Known),
+        Just(SourceCount::Aic),
+        Just(SourceCount::Mdl),
+    ];
+    let shape = (sources, 0.01..1.57f64, 16usize..200, 3usize..8);
+    let averaging =
+        (any::<bool>(), prop::option::of(2usize..9), prop_oneof![Just(0.0), 0.0..1.0f64]);
+    let peaks = (1.0..100.0f64, 1usize..8, any::<bool>());
+    let iaa = (1usize..4, 0usize..3, 0usize..3);
+    (shape, averaging, peaks, iaa).prop_map(|(shape, averaging, peaks, iaa)| {
+        let mut options = Options {
+            sources: shape.0,
+            field_of_view_rad: shape.1,
+            grid_points: shape.2,
+            elevation_points: shape.3,
+            forward_backward: averaging.0,
+            smoothing: averaging.1,
+            loading: averaging.2,
+            dynamic_range_db: peaks.0,
+            max_peaks: peaks.1,
+            esprit: if peaks.2 { EspritForm::LeastSquares } else { EspritForm::TotalLeastSquares },
+            max_iterations: 5,
+            ..Options::default()
+        };
+        options.iaa.iterations = iaa.0;
+        options.iaa.thresholding =
+            [Thresholding::None, Thresholding::Hard, Thresholding::Soft][iaa.1];
+        options.iaa.form = [IaaForm::Auto, IaaForm::Fast, IaaForm::Dense][iaa.2];
+        options.nomp.max_sources = peaks.1;
+        options
+    })
+}
+
+/// Snapshots of kinds that have broken estimators before: noise, one wave, nothing, repeated
+/// columns, one dead element, numbers far from 1.
+fn data(array: &Array, kind: usize, snapshots: usize, seed: u64) -> Array2<Complex64> {
+    let mut random = Random::new(seed, 0);
+    let noise = |random: &mut Random| {
+        Array2::from_shape_fn((array.len(), snapshots), |_| random.complex_normal(1.0))
+    };
+    match kind {
+        0 => noise(&mut random),
+        1 => scene(array, &azimuths(&[10.0]), &[1.0], 0.0, snapshots, &mut random),
+        2 => Array2::zeros((array.len(), snapshots)),
+        3 => {
+            let column = noise(&mut random).column(0).to_owned();
+            Array2::from_shape_fn((array.len(), snapshots), |(k, _)| column[k])
+        }
+        4 => {
+            let mut y =
+                scene(array, &azimuths(&[-30.0, 5.0]), &[1.0, 1.0], 1e-3, snapshots, &mut random);
+            y.row_mut(0).fill(Complex64::ZERO);
+            y
+        }
+        5 => noise(&mut random).mapv(|z| z * 1e150),
+        _ => noise(&mut random).mapv(|z| z * 1e-170),
+    }
+}
+
+proptest! {
+    #[test]
+    fn every_answer_is_finite_and_within_the_field_of_view(
+        positions in positions(),
+        options in options(),
+        method in prop::sample::select(Method::ALL.to_vec()),
+        kind in 0usize..7,
+        snapshots in 1usize..6,
+        as_covariance in any::<bool>(),
+        seed in any::<u64>(),
+    ) {
+        let array = Array::new(&positions).unwrap();
+        let y = data(&array, kind, snapshots, seed);
+        let Ok(mut estimator) = Estimator::new(method, &array, &options) else {
+            return Ok(());
+        };
+        let r = boresight_signal::sample_covariance(y.view());
+        let data = if as_covariance && r.iter().all(|z| z.re.is_finite() && z.im.is_finite()) {
+            Data::Covariance { matrix: r.view(), snapshots }
+        } else {
+            Data::Snapshots(y.view())
+        };
+        match estimator.estimate(data) {
+            Ok(estimate) => {
+                for source in &estimate.sources {
+                    let at = source.direction;
+                    prop_assert!(at.azimuth_rad.is_finite() && at.elevation_rad.is_finite());
+                    prop_assert!(source.power.is_finite() && source.power >= 0.0, "{:?}", source);
+                    // Refinement may leave the field of view by one step of the grid.
+                    let limit = options.field_of_view_rad.sin() + 2.5 / options.grid_points as f64;
+                    prop_assert!(at.azimuth_rad.sin().abs() <= limit, "{:?}", at);
+                }
+                if let Some(spectrum) = &estimate.spectrum {
+                    let points = spectrum.azimuth_rad.len() * spectrum.elevation_rad.len();
+                    prop_assert_eq!(spectrum.values.len(), points);
+                    prop_assert!(spectrum.values.iter().all(|v| v.is_finite() && *v >= 0.0));
+                }
+                prop_assert!(!estimate.resolved || !estimate.sources.is_empty());
+            }
+            Err(error) => {
+                prop_assert!(!error.details().what.is_empty(), "{}", error);
+            }
+        }
+    }
+}
