@@ -10,6 +10,9 @@ use boresight_core::{Array, Complex64, CoreError};
 use boresight_signal::{SignalError, forward_backward, load_diagonal, sample_covariance};
 use ndarray::Array2;
 
+/// Largest mean element power; leaves room for what a fit of close directions makes of it.
+const MAX_POWER: f64 = 1e280;
+
 /// How a method gets its covariance, as `options` ask.
 #[derive(Debug, Clone)]
 pub(crate) struct CovariancePlan {
@@ -34,7 +37,7 @@ pub(crate) struct Prepared {
 }
 
 impl Prepared {
-    /// Takes a Hermitian matrix and checks that its powers are finite.
+    /// Takes a Hermitian matrix and checks that its powers can be worked with.
     ///
     /// # Errors
     /// [`CoreError::OutOfRange`] if they are not.
@@ -44,10 +47,10 @@ impl Prepared {
         snapshots: usize,
     ) -> Result<Self, AoaError> {
         let power = matrix.diag().iter().map(|z| z.re).sum::<f64>() / matrix.nrows() as f64;
-        if !power.is_finite() {
+        if power.is_nan() || power > MAX_POWER {
             return Err(AoaError::Argument(CoreError::OutOfRange {
                 what: "mean element power".into(),
-                expected: "a finite number".into(),
+                expected: format!("at most {MAX_POWER:e}"),
                 given: power,
             }));
         }

@@ -163,7 +163,9 @@ impl Options {
         check_range("field_of_view_rad", self.field_of_view_rad, 1e-3, FRAC_PI_2)?;
         let elevation = self.elevation_field_of_view_rad;
         check_range("elevation_field_of_view_rad", elevation, 1e-3, FRAC_PI_2)?;
-        check_range("grid_points", self.grid_points as f64, 16.0, 65_536.0)?;
+        // Three points inside the field of view at least, so that there can be a peak.
+        let fewest = (4.0 / self.field_of_view_rad.sin()).ceil().max(16.0);
+        check_range("grid_points", self.grid_points as f64, fewest, 65_536.0)?;
         check_range("elevation_points", self.elevation_points as f64, 3.0, 1_024.0)?;
         if let Some(length) = self.smoothing {
             check_range("smoothing", length as f64, 2.0, 1024.0)?;
