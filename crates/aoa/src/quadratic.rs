@@ -6,10 +6,11 @@
 //! for a whole grid of `u` when the spacing `d` is a whole number of half wavelengths.
 
 use crate::grid::Grid;
+use boresight_core::fft::Transforms;
 use boresight_core::steering::{cis, steering_derivatives, steering_vector};
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
 use ndarray::{Array1, ArrayView2};
-use rustfft::{Fft, FftPlanner};
+use rustfft::Fft;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -125,7 +126,7 @@ fn is_whole(spacing: f64) -> bool {
 
 impl Way {
     fn transform(lattice: Lattice, grid: &Grid) -> Self {
-        let fft = FftPlanner::new().plan_fft_forward(grid.full_points);
+        let fft = f64::plan_forward(grid.full_points);
         let bins = vec![Complex64::ZERO; grid.full_points];
         let work = vec![Complex64::ZERO; fft.get_inplace_scratch_len()];
         Self::Transform { lattice, fft, bins, work }

@@ -8,6 +8,7 @@
 pub mod array;
 pub mod direction;
 pub mod error;
+pub mod fft;
 pub mod imperfections;
 pub mod lattice;
 pub mod linalg;

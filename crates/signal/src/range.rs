@@ -3,9 +3,10 @@
 use crate::error::SignalError;
 use crate::window::{Window, noise_bandwidth_bins};
 use boresight_core::error::check_range;
+use boresight_core::fft::Transforms;
 use boresight_core::units::SPEED_OF_LIGHT_MPS;
 use boresight_core::{Complex32, Waveform};
-use rustfft::{Fft, FftPlanner};
+use rustfft::Fft;
 use std::sync::Arc;
 
 /// Longest padding, as a multiple of the data.
@@ -29,7 +30,7 @@ impl RowTransform {
         check_range("padding", padding as f64, 1.0, MAX_PADDING as f64)?;
         let coefficients = window.coefficients(length)?;
         let scale = 1.0 / coefficients.iter().sum::<f64>();
-        let fft = FftPlanner::new().plan_fft_forward(length * padding);
+        let fft = f32::plan_forward(length * padding);
         // Sum of the squared correlation of powers over all lags, by Parseval's theorem.
         let squares: f64 = coefficients.iter().map(|w| w.powi(2)).sum();
         let fourths: f64 = coefficients.iter().map(|w| w.powi(4)).sum();

@@ -2,8 +2,8 @@
 
 use crate::error::SignalError;
 use boresight_core::error::check_range;
+use boresight_core::fft::Transforms;
 use boresight_core::{Complex64, CoreError};
-use rustfft::FftPlanner;
 use std::f64::consts::PI;
 
 /// Longest window, so that a wrong length cannot exhaust memory.
@@ -163,7 +163,7 @@ fn chebyshev(length: usize, sidelobe_db: f64) -> Vec<f64> {
             Complex64::from_polar(value, shift * k as f64)
         })
         .collect();
-    FftPlanner::new().plan_fft_forward(length).process(&mut spectrum);
+    f64::plan_forward(length).process(&mut spectrum);
     // The middle of the window is now at index 0 (odd length) or between 0 and 1 (even).
     let first = usize::from(length.is_multiple_of(2));
     let half = length / 2;
@@ -347,7 +347,7 @@ mod tests {
             .map(Complex64::from)
             .collect();
         padded.resize(4096, Complex64::ZERO);
-        FftPlanner::new().plan_fft_forward(4096).process(&mut padded);
+        f64::plan_forward(4096).process(&mut padded);
         let db: Vec<f64> =
             padded.iter().map(|z| 20.0 * (z.norm() / padded[0].norm()).log10()).collect();
         let peaks: Vec<f64> =

@@ -1,10 +1,10 @@
 //! Transforms between an angle grid uniform in the sine and the lags of a lattice.
 
 use super::inverse::Real;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use realfft::{ComplexToReal, RealToComplex};
+use rustfft::Fft;
 use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
-use rustfft::{Fft, FftPlanner};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -89,10 +89,9 @@ impl<T: Real> Folded<T> {
         let bins = (0..span)
             .map(|i| Bin { bin: stride * i % length, phase: cis(PI * spacing * i as f64) })
             .collect();
-        let complex = FftPlanner::new().plan_fft_forward(length);
-        let mut planner = RealFftPlanner::new();
-        let forward = planner.plan_fft_forward(length);
-        let inverse = planner.plan_fft_inverse(length);
+        let complex = T::plan_forward(length);
+        let forward = T::plan_real_forward(length);
+        let inverse = T::plan_real_inverse(length);
         let scratch = complex
             .get_inplace_scratch_len()
             .max(forward.get_scratch_len())
@@ -182,9 +181,7 @@ impl<T: Real> Chirp<T> {
                 cis(-PI * (turns % 2.0))
             })
             .collect();
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) =
-            (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+        let (forward, inverse) = (T::plan_forward(length), T::plan_inverse(length));
         let scratch = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
         let mut scratch = vec![Complex::zero(); scratch];
         let mut kernel = vec![Complex::zero(); length];

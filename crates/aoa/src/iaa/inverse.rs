@@ -6,11 +6,11 @@
 //! every other tile of the lower triangle by a rank-4 product, K^3/2 complex multiplications in
 //! all, the same as Cholesky, triangular inverse and product together, but in one kernel.
 
-use rustfft::FftNum;
+use boresight_core::fft::Transforms;
 use rustfft::num_traits::Float;
 
 /// The numbers the fast form is computed in: `f64` or `f32`.
-pub trait Real: FftNum + Float {}
+pub trait Real: Transforms + Float {}
 
 impl Real for f64 {}
 impl Real for f32 {}
