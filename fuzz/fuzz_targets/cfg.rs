@@ -1,0 +1,17 @@
+//! Configurations: whatever is accepted describes a possible radar.
+
+#![no_main]
+
+use boresight_formats::RadarConfig;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(config) = RadarConfig::parse(bytes) {
+        assert!(config.waveform.check().is_ok());
+        assert_eq!(config.transmitters.len(), config.waveform.transmitters);
+        assert!(!config.receivers.is_empty() && config.frame_bytes() > 0);
+        if let Some(array) = config.array() {
+            assert_eq!(array.len(), config.transmitters.len() * config.receivers.len());
+        }
+    }
+});
