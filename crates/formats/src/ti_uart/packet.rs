@@ -6,6 +6,8 @@ use super::MAX_PACKET_BYTES;
 pub(super) const SHORT_HEADER: usize = 36;
 /// Bytes of the header with a sub-frame number, which all but SDK 1 and the xWR14xx have.
 pub(super) const HEADER: usize = 40;
+/// Most parts of a packet; the demos send fewer than ten kinds, each once.
+const MAX_PARTS: usize = 64;
 /// Packets are padded to a multiple of this.
 const SEGMENT: usize = 32;
 /// Bytes of type and length.
@@ -57,7 +59,7 @@ impl Header {
             parts: at(6)? as usize,
         };
         let possible = (SHORT_HEADER..=MAX_PACKET_BYTES).contains(&header.length)
-            && header.parts <= header.length / PART_HEADER;
+            && header.parts <= MAX_PARTS;
         possible.then_some(header)
     }
 
