@@ -45,7 +45,7 @@ browserTest('capture: every frame alone shows the near target too', { path: '#/c
 browserTest('capture: a cell chosen from the keyboard changes the spectrum and the address', { path }, async ({ page }) => {
   await ready(page);
   await cellReady(page);
-  const title = () => page.locator('[data-plot="cell-spectrum"] h3').innerText();
+  const title = () => page.locator('[data-plot="cell-spectrum"] .detail').innerText();
   assert.match(await title(), /2\.95 m/);
   const map = page.locator('[data-plot="range-doppler"] .plot-host');
   await map.focus();

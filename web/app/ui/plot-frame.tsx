@@ -14,12 +14,15 @@ export interface LegendItem {
   label: string;
   style: SeriesStyle;
   line: boolean;
+  hollow?: boolean;
   /** Text for the cursor's position. */
   value?(position: CursorPosition): string;
 }
 
 export interface PlotFrameProps {
   title: string;
+  /** What of it is shown, beside the title. */
+  detail?: string;
   /** For file names and tests. */
   name: string;
   options: Omit<PlotOptions, 'label' | 'theme' | 'onCursor'>;
@@ -34,7 +37,7 @@ export interface PlotFrameProps {
   csv(): string;
   fileParts?: readonly (string | number)[];
   tools?: ComponentChildren;
-  height: 'tall' | 'medium' | 'short';
+  height: 'tall' | 'medium' | 'short' | 'fill';
   /** A zoom kept elsewhere, such as one shared with another plot. */
   view?: View | null;
   onPlot?(plot: Plot): (() => void) | undefined;
@@ -83,13 +86,13 @@ export function PlotFrame(props: PlotFrameProps) {
 
   const parts = [props.name, ...(props.fileParts ?? [])];
   const savePng = async (): Promise<void> => {
-    const image = await plot.current?.png(props.title, props.remarks);
+    const image = await plot.current?.png(props.detail ? `${props.title}, ${props.detail}` : props.title, props.remarks);
     if (image) download(image, fileName(parts, 'png'));
   };
   return (
     <figure class="panel plot-frame" data-plot={props.name} aria-labelledby={`${id}-title`}>
       <div class="panel-head">
-        <h3 id={`${id}-title`}>{props.title}</h3>
+        <h3 id={`${id}-title`}>{props.title}</h3>{props.detail && <span class="muted detail">{props.detail}</span>}
         {props.tools}
         <div class="tools" role="group" aria-label={`${props.title}: tools`}>
           <button type="button" aria-label="Zoom in" title="Zoom in (+). Drag across the plot to zoom to a region." onClick={() => plot.current?.zoomBy(0.5)}>+</button>
@@ -106,7 +109,7 @@ export function PlotFrame(props: PlotFrameProps) {
         <ul class="legend" aria-label="Legend">
           {props.legend.map((item) => (
             <li key={item.id} data-series={item.id}>
-              <Swatch style={item.style} line={item.line} />
+              <Swatch style={item.style} line={item.line} hollow={item.hollow ?? false} />
               <span>{item.label}</span>
               {item.value && <LegendValue cursor={cursor} value={item.value} />}
             </li>

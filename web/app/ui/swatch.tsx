@@ -7,7 +7,7 @@ import { theme } from '../state/theme.ts';
 const WIDTH = 26;
 const HEIGHT = 14;
 
-export function Swatch({ style, line }: { style: SeriesStyle; line: boolean }) {
+export function Swatch({ style, line, hollow = false }: { style: SeriesStyle; line: boolean; hollow?: boolean }) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const name = theme.value;
   useEffect(() => {
@@ -29,8 +29,8 @@ export function Swatch({ style, line }: { style: SeriesStyle; line: boolean }) {
       ctx.setLineDash([]);
     }
     if (style.marker) {
-      drawMarker(ctx, style.marker, WIDTH / 2, HEIGHT / 2, 3.6, { stroke: color, fill: color, halo: THEMES[name].background, ratio: 1 });
+      drawMarker(ctx, style.marker, WIDTH / 2, HEIGHT / 2, hollow ? 5 : 3.6, { stroke: color, fill: hollow ? null : color, halo: THEMES[name].background, ratio: 1 });
     }
-  }, [name, style, line]);
+  }, [name, style, line, hollow]);
   return <canvas ref={canvas} class="swatch" width={WIDTH} height={HEIGHT} style={{ width: `${WIDTH}px`, height: `${HEIGHT}px` }} aria-hidden="true" />;
 }

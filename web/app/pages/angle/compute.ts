@@ -37,6 +37,8 @@ export const unavailable = signal<ReadonlyMap<Method, string>>(new Map());
 
 /** Above this a method moves to a worker; well below it, back. */
 const FRAME_BUDGET_MS = 8;
+/** What is left of the time on a worker without the way there and back, roughly, for short calls. */
+const TRAVEL_SHARE = 0.5;
 const SLOW_AT_FIRST: readonly Method[] = ['nomp', 'maximum-likelihood', 'sparse-bayesian', 'iaa'];
 const typical = new Map<Method, number>(SLOW_AT_FIRST.map((method) => [method, FRAME_BUDGET_MS * 2]));
 
@@ -178,13 +180,21 @@ function recompute(state: AngleState): void {
   for (const method of waiting.keys()) void runThere(method);
 }
 
+const warm = new Set<Method>();
+
 function runHere(method: Method, made: Scene): MethodResult {
-  const started = performance.now();
   try {
-    const estimate = api.estimate(input(made), estimatorOptions(method, made.state));
-    const milliseconds = performance.now() - started;
-    learn(method, milliseconds);
-    return { estimate, milliseconds, where: 'page', stale: false };
+    const run = (): MethodResult => {
+      const started = performance.now();
+      const estimate = api.estimate(input(made), estimatorOptions(method, made.state));
+      return { estimate, milliseconds: performance.now() - started, where: 'page', stale: false };
+    };
+    // A method's first call pays for compiling it; the time that is shown and learnt is the second's.
+    if (!warm.has(method)) run();
+    warm.add(method);
+    const result = run();
+    learn(method, result.milliseconds ?? 0);
+    return result;
   } catch (error) {
     return { problem: describeError(error), stale: false };
   }
@@ -202,7 +212,7 @@ async function runThere(method: Method): Promise<void> {
       try {
         const estimate = await pool().estimate(input(made), estimatorOptions(method, made.state));
         const milliseconds = performance.now() - started;
-        learn(method, milliseconds * 0.9);
+        learn(method, milliseconds * TRAVEL_SHARE);
         result = { estimate, milliseconds, where: 'worker', stale: false };
       } catch (error) {
         result = { problem: describeError(error), stale: false };

@@ -4,6 +4,7 @@ import { milliseconds } from '../../plots/format.ts';
 import { methodStyle } from '../../plots/theme.ts';
 import { showHelp } from '../../state/settings.ts';
 import { CheckField, Group, NumberField, SelectField, TextField } from '../../ui/field.tsx';
+import { Sidebar } from '../../ui/sidebar.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { results, unavailable } from './compute.ts';
 import {
@@ -13,7 +14,7 @@ import {
 export function Controls() {
   const state = angleState.value;
   return (
-    <form class="controls" aria-label="Angle lab settings" onSubmit={(event) => event.preventDefault()}>
+    <Sidebar label="Angle lab settings" button="array, targets and settings">
       <div class="controls-head">
         <CheckField label="Explain the controls" value={showHelp.value} help="Shows a sentence below each control."
           onChange={(on) => { showHelp.value = on; }} />
@@ -70,7 +71,7 @@ export function Controls() {
           help="Mutual coupling of elements half a wavelength apart; it falls with distance."
           onChange={(coupling) => update({ coupling })} />
       </Group>
-    </form>
+    </Sidebar>
   );
 }
 

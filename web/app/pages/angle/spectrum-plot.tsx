@@ -79,7 +79,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
   })));
 
   const legend: LegendItem[] = [
-    { id: 'truth', label: 'Target, CRB ±σ band', style: { ...TRUTH_STYLE, marker: 'circle' }, line: false },
+    { id: 'truth', label: 'Target, CRB ±σ band', style: { ...TRUTH_STYLE, marker: 'circle' }, line: false, hollow: true },
     ...api.methods().filter(({ name }) => found.has(name)).map((info): LegendItem => {
       const curve = shown.find(({ method }) => method === info.name);
       return {

@@ -3,11 +3,11 @@ import { useMemo } from 'preact/hooks';
 import type { Cell, FrameResult, Method } from 'boresight';
 import { api } from '../../data.ts';
 import { ANGLE_STEPS, curve, highest, sameGrid, series } from '../../estimates.ts';
-import { fixed, milliseconds, signed } from '../../plots/format.ts';
+import { fixed, signed } from '../../plots/format.ts';
 import { bands, markers, verticalLines } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
 import { methodStyle } from '../../plots/theme.ts';
-import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import type { CellResult } from './process.ts';
 import { captureState } from './state.ts';
@@ -43,21 +43,14 @@ export function CellPanel({ view, cell, results, boardDeg, unambiguousDeg, label
       ],
     };
   }, [results, shown, boardDeg]);
-  const legend: LegendItem[] = infos.map((info) => {
-    const line = shown.find(({ method }) => method === info.name);
-    return {
-      id: info.name, label: info.title, style: methodStyle(info.name), line: info.spectrum,
-      ...(line ? { value: ({ index }) => `${fixed(line.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB` } : {}),
-    };
-  });
   const place = `${fixed(view.rangeM[cell.rangeBin] ?? Number.NaN, 2)} m, ${signed(view.rateMps[cell.dopplerBin] ?? Number.NaN, 2)} m/s`;
   return (
-    <PlotFrame title={`Angle spectrum at ${place}`} name="cell-spectrum" height="medium" content={content} legend={legend}
+    <PlotFrame title="Angle spectrum" detail={place} name="cell-spectrum" height="fill" content={content}
       options={{
         x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS },
         y: { label: 'Power (dBFS)' },
       }}
-      readout={({ x, y }) => `Azimuth ${signed(x, 2)}°   Level ${fixed(y, 1)} dBFS`}
+      readout={({ x, index }) => `Azimuth ${signed(x, 2)}°   ${shown.map(({ title, valuesDb }) => `${title.split(' ')[0]} ${fixed(valuesDb[index ?? -1] ?? Number.NaN, 1)}`).join('   ')} dBFS`}
       csv={() => toCsv(
         ['azimuth_deg', ...shown.map(({ method }) => `${method.replaceAll('-', '_')}_dbfs`)],
         Array.from(shown[0]?.azimuthDeg ?? [], (azimuth, i) => [azimuth, ...shown.map(({ valuesDb }) => valuesDb[i])]),
@@ -67,7 +60,7 @@ export function CellPanel({ view, cell, results, boardDeg, unambiguousDeg, label
       overlay={
         <div class="table-scroll" tabIndex={0} role="region" aria-label="Estimates of the cell, scrollable">
           <table class="data compact" data-table="cell">
-            <thead><tr><th scope="col" class="text">Method</th><th scope="col">Azimuth (°)</th><th scope="col">Power (dBFS)</th><th scope="col">Time</th></tr></thead>
+            <thead><tr><th scope="col" class="text">Method</th><th scope="col">Azimuth (°)</th><th scope="col">dBFS</th><th scope="col" class="text">Further (°)</th></tr></thead>
             <tbody>
               {infos.map((info) => {
                 const result = results.get(info.name);
@@ -77,9 +70,9 @@ export function CellPanel({ view, cell, results, boardDeg, unambiguousDeg, label
                     <th scope="row" class="text"><Swatch style={methodStyle(info.name)} line={info.spectrum} /> {info.title}</th>
                     {result?.problem ? <td class="text problem" colSpan={3}>{result.problem.message}</td> : (
                       <>
-                        <td data-field="azimuth" data-value={sources[0]?.azimuthDeg}>{sources.slice(0, 3).map((source) => signed(source.azimuthDeg, 1)).join(', ') || '–'}</td>
-                        <td>{sources.slice(0, 3).map((source) => fixed(source.powerDb, 1)).join(', ') || '–'}</td>
-                        <td>{result?.milliseconds === undefined ? '' : milliseconds(result.milliseconds)}</td>
+                        <td data-field="azimuth" data-value={sources[0]?.azimuthDeg}>{sources[0] ? signed(sources[0].azimuthDeg, 1) : '–'}</td>
+                        <td>{sources[0] ? fixed(sources[0].powerDb, 1) : '–'}</td>
+                        <td class="text">{sources.slice(1, 4).map((source) => signed(source.azimuthDeg, 1)).join(', ')}{sources.length > 4 ? ' …' : ''}</td>
                       </>
                     )}
                   </tr>

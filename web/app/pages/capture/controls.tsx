@@ -7,6 +7,7 @@ import { COLOR_MAPS } from '../../plots/colormap.ts';
 import { methodStyle } from '../../plots/theme.ts';
 import { showHelp } from '../../state/settings.ts';
 import { CheckField, Group, NumberField, SelectField } from '../../ui/field.tsx';
+import { Sidebar } from '../../ui/sidebar.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { fileProblem, loaded, openBundled, openFiles } from './files.ts';
 import { captureCodec, captureState, CFARS, FALSE_ALARMS, update, WINDOWS } from './state.ts';
@@ -25,7 +26,7 @@ export function Controls() {
   const state = captureState.value;
   const methods = api.methods();
   return (
-    <form class="controls" aria-label="Capture settings" onSubmit={(event) => event.preventDefault()}>
+    <Sidebar label="Capture settings" button="files and settings">
       <div class="controls-head">
         <CheckField label="Explain the controls" value={showHelp.value} help="Shows a sentence below each control."
           onChange={(on) => { showHelp.value = on; }} />
@@ -116,7 +117,7 @@ export function Controls() {
         <SelectField label="Colour map" name="colors" value={state.colors} options={COLOR_MAPS.map((name) => [name, name] as const)}
           help="All three are perceptually uniform; cividis is made for colour-blind readers." onChange={(colors) => update({ colors })} />
       </Group>
-    </form>
+    </Sidebar>
   );
 }
 

@@ -1,5 +1,6 @@
 /** Detections, sortable, with the board's own beside them. */
 import { useSignal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
 import type { BoardObject, Cell, FrameResult } from 'boresight';
 import { fixed, signed } from '../../plots/format.ts';
 import { download, fileName, toCsv } from '../../plots/save.ts';
@@ -48,14 +49,15 @@ function columns(elevated: boolean, withBoard: boolean): Column[] {
 
 const GROUPS = { ours: 'Computed here', board: 'Board’s own', difference: 'Difference' } as const;
 
-export function DetectionTable({ view, cell, board, gateM, elevated, boardNote, fileParts }: {
+export function DetectionTable({ view, cell, board, gateM, elevated, foot, fileParts }: {
   view: FrameResult;
   cell: Cell;
   /** Null without a log. */
   board: readonly BoardObject[] | null;
   gateM: number;
   elevated: boolean;
-  boardNote: string;
+  /** What is to be said of the board’s log, and its controls. */
+  foot: ComponentChildren;
   fileParts: readonly (string | number)[];
 }) {
   const sort = useSignal<{ key: string; down: boolean }>({ key: 'powerDb', down: true });
@@ -122,7 +124,7 @@ export function DetectionTable({ view, cell, board, gateM, elevated, boardNote, 
           </tbody>
         </table>
       </div>
-      {board && <p class="remark">{boardNote}</p>}
+      {foot}
     </section>
   );
 }

@@ -109,18 +109,25 @@ function Plots({ view }: { view: FrameResult }) {
           unambiguousDeg={geometry?.unambiguousDeg ?? 90} label={label} fileParts={fileParts} />
       </div>
       <DetectionTable view={view} cell={cell} board={boardFrame ? objects : null} gateM={gateM} elevated={elevated} fileParts={fileParts}
-        boardNote={`Board: frame ${boardIndex + 1} of ${log?.frames.length ?? 0} of its log, matched within ${fixed(gateM, 2)} m of range.${capture.bundled ? ' The bundled log is from a separate run on what appears to be the same scene.' : ''}`} />
-      {log && log.frames.length > 1 && (
-        <div class="panel frame-bar">
-          <label for="board-frame">Board frame</label>
-          <input id="board-frame" type="range" min={0} max={log.frames.length - 1} step={1} value={boardIndex} name="board"
-            onInput={(event) => {
-              const value = Number(event.currentTarget.value);
-              update({ board: value === log.frames.length - 1 ? 'last' : String(value) });
-            }} />
-          <output>{boardIndex + 1} of {log.frames.length}</output>
-        </div>
-      )}
+        foot={log && boardFrame && (
+          <>
+            {log.frames.length > 1 && (
+              <div class="row board-frame">
+                <label for="board-frame">Board’s frame</label>
+                <input id="board-frame" type="range" min={0} max={log.frames.length - 1} step={1} value={boardIndex} name="board"
+                  onInput={(event) => {
+                    const value = Number(event.currentTarget.value);
+                    update({ board: value === log.frames.length - 1 ? 'last' : String(value) });
+                  }} />
+                <output>{boardIndex + 1} of {log.frames.length}</output>
+              </div>
+            )}
+            <p class="remark">
+              Matched within {fixed(gateM, 2)} m of range.
+              {capture.bundled && ' The bundled log is from a separate run on what appears to be the same scene.'}
+            </p>
+          </>
+        )} />
       <Remarks view={view} />
     </>
   );

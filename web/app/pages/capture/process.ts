@@ -10,7 +10,6 @@ import { shownCell } from './view.ts';
 export interface CellResult {
   estimate?: Estimate;
   problem?: Problem;
-  milliseconds?: number;
   stale: boolean;
 }
 
@@ -169,13 +168,12 @@ function scheduleCell(
 async function estimateOne(
   capture: Loaded, chain: string, frame: number | 'all', cell: Cell, method: Method, sources: number | 'aic' | 'mdl', controller: AbortController,
 ): Promise<void> {
-  const started = performance.now();
   let made: CellResult;
   try {
     const estimate = await estimateCell(
       capture, JSON.parse(chain) as ChainOptions, frame, cell, { method, sources }, { signal: controller.signal },
     );
-    made = { estimate, milliseconds: performance.now() - started, stale: false };
+    made = { estimate, stale: false };
   } catch (error) {
     if (aborted(error)) return;
     made = { problem: describeError(error), stale: false };
