@@ -1,7 +1,7 @@
 //! Transforms between an angle grid uniform in the sine and the lags of a lattice.
 
 use super::inverse::Real;
-use realfft::{ComplexToReal, RealToComplex};
+use boresight_core::fft::RealFft;
 use rustfft::Fft;
 use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
@@ -74,8 +74,7 @@ pub struct Folded<T: Real> {
     bins: Vec<Bin<T>>,
     length: usize,
     complex: Arc<dyn Fft<T>>,
-    forward: Arc<dyn RealToComplex<T>>,
-    inverse: Arc<dyn ComplexToReal<T>>,
+    transform: RealFft<T>,
     real: Vec<T>,
     half: Vec<Complex<T>>,
     full: Vec<Complex<T>>,
@@ -90,18 +89,13 @@ impl<T: Real> Folded<T> {
             .map(|i| Bin { bin: stride * i % length, phase: cis(PI * spacing * i as f64) })
             .collect();
         let complex = T::plan_forward(length);
-        let forward = T::plan_real_forward(length);
-        let inverse = T::plan_real_inverse(length);
-        let scratch = complex
-            .get_inplace_scratch_len()
-            .max(forward.get_scratch_len())
-            .max(inverse.get_scratch_len());
+        let transform = RealFft::new(length);
+        let scratch = complex.get_inplace_scratch_len();
         Self {
             bins,
             length,
             complex,
-            forward,
-            inverse,
+            transform,
             real: vec![T::zero(); length],
             half: vec![Complex::zero(); length / 2 + 1],
             full: vec![Complex::zero(); length],
@@ -112,9 +106,7 @@ impl<T: Real> Folded<T> {
     fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]) {
         self.real[..values.len()].copy_from_slice(values);
         self.real[values.len()..].fill(T::zero());
-        // Lengths are those planned for, which is all these can fail on.
-        let _ =
-            self.forward.process_with_scratch(&mut self.real, &mut self.half, &mut self.scratch);
+        self.transform.forward(&self.real, &mut self.half);
         for (lag, Bin { bin, phase }) in lags.iter_mut().zip(&self.bins) {
             let value = if 2 * bin <= self.length {
                 self.half[*bin]
@@ -139,8 +131,7 @@ impl<T: Real> Folded<T> {
                 self.half[self.length - bin] = self.half[self.length - bin] + value.conj();
             }
         }
-        let _ =
-            self.inverse.process_with_scratch(&mut self.half, &mut self.real, &mut self.scratch);
+        self.transform.inverse(&self.half, &mut self.real);
         let count = out.len();
         out.copy_from_slice(&self.real[..count]);
     }
