@@ -104,8 +104,16 @@ browserTest('angle lab: what a method cannot do is said, and a bad position too'
   assert.match(await page.locator('.problem:visible').innerText(), /Element 3/);
   await field.fill('0, 1, 3.5, 6, 9');
   await parametersWith(page, (params) => params.get('array') === 'at:0,1,3.5,6,9');
-  assert.ok(await page.locator('#method-esprit').isDisabled());
+  await page.waitForSelector('#method-esprit:disabled');
   assert.match(await page.locator('#method-esprit-note').innerText(), /uniform/);
+});
+
+browserTest('angle lab: slow methods answer from a worker', { path: path.replace('root-music', 'iaa,nomp,maximum-likelihood') }, async ({ page }) => {
+  for (const method of ['iaa', 'nomp', 'maximum-likelihood']) {
+    await shown(page, method);
+    const errors = await values(page, `[data-row="${method}"] [data-field="error"]`);
+    assert.ok(errors.length > 0 && errors.every((error) => Math.abs(error) < 1), `${method}: ${errors}`);
+  }
 });
 
 browserTest('angle lab: plots and tables are saved as PNG and CSV', { path }, async ({ page }) => {

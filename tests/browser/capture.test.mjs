@@ -5,7 +5,7 @@ import { browserTest } from './harness.mjs';
 const path = '#/capture';
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
 const cfg = recording('profile.cfg');
-const ready = (page) => page.waitForSelector('[data-table="detections"] [data-field="rangeM"][data-value]');
+const ready = (page) => page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]');
 const cellReady = (page) => page.waitForSelector('[data-row="bartlett"]:not(.stale) [data-field="azimuth"][data-value]');
 
 /** Rows of the table of detections as objects. */
@@ -65,9 +65,9 @@ browserTest('capture: the address reproduces cell, frame and options', { path },
   await ready(page);
   await page.locator('select[name="cfar"]').selectOption('ordered-statistic');
   await page.locator('select[name="window"]').selectOption('blackman');
+  await ready(page);
   await page.locator('[data-detection]:not([data-detection="board"]) .cell-button').nth(1).click();
   await parametersWith(page, (params) => params.get('cfar') === 'ordered-statistic' && params.get('window') === 'blackman' && params.has('cell'));
-  await page.waitForTimeout(400);
   await ready(page);
   const first = await detections(page);
   const other = await context.newPage();

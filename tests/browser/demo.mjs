@@ -15,11 +15,13 @@ export const values = (page, selector) =>
 export const parameters = (page) => new URLSearchParams(new URL(page.url()).hash.split('?')[1]);
 
 /** Waits until the address holds what `check` wants. */
-export const parametersWith = (page, check) =>
-  page.waitForFunction(
-    ([source]) => new Function('params', `return (${source})(params)`)(new URLSearchParams(location.hash.split('?')[1])),
-    [check.toString()],
-  );
+export async function parametersWith(page, check) {
+  for (let tries = 0; tries < 200; tries++) {
+    if (check(parameters(page))) return;
+    await page.waitForTimeout(50);
+  }
+  assert.fail(`the address is ${page.url()}`);
+}
 
 /** Clicks what saves a file, and gives its name and bytes. */
 export async function saved(page, selector) {

@@ -53,7 +53,7 @@ export function App() {
         ) : page === 'capture' ? <CapturePage /> : <AnglePage />}
       </main>
       <footer class="site-foot">
-        <p>Computed in this tab. Your data never leaves your machine.</p>
+        <p title="The page’s content security policy forbids connections to anywhere but its own server.">Computed in this tab. Your data never leaves your machine.</p>
         <p>
           Boresight {ready ? api.version() : ''} <span aria-hidden="true">{'·'}</span>{' '}
           <a href={`${DOCS}#readme`}>Read me</a> <span aria-hidden="true">{'·'}</span>{' '}

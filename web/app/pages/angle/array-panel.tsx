@@ -47,7 +47,7 @@ export function ArrayPanel({ scene }: { scene: Scene }) {
     return {
       x: [...ys].sort((a, b) => a - b), series: [],
       extent: { x: pad(Math.min(...ys), Math.max(...ys), 0.8), y: pad(Math.min(...zs), Math.max(...zs), 1) },
-      above: [markers(geometry.positions.map(([, y, z]) => ({ x: y, y: z, style: ELEMENT, size: 4 })))],
+      above: [markers(geometry.positions.map(([, y, z]) => ({ x: y, y: z, style: ELEMENT, size: geometry.positions.length > 24 ? 2.2 : 4 })))],
     };
   }, [array]);
   const outside = geometry.unambiguousDeg < 89.9 ? [[-90, -geometry.unambiguousDeg], [geometry.unambiguousDeg, 90]] as const : [];

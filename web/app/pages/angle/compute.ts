@@ -100,11 +100,16 @@ function imperfections(state: AngleState) {
   };
 }
 
+/** One snapshot shows nothing of how powers fluctuate: its targets have the powers they are given, and drawn phases. */
+function fluctuationOf({ snapshots, fluctuation }: AngleState): AngleState['fluctuation'] {
+  return snapshots === 1 && fluctuation === 'complex-normal' ? 'random-phase' : fluctuation;
+}
+
 function simulate(state: AngleState): Scene {
   const array = arrayInput(state.array);
   const geometry = api.array(array);
   const snapshots = api.simulateSnapshots({
-    array, targets: state.targets, snrDb: state.snr, snapshots: state.snapshots, fluctuation: state.fluctuation, seed: state.seed,
+    array, targets: state.targets, snrDb: state.snr, snapshots: state.snapshots, fluctuation: fluctuationOf(state), seed: state.seed,
     ...imperfections(state),
   });
   const made: Scene = {
@@ -200,6 +205,34 @@ function runHere(method: Method, made: Scene): MethodResult {
   }
 }
 
+/** Calls under way on the workers; more would wait there, and their times would say nothing. */
+let busy = 0;
+const queue: (() => void)[] = [];
+const warmThere = new Set<Method>();
+
+async function onWorker(method: Method, made: Scene): Promise<MethodResult> {
+  if (busy >= pool().workers) await new Promise<void>((free) => queue.push(free));
+  busy += 1;
+  try {
+    const run = async (): Promise<MethodResult> => {
+      const started = performance.now();
+      const estimate = await pool().estimate(input(made), estimatorOptions(method, made.state));
+      return { estimate, milliseconds: performance.now() - started, where: 'worker', stale: false };
+    };
+    // The first call starts a worker and compiles the method.
+    if (!warmThere.has(method)) await run();
+    warmThere.add(method);
+    const result = await run();
+    learn(method, (result.milliseconds ?? 0) * TRAVEL_SHARE);
+    return result;
+  } catch (error) {
+    return { problem: describeError(error), stale: false };
+  } finally {
+    busy -= 1;
+    queue.shift()?.();
+  }
+}
+
 /** One call a method at a time; when it returns, the newest state goes next. */
 async function runThere(method: Method): Promise<void> {
   if (running.has(method)) return;
@@ -207,16 +240,7 @@ async function runThere(method: Method): Promise<void> {
   try {
     for (let made = waiting.get(method); made; made = waiting.get(method)) {
       waiting.delete(method);
-      const started = performance.now();
-      let result: MethodResult;
-      try {
-        const estimate = await pool().estimate(input(made), estimatorOptions(method, made.state));
-        const milliseconds = performance.now() - started;
-        learn(method, milliseconds * TRAVEL_SHARE);
-        result = { estimate, milliseconds, where: 'worker', stale: false };
-      } catch (error) {
-        result = { problem: describeError(error), stale: false };
-      }
+      const result = await onWorker(method, made);
       // Deselected meanwhile, or answered here for a newer state.
       if (!results.peek().get(method)?.stale) continue;
       results.value = new Map(results.peek()).set(method, { ...result, stale: made !== scene.peek() });

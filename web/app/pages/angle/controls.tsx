@@ -36,7 +36,7 @@ export function Controls() {
         <button type="button" class="plain new-seed" title="Draw new noise" onClick={() => update({ seed: (state.seed + 1) % LIMITS.seed[1] })}>Next seed</button>
         <SelectField label="Targets" name="fluctuation" value={state.fluctuation}
           options={[['complex-normal', 'fluctuate'], ['random-phase', 'random phase'], ['coherent', 'coherent']]}
-          help="From snapshot to snapshot: amplitude and phase fluctuate (complex normal), the phase alone, or nothing, as with multipath; coherent targets call for averaging or smoothing."
+          help="From snapshot to snapshot: amplitude and phase fluctuate (complex normal), the phase alone, or nothing, as with multipath; coherent targets call for averaging or smoothing. One snapshot keeps the powers given."
           onChange={(fluctuation) => update({ fluctuation })} />
       </Group>
       <Group title="Methods"><MethodList /></Group>

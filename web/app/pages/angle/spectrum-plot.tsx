@@ -47,7 +47,12 @@ function truthLayer(targets: readonly { azimuthDeg: number; powerDb: number }[])
       ctx.beginPath();
       ctx.arc(px, py, r, 0, 2 * Math.PI);
       ctx.stroke();
-      ctx.fillText(String(i + 1), px, Math.max(py - r - 3 * ratio, top + 12 * ratio));
+      const label = Math.max(py - r - 3 * ratio, top + 12 * ratio);
+      ctx.strokeStyle = theme.background;
+      ctx.lineWidth = 3 * ratio;
+      ctx.strokeText(String(i + 1), px, label);
+      ctx.strokeStyle = theme.truth;
+      ctx.fillText(String(i + 1), px, label);
     });
   };
 }
@@ -69,7 +74,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
     return {
       x: shown[0]?.azimuthDeg ?? [], series: series(shown), extent: EXTENT,
       below: [bands(outside, (t) => t.shade), bands(bound, (t) => t.band)],
-      above: [horizontalLine(-snr, 'noise at one element'), truthLayer(targets), markers(estimates)],
+      above: [horizontalLine(-snr, 'noise at one element'), markers(estimates), truthLayer(targets)],
     };
   }, [scene, found, targets, snr]);
 

@@ -11,7 +11,7 @@ import { boardLog, fileProblem, loaded, openBundled } from './files.ts';
 import { FrameBar } from './frame-bar.tsx';
 import type { FrameResult } from 'boresight';
 import { compare } from './match.ts';
-import { cellResults, processProblem, result, start, usedArray } from './process.ts';
+import { cellResults, processProblem, result, start, usedArray, working } from './process.ts';
 import { RangeDopplerMap, RangeProfile } from './range-plots.tsx';
 import { captureCodec, captureState, update } from './state.ts';
 import { Summary } from './summary.tsx';
@@ -45,7 +45,7 @@ export function CapturePage() {
   return (
     <div class="page">
       <Controls />
-      <div class="main-column">
+      <div class="main-column" aria-busy={working.value}>
         {problem && (
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>{problem.file ? `${problem.file}: ` : ''}</strong>{problem.message} <code>{problem.code}</code>

@@ -15,6 +15,8 @@ export interface CellResult {
 
 /** What is shown: one frame, or all of them combined. */
 export const result = signal<FrameResult | null>(null);
+/** Whether what is shown is about to be replaced. */
+export const working = signal(false);
 export const progress = signal<{ done: number; total: number } | null>(null);
 export const wasCancelled = signal<{ done: number; total: number } | null>(null);
 export const processProblem = signal<Problem | null>(null);
@@ -38,7 +40,7 @@ export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
   if (!geometry) return reasons;
   for (const info of api.methods()) {
     if (info.uniformArray && !geometry.uniform) reasons.set(info.name, 'needs a uniform linear array');
-    else if (snapshots < info.minSnapshots) reasons.set(info.name, `needs ${info.minSnapshots} snapshots; a cell of one frame has ${snapshots}`);
+    else if (snapshots < info.minSnapshots) reasons.set(info.name, `needs ${info.minSnapshots} snapshots: combine frames`);
     else if (info.maxSnapshots !== null && snapshots > info.maxSnapshots) reasons.set(info.name, 'takes a single snapshot: choose one frame');
   }
   return reasons;
@@ -110,12 +112,15 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
   wasCancelled.value = null;
   const before = known.get(frame);
   if (before) {
+    running = undefined;
     progress.value = null;
+    working.value = false;
     result.value = before;
     return;
   }
   const controller = new AbortController();
   running = controller;
+  working.value = true;
   let last = { done: 0, total: frame === 'all' ? capture.info.frames : 1 };
   // A bar that only flashes tells nothing.
   const timer = setTimeout(() => {
@@ -142,6 +147,7 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
     if (running === controller) {
       running = undefined;
       progress.value = null;
+      working.value = false;
     }
   }
 }
