@@ -19,6 +19,7 @@ pub mod estimator;
 pub mod gauss_newton;
 pub mod grid;
 mod iaa;
+mod lags;
 mod maximum_likelihood;
 pub mod method;
 mod min_norm;

@@ -44,6 +44,8 @@ pub(crate) struct MaximumLikelihood {
     wanted: SourceCount,
     most: usize,
     limits: Limits,
+    /// Largest `|sin(azimuth)|` reported: the field of view and a step of the grid.
+    widest: f64,
     ambiguity: Option<Warning>,
 }
 
@@ -63,6 +65,7 @@ impl MaximumLikelihood {
             wanted: options.sources,
             most,
             limits: Limits { iterations: options.max_iterations, tolerance: options.tolerance },
+            widest: options.field_of_view_rad.sin() + 2.0 / options.grid_points as f64,
             ambiguity: ambiguity(array, options),
         })
     }
@@ -187,7 +190,11 @@ impl Plan for MaximumLikelihood {
                 warnings.push(Warning::NotConverged { iterations });
             }
         }
-        let directions: Vec<_> = points.iter().map(|&p| self.geometry.direction(p)).collect();
+        let directions: Vec<_> = points
+            .iter()
+            .map(|&p| self.geometry.direction(p))
+            .filter(|at| at.azimuth_rad.sin().abs() <= self.widest)
+            .collect();
         let sources = sources_at(&self.array, &directions, data);
         let method = Method::MaximumLikelihood;
         Ok(conclude(method, sources, Some(count), None, iterations, warnings))

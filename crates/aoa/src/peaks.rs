@@ -66,7 +66,12 @@ impl PeakFinder {
             if elevations > 1 && (e == 0 || e + 1 == elevations) {
                 continue;
             }
+            let row = &values[e * azimuths..(e + 1) * azimuths];
             for a in 0..azimuths {
+                // Most points are told by the neighbours that need no care.
+                if (a > 0 && row[a - 1] >= row[a]) || (a + 1 < azimuths && row[a + 1] > row[a]) {
+                    continue;
+                }
                 if self.is_maximum(values, azimuths, elevations, a, e) {
                     peaks.push(self.interpolated(grid, values, a, e));
                 }

@@ -2,17 +2,16 @@
 //! method.
 //!
 //! Elements on a lattice see the form through the sums of `Q` along equal lags alone: with
-//! `q_m` the sum of `Q_kl` over `n_k - n_l = m`, `a^H Q a = sum_m q_m exp(-j pi d m u)`, one FFT
-//! for a whole grid of `u` when the spacing `d` is a whole number of half wavelengths.
+//! `q_m` the sum of `Q_kl` over `n_k - n_l = m`, `a^H Q a = sum_m q_m exp(-j pi d m u)`, one
+//! transform for a whole grid of `u`.
 
 use crate::grid::Grid;
-use boresight_core::fft::Transforms;
+use crate::iaa::fourier::LatticeFourier;
+use crate::lags::LagPolynomial;
 use boresight_core::steering::{cis, steering_derivatives, steering_vector};
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
 use ndarray::{Array1, ArrayView2};
-use rustfft::Fft;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// Evaluates forms on a grid, by the fastest way the array allows.
 pub(crate) struct QuadraticSpectrum {
@@ -22,13 +21,8 @@ pub(crate) struct QuadraticSpectrum {
 }
 
 enum Way {
-    /// Along y on a lattice whose spacing is whole: one FFT.
-    Transform {
-        lattice: Lattice,
-        fft: Arc<dyn Fft<f64>>,
-        bins: Vec<Complex64>,
-        work: Vec<Complex64>,
-    },
+    /// Along y on a lattice: one transform.
+    Lattice { lattice: Lattice, transform: Box<LatticeFourier<f64>>, circle: Vec<f64> },
     /// In a plane of constant x: sums over equal pairs of lags, then Horner's rule in azimuth.
     Plane(Plane),
     /// Any positions.
@@ -49,8 +43,8 @@ impl QuadraticSpectrum {
     /// Prepares evaluation for `array` on `grid`.
     pub fn new(array: &Array, grid: &Grid) -> Self {
         let way = match array.lattice() {
-            Some(lattice) if is_whole(lattice.spacing) => Way::transform(lattice, grid),
-            _ => Plane::of(array).map_or(Way::Dense, Way::Plane),
+            Some(lattice) => Way::lattice(lattice, grid),
+            None => Plane::of(array).map_or(Way::Dense, Way::Plane),
         };
         Self { array: array.clone(), grid: grid.clone(), way }
     }
@@ -69,25 +63,10 @@ impl QuadraticSpectrum {
     /// `a^H Q a` at every grid point, elevation-major. The lower triangle of `form` is read.
     pub fn evaluate(&mut self, form: ArrayView2<Complex64>) -> Vec<f64> {
         match &mut self.way {
-            Way::Transform { lattice, fft, bins, work } => {
-                bins.fill(Complex64::ZERO);
-                let size = bins.len();
-                let spacing = lattice.spacing.round() as usize;
-                for (k, &nk) in lattice.indices.iter().enumerate() {
-                    bins[0] += form[[k, k]].re;
-                    for (l, &nl) in lattice.indices[..k].iter().enumerate() {
-                        let value = form[[k, l]];
-                        let (lag, value) =
-                            if nk >= nl { (nk - nl, value) } else { (nl - nk, value.conj()) };
-                        let shift = spacing * lag;
-                        // exp(j pi d m) moves the first grid point to u = -1.
-                        let sign = if shift.is_multiple_of(2) { 2.0 } else { -2.0 };
-                        bins[shift % size] += value * sign;
-                    }
-                }
-                fft.process_with_scratch(bins, work);
+            Way::Lattice { lattice, transform, circle } => {
+                transform.hermitian(LagPolynomial::new(lattice, form).lags(), circle);
                 let inside = self.grid.first..self.grid.first + self.grid.sines.len();
-                bins[inside].iter().map(|z| z.re).collect()
+                circle[inside].to_vec()
             }
             Way::Plane(plane) => plane.evaluate(form, &self.grid),
             Way::Dense => (0..self.grid.len())
@@ -107,7 +86,16 @@ impl QuadraticSpectrum {
         start: Direction,
         towards: Towards,
     ) -> (Direction, f64) {
-        refine(&self.array, form, start, towards, &self.grid)
+        match &self.way {
+            // A long lattice with few elements costs more lag by lag than pair by pair.
+            Way::Lattice { lattice, .. } if lattice.span() <= form.len() => {
+                let step = 2.0 / self.grid.full_points as f64;
+                let polynomial = LagPolynomial::new(lattice, form);
+                let (sine, value) = polynomial.refine(start.azimuth_rad.sin(), step, towards);
+                (Direction::azimuth(sine.asin()), value)
+            }
+            _ => refine(&self.array, form, start, towards, &self.grid),
+        }
     }
 }
 
@@ -120,16 +108,14 @@ pub(crate) enum Towards {
     Maximum,
 }
 
-fn is_whole(spacing: f64) -> bool {
-    (spacing - spacing.round()).abs() < 1e-9 && spacing > 0.5
-}
-
 impl Way {
-    fn transform(lattice: Lattice, grid: &Grid) -> Self {
-        let fft = f64::plan_forward(grid.full_points);
-        let bins = vec![Complex64::ZERO; grid.full_points];
-        let work = vec![Complex64::ZERO; fft.get_inplace_scratch_len()];
-        Self::Transform { lattice, fft, bins, work }
+    fn lattice(lattice: Lattice, grid: &Grid) -> Self {
+        let transform = LatticeFourier::new(grid.full_points, lattice.spacing, lattice.span());
+        Self::Lattice {
+            lattice,
+            transform: Box::new(transform),
+            circle: vec![0.0; grid.full_points],
+        }
     }
 }
 

@@ -237,6 +237,12 @@ fn data(array: &Array, kind: usize, snapshots: usize, seed: u64) -> Array2<Compl
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig {
+        rng_seed: proptest::test_runner::RngSeed::Fixed(7),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
     #[test]
     fn every_answer_is_finite_and_within_the_field_of_view(
         positions in positions(),

@@ -8,7 +8,7 @@
 
 mod dense;
 mod fast;
-mod fourier;
+pub(crate) mod fourier;
 mod inverse;
 mod kernel;
 
