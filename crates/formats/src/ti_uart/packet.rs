@@ -58,8 +58,8 @@ impl Header {
             objects: at(5)? as usize,
             parts: at(6)? as usize,
         };
-        let possible = (SHORT_HEADER..=MAX_PACKET_BYTES).contains(&header.length)
-            && header.parts <= MAX_PARTS;
+        let possible =
+            (SHORT_HEADER..=MAX_PACKET_BYTES).contains(&header.length) && header.parts <= MAX_PARTS;
         possible.then_some(header)
     }
 
