@@ -65,7 +65,10 @@ describe('estimate', () => {
     const single = { data: Float32Array.from(snapshots.data), shape: snapshots.shape };
     const estimator = new Estimator(options);
     const [once, again] = [estimate({ snapshots }, options), estimator.estimate({ snapshots: single })];
-    assert.ok(Math.abs(once.sources[0].azimuthDeg - again.sources[0].azimuthDeg) < 1e-4);
+    // The two are as strong as each other, so rounding decides which comes first.
+    const angles = (result) => result.sources.slice(0, 2).map((s) => s.azimuthDeg).sort((x, y) => x - y);
+    const [expected, found] = [angles(once), angles(again)];
+    assert.ok(expected.every((angle, k) => Math.abs(angle - found[k]) < 1e-4), `${expected} ${found}`);
     estimator.free();
   });
 
