@@ -1,0 +1,71 @@
+/** The README's JavaScript runs as pasted into an empty project, and its table is `methods()`. */
+import assert from 'node:assert/strict';
+import { copyFileSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { root } from '../../scripts/lib/paths.mjs';
+import { consumer } from './consumer.mjs';
+
+const readme = readFileSync(join(root, 'README.md'), 'utf8');
+const snippets = [...readme.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
+const recording = (name) => join(root, 'recordings', 'awr1642', name);
+
+let project;
+before(async () => {
+  const files = Object.fromEntries(snippets.map((code, k) => [`snippet-${k}.mjs`, code]));
+  files['methods.mjs'] = `
+    import { init, methods } from 'boresight';
+    await init();
+    console.log(JSON.stringify(methods()));
+  `;
+  project = await consumer({ files });
+  copyFileSync(recording('xwr16xx_crw_dca_module_2018_1015v2.bin'), join(project.folder, 'capture.bin'));
+  copyFileSync(recording('profile.cfg'), join(project.folder, 'profile.cfg'));
+});
+after(() => project?.remove());
+
+const printed = async (script) => (await project.run(process.execPath, [script])).stdout.trim().split('\n');
+
+test('the first snippet finds both targets with the methods that resolve them', async () => {
+  assert.equal(snippets.length, 3);
+  assert.ok(snippets[0].trim().split('\n').length <= 15, 'fifteen lines');
+  const lines = await printed('snippet-0.mjs');
+  assert.deepEqual(lines.map((line) => line.split(' ')[0]), ['bartlett', 'iaa', 'nomp']);
+  // 25 dB on 48 elements: the bound on the weaker target is below 0.02 deg, a grid cell is 0.11 deg.
+  const nomp = [...lines[2].matchAll(/(-?[\d.]+) deg/g)].map(([, deg]) => Number(deg));
+  assert.equal(nomp.length, 2);
+  assert.ok(Math.abs(nomp[0] + 5) < 0.1 && Math.abs(nomp[1] + 3) < 0.1, lines[2]);
+});
+
+test('the second snippet finds the targets of the capture', async () => {
+  const lines = await printed('snippet-1.mjs');
+  assert.ok(lines.some((line) => /^2\.9\d m -1[01]\.\d deg/.test(line)), lines.join('\n'));
+  assert.ok(lines.some((line) => /^4\.9\d m/.test(line)), lines.join('\n'));
+});
+
+test('the third snippet reports progress and the shape', async () => {
+  const lines = await printed('snippet-2.mjs');
+  assert.ok(lines.some((line) => line.endsWith('of 500')), lines.join('\n'));
+  assert.match(lines.at(-1), /500, 48, 1/);
+});
+
+test('the table of estimators says what methods() says', async () => {
+  const [json] = await printed('methods.mjs');
+  const rows = readme.split('\n').filter((line) => /^\| .* \| `[a-z-]+` \|/.test(line));
+  const yes = (flag) => (flag ? 'yes' : 'no');
+  const expected = JSON.parse(json).map((m) => {
+    const needs = [
+      m.minSnapshots > 1 && `${m.minSnapshots} or more snapshots`,
+      m.maxSnapshots === 1 && 'exactly 1 snapshot',
+      m.uniformArray && 'uniform array',
+      m.lattice && 'elements on a grid',
+      m.sourceCount && 'number of sources, given or counted',
+    ].filter(Boolean);
+    const cells = [
+      m.title, `\`${m.name}\``, m.reference, needs.join('; ') || 'nothing more', yes(m.takesCovariance),
+      yes(m.elevation), yes(m.spectrum), m.cost,
+    ];
+    return `| ${cells.join(' | ')} |`;
+  });
+  assert.deepEqual(rows, expected);
+});
