@@ -59,10 +59,6 @@ export function horizontalLine(value: number, label: string): Layer {
     ctx.font = `${11 * ratio}px ${theme.font}`;
     ctx.textAlign = 'right';
     ctx.textBaseline = 'bottom';
-    ctx.lineWidth = 4 * ratio;
-    ctx.strokeStyle = theme.background;
-    ctx.lineJoin = 'round';
-    ctx.strokeText(label, left + width - 5 * ratio, at - 3 * ratio);
     ctx.fillText(label, left + width - 5 * ratio, at - 3 * ratio);
   };
 }

@@ -1,9 +1,11 @@
 /** The numbers engineers look for first, from the configuration alone. */
 import type { ArrayGeometry, CaptureInfo } from 'boresight';
 import { engineering, fixed, significant } from '../../plots/format.ts';
+import { captureState } from './state.ts';
 
 export function Summary({ info, geometry }: { info: CaptureInfo; geometry: ArrayGeometry | null }) {
   const { waveform, summary, platform, array } = info.config;
+  const { array: chosen } = captureState.value;
   const angularDeg = geometry && geometry.aperture > 0 ? (Math.asin(Math.min(1, 2 / (geometry.aperture + 1))) * 180) / Math.PI : Number.NaN;
   const facts: [string, string, string, string?][] = [
     ['Range resolution', `${significant(summary.rangeResolutionM * 100)}\u00a0cm`, 'c / 2B, with B the bandwidth sampled', 'rangeResolution'],
@@ -15,7 +17,7 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
     ['Centre frequency', engineering(summary.centreFrequencyHz, 'Hz', 4), `Wavelength ${significant(summary.wavelengthM * 1000)} mm`, 'centre'],
     ['Frame', `${waveform.loops} × ${waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`, `${significant(summary.frameTimeS * 1000)} ms of them transmitting`, 'frame'],
     ['Samples a chirp', `${waveform.samples} at ${engineering(waveform.sampleRateHz, 'S/s', 4)}`, `Slope ${significant(waveform.slopeHzPerS / 1e12, 4)} MHz/µs`, 'samples'],
-    ['Array', geometry ? `${array ?? platform ?? 'chosen'}, ${geometry.positions.length} virtual` : 'not known', `${info.config.transmitters} transmitters, ${info.config.receivers} receivers`, 'array'],
+    ['Array', geometry ? `${chosen === 'auto' ? array ?? platform ?? 'configured' : chosen}, ${geometry.positions.length} virtual` : 'not known', `${info.config.transmitters} transmitters, ${info.config.receivers} receivers`, 'array'],
   ];
   return (
     <dl class="facts" data-facts="capture">
