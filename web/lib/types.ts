@@ -112,7 +112,12 @@ export type EstimateInput =
   | { snapshots: ComplexData }
   | { covariance: ComplexData; snapshotCount: number };
 
-export interface Warning { code: string; message: string }
+/** Something to know of a result; not an error. */
+export interface Warning {
+  /** A stable name for programs. */
+  code: string;
+  message: string;
+}
 
 export interface Source {
   azimuthDeg: number;

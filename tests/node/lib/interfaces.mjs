@@ -1,0 +1,27 @@
+// The fields that web/lib/types.ts declares, so that tests can hold results against them.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+
+const source = readFileSync(new URL('../../../web/lib/types.ts', import.meta.url), 'utf8');
+
+/** Interface -> { required, optional } field names, with those of the interfaces it extends. */
+export const interfaces = new Map();
+for (const [, name, parent, body] of source.matchAll(/^export interface (\w+)(?: extends (\w+))? \{\n([\s\S]*?)^\}/gm)) {
+  const fields = [...body.matchAll(/^ {2}(?:readonly )?(\w+)(\??):/gm)];
+  const of = (mark) => fields.filter(([, , optional]) => optional === mark).map(([, field]) => field);
+  interfaces.set(name, { parent, required: of(''), optional: of('?') });
+}
+for (const [, { parent, ...own }] of interfaces) {
+  const { required, optional } = interfaces.get(parent) ?? { required: [], optional: [] };
+  own.required.push(...required.filter((field) => !own.required.includes(field)));
+  own.optional.push(...optional);
+}
+
+/** Asserts that an object has the fields of an interface, all required ones and no others. */
+export function assertShape(value, name) {
+  const { required, optional } = interfaces.get(name) ?? assert.fail(`no interface ${name}`);
+  const keys = Object.keys(value);
+  for (const field of required) assert.ok(keys.includes(field), `${name} lacks ${field}`);
+  for (const key of keys) assert.ok(required.includes(key) || optional.includes(key), `${name} has ${key}, which is not declared`);
+  for (const key of keys) assert.notEqual(value[key], undefined, `${name}.${key} is undefined`);
+}
