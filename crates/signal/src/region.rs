@@ -34,7 +34,7 @@ impl Region {
                 && (least.is_nan() || greatest.is_nan() || least > greatest)
             {
                 return Err(SignalError::Argument(CoreError::OutOfRange {
-                    what: format!("{what} of the region of interest"),
+                    what: format!("region.{what}"),
                     expected: format!("a greatest value of at least {least}"),
                     given: greatest,
                 }));
