@@ -2,14 +2,14 @@
 
 use crate::beam::suited;
 use crate::error::PipelineError;
-use crate::options::{ChainOptions, Limits};
+use crate::options::{ChainOptions, usable_range_m};
 use crate::result::{Counts, Detection, FrameResult, Remark};
 use crate::warnings::Warnings;
 use boresight_aoa::{Data, Estimate, Estimator, Method, Options};
 use boresight_core::{Array, Complex32, Complex64, Direction, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
-use boresight_signal::{Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, tdm};
+use boresight_signal::{Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, Region, tdm};
 use ndarray::{Array1, Array2, ArrayView2, ArrayView4, Axis};
 
 /// Least power in decibels of an empty cell, so that plots and tables need no infinities.
@@ -26,14 +26,6 @@ pub struct Chain {
     pub(crate) map: RangeDopplerMap,
     cfar: Cfar,
     estimator: Estimator,
-}
-
-/// Limits with the waveform's own filled in.
-#[derive(Debug, Clone, Copy)]
-struct Region {
-    range_m: [f64; 2],
-    rate_mps: [f64; 2],
-    azimuth_rad: [f64; 2],
 }
 
 /// A cell to estimate angles in.
@@ -73,15 +65,13 @@ impl Chain {
         let (ranges, dopplers) = map.power.dim();
         let cfar = Cfar::new(ranges, dopplers, &cfar_options(options, &transform))?;
         let angle = suited(options.method, array, &options.angle);
-        let anything = [f64::NEG_INFINITY, f64::INFINITY];
         Ok(Self {
             options: *options,
             array: array.clone(),
             channels,
             region: Region {
-                range_m: options.region.range_m.unwrap_or_else(|| Limits::usable_range_m(waveform)),
-                rate_mps: options.region.rate_mps.unwrap_or(anything),
-                azimuth_rad: options.region.azimuth_rad.unwrap_or(anything),
+                range_m: options.region.range_m.or_else(|| Some(usable_range_m(waveform))),
+                ..options.region
             },
             transform,
             map,
@@ -177,11 +167,9 @@ impl Chain {
             over.iter().map(|detection| interpolate(power, *detection)).collect()
         };
         let mut cells: Vec<Cell> = peaks.into_iter().map(|peak| self.cell(peak)).collect();
-        let before = cells.len();
-        cells.retain(|cell| {
-            within(self.region.range_m, cell.range_m) && within(self.region.rate_mps, cell.rate_mps)
-        });
-        counts.outside_region = before - cells.len();
+        let region = &self.region;
+        counts.outside_region =
+            Region::retain(&mut cells, |cell| region.contains(cell.range_m, cell.rate_mps));
         cells.sort_by(|a, b| b.peak.power.total_cmp(&a.peak.power));
         counts.beyond_limit = cells.len().saturating_sub(self.options.max_detections);
         cells.truncate(self.options.max_detections);
@@ -238,9 +226,8 @@ impl Chain {
             detections
                 .extend(estimate.sources.iter().map(|s| detection(cell, s.direction, s.power)));
         }
-        let before = detections.len();
-        detections.retain(|d| within(self.region.azimuth_rad, d.azimuth_rad));
-        counts.outside_region += before - detections.len();
+        counts.outside_region +=
+            Region::retain(&mut detections, |d| self.region.contains_azimuth(d.azimuth_rad));
         detections.sort_by(|a, b| b.power.total_cmp(&a.power));
         counts.beyond_limit += detections.len().saturating_sub(self.options.max_detections);
         detections.truncate(self.options.max_detections);
@@ -283,10 +270,6 @@ fn detection(cell: &Cell, direction: Direction, power: f64) -> Detection {
 
 fn decibels(power: f64) -> f64 {
     (10.0 * power.log10()).max(FLOOR_DB)
-}
-
-fn within([low, high]: [f64; 2], value: f64) -> bool {
-    (low..=high).contains(&value)
 }
 
 /// Guard and training cells for padded transforms, and what follows from windows and channels.

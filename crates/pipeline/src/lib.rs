@@ -17,6 +17,6 @@ mod warnings;
 
 pub use chain::Chain;
 pub use error::PipelineError;
-pub use options::{ChainOptions, Limits};
+pub use options::{ChainOptions, usable_range_m};
 pub use result::{Counts, Detection, FrameResult, Remark};
 pub use source::{CubeFrames, Frame, FrameSource, Progress};

@@ -1,21 +1,10 @@
 //! Options of the chain.
 
+use crate::error::PipelineError;
 use boresight_aoa::{Method, Options};
+use boresight_core::Waveform;
 use boresight_core::error::check_range;
-use boresight_core::{CoreError, Waveform};
-use boresight_signal::{CfarAxes, CfarOptions, RangeDopplerOptions};
-use std::f64::consts::FRAC_PI_2;
-
-/// Limits outside which detections are dropped, and counted.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Limits {
-    /// Least and greatest range, m. Where absent, [`Limits::usable_range_m`].
-    pub range_m: Option<[f64; 2]>,
-    /// Least and greatest range rate, m/s.
-    pub rate_mps: Option<[f64; 2]>,
-    /// Least and greatest azimuth, rad.
-    pub azimuth_rad: Option<[f64; 2]>,
-}
+use boresight_signal::{CfarAxes, CfarOptions, RangeDopplerOptions, Region};
 
 /// Bins at zero range that the coupling from transmitters to receivers fills: the main lobe of the
 /// usual windows and as much again.
@@ -25,26 +14,10 @@ const COUPLING_BINS: f64 = 4.0;
 /// it, which include negative ones, are attenuated or folded.
 const USABLE_BAND: f64 = 0.9;
 
-impl Limits {
-    /// The range from beyond antenna coupling to the end of the receivers' band, m: 4 range
-    /// resolutions to 0.9 of the unambiguous range.
-    pub fn usable_range_m(waveform: &Waveform) -> [f64; 2] {
-        [COUPLING_BINS * waveform.range_resolution_m(), USABLE_BAND * waveform.max_range_m()]
-    }
-
-    fn check(&self) -> Result<(), CoreError> {
-        for (what, limits, most) in [
-            ("region.range_m", self.range_m, f64::MAX),
-            ("region.rate_mps", self.rate_mps, f64::MAX),
-            ("region.azimuth_rad", self.azimuth_rad, FRAC_PI_2),
-        ] {
-            if let Some([low, high]) = limits {
-                check_range(what, low, -most, most)?;
-                check_range(what, high, low, most)?;
-            }
-        }
-        Ok(())
-    }
+/// The range from beyond antenna coupling to the end of the receivers' band, m: 4 range resolutions
+/// to 0.9 of the unambiguous range.
+pub fn usable_range_m(waveform: &Waveform) -> [f64; 2] {
+    [COUPLING_BINS * waveform.range_resolution_m(), USABLE_BAND * waveform.max_range_m()]
 }
 
 /// How frames become detections.
@@ -58,8 +31,9 @@ pub struct ChainOptions {
     pub cfar: CfarOptions,
     /// Keep one detection a peak.
     pub peak_grouping: bool,
-    /// Limits of what is reported.
-    pub region: Limits,
+    /// Limits outside which detections are dropped, and counted. Where it names no range, that is
+    /// [`usable_range_m`].
+    pub region: Region,
     /// Method of angle estimation.
     pub method: Method,
     /// Its options. For the conventional beamformer and Capon's the dynamic range is at most that
@@ -85,7 +59,7 @@ impl Default for ChainOptions {
                 ..CfarOptions::default()
             },
             peak_grouping: true,
-            region: Limits::default(),
+            region: Region::default(),
             method: Method::Bartlett,
             angle: Options::default(),
             max_detections: 256,
@@ -97,10 +71,10 @@ impl ChainOptions {
     /// Checks the options that no single step checks.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] naming the option.
-    pub fn check(&self) -> Result<(), CoreError> {
+    /// [`boresight_core::CoreError::OutOfRange`] naming the option.
+    pub fn check(&self) -> Result<(), PipelineError> {
         self.region.check()?;
         self.angle.check()?;
-        check_range("max_detections", self.max_detections as f64, 1.0, 65_536.0)
+        Ok(check_range("max_detections", self.max_detections as f64, 1.0, 65_536.0)?)
     }
 }

@@ -117,6 +117,7 @@ fn each_method_finds_the_targets() {
     for method in Method::ALL {
         let mut options = ChainOptions { method, ..ChainOptions::default() };
         options.angle.sources = SourceCount::Known(1);
+        options.angle.nomp.max_sources = 1;
         let result = match combined(&options) {
             Ok(result) => result,
             Err(Failure::Pipeline(PipelineError::Angle(AoaError::Snapshots { .. }))) => {

@@ -5,8 +5,8 @@ use crate::options::read_options;
 use crate::read::{Angle, Fields, Read, choice};
 use boresight_aoa::{Method, Options};
 use boresight_core::Array;
-use boresight_pipeline::{ChainOptions, Limits};
-use boresight_signal::{CfarAxes, CfarKind, CfarOptions, Window};
+use boresight_pipeline::ChainOptions;
+use boresight_signal::{CfarAxes, CfarKind, CfarOptions, Region, Window};
 use wasm_bindgen::JsValue;
 
 /// Reads the options of the chain, and the array where one is named.
@@ -66,7 +66,7 @@ fn read_cfar(mut fields: Fields, cfar: &mut CfarOptions) -> Fallible<()> {
     fields.finish()
 }
 
-fn read_region(mut fields: Fields, region: &mut Limits) -> Fallible<()> {
+fn read_region(mut fields: Fields, region: &mut Region) -> Fallible<()> {
     region.range_m = fields.optional("rangeM")?;
     region.rate_mps = fields.optional("rateMps")?;
     let azimuth = fields.optional::<[Angle; 2]>("azimuthDeg")?;

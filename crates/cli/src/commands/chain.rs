@@ -8,8 +8,8 @@ use crate::run::Run;
 use boresight_aoa::{Method, Options, SourceCount};
 use boresight_core::error::check_range;
 use boresight_core::units::power_to_db;
-use boresight_pipeline::{Chain, ChainOptions, Detection, FrameResult, FrameSource, Limits};
-use boresight_signal::{CfarAxes, CfarKind, CfarOptions, RangeDopplerOptions, Window};
+use boresight_pipeline::{Chain, ChainOptions, Detection, FrameResult, FrameSource};
+use boresight_signal::{CfarAxes, CfarKind, CfarOptions, RangeDopplerOptions, Region, Window};
 
 /// Method and options of angle estimation.
 pub fn angle_options(arguments: &AngleArguments) -> Result<(Method, Options), CliError> {
@@ -69,7 +69,7 @@ pub fn chain_options(arguments: &EstimateArguments) -> Result<ChainOptions, CliE
             ..CfarOptions::default()
         },
         peak_grouping: !chain.no_grouping,
-        region: Limits {
+        region: Region {
             range_m: chain.range_limits,
             rate_mps: chain.rate_limits,
             azimuth_rad: chain.azimuth_limits.map(|limits| limits.map(f64::to_radians)),
