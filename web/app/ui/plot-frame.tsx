@@ -127,7 +127,7 @@ type Cursor = ReturnType<typeof useSignal<CursorPosition | null>>;
 
 function Readout({ cursor, text }: { cursor: Cursor; text(position: CursorPosition): string }) {
   const position = cursor.value;
-  return <p class="readout" data-readout>{position ? text(position) : <span class="muted">Cursor: move over the plot</span>}</p>;
+  return <p class="readout" data-readout>{position ? text(position) : <span class="muted">Cursor: point at the plot</span>}</p>;
 }
 
 function LegendValue({ cursor, value }: { cursor: Cursor; value(position: CursorPosition): string }) {

@@ -40,7 +40,9 @@ const FRAME_BUDGET_MS = 8;
 /** What is left of the time on a worker without the way there and back, roughly, for short calls. */
 const TRAVEL_SHARE = 0.5;
 const SLOW_AT_FIRST: readonly Method[] = ['nomp', 'maximum-likelihood', 'sparse-bayesian', 'iaa'];
-const typical = new Map<Method, number>(SLOW_AT_FIRST.map((method) => [method, FRAME_BUDGET_MS * 2]));
+/** One slow call proves nothing. */
+const FEWEST_TIMES = 3;
+const recent = new Map<Method, number[]>(SLOW_AT_FIRST.map((method) => [method, new Array<number>(FEWEST_TIMES).fill(FRAME_BUDGET_MS * 2)]));
 
 export function start(): () => void {
   let frame = 0;
@@ -168,7 +170,7 @@ function recompute(state: AngleState): void {
     if (reason) reasons.set(info.name, reason);
     if (reason || !state.methods.includes(info.name)) continue;
     const before = results.peek().get(info.name);
-    if ((typical.get(info.name) ?? 0) > FRAME_BUDGET_MS) {
+    if (typicalMs(info.name) > FRAME_BUDGET_MS) {
       next.set(info.name, before?.estimate ? { ...before, stale: true } : { stale: true });
       waiting.set(info.name, made);
     } else {
@@ -250,9 +252,14 @@ async function runThere(method: Method): Promise<void> {
   }
 }
 
+/** Other work on the machine only ever adds to a time: the least of the last few is the method's own. */
 function learn(method: Method, milliseconds: number): void {
-  const before = typical.get(method);
-  typical.set(method, before === undefined ? milliseconds : 0.7 * before + 0.3 * milliseconds);
+  recent.set(method, [...(recent.get(method) ?? []).slice(-4), milliseconds]);
+}
+
+function typicalMs(method: Method): number {
+  const times = recent.get(method) ?? [];
+  return times.length < FEWEST_TIMES ? 0 : Math.min(...times);
 }
 
 /** Response of the array to a wave from boresight, through the same estimator. */

@@ -22,6 +22,8 @@ function curves(): Curve[] {
   }));
 }
 
+const TRUTH_RING = { ...TRUTH_STYLE, marker: 'circle' } as const;
+
 /** Targets as crosshairs: a stem up to their power, a ring, and their number. */
 function truthLayer(targets: readonly { azimuthDeg: number; powerDb: number }[]): Layer {
   return ({ ctx, plot, theme, ratio, x, y }) => {
@@ -59,7 +61,7 @@ function truthLayer(targets: readonly { azimuthDeg: number; powerDb: number }[])
 
 export function SpectrumPlot({ scene }: { scene: Scene }) {
   const handles = useRef<Handles | null>(null);
-  const { targets, snr } = angleState.value;
+  const { targets, snr } = scene.state;
   const found = results.value;
   const shown = curves();
   const content = useMemo(() => {
@@ -76,7 +78,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       below: [bands(outside, (t) => t.shade), bands(bound, (t) => t.band), horizontalLine(-snr, 'noise at one element')],
       above: [markers(estimates), truthLayer(targets)],
     };
-  }, [scene, found, targets, snr]);
+  }, [scene, found]);
 
   handles.current?.set(targets.map((target, i) => ({
     x: target.azimuthDeg, y: target.powerDb,
@@ -84,7 +86,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
   })));
 
   const legend: LegendItem[] = [
-    { id: 'truth', label: 'Target, CRB ±σ band', style: { ...TRUTH_STYLE, marker: 'circle' }, line: false, hollow: true },
+    { id: 'truth', label: 'Target, CRB ±σ band', style: TRUTH_RING, line: false, hollow: true },
     ...api.methods().filter(({ name }) => found.has(name)).map((info): LegendItem => {
       const curve = shown.find(({ method }) => method === info.name);
       return {
