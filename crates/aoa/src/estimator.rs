@@ -15,7 +15,8 @@ use crate::nomp::Nomp;
 use crate::options::Options;
 use crate::root_music::RootMusic;
 use crate::single_snapshot_music::SingleSnapshotMusic;
-use boresight_core::{Array, CoreError};
+use crate::sparse_bayesian::SparseBayesian;
+use boresight_core::Array;
 
 /// What each method implements: everything that depends on array and options alone (grids, FFT
 /// plans, steering vectors, scratch space) is made once, in the method's own constructor.
@@ -78,12 +79,6 @@ fn plan(method: Method, array: &Array, options: &Options) -> Result<Box<dyn Plan
         Method::Iaa => Box::new(Iaa::new(array, options)?),
         Method::Nomp => Box::new(Nomp::new(array, options)?),
         Method::MaximumLikelihood => Box::new(MaximumLikelihood::new(array, options)?),
-        other => {
-            return Err(AoaError::Argument(CoreError::Unknown {
-                what: "method".into(),
-                expected: "a method this build has".into(),
-                given: other.name().into(),
-            }));
-        }
+        Method::SparseBayesian => Box::new(SparseBayesian::new(array, options)?),
     })
 }

@@ -6,7 +6,9 @@
 //! every other tile of the lower triangle by a rank-4 product, K^3/2 complex multiplications in
 //! all, the same as Cholesky, triangular inverse and product together, but in one kernel.
 
+use boresight_core::Complex64;
 use boresight_core::fft::Transforms;
+use ndarray::Array2;
 use rustfft::num_traits::Float;
 
 /// The numbers the fast form is computed in: `f64` or `f32`.
@@ -209,37 +211,51 @@ fn invert_tile<T: Real>(tile: &Tile<T>, smallest: T) -> Option<Tile<T>> {
     Some(m)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use boresight_core::linalg::{Cholesky, adjoint};
-    use boresight_core::{Complex64, Random};
-    use ndarray::Array2;
-
-    fn load(tiles: &mut HermitianTiles<f64>, a: &Array2<Complex64>) {
-        let n = a.nrows();
-        let mut t = 0;
-        for i in 0..tiles.blocks() {
-            for j in 0..=i {
-                let tile = &mut tiles.tiles_mut()[t];
-                t += 1;
-                for r in 0..TILE {
-                    for c in 0..TILE {
-                        let (row, column) = (TILE * i + r, TILE * j + c);
-                        let z = if row < n && column < n {
-                            a[[row, column]]
-                        } else if row == column {
-                            Complex64::new(1.0, 0.0)
-                        } else {
-                            Complex64::ZERO
-                        };
-                        tile.re[r][c] = z.re;
-                        tile.im[r][c] = z.im;
-                    }
+/// Inverse of a Hermitian positive definite matrix, of which the lower triangle is read; nothing if
+/// it is singular to rounding.
+pub(crate) fn hermitian_inverse(matrix: &Array2<Complex64>) -> Option<Array2<Complex64>> {
+    let size = matrix.nrows();
+    let largest = matrix.diag().iter().map(|z| z.re).fold(0.0, f64::max);
+    let mut tiles = HermitianTiles::new(size);
+    let mut rest = tiles.tiles_mut().iter_mut();
+    for i in 0..size.div_ceil(TILE) {
+        for (j, tile) in rest.by_ref().take(i + 1).enumerate() {
+            for r in 0..TILE {
+                for c in 0..TILE {
+                    let (row, column) = (TILE * i + r, TILE * j + c);
+                    let z = if row >= size || column >= size {
+                        Complex64::new(if row == column { largest } else { 0.0 }, 0.0)
+                    } else if row >= column {
+                        matrix[[row, column]]
+                    } else {
+                        matrix[[column, row]].conj()
+                    };
+                    tile.re[r][c] = z.re;
+                    tile.im[r][c] = if row == column { 0.0 } else { z.im };
                 }
             }
         }
     }
+    tiles.negative_inverse(4.0 * size as f64 * f64::EPSILON * largest).ok()?;
+    let mut inverse = Array2::zeros((size, size));
+    for row in 0..size {
+        for column in 0..=row {
+            let (i, j) = (row / TILE, column / TILE);
+            let tile = &tiles.tiles()[i * (i + 1) / 2 + j];
+            let (r, c) = (row % TILE, column % TILE);
+            let z = -Complex64::new(tile.re[r][c], tile.im[r][c]);
+            inverse[[row, column]] = z;
+            inverse[[column, row]] = z.conj();
+        }
+    }
+    Some(inverse)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use boresight_core::Random;
+    use boresight_core::linalg::{Cholesky, adjoint};
 
     #[test]
     fn agrees_with_cholesky() {
@@ -249,18 +265,9 @@ mod tests {
             let a = x.dot(&adjoint(x.view()));
             let expected = Cholesky::new(a.view()).unwrap().inverse();
             let scale = expected.iter().map(|z| z.norm()).fold(0.0, f64::max);
-            let mut tiles = HermitianTiles::new(n);
-            load(&mut tiles, &a);
-            tiles.negative_inverse(0.0).unwrap();
-            for i in 0..n {
-                for k in 0..=i {
-                    let (bi, bk) = (i / TILE, k / TILE);
-                    let tile = &tiles.tiles()[bi * (bi + 1) / 2 + bk];
-                    let (r, c) = (i % TILE, k % TILE);
-                    let found = -Complex64::new(tile.re[r][c], tile.im[r][c]);
-                    let error = (found - expected[[i, k]]).norm();
-                    assert!(error < 1e-12 * scale, "n = {n}, ({i}, {k}): {error}");
-                }
+            let found = hermitian_inverse(&a).unwrap();
+            for (f, e) in found.iter().zip(&expected) {
+                assert!((f - e).norm() < 1e-12 * scale, "n = {n}: {f} {e}");
             }
         }
     }
@@ -270,9 +277,7 @@ mod tests {
         for bad in [0.0, -1.0, f64::NAN] {
             let mut a = Array2::<Complex64>::eye(9);
             a[[6, 6]] = Complex64::new(bad, 0.0);
-            let mut tiles = HermitianTiles::new(9);
-            load(&mut tiles, &a);
-            assert_eq!(tiles.negative_inverse(1e-12), Err(Singular));
+            assert!(hermitian_inverse(&a).is_none());
         }
     }
 }

@@ -9,7 +9,7 @@
 mod dense;
 mod fast;
 pub(crate) mod fourier;
-mod inverse;
+pub(crate) mod inverse;
 mod kernel;
 
 use crate::checks::{ambiguity, check_array, conclude};
@@ -19,6 +19,7 @@ use crate::estimate::{Estimate, Source, Spectrum, SpectrumKind, Warning};
 use crate::estimator::Plan;
 use crate::grid::Grid;
 use crate::method::Method;
+use crate::normalised::{power_out, scale_of};
 use crate::options::{IaaForm, IaaOptions, Options, Thresholding};
 use crate::peaks::{Peak, PeakFinder};
 use boresight_core::{Array, Complex64, Direction};
@@ -30,9 +31,6 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Shares of the element power put on the diagonal of a singular covariance, one after another.
 const LOADINGS: [f64; 5] = [1e-13, 1e-11, 1e-9, 1e-6, 1e-3];
-
-/// Data weaker than this is silence: its powers could not be told from zero.
-const SILENCE: f64 = 1e-150;
 
 /// IAA prepared for one array and grid.
 pub(crate) struct Iaa {
@@ -122,11 +120,10 @@ impl Plan for Iaa {
         let Data::Snapshots(y) = data else {
             return Err(AoaError::NeedsSnapshots { method: Method::Iaa.name() });
         };
-        let largest = y.iter().map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max);
         let mut warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
         let mut iterations = 0;
         let mut values = vec![0.0; self.grid.len()];
-        if largest > SILENCE {
+        if let Some(largest) = scale_of(y) {
             let (loaded, done) = self.iterate(y, 1.0 / largest);
             iterations = done;
             warnings.extend(loaded.map(|share| Warning::Loaded { share }));
@@ -163,7 +160,7 @@ impl Iaa {
         let rows = power.chunks_exact(self.grid.full_points);
         for (row, out) in rows.zip(values.chunks_exact_mut(azimuths)) {
             for (out, p) in out.iter_mut().zip(&row[self.grid.first..]) {
-                *out = (p * largest * largest).min(f64::MAX);
+                *out = power_out(*p, largest);
             }
         }
     }

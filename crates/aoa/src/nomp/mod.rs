@@ -25,6 +25,7 @@ use crate::estimator::Plan;
 use crate::gauss_newton::{Limits, refine_points};
 use crate::grid::Grid;
 use crate::method::Method;
+use crate::normalised::Normalised;
 use crate::options::{NompOptions, Options};
 use crate::powers::sources_at;
 use crate::quadratic::QuadraticSpectrum;
@@ -236,13 +237,12 @@ impl Plan for Nomp {
             return Err(AoaError::NeedsSnapshots { method: method.name() });
         };
         let mut warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
-        let largest = y.iter().map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max);
-        if largest < 1e-150 {
+        let Some(normalised) = Normalised::new(y) else {
             return Ok(conclude(method, vec![], None, None, 0, warnings));
-        }
-        let y = y.mapv(|z| z / largest);
-        let noise_power = self.options.noise_power.map(|power| power / largest / largest);
-        let (fitted, ended) = self.pursue(&y, noise_power);
+        };
+        let y = &normalised.snapshots;
+        let noise_power = self.options.noise_power.map(|power| normalised.power_in(power));
+        let (fitted, ended) = self.pursue(y, noise_power);
         let found = fitted.points.len();
         if !ended {
             warnings.push(Warning::NotConverged { iterations: found });
@@ -262,11 +262,7 @@ impl Plan for Nomp {
                 source.direction.azimuth_rad.abs() <= azimuth + 1e-9
                     && source.direction.elevation_rad.abs() <= elevation + 1e-9
             })
-            .map(|source| Source {
-                power: (source.power * largest * largest).min(f64::MAX),
-                amplitude: source.amplitude.map(|s| s * largest),
-                ..source
-            })
+            .map(|source| normalised.source_out(source))
             .collect();
         Ok(conclude(method, sources, None, None, found, warnings))
     }
