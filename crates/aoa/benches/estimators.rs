@@ -3,7 +3,9 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
+use boresight_aoa::options::{IaaForm, IaaOptions};
 use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+use boresight_core::presets::preset;
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Direction, Random};
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -31,12 +33,31 @@ fn estimators(criterion: &mut Criterion) {
     }
 }
 
+/// Both forms of IAA on the 48 elements of the sparse long-range array, one snapshot, 1024 angles,
+/// 15 iterations.
+fn iaa_forms(criterion: &mut Criterion) {
+    let array = preset("lrr48").unwrap();
+    let directions = [-20.3f64, 5.2, 24.1].map(|deg| Direction::azimuth(deg.to_radians()));
+    let mut random = Random::new(2, 0);
+    let signals = Array2::from_shape_fn((3, 1), |_| random.complex_normal(1.0));
+    let noise = Array2::from_shape_fn((48, 1), |_| random.complex_normal(0.01));
+    let y = steering_matrix(&array, &directions).dot(&signals) + noise;
+    for (name, form) in [("iaa fast, lrr48", IaaForm::Fast), ("iaa dense, lrr48", IaaForm::Dense)] {
+        let iaa = IaaOptions { form, ..Options::default().iaa };
+        let options = Options { iaa, ..Options::default() };
+        let mut estimator = Estimator::new(Method::Iaa, &array, &options).unwrap();
+        criterion.bench_function(name, |bencher| {
+            bencher.iter(|| estimator.estimate(Data::Snapshots(black_box(y.view()))).unwrap());
+        });
+    }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(30)
         .warm_up_time(std::time::Duration::from_millis(300))
         .measurement_time(std::time::Duration::from_secs(1));
-    targets = estimators
+    targets = estimators, iaa_forms
 }
 criterion_main!(benches);

@@ -1,5 +1,7 @@
 //! IAA's score on random scenes: the largest F1 over a threshold on power.
 
+#![allow(clippy::unwrap_used)]
+
 use boresight_aoa::{Data, Estimator, Method, Options};
 use boresight_core::presets::preset;
 use boresight_simulate::snapshots::{
