@@ -213,7 +213,7 @@ impl Method {
                 title: "Off-grid sparse Bayesian learning",
                 reference: "Yang, Xie and Zhang 2013",
                 takes_covariance: false,
-                cost: "G K^2 an iteration",
+                cost: "(K^3 + G log G) an iteration",
                 ..base
             },
         }
