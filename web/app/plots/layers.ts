@@ -156,3 +156,33 @@ export function drawMarker(
   ctx.lineWidth = (open ? 2 : 1.5) * look.ratio;
   ctx.stroke(path);
 }
+
+/** Size of a series' sign in a legend, CSS pixels. */
+export const SWATCH = { width: 26, height: 14 } as const;
+
+/** A series' sign in a legend: its line and marker as on the plot, the left end of it at `x`. */
+export function drawSwatch(
+  ctx: CanvasRenderingContext2D,
+  { style, line, hollow = false }: { style: SeriesStyle; line: boolean; hollow?: boolean },
+  at: { x: number; y: number; ratio: number },
+  theme: PlotTheme,
+  themeName: ThemeName,
+): void {
+  const { x, y, ratio } = at;
+  const color = style.color[themeName];
+  if (line) {
+    ctx.strokeStyle = color;
+    ctx.lineWidth = 2 * ratio;
+    ctx.setLineDash((style.dash ?? []).map((d) => d * ratio));
+    ctx.beginPath();
+    ctx.moveTo(x + ratio, y);
+    ctx.lineTo(x + (SWATCH.width - 1) * ratio, y);
+    ctx.stroke();
+    ctx.setLineDash([]);
+  }
+  if (style.marker) {
+    drawMarker(ctx, style.marker, x + (SWATCH.width / 2) * ratio, y, (hollow ? 5 : 3.6) * ratio, {
+      stroke: color, fill: hollow ? null : color, halo: theme.background, ratio,
+    });
+  }
+}

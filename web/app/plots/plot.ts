@@ -6,7 +6,7 @@ import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import './plot.css';
 import { ticks } from './format.ts';
-import type { Layer, LayerContext } from './layers.ts';
+import { drawSwatch, type Layer, type LayerContext, SWATCH } from './layers.ts';
 import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
 
 export type Interval = readonly [number, number];
@@ -58,7 +58,6 @@ export interface PlotOptions {
   cursorKey?: string;
   theme: ThemeName;
   grid?: boolean;
-  /** Equal scales on both axes. */
   onCursor?(position: CursorPosition | null): void;
   onClick?(position: CursorPosition): void;
   /** Default: reset the zoom. */
@@ -67,6 +66,29 @@ export interface PlotOptions {
   onView?(view: View, zoomed: boolean): void;
   /** Return true where the key was used. */
   onKey?(event: KeyboardEvent): boolean;
+}
+
+export interface LegendEntry {
+  label: string;
+  style: SeriesStyle;
+  line: boolean;
+  hollow?: boolean;
+}
+
+/** Where the entries of a legend go, row by row, from the widths of their labels. */
+function legendPlaces(widths: readonly number[], available: number, ratio: number): { x: number; row: number }[] {
+  let x = 0;
+  let row = 0;
+  return widths.map((width) => {
+    const size = width + (SWATCH.width + 22) * ratio;
+    if (x > 0 && x + size > available) {
+      x = 0;
+      row += 1;
+    }
+    const place = { x, row };
+    x += size;
+    return place;
+  });
 }
 
 const AXIS_WIDTH = 52;
@@ -172,29 +194,41 @@ export class Plot {
     this.setView({ x: [this.#view.x[0] + step, this.#view.x[1] + step], y: this.#view.y }, true);
   }
 
-  /** The plot as an image with a heading and remarks below it, at the screen's resolution. */
-  png(heading: string, remarks: readonly string[] = []): Promise<Blob> {
+  /** The plot as an image with a heading, a legend and remarks, at the screen's resolution. */
+  png(heading: string, legend: readonly LegendEntry[] = [], remarks: readonly string[] = []): Promise<Blob> {
     const source = this.u.ctx.canvas;
     const ratio = uPlot.pxRatio;
     const theme = THEMES[this.#theme];
     const canvas = document.createElement('canvas');
-    const top = 30 * ratio;
-    const bottom = (remarks.length * 16 + (remarks.length ? 10 : 0)) * ratio;
-    canvas.width = source.width;
-    canvas.height = source.height + top + bottom;
     const ctx = canvas.getContext('2d');
     if (!ctx) return Promise.reject(new Error('This browser gives no 2-D canvas to draw the image on.'));
+    const small = `${11 * ratio}px ${theme.font}`;
+    const margin = 12 * ratio;
+    const line = 17 * ratio;
+    ctx.font = small;
+    const places = legendPlaces(legend.map(({ label }) => ctx.measureText(label).width), source.width - 2 * margin, ratio);
+    const rows = (places.at(-1)?.row ?? -1) + 1 + remarks.length;
+    const top = 30 * ratio;
+    canvas.width = source.width;
+    canvas.height = source.height + top + (rows ? rows * line + 8 * ratio : 0);
     ctx.fillStyle = theme.background;
     ctx.fillRect(0, 0, canvas.width, canvas.height);
-    ctx.fillStyle = theme.text;
-    ctx.textBaseline = 'middle';
-    ctx.font = `600 ${13 * ratio}px ${theme.font}`;
-    ctx.fillText(heading, 12 * ratio, top / 2, canvas.width - 24 * ratio);
     ctx.drawImage(source, 0, top);
+    ctx.textBaseline = 'middle';
+    ctx.fillStyle = theme.text;
+    ctx.font = `600 ${13 * ratio}px ${theme.font}`;
+    ctx.fillText(heading, margin, top / 2, canvas.width - 2 * margin);
+    ctx.font = small;
+    const rowY = (row: number): number => top + source.height + (row + 0.5) * line;
+    legend.forEach((entry, i) => {
+      const { x, row } = places[i] ?? { x: 0, row: 0 };
+      drawSwatch(ctx, entry, { x: margin + x, y: rowY(row), ratio }, theme, this.#theme);
+      ctx.fillStyle = theme.text;
+      ctx.fillText(entry.label, margin + x + (SWATCH.width + 5) * ratio, rowY(row));
+    });
     ctx.fillStyle = theme.muted;
-    ctx.font = `${11 * ratio}px ${theme.font}`;
     remarks.forEach((remark, i) => {
-      ctx.fillText(remark, 12 * ratio, source.height + top + (i * 16 + 10) * ratio, canvas.width - 24 * ratio);
+      ctx.fillText(remark, margin, rowY(rows - remarks.length + i), canvas.width - 2 * margin);
     });
     return new Promise((resolve, reject) => {
       canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser could not encode the image.'))), 'image/png');

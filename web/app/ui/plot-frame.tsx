@@ -2,19 +2,14 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
-import { type CursorPosition, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
+import { type CursorPosition, type LegendEntry, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
 import { download, fileName } from '../plots/save.ts';
-import type { SeriesStyle } from '../plots/theme.ts';
 import { announce } from '../state/announce.ts';
 import { theme } from '../state/theme.ts';
 import { Swatch } from './swatch.tsx';
 
-export interface LegendItem {
+export interface LegendItem extends LegendEntry {
   id: string;
-  label: string;
-  style: SeriesStyle;
-  line: boolean;
-  hollow?: boolean;
   /** Text for the cursor's position. */
   value?(position: CursorPosition): string;
 }
@@ -30,8 +25,12 @@ export interface PlotFrameProps {
   /** The cursor's position as text. */
   readout(position: CursorPosition): string;
   legend?: readonly LegendItem[];
+  /** On the exported image alone, where the page says it otherwise. */
+  imageLegend?: readonly LegendEntry[];
   /** Said below the plot and on the exported image. */
   remarks?: readonly string[];
+  /** Said below the plot only. */
+  hint?: string;
   /** How to use it without a mouse. */
   keys?: string;
   csv(): string;
@@ -86,7 +85,7 @@ export function PlotFrame(props: PlotFrameProps) {
 
   const parts = [props.name, ...(props.fileParts ?? [])];
   const savePng = async (): Promise<void> => {
-    const image = await plot.current?.png(props.detail ? `${props.title}, ${props.detail}` : props.title, props.remarks);
+    const image = await plot.current?.png(props.detail ? `${props.title}, ${props.detail}` : props.title, props.imageLegend ?? props.legend, props.remarks);
     if (image) download(image, fileName(parts, 'png'));
   };
   return (
@@ -116,9 +115,7 @@ export function PlotFrame(props: PlotFrameProps) {
           ))}
         </ul>
       )}
-      {props.remarks && props.remarks.length > 0 && (
-        <figcaption>{props.remarks.map((remark) => <p key={remark}>{remark}</p>)}</figcaption>
-      )}
+      {(props.remarks || props.hint) && <figcaption>{[...(props.remarks ?? []), props.hint].filter(Boolean).join(' ')}</figcaption>}
     </figure>
   );
 }

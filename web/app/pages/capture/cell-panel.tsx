@@ -46,6 +46,7 @@ export function CellPanel({ view, cell, results, boardDeg, unambiguousDeg, label
   const place = `${fixed(view.rangeM[cell.rangeBin] ?? Number.NaN, 2)} m, ${signed(view.rateMps[cell.dopplerBin] ?? Number.NaN, 2)} m/s`;
   return (
     <PlotFrame title="Angle spectrum" detail={place} name="cell-spectrum" height="fill" content={content}
+      imageLegend={infos.map(({ name, title, spectrum }) => ({ label: title, style: methodStyle(name), line: spectrum }))}
       options={{
         x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS },
         y: { label: 'Power (dBFS)' },

@@ -154,7 +154,8 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
         }
       })())}
       fileParts={fileParts}
-      remarks={[`${label}. Squares: detections; crosshair: the chosen cell. Click a cell, or use the arrow keys.`]} />
+      remarks={[`${label}. Squares: detections; crosshair: the chosen cell.`]}
+      hint="Click a cell, or use the arrow keys." />
   );
 }
 
