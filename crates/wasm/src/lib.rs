@@ -5,24 +5,24 @@
 //! else. Errors are thrown as objects `{ code, message, what, expected, given }`, which the
 //! TypeScript around this crate turns into a `BoresightError`.
 
-mod array;
+pub mod array;
 mod board;
 mod bounds;
 mod bytes;
-mod capture;
+pub mod capture;
 mod chain;
 mod complex;
 mod config;
 mod count;
-mod error;
-mod estimate;
+pub mod error;
+pub mod estimate;
 mod frames;
 mod imperfections;
 mod npy;
 mod options;
 mod panic;
 mod read;
-mod simulate;
+pub mod simulate;
 mod tables;
 mod waveform;
 mod write;
