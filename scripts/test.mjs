@@ -10,6 +10,8 @@ import { cargoCounts, checkCounts, nodeCounts, summary } from './lib/summary.mjs
 import { setup } from './setup.mjs';
 
 const node = process.execPath;
+// A step that hangs is ended and has failed.
+const longestStepMs = 30 * 60_000;
 const script = (name) => ({ name, command: [node, `scripts/${name}.mjs`], counts: checkCounts });
 
 /** Test files of a folder, named one by one: what a folder means to `node --test` depends on its version. */
@@ -57,7 +59,7 @@ async function runStep({ command, work, counts }) {
     });
   } else {
     const [program, ...args] = typeof command === 'function' ? command() : command;
-    result = await runTee(program, args);
+    result = await runTee(program, args, { timeout: longestStepMs });
   }
   const counted = counts(result.text, result.ok);
   // A step that fails without a failed test (it did not compile, it was ended) is a failure too;

@@ -7,9 +7,14 @@ import { after, test } from 'node:test';
 import { browserMissing, findBrowser } from '../../scripts/lib/browser.mjs';
 import { launch, openPage, serve } from './session.mjs';
 
+const opened = [];
 let shared;
 const site = () => {
-  shared ??= Promise.all([serve(), launch()]);
+  // The browser first: where there is none, no server is left that keeps the process alive.
+  shared ??= (async () => {
+    for (const start of [launch, serve]) opened.push(await start());
+    return opened;
+  })();
   return shared;
 };
 
@@ -17,10 +22,7 @@ const site = () => {
 export const skipWithoutBrowser = findBrowser() || process.env.CI ? false : browserMissing;
 
 after(async () => {
-  if (!shared) return;
-  const [server, browser] = await shared;
-  await browser.close();
-  await server.close();
+  for (const one of opened) await one.close();
 });
 
 /**
@@ -30,18 +32,18 @@ after(async () => {
  */
 export function browserTest(name, options, body) {
   test(name, { skip: skipWithoutBrowser, timeout: 90_000 }, async (context) => {
-    const [server, browser] = await site();
-    const opened = await openPage(browser, server.url, options);
+    const [browser, server] = await site();
+    const view = await openPage(browser, server.url, options);
     try {
-      await body({ ...opened, url: server.url, browser, test: context });
-      assert.deepEqual(opened.problems, [], 'the page reported no problem');
+      await body({ ...view, url: server.url, browser, test: context });
+      assert.deepEqual(view.problems, [], 'the page reported no problem');
     } catch (error) {
-      const file = await opened.screenshot(`failed-${name.replaceAll(/\W+/g, '-')}`).catch(() => null);
-      const reports = [opened.problems.length > 0 && `The page reported: ${opened.problems.join('; ')}`, file && `Picture: ${file}`];
+      const file = await view.screenshot(`failed-${name.replaceAll(/\W+/g, '-')}`).catch(() => null);
+      const reports = [view.problems.length > 0 && `The page reported: ${view.problems.join('; ')}`, file && `Picture: ${file}`];
       console.error(reports.filter(Boolean).join('\n'));
       throw error;
     } finally {
-      await opened.close();
+      await view.close();
     }
   });
 }

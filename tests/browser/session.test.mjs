@@ -28,7 +28,8 @@ before(async () => {
   for (const [name, body] of Object.entries(pages)) {
     writeFileSync(join(folder, 'dist', name), `<!doctype html><link rel="icon" href="data:,"><title>t</title>${body}`);
   }
-  [server, browser] = await Promise.all([serve(folder), launch()]);
+  browser = await launch();
+  server = await serve(folder);
 });
 after(async () => {
   await browser?.close();
