@@ -5,7 +5,7 @@ use crate::estimate::Source;
 use boresight_core::linalg::{adjoint, least_squares};
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Direction};
-use ndarray::Array2;
+use ndarray::ArrayView2;
 
 /// Sources at `directions`, with the amplitude (one snapshot) or power (several snapshots, or a
 /// covariance) that fits the data best in the least-squares sense: `s = A^+ y`, or the diagonal of
@@ -17,34 +17,34 @@ pub(crate) fn sources_at(array: &Array, directions: &[Direction], data: Data<'_>
         return Vec::new();
     }
     let steering = steering_matrix(array, directions);
-    let elements = array.len();
-    let weights = if directions.len() <= elements {
-        least_squares(steering.view(), Array2::eye(elements).view()).ok().flatten()
-    } else {
-        None
+    // s = A^+ y for the columns of y; at beams where there is no A^+.
+    let few = directions.len() <= array.len();
+    let fit = |y: ArrayView2<Complex64>| {
+        few.then(|| least_squares(steering.view(), y).ok().flatten()).flatten()
     };
-    let resolved = weights.is_some();
-    let weights = weights.unwrap_or_else(|| adjoint(steering.view()).mapv(|z| z / elements as f64));
+    let beams = |y: ArrayView2<Complex64>| {
+        adjoint(steering.view()).dot(&y).mapv(|z| z / array.len() as f64)
+    };
     let (powers, amplitudes): (Vec<f64>, Option<Vec<Complex64>>) = match data {
         Data::Snapshots(y) => {
-            let signals = weights.dot(&y);
+            let fitted = fit(y);
+            let single = fitted.is_some() && y.ncols() == 1;
+            let signals = fitted.unwrap_or_else(|| beams(y));
             let count = y.ncols() as f64;
             let power = |row: ndarray::ArrayView1<Complex64>| {
                 row.iter().map(|z| z.norm_sqr()).sum::<f64>() / count
             };
-            let single = resolved && y.ncols() == 1;
             (
                 signals.rows().into_iter().map(power).collect(),
                 single.then(|| signals.column(0).to_vec()),
             )
         }
         Data::Covariance { matrix, .. } => {
-            let filtered = weights.dot(&matrix);
-            let power = |i: usize| {
-                let row = filtered.row(i).into_iter().zip(weights.row(i));
-                row.map(|(f, w)| (f * w.conj()).re).sum::<f64>().max(0.0)
-            };
-            ((0..directions.len()).map(power).collect(), None)
+            // A^+ R A^+^H from the left, then from the right.
+            let half = fit(matrix).unwrap_or_else(|| beams(matrix));
+            let half = adjoint(half.view());
+            let whole = fit(half.view()).unwrap_or_else(|| beams(half.view()));
+            (whole.diag().iter().map(|z| z.re.max(0.0)).collect(), None)
         }
     };
     directions
