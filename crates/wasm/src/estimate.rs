@@ -4,7 +4,7 @@ use crate::complex::ComplexData;
 use crate::error::{BindingError, Fallible};
 use crate::options::read_options;
 use crate::read::{Fields, Read};
-use crate::write::{Record, degrees, finite_db, float64, list};
+use crate::write::{Record, degrees, finite_db, finite_dbs, list};
 use boresight_aoa::{self as aoa, Data, Method, SpectrumKind};
 use boresight_core::{Array, Complex64, CoreError};
 use ndarray::ArrayView2;
@@ -171,7 +171,6 @@ fn source_record(source: &aoa::Source) -> Record {
 }
 
 fn spectrum_record(spectrum: &aoa::Spectrum) -> Record {
-    let values_db: Vec<f64> = spectrum.values.iter().map(|&power| finite_db(power)).collect();
     let kind = match spectrum.kind {
         SpectrumKind::Power => "power",
         SpectrumKind::Pseudo => "pseudo",
@@ -179,6 +178,6 @@ fn spectrum_record(spectrum: &aoa::Spectrum) -> Record {
     Record::new()
         .with("azimuthDeg", degrees(&spectrum.azimuth_rad))
         .with("elevationDeg", degrees(&spectrum.elevation_rad))
-        .with("valuesDb", float64(&values_db))
+        .with("valuesDb", finite_dbs(&spectrum.values))
         .with("kind", kind)
 }

@@ -18,6 +18,7 @@ pub mod error;
 pub mod estimate;
 mod frames;
 mod imperfections;
+mod names;
 mod npy;
 mod options;
 mod panic;

@@ -1,6 +1,7 @@
 //! Options out of JavaScript objects, with errors that name the field.
 
 use crate::error::{BindingError, Fallible};
+use crate::names;
 use boresight_core::CoreError;
 use js_sys::{Array, BigInt, Object, Reflect};
 use wasm_bindgen::{JsCast, JsValue};
@@ -49,7 +50,7 @@ impl Fields {
     /// The raw value of a field; nothing if absent or `undefined`.
     pub fn raw(&mut self, name: &'static str) -> Fallible<Option<JsValue>> {
         self.known.push(name);
-        match Reflect::get(&self.object, &name.into()) {
+        match Reflect::get(&self.object, &names::name(name)) {
             Ok(value) if value.is_undefined() => Ok(None),
             Ok(value) => Ok(Some(value)),
             Err(_) => Err(BindingError::Type {
@@ -109,8 +110,11 @@ impl Fields {
     pub fn finish(self) -> Fallible<()> {
         for key in Object::keys(&self.object).iter() {
             let name = key.as_string().unwrap_or_default();
+            if self.known.contains(&name.as_str()) {
+                continue;
+            }
             let given = Reflect::get(&self.object, &key).unwrap_or(JsValue::NULL);
-            if !self.known.contains(&name.as_str()) && !given.is_undefined() {
+            if !given.is_undefined() {
                 return Err(BindingError::UnknownField {
                     what: self.path_of(&shortened(&name)),
                     expected: self.known.join(", "),

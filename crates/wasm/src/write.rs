@@ -1,5 +1,6 @@
 //! Plain JavaScript objects, lists and typed arrays out of results.
 
+use crate::names;
 use boresight_core::{Complex32, Complex64};
 use js_sys::{Array, Float32Array, Float64Array, Object, Reflect};
 use wasm_bindgen::JsValue;
@@ -15,15 +16,15 @@ impl Record {
 
     /// Adds a field.
     #[must_use]
-    pub fn with(self, name: &str, value: impl Into<JsValue>) -> Self {
+    pub fn with(self, name: &'static str, value: impl Into<JsValue>) -> Self {
         // Setting a property of a fresh plain object cannot fail.
-        let _ = Reflect::set(&self.0, &name.into(), &value.into());
+        let _ = Reflect::set(&self.0, &names::name(name), &value.into());
         self
     }
 
     /// Adds a field if there is a value for it.
     #[must_use]
-    pub fn with_some(self, name: &str, value: Option<impl Into<JsValue>>) -> Self {
+    pub fn with_some(self, name: &'static str, value: Option<impl Into<JsValue>>) -> Self {
         match value {
             Some(value) => self.with(name, value),
             None => self,
@@ -70,4 +71,10 @@ pub fn degrees(radians: &[f64]) -> Float64Array {
 /// Power in dB that stays finite (about -3077 dB) where there is none, for plots and JSON.
 pub fn finite_db(power: f64) -> f64 {
     boresight_core::units::power_to_db(power.max(f64::MIN_POSITIVE))
+}
+
+/// Powers in dB that stay finite, as [`finite_db`] makes them.
+pub fn finite_dbs(powers: &[f64]) -> Float64Array {
+    let positive: Vec<f64> = powers.iter().map(|p| p.max(f64::MIN_POSITIVE)).collect();
+    float64(&boresight_core::units::powers_to_db(&positive))
 }
