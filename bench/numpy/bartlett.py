@@ -1,8 +1,10 @@
-"""Delay and sum: one FFT of a single snapshot, or one FFT of the covariance's lag sums."""
+"""Delay and sum: a^H R a by one FFT."""
+
+import numpy as np
 
 from covariance import covariance
 from grid import Grid
-from peaks import decibels, peaks
+from peaks import decibels, peak_sines
 from result import Result
 
 
@@ -12,13 +14,10 @@ class Bartlett:
         self.options = options
 
     def estimate(self, y):
-        if y.shape[1] == 1:
-            z = self.grid.correlate(y[:, 0])
-            power = z.real**2 + z.imag**2
-        else:
-            power = self.grid.quadratic(covariance(y))
+        power = self.grid.quadratic(covariance(y))
         spectrum = decibels(power / self.grid.elements**2)
-        return Result(
-            *peaks(spectrum, self.grid, self.options["maxPeaks"], self.options["dynamicRangeDb"]),
-            spectrum,
-        )
+        limits = self.options["maxPeaks"], self.options["dynamicRangeDb"]
+        near, _ = peak_sines(spectrum, self.grid, *limits)
+        u, top = self.grid.refine(near)
+        azimuth_deg = np.degrees(np.arcsin(u))
+        return Result(azimuth_deg, decibels(top / self.grid.elements**2), spectrum)

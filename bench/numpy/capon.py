@@ -1,10 +1,11 @@
 """Minimum-variance beamformer: 1 / a^H R^-1 a, the quadratic form by one FFT."""
 
+import numpy as np
 from scipy.linalg.lapack import zpotrf, zpotri
 
 from covariance import covariance
 from grid import Grid
-from peaks import decibels, peaks
+from peaks import decibels, peak_sines
 from result import Result
 
 
@@ -19,7 +20,7 @@ class Capon:
         if failed:
             raise ValueError("the covariance is singular")
         spectrum = decibels(1.0 / self.grid.quadratic(inverse))
-        return Result(
-            *peaks(spectrum, self.grid, self.options["maxPeaks"], self.options["dynamicRangeDb"]),
-            spectrum,
-        )
+        limits = self.options["maxPeaks"], self.options["dynamicRangeDb"]
+        near, _ = peak_sines(spectrum, self.grid, *limits)
+        u, bottom = self.grid.refine(near)
+        return Result(np.degrees(np.arcsin(u)), decibels(1.0 / bottom), spectrum)

@@ -18,13 +18,8 @@ def signal_subspace(r, sources):
     return np.linalg.eigh(r)[1][:, -sources:]
 
 
-def source_powers(steering, r):
-    """Powers at one element of sources at known angles, by least squares, less the noise."""
-    elements, sources = steering.shape
+def source_powers(steering, y):
+    """Mean powers over the snapshots of sources at known angles, fitted by least squares."""
     adjoint = steering.conj().T
-    gram = np.linalg.inv(adjoint @ steering)
-    inverse = gram @ adjoint
-    projected = inverse @ r
-    noise = (r.trace() - np.einsum("ki,ik->", steering, projected)).real / (elements - sources)
-    powers = np.einsum("ik,ik->i", projected, inverse.conj()).real - noise * gram.diagonal().real
-    return np.maximum(powers, 0.0)
+    signals = np.linalg.solve(adjoint @ steering, adjoint @ y)
+    return (signals.real**2 + signals.imag**2).mean(axis=1)

@@ -21,6 +21,6 @@ class Esprit:
         rotation = -np.linalg.solve(smallest[d:].T, smallest[:d].T).T
         u = np.angle(np.linalg.eigvals(rotation)) / np.pi
         steering = np.exp(1j * np.pi * np.outer(self.positions, u))
-        powers = source_powers(steering, r)
+        powers = source_powers(steering, y)
         order = np.argsort(-powers)
         return Result(np.degrees(np.arcsin(u[order])), decibels(powers[order]))

@@ -56,7 +56,21 @@ class Grid:
         sums = np.empty(self.lags, dtype=complex)
         sums.real = np.bincount(self._lag, self._lag_real * lower.real, self.lags)
         sums.imag = np.bincount(self._lag, self._lag_imag * lower.imag, self.lags)
+        self._sums = sums
         return np.fft.hfft(sums, self.points)
+
+    def refine(self, u, steps=2):
+        """Moves points near extrema of the quadratic form evaluated last onto them, by Newton
+        steps of at most a quarter of a grid step all at once."""
+        lags = np.arange(1, self.lags)
+        twice = 2.0 * self._lag_sign[1:] * self._sums[1:]
+        factor = -1j * np.pi * lags
+        rows = np.column_stack((twice, twice * factor, twice * factor**2))
+        limit = 0.5 / self.points
+        for _ in range(steps):
+            value, slope, bend = (np.exp(np.outer(u, factor)) @ rows).real.T
+            u = u - np.clip(slope / bend, -limit, limit)
+        return np.clip(u, -1.0, 1.0), value + self._sums[0].real
 
     def covariance(self, powers):
         """sum_g powers_g a(u_g) a(u_g)^H in Fortran order, from one real FFT."""

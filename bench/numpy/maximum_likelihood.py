@@ -30,7 +30,7 @@ class MaximumLikelihood:
             if chosen == before:
                 break
         u, iterations = self.polish(r, self.grid.u[chosen])
-        powers = source_powers(self.grid.steering(u), r)
+        powers = source_powers(self.grid.steering(u), y)
         order = np.argsort(-powers)
         return Result(
             np.degrees(np.arcsin(np.clip(u[order], -1.0, 1.0))),

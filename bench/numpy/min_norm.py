@@ -1,11 +1,10 @@
-"""Min-norm: the vector of the noise subspace with first entry 1 and least norm, one FFT."""
+"""Min-norm: the vector of the noise subspace with first entry 1 and least norm."""
 
 import numpy as np
 
 from covariance import covariance, signal_subspace
 from grid import Grid
-from peaks import decibels, peaks
-from result import Result
+from nulls import search
 
 
 class MinNorm:
@@ -19,6 +18,5 @@ class MinNorm:
         vector = -(signal @ first)
         vector[0] += 1.0
         vector /= 1.0 - np.vdot(first, first).real
-        z = self.grid.correlate(vector)
-        spectrum = decibels(1.0 / np.maximum(z.real**2 + z.imag**2, 1e-12))
-        return Result(*peaks(spectrum, self.grid, self.sources), spectrum)
+        form = np.outer(vector.conj(), vector).T
+        return search(self.grid, form, self.sources, self.grid, y)

@@ -1,11 +1,8 @@
-"""MUSIC: 1 / |En^H a|^2 = 1 / (K - |Es^H a|^2), by one FFT of a projector's lag sums."""
+"""MUSIC: the nulls of a^H (I - E E^H) a."""
 
-import numpy as np
-
-from covariance import covariance, projector, signal_subspace
+from covariance import covariance, signal_subspace
 from grid import Grid
-from peaks import decibels, peaks
-from result import Result
+from nulls import noise_projector, search
 
 
 class Music:
@@ -15,6 +12,4 @@ class Music:
 
     def estimate(self, y):
         signal = signal_subspace(covariance(y), self.sources)
-        inside = self.grid.quadratic(projector(signal))
-        spectrum = decibels(1.0 / np.maximum(self.grid.elements - inside, 1e-12))
-        return Result(*peaks(spectrum, self.grid, self.sources), spectrum)
+        return search(self.grid, noise_projector(signal), self.sources, self.grid, y)

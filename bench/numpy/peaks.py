@@ -8,8 +8,14 @@ def decibels(values):
 
 
 def peaks(values_db, grid, count, dynamic_range_db=np.inf):
+    """As peak_sines, with azimuths in degrees."""
+    u, heights = peak_sines(values_db, grid, count, dynamic_range_db)
+    return np.degrees(np.arcsin(u)), heights
+
+
+def peak_sines(values_db, grid, count, dynamic_range_db=np.inf):
     """Up to count local maxima, strongest first, each moved to the top of the parabola through it
-    and its two neighbours. Returns azimuths in degrees and heights in dB."""
+    and its two neighbours. Returns sines of azimuth and heights in dB."""
     left = np.empty_like(values_db)
     left[1:], left[0] = values_db[:-1], values_db[-1]
     right = np.empty_like(values_db)
@@ -27,4 +33,4 @@ def peaks(values_db, grid, count, dynamic_range_db=np.inf):
     curvature = before - 2.0 * middle + after
     shift = np.where(curvature < 0.0, 0.5 * (before - after) / np.minimum(curvature, -1e-300), 0.0)
     u = np.clip(grid.u[found] + shift * (2.0 / grid.points), -1.0, 1.0)
-    return np.degrees(np.arcsin(u)), middle - 0.25 * (before - after) * shift
+    return u, middle - 0.25 * (before - after) * shift

@@ -30,6 +30,6 @@ class RootMusic:
         nearest = inside[np.argsort(1.0 - np.abs(inside))[: self.sources]]
         u = np.angle(nearest) / np.pi
         steering = np.exp(1j * np.pi * np.outer(self.positions, u))
-        powers = source_powers(steering, r)
+        powers = source_powers(steering, y)
         order = np.argsort(-powers)
         return Result(np.degrees(np.arcsin(u[order])), decibels(powers[order]))
