@@ -108,8 +108,8 @@ browserTest('angle lab: what a method cannot do is said, and a bad position too'
   assert.match(await page.locator('#method-esprit-note').innerText(), /uniform/);
 });
 
-browserTest('angle lab: slow methods answer from a worker', { path: path.replace('root-music', 'iaa,nomp,maximum-likelihood') }, async ({ page }) => {
-  for (const method of ['iaa', 'nomp', 'maximum-likelihood']) {
+browserTest('angle lab: slow methods answer from a worker', { path: path.replace('root-music', 'iaa,nomp,maximum-likelihood,sparse-bayesian') }, async ({ page }) => {
+  for (const method of ['iaa', 'nomp', 'maximum-likelihood', 'sparse-bayesian']) {
     await shown(page, method);
     const errors = await values(page, `[data-row="${method}"] [data-field="error"]`);
     assert.ok(errors.length > 0 && errors.every((error) => Math.abs(error) < 1), `${method}: ${errors}`);

@@ -32,8 +32,9 @@ export function engineering(value: number, unit: string, digits = 3): string {
 
 /** Tick labels with as many decimals as their step needs. */
 export function ticks(splits: number[], step: number): string[] {
-  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return splits.map((value) => (value == null ? '' : fixed(value, Math.min(decimals, 6))));
+  let decimals = 0;
+  for (let scaled = step; decimals < 6 && Math.abs(scaled - Math.round(scaled)) > 1e-6 * scaled; scaled *= 10) decimals += 1;
+  return splits.map((value) => (value == null ? '' : fixed(value, decimals)));
 }
 
 /** A duration of a computation. */

@@ -75,8 +75,8 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       (estimate?.sources ?? []).map((source) => ({ x: source.azimuthDeg, y: source.powerDb, style: methodStyle(method) })));
     return {
       x: shown[0]?.azimuthDeg ?? [], series: series(shown), extent: EXTENT,
-      below: [bands(outside, (t) => t.shade), bands(bound, (t) => t.band), horizontalLine(-snr, 'noise at one element')],
-      above: [markers(estimates), truthLayer(targets)],
+      below: [bands(outside, (t) => t.shade), bands(bound, (t) => t.band)],
+      above: [horizontalLine(-snr, 'noise at one element'), markers(estimates), truthLayer(targets)],
     };
   }, [scene, found]);
 
