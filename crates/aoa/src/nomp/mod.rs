@@ -45,7 +45,7 @@ const MAX_ELEVATIONS: usize = 1 << 7;
 const EXHAUSTED: f64 = 1e-24;
 
 /// Gauss-Newton steps over all sources at the end.
-const POLISH: Limits = Limits { iterations: 10, tolerance: 1e-10 };
+const POLISH: Limits = Limits { iterations: 10, tolerance: 1e-8 };
 
 /// NOMP prepared for one array.
 pub(crate) struct Nomp {
@@ -56,8 +56,17 @@ pub(crate) struct Nomp {
     volumes: Volumes,
     field_of_view: [f64; 2],
     ambiguity: Option<Warning>,
-    /// The last level computed, and the number of snapshots it holds for.
-    level: Option<(usize, f64)>,
+    thresholds: Thresholds,
+}
+
+/// Thresholds computed so far; they hold for one number of snapshots.
+#[derive(Default)]
+struct Thresholds {
+    snapshots: usize,
+    /// In noise powers.
+    level: Option<f64>,
+    /// In shares of the residual power, by the number of sources found.
+    shares: Vec<Option<f64>>,
 }
 
 /// Sources so far.
@@ -99,7 +108,7 @@ impl Nomp {
             spectrum: QuadraticSpectrum::new(array, &grid),
             field_of_view: [options.field_of_view_rad, options.elevation_field_of_view_rad],
             ambiguity: ambiguity(array, options),
-            level: None,
+            thresholds: Thresholds::default(),
         })
     }
 
@@ -127,22 +136,23 @@ impl Nomp {
     ) -> bool {
         let (elements, snapshots) = residual.dim();
         let gain = power / elements as f64;
-        match noise_power {
-            Some(noise) => {
-                let level = match self.level {
-                    Some((count, level)) if count == snapshots => level,
-                    _ => self.volumes.level(self.options.false_alarm, snapshots),
-                };
-                self.level = Some((snapshots, level));
-                gain > level * noise
-            }
-            None => {
-                let angles = 0.5 * (self.geometry.axes * found) as f64;
-                let freedom = (snapshots * (elements - found)) as f64 - angles;
-                let share = self.volumes.share(self.options.false_alarm, snapshots, freedom);
-                share.is_some_and(|share| gain > share * energy(residual))
-            }
+        if self.thresholds.snapshots != snapshots {
+            self.thresholds = Thresholds { snapshots, ..Thresholds::default() };
         }
+        let (volumes, false_alarm) = (&self.volumes, self.options.false_alarm);
+        if let Some(noise) = noise_power {
+            let level = &mut self.thresholds.level;
+            return gain
+                > noise * *level.get_or_insert_with(|| volumes.level(false_alarm, snapshots));
+        }
+        // Sources are found one by one, so that at most one share is missing.
+        let shares = &mut self.thresholds.shares;
+        while shares.len() <= found {
+            let angles = 0.5 * (self.geometry.axes * shares.len()) as f64;
+            let freedom = (snapshots * (elements - shares.len())) as f64 - angles;
+            shares.push(volumes.share(false_alarm, snapshots, freedom));
+        }
+        shares[found].is_some_and(|share| gain > share * energy(residual))
     }
 
     /// Newton steps on every source in turn, with all others taken off.
