@@ -43,7 +43,7 @@ impl Data<'_> {
                 if y.nrows() != elements {
                     return Err(shape("snapshots", format!("[{elements}, snapshots]"), *y));
                 }
-                check_finite("snapshots", y.iter().flat_map(|z| [z.re, z.im]))?;
+                check_all_finite("snapshots", *y)?;
             }
             Self::Covariance { matrix, snapshots } => {
                 if *snapshots == 0 {
@@ -53,7 +53,7 @@ impl Data<'_> {
                     let expected = format!("[{elements}, {elements}]");
                     return Err(shape("covariance", expected, *matrix));
                 }
-                check_finite("covariance", matrix.iter().flat_map(|z| [z.re, z.im]))?;
+                check_all_finite("covariance", *matrix)?;
                 let scale = matrix.iter().map(|z| z.norm()).fold(0.0, f64::max);
                 let skew = matrix
                     .indexed_iter()
@@ -73,6 +73,17 @@ impl Data<'_> {
         }
         Ok(())
     }
+}
+
+/// Looks at everything at once and, only if something is amiss, for the first offender.
+fn check_all_finite(what: &str, data: ArrayView2<Complex64>) -> Result<(), CoreError> {
+    let sound = |z: &Complex64| z.re.is_finite() & z.im.is_finite();
+    if let Some(numbers) = data.as_slice()
+        && numbers.iter().fold(true, |all, z| all & sound(z))
+    {
+        return Ok(());
+    }
+    check_finite(what, data.iter().flat_map(|z| [z.re, z.im]))
 }
 
 fn empty(what: &str) -> AoaError {
