@@ -2,13 +2,15 @@
 import { createHash } from 'node:crypto';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
-import { arch, cpus, platform, release } from 'node:os';
+import { arch, cpus, loadavg, platform, release } from 'node:os';
 import { brotliCompressSync, constants } from 'node:zlib';
 import { median } from './measure.mjs';
 
 export const machine = () => ({
   cpu: cpus()[0]?.model ?? 'unknown',
   cores: cpus().length,
+  // Processes that wanted a core over the last minute: medians are trusted below the core count.
+  load: loadavg()[0],
   system: `${platform()} ${release()} ${arch()}`,
   node: process.versions.node,
   v8: process.versions.v8,

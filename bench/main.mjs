@@ -26,8 +26,8 @@ const { values: options } = parseArgs({
   },
 });
 const pace = options.quick
-  ? { rounds: 7, batchS: 0.01, warmUpS: 0.1 }
-  : { rounds: 40, batchS: 0.025, warmUpS: 0.4 };
+  ? { rounds: 30, batchS: 0.004, warmUpS: 0.1, limitS: 1 }
+  : { rounds: 400, batchS: 0.004, warmUpS: 0.4, limitS: 4 };
 const wanted = options.only?.split(',').map((name) => name.trim()).filter(Boolean);
 const say = (text) => process.stderr.write(`${text}\n`);
 
@@ -45,6 +45,7 @@ try {
   say(`bench: ${withoutNumPy}; ratios to NumPy are left out`);
 }
 
+const where = machine();
 const rows = [];
 
 /** Runs a row's work if it is wanted; what it throws is the row's result. */
@@ -128,17 +129,14 @@ async function iaaRows() {
   const dense = new boresight.Estimator(iaa48.dense);
   const angles = anglesOf(fast, inputs, iaa48.sources);
   const own = here((input) => fast.estimate(input), inputs);
-  const slowPace = { ...pace, rounds: Math.max(5, pace.rounds / 4) };
-  let time;
   await row(`${name}: beside its dense form`, { unit: 'x', otherName: 'dense', target: { least: 20 } }, async () => {
     agree(angles, anglesOf(dense, inputs, iaa48.sources), 1e-6, 'the dense form');
-    const [first, second] = await compare([own, here((input) => dense.estimate(input), inputs)], slowPace);
-    time = first.seconds;
+    const [first, second] = await compare([own, here((input) => dense.estimate(input), inputs)], pace);
     return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
   });
   await row(`${name}: a snapshot`, { unit: 's', target: { most: 1.5e-3 } }, async () => {
-    time ??= (await compare([own], pace))[0].seconds;
-    return { ours: time, value: time.median };
+    const [{ seconds }] = await compare([own], pace);
+    return { ours: seconds, value: seconds.median };
   });
   if (numpy) {
     await row(`${name}: beside NumPy's fast form`, { unit: 'x', otherName: 'NumPy' }, async () => {
@@ -228,16 +226,17 @@ await row('init() in a fresh process', { unit: 's' }, () => ({ value: initSecond
 await row('core .wasm, raw', { unit: 'bytes' }, () => ({ value: wasm.bytes }));
 await row('core .wasm, Brotli', { unit: 'bytes', target: { most: 400_000 } }, () => ({ value: wasm.brotliBytes }));
 
-const report = { date: new Date().toISOString(), quick: options.quick, machine: machine(), numpy: numpy?.versions ?? null, wasm, rows };
+const report = { date: new Date().toISOString(), quick: options.quick, machine: where, numpy: numpy?.versions ?? null, wasm, rows };
 numpy?.stop();
 writeFileSync(join(root, 'bench.json'), `${JSON.stringify(report, null, 2)}\n`);
 const counts = tally(rows);
 if (options.json) {
   console.log(JSON.stringify(report, null, 2));
 } else {
-  const { cpu, node } = report.machine;
+  const { cpu, node, load, cores } = where;
   const beside = report.numpy ? `NumPy ${report.numpy.numpy} (${report.numpy.blas})` : 'no NumPy';
-  console.log(`\n${cpu}, Node ${node}, ${beside}, one thread; wasm ${wasm.sha256.slice(0, 12)}\n`);
+  console.log(`\n${cpu}, Node ${node}, ${beside}, one thread; wasm ${wasm.sha256.slice(0, 12)}`);
+  console.log(`load ${load.toFixed(1)} on ${cores} cores at the start${load > 0.75 * cores ? ': not quiet, times are too long; ratios hold better' : ''}\n`);
   console.log(table(rows));
   console.log(`\ntargets: ${counts.met} met, ${counts.missed} missed, ${counts.errors} in error, ${counts.notMeasured} not measured`);
 }

@@ -11,6 +11,7 @@ export function quantile(values, share) {
 }
 
 const summary = (values) => ({
+  best: Math.min(...values),
   median: median(values),
   low: quantile(values, 0.1),
   high: quantile(values, 0.9),
@@ -27,22 +28,29 @@ export function here(run, inputs) {
 
 /**
  * Times each side in turn, round after round, in batches of about `batchS` seconds: seconds a call
- * (median, 10th and 90th percentile), and for every side but the first the ratio of its time to
- * the first one's, taken round by round.
+ * (best, median, 10th and 90th percentile), and for every side but the first the ratio of its time
+ * to the first one's, taken round by round. Batches are short, so that most of them run between two
+ * interruptions by other processes; rounds are as many as fit into `limitS` seconds, at least 10.
  */
-export async function compare(sides, { rounds, batchS, warmUpS }) {
+export async function compare(sides, { rounds: most, batchS, warmUpS, limitS }) {
   const calls = [];
+  let roundS = 0;
   for (const side of sides) {
     let count = 1;
     let seconds = await side(count);
-    const until = performance.now() + 1000 * warmUpS;
-    while (seconds < batchS || performance.now() < until) {
+    // Compilers go by the number of calls, and on a busy machine time says little about that.
+    let [spentS, done] = [seconds, count];
+    while (seconds < batchS || spentS < warmUpS || (done < 300 && spentS < 10 * warmUpS)) {
       const wanted = Math.ceil((count * batchS) / Math.max(seconds, 1e-7));
       count = Math.max(1, seconds < batchS ? Math.min(wanted, 10 * count) : Math.round((count * batchS) / seconds));
       seconds = await side(count);
+      spentS += seconds;
+      done += count;
     }
     calls.push(Math.max(1, Math.round((count * batchS) / seconds)));
+    roundS += Math.max(batchS, seconds / count);
   }
+  const rounds = Math.max(10, Math.min(most, Math.round(limitS / roundS)));
   const times = sides.map(() => []);
   for (let round = 0; round < rounds; round++) {
     for (const [index, side] of sides.entries()) {

@@ -1,10 +1,11 @@
 """Off-grid sparse Bayesian inference (Yang, Xie and Zhang 2013), in the form that inverts a matrix
-of the array's size: C = s I + Phi diag(alpha) Phi^H with Phi = A + B diag(beta)."""
+of the array's size: C = s I + Phi diag(alpha) Phi^H with Phi = A + B diag(beta). Offsets beta are
+zero but at a few points, so that sums over the grid are FFTs and those points a correction."""
 
 import numpy as np
 
 from grid import Grid
-from peaks import decibels, peaks
+from peaks import decibels
 from result import Result
 
 
@@ -18,36 +19,51 @@ class SparseBayesian:
 
     def estimate(self, y):
         elements, snapshots = y.shape
-        half = 1.0 / self.grid.points
         scale = np.sqrt((y.real**2 + y.imag**2).mean())
         y = y / scale
-        phi = self.a
-        beta = np.zeros(self.grid.points)
-        alpha = np.abs(phi.conj().T @ y).mean(axis=1) / elements
+        alpha = np.abs(self.grid.correlate(y)).mean(axis=0) / elements
         noise = 0.01
+        active = np.empty(0, dtype=int)
+        offsets = np.empty(0)
         for iteration in range(self.options["maxIterations"]):
-            c = (phi * alpha) @ phi.conj().T
+            b_active = self.b[:, active]
+            phi = self.a[:, active] + b_active * offsets
+            powers = alpha[active]
+            plain = alpha.copy()
+            plain[active] = 0.0
+            adjoint = phi.conj().T
+            c = self.grid.covariance(plain) + (phi * powers) @ adjoint
             c.flat[:: elements + 1] += noise
             inverse = np.linalg.inv(c)
-            weighted = inverse @ phi
-            mu = (weighted.conj().T @ y) * alpha[:, None]
-            share = alpha * np.einsum("kg,kg->g", phi.conj(), weighted).real
-            variance = alpha * (1.0 - share)
-            energy = (mu.real**2 + mu.imag**2).sum(axis=1) + snapshots * variance
-            residual = y - phi @ mu
-            error = (residual.real**2 + residual.imag**2).sum()
+            z = inverse @ y
+            seen = self.grid.correlate(z)
+            response = (seen.real**2 + seen.imag**2).sum(axis=0)
+            share = self.grid.quadratic(inverse)
+            phi_z = adjoint @ z
+            response[active] = (phi_z.real**2 + phi_z.imag**2).sum(axis=1)
+            share[active] = np.einsum("ik,ki->i", adjoint, inverse @ phi).real
+            share *= alpha
+            energy = alpha**2 * response + snapshots * alpha * (1.0 - share)
+            before = alpha
+            alpha = (np.sqrt(snapshots**2 + 4.0 * self.rho * energy) - snapshots) / (2.0 * self.rho)
+            old_noise = noise
+            error = noise**2 * (z.real**2 + z.imag**2).sum()
             noise = (error + snapshots * noise * share.sum() + self.d) / (
                 snapshots * elements + self.c - 1.0
             )
-            before = alpha
-            alpha = (np.sqrt(snapshots**2 + 4.0 * self.rho * energy) - snapshots) / (2.0 * self.rho)
+            moved = b_active * (offsets * powers)
+            known = np.zeros(self.grid.points)
+            known[active] = offsets
             active = self.active(alpha, elements - 1)
-            beta = self.offsets(y, before, mu, weighted, phi, active, half)
-            phi = self.a + self.b * beta
+            offsets = self.offsets(
+                active, known[active], before[active], z, inverse, old_noise, moved, adjoint
+            )
             change = np.linalg.norm(alpha - before) / np.linalg.norm(before)
             if change < self.options["tolerance"]:
                 break
-        return self.result(alpha, beta, mu, scale, iteration + 1)
+        beta = np.zeros(self.grid.points)
+        beta[active] = offsets
+        return self.result(alpha, beta, scale, iteration + 1)
 
     def active(self, alpha, most):
         """The highest local maxima, most of them at most."""
@@ -55,32 +71,29 @@ class SparseBayesian:
         found = np.flatnonzero((alpha > left) & (alpha >= right))
         return found[np.argsort(-alpha[found])[:most]]
 
-    def offsets(self, y, alpha, mu, weighted, phi, active, half):
+    def offsets(self, active, known, alpha, z, inverse, noise, moved, old_adjoint):
         """Minimises the expected misfit over the offsets of the active points."""
-        snapshots = y.shape[1]
-        b, mu_active = self.b[:, active], mu[active]
-        alpha_active = alpha[active]
-        cross = phi[:, active].conj().T @ weighted[:, active]
-        sigma = np.diag(alpha_active) - alpha_active[:, None] * cross * alpha_active
-        second = mu_active @ mu_active.conj().T + snapshots * sigma
+        snapshots = z.shape[1]
+        a, b = self.a[:, active], self.b[:, active]
+        phi = a + b * known
+        weighted = inverse @ phi
+        mu = alpha[:, None] * (phi.conj().T @ z)
+        sigma = np.diag(alpha) - alpha[:, None] * (phi.conj().T @ weighted) * alpha
+        second = mu @ mu.conj().T + snapshots * sigma
         p = ((b.conj().T @ b).conj() * second).real
-        # A Sigma restricted to the active columns.
-        a_alpha = self.a * alpha
-        a_sigma = a_alpha[:, active] - (a_alpha @ phi.conj().T) @ (
-            weighted[:, active] * alpha_active
-        )
-        left = y - self.a @ mu
-        v = (mu_active.conj() * (b.conj().T @ left)).sum(axis=1).real
-        v -= snapshots * np.einsum("ki,ki->i", b.conj(), a_sigma).real
-        beta = np.zeros(self.grid.points)
+        # y - A mu, and A Sigma over alpha, from C^-1 and what was displaced.
+        left = noise * z + moved @ (old_adjoint @ z)
+        spread = a - phi + noise * weighted + moved @ (old_adjoint @ weighted)
+        v = (mu.conj() * (b.conj().T @ left)).sum(axis=1).real
+        v -= snapshots * alpha * np.einsum("ki,ki->i", b.conj(), spread).real
+        half = 1.0 / self.grid.points
         try:
             solved = np.linalg.solve(p, v)
         except np.linalg.LinAlgError:
             solved = v / np.maximum(p.diagonal(), 1e-300)
-        beta[active] = np.clip(solved, -half, half)
-        return beta
+        return np.clip(solved, -half, half)
 
-    def result(self, alpha, beta, mu, scale, iterations):
+    def result(self, alpha, beta, scale, iterations):
         power = alpha * scale**2
         spectrum = decibels(power)
         left, right = np.roll(spectrum, 1), np.roll(spectrum, -1)
