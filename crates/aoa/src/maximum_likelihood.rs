@@ -19,9 +19,9 @@ use crate::method::Method;
 use crate::options::{Options, SourceCount};
 use crate::powers::sources_at;
 use crate::quadratic::QuadraticSpectrum;
-use boresight_core::linalg::{adjoint, hermitian_eigen};
+use boresight_core::linalg::hermitian_eigen;
 use boresight_core::{Array, Complex64};
-use ndarray::{Array1, Array2, Axis};
+use ndarray::Array2;
 
 /// Most sources searched for; keeps the search bounded on large arrays.
 const MAX_SOURCES: usize = 64;
@@ -83,16 +83,15 @@ impl MaximumLikelihood {
         }
         let round = elements.saturating_mul(elements).saturating_mul(chosen.len().pow(2));
         let rounds = if chosen.len() < 2 { 0 } else { MAX_ROUNDS.min(MAX_WORK / round.max(1)) };
-        for _ in 0..rounds {
-            let before = chosen.clone();
-            for i in 0..chosen.len() {
-                let others: Vec<usize> =
-                    chosen.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, &g)| g).collect();
-                if let Some((point, _)) = self.best(r, &others) {
-                    chosen[i] = point;
-                }
-            }
-            if chosen == before {
+        // The last one found is the best beside the others already.
+        let mut settled = 1;
+        for i in (0..chosen.len()).cycle().take(rounds * chosen.len()) {
+            let others: Vec<usize> =
+                chosen.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, &g)| g).collect();
+            let best = self.best(r, &others).map_or(chosen[i], |(point, _)| point);
+            settled = if best == chosen[i] { settled + 1 } else { 1 };
+            chosen[i] = best;
+            if settled >= chosen.len() {
                 break;
             }
         }
@@ -102,23 +101,12 @@ impl MaximumLikelihood {
     /// The grid point that explains most of what the others leave, and how much.
     fn best(&mut self, r: &Array2<Complex64>, others: &[usize]) -> Option<(usize, f64)> {
         let elements = r.nrows() as f64;
-        let basis = self.basis(others);
-        let left = adjoint(basis.view());
-        let numerator = if others.is_empty() {
-            self.spectrum.evaluate(r.view())
+        let (numerator, explained) = if others.is_empty() {
+            (self.spectrum.evaluate(r.view()), vec![0.0; self.spectrum.grid().len()])
         } else {
-            // P R P = R - Q Q^H R - R Q Q^H + Q (Q^H R Q) Q^H.
-            let seen = r.dot(&basis);
-            let inner = left.dot(&seen);
-            let half = seen - basis.dot(&inner).mapv(|z| 0.5 * z);
-            let twice = half.dot(&left);
-            let projected = r - &twice - adjoint(twice.view());
-            self.spectrum.evaluate(projected.view())
-        };
-        let explained = if others.is_empty() {
-            vec![0.0; numerator.len()]
-        } else {
-            self.spectrum.evaluate(basis.dot(&left).view())
+            let basis = self.basis(others);
+            let (projected, onto) = project(r, &basis);
+            (self.spectrum.evaluate(projected.view()), self.spectrum.evaluate(onto.view()))
         };
         let mut best: Option<(usize, f64)> = None;
         for (g, (n, e)) in numerator.iter().zip(&explained).enumerate() {
@@ -134,29 +122,67 @@ impl MaximumLikelihood {
     }
 
     /// Orthonormal basis of the steering vectors of grid points, by twice-applied Gram-Schmidt.
-    fn basis(&self, points: &[usize]) -> Array2<Complex64> {
+    fn basis(&self, points: &[usize]) -> Vec<Vec<Complex64>> {
         let elements = self.geometry.elements();
-        let mut columns: Vec<Array1<Complex64>> = Vec::with_capacity(points.len());
+        let mut columns: Vec<Vec<Complex64>> = Vec::with_capacity(points.len());
         for &g in points {
             let point = self.geometry.point(self.spectrum.grid().direction(g));
-            let mut a = Array1::from(self.geometry.steering(point).vector);
+            let mut a = self.geometry.steering(point).vector;
             for _ in 0..2 {
                 for q in &columns {
-                    let along: Complex64 = q.iter().zip(&a).map(|(q, a)| q.conj() * a).sum();
-                    a.scaled_add(-along, q);
+                    let along = inner(q, &a);
+                    a.iter_mut().zip(q).for_each(|(a, q)| *a -= along * q);
                 }
             }
-            let norm = a.iter().map(|z| z.norm_sqr()).sum::<f64>().sqrt();
+            let norm = inner(&a, &a).re.sqrt();
             if norm > 1e-6 * (elements as f64).sqrt() {
-                columns.push(a.mapv(|z| z / norm));
+                a.iter_mut().for_each(|z| *z /= norm);
+                columns.push(a);
             }
         }
-        let mut basis = Array2::zeros((elements, columns.len()));
-        for (mut to, from) in basis.axis_iter_mut(Axis(1)).zip(&columns) {
-            to.assign(from);
-        }
-        basis
+        columns
     }
+}
+
+/// `x^H y`.
+fn inner(x: &[Complex64], y: &[Complex64]) -> Complex64 {
+    x.iter().zip(y).map(|(x, y)| x.conj() * y).sum()
+}
+
+/// Lower triangles of `P R P` and of `I - P`, with `P` the projection away from an orthonormal
+/// basis `Q`: `P R P = R - H Q^H - Q H^H` with `H = R Q - Q (Q^H R Q) / 2`.
+fn project(
+    r: &Array2<Complex64>,
+    basis: &[Vec<Complex64>],
+) -> (Array2<Complex64>, Array2<Complex64>) {
+    let seen: Vec<Vec<Complex64>> = basis
+        .iter()
+        .map(|q| {
+            let row =
+                |row: ndarray::ArrayView1<Complex64>| row.iter().zip(q).map(|(r, q)| r * q).sum();
+            r.rows().into_iter().map(row).collect()
+        })
+        .collect();
+    let mut half = seen.clone();
+    for (half, seen) in half.iter_mut().zip(&seen) {
+        for q in basis {
+            let share = 0.5 * inner(q, seen);
+            half.iter_mut().zip(q).for_each(|(h, q)| *h -= share * q);
+        }
+    }
+    let (mut projected, mut onto) = (r.clone(), Array2::zeros(r.dim()));
+    for (q, h) in basis.iter().zip(&half) {
+        for (k, (mut left, mut gone)) in
+            projected.rows_mut().into_iter().zip(onto.rows_mut()).enumerate()
+        {
+            let pairs = left.iter_mut().zip(gone.iter_mut()).zip(q.iter().zip(h));
+            for ((left, gone), (ql, hl)) in pairs.take(k + 1) {
+                *left -= h[k] * ql.conj() + q[k] * hl.conj();
+                *gone += q[k] * ql.conj();
+            }
+        }
+    }
+    (projected, onto)
 }
 
 impl Plan for MaximumLikelihood {
