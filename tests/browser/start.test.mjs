@@ -18,6 +18,8 @@ test('npm start says what it does and serves the demo', { timeout: 120_000 }, as
   const port = await freePort();
   const started = spawn(process.execPath, ['scripts/start.mjs', '--host', '127.0.0.1', '--port', `${port}`, '--strictPort'], {
     cwd: root,
+    // Vite colours the address where CI is set, which parts the colon from the port.
+    env: { ...process.env, NO_COLOR: '1' },
     detached: process.platform !== 'win32',
     stdio: ['ignore', 'pipe', 'inherit'],
   });
