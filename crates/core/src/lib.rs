@@ -7,6 +7,7 @@
 
 pub mod array;
 pub mod direction;
+pub mod drive;
 pub mod error;
 pub mod fft;
 pub mod imperfections;
@@ -20,6 +21,7 @@ pub mod waveform;
 
 pub use array::{Array, Channel, Extent};
 pub use direction::Direction;
+pub use drive::{Detection, DriveLog, MotionSample, Mounting, Pose, Scan, Sensor};
 pub use error::{CoreError, Details, Diagnose};
 pub use imperfections::Imperfections;
 pub use lattice::Lattice;

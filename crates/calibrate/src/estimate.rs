@@ -1,0 +1,71 @@
+//! The estimate of a mounting angle, with all that is needed to judge it.
+
+/// How many frames became what; every frame given is counted once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FrameCounts {
+    /// Frames given.
+    pub given: u64,
+    /// In the angle.
+    pub used: u64,
+    /// The car stood.
+    pub standing: u64,
+    /// Slower than the gate.
+    pub slow: u64,
+    /// Turning faster than the gate.
+    pub turning: u64,
+    /// Too few detections or inliers.
+    pub sparse: u64,
+    /// Without a yaw rate (or speed) at their time.
+    pub without_motion: u64,
+}
+
+/// Something to know of an estimate; not an error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Remark {
+    /// No frame could be used: there is no angle beyond the nominal one.
+    NoFrames,
+    /// The drive does not determine the angle to a degree.
+    AngleUndetermined,
+    /// The drive does not determine the scale of the yaw rate (no turns, or `x_s` near 0).
+    ScaleUndetermined,
+    /// The bias of the yaw rate rests on its prior: the car neither stood nor changed its speed enough.
+    BiasUndetermined,
+    /// Fewer than half of the detections of the frames used were static.
+    FewInliers,
+    /// The angle differs from the nominal one by more than the alarm's limit, beyond chance.
+    Misaligned,
+    /// The angle still changes by more than its standard deviation allows.
+    NotConverged,
+}
+
+/// A mounting angle and what it rests on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AngleEstimate {
+    /// Mounting angle (yaw of boresight in the car's frame), rad, in `(-pi, pi]`.
+    pub angle_rad: f64,
+    /// Its standard deviation, rad; infinite where the drive says nothing.
+    pub sigma_rad: f64,
+    /// Scale factor `s` of the yaw rate (measured over true).
+    pub scale: f64,
+    /// Its standard deviation; infinite where the drive says nothing, 0 where it was not estimated.
+    pub scale_sigma: f64,
+    /// Covariance of angle (rad) and inverse scale `s'`: `[[tt, ts], [ts, ss]]`.
+    pub covariance: [[f64; 2]; 2],
+    /// Bias of the yaw rate, rad/s.
+    pub bias_radps: f64,
+    /// Its standard deviation, rad/s; infinite where nothing is known of it.
+    pub bias_sigma_radps: f64,
+    /// Inliers over detections, of the frames used; 0 without any.
+    pub inlier_share: f64,
+    /// What became of the frames.
+    pub frames: FrameCounts,
+    /// The angle has settled: its standard deviation is below the limit of the options and it moved
+    /// by no more than that lately.
+    pub converged: bool,
+    /// Whether the angle differs from the nominal one beyond limit and chance; `None` without a
+    /// nominal angle.
+    pub misaligned: Option<bool>,
+    /// What to know of it.
+    pub remarks: Vec<Remark>,
+}

@@ -1,0 +1,62 @@
+//! One radar frame: what goes in and what an estimator makes of it.
+
+use boresight_core::Detection;
+
+/// One scan of the radar with the car's motion at that time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameInput<'a> {
+    /// Time, s; must not run backwards from frame to frame.
+    pub time_s: f64,
+    /// The point cloud, in the radar's frame.
+    pub detections: &'a [Detection],
+    /// Measured yaw rate at this time, rad/s; `None` where the log has none.
+    pub yaw_rate_radps: Option<f64>,
+    /// Measured forward speed of the rear axle at this time, m/s. Only the full-velocity method needs
+    /// it; the others take no advantage of it.
+    pub speed_mps: Option<f64>,
+}
+
+/// The radar's own motion, from one frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Velocity `(vx, vy)` in the radar's frame, m/s.
+    pub velocity_mps: [f64; 2],
+    /// Its covariance `[[xx, xy], [xy, yy]]`, m^2/s^2.
+    pub covariance: [[f64; 2]; 2],
+    /// Detections taken as static.
+    pub inliers: usize,
+    /// Detections given.
+    pub detections: usize,
+}
+
+/// What became of a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// It went into the angle.
+    Used,
+    /// The car stood; it went into the bias of the yaw rate.
+    Standing,
+    /// The radar moved more slowly than the gate.
+    Slow,
+    /// The car turned faster than the gate.
+    Turning,
+    /// Too few detections or inliers for a motion.
+    Sparse,
+    /// No yaw rate (or, for the full-velocity method, no speed) at this time.
+    WithoutMotion,
+}
+
+/// What an estimator made of one frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameOutcome {
+    /// What became of it.
+    pub verdict: Verdict,
+    /// The radar's motion, if one could be found.
+    pub motion: Option<Motion>,
+    /// The mounting angle this frame alone gives, rad, and its standard deviation.
+    pub angle_rad: Option<(f64, f64)>,
+    /// Weight of the frame in the estimate, relative to a frame of unit variance (1/rad^2); 0 if unused.
+    pub weight: f64,
+    /// For each detection the weight, 0 to 1, with which it was taken as static.
+    pub weights: Vec<f32>,
+}

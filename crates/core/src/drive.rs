@@ -1,0 +1,158 @@
+//! What a car records while it drives: radar scans as Doppler point clouds, and its own motion.
+//!
+//! Frames: the car's is centred on the rear axle, x forward, y left; a radar's has x along its
+//! boresight. Angles are counter-clockwise positive, range rates positive when receding, so that a
+//! standing target at azimuth `a` seen by a radar that moves with `(vx, vy)` in its own frame has
+//! `-range_rate = vx cos a + vy sin a`.
+
+/// One point of a Doppler point cloud, in the radar's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Detection {
+    /// Azimuth, rad.
+    pub azimuth_rad: f32,
+    /// Range rate, m/s, positive when receding, not compensated for the car's motion.
+    pub range_rate_mps: f32,
+    /// Range, m; NaN where the log has none.
+    pub range_m: f32,
+    /// Radar cross-section, dBsm; NaN where the log has none.
+    pub rcs_dbsm: f32,
+}
+
+/// Detections one radar made at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scan {
+    /// Time, s, on the clock of the log.
+    pub time_s: f64,
+    /// The radar, by its number in the log.
+    pub sensor: u8,
+    /// The point cloud; may be empty.
+    pub detections: Vec<Detection>,
+    /// A class for each detection in the numbers of `RadarScenes` (11 for static), where the log
+    /// has them; empty otherwise. No estimator reads it.
+    pub labels: Vec<u8>,
+}
+
+/// Where the car's frame stands on the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// East, or x of the log's global frame, m.
+    pub x_m: f64,
+    /// North, or y of the log's global frame, m.
+    pub y_m: f64,
+    /// Heading, rad, counter-clockwise from x.
+    pub yaw_rad: f64,
+}
+
+/// The car's motion at one time, as its sensors report it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionSample {
+    /// Time, s, on the clock of the log.
+    pub time_s: f64,
+    /// Yaw rate, rad/s, with whatever bias and scale error the sensor has.
+    pub yaw_rate_radps: f64,
+    /// Forward speed of the rear axle, m/s, negative in reverse.
+    pub speed_mps: Option<f64>,
+    /// Position and heading.
+    pub pose: Option<Pose>,
+}
+
+/// Where a radar sits in the car's frame and which way it looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mounting {
+    /// Ahead of the rear axle, m.
+    pub x_m: f64,
+    /// Left of the centre line, m.
+    pub y_m: f64,
+    /// Direction of boresight, rad.
+    pub yaw_rad: f64,
+}
+
+/// A radar of a log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensor {
+    /// Its number in the log.
+    pub id: u8,
+    /// Its place and nominal direction, where the log states them.
+    pub mounting: Option<Mounting>,
+}
+
+/// A recorded or simulated drive.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DriveLog {
+    /// The radars, by ascending number.
+    pub sensors: Vec<Sensor>,
+    /// Scans of all radars, in order of time.
+    pub scans: Vec<Scan>,
+    /// The car's motion, in order of time.
+    pub motion: Vec<MotionSample>,
+}
+
+/// The four radars of the `RadarScenes` car (Schumann et al. 2021): number and mounting.
+pub const RADARSCENES_SENSORS: [(u8, Mounting); 4] = [
+    (1, Mounting { x_m: 3.663, y_m: -0.873, yaw_rad: -1.484_185_52 }),
+    (2, Mounting { x_m: 3.86, y_m: -0.7, yaw_rad: -0.436_185_662 }),
+    (3, Mounting { x_m: 3.86, y_m: 0.7, yaw_rad: 0.436 }),
+    (4, Mounting { x_m: 3.663, y_m: 0.873, yaw_rad: 1.484 }),
+];
+
+impl DriveLog {
+    /// Yaw rate at a time by linear interpolation between the neighbouring samples; `None` before
+    /// the first, after the last, and in gaps longer than `max_gap_s`.
+    pub fn yaw_rate_at(&self, time_s: f64, max_gap_s: f64) -> Option<f64> {
+        interpolate(&self.motion, time_s, max_gap_s, |s| Some(s.yaw_rate_radps))
+    }
+
+    /// Forward speed at a time, as [`Self::yaw_rate_at`].
+    pub fn speed_at(&self, time_s: f64, max_gap_s: f64) -> Option<f64> {
+        interpolate(&self.motion, time_s, max_gap_s, |s| s.speed_mps)
+    }
+}
+
+fn interpolate(
+    samples: &[MotionSample],
+    time_s: f64,
+    max_gap_s: f64,
+    value: impl Fn(&MotionSample) -> Option<f64>,
+) -> Option<f64> {
+    let after = samples.partition_point(|s| s.time_s < time_s);
+    let next = samples.get(after)?;
+    if next.time_s == time_s {
+        return value(next);
+    }
+    let previous = samples.get(after.checked_sub(1)?)?;
+    let gap = next.time_s - previous.time_s;
+    if gap > max_gap_s {
+        return None;
+    }
+    let share = (time_s - previous.time_s) / gap;
+    Some(value(previous)? * (1.0 - share) + value(next)? * share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn log(times: &[f64]) -> DriveLog {
+        let motion = times
+            .iter()
+            .map(|&time_s| MotionSample {
+                time_s,
+                yaw_rate_radps: 2.0 * time_s,
+                speed_mps: Some(time_s + 1.0),
+                pose: None,
+            })
+            .collect();
+        DriveLog { motion, ..DriveLog::default() }
+    }
+
+    #[test]
+    fn interpolation_is_exact_on_a_line_and_stops_at_gaps_and_ends() {
+        let log = log(&[0.0, 1.0, 4.0]);
+        assert_eq!(log.yaw_rate_at(0.25, 1.5), Some(0.5));
+        assert_eq!(log.speed_at(1.0, 1.5), Some(2.0));
+        assert_eq!(log.yaw_rate_at(2.0, 1.5), None);
+        assert_eq!(log.yaw_rate_at(-0.1, 1.5), None);
+        assert_eq!(log.yaw_rate_at(4.1, 1.5), None);
+        assert_eq!(DriveLog::default().yaw_rate_at(0.0, 1.0), None);
+    }
+}
