@@ -81,6 +81,30 @@ pub enum FormatError {
         /// What was given.
         given: String,
     },
+    /// Compressed data cannot be unpacked.
+    #[error("compressed data: {given}; expected a whole gzip file")]
+    Compressed {
+        /// What the decoder met.
+        given: String,
+    },
+    /// Times of a log run backwards.
+    #[error("{place}: time runs backwards: {given} s after {previous} s")]
+    TimeBackwards {
+        /// Where, as in `line 12`.
+        place: String,
+        /// The time before, s.
+        previous: f64,
+        /// The time given, s.
+        given: f64,
+    },
+    /// What was given is no drive log.
+    #[error("no drive log: {given}; expected {expected}")]
+    NoDriveLog {
+        /// What was looked for.
+        expected: String,
+        /// What is there.
+        given: String,
+    },
 }
 
 impl Diagnose for FormatError {
@@ -93,6 +117,9 @@ impl Diagnose for FormatError {
             Self::Layout { .. } => "capture-layout",
             Self::Binary { .. } => "malformed-file",
             Self::Table { .. } => "malformed-table",
+            Self::Compressed { .. } => "malformed-gzip",
+            Self::TimeBackwards { .. } => "time-backwards",
+            Self::NoDriveLog { .. } => "no-drive-log",
         }
     }
 
@@ -117,6 +144,15 @@ impl Diagnose for FormatError {
             Self::Table { line, what, expected, given } => {
                 Details::new(format!("line {line}: {what}"), expected, given)
             }
+            Self::Compressed { given } => {
+                Details::new("compressed data", "a whole gzip file", given)
+            }
+            Self::TimeBackwards { place, previous, given } => Details::new(
+                format!("{place}: time"),
+                format!("at least {previous} s"),
+                format!("{given} s"),
+            ),
+            Self::NoDriveLog { expected, given } => Details::new("drive log", expected, given),
         }
     }
 }

@@ -5,11 +5,13 @@
 //! - [`ti_uart`]: the packets a board's demo firmware sends over its serial port.
 //! - [`npy`]: NumPy arrays.
 //! - [`tables`]: detections and snapshots as CSV.
+//! - [`drive_log`]: drives, as point clouds and the car's motion.
 //!
 //! All readers work on bytes in memory, take nothing on trust from a header before comparing it
 //! with what is there, and say where a file is wrong.
 
 pub mod dca1000;
+pub mod drive_log;
 mod error;
 pub mod mmwave_cfg;
 pub mod npy;
@@ -17,6 +19,7 @@ pub mod tables;
 pub mod ti_uart;
 
 pub use dca1000::{Capture, RawFrame};
+pub use drive_log::{DriveFormat, DriveRead, DropReason, ReadReport};
 pub use error::{FormatError, Remark};
 pub use mmwave_cfg::RadarConfig;
 pub use npy::{NpyArray, NpyData};

@@ -9,21 +9,21 @@ pub use detections::{DetectionRow, read_detections, write_detections};
 pub use snapshots::{read_snapshots, write_snapshots};
 
 /// The positions of named columns in a header line.
-struct Columns {
+pub(crate) struct Columns {
     names: csv::StringRecord,
 }
 
 impl Columns {
-    fn read(reader: &mut csv::Reader<&[u8]>) -> Result<Self, FormatError> {
+    pub(crate) fn read<R: std::io::Read>(reader: &mut csv::Reader<R>) -> Result<Self, FormatError> {
         let names = reader.headers().map_err(|error| from_csv(&error))?.clone();
         Ok(Self { names })
     }
 
-    fn find(&self, name: &str) -> Option<usize> {
+    pub(crate) fn find(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|given| given.trim() == name)
     }
 
-    fn need(&self, name: &str) -> Result<usize, FormatError> {
+    pub(crate) fn need(&self, name: &str) -> Result<usize, FormatError> {
         self.find(name).ok_or_else(|| FormatError::Table {
             line: 1,
             what: format!("column {name}"),
@@ -33,8 +33,11 @@ impl Columns {
     }
 }
 
-fn from_csv(error: &csv::Error) -> FormatError {
+pub(crate) fn from_csv(error: &csv::Error) -> FormatError {
     let line = error.position().map_or(1, csv::Position::line);
+    if let csv::ErrorKind::Io(error) = error.kind() {
+        return FormatError::Compressed { given: error.to_string() };
+    }
     let (expected, given) = match error.kind() {
         csv::ErrorKind::Utf8 { .. } => ("UTF-8 text".into(), "other bytes".into()),
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
@@ -45,7 +48,7 @@ fn from_csv(error: &csv::Error) -> FormatError {
     FormatError::Table { line, what: "the line".into(), expected, given }
 }
 
-fn field<T: std::str::FromStr>(
+pub(crate) fn field<T: std::str::FromStr>(
     record: &csv::StringRecord,
     column: usize,
     name: &str,
@@ -55,7 +58,11 @@ fn field<T: std::str::FromStr>(
     text.parse().map_err(|_| wrong(record, name, expected, text))
 }
 
-fn finite(record: &csv::StringRecord, column: usize, name: &str) -> Result<f64, FormatError> {
+pub(crate) fn finite(
+    record: &csv::StringRecord,
+    column: usize,
+    name: &str,
+) -> Result<f64, FormatError> {
     let value: f64 = field(record, column, name, "a number")?;
     if value.is_finite() {
         return Ok(value);
@@ -63,7 +70,12 @@ fn finite(record: &csv::StringRecord, column: usize, name: &str) -> Result<f64, 
     Err(wrong(record, name, "a finite number", &value.to_string()))
 }
 
-fn wrong(record: &csv::StringRecord, what: &str, expected: &str, given: &str) -> FormatError {
+pub(crate) fn wrong(
+    record: &csv::StringRecord,
+    what: &str,
+    expected: &str,
+    given: &str,
+) -> FormatError {
     FormatError::Table {
         line: record.position().map_or(1, csv::Position::line),
         what: what.into(),

@@ -1,0 +1,16 @@
+//! Drives as car makers, data sets and simulators store them, read into one
+//! [`DriveLog`]: which format it is is found from the
+//! files' contents, and every row that is left out is counted.
+
+pub mod delphi;
+mod motion;
+mod open;
+mod report;
+pub mod table;
+mod text;
+
+pub use open::{DriveFormat, DriveRead, is_table, open};
+pub use report::{DropReason, ReadReport};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,212 @@
+//! Finds which format files are in, by their contents.
+
+use super::report::ReadReport;
+use super::text::{Rows, is_gzip};
+use super::{delphi, table};
+use crate::error::{FormatError, Remark};
+use boresight_core::CoreError;
+use boresight_core::drive::DriveLog;
+
+/// A format of drive logs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum DriveFormat {
+    /// [`delphi`]: tracks of a Delphi front radar and poses.
+    Delphi,
+    /// [`table`]: the general tables.
+    Csv,
+}
+
+impl DriveFormat {
+    /// All formats.
+    pub const ALL: [Self; 2] = [Self::Delphi, Self::Csv];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Delphi => "delphi",
+            Self::Csv => "csv",
+        }
+    }
+
+    /// The format of a name.
+    ///
+    /// # Errors
+    /// [`CoreError::Unknown`] with the names there are.
+    pub fn from_name(name: &str) -> Result<Self, CoreError> {
+        Self::ALL.into_iter().find(|format| format.name() == name).ok_or_else(|| {
+            CoreError::Unknown {
+                what: "format".into(),
+                expected: Self::ALL.map(Self::name).join(", "),
+                given: name.chars().take(40).collect(),
+            }
+        })
+    }
+}
+
+/// A drive log, what was left out of it, and the format it was in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveRead {
+    /// The drive.
+    pub log: DriveLog,
+    /// What was kept and left out.
+    pub report: ReadReport,
+    /// The format.
+    pub format: DriveFormat,
+}
+
+/// What a file holds, by its contents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Role {
+    DelphiRadar,
+    DelphiPose,
+    Detections,
+    Motion,
+}
+
+fn role(name: &str, bytes: &[u8]) -> Result<Option<Role>, FormatError> {
+    if !(is_table(name) || is_gzip(bytes)) {
+        return Ok(None);
+    }
+    let rows = match Rows::open(bytes) {
+        // A damaged pack may be the very table looked for.
+        Err(error @ FormatError::Compressed { .. }) => return Err(in_file(error, name)),
+        Err(_) => return Ok(None),
+        Ok(rows) => rows,
+    };
+    let has = |columns: &[&str]| columns.iter().all(|name| rows.columns.find(name).is_some());
+    let yaw_rate = has(&["yaw_rate_radps"]) || has(&["yaw_rate_degps"]);
+    Ok(if has(&["t_s", "frame"]) {
+        Some(Role::DelphiRadar)
+    } else if has(&["t_s"]) && yaw_rate {
+        Some(Role::DelphiPose)
+    } else if has(&["range_rate_mps"]) {
+        Some(Role::Detections)
+    } else {
+        yaw_rate.then_some(Role::Motion)
+    })
+}
+
+/// Whether a file's name is that of a table: `.csv` or `.csv.gz`.
+pub fn is_table(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    name.ends_with(".csv") || name.ends_with(".csv.gz")
+}
+
+/// Names the file in an error.
+fn in_file(error: FormatError, name: &str) -> FormatError {
+    let name: String = name.chars().take(60).collect();
+    match error {
+        FormatError::Table { line, what, expected, given } => {
+            FormatError::Table { line, what: format!("{what} in {name}"), expected, given }
+        }
+        FormatError::Compressed { given } => {
+            FormatError::Compressed { given: format!("{name}: {given}") }
+        }
+        other => other,
+    }
+}
+
+/// The one file of a role.
+fn find<'a>(
+    files: &[(&'a str, &'a [u8])],
+    roles: &[Option<Role>],
+    role: Role,
+) -> Result<Option<(&'a str, &'a [u8])>, FormatError> {
+    let mut found = roles.iter().zip(files).filter(|(r, _)| **r == Some(role)).map(|(_, f)| *f);
+    let first = found.next();
+    if let (Some((first, _)), Some((second, _))) = (first, found.next()) {
+        return Err(FormatError::NoDriveLog {
+            expected: "one file of each kind".into(),
+            given: format!("both {first} and {second}"),
+        });
+    }
+    Ok(first)
+}
+
+/// Reads a drive log from named files, in any order, each recognised by its columns; with a remark
+/// for each that belongs to no format. Tables may be packed with gzip.
+///
+/// With `format` given only files of that format are looked for.
+///
+/// # Errors
+/// [`FormatError::NoDriveLog`] if the files are no drive log, with what was looked for; otherwise
+/// those of the format's reader.
+pub fn open(
+    files: &[(&str, &[u8])],
+    format: Option<DriveFormat>,
+) -> Result<DriveRead, FormatError> {
+    let roles: Vec<_> =
+        files.iter().map(|(name, bytes)| role(name, bytes)).collect::<Result<_, _>>()?;
+    let wanted = |candidate| format.is_none_or(|format| format == candidate);
+    let mut read = None;
+    for (candidate, radar, motion) in [
+        (DriveFormat::Delphi, Role::DelphiRadar, Role::DelphiPose),
+        (DriveFormat::Csv, Role::Detections, Role::Motion),
+    ] {
+        if read.is_none()
+            && wanted(candidate)
+            && let Some(radar) = find(files, &roles, radar)?
+        {
+            read = Some((candidate, radar, find(files, &roles, motion)?));
+        }
+    }
+    // One table that is none of these still gets the general reader's word on what it lacks.
+    if let [(name, bytes)] = files
+        && wanted(DriveFormat::Csv)
+        && read.is_none()
+        && is_table(name)
+    {
+        read = Some((DriveFormat::Csv, (name, bytes), None));
+    }
+    let Some((format, radar, motion)) = read else {
+        return Err(no_drive_log(format, files.iter().map(|(name, _)| *name)));
+    };
+    let mut report = ReadReport::default();
+    for (name, _) in files.iter().filter(|f| **f != radar && Some(**f) != motion) {
+        report.remarks.push(Remark::new(
+            "ignored-file",
+            format!("{name} is not part of the drive log and was left out"),
+        ));
+    }
+    let radar_error = |error| in_file(error, radar.0);
+    let mut log = match format {
+        DriveFormat::Delphi => delphi::read_radar(radar.1, &mut report).map_err(radar_error)?,
+        DriveFormat::Csv => table::read_detections(radar.1, &mut report).map_err(radar_error)?,
+    };
+    if let Some((name, bytes)) = motion {
+        log.motion = match format {
+            DriveFormat::Delphi => delphi::read_poses(bytes, &mut report),
+            DriveFormat::Csv => table::read_motion(bytes, &mut report),
+        }
+        .map_err(|error| in_file(error, name))?;
+    }
+    Ok(DriveRead { log, report, format })
+}
+
+fn no_drive_log<'a>(
+    format: Option<DriveFormat>,
+    names: impl Iterator<Item = &'a str>,
+) -> FormatError {
+    let one = |format| match format {
+        DriveFormat::Delphi => {
+            format!("a CSV with the columns {}", delphi::RADAR_COLUMNS.join(", "))
+        }
+        DriveFormat::Csv => {
+            "a CSV with the columns time_s, azimuth_rad or azimuth_deg, range_rate_mps".to_owned()
+        }
+    };
+    let expected = match format {
+        Some(format) => one(format),
+        None => DriveFormat::ALL.map(one).join("; or "),
+    };
+    let mut shown: Vec<String> = names.map(|name| name.chars().take(60).collect()).collect();
+    let count = shown.len();
+    shown.truncate(8);
+    let given = match count {
+        0 => "no files".to_owned(),
+        1..=8 => shown.join(", "),
+        _ => format!("{} and {} more", shown.join(", "), count - 8),
+    };
+    FormatError::NoDriveLog { expected, given }
+}

@@ -1,0 +1,162 @@
+//! The general tables of a drive: one of detections, one of the car's motion, both as CSV with a
+//! header line, columns in any order and others beside them.
+//!
+//! Detections: `time_s`, `azimuth_rad` or `azimuth_deg`, `range_rate_mps`; optional `sensor`
+//! (a number from 0 to 255; 1 without it), `range_m`, `rcs_dbsm`. Rows of the same time and sensor
+//! are one scan; times of a sensor must not run backwards.
+//!
+//! Motion: `time_s`, `yaw_rate_radps` or `yaw_rate_degps`; optional `speed_mps`, and the pose as
+//! `x_m`, `y_m`, `yaw_rad` together. Times must not run backwards.
+
+use super::report::{DropReason, ReadReport};
+use super::text::{Rows, line};
+use super::{motion, text};
+use crate::error::FormatError;
+use crate::tables::{Columns, field};
+use boresight_core::drive::{DriveLog, MotionSample, Pose, Scan, Sensor};
+use std::collections::BTreeMap;
+
+const POSE_COLUMNS: [&str; 3] = ["x_m", "y_m", "yaw_rad"];
+
+/// A column given in one of two units.
+struct Angle {
+    column: usize,
+    name: &'static str,
+    factor: f64,
+}
+
+impl Angle {
+    fn find(columns: &Columns, radians: &'static str, degrees: &'static str) -> Option<Self> {
+        let turn = 1.0_f64.to_radians();
+        columns.find(radians).map(|column| Self { column, name: radians, factor: 1.0 }).or_else(
+            || columns.find(degrees).map(|c| Self { column: c, name: degrees, factor: turn }),
+        )
+    }
+
+    fn need(
+        columns: &Columns,
+        radians: &'static str,
+        degrees: &'static str,
+    ) -> Result<Self, FormatError> {
+        Self::find(columns, radians, degrees).ok_or_else(|| FormatError::Table {
+            line: 1,
+            what: format!("column {radians} or {degrees}"),
+            expected: "in the header line".into(),
+            given: "none".into(),
+        })
+    }
+
+    fn read(&self, row: &csv::StringRecord) -> Result<f64, FormatError> {
+        Ok(self.factor * field::<f64>(row, self.column, self.name, "a number")?)
+    }
+}
+
+/// A number that may be missing: NaN without the column or where the field is empty.
+fn optional(row: &csv::StringRecord, at: Option<usize>, name: &str) -> Result<f64, FormatError> {
+    match at {
+        Some(at) if !row.get(at).unwrap_or_default().trim().is_empty() => {
+            field(row, at, name, "a number")
+        }
+        _ => Ok(f64::NAN),
+    }
+}
+
+/// Reads the table of detections, plain or packed with gzip; the log has no motion yet.
+///
+/// # Errors
+/// [`FormatError::Table`] naming line and column, [`FormatError::TimeBackwards`],
+/// [`FormatError::Compressed`].
+pub fn read_detections(bytes: &[u8], report: &mut ReadReport) -> Result<DriveLog, FormatError> {
+    let mut rows = Rows::open(bytes)?;
+    let time_at = rows.columns.need("time_s")?;
+    let azimuth_at = Angle::need(&rows.columns, "azimuth_rad", "azimuth_deg")?;
+    let rate_at = rows.columns.need("range_rate_mps")?;
+    let [sensor_at, range_at, rcs_at] =
+        ["sensor", "range_m", "rcs_dbsm"].map(|name| rows.columns.find(name));
+    let mut scans: Vec<Scan> = vec![];
+    // The latest scan of each sensor, by its place in `scans`.
+    let mut latest: BTreeMap<u8, usize> = BTreeMap::new();
+    while let Some(row) = rows.next()? {
+        report.detections += 1;
+        let time_s: f64 = field(row, time_at, "time_s", "a number")?;
+        let azimuth = azimuth_at.read(row)?;
+        let rate: f64 = field(row, rate_at, "range_rate_mps", "a number")?;
+        let sensor =
+            sensor_at.map_or(Ok(1), |at| field(row, at, "sensor", "an integer up to 255"))?;
+        let range = optional(row, range_at, "range_m")?;
+        let rcs = optional(row, rcs_at, "rcs_dbsm")?;
+        text::turn(row, azimuth_at.column, azimuth_at.name, azimuth)?;
+        if !time_s.is_finite() {
+            report.drop(DropReason::NotFinite);
+            continue;
+        }
+        let previous = latest.get(&sensor).map(|&at| (at, scans[at].time_s));
+        let at = match previous {
+            Some((at, previous)) if time_s == previous => at,
+            Some((_, previous)) if time_s < previous => {
+                return Err(FormatError::TimeBackwards {
+                    place: format!("detections, line {}", line(row)),
+                    previous,
+                    given: time_s,
+                });
+            }
+            _ => {
+                scans.push(Scan { time_s, sensor, detections: vec![], labels: vec![] });
+                latest.insert(sensor, scans.len() - 1);
+                scans.len() - 1
+            }
+        };
+        match motion::detection(azimuth, rate, range, rcs) {
+            Some(detection) => scans[at].detections.push(detection),
+            None => report.drop(DropReason::NotFinite),
+        }
+    }
+    rows.not_empty()?;
+    scans.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    let sensors = latest.into_keys().map(|id| Sensor { id, mounting: None }).collect();
+    Ok(DriveLog { sensors, scans, motion: vec![] })
+}
+
+/// Reads the table of the motion, plain or packed with gzip.
+///
+/// # Errors
+/// As [`read_detections`].
+pub fn read_motion(
+    bytes: &[u8],
+    report: &mut ReadReport,
+) -> Result<Vec<MotionSample>, FormatError> {
+    let mut rows = Rows::open(bytes)?;
+    let time_at = rows.columns.need("time_s")?;
+    let rate_at = Angle::need(&rows.columns, "yaw_rate_radps", "yaw_rate_degps")?;
+    let speed_at = rows.columns.find("speed_mps");
+    let pose_at = if POSE_COLUMNS.iter().any(|name| rows.columns.find(name).is_some()) {
+        let mut places = [0; 3];
+        for (place, name) in places.iter_mut().zip(POSE_COLUMNS) {
+            *place = rows.columns.need(name)?;
+        }
+        Some(places)
+    } else {
+        None
+    };
+    let mut samples = vec![];
+    while let Some(row) = rows.next()? {
+        let time_s: f64 = field(row, time_at, "time_s", "a number")?;
+        let yaw_rate_radps = rate_at.read(row)?;
+        let speed_mps = speed_at.map(|at| field(row, at, "speed_mps", "a number")).transpose()?;
+        let pose = match pose_at {
+            Some(places) => {
+                let mut numbers = [0.0; 3];
+                for ((number, place), name) in numbers.iter_mut().zip(places).zip(POSE_COLUMNS) {
+                    *number = field(row, place, name, "a number")?;
+                }
+                let [x_m, y_m, yaw_rad] = numbers;
+                Some(Pose { x_m, y_m, yaw_rad })
+            }
+            None => None,
+        };
+        let sample = MotionSample { time_s, yaw_rate_radps, speed_mps, pose };
+        motion::push(&mut samples, report, sample, row)?;
+    }
+    rows.not_empty()?;
+    Ok(samples)
+}
