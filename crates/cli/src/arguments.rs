@@ -41,10 +41,24 @@ pub enum Command {
         #[command(subcommand)]
         what: SimulateCommand,
     },
+    /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.
+    Log(LogArguments),
     /// List the methods of angle estimation, and what each needs.
     Methods(ListFormat),
     /// List the arrays known by name.
     Arrays(ListFormat),
+}
+
+/// Arguments of `log`.
+#[derive(Debug, Args)]
+pub struct LogArguments {
+    /// The log: its folder, its one file, or its files. Tables (.csv, also packed as .csv.gz) are
+    /// recognised by their columns.
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// How lists are printed.

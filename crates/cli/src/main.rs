@@ -5,6 +5,7 @@
 mod arguments;
 mod array;
 mod commands;
+mod drive;
 mod error;
 mod files;
 mod output;
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
     let result = match cli.command {
         Command::Estimate(arguments) => commands::estimate::run(&arguments),
         Command::Simulate { what } => commands::simulate::run(&what),
+        Command::Log(arguments) => commands::log::run(&arguments),
         Command::Methods(format) => commands::lists::methods(format.json),
         Command::Arrays(format) => commands::lists::arrays(format.json),
     };

@@ -238,3 +238,18 @@ fn errors_say_what_was_expected_and_given() {
         assert!(output.stdout.is_empty());
     }
 }
+
+#[test]
+fn a_drive_log_is_described() {
+    let delphi = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../recordings/delphi");
+    let text = stdout(&["log", delphi.to_str().unwrap(), "--json"]);
+    let log: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(log["format"], "delphi");
+    assert_eq!((&log["scans"], &log["motionSamples"]), (&12_003.into(), &5997.into()));
+    assert_eq!(log["dropped"]["invalid-marker"], 192);
+    let shown = stdout(&["log", delphi.join("front_radar.csv.gz").to_str().unwrap()]);
+    assert!(shown.contains("307205 of 307397 rows") && shown.contains("motion      0 samples"));
+    let output = boresight(&["log", recording(BIN).to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no-drive-log"));
+}

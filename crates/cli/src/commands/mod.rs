@@ -6,6 +6,7 @@ mod chain;
 mod cube;
 pub mod estimate;
 pub mod lists;
+pub mod log;
 pub mod simulate;
 mod snapshots;
 mod targets;

@@ -1,0 +1,95 @@
+//! `boresight log`: what is in a drive log.
+
+use crate::arguments::LogArguments;
+use crate::drive::open_path;
+use crate::error::CliError;
+use crate::output::remark;
+use boresight_core::drive::DriveLog;
+use boresight_formats::DriveRead;
+use serde_json::{Map, Value, json};
+
+/// What is in a log, as text or JSON.
+pub fn run(arguments: &LogArguments) -> Result<String, CliError> {
+    let read = open_path(&arguments.paths, None)?;
+    remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
+    Ok(if arguments.json { format!("{:#}\n", as_json(&read)) } else { as_text(&read) })
+}
+
+/// A radar's share of a log: its number, scans and detections.
+fn by_sensor(log: &DriveLog) -> impl Iterator<Item = (u8, usize, usize)> {
+    log.sensors.iter().map(|sensor| {
+        let scans = log.scans.iter().filter(|scan| scan.sensor == sensor.id);
+        (sensor.id, scans.clone().count(), scans.map(|scan| scan.detections.len()).sum())
+    })
+}
+
+/// First and last of the times, s.
+fn span(times: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    times.fold(None, |span, t| Some(span.map_or((t, t), |(a, b): (f64, f64)| (a.min(t), b.max(t)))))
+}
+
+fn spans(log: &DriveLog) -> [Option<(f64, f64)>; 2] {
+    [span(log.scans.iter().map(|s| s.time_s)), span(log.motion.iter().map(|s| s.time_s))]
+}
+
+fn as_json(read: &DriveRead) -> Value {
+    let log = &read.log;
+    let sensors: Vec<Value> = log
+        .sensors
+        .iter()
+        .zip(by_sensor(log))
+        .map(|(sensor, (id, scans, detections))| {
+            let mounting = sensor
+                .mounting
+                .map(|m| json!({ "xM": m.x_m, "yM": m.y_m, "yawDeg": m.yaw_rad.to_degrees() }));
+            json!({ "id": id, "scans": scans, "detections": detections, "mounting": mounting })
+        })
+        .collect();
+    let [radar, motion] = spans(log).map(|s| s.map(|(a, b)| json!({ "startS": a, "endS": b })));
+    let dropped: Map<String, Value> =
+        read.report.drops().map(|(reason, n)| (reason.code().into(), n.into())).collect();
+    json!({
+        "format": read.format.name(),
+        "sensors": sensors,
+        "scans": log.scans.len(),
+        "detections": log.scans.iter().map(|s| s.detections.len()).sum::<usize>(),
+        "radarSpan": radar,
+        "motionSamples": log.motion.len(),
+        "motionSpan": motion,
+        "speeds": log.motion.iter().filter(|s| s.speed_mps.is_some()).count(),
+        "poses": log.motion.iter().filter(|s| s.pose.is_some()).count(),
+        "rowsRead": { "detections": read.report.detections, "motion": read.report.motion },
+        "dropped": dropped,
+    })
+}
+
+fn as_text(read: &DriveRead) -> String {
+    let log = &read.log;
+    let seconds = |span: Option<(f64, f64)>| {
+        span.map_or("none".to_owned(), |(a, b)| format!("{a:.3} to {b:.3} s ({:.3} s)", b - a))
+    };
+    let [radar, motion] = spans(log).map(seconds);
+    let detections: usize = log.scans.iter().map(|scan| scan.detections.len()).sum();
+    let mut text = format!(
+        "format      {}\nscans       {}, {radar}\ndetections  {detections} of {} rows\n",
+        read.format.name(),
+        log.scans.len(),
+        read.report.detections,
+    );
+    for (sensor, (id, scans, detections)) in log.sensors.iter().zip(by_sensor(log)) {
+        let place = sensor.mounting.map_or("not stated".to_owned(), |m| {
+            format!("x {:.3} m, y {:.3} m, yaw {:.2} deg", m.x_m, m.y_m, m.yaw_rad.to_degrees())
+        });
+        text +=
+            &format!("sensor {id:<4} {scans} scans, {detections} detections, mounting: {place}\n");
+    }
+    text += &format!(
+        "motion      {} samples of {} rows, {motion}\n",
+        log.motion.len(),
+        read.report.motion
+    );
+    for (reason, count) in read.report.drops() {
+        text += &format!("dropped     {count} {}\n", reason.code());
+    }
+    text
+}
