@@ -9,12 +9,18 @@
 //! `|V| sin(beta + theta) = w x_s`. The yaw rate is measured with a scale error and a bias,
 //! `measured = s w + b`; `s' = 1 / s` is what is estimated.
 
+mod angle;
+pub mod calibrator;
 pub mod error;
 pub mod estimate;
 pub mod frame;
+pub mod motion;
 pub mod options;
+mod symmetric;
 
+pub use calibrator::Calibrator;
 pub use error::CalibrateError;
 pub use estimate::{AngleEstimate, FrameCounts, Remark};
 pub use frame::{FrameInput, FrameOutcome, Motion, Verdict};
+pub use motion::MotionEstimator;
 pub use options::{Method, MotionMethod, Options};

@@ -1,5 +1,10 @@
 //! Options of the calibration, in SI units and radians.
 
+use crate::CalibrateError;
+use boresight_core::CoreError;
+use boresight_core::error::{check_positive, check_range};
+use std::f64::consts::PI;
+
 /// How the mounting angle is estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
@@ -97,5 +102,154 @@ impl Default for Options {
             max_gap_s: 0.25,
             seed: 0,
         }
+    }
+}
+
+impl Options {
+    /// Checks every option.
+    ///
+    /// # Errors
+    /// [`CoreError::OutOfRange`] naming the option.
+    pub fn validate(&self) -> Result<(), CalibrateError> {
+        check_range("xM", self.x_m, -100.0, 100.0)?;
+        check_range("yM", self.y_m, -100.0, 100.0)?;
+        if let Some(nominal) = self.nominal_rad {
+            check_range("nominalRad", nominal, -PI, PI)?;
+        }
+        for (what, given) in [
+            ("alarmRad", self.alarm_rad),
+            ("convergedRad", self.converged_rad),
+            ("rangeRateSigmaMps", self.range_rate_sigma_mps),
+            ("maxYawRateRadps", self.max_yaw_rate_radps),
+            ("inlierResidualMps", self.inlier_residual_mps),
+            ("maxGapS", self.max_gap_s),
+        ] {
+            check_positive(what, given)?;
+        }
+        check_range("azimuthSigmaRad", self.azimuth_sigma_rad, 0.0, PI)?;
+        check_range("minSpeedMps", self.min_speed_mps, 0.0, 1e3)?;
+        check_range("inlierThreshold", self.inlier_threshold, 0.0, 1.0)?;
+        check_range("inlierRatioThreshold", self.inlier_ratio_threshold, 0.0, 1.0)?;
+        check_range("minInliers", self.min_inliers as f64, 3.0, 1e6)?;
+        check_range("confidence", self.confidence, 0.0, 1.0)?;
+        Ok(())
+    }
+
+    /// The motion method in use: the one asked for, or the one that belongs to the method.
+    pub fn motion_method(&self) -> MotionMethod {
+        self.motion.unwrap_or(match self.method {
+            Method::WeightedMean | Method::Kabsch => MotionMethod::Ransac,
+            Method::LeastSquares => MotionMethod::WeightedLeastSquares,
+            Method::OrthogonalDistance => MotionMethod::OrthogonalDistance,
+            Method::Recursive => MotionMethod::Tracked,
+        })
+    }
+}
+
+impl Method {
+    /// All methods, in the order they are listed to users.
+    pub const ALL: [Self; 5] = [
+        Self::WeightedMean,
+        Self::Kabsch,
+        Self::LeastSquares,
+        Self::OrthogonalDistance,
+        Self::Recursive,
+    ];
+
+    /// The name used in options and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::WeightedMean => "weighted-mean",
+            Self::Kabsch => "kabsch",
+            Self::LeastSquares => "least-squares",
+            Self::OrthogonalDistance => "orthogonal-distance",
+            Self::Recursive => "recursive",
+        }
+    }
+
+    /// Name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::WeightedMean => "Weighted mean",
+            Self::Kabsch => "Kabsch, full velocity",
+            Self::LeastSquares => "Weighted least squares",
+            Self::OrthogonalDistance => "Weighted orthogonal distance",
+            Self::Recursive => "Recursive robust likelihood",
+        }
+    }
+
+    /// Where it was published.
+    pub fn reference(self) -> &'static str {
+        match self {
+            Self::WeightedMean => "Kellner et al. 2015",
+            Self::Kabsch => "Bao et al. 2020; Kabsch 1976",
+            Self::LeastSquares => "Zhu et al., equations 10 to 13",
+            Self::OrthogonalDistance => "Boggs, Byrd and Schnabel 1987; Zhu et al.",
+            Self::Recursive => "Boresight",
+        }
+    }
+
+    /// Finds a method by its [`Method::name`].
+    ///
+    /// # Errors
+    /// [`CoreError::Unknown`], listing the known names.
+    pub fn from_name(name: &str) -> Result<Self, CoreError> {
+        Self::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
+            CoreError::Unknown {
+                what: "method".into(),
+                expected: Self::ALL.map(Self::name).join(", "),
+                given: name.into(),
+            }
+        })
+    }
+}
+
+impl MotionMethod {
+    /// All methods, in the order they are listed to users.
+    pub const ALL: [Self; 4] =
+        [Self::Ransac, Self::WeightedLeastSquares, Self::OrthogonalDistance, Self::Tracked];
+
+    /// The name used in options and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ransac => "ransac",
+            Self::WeightedLeastSquares => "weighted-least-squares",
+            Self::OrthogonalDistance => "orthogonal-distance",
+            Self::Tracked => "tracked",
+        }
+    }
+
+    /// Name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Ransac => "RANSAC, least squares",
+            Self::WeightedLeastSquares => "RANSAC, weighted least squares",
+            Self::OrthogonalDistance => "RANSAC, orthogonal distance",
+            Self::Tracked => "Tracked robust likelihood",
+        }
+    }
+
+    /// Where it was published.
+    pub fn reference(self) -> &'static str {
+        match self {
+            Self::Ransac => "Kellner et al. 2013; Fischler and Bolles 1981",
+            Self::WeightedLeastSquares => "Aitken 1935",
+            Self::OrthogonalDistance => "Boggs, Byrd and Schnabel 1987",
+            Self::Tracked => "Boresight",
+        }
+    }
+
+    /// Finds a method by its [`MotionMethod::name`].
+    ///
+    /// # Errors
+    /// [`CoreError::Unknown`], listing the known names.
+    pub fn from_name(name: &str) -> Result<Self, CoreError> {
+        Self::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
+            CoreError::Unknown {
+                what: "motion".into(),
+                expected: Self::ALL.map(Self::name).join(", "),
+                given: name.into(),
+            }
+        })
     }
 }
