@@ -5,13 +5,16 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+use boresight_core::fft::Transforms;
 use boresight_core::presets::preset;
-use boresight_core::{Complex64, Direction};
+use boresight_core::steering::cis;
+use boresight_core::{Complex32, Complex64, Direction, Random};
 use boresight_simulate::digest::{
     REFERENCE_CUBE, REFERENCE_SNAPSHOTS, reference_cube, reference_snapshots,
 };
 use boresight_simulate::{Fluctuation, Scene, SnapshotOptions, SnapshotSimulator, Target};
 use ndarray::Array2;
+use std::f64::consts::TAU;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -77,6 +80,30 @@ fn angles_are_those_of_the_golden_file() {
 fn simulations_have_the_same_bits() {
     assert_eq!(reference_snapshots().unwrap(), REFERENCE_SNAPSHOTS);
     assert_eq!(reference_cube().unwrap(), REFERENCE_CUBE);
+}
+
+/// Plans differ between natively and wasm; both must be what they are planned for.
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]
+#[cfg_attr(not(target_arch = "wasm32"), test)]
+fn transforms_are_the_definition() {
+    let mut random = Random::new(5, 0);
+    for length in 1..=2048_usize {
+        let x: Vec<Complex64> = (0..length).map(|_| random.complex_normal(1.0)).collect();
+        let bin = (random.unit() * length as f64) as usize;
+        let term = |n: usize| cis(-TAU * (bin * n % length) as f64 / length as f64) * x[n];
+        let expected: Complex64 = (0..length).map(term).sum();
+        // Bins are of the size of the root of the length; sums like this one round with the length.
+        let unit = length as f64 * f64::EPSILON;
+        let mut double = x.clone();
+        f64::plan_forward(length).process(&mut double);
+        assert!((double[bin] - expected).norm() < 8.0 * unit, "{length}, bin {bin}");
+        let narrow = |z: &Complex64| Complex32::new(z.re as f32, z.im as f32);
+        let mut single: Vec<Complex32> = x.iter().map(narrow).collect();
+        f32::plan_forward(length).process(&mut single);
+        let found = Complex64::new(single[bin].re.into(), single[bin].im.into());
+        let limit = 32.0 * f64::from(f32::EPSILON) * (length as f64).sqrt();
+        assert!((found - expected).norm() < limit, "{length}, bin {bin}: {found} {expected}");
+    }
 }
 
 #[cfg(not(target_arch = "wasm32"))]

@@ -1,55 +1,11 @@
-//! Plans of fast Fourier transforms in single and double precision.
-//!
-//! The planners are generic and large; compiled here once for each precision, they are not
-//! compiled again in every crate that transforms something. No transform normalises.
+//! Transforms of real numbers.
 
-use num_complex::Complex;
+use super::Transforms;
+use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
-use rustfft::{Fft, FftDirection, FftNum};
+use rustfft::{Fft, FftNum};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// A precision that transforms can be planned in: `f32` or `f64`.
-pub trait Transforms: FftNum {
-    /// `X[k] = sum x[n] exp(-2 pi j n k / length)`.
-    fn plan_forward(length: usize) -> Arc<dyn Fft<Self>>;
-
-    /// `x[n] = sum X[k] exp(+2 pi j n k / length)`.
-    fn plan_inverse(length: usize) -> Arc<dyn Fft<Self>>;
-}
-
-macro_rules! transforms {
-    ($real:ty) => {
-        impl Transforms for $real {
-            fn plan_forward(length: usize) -> Arc<dyn Fft<Self>> {
-                plan(length, FftDirection::Forward)
-            }
-
-            fn plan_inverse(length: usize) -> Arc<dyn Fft<Self>> {
-                plan(length, FftDirection::Inverse)
-            }
-        }
-    };
-}
-
-transforms!(f32);
-transforms!(f64);
-
-/// Names the SIMD planner itself: the general one links the scalar transforms too, which in wasm
-/// are a third of the module and never run.
-#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-fn plan<T: FftNum>(length: usize, direction: FftDirection) -> Arc<dyn Fft<T>> {
-    match rustfft::FftPlannerWasmSimd::new() {
-        Ok(mut planner) => planner.plan_fft(length, direction),
-        // Numbers other than f32 and f64.
-        Err(()) => Arc::new(rustfft::algorithm::Dft::new(length, direction)),
-    }
-}
-
-#[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
-fn plan<T: FftNum>(length: usize, direction: FftDirection) -> Arc<dyn Fft<T>> {
-    rustfft::FftPlanner::new().plan_fft(length, direction)
-}
 
 /// Transforms between N real values and the `N / 2 + 1` bins that determine their spectrum. An even
 /// length takes a complex transform of half of it (Sorensen et al. 1987).

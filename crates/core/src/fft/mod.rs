@@ -1,0 +1,50 @@
+//! Fast Fourier transforms in single and double precision. No transform normalises.
+//!
+//! Natively plans come from `rustfft`. For wasm its planner would link hundreds of kernels for
+//! lengths nobody asks for, a fifth of the whole module; there [`compact`] takes its place, which
+//! has one kernel for powers of two and puts other lengths together from it.
+//!
+//! Planned here once for each precision, transforms are not compiled again in every crate that
+//! uses them.
+
+pub mod compact;
+mod power_of_two;
+mod real;
+
+pub use real::RealFft;
+use rustfft::{Fft, FftDirection, FftNum};
+use std::sync::Arc;
+
+/// A precision that transforms can be planned in: `f32` or `f64`.
+pub trait Transforms: FftNum {
+    /// `X[k] = sum x[n] exp(-2 pi j n k / length)`.
+    fn plan_forward(length: usize) -> Arc<dyn Fft<Self>>;
+
+    /// `x[n] = sum X[k] exp(+2 pi j n k / length)`.
+    fn plan_inverse(length: usize) -> Arc<dyn Fft<Self>>;
+}
+
+macro_rules! transforms {
+    ($real:ty) => {
+        impl Transforms for $real {
+            fn plan_forward(length: usize) -> Arc<dyn Fft<Self>> {
+                plan(length, FftDirection::Forward)
+            }
+
+            fn plan_inverse(length: usize) -> Arc<dyn Fft<Self>> {
+                plan(length, FftDirection::Inverse)
+            }
+        }
+    };
+}
+
+transforms!(f32);
+transforms!(f64);
+
+#[cfg(target_arch = "wasm32")]
+use compact::plan;
+
+#[cfg(not(target_arch = "wasm32"))]
+fn plan<T: FftNum>(length: usize, direction: FftDirection) -> Arc<dyn Fft<T>> {
+    rustfft::FftPlanner::new().plan_fft(length, direction)
+}
