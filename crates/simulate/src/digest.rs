@@ -1,6 +1,7 @@
 //! Digests of simulated numbers, by which every platform can check that it gets the same bits.
 
 use crate::cube::{CubeOptions, CubeTarget, Field, simulate_cube};
+use crate::drive::{DriveOptions, Scenario, simulate_drive};
 use crate::error::SimulateError;
 use crate::snapshots::{Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator};
 use crate::waveforms::waveform_awr1642;
@@ -13,6 +14,9 @@ pub const REFERENCE_SNAPSHOTS: u64 = 0xe26d_71a2_27fb_8d59;
 
 /// What [`reference_cube`] returns on every platform.
 pub const REFERENCE_CUBE: u64 = 0xb0e4_f2ee_454c_6c6e;
+
+/// What [`reference_drive`] returns on every platform.
+pub const REFERENCE_DRIVE: u64 = 0x39e9_07b6_0d8a_cd56;
 
 /// FNV-1a over the bytes, low first, of the numbers' bits.
 pub fn fnv1a(bits: impl IntoIterator<Item = u64>) -> u64 {
@@ -73,6 +77,43 @@ pub fn reference_cube() -> Result<u64, SimulateError> {
     Ok(fnv1a(bits))
 }
 
+/// Digest of half a minute of city traffic with a third of the detections moving.
+///
+/// # Errors
+/// None, unless the simulator is broken.
+pub fn reference_drive() -> Result<u64, SimulateError> {
+    drive_digest(&DriveOptions {
+        scenario: Scenario::City,
+        seed: 9,
+        duration_s: 30.0,
+        moving_share: Some(0.33),
+        slip_gradient: 0.002,
+        ..DriveOptions::default()
+    })
+}
+
+/// Digest of all that a drive's log holds.
+///
+/// # Errors
+/// As [`simulate_drive`].
+pub fn drive_digest(options: &DriveOptions) -> Result<u64, SimulateError> {
+    let log = simulate_drive(options)?.log;
+    let mut bits = Vec::new();
+    for scan in &log.scans {
+        bits.extend([scan.time_s.to_bits(), u64::from(scan.sensor)]);
+        for (d, label) in scan.detections.iter().zip(&scan.labels) {
+            let values = [d.azimuth_rad, d.range_rate_mps, d.range_m, d.rcs_dbsm];
+            bits.extend(values.map(|x| u64::from(x.to_bits())));
+            bits.push(u64::from(*label));
+        }
+    }
+    for m in &log.motion {
+        bits.extend([m.yaw_rate_radps, m.speed_mps.unwrap_or(0.0)].map(f64::to_bits));
+        bits.extend(m.pose.iter().flat_map(|p| [p.x_m, p.y_m, p.yaw_rad].map(f64::to_bits)));
+    }
+    Ok(fnv1a(bits))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -85,6 +126,12 @@ mod tests {
     #[test]
     fn cubes_have_the_bits_they_always_had() {
         assert_eq!(reference_cube().unwrap(), REFERENCE_CUBE);
+    }
+
+    #[test]
+    fn drives_have_the_bits_they_always_had() {
+        let digest = reference_drive().unwrap();
+        assert_eq!(digest, REFERENCE_DRIVE, "{digest:#x}");
     }
 
     /// Test vector of the FNV authors: the empty string, and "a".

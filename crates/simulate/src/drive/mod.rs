@@ -1,0 +1,148 @@
+//! Simulated drives: Doppler point clouds of a car's radars and its own motion, with the truth
+//! behind them, bit for bit the same natively and in wasm.
+//!
+//! A route is drawn for the scenario, a driver follows it, things stand along it and others drive
+//! on it; each radar scans on its own clock. See `docs/simulated-drives.md`.
+
+mod inertial;
+mod motion;
+mod options;
+mod radar;
+mod scenario;
+mod traffic;
+mod trim;
+mod world;
+
+#[cfg(test)]
+mod tests;
+
+pub use inertial::YawRateErrors;
+pub use motion::{MOTION_STEP_S, TrueMotion};
+pub use options::{DriveOptions, MAX_DURATION_S, MAX_MOVING_SHARE, MAX_SENSOR_SECONDS, RadarNoise};
+pub use radar::{CYCLE_S, FIELD_OF_VIEW_RAD, MAX_DETECTIONS, RANGE_M, STATIC_CLASS};
+pub use scenario::Scenario;
+
+use crate::error::SimulateError;
+use boresight_core::Random;
+use boresight_core::drive::{DriveLog, Mounting, Scan, Sensor};
+
+/// Streams of the seed.
+const ROUTE: u64 = 0;
+const DRIVER: u64 = 1;
+const INERTIAL: u64 = 2;
+const WORLD: u64 = 3;
+const TRAFFIC: u64 = 4;
+const TRIM: u64 = 5;
+const SENSORS: u64 = 256;
+const CLOCKS: u64 = 512;
+
+/// What really happened.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveTruth {
+    /// The car's motion, every [`MOTION_STEP_S`].
+    pub motion: Vec<TrueMotion>,
+    /// The radars by ascending number, where they truly sit and look.
+    pub sensors: Vec<(u8, Mounting)>,
+    /// What the yaw-rate sensor made of the true yaw rate.
+    pub yaw_rate: YawRateErrors,
+}
+
+/// A drive as logged, and the truth behind it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulatedDrive {
+    /// What a log of the drive holds. Its mountings are nominal: their yaw is the true one less
+    /// the misalignment.
+    pub log: DriveLog,
+    /// What really happened.
+    pub truth: DriveTruth,
+    /// For each scan and detection, whether it comes from a moving road user. False detections
+    /// and detections of standing things with a random range rate count as not moving, as they
+    /// are labelled.
+    pub moving: Vec<Vec<bool>>,
+    /// For each scan and detection, the number of the road user it comes from, or 0. Road users
+    /// keep their number while they stand.
+    pub tracks: Vec<Vec<u32>>,
+}
+
+/// Simulates a drive.
+///
+/// # Errors
+/// [`SimulateError::Argument`] for options that [`DriveOptions::check`] refuses.
+pub fn simulate_drive(options: &DriveOptions) -> Result<SimulatedDrive, SimulateError> {
+    options.check()?;
+    let stream = |stream: u64| Random::new(options.seed, stream);
+    let scenario = options.scenario;
+    let route = scenario::Route::new(scenario, options.duration_s, &mut stream(ROUTE));
+    let motion = motion::drive(
+        &route,
+        scenario,
+        options.duration_s,
+        options.slip_gradient,
+        &mut stream(DRIVER),
+    );
+    let mut inertial = stream(INERTIAL);
+    let yaw_rate = YawRateErrors::new(options, &mut inertial);
+    let measured = inertial::measure(&motion, &yaw_rate, options, &mut inertial);
+    let path = motion::Path::new(&motion);
+    let world = world::World::new(&path, scenario, &mut stream(WORLD));
+
+    let mut sensors = options.sensors.clone();
+    sensors.sort_by_key(|(id, _)| *id);
+    let mut radars: Vec<radar::Radar> = sensors
+        .iter()
+        .map(|(id, mounting)| radar::Radar {
+            mounting: *mounting,
+            options,
+            motion: &motion,
+            random: stream(SENSORS + u64::from(*id)),
+        })
+        .collect();
+    let mut times: Vec<(f64, usize)> = vec![];
+    for (i, (id, _)) in sensors.iter().enumerate() {
+        let clock = &mut stream(CLOCKS + u64::from(*id));
+        times.extend(radar::scan_times(options.duration_s, clock).into_iter().map(|t| (t, i)));
+    }
+    times.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+
+    let mut traffic =
+        traffic::Traffic::new(&path, &motion, scenario, options.moving_share, stream(TRAFFIC));
+    let mut scans = Vec::with_capacity(times.len());
+    for &(time_s, i) in &times {
+        traffic.advance(time_s - 0.5 * options.noise.coherent_interval_s);
+        scans.push(radars[i].scan(time_s, &world, &traffic));
+    }
+    if let Some(share) = options.moving_share {
+        let fast = |t: f64| motion::motion_at(&motion, t).speed_mps.abs() > trim::COUNTED_MPS;
+        let counted: Vec<bool> = times.iter().map(|(t, _)| fast(*t)).collect();
+        trim::trim(&mut scans, &counted, share, &mut stream(TRIM));
+    }
+
+    let mut drive = SimulatedDrive {
+        log: DriveLog {
+            sensors: sensors
+                .iter()
+                .map(|(id, mounting)| {
+                    let yaw_rad = mounting.yaw_rad - options.misalignment(*id);
+                    Sensor { id: *id, mounting: Some(Mounting { yaw_rad, ..*mounting }) }
+                })
+                .collect(),
+            scans: Vec::with_capacity(times.len()),
+            motion: measured,
+        },
+        truth: DriveTruth { motion: vec![], sensors: sensors.clone(), yaw_rate },
+        moving: Vec::with_capacity(times.len()),
+        tracks: Vec::with_capacity(times.len()),
+    };
+    for (&(time_s, i), labelled) in times.iter().zip(scans) {
+        drive.log.scans.push(Scan {
+            time_s,
+            sensor: sensors[i].0,
+            detections: labelled.iter().map(|l| l.detection).collect(),
+            labels: labelled.iter().map(|l| l.class).collect(),
+        });
+        drive.moving.push(labelled.iter().map(|l| l.moving).collect());
+        drive.tracks.push(labelled.iter().map(|l| l.track).collect());
+    }
+    drive.truth.motion = motion;
+    Ok(drive)
+}

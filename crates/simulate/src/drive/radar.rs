@@ -1,0 +1,347 @@
+//! What a radar makes of the things around it.
+
+use super::motion::{TrueMotion, motion_at};
+use super::options::{DriveOptions, RadarNoise};
+use super::traffic::{Mover, Traffic};
+use super::world::World;
+use boresight_core::Random;
+use boresight_core::drive::{Detection, Mounting};
+use std::f64::consts::{FRAC_PI_3, PI};
+
+/// Class of standing things in the numbers of `RadarScenes`.
+pub const STATIC_CLASS: u8 = 11;
+
+/// Detections lie within plus and minus this azimuth, rad.
+pub const FIELD_OF_VIEW_RAD: f64 = FRAC_PI_3;
+
+/// Nearest and farthest detections, m.
+pub const RANGE_M: [f64; 2] = [0.5, 100.0];
+
+/// Most detections a scan; the weakest beyond are left out, as a radar with a full list does.
+pub const MAX_DETECTIONS: usize = 200;
+
+/// Shortest and longest cycle, s.
+pub const CYCLE_S: [f64; 2] = [0.073, 0.075];
+
+/// Slower road users count as standing, m/s.
+pub(crate) const MOVING_MPS: f64 = 0.1;
+
+/// Bins of the shadows over the field of view: one degree.
+const BINS: usize = 120;
+
+/// Cross-section that is detected half the time at [`REFERENCE_M`] on boresight, dBsm.
+const REFERENCE_DBSM: f64 = -6.0;
+const REFERENCE_M: f64 = 40.0;
+
+/// A detection and where it comes from.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Labelled {
+    pub(crate) detection: Detection,
+    pub(crate) class: u8,
+    pub(crate) moving: bool,
+    pub(crate) track: u32,
+    strength_db: f64,
+}
+
+/// Times of a radar's scans: its own phase, cycles that jitter around its own mean.
+pub(crate) fn scan_times(duration_s: f64, random: &mut Random) -> Vec<f64> {
+    let mean = random.uniform(0.0736, 0.0744);
+    let mut time = 0.08 + random.uniform(0.0, mean);
+    let mut times = vec![];
+    while time <= duration_s {
+        times.push(time);
+        time += (mean + 0.0002 * random.normal()).clamp(CYCLE_S[0], CYCLE_S[1]);
+    }
+    times
+}
+
+/// A radar on the car.
+pub(crate) struct Radar<'a> {
+    pub(crate) mounting: Mounting,
+    pub(crate) options: &'a DriveOptions,
+    pub(crate) motion: &'a [TrueMotion],
+    pub(crate) random: Random,
+}
+
+/// Where the radar is during a scan.
+struct View {
+    x_m: f64,
+    y_m: f64,
+    sin: f64,
+    cos: f64,
+    /// Nearest thing that throws a shadow, and the shadow's loss, by azimuth.
+    shadows: [(f64, f64); BINS],
+}
+
+/// Something that may be detected, relative to the radar.
+struct Echo {
+    range_m: f64,
+    azimuth_rad: f64,
+    rcs_dbsm: f64,
+    /// Velocity on the ground, m/s.
+    velocity_mps: [f64; 2],
+    class: u8,
+    track: u32,
+    /// Extent towards the radar of what it belongs to, m: it throws no shadow on itself.
+    depth_m: f64,
+}
+
+impl Radar<'_> {
+    /// The scan with the given time stamp. Everything stands where it is in the middle of the
+    /// coherent interval, which ends at the time stamp.
+    pub(crate) fn scan(&mut self, time_s: f64, world: &World, traffic: &Traffic) -> Vec<Labelled> {
+        let noise = self.options.noise;
+        let mut view = self.view(time_s - 0.5 * noise.coherent_interval_s);
+        let mut echoes = vec![];
+        for r in world.near(view.x_m, view.y_m, RANGE_M[1]) {
+            let ends = [-1.0, 1.0].map(|e| [r.x_m + e * r.half_m[0], r.y_m + e * r.half_m[1]]);
+            if r.shadow_db > 0.0 {
+                view.shade(&ends, r.shadow_db);
+            }
+            let along = self.random.uniform(-1.0, 1.0);
+            let (x, y) = (r.x_m + along * r.half_m[0], r.y_m + along * r.half_m[1]);
+            let (range_m, azimuth_rad) = view.polar(x, y);
+            if !visible(range_m, azimuth_rad) {
+                continue;
+            }
+            let mut rcs_dbsm = r.rcs_dbsm;
+            if r.flat {
+                // Loss away from the normal, for walls that are rough in parts.
+                let half = (r.half_m[0] * r.half_m[0] + r.half_m[1] * r.half_m[1]).sqrt();
+                let (dx, dy) = ((x - view.x_m) / range_m, (y - view.y_m) / range_m);
+                let off = ((dx * r.half_m[0] + dy * r.half_m[1]) / half.max(1e-6)).abs();
+                rcs_dbsm += 6.0 - 14.0 * off;
+            }
+            echoes.push(Echo {
+                range_m,
+                azimuth_rad,
+                rcs_dbsm,
+                velocity_mps: [0.0; 2],
+                class: STATIC_CLASS,
+                track: 0,
+                depth_m: 2.5,
+            });
+        }
+        for mover in &traffic.movers {
+            if !mover.vulnerable() {
+                view.shade(&mover.corners(), 14.0);
+            }
+            self.echoes_of(mover, &view, &mut echoes);
+        }
+        let mut detections: Vec<Labelled> =
+            echoes.iter().filter_map(|echo| self.detect(echo, &view, time_s)).collect();
+        self.clutter(time_s, &mut detections);
+        if detections.len() > MAX_DETECTIONS {
+            detections.sort_by(|a, b| b.strength_db.total_cmp(&a.strength_db));
+            detections.truncate(MAX_DETECTIONS);
+        }
+        detections
+    }
+
+    fn view(&self, time_s: f64) -> View {
+        let car = motion_at(self.motion, time_s).pose;
+        let (sin, cos) = libm::sincos(car.yaw_rad);
+        let at = &self.mounting;
+        let (boresight_sin, boresight_cos) = libm::sincos(car.yaw_rad + at.yaw_rad);
+        View {
+            x_m: car.x_m + at.x_m * cos - at.y_m * sin,
+            y_m: car.y_m + at.x_m * sin + at.y_m * cos,
+            sin: boresight_sin,
+            cos: boresight_cos,
+            shadows: [(f64::INFINITY, 0.0); BINS],
+        }
+    }
+
+    /// Points on the sides of a road user that face the radar, more of them the nearer it is.
+    fn echoes_of(&mut self, mover: &Mover, view: &View, echoes: &mut Vec<Echo>) {
+        let (centre_m, azimuth) = view.polar(mover.pose.x_m, mover.pose.y_m);
+        let reach = 0.5 * mover.length_m;
+        if centre_m > RANGE_M[1] + reach || (azimuth.abs() > 1.6 && centre_m > 15.0) {
+            return;
+        }
+        let random = &mut self.random;
+        let vulnerable = mover.vulnerable();
+        let points = if vulnerable {
+            random.integer(1, 3)
+        } else {
+            let most = (2.0 + 70.0 / centre_m.max(4.0)) * (0.6 + 0.09 * mover.length_m);
+            (most * random.uniform(0.6, 1.1)) as u64
+        };
+        let (sin, cos) = libm::sincos(mover.pose.yaw_rad);
+        let (to_x, to_y) = (view.x_m - mover.pose.x_m, view.y_m - mover.pose.y_m);
+        let (seen_along, seen_left) = (to_x * cos + to_y * sin, to_y * cos - to_x * sin);
+        let (half_long, half_wide) = (0.5 * mover.length_m, 0.5 * mover.width_m);
+        let end_seen = seen_along.abs() > half_long;
+        let flank_seen = seen_left.abs() > half_wide;
+        let velocity = mover.velocity();
+        let (class, track) = if mover.speed_mps > MOVING_MPS {
+            (mover.class, mover.track)
+        } else {
+            (STATIC_CLASS, mover.track)
+        };
+        let mean_dbsm = match (vulnerable, mover.length_m > 6.0) {
+            (true, _) => -9.0,
+            (false, false) => 0.0,
+            (false, true) => 4.0,
+        };
+        for _ in 0..points {
+            let on_end = end_seen && (!flank_seen || random.unit() < 0.5);
+            let (mut along, mut left) = if on_end {
+                (seen_along.signum() * half_long, random.uniform(-half_wide, half_wide))
+            } else {
+                (random.uniform(-half_long, half_long), seen_left.signum() * half_wide)
+            };
+            along -= 0.15 * random.normal().abs() * along.signum();
+            left -= 0.1 * random.normal().abs() * left.signum();
+            let x = mover.pose.x_m + along * cos - left * sin;
+            let y = mover.pose.y_m + along * sin + left * cos;
+            let (range_m, azimuth_rad) = view.polar(x, y);
+            // Limbs swing, and wheels turn between standstill and twice the speed.
+            let factor = if vulnerable {
+                1.0 + 0.35 * random.normal()
+            } else if !on_end && random.unit() < 0.15 {
+                random.uniform(0.0, 2.0)
+            } else {
+                1.0
+            };
+            let rcs_dbsm = mean_dbsm + 3.5 * random.normal();
+            if visible(range_m, azimuth_rad) {
+                let velocity_mps = [velocity[0] * factor, velocity[1] * factor];
+                let depth_m = 1.0 + mover.length_m;
+                let echo =
+                    Echo { range_m, azimuth_rad, rcs_dbsm, velocity_mps, class, track, depth_m };
+                echoes.push(echo);
+            }
+        }
+    }
+
+    /// Detects an echo or not: exponentially fluctuating power (Swerling 1) over a threshold, with
+    /// range to the fourth, the antenna's pattern and shadows.
+    fn detect(&mut self, echo: &Echo, view: &View, time_s: f64) -> Option<Labelled> {
+        let noise: RadarNoise = self.options.noise;
+        let bin = bin_of(echo.azimuth_rad);
+        let (shadow_from_m, shadow_db) = view.shadows[bin];
+        let shadow = if echo.range_m > shadow_from_m + echo.depth_m { shadow_db } else { 0.0 };
+        let edge = echo.azimuth_rad / FIELD_OF_VIEW_RAD;
+        let fluctuation = 10.0 * libm::log10((-libm::log(1.0 - self.random.unit())).max(1e-9));
+        let observed_dbsm = echo.rcs_dbsm + fluctuation;
+        // Within 8 m sensitivity no longer grows, as in every receiver that must not saturate.
+        let spreading = 40.0 * libm::log10(REFERENCE_M / echo.range_m.max(8.0));
+        let strength_db = observed_dbsm + spreading - 8.0 * edge * edge - shadow - REFERENCE_DBSM;
+        if strength_db < 0.0 {
+            return None;
+        }
+        let instant = time_s - noise.coherent_interval_s * self.random.unit();
+        let sigma = noise.azimuth_sigma_rad * (1.0 + noise.azimuth_growth * edge * edge);
+        let azimuth = echo.azimuth_rad + sigma * self.random.normal();
+        let range_m = echo.range_m + noise.range_sigma_m * self.random.normal();
+        if !visible(range_m, azimuth) {
+            return None;
+        }
+        let motion = motion_at(self.motion, instant);
+        let [vx, vy] = motion.radar_velocity(&self.mounting);
+        let (sin, cos) = libm::sincos(echo.azimuth_rad);
+        // The line of sight on the ground, for velocities there.
+        let sight = [view.cos * cos - view.sin * sin, view.sin * cos + view.cos * sin];
+        let own = echo.velocity_mps[0] * sight[0] + echo.velocity_mps[1] * sight[1];
+        let mut range_rate =
+            own - (vx * cos + vy * sin) + noise.range_rate_sigma_mps * self.random.normal();
+        let moving = echo.class != STATIC_CLASS;
+        if !moving && self.random.unit() < noise.ghost_share {
+            range_rate = self.random_range_rate(motion.speed_mps);
+        }
+        Some(Labelled {
+            detection: Detection {
+                azimuth_rad: within_view(azimuth),
+                range_rate_mps: range_rate as f32,
+                range_m: range_m as f32,
+                rcs_dbsm: observed_dbsm as f32,
+            },
+            class: echo.class,
+            moving,
+            track: echo.track,
+            strength_db,
+        })
+    }
+
+    fn random_range_rate(&mut self, speed_mps: f64) -> f64 {
+        let most = speed_mps.abs() + 6.0;
+        self.random.uniform(-most, most)
+    }
+
+    /// False detections anywhere, labelled static as nobody has annotated them.
+    fn clutter(&mut self, time_s: f64, detections: &mut Vec<Labelled>) {
+        let speed = motion_at(self.motion, time_s).speed_mps;
+        // Poisson by Knuth's product of uniforms.
+        let limit = libm::exp(-self.options.noise.clutter);
+        let mut product = self.random.unit();
+        while product > limit {
+            product *= self.random.unit();
+            let azimuth = self.random.uniform(-FIELD_OF_VIEW_RAD, FIELD_OF_VIEW_RAD);
+            let range = self.random.uniform(RANGE_M[0], RANGE_M[1]);
+            let range_rate = self.random_range_rate(speed);
+            let rcs = -15.0 + 5.0 * self.random.normal();
+            detections.push(Labelled {
+                detection: Detection {
+                    azimuth_rad: within_view(azimuth),
+                    range_rate_mps: range_rate as f32,
+                    range_m: range as f32,
+                    rcs_dbsm: rcs as f32,
+                },
+                class: STATIC_CLASS,
+                moving: false,
+                track: 0,
+                strength_db: 0.0,
+            });
+        }
+    }
+}
+
+impl View {
+    /// Range and azimuth of a place on the ground.
+    fn polar(&self, x_m: f64, y_m: f64) -> (f64, f64) {
+        let (dx, dy) = (x_m - self.x_m, y_m - self.y_m);
+        let (forward, left) = (dx * self.cos + dy * self.sin, dy * self.cos - dx * self.sin);
+        ((dx * dx + dy * dy).sqrt(), libm::atan2(left, forward))
+    }
+
+    /// Shades what lies behind an outline.
+    fn shade(&mut self, outline: &[[f64; 2]], loss_db: f64) {
+        let (mut low, mut high, mut nearest) = (PI, -PI, f64::INFINITY);
+        for corner in outline {
+            let (range, azimuth) = self.polar(corner[0], corner[1]);
+            low = azimuth.min(low);
+            high = azimuth.max(high);
+            nearest = range.min(nearest);
+        }
+        // Behind the radar azimuths wrap around; nothing there throws a shadow into view.
+        if nearest > RANGE_M[1]
+            || high - low > 2.5
+            || high < -FIELD_OF_VIEW_RAD
+            || low > FIELD_OF_VIEW_RAD
+        {
+            return;
+        }
+        for bin in bin_of(low)..=bin_of(high) {
+            let shadow = &mut self.shadows[bin];
+            if nearest < shadow.0 || loss_db > shadow.1 + 8.0 {
+                *shadow = (nearest, loss_db);
+            }
+        }
+    }
+}
+
+fn visible(range_m: f64, azimuth_rad: f64) -> bool {
+    azimuth_rad.abs() <= FIELD_OF_VIEW_RAD && range_m >= RANGE_M[0] && range_m <= RANGE_M[1]
+}
+
+fn bin_of(azimuth_rad: f64) -> usize {
+    let place = (azimuth_rad / FIELD_OF_VIEW_RAD + 1.0) * 0.5 * BINS as f64;
+    (place.max(0.0) as usize).min(BINS - 1)
+}
+
+/// The azimuth in single precision, rounded into the field of view.
+fn within_view(azimuth_rad: f64) -> f32 {
+    let most = 1.047_197_5_f32;
+    (azimuth_rad as f32).clamp(-most, most)
+}
