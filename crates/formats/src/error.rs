@@ -81,6 +81,16 @@ pub enum FormatError {
         /// What was given.
         given: String,
     },
+    /// An HDF5 file, or what is stored in it, cannot be used.
+    #[error("HDF5: {what}: {given}; expected {expected}")]
+    Hdf5 {
+        /// The file, dataset or field.
+        what: String,
+        /// What would have been accepted.
+        expected: String,
+        /// What was met.
+        given: String,
+    },
     /// Compressed data cannot be unpacked.
     #[error("compressed data: {given}; expected a whole gzip file")]
     Compressed {
@@ -117,6 +127,7 @@ impl Diagnose for FormatError {
             Self::Layout { .. } => "capture-layout",
             Self::Binary { .. } => "malformed-file",
             Self::Table { .. } => "malformed-table",
+            Self::Hdf5 { .. } => "malformed-hdf5",
             Self::Compressed { .. } => "malformed-gzip",
             Self::TimeBackwards { .. } => "time-backwards",
             Self::NoDriveLog { .. } => "no-drive-log",
@@ -144,6 +155,7 @@ impl Diagnose for FormatError {
             Self::Table { line, what, expected, given } => {
                 Details::new(format!("line {line}: {what}"), expected, given)
             }
+            Self::Hdf5 { what, expected, given } => Details::new(what, expected, given),
             Self::Compressed { given } => {
                 Details::new("compressed data", "a whole gzip file", given)
             }

@@ -5,6 +5,7 @@
 //! - [`ti_uart`]: the packets a board's demo firmware sends over its serial port.
 //! - [`npy`]: NumPy arrays.
 //! - [`tables`]: detections and snapshots as CSV.
+//! - [`radarscenes`]: sequences of the `RadarScenes` data set.
 //! - [`drive_log`]: drives, as point clouds and the car's motion.
 //!
 //! All readers work on bytes in memory, take nothing on trust from a header before comparing it
@@ -15,6 +16,7 @@ pub mod drive_log;
 mod error;
 pub mod mmwave_cfg;
 pub mod npy;
+pub mod radarscenes;
 pub mod tables;
 pub mod ti_uart;
 

@@ -1,0 +1,127 @@
+use super::{read, read_path};
+use crate::drive_log::{DropReason, ReadReport};
+use boresight_core::Diagnose;
+use boresight_core::drive::RADARSCENES_SENSORS;
+use boresight_core::drive::{Detection, DriveLog};
+use proptest::prelude::*;
+use std::path::PathBuf;
+
+fn golden(name: &str) -> PathBuf {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/radarscenes");
+    PathBuf::from(folder).join(format!("{name}.h5"))
+}
+
+fn bytes(name: &str) -> Vec<u8> {
+    std::fs::read(golden(name)).unwrap()
+}
+
+const LAYOUTS: [&str; 12] = [
+    "contiguous",
+    "wide",
+    "narrow",
+    "big_endian",
+    "chunked",
+    "deflated",
+    "filtered",
+    "growing",
+    "latest_contiguous",
+    "latest_chunked",
+    "latest_filtered",
+    "latest_growing",
+];
+
+/// The drive of `make.py`, whose odometry begins 501 us before the first scan.
+fn check(log: &DriveLog, report: &ReadReport, name: &str) {
+    let scans: Vec<_> = log
+        .scans
+        .iter()
+        .map(|s| ((s.time_s * 1e6).round(), s.sensor, s.detections.len()))
+        .collect();
+    assert_eq!(scans, [(501.0, 1, 2), (20_501.0, 2, 0), (74_501.0, 1, 1)], "{name}");
+    let nan_beside =
+        Detection { azimuth_rad: 0.125, range_rate_mps: -2.25, range_m: 20.5, rcs_dbsm: -7.5 };
+    assert_eq!(log.scans[0].detections[1], nan_beside, "{name}");
+    assert_eq!(log.scans[0].labels, [11, 11], "{name}");
+    assert_eq!(log.scans[2].detections[0].azimuth_rad, 0.75, "{name}");
+    assert_eq!((report.detections, report.motion), (4, 10), "{name}");
+    assert_eq!(report.drops().collect::<Vec<_>>(), [(DropReason::NotFinite, 1)], "{name}");
+    assert_eq!(log.motion.len(), 10, "{name}");
+    let last = log.motion[9];
+    assert_eq!(((last.time_s * 1e6).round(), last.speed_mps), (90_000.0, Some(19.0)), "{name}");
+    assert_eq!(last.yaw_rate_radps, 4.5, "{name}");
+    let pose = last.pose.unwrap();
+    assert!((pose.x_m - 0.9).abs() < 1e-7, "{name}");
+    assert_eq!((pose.y_m, pose.yaw_rad), (0.5, 0.25), "{name}");
+    let mountings: Vec<_> = log.sensors.iter().map(|s| (s.id, s.mounting)).collect();
+    let car = RADARSCENES_SENSORS;
+    assert_eq!(mountings, [(1, Some(car[0].1)), (2, Some(car[1].1))], "{name}");
+}
+
+#[test]
+fn every_layout_of_h5py_gives_the_same_drive() {
+    for name in LAYOUTS {
+        let (log, report) = read(bytes(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        check(&log, &report, name);
+        let (log, report) = read_path(&golden(name)).unwrap();
+        check(&log, &report, name);
+    }
+}
+
+#[test]
+fn what_is_missing_or_wrong_is_named() {
+    for (name, code, word) in [
+        ("no_vr", "malformed-hdf5", "radar_data.vr"),
+        ("no_odometry", "malformed-hdf5", "odometry"),
+        ("backwards", "time-backwards", "radar_data, row 2"),
+    ] {
+        let error = read(bytes(name)).unwrap_err();
+        assert_eq!(error.code(), code, "{name}: {error}");
+        assert!(error.to_string().contains(word), "{name}: {error}");
+    }
+    let error = read(bytes("hdf5_2")).unwrap_err();
+    assert!(error.to_string().contains("data layout version: 5"), "{error}");
+    for other in [&b""[..], b"time_s,azimuth_rad\n", &[0_u8; 4096]] {
+        let error = read(other.to_vec()).unwrap_err();
+        assert_eq!(error.code(), "malformed-hdf5");
+        assert!(error.to_string().contains("a whole HDF5 file"), "{error}");
+    }
+}
+
+/// The tail of such a file may hold nothing, so a little may be lost; half never.
+#[test]
+fn truncated_files_are_refused() {
+    for name in LAYOUTS {
+        let whole = bytes(name);
+        for length in [8, 100, whole.len() / 4, whole.len() / 2] {
+            let error = read(whole[..length].to_vec()).unwrap_err();
+            assert_eq!(error.code(), "malformed-hdf5", "{name} at {length}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 2000, failure_persistence: None, ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn damaged_files_never_panic(
+        which in 0..LAYOUTS.len(),
+        edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let mut file = bytes(LAYOUTS[which]);
+        for (place, value) in edits {
+            let at = place.index(file.len());
+            file[at] = value;
+        }
+        file.truncate(file.len() - cut.index(file.len()) / 8);
+        let length = file.len() as u64;
+        if let Ok((log, report)) = read(file) {
+            let kept: usize = log.scans.iter().map(|scan| scan.detections.len()).sum();
+            let dropped = report.dropped(DropReason::NotFinite);
+            prop_assert_eq!(kept as u64 + dropped, report.detections);
+            prop_assert!(report.detections <= 1100 * length);
+        }
+    }
+}
