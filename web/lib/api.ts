@@ -11,3 +11,4 @@ export { readDetectionsCsv, readNpy, readSnapshotsCsv, writeDetectionsCsv, write
 export { countSources, cramerRaoBound } from './theory.js';
 export { simulateCube, simulateSnapshots } from './simulate.js';
 export { Capture, processCube } from './capture.js';
+export { Calibration, calibrationMethods } from './calibrate.js';

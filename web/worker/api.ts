@@ -32,6 +32,10 @@ export class Pool {
     return this.#one('methods', [], job);
   }
 
+  calibrationMethods(job?: JobOptions): Promise<lib.CalibrationMethodInfo[]> {
+    return this.#one('calibrationMethods', [], job);
+  }
+
   arrayPresets(job?: JobOptions): Promise<string[]> {
     return this.#one('arrayPresets', [], job);
   }

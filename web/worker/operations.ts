@@ -74,6 +74,7 @@ export const operations = {
   simulateSnapshots: api.simulateSnapshots,
   simulateCube: api.simulateCube,
   processCube: api.processCube,
+  calibrationMethods: api.calibrationMethods,
   waveformSummary: api.waveformSummary,
   parseConfig: api.parseConfig,
   captureInfo,

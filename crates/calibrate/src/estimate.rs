@@ -1,5 +1,7 @@
 //! The estimate of a mounting angle, with all that is needed to judge it.
 
+use std::fmt::{Display, Formatter};
+
 /// How many frames became what; every frame given is counted once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FrameCounts {
@@ -37,6 +39,37 @@ pub enum Remark {
     Misaligned,
     /// The angle still changes by more than its standard deviation allows.
     NotConverged,
+}
+
+impl Remark {
+    /// A stable name for programs.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::NoFrames => "no-frames",
+            Self::AngleUndetermined => "angle-undetermined",
+            Self::ScaleUndetermined => "scale-undetermined",
+            Self::BiasUndetermined => "bias-undetermined",
+            Self::FewInliers => "few-inliers",
+            Self::Misaligned => "misaligned",
+            Self::NotConverged => "not-converged",
+        }
+    }
+}
+
+impl Display for Remark {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::NoFrames => "no frame could be used",
+            Self::AngleUndetermined => "the drive does not determine the angle to a degree",
+            Self::ScaleUndetermined => "the drive does not determine the scale of the yaw rate",
+            Self::BiasUndetermined => "the bias of the yaw rate is only assumed to be small",
+            Self::FewInliers => "fewer than half of the detections were static",
+            Self::Misaligned => {
+                "the angle differs from the nominal one beyond the limit and chance"
+            }
+            Self::NotConverged => "the angle has not settled yet",
+        })
+    }
 }
 
 /// A mounting angle and what it rests on.

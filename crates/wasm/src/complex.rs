@@ -66,7 +66,7 @@ fn numbers(mut fields: Fields, each: usize) -> Fallible<RealData> {
 }
 
 /// The numbers of a `Float32Array` or `Float64Array` in a field, and whether it is the former.
-fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<(Vec<f64>, bool)> {
+pub fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<(Vec<f64>, bool)> {
     let expected = "a Float32Array or Float64Array";
     let path = fields.path_of(name);
     let value = fields

@@ -2,6 +2,7 @@
 
 use crate::write::Record;
 use boresight_aoa::AoaError;
+use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_formats::FormatError;
 use boresight_pipeline::PipelineError;
@@ -23,6 +24,9 @@ pub enum BindingError {
     /// The estimators refused.
     #[error(transparent)]
     Aoa(#[from] AoaError),
+    /// The calibration refused.
+    #[error(transparent)]
+    Calibrate(#[from] CalibrateError),
     /// A file cannot be read or written.
     #[error(transparent)]
     Format(#[from] FormatError),
@@ -76,6 +80,7 @@ impl Diagnose for BindingError {
         match self {
             Self::Argument(error) => error.code(),
             Self::Aoa(error) => error.code(),
+            Self::Calibrate(error) => error.code(),
             Self::Format(error) => error.code(),
             Self::Pipeline(error) => error.code(),
             Self::Signal(error) => error.code(),
@@ -91,6 +96,7 @@ impl Diagnose for BindingError {
         match self {
             Self::Argument(error) => error.details(),
             Self::Aoa(error) => error.details(),
+            Self::Calibrate(error) => error.details(),
             Self::Format(error) => error.details(),
             Self::Pipeline(error) => error.details(),
             Self::Signal(error) => error.details(),

@@ -9,6 +9,7 @@ pub mod array;
 mod board;
 mod bounds;
 mod bytes;
+mod calibrate;
 pub mod capture;
 mod chain;
 mod complex;

@@ -1,0 +1,235 @@
+//! The mounting angle of a radar, one frame at a time.
+
+use crate::complex::float_array;
+use crate::error::Fallible;
+use crate::read::{Fields, Read, choice};
+use crate::write::{Record, float32, list};
+use boresight_calibrate::{
+    self as calibrate, AngleEstimate, FrameCounts, FrameInput, FrameOutcome, Method, Motion,
+    MotionMethod, Options, Verdict,
+};
+use boresight_core::error::{check_finite, check_range};
+use boresight_core::{CoreError, Detection};
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The methods that can be asked for.
+#[wasm_bindgen(js_name = calibrationMethods)]
+pub fn calibration_methods() -> js_sys::Array {
+    list(Method::ALL.into_iter().filter(|&method| is_offered(method)).map(|method| {
+        Record::new()
+            .with("name", method.name())
+            .with("title", method.title())
+            .with("reference", method.reference())
+    }))
+}
+
+/// Whether a calibration can be made with the method.
+fn is_offered(method: Method) -> bool {
+    calibrate::Calibrator::new(Options { method, ..Options::default() }).is_ok()
+}
+
+/// A calibration in progress.
+#[wasm_bindgen]
+pub struct Calibration {
+    inner: calibrate::Calibrator,
+}
+
+#[wasm_bindgen]
+impl Calibration {
+    /// Checks the options and prepares.
+    #[wasm_bindgen(constructor)]
+    pub fn new(options: &JsValue) -> Fallible<Self> {
+        let options = read_calibration(Fields::new(options, "")?)?;
+        Ok(Self { inner: calibrate::Calibrator::new(options)? })
+    }
+
+    /// Takes the next frame and says what became of it.
+    #[wasm_bindgen(js_name = addFrame)]
+    pub fn add_frame(&mut self, frame: &JsValue) -> Fallible<JsValue> {
+        let frame = Frame::read(frame, "frame")?;
+        let outcome = self.inner.add(FrameInput {
+            time_s: frame.time_s,
+            detections: &frame.detections,
+            yaw_rate_radps: frame.yaw_rate_radps,
+            speed_mps: frame.speed_mps,
+        })?;
+        Ok(outcome_record(&outcome).into())
+    }
+
+    /// The angle as far as the frames so far tell.
+    pub fn estimate(&self) -> JsValue {
+        estimate_record(&self.inner.estimate()).into()
+    }
+}
+
+struct Frame {
+    time_s: f64,
+    detections: Vec<Detection>,
+    yaw_rate_radps: Option<f64>,
+    speed_mps: Option<f64>,
+}
+
+impl Read for Frame {
+    const EXPECTED: &'static str = "{ timeS, azimuthDeg, rangeRateMps, yawRateDegps }";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let time_s = fields.required("timeS")?;
+        let azimuth = float_array(&mut fields, "azimuthDeg")?.0;
+        let rates = column(&mut fields, "rangeRateMps", azimuth.len())?;
+        for (name, numbers) in [("azimuthDeg", &azimuth), ("rangeRateMps", &rates)] {
+            // As they will be kept: what single precision does not hold is refused too.
+            let kept = numbers.iter().map(|&number| f64::from(number as f32));
+            check_finite(&fields.path_of(name), kept)?;
+        }
+        let has_ranges = fields.raw("rangeM")?.is_some();
+        let ranges =
+            if has_ranges { Some(column(&mut fields, "rangeM", azimuth.len())?) } else { None };
+        let YawRate(yaw_rate_radps) = fields.required("yawRateDegps")?;
+        let speed_mps = fields.optional("speedMps")?;
+        fields.finish()?;
+        let detection = |i: usize| Detection {
+            azimuth_rad: azimuth[i].to_radians() as f32,
+            range_rate_mps: rates[i] as f32,
+            range_m: ranges.as_ref().map_or(f32::NAN, |ranges| ranges[i] as f32),
+            rcs_dbsm: f32::NAN,
+        };
+        let detections = (0..azimuth.len()).map(detection).collect();
+        Ok(Self { time_s, detections, yaw_rate_radps, speed_mps })
+    }
+}
+
+/// A yaw rate in rad/s; `null` where there is none.
+struct YawRate(Option<f64>);
+
+impl Read for YawRate {
+    const EXPECTED: &'static str = "a number or null";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        if value.is_null() {
+            return Ok(Self(None));
+        }
+        Ok(Self(Some(f64::read(value, path)?.to_radians())))
+    }
+}
+
+/// Numbers of a field, one for each of `count` detections.
+fn column(fields: &mut Fields, name: &'static str, count: usize) -> Fallible<Vec<f64>> {
+    let (numbers, _) = float_array(fields, name)?;
+    if numbers.len() == count {
+        return Ok(numbers);
+    }
+    let (what, expected) = (fields.path_of(name), format!("[{count}], as azimuthDeg has"));
+    Err(CoreError::Shape { what, expected, given: vec![numbers.len()] }.into())
+}
+
+fn read_calibration(mut fields: Fields) -> Fallible<Options> {
+    let mut options = Options { method: fields.required("method")?, ..Options::default() };
+    options.motion = fields.optional("motion")?;
+    options.x_m = fields.required("xM")?;
+    fields.update("yM", &mut options.y_m)?;
+    if let Some(degrees) = fields.optional::<f64>("nominalDeg")? {
+        check_range(&fields.path_of("nominalDeg"), degrees, -180.0, 180.0)?;
+        options.nominal_rad = Some(degrees.to_radians());
+    }
+    update_angle(&mut fields, "alarmDeg", 1e-9, &mut options.alarm_rad)?;
+    update_angle(&mut fields, "convergedDeg", 1e-9, &mut options.converged_rad)?;
+    fields.update("rangeRateSigmaMps", &mut options.range_rate_sigma_mps)?;
+    update_angle(&mut fields, "azimuthSigmaDeg", 0.0, &mut options.azimuth_sigma_rad)?;
+    fields.update("minSpeedMps", &mut options.min_speed_mps)?;
+    update_angle(&mut fields, "maxYawRateDegps", 0.1, &mut options.max_yaw_rate_radps)?;
+    fields.update("inlierResidualMps", &mut options.inlier_residual_mps)?;
+    fields.update("inlierThreshold", &mut options.inlier_threshold)?;
+    fields.update("inlierRatioThreshold", &mut options.inlier_ratio_threshold)?;
+    fields.update("minInliers", &mut options.min_inliers)?;
+    fields.update("confidence", &mut options.confidence)?;
+    fields.update("seed", &mut options.seed)?;
+    fields.finish()?;
+    Ok(options)
+}
+
+/// An angle or a rate of turn, given in degrees: at least `lowest`, at most half a turn.
+fn update_angle(
+    fields: &mut Fields,
+    name: &'static str,
+    lowest: f64,
+    rad: &mut f64,
+) -> Fallible<()> {
+    if let Some(degrees) = fields.optional::<f64>(name)? {
+        check_range(&fields.path_of(name), degrees, lowest, 180.0)?;
+        *rad = degrees.to_radians();
+    }
+    Ok(())
+}
+
+impl Read for Method {
+    const EXPECTED: &'static str = "the name of a method of calibration";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        choice(value, path, &Self::ALL.map(|method| (method.name(), method)))
+    }
+}
+
+impl Read for MotionMethod {
+    const EXPECTED: &'static str = "the name of a method of ego-motion";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        choice(value, path, &Self::ALL.map(|method| (method.name(), method)))
+    }
+}
+
+fn outcome_record(outcome: &FrameOutcome) -> Record {
+    let verdict = match outcome.verdict {
+        Verdict::Used => "used",
+        Verdict::Standing => "standing",
+        Verdict::Slow => "slow",
+        Verdict::Turning => "turning",
+        Verdict::Sparse => "sparse",
+        Verdict::WithoutMotion => "without-motion",
+    };
+    Record::new()
+        .with("verdict", verdict)
+        .with_some("motion", outcome.motion.as_ref().map(motion_record))
+        .with_some("angleDeg", outcome.angle_rad.map(|(angle, _)| angle.to_degrees()))
+        .with_some("angleSigmaDeg", outcome.angle_rad.map(|(_, sigma)| sigma.to_degrees()))
+        .with("weight", outcome.weight)
+        .with("weights", float32(&outcome.weights))
+}
+
+fn motion_record(motion: &Motion) -> Record {
+    Record::new()
+        .with("velocityMps", list(motion.velocity_mps))
+        .with("covariance", list(motion.covariance.map(list)))
+        .with("inliers", motion.inliers)
+        .with("detections", motion.detections)
+}
+
+fn estimate_record(estimate: &AngleEstimate) -> Record {
+    let remark = |remark: &calibrate::Remark| {
+        Record::new().with("code", remark.code()).with("message", remark.to_string())
+    };
+    Record::new()
+        .with("angleDeg", estimate.angle_rad.to_degrees())
+        .with("sigmaDeg", estimate.sigma_rad.to_degrees())
+        .with("scale", estimate.scale)
+        .with("scaleSigma", estimate.scale_sigma)
+        .with("biasDegps", estimate.bias_radps.to_degrees())
+        .with("biasSigmaDegps", estimate.bias_sigma_radps.to_degrees())
+        .with("inlierShare", estimate.inlier_share)
+        .with("frames", counts_record(&estimate.frames))
+        .with("converged", estimate.converged)
+        .with("misaligned", estimate.misaligned.map_or(JsValue::NULL, JsValue::from))
+        .with("warnings", list(estimate.remarks.iter().map(remark)))
+}
+
+fn counts_record(counts: &FrameCounts) -> Record {
+    Record::new()
+        .with("given", counts.given as f64)
+        .with("used", counts.used as f64)
+        .with("standing", counts.standing as f64)
+        .with("slow", counts.slow as f64)
+        .with("turning", counts.turning as f64)
+        .with("sparse", counts.sparse as f64)
+        .with("withoutMotion", counts.without_motion as f64)
+}
