@@ -10,7 +10,8 @@ use boresight_core::presets::preset;
 use boresight_core::steering::cis;
 use boresight_core::{Complex32, Complex64, Direction, Random};
 use boresight_simulate::digest::{
-    REFERENCE_CUBE, REFERENCE_SNAPSHOTS, reference_cube, reference_snapshots,
+    REFERENCE_CUBE, REFERENCE_DRIVE, REFERENCE_SNAPSHOTS, reference_cube, reference_drive,
+    reference_snapshots,
 };
 use boresight_simulate::{Fluctuation, Scene, SnapshotOptions, SnapshotSimulator, Target};
 use ndarray::Array2;
@@ -80,6 +81,7 @@ fn angles_are_those_of_the_golden_file() {
 fn simulations_have_the_same_bits() {
     assert_eq!(reference_snapshots().unwrap(), REFERENCE_SNAPSHOTS);
     assert_eq!(reference_cube().unwrap(), REFERENCE_CUBE);
+    assert_eq!(reference_drive().unwrap(), REFERENCE_DRIVE);
 }
 
 /// Plans differ between natively and wasm; both must be what they are planned for.

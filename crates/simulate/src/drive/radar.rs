@@ -332,7 +332,7 @@ impl View {
 }
 
 fn visible(range_m: f64, azimuth_rad: f64) -> bool {
-    azimuth_rad.abs() <= FIELD_OF_VIEW_RAD && range_m >= RANGE_M[0] && range_m <= RANGE_M[1]
+    azimuth_rad.abs() <= FIELD_OF_VIEW_RAD && (RANGE_M[0]..=RANGE_M[1]).contains(&range_m)
 }
 
 fn bin_of(azimuth_rad: f64) -> usize {
@@ -342,6 +342,7 @@ fn bin_of(azimuth_rad: f64) -> usize {
 
 /// The azimuth in single precision, rounded into the field of view.
 fn within_view(azimuth_rad: f64) -> f32 {
-    let most = 1.047_197_5_f32;
+    // The nearest single is a little above 60 degrees.
+    let most = std::f32::consts::FRAC_PI_3.next_down();
     (azimuth_rad as f32).clamp(-most, most)
 }
