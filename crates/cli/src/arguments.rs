@@ -1,6 +1,8 @@
 //! What the command line takes.
 
 use boresight_aoa::Method;
+use boresight_calibrate::{Method as Calibration, MotionMethod};
+use boresight_formats::DriveFormat;
 use boresight_signal::Window;
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args, Parser, Subcommand};
@@ -41,6 +43,8 @@ pub enum Command {
         #[command(subcommand)]
         what: SimulateCommand,
     },
+    /// Estimate the angle a car's radars are mounted at from a drive log.
+    Calibrate(CalibrateArguments),
     /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.
     Log(LogArguments),
     /// List the methods of angle estimation, and what each needs.
@@ -57,6 +61,42 @@ pub struct LogArguments {
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
     /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `calibrate`.
+#[derive(Debug, Args)]
+pub struct CalibrateArguments {
+    /// The log: its folder, its one file, or its files.
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Format of the log, where it is not to be found from the files.
+    #[arg(long, value_parser = PossibleValuesParser::new(DriveFormat::ALL.map(DriveFormat::name)))]
+    pub format: Option<String>,
+    /// Only this radar of the log.
+    #[arg(long, value_name = "N")]
+    pub sensor: Option<u8>,
+    /// How the angle is estimated.
+    #[arg(long, default_value = "least-squares",
+          value_parser = PossibleValuesParser::new(Calibration::ALL.map(Calibration::name)))]
+    pub method: String,
+    /// How the radar's motion is estimated, instead of the way that belongs to the method.
+    #[arg(long, value_parser = PossibleValuesParser::new(MotionMethod::ALL.map(MotionMethod::name)))]
+    pub motion: Option<String>,
+    /// The angle the radar should be mounted at, deg, positive to the left.
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub nominal: Option<f64>,
+    /// The radar's distance ahead of the rear axle, m, where the log does not state it.
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub x: Option<f64>,
+    /// The radar's distance left of the centre line, m.
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub y: Option<f64>,
+    /// Frames below this speed of the radar are left out, m/s.
+    #[arg(long, value_name = "MPS", default_value_t = 1.0)]
+    pub min_speed: f64,
+    /// Print JSON: an object, or an array of them where there are several radars.
     #[arg(long)]
     pub json: bool,
 }

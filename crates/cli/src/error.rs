@@ -1,6 +1,7 @@
 //! Errors of the command line, and the one place that prints them.
 
 use boresight_aoa::AoaError;
+use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_formats::FormatError;
 use boresight_pipeline::PipelineError;
@@ -29,6 +30,9 @@ pub enum CliError {
     /// Angle estimation refused.
     #[error(transparent)]
     Angle(#[from] AoaError),
+    /// Calibration refused.
+    #[error(transparent)]
+    Calibrate(#[from] CalibrateError),
     /// The chain refused, or was stopped.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
@@ -99,6 +103,7 @@ impl CliError {
             Self::Format(error) => error,
             Self::Signal(error) => error,
             Self::Angle(error) => error,
+            Self::Calibrate(error) => error,
             Self::Pipeline(error) => error,
             Self::Simulate(error) => error,
             _ => return None,

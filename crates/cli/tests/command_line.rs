@@ -253,3 +253,18 @@ fn a_drive_log_is_described() {
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("no-drive-log"));
 }
+
+#[test]
+fn calibrate_finds_the_angle_of_the_radar_of_a_real_drive() {
+    let drive = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../recordings/delphi");
+    let drive = drive.to_str().unwrap();
+    let text =
+        stdout(&["calibrate", drive, "--method", "weighted-mean", "--min-speed", "3", "--json"]);
+    let result: Value = serde_json::from_str(&text).unwrap();
+    // The set's own extrinsics say -1.96 deg.
+    let angle = result["angleDeg"].as_f64().unwrap();
+    assert!((angle + 1.96).abs() < 0.3, "{text}");
+    assert!(result["frames"]["used"].as_u64().unwrap() > 1000, "{text}");
+    let wrong = boresight(&["calibrate", drive, "--sensor", "9"]);
+    assert_eq!(wrong.status.code(), Some(2));
+}

@@ -1,6 +1,7 @@
 //! The commands.
 
 mod board;
+pub mod calibrate;
 mod capture;
 mod chain;
 mod cube;
