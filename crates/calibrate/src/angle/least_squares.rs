@@ -31,7 +31,24 @@ pub(crate) struct Point {
 /// Standard deviation of the inverse scale from which it counts as not determined at all: the angle is
 /// then found with scale 1, and the scale's possible error of this size goes into its variance.
 const UNKNOWN_SCALE_SIGMA: f64 = 0.5;
+/// Smallest share of `chi`'s variance that must be more than its noise for a scale to be told from it.
+const MIN_RELIABILITY: f64 = 0.5;
 const ITERATIONS: usize = 20;
+
+/// The share of the variance of `chi` over the frames that its own noise does not explain (the
+/// reliability ratio of errors-in-variables models, Fuller 1987).
+fn reliability(rows: &[Row]) -> f64 {
+    let (mut total, mut mean, mut squares, mut noise) = (0.0, 0.0, 0.0, 0.0);
+    for row in rows {
+        let weight = 1.0 / row.variance;
+        total += weight;
+        let difference = row.chi - mean;
+        mean += weight / total * difference;
+        squares += weight * difference * (row.chi - mean);
+        noise += weight * row.chi_variance;
+    }
+    if squares > 0.0 { 1.0 - noise / squares } else { 0.0 }
+}
 
 /// Gauss-Newton on `beta + theta = asin(s' chi)`. The covariance is that of the estimator with these
 /// weights given the rows' variances, times the residuals' variance where that exceeds them, plus what
@@ -42,6 +59,9 @@ pub(crate) fn regress(
     point: impl Fn(&Row, [f64; 2]) -> Point,
 ) -> Option<Solution> {
     let mut state = start(rows, &point)?;
+    if reliability(rows) < MIN_RELIABILITY {
+        return fixed_scale(rows, setting, &point);
+    }
     for _ in 0..ITERATIONS {
         let (mut normal, mut right) = (Symmetric::default(), [0.0; 2]);
         for row in rows {

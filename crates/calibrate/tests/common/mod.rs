@@ -1,5 +1,5 @@
 //! Drives for the tests: a car without side slip and the point clouds of one of its radars.
-#![allow(dead_code, missing_docs)]
+#![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
 use boresight_calibrate::{Calibrator, FrameInput, Method, Options};
 use boresight_core::{Detection, Random};
@@ -22,6 +22,8 @@ pub struct Drive {
     /// A constant part of the yaw rate.
     pub constant_turn_radps: f64,
     pub speed_mps: f64,
+    /// Share by which the speed swings.
+    pub speed_swing: f64,
     /// Standing frames at the beginning.
     pub standing: usize,
     pub seed: u64,
@@ -44,6 +46,7 @@ impl Default for Drive {
             turn_radps: 0.3,
             constant_turn_radps: 0.0,
             speed_mps: 10.0,
+            speed_swing: 0.2,
             standing: 50,
             seed: 1,
         }
@@ -79,8 +82,11 @@ impl Drive {
         for i in 0..self.frames {
             let time = i as f64 / 13.5;
             let stands = i < self.standing;
-            let speed =
-                if stands { 0.0 } else { self.speed_mps * (1.0 + 0.2 * (0.1 * time).sin()) };
+            let speed = if stands {
+                0.0
+            } else {
+                self.speed_mps * (1.0 + self.speed_swing * (0.1 * time).sin())
+            };
             let rate = if stands {
                 0.0
             } else {
