@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use boresight_formats::drive_log::open;
 use boresight_formats::tables::{read_detections, read_snapshots};
 use boresight_formats::ti_uart::MAGIC;
 use boresight_formats::{BoardLog, Capture, NpyArray, RadarConfig, UartStream, npy};
@@ -80,6 +81,25 @@ proptest! {
         bytes in mutated(b"snapshot,element,re,im\n0,0,1,2\n0,1,3,4\nrange_m,azimuth_deg\n1,2\n")
     ) {
         every_reader(&bytes);
+    }
+
+    #[test]
+    fn every_row_of_a_drive_is_kept_or_counted(
+        radar in mutated(b"frame,t_s,track_id,status,azimuth_rad,range_rate_mps\n1,0,1,3,0.1,-5\n\
+                           1,0.1,2,6,0.2,99\n2,0.2,1,3,nan,4\n2,0.2,2,3,0.1,4\n"),
+        detections in mutated(b"time_s,sensor,azimuth_deg,range_rate_mps\n0,1,9,-5\n0,1,-9,5\n1,2,nan,4\n"),
+        motion in mutated(b"time_s,yaw_rate_degps,speed_mps\n0,1,5\n1,2,inf\n1,2,5\n2,2,5\n"),
+    ) {
+        for table in [radar, detections] {
+            if let Ok(read) = open(&[("a.csv", &table), ("b.csv", &motion)], None) {
+                let kept: usize = read.log.scans.iter().map(|scan| scan.detections.len()).sum();
+                let kept = (kept + read.log.motion.len()) as u64;
+                let dropped: u64 = read.report.drops().map(|(_, count)| count).sum();
+                prop_assert_eq!(kept + dropped, read.report.detections + read.report.motion);
+                prop_assert!(read.log.scans.is_sorted_by(|a, b| a.time_s <= b.time_s));
+                prop_assert!(read.log.motion.is_sorted_by(|a, b| a.time_s < b.time_s));
+            }
+        }
     }
 
     #[test]

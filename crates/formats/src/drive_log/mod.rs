@@ -9,7 +9,7 @@ mod report;
 pub mod table;
 mod text;
 
-pub use open::{DriveFormat, DriveRead, is_table, open};
+pub use open::{DriveFormat, DriveRead, is_hdf5, is_table, open};
 pub use report::{DropReason, ReadReport};
 
 #[cfg(test)]

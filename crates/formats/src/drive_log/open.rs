@@ -4,6 +4,7 @@ use super::report::ReadReport;
 use super::text::{Rows, is_gzip};
 use super::{delphi, table};
 use crate::error::{FormatError, Remark};
+use crate::radarscenes;
 use boresight_core::CoreError;
 use boresight_core::drive::DriveLog;
 
@@ -11,6 +12,8 @@ use boresight_core::drive::DriveLog;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DriveFormat {
+    /// [`crate::radarscenes`]: `radar_data.h5` of a sequence.
+    RadarScenes,
     /// [`delphi`]: tracks of a Delphi front radar and poses.
     Delphi,
     /// [`table`]: the general tables.
@@ -19,11 +22,12 @@ pub enum DriveFormat {
 
 impl DriveFormat {
     /// All formats.
-    pub const ALL: [Self; 2] = [Self::Delphi, Self::Csv];
+    pub const ALL: [Self; 3] = [Self::RadarScenes, Self::Delphi, Self::Csv];
 
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
+            Self::RadarScenes => "radarscenes",
             Self::Delphi => "delphi",
             Self::Csv => "csv",
         }
@@ -58,6 +62,7 @@ pub struct DriveRead {
 /// What a file holds, by its contents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
+    RadarScenes,
     DelphiRadar,
     DelphiPose,
     Detections,
@@ -65,6 +70,9 @@ enum Role {
 }
 
 fn role(name: &str, bytes: &[u8]) -> Result<Option<Role>, FormatError> {
+    if is_hdf5(name) {
+        return Ok(Some(Role::RadarScenes));
+    }
     if !(is_table(name) || is_gzip(bytes)) {
         return Ok(None);
     }
@@ -93,6 +101,12 @@ pub fn is_table(name: &str) -> bool {
     name.ends_with(".csv") || name.ends_with(".csv.gz")
 }
 
+/// Whether a file's name is that of an HDF5 file.
+pub fn is_hdf5(name: &str) -> bool {
+    let name = name.to_ascii_lowercase();
+    name.ends_with(".h5") || name.ends_with(".hdf5")
+}
+
 /// Names the file in an error.
 fn in_file(error: FormatError, name: &str) -> FormatError {
     let name: String = name.chars().take(60).collect();
@@ -102,6 +116,9 @@ fn in_file(error: FormatError, name: &str) -> FormatError {
         }
         FormatError::Compressed { given } => {
             FormatError::Compressed { given: format!("{name}: {given}") }
+        }
+        FormatError::Hdf5 { what, expected, given } => {
+            FormatError::Hdf5 { what: format!("{what} in {name}"), expected, given }
         }
         other => other,
     }
@@ -141,14 +158,16 @@ pub fn open(
     let wanted = |candidate| format.is_none_or(|format| format == candidate);
     let mut read = None;
     for (candidate, radar, motion) in [
-        (DriveFormat::Delphi, Role::DelphiRadar, Role::DelphiPose),
-        (DriveFormat::Csv, Role::Detections, Role::Motion),
+        (DriveFormat::RadarScenes, Role::RadarScenes, None),
+        (DriveFormat::Delphi, Role::DelphiRadar, Some(Role::DelphiPose)),
+        (DriveFormat::Csv, Role::Detections, Some(Role::Motion)),
     ] {
         if read.is_none()
             && wanted(candidate)
             && let Some(radar) = find(files, &roles, radar)?
         {
-            read = Some((candidate, radar, find(files, &roles, motion)?));
+            let motion = motion.map_or(Ok(None), |role| find(files, &roles, role))?;
+            read = Some((candidate, radar, motion));
         }
     }
     // One table that is none of these still gets the general reader's word on what it lacks.
@@ -171,13 +190,16 @@ pub fn open(
     }
     let radar_error = |error| in_file(error, radar.0);
     let mut log = match format {
+        DriveFormat::RadarScenes => {
+            radarscenes::read(radar.1.to_vec(), &mut report).map_err(radar_error)?
+        }
         DriveFormat::Delphi => delphi::read_radar(radar.1, &mut report).map_err(radar_error)?,
         DriveFormat::Csv => table::read_detections(radar.1, &mut report).map_err(radar_error)?,
     };
     if let Some((name, bytes)) = motion {
         log.motion = match format {
             DriveFormat::Delphi => delphi::read_poses(bytes, &mut report),
-            DriveFormat::Csv => table::read_motion(bytes, &mut report),
+            DriveFormat::Csv | DriveFormat::RadarScenes => table::read_motion(bytes, &mut report),
         }
         .map_err(|error| in_file(error, name))?;
     }
@@ -189,6 +211,9 @@ fn no_drive_log<'a>(
     names: impl Iterator<Item = &'a str>,
 ) -> FormatError {
     let one = |format| match format {
+        DriveFormat::RadarScenes => {
+            "radar_data.h5 with the datasets radar_data and odometry".to_owned()
+        }
         DriveFormat::Delphi => {
             format!("a CSV with the columns {}", delphi::RADAR_COLUMNS.join(", "))
         }

@@ -25,24 +25,23 @@ use std::path::Path;
 ///
 /// # Errors
 /// [`FormatError::Hdf5`] naming dataset and field, [`FormatError::TimeBackwards`].
-pub fn read(radar_data: Vec<u8>) -> Result<(DriveLog, ReadReport), FormatError> {
-    from_file(&File::from_bytes(radar_data).map_err(|error| not_hdf5(&error))?)
+pub fn read(radar_data: Vec<u8>, report: &mut ReadReport) -> Result<DriveLog, FormatError> {
+    from_file(&File::from_bytes(radar_data).map_err(|error| not_hdf5(&error))?, report)
 }
 
 /// Reads `radar_data.h5` from a file, piece by piece.
 ///
 /// # Errors
 /// As [`read`].
-pub fn read_path(path: &Path) -> Result<(DriveLog, ReadReport), FormatError> {
-    from_file(&File::open_streaming(path).map_err(|error| not_hdf5(&error))?)
+pub fn read_path(path: &Path, report: &mut ReadReport) -> Result<DriveLog, FormatError> {
+    from_file(&File::open_streaming(path).map_err(|error| not_hdf5(&error))?, report)
 }
 
 fn not_hdf5(error: &hdf5_pure::Error) -> FormatError {
     wrong("radar_data.h5", "a whole HDF5 file", error)
 }
 
-fn from_file(file: &File) -> Result<(DriveLog, ReadReport), FormatError> {
-    let mut report = ReadReport::default();
+fn from_file(file: &File, report: &mut ReadReport) -> Result<DriveLog, FormatError> {
     let radar = Table::open(file, "radar_data")?;
     let odometry = Table::open(file, "odometry")?;
     let mut origin_us = i128::MAX;
@@ -50,9 +49,9 @@ fn from_file(file: &File) -> Result<(DriveLog, ReadReport), FormatError> {
         let stamp = table.field("timestamp")?;
         origin_us = table.first()?.map_or(origin_us, |row| origin_us.min(stamp.integer(&row)));
     }
-    let (sensors, scans) = scans(&radar, origin_us, &mut report)?;
-    let motion = motion(&odometry, origin_us, &mut report)?;
-    Ok((DriveLog { sensors, scans, motion }, report))
+    let (sensors, scans) = scans(&radar, origin_us, report)?;
+    let motion = motion(&odometry, origin_us, report)?;
+    Ok(DriveLog { sensors, scans, motion })
 }
 
 fn seconds(stamp_us: i128, origin_us: i128) -> f64 {

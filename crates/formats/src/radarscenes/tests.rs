@@ -1,10 +1,20 @@
-use super::{read, read_path};
-use crate::drive_log::{DropReason, ReadReport};
+use crate::FormatError;
+use crate::drive_log::{DriveFormat, DropReason, ReadReport, open};
 use boresight_core::Diagnose;
 use boresight_core::drive::RADARSCENES_SENSORS;
 use boresight_core::drive::{Detection, DriveLog};
 use proptest::prelude::*;
 use std::path::PathBuf;
+
+fn read(bytes: Vec<u8>) -> Result<(DriveLog, ReadReport), FormatError> {
+    let mut report = ReadReport::default();
+    super::read(bytes, &mut report).map(|log| (log, report))
+}
+
+fn read_path(path: &std::path::Path) -> Result<(DriveLog, ReadReport), FormatError> {
+    let mut report = ReadReport::default();
+    super::read_path(path, &mut report).map(|log| (log, report))
+}
 
 fn golden(name: &str) -> PathBuf {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden/radarscenes");
@@ -65,6 +75,20 @@ fn every_layout_of_h5py_gives_the_same_drive() {
         let (log, report) = read_path(&golden(name)).unwrap();
         check(&log, &report, name);
     }
+}
+
+#[test]
+fn a_sequence_is_found_among_its_files() {
+    let data = bytes("filtered");
+    let files = [("scenes.json", &b"{}"[..]), ("radar_data.h5", &data[..])];
+    let read = open(&files, None).unwrap();
+    assert_eq!(read.format, DriveFormat::RadarScenes);
+    assert_eq!(read.report.remarks.len(), 1);
+    check(&read.log, &read.report, "opened");
+    let error = open(&[("radar_data.h5", &data[..100])], None).unwrap_err();
+    assert_eq!(error.code(), "malformed-hdf5");
+    assert!(error.to_string().contains("radar_data.h5"), "{error}");
+    assert_eq!(open(&files, Some(DriveFormat::Csv)).unwrap_err().code(), "no-drive-log");
 }
 
 #[test]
