@@ -476,10 +476,11 @@ export interface NpyArray extends RealData {
 }
 
 /** How a mounting angle is estimated. */
-export type CalibrationMethod = 'weighted-mean' | 'kabsch' | 'least-squares' | 'orthogonal-distance';
+export type CalibrationMethod =
+  | 'weighted-mean' | 'kabsch' | 'least-squares' | 'orthogonal-distance' | 'recursive';
 
 /** How the radar's own motion is estimated from a frame. */
-export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-distance';
+export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-distance' | 'tracked';
 
 export interface CalibrationMethodInfo {
   name: CalibrationMethod;

@@ -6,7 +6,7 @@ use crate::angle::{
 };
 use crate::{
     AngleEstimate, CalibrateError, FrameCounts, FrameInput, FrameOutcome, Method, Motion,
-    MotionEstimator, Options, Remark, Verdict,
+    MotionEstimator, Options, Recursive, Remark, Verdict,
 };
 use boresight_core::CoreError;
 
@@ -30,6 +30,7 @@ pub struct Calibrator {
 #[derive(Debug, Clone)]
 enum Inner {
     Batch(Box<Batch>),
+    Recursive(Box<Recursive>),
 }
 
 impl Calibrator {
@@ -41,18 +42,7 @@ impl Calibrator {
     pub fn new(options: Options) -> Result<Self, CalibrateError> {
         options.validate()?;
         let inner = match options.method {
-            Method::Recursive => {
-                return Err(CoreError::Unknown {
-                    what: "method".into(),
-                    expected: Method::ALL[..4]
-                        .iter()
-                        .map(|m| m.name())
-                        .collect::<Vec<_>>()
-                        .join(", "),
-                    given: options.method.name().into(),
-                }
-                .into());
-            }
+            Method::Recursive => Inner::Recursive(Box::new(Recursive::new(&options)?)),
             _ => Inner::Batch(Box::new(Batch::new(options)?)),
         };
         Ok(Self { inner })
@@ -66,11 +56,12 @@ impl Calibrator {
     pub fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
         match &mut self.inner {
             Inner::Batch(batch) => batch.add(frame),
+            Inner::Recursive(recursive) => recursive.add(frame),
         }
     }
 
     /// The angle from all frames so far. With the methods that weigh all frames at once it takes time in
-    /// proportion to their number.
+    /// proportion to their number; the recursive one has it at hand.
     ///
     /// It has converged when its standard deviation is below `converged_rad` and the angle from all
     /// frames but those of the last 10 s differs by no more than that. It is misaligned when it differs
@@ -78,6 +69,7 @@ impl Calibrator {
     pub fn estimate(&self) -> AngleEstimate {
         match &self.inner {
             Inner::Batch(batch) => batch.estimate(),
+            Inner::Recursive(recursive) => recursive.estimate(),
         }
     }
 }

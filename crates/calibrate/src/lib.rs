@@ -16,7 +16,10 @@ pub mod estimate;
 pub mod frame;
 pub mod motion;
 pub mod options;
+pub mod recursive;
+mod small;
 mod symmetric;
+pub mod trajectory;
 
 pub use calibrator::Calibrator;
 pub use error::CalibrateError;
@@ -24,3 +27,4 @@ pub use estimate::{AngleEstimate, FrameCounts, Remark};
 pub use frame::{FrameInput, FrameOutcome, Motion, Verdict};
 pub use motion::MotionEstimator;
 pub use options::{Method, MotionMethod, Options};
+pub use recursive::Recursive;

@@ -60,6 +60,8 @@ pub struct Options {
     pub range_rate_sigma_mps: f64,
     /// Standard deviation of a detection's azimuth, rad.
     pub azimuth_sigma_rad: f64,
+    /// Standard deviation of the yaw rate's bias before anything is known of it, rad/s.
+    pub bias_sigma_radps: f64,
     /// Frames below this speed of the radar are left out, m/s.
     pub min_speed_mps: f64,
     /// Frames turning faster than this are left out, rad/s.
@@ -92,6 +94,7 @@ impl Default for Options {
             converged_rad: 0.1_f64.to_radians(),
             range_rate_sigma_mps: 0.1,
             azimuth_sigma_rad: 0.5_f64.to_radians(),
+            bias_sigma_radps: 0.1_f64.to_radians(),
             min_speed_mps: 1.0,
             max_yaw_rate_radps: 140.0_f64.to_radians(),
             inlier_residual_mps: 0.3,
@@ -123,6 +126,7 @@ impl Options {
             ("maxYawRateRadps", self.max_yaw_rate_radps),
             ("inlierResidualMps", self.inlier_residual_mps),
             ("maxGapS", self.max_gap_s),
+            ("biasSigmaRadps", self.bias_sigma_radps),
         ] {
             check_positive(what, given)?;
         }

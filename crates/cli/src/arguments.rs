@@ -78,7 +78,7 @@ pub struct CalibrateArguments {
     #[arg(long, value_name = "N")]
     pub sensor: Option<u8>,
     /// How the angle is estimated.
-    #[arg(long, default_value = "least-squares",
+    #[arg(long, default_value = "recursive",
           value_parser = PossibleValuesParser::new(Calibration::ALL.map(Calibration::name)))]
     pub method: String,
     /// How the radar's motion is estimated, instead of the way that belongs to the method.

@@ -2,12 +2,12 @@
 
 use crate::error::CliError;
 use crate::files;
-use boresight_formats::drive_log::{is_table, open};
+use boresight_formats::drive_log::{is_hdf5, is_table, open};
 use boresight_formats::{DriveFormat, DriveRead};
 use std::path::{Path, PathBuf};
 
 /// Reads a drive log from one folder, one file, or several files that belong together. Of a folder
-/// only the tables are read.
+/// only tables and HDF5 files are read.
 pub fn open_path(
     paths: &[impl AsRef<Path>],
     format: Option<DriveFormat>,
@@ -35,7 +35,8 @@ fn tables(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
     let mut found = vec![];
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        if path.is_file() && is_table(&path.to_string_lossy()) {
+        let name = path.to_string_lossy();
+        if path.is_file() && (is_table(&name) || is_hdf5(&name)) {
             found.push(path);
         }
     }
