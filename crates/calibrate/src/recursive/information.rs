@@ -138,10 +138,24 @@ impl Information {
         }
     }
 
-    /// Covariance of the estimate that holds where frames of one block are correlated: the sandwich
-    /// of the blocks' scores, averaged with the information of independent frames, which counts as
-    /// three blocks, so that a short drive has a covariance too.
+    /// Covariance of the estimate that holds where frames of one block are correlated: a sandwich of
+    /// the blocks' scores.
     pub(crate) fn covariance(&self) -> Matrix {
+        let mut middle = self.middle(&self.x);
+        for i in 0..UNKNOWNS {
+            middle[i][i] += self.prior[i];
+        }
+        let half: Matrix = std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..UNKNOWNS).map(|k| self.formal[i][k] * middle[k][j]).sum())
+        });
+        std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..UNKNOWNS).map(|k| half[i][k] * self.formal[k][j]).sum())
+        })
+    }
+
+    /// Covariance of the frames' score at `x`: that of the blocks, averaged with the information of
+    /// independent frames, which counts as three blocks, so that a short drive has a covariance too.
+    pub(crate) fn middle(&self, x: &Vector) -> Matrix {
         let mut blocks = self.blocks;
         let mut moments = self.moments;
         if self.block_frames > 0 {
@@ -149,7 +163,7 @@ impl Information {
             crate::small::add_outer(&mut moments, &z, 1.0);
             blocks += 1.0;
         }
-        let dx: Vector = std::array::from_fn(|i| self.x[i] - self.prior_mean[i]);
+        let dx: Vector = std::array::from_fn(|i| x[i] - self.prior_mean[i]);
         // Row i of t maps a block's sums to entry i of its score.
         let mut t = [[0.0; MOMENTS]; UNKNOWNS];
         for i in 0..UNKNOWNS {
@@ -165,20 +179,23 @@ impl Information {
         let decided: f64 = (0..UNKNOWNS).map(|i| 1.0 - self.formal[i][i] * self.prior[i]).sum();
         let correction = blocks / (blocks - decided).max(1.0);
         let share = blocks / (blocks + PRIOR_BLOCKS);
-        let mut middle = [[0.0; UNKNOWNS]; UNKNOWNS];
-        for i in 0..UNKNOWNS {
-            for j in 0..UNKNOWNS {
-                let scores: f64 = (0..MOMENTS).map(|k| tm[i][k] * t[j][k]).sum();
-                middle[i][j] = share * correction * scores + (1.0 - share) * self.n[i][j];
-            }
-            middle[i][i] += self.prior[i];
-        }
-        let half: Matrix = std::array::from_fn(|i| {
-            std::array::from_fn(|j| (0..UNKNOWNS).map(|k| self.formal[i][k] * middle[k][j]).sum())
-        });
         std::array::from_fn(|i| {
-            std::array::from_fn(|j| (0..UNKNOWNS).map(|k| half[i][k] * self.formal[k][j]).sum())
+            std::array::from_fn(|j| {
+                let scores: f64 = (0..MOMENTS).map(|k| tm[i][k] * t[j][k]).sum();
+                share * correction * scores + (1.0 - share) * self.n[i][j]
+            })
         })
+    }
+
+    /// The frames' information and their score at `x`, without the prior.
+    pub(crate) fn score(&self, x: &Vector) -> (Matrix, Vector) {
+        let shifted = times(&self.n, &std::array::from_fn(|i| x[i] - self.prior_mean[i]));
+        (self.n, std::array::from_fn(|i| self.y[i] - shifted[i]))
+    }
+
+    /// Means and inverse variances of the prior.
+    pub(crate) fn prior(&self) -> (Vector, Vector) {
+        (self.prior_mean, self.prior)
     }
 }
 

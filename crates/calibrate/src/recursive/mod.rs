@@ -16,7 +16,7 @@
 //! The covariance is a sandwich over blocks of ten seconds, so that errors that last (tracked
 //! objects, a curve, a queue of cars) are not counted as independent.
 
-mod information;
+pub(crate) mod information;
 mod tracked;
 mod vote;
 
@@ -366,8 +366,16 @@ impl Recursive {
 
     /// The angle as it stands.
     pub fn estimate(&self) -> AngleEstimate {
-        let x = self.information.mean();
-        let covariance = self.information.covariance();
+        self.conclude(&self.information.mean(), &self.information.covariance())
+    }
+
+    /// What the frames say of the shared unknowns.
+    pub(crate) fn information(&self) -> &Information {
+        &self.information
+    }
+
+    /// Unknowns and their covariance, with all that is needed to judge them.
+    pub(crate) fn conclude(&self, x: &Vector, covariance: &Matrix) -> AngleEstimate {
         let none = self.counts.used == 0;
         let sigma = |i: usize| covariance[i][i].max(0.0).sqrt();
         let sigma_rad = if none { f64::INFINITY } else { sigma(0) };
