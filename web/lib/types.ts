@@ -2,6 +2,7 @@
  * Options and results of the package. Angles are in degrees, all else in SI units; the unit is in
  * the name. Azimuth is positive to the left of boresight, range rate positive when receding.
  */
+export type * from './drive-types.js';
 
 /** Interleaved [re, im] numbers in C order with their shape (complex numbers, not floats). */
 export interface ComplexData {
@@ -534,7 +535,7 @@ export interface CalibrationFrame {
   /** As measured; null where there is none at this time. */
   yawRateDegps: number | null;
   /** Forward speed of the rear axle, for the method that needs it. */
-  speedMps?: number;
+  speedMps?: number | null;
 }
 
 /** The radar's own motion in its own frame, from one frame. */
