@@ -63,6 +63,16 @@ describe('a calibration', () => {
     });
   }
 
+  test('takes the motion tracked over frames with every method, and no other with the recursive one', () => {
+    for (const { name: method } of calibrationMethods()) {
+      const calibration = new Calibration({ ...radar, method, motion: 'tracked', nominalDeg: 24 });
+      const { angleDeg, sigmaDeg } = drive(calibration, 25, 400);
+      assert.ok(Math.abs(angleDeg - 25) < Math.max(4 * sigmaDeg, 0.02), `${method} ${angleDeg} +- ${sigmaDeg}`);
+      calibration.free();
+    }
+    throwsTyped(() => new Calibration({ ...radar, method: 'recursive', motion: 'ransac' }), 'unknown-name', 'motion');
+  });
+
   test('lists its methods, also in a worker', async () => {
     const methods = calibrationMethods();
     methods.forEach((method) => assertShape(method, 'CalibrationMethodInfo'));

@@ -480,7 +480,7 @@ export interface NpyArray extends RealData {
 export type CalibrationMethod =
   | 'weighted-mean' | 'kabsch' | 'least-squares' | 'orthogonal-distance' | 'recursive';
 
-/** How the radar's own motion is estimated from a frame. */
+/** How the radar's own motion is estimated; the recursive method has `tracked` alone. */
 export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-distance' | 'tracked';
 
 export interface CalibrationMethodInfo {

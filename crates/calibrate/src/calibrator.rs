@@ -1,25 +1,11 @@
 //! The calibration: frames in, mounting angle out, whichever method.
 
-use crate::angle::bias::{Bias, PRIOR_SIGMA_RADPS};
-use crate::angle::{
-    Sample, Setting, Solution, kabsch, least_squares, orthogonal_distance, weighted_mean, wrap,
-};
+use crate::batch::Batch;
 use crate::{
-    AngleEstimate, CalibrateError, FrameCounts, FrameInput, FrameOutcome, Method, Motion,
-    MotionEstimator, Options, Recursive, Remark, Verdict,
+    AngleEstimate, CalibrateError, FrameInput, FrameOutcome, Method, MotionMethod, Options,
+    Recursive,
 };
 use boresight_core::CoreError;
-
-/// A radar slower than this stands, m/s, if its detections allow for that.
-const STANDSTILL_MPS: f64 = 0.05;
-/// Standard deviations that chance is granted.
-const CHANCE: f64 = 3.0;
-/// Standard deviation of the angle from which it counts as undetermined, rad (1 deg).
-const UNDETERMINED_ANGLE_RAD: f64 = 0.017_453_292_519_943_295;
-/// Standard deviation of the scale from which it counts as undetermined.
-const UNDETERMINED_SCALE: f64 = 0.05;
-/// Convergence compares with the angle of all frames but the last of this time, s.
-const SETTLING_S: f64 = 10.0;
 
 /// Estimates a mounting angle from frames in order of time.
 #[derive(Debug, Clone)]
@@ -37,11 +23,19 @@ impl Calibrator {
     /// A calibration without frames.
     ///
     /// # Errors
-    /// Those of [`Options::validate`], and [`CoreError::Unknown`] for a motion method that does not go
-    /// with the method.
+    /// Those of [`Options::validate`], and [`CoreError::Unknown`] for the recursive method with another
+    /// motion than its own.
     pub fn new(options: Options) -> Result<Self, CalibrateError> {
         options.validate()?;
         let inner = match options.method {
+            Method::Recursive if options.motion_method() != MotionMethod::Tracked => {
+                return Err(CoreError::Unknown {
+                    what: "motion".into(),
+                    expected: "tracked, with the recursive method".into(),
+                    given: options.motion_method().name().into(),
+                }
+                .into());
+            }
             Method::Recursive => Inner::Recursive(Box::new(Recursive::new(&options)?)),
             _ => Inner::Batch(Box::new(Batch::new(options)?)),
         };
@@ -72,197 +66,6 @@ impl Calibrator {
             Inner::Recursive(recursive) => recursive.estimate(),
         }
     }
-}
-
-/// The methods that weigh all frames at once; they keep 56 bytes of each.
-#[derive(Debug, Clone)]
-struct Batch {
-    options: Options,
-    motion: MotionEstimator,
-    samples: Vec<Sample>,
-    bias: Bias,
-    counts: FrameCounts,
-    inliers: u64,
-    detections: u64,
-    last_time_s: Option<f64>,
-}
-
-impl Batch {
-    fn new(options: Options) -> Result<Self, CalibrateError> {
-        Ok(Self {
-            motion: MotionEstimator::new(&options, options.motion_method())?,
-            options,
-            samples: Vec::new(),
-            bias: Bias::default(),
-            counts: FrameCounts::default(),
-            inliers: 0,
-            detections: 0,
-            last_time_s: None,
-        })
-    }
-
-    fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
-        check_time(self.last_time_s, frame.time_s)?;
-        self.last_time_s = Some(frame.time_s);
-        self.counts.given += 1;
-        let motion = self.motion.estimate(frame.detections);
-        let (verdict, sample) = self.judge(&frame, motion.as_ref());
-        let count = match verdict {
-            Verdict::Used => &mut self.counts.used,
-            Verdict::Standing => &mut self.counts.standing,
-            Verdict::Slow => &mut self.counts.slow,
-            Verdict::Turning => &mut self.counts.turning,
-            Verdict::Sparse => &mut self.counts.sparse,
-            Verdict::WithoutMotion => &mut self.counts.without_motion,
-        };
-        *count += 1;
-        let mut outcome = FrameOutcome {
-            verdict,
-            motion,
-            angle_rad: None,
-            weight: 0.0,
-            weights: self.motion.weights().to_vec(),
-        };
-        if let (Some(sample), Some(motion)) = (sample, motion) {
-            self.inliers += motion.inliers as u64;
-            self.detections += motion.detections as u64;
-            self.samples.push(sample);
-            if let Some(alone) = self.solve(&[sample]) {
-                outcome.angle_rad = Some((alone.angle_rad, alone.covariance.xx.sqrt()));
-            }
-            outcome.weight = 1.0 / sample.beta_variance;
-        }
-        Ok(outcome)
-    }
-
-    /// What becomes of a frame, and what is kept of it.
-    fn judge(&mut self, frame: &FrameInput, motion: Option<&Motion>) -> (Verdict, Option<Sample>) {
-        let o = &self.options;
-        let Some(motion) = motion else { return (Verdict::Sparse, None) };
-        if (motion.inliers as f64) < o.inlier_ratio_threshold * motion.detections as f64 {
-            return (Verdict::Sparse, None);
-        }
-        let Some(yaw_rate_radps) = frame.yaw_rate_radps.filter(|rate| rate.is_finite()) else {
-            return (Verdict::WithoutMotion, None);
-        };
-        let [vx, vy] = motion.velocity_mps;
-        let [[xx, xy], [_, yy]] = motion.covariance;
-        let speed = vx.hypot(vy);
-        if stands(speed, xx + yy, motion) {
-            self.bias.add(yaw_rate_radps);
-            return (Verdict::Standing, None);
-        }
-        if speed < o.min_speed_mps || speed <= CHANCE * (xx + yy).sqrt() {
-            return (Verdict::Slow, None);
-        }
-        if yaw_rate_radps.abs() > o.max_yaw_rate_radps {
-            return (Verdict::Turning, None);
-        }
-        let speed_mps = frame.speed_mps.filter(|speed| speed.is_finite());
-        if o.method == Method::Kabsch && speed_mps.is_none() {
-            return (Verdict::WithoutMotion, None);
-        }
-        let squared = speed * speed;
-        let sample = Sample {
-            time_s: frame.time_s,
-            yaw_rate_radps,
-            radar_speed_mps: speed,
-            beta_rad: vy.atan2(vx),
-            beta_variance: (vy * vy * xx - 2.0 * vx * vy * xy + vx * vx * yy) / (squared * squared),
-            speed_variance: (vx * vx * xx + 2.0 * vx * vy * xy + vy * vy * yy) / squared,
-            speed_mps: speed_mps.unwrap_or(f64::NAN),
-        };
-        let sound = sample.beta_variance > 0.0
-            && sample.beta_variance.is_finite()
-            && sample.speed_variance >= 0.0;
-        if sound { (Verdict::Used, Some(sample)) } else { (Verdict::Sparse, None) }
-    }
-
-    fn solve(&self, samples: &[Sample]) -> Option<Solution> {
-        let known = self.bias.sigma().is_finite();
-        let setting = Setting {
-            x_m: self.options.x_m,
-            y_m: self.options.y_m,
-            bias_radps: self.bias.mean(),
-            bias_sigma_radps: if known { self.bias.sigma() } else { PRIOR_SIGMA_RADPS },
-            yaw_rate_sigma_radps: self.bias.noise(),
-            nominal_rad: self.options.nominal_rad,
-        };
-        match self.options.method {
-            Method::WeightedMean => weighted_mean::solve(samples, &setting),
-            Method::Kabsch => kabsch::solve(samples, &setting),
-            Method::OrthogonalDistance => orthogonal_distance::solve(samples, &setting),
-            Method::LeastSquares | Method::Recursive => least_squares::solve(samples, &setting),
-        }
-    }
-
-    fn estimate(&self) -> AngleEstimate {
-        let o = &self.options;
-        let solution = self.solve(&self.samples);
-        let scaled = matches!(o.method, Method::LeastSquares | Method::OrthogonalDistance);
-        let (angle, inverse_scale, covariance) = match &solution {
-            Some(s) => (s.angle_rad, s.inverse_scale, s.covariance.rows()),
-            None => {
-                let yy = if scaled { f64::INFINITY } else { 0.0 };
-                (o.nominal_rad.unwrap_or(0.0), 1.0, [[f64::INFINITY, 0.0], [0.0, yy]])
-            }
-        };
-        let sigma = covariance[0][0].sqrt();
-        let scale_sigma = covariance[1][1].sqrt() / (inverse_scale * inverse_scale);
-        let mut frames = self.counts;
-        if let Some(s) = &solution {
-            // What no angle explains is turning too tightly for the model.
-            frames.used -= s.gated as u64;
-            frames.turning += s.gated as u64;
-        }
-        let moved = self.moved(angle);
-        let converged = sigma < o.converged_rad && moved <= o.converged_rad;
-        let misaligned =
-            o.nominal_rad.map(|nominal| wrap(angle - nominal).abs() > o.alarm_rad + CHANCE * sigma);
-        let inlier_share =
-            if self.detections == 0 { 0.0 } else { self.inliers as f64 / self.detections as f64 };
-        let remarks = [
-            (Remark::NoFrames, solution.is_none()),
-            (Remark::AngleUndetermined, sigma.is_nan() || sigma > UNDETERMINED_ANGLE_RAD),
-            (
-                Remark::ScaleUndetermined,
-                scaled && (scale_sigma.is_nan() || scale_sigma > UNDETERMINED_SCALE),
-            ),
-            (Remark::BiasUndetermined, !self.bias.sigma().is_finite()),
-            (Remark::FewInliers, self.detections > 0 && inlier_share < 0.5),
-            (Remark::Misaligned, misaligned == Some(true)),
-            (Remark::NotConverged, !converged),
-        ];
-        AngleEstimate {
-            angle_rad: angle,
-            sigma_rad: sigma,
-            scale: 1.0 / inverse_scale,
-            scale_sigma,
-            covariance,
-            bias_radps: self.bias.mean(),
-            bias_sigma_radps: self.bias.sigma(),
-            inlier_share,
-            frames,
-            converged,
-            misaligned,
-            remarks: remarks.into_iter().filter_map(|(r, holds)| holds.then_some(r)).collect(),
-        }
-    }
-
-    /// How far the angle is from that of all frames but the latest, rad.
-    fn moved(&self, angle: f64) -> f64 {
-        let Some(last) = self.samples.last() else { return f64::INFINITY };
-        let until = self.samples.partition_point(|s| s.time_s < last.time_s - SETTLING_S);
-        self.solve(&self.samples[..until])
-            .map_or(f64::INFINITY, |earlier| wrap(angle - earlier.angle_rad).abs())
-    }
-}
-
-/// Whether a radar stands: so slow that it is nothing or within the motion's own uncertainty, and most of
-/// what it sees agrees.
-fn stands(speed: f64, variance: f64, motion: &Motion) -> bool {
-    let chance = (CHANCE * variance.sqrt()).min(2.0 * STANDSTILL_MPS);
-    speed <= STANDSTILL_MPS.max(chance) && 2 * motion.inliers >= motion.detections
 }
 
 /// Checks that time is a number and does not run backwards.

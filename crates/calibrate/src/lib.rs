@@ -10,6 +10,7 @@
 //! `measured = s w + b`; `s' = 1 / s` is what is estimated.
 
 mod angle;
+mod batch;
 pub mod calibrator;
 pub mod error;
 pub mod estimate;

@@ -265,6 +265,15 @@ fn calibrate_finds_the_angle_of_the_radar_of_a_real_drive() {
     let angle = result["angleDeg"].as_f64().unwrap();
     assert!((angle + 1.96).abs() < 0.3, "{text}");
     assert!(result["frames"]["used"].as_u64().unwrap() > 1000, "{text}");
+    let tracked =
+        ["calibrate", drive, "--method", "least-squares", "--motion", "tracked", "--json"];
+    let result: Value = serde_json::from_str(&stdout(&tracked)).unwrap();
+    assert_eq!(result["motion"], "tracked");
+    assert!((result["angleDeg"].as_f64().unwrap() + 1.96).abs() < 0.3, "{result}");
+    let refused = boresight(&["calibrate", drive, "--motion", "ransac"]);
+    assert!(
+        String::from_utf8_lossy(&refused.stderr).contains("tracked, with the recursive method")
+    );
     let wrong = boresight(&["calibrate", drive, "--sensor", "9"]);
     assert_eq!(wrong.status.code(), Some(2));
 }

@@ -74,7 +74,7 @@ impl MotionEstimator {
     ///
     /// # Errors
     /// Those of [`Options::validate`]; [`CoreError::Unknown`] for [`MotionMethod::Tracked`], which
-    /// needs more than one frame and belongs to [`crate::Method::Recursive`].
+    /// needs more than one frame: ask a [`crate::Calibrator`] for it.
     pub fn new(options: &Options, method: MotionMethod) -> Result<Self, CalibrateError> {
         options.validate()?;
         if method == MotionMethod::Tracked {

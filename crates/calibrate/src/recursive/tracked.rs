@@ -45,7 +45,8 @@ impl Prediction {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fit {
     pub(crate) velocity: [f64; 2],
-    /// Inverse of the normal matrix.
+    /// Inverse of the normal matrix, times the residuals' variance where that exceeds 1 and times
+    /// `missing`.
     pub(crate) covariance: [[f64; 2]; 2],
     /// Speed of the car, m/s.
     pub(crate) speed: f64,
@@ -237,7 +238,7 @@ impl Cloud {
             return None;
         }
         let reduced_squares = squares / (sum - 2.0).max(1.0);
-        let inflation = reduced_squares.max(1.0);
+        let inflation = reduced_squares.max(1.0) * missing;
         for entry in covariance.iter_mut().flatten() {
             *entry *= inflation;
         }

@@ -76,8 +76,8 @@ pub fn cloud(random: &mut Random, velocity: [f64; 2], drive: &Drive) -> Vec<Dete
 }
 
 impl Drive {
-    /// Runs frames at 13.5 Hz through a callback: time, cloud, measured yaw rate, speed.
-    pub fn run(&self, mut each: impl FnMut(f64, &[Detection], f64, f64)) {
+    /// Runs frames at 13.5 Hz through a callback, with the radar's true velocity.
+    pub fn run(&self, mut each: impl FnMut(FrameInput, [f64; 2])) {
         let mut random = Random::new(self.seed, 0);
         for i in 0..self.frames {
             let time = i as f64 / 13.5;
@@ -98,7 +98,13 @@ impl Drive {
             let cloud = cloud(&mut random, velocity, self);
             let measured =
                 self.scale * rate + self.bias_radps + self.yaw_noise_radps * random.normal();
-            each(time, &cloud, measured, speed);
+            let frame = FrameInput {
+                time_s: time,
+                detections: &cloud,
+                yaw_rate_radps: Some(measured),
+                speed_mps: Some(speed),
+            };
+            each(frame, velocity);
         }
     }
 
@@ -109,13 +115,7 @@ impl Drive {
     /// A calibration that has seen the drive.
     pub fn calibrate(&self, options: Options) -> Calibrator {
         let mut calibrator = Calibrator::new(options).unwrap();
-        self.run(|time_s, detections, yaw, speed| {
-            let frame = FrameInput {
-                time_s,
-                detections,
-                yaw_rate_radps: Some(yaw),
-                speed_mps: Some(speed),
-            };
+        self.run(|frame, _| {
             calibrator.add(frame).unwrap();
         });
         calibrator
