@@ -47,6 +47,12 @@ pub enum Command {
     Calibrate(CalibrateArguments),
     /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.
     Log(LogArguments),
+    /// Run an experiment on simulated scenes: tables, figures, records.
+    Evaluate {
+        /// What to run.
+        #[command(subcommand)]
+        what: EvaluateCommand,
+    },
     /// List the methods of angle estimation, and what each needs.
     Methods(ListFormat),
     /// List the arrays known by name.
@@ -359,4 +365,34 @@ fn pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
     text.split_once(',')
         .and_then(|(a, b)| Some([number(a)?, number(b)?]))
         .ok_or_else(|| "expected two numbers with a comma between, such as 4,2".into())
+}
+
+/// Experiments.
+#[derive(Debug, Subcommand)]
+pub enum EvaluateCommand {
+    /// Mounting angles on simulated drives of four radars: errors, trajectories, driving time.
+    Calibration(EvaluateCalibrationArguments),
+}
+
+/// Arguments of `evaluate calibration`.
+#[derive(Debug, Args)]
+pub struct EvaluateCalibrationArguments {
+    /// Drives of each kind: all roads with up to 30 % moving detections, and dense traffic.
+    #[arg(long, value_name = "N", default_value_t = 64)]
+    pub scenes: u64,
+    /// Seed.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Length of a drive, s.
+    #[arg(long, value_name = "S", default_value_t = 120.0)]
+    pub duration: f64,
+    /// Threads; without it one a processor core.
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+    /// JSON instead of Markdown tables.
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for records, tables and figures. A run that was stopped goes on from the records.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }

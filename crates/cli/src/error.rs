@@ -3,6 +3,7 @@
 use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
+use boresight_evaluate::EvaluateError;
 use boresight_formats::FormatError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
@@ -39,6 +40,9 @@ pub enum CliError {
     /// Simulation refused.
     #[error(transparent)]
     Simulate(#[from] SimulateError),
+    /// An experiment refused, or was stopped.
+    #[error(transparent)]
+    Evaluate(#[from] EvaluateError),
     /// The system refused a file.
     #[error("cannot {action} {}: {error}", path.display())]
     File {
@@ -79,7 +83,8 @@ impl CliError {
     /// parser; 130 for Ctrl-C; 1 otherwise.
     pub fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Pipeline(PipelineError::Cancelled { .. }) => ExitCode::from(INTERRUPTED),
+            Self::Pipeline(PipelineError::Cancelled { .. })
+            | Self::Evaluate(EvaluateError::Cancelled { .. }) => ExitCode::from(INTERRUPTED),
             Self::Option { .. } => ExitCode::from(2),
             _ => ExitCode::FAILURE,
         }
@@ -106,6 +111,7 @@ impl CliError {
             Self::Calibrate(error) => error,
             Self::Pipeline(error) => error,
             Self::Simulate(error) => error,
+            Self::Evaluate(error) => error,
             _ => return None,
         })
     }

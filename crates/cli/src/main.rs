@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Estimate(arguments) => commands::estimate::run(&arguments),
         Command::Simulate { what } => commands::simulate::run(&what),
         Command::Calibrate(arguments) => commands::calibrate::run(&arguments),
+        Command::Evaluate { what } => commands::evaluate::run(&what),
         Command::Log(arguments) => commands::log::run(&arguments),
         Command::Methods(format) => commands::lists::methods(format.json),
         Command::Arrays(format) => commands::lists::arrays(format.json),

@@ -14,13 +14,15 @@ pub struct Run {
 }
 
 impl Run {
-    /// Starts watching; once in a process.
-    pub fn start() -> Result<Self, CliError> {
+    /// Starts watching; once in a process. `steps` is what progress counts.
+    pub fn start(steps: &str) -> Result<Self, CliError> {
         let stop = Arc::new(AtomicBool::new(false));
         let asked = stop.clone();
         ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed))?;
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left") {
+        if let Ok(style) = ProgressStyle::with_template(&format!(
+            "{{bar:40}} {{pos}}/{{len}} {steps}, {{eta}} left"
+        )) {
             bar.set_style(style);
         }
         Ok(Self { bar, stop })

@@ -22,7 +22,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
     let read = open_path(&arguments.paths, format)?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     let sensors = chosen(&read.log, arguments.sensor)?;
-    let run = Run::start()?;
+    let run = Run::start("frames")?;
     let mut estimates = Vec::with_capacity(sensors.len());
     for sensor in sensors {
         let options = options(arguments, sensor)?;

@@ -91,7 +91,7 @@ where
 {
     let frames = source.frames();
     let single = chain.options().method.requirements().max_snapshots == Some(1);
-    let run = Run::start()?;
+    let run = Run::start("frames")?;
     let mut results = vec![];
     let report = &mut |progress| run.report(progress);
     match arguments.frame {

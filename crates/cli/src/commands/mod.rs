@@ -6,6 +6,7 @@ mod capture;
 mod chain;
 mod cube;
 pub mod estimate;
+pub mod evaluate;
 pub mod lists;
 pub mod log;
 pub mod simulate;

@@ -1,0 +1,77 @@
+//! Figures 5 and 6, as SVG.
+
+use super::CANDIDATES;
+use super::report::{Condition, Convergence, Report};
+use crate::EvaluateError;
+use crate::plot::{Panel, Series, draw};
+use crate::statistics::Summary;
+
+/// Figure 5: the angle of radar 3 by drive, for two published methods and ours.
+///
+/// # Errors
+/// [`EvaluateError::Figure`].
+pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
+    let truth = condition.radars.iter().find(|r| r.sensor == 3).map_or(f64::NAN, |r| r.true_deg);
+    let scenes = condition.scenes as f64;
+    let panels: Vec<Panel> = [0, 1, 4]
+        .into_iter()
+        .map(|k| {
+            let points: Vec<(f64, f64)> = condition.angles_deg[k]
+                .iter()
+                .enumerate()
+                .filter_map(|(i, angle)| Some((i as f64 + 1.0, (*angle)?)))
+                .collect();
+            let level = |name: &str, y: f64, dashed| Series {
+                name: name.into(),
+                points: vec![(1.0, y), (scenes, y)],
+                dashed,
+                marked: false,
+            };
+            let angles: Vec<f64> = points.iter().map(|(_, angle)| *angle).collect();
+            let mean = Summary::of(&angles).mean;
+            Panel {
+                title: CANDIDATES[k].name.into(),
+                x: "drive".into(),
+                y: "angle / deg".into(),
+                logarithmic: false,
+                series: vec![
+                    Series { name: "each drive".into(), points, dashed: false, marked: true },
+                    level(&format!("mean {mean:.3}"), mean, true),
+                    level(&format!("true {truth:.3}"), truth, false),
+                ],
+            }
+        })
+        .collect();
+    draw(&panels, 1)
+}
+
+/// Figure 6: mean absolute error and variance against driving time.
+///
+/// # Errors
+/// [`EvaluateError::Figure`].
+pub fn convergence(report: &Report) -> Result<String, EvaluateError> {
+    let panel = |condition: &Condition, what: &str, value: fn(&Summary) -> f64| Panel {
+        title: condition.name.into(),
+        x: "driving time / s".into(),
+        y: what.into(),
+        logarithmic: true,
+        series: condition.convergence.iter().map(|c| series(c, value)).collect(),
+    };
+    let panels: Vec<Panel> = report
+        .conditions
+        .iter()
+        .map(|c| panel(c, "mean absolute error / deg", |error| error.mean_absolute))
+        .chain(report.conditions.iter().map(|c| panel(c, "variance / deg^2", |e| e.variance)))
+        .collect();
+    draw(&panels, 2)
+}
+
+fn series(convergence: &Convergence, value: fn(&Summary) -> f64) -> Series {
+    let points = convergence.driving_s.iter().zip(&convergence.error_deg);
+    Series {
+        name: convergence.name.into(),
+        points: points.filter(|(_, e)| e.count > 1).map(|(t, e)| (*t, value(e))).collect(),
+        dashed: false,
+        marked: true,
+    }
+}

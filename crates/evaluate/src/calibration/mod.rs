@@ -1,0 +1,113 @@
+//! Mounting angles on simulated drives: Tables II to IV and Figures 5 and 6 of Zhu et al., "Radar Mounting
+//! Angle Estimation in Operational Driving Conditions".
+//!
+//! Scenes with even numbers are drives over all kinds of roads with up to 30 % moving detections, those with
+//! odd numbers are dense traffic with 40 to 80 %.
+
+pub mod figures;
+pub mod report;
+pub mod scene;
+
+pub use report::Report;
+pub use scene::SceneRecord;
+
+use crate::EvaluateError;
+use crate::sweep::{self, Sweep};
+use boresight_calibrate::{Method, MotionMethod};
+use boresight_core::error::check_range;
+use boresight_pipeline::Progress;
+use serde_json::json;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// Driving times of Figure 6, s.
+pub const DRIVING_TIMES_S: [f64; 8] = [2.0, 5.0, 10.0, 15.0, 25.0, 40.0, 60.0, 90.0];
+
+/// A method of the tables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Candidate {
+    /// Name in records and tables.
+    pub name: &'static str,
+    /// How the angle is estimated.
+    pub method: Method,
+    /// How the radar's motion is.
+    pub motion: MotionMethod,
+    /// Whether all radars share scale, bias and slip.
+    pub joint: bool,
+    /// Whether Figure 6 shows it.
+    pub convergence: bool,
+}
+
+const fn candidate(
+    name: &'static str,
+    method: Method,
+    motion: MotionMethod,
+    convergence: bool,
+) -> Candidate {
+    Candidate { name, method, motion, joint: false, convergence }
+}
+
+/// The methods compared: those of Table II, ours, then the formulations of Table IV on our motion.
+pub const CANDIDATES: [Candidate; 6] = [
+    candidate("weighted mean (Kellner et al.)", Method::WeightedMean, MotionMethod::Ransac, true),
+    candidate("Kabsch (Bao et al.)", Method::Kabsch, MotionMethod::Ransac, true),
+    candidate(
+        "least squares on RANSAC",
+        Method::LeastSquares,
+        MotionMethod::WeightedLeastSquares,
+        true,
+    ),
+    candidate(
+        "orthogonal distance on RANSAC",
+        Method::OrthogonalDistance,
+        MotionMethod::OrthogonalDistance,
+        false,
+    ),
+    candidate("recursive", Method::Recursive, MotionMethod::Tracked, true),
+    Candidate {
+        joint: true,
+        ..candidate("recursive, four radars", Method::Recursive, MotionMethod::Tracked, false)
+    },
+];
+
+/// What to run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Drives of each kind.
+    pub scenes: u64,
+    /// Everything random comes from it.
+    pub seed: u64,
+    /// Length of a drive, s.
+    pub duration_s: f64,
+    /// Threads.
+    pub threads: usize,
+}
+
+/// Runs the experiment; with a folder, its records are kept there and a stopped run goes on.
+///
+/// # Errors
+/// Options out of range; those of [`sweep::run`].
+pub fn run(
+    options: &Options,
+    folder: Option<&Path>,
+    progress: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Report, EvaluateError> {
+    check_range("scenes", options.scenes as f64, 1.0, 1e5)?;
+    check_range("durationS", options.duration_s, 10.0, 3600.0)?;
+    let records = folder.map(|folder| folder.join("calibration.jsonl"));
+    let setup = json!({
+        "experiment": "calibration",
+        "version": env!("CARGO_PKG_VERSION"),
+        "seed": options.seed,
+        "durationS": options.duration_s,
+        "methods": CANDIDATES.map(|c| c.name),
+    });
+    let sweep = Sweep {
+        setup,
+        scenes: 0..2 * options.scenes,
+        threads: options.threads,
+        records: records.as_deref(),
+    };
+    let done = sweep::run(&sweep, |number| scene::run(options, number), progress)?;
+    Ok(Report::new(options, done.into_values()))
+}

@@ -1,0 +1,343 @@
+//! From records to the tables.
+
+use super::scene::{EstimateRecord, PartRecord, RadarRecord, SEGMENT_M, SceneRecord};
+use super::{CANDIDATES, DRIVING_TIMES_S, Options};
+use crate::statistics::Summary;
+use serde::Serialize;
+
+/// The experiment's result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Report {
+    /// Seed.
+    pub seed: u64,
+    /// Length of each drive, s.
+    pub duration_s: f64,
+    /// Drives with up to 30 % moving detections, then dense traffic.
+    pub conditions: Vec<Condition>,
+}
+
+/// Drives of one kind.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Condition {
+    /// What they are.
+    pub name: &'static str,
+    /// How many.
+    pub scenes: usize,
+    /// Way driven in all, km.
+    pub driven_km: f64,
+    /// Time driven in all, h.
+    pub driven_h: f64,
+    /// Share of detections from moving road users: mean and largest.
+    pub moving_share: [f64; 2],
+    /// Radars: number, true angle (deg) and relative trajectory error with it (m).
+    pub radars: Vec<Baseline>,
+    /// Methods in the order of [`CANDIDATES`].
+    pub methods: Vec<MethodResult>,
+    /// Figure 6, for the methods it shows.
+    pub convergence: Vec<Convergence>,
+    /// Figure 5: each method's angles of radar 3, deg, by scene.
+    pub angles_deg: Vec<Vec<Option<f64>>>,
+}
+
+/// A radar with its true angle.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Baseline {
+    /// Number.
+    pub sensor: u8,
+    /// True angle, deg.
+    pub true_deg: f64,
+    /// Mean relative trajectory error with it, m.
+    pub rte_m: f64,
+}
+
+/// A method over all drives of a condition.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct MethodResult {
+    /// Name.
+    pub name: &'static str,
+    /// By radar.
+    pub radars: Vec<RadarResult>,
+    /// Share of errors within one and two of the stated standard deviations, all radars.
+    pub within: [f64; 2],
+    /// The same for the scale, where it was estimated.
+    pub scale_within: Option<[f64; 2]>,
+    /// Mean error and standard deviation of the scale.
+    pub scale: Option<[f64; 2]>,
+}
+
+/// A method on one radar.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct RadarResult {
+    /// Number.
+    pub sensor: u8,
+    /// Errors, deg.
+    pub error_deg: Summary,
+    /// Standard deviation of the mean error, deg.
+    pub mean_sigma_deg: f64,
+    /// Drives that gave no angle.
+    pub without: usize,
+    /// Drives in which the method called itself converged.
+    pub converged: usize,
+    /// Mean relative trajectory error, m.
+    pub rte_m: f64,
+}
+
+/// Errors against driving time, all radars.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Convergence {
+    /// Name of the method.
+    pub name: &'static str,
+    /// Driving time, s.
+    pub driving_s: Vec<f64>,
+    /// Errors, deg.
+    pub error_deg: Vec<Summary>,
+    /// Parts that gave no angle.
+    pub without: Vec<usize>,
+}
+
+impl Report {
+    /// From the records, in order.
+    pub fn new(options: &Options, records: impl Iterator<Item = SceneRecord>) -> Self {
+        let (dense, mixed): (Vec<_>, Vec<_>) = records.partition(|record| record.dense);
+        Self {
+            seed: options.seed,
+            duration_s: options.duration_s,
+            conditions: vec![
+                Condition::new("up to 30 % moving", &mixed),
+                Condition::new("dense traffic, 40 to 80 % moving", &dense),
+            ],
+        }
+    }
+
+    /// The tables, as Markdown.
+    pub fn tables(&self) -> String {
+        self.conditions.iter().map(Condition::tables).collect::<Vec<_>>().join("\n")
+    }
+}
+
+impl Condition {
+    fn new(name: &'static str, records: &[SceneRecord]) -> Self {
+        let shares: Vec<f64> = records.iter().map(|record| record.moving_share).collect();
+        let shares = Summary::of(&shares);
+        let sensors: Vec<u8> =
+            records.first().map_or(vec![], |r| r.radars.iter().map(|radar| radar.sensor).collect());
+        let of = |index: usize| records.iter().filter_map(move |record| record.radars.get(index));
+        let radars = sensors
+            .iter()
+            .enumerate()
+            .map(|(index, &sensor)| Baseline {
+                sensor,
+                true_deg: of(index).next().map_or(f64::NAN, |radar| radar.true_deg),
+                rte_m: mean(of(index).filter_map(|radar| radar.rte_true_m)),
+            })
+            .collect();
+        let methods = (0..CANDIDATES.len()).map(|k| MethodResult::new(k, &sensors, &of)).collect();
+        let convergence = CANDIDATES
+            .iter()
+            .filter(|candidate| candidate.convergence)
+            .enumerate()
+            .map(|(k, candidate)| {
+                let all: Vec<&[PartRecord]> = records
+                    .iter()
+                    .flat_map(|r| r.radars.iter().filter_map(move |radar| radar.parts.get(k)))
+                    .map(Vec::as_slice)
+                    .collect();
+                Convergence::new(candidate.name, &all)
+            })
+            .collect();
+        let angles_deg = (0..CANDIDATES.len())
+            .map(|k| {
+                let third = records.iter().map(|r| r.radars.iter().find(|radar| radar.sensor == 3));
+                let angle =
+                    |radar: &RadarRecord| Some(radar.true_deg + radar.estimates[k].error_deg?);
+                third.map(|radar| radar.and_then(angle)).collect()
+            })
+            .collect();
+        Self {
+            name,
+            scenes: records.len(),
+            driven_km: records.iter().map(|record| record.driven_m).sum::<f64>() / 1e3,
+            driven_h: records.iter().map(|record| record.driven_s).sum::<f64>() / 3600.0,
+            moving_share: [shares.mean, shares.largest],
+            radars,
+            methods,
+            convergence,
+            angles_deg,
+        }
+    }
+
+    fn tables(&self) -> String {
+        let mut text = format!(
+            "## {}: {} drives, {:.0} km, {:.1} h of driving, {:.0} % of detections moving (at most {:.0} %)\n\n",
+            self.name,
+            self.scenes,
+            self.driven_km,
+            self.driven_h,
+            100.0 * self.moving_share[0],
+            100.0 * self.moving_share[1],
+        );
+        let radars: Vec<String> = self
+            .radars
+            .iter()
+            .map(|r| format!("radar {} ({:.2} deg)", r.sensor, r.true_deg))
+            .collect();
+        text += "Errors of the angle: mean in deg and variance in deg^2 (drives without an angle), and the share of errors \
+                 within one and two stated standard deviations (Tables II and IV).\n\n";
+        let cells = |method: &MethodResult| {
+            let mut cells: Vec<String> = method
+                .radars
+                .iter()
+                .map(|radar| {
+                    let without = if radar.without > 0 {
+                        format!(" ({})", radar.without)
+                    } else {
+                        String::new()
+                    };
+                    format!(
+                        "{:+.4}, {:.4}{without}",
+                        radar.error_deg.mean, radar.error_deg.variance
+                    )
+                })
+                .collect();
+            cells.push(percent(method.within));
+            cells
+        };
+        let mut heads: Vec<&str> = radars.iter().map(String::as_str).collect();
+        heads.push("within 1, 2 sigma");
+        let rows: Vec<_> = self.methods.iter().map(|m| (m.name, cells(m))).collect();
+        text += &table("method", &heads, &rows);
+        text += &format!(
+            "\nRelative trajectory error over {SEGMENT_M} m, m; the radar's motion is the tracked one throughout \
+             (Table III).\n\n"
+        );
+        let mut rows: Vec<(&str, Vec<String>)> = self
+            .methods
+            .iter()
+            .map(|m| (m.name, m.radars.iter().map(|r| format!("{:.3}", r.rte_m)).collect()))
+            .collect();
+        rows.push(("true angle", self.radars.iter().map(|r| format!("{:.3}", r.rte_m)).collect()));
+        heads.pop();
+        text += &table("angle from", &heads, &rows);
+        text += "\nMean absolute error in deg and variance in deg^2 against driving time, all radars (Figure 6).\n\n";
+        let times: Vec<String> = DRIVING_TIMES_S.iter().map(|time| format!("{time} s")).collect();
+        let heads: Vec<&str> = times.iter().map(String::as_str).collect();
+        let rows: Vec<_> = self
+            .convergence
+            .iter()
+            .map(|c| {
+                let cells = c.error_deg.iter().zip(&c.without).map(|(error, without)| {
+                    let without =
+                        if *without > 0 { format!(" ({without})") } else { String::new() };
+                    format!("{:.3}, {:.4}{without}", error.mean_absolute, error.variance)
+                });
+                (c.name, cells.collect::<Vec<_>>())
+            })
+            .collect();
+        text += &table("method", &heads, &rows);
+        text += "\nScale of the yaw rate: mean error and standard deviation, and the share within one and two stated standard \
+                 deviations.\n\n";
+        let rows: Vec<_> = self
+            .methods
+            .iter()
+            .filter_map(|m| {
+                let [mean, sigma] = m.scale?;
+                Some((m.name, vec![format!("{mean:+.4} +- {sigma:.4}"), percent(m.scale_within?)]))
+            })
+            .collect();
+        text + &table("method", &["error", "within 1, 2 sigma"], &rows)
+    }
+}
+
+impl MethodResult {
+    fn new<'a, I: Iterator<Item = &'a RadarRecord>>(
+        k: usize,
+        sensors: &[u8],
+        of: &impl Fn(usize) -> I,
+    ) -> Self {
+        let estimates = |index| of(index).filter_map(|radar| radar.estimates.get(k));
+        let all = || (0..sensors.len()).flat_map(estimates);
+        let scales: Vec<(f64, f64)> = all().filter_map(|e| e.scale).collect();
+        let errors: Vec<f64> = scales.iter().map(|(error, _)| *error).collect();
+        let summary = Summary::of(&errors);
+        Self {
+            name: CANDIDATES[k].name,
+            radars: sensors
+                .iter()
+                .enumerate()
+                .map(|(index, &sensor)| RadarResult::new(sensor, &|| estimates(index)))
+                .collect(),
+            within: within(all().filter_map(|e| Some((e.error_deg?, e.sigma_deg?)))),
+            scale: (summary.count > 1).then(|| [summary.mean, summary.variance.sqrt()]),
+            scale_within: (summary.count > 1).then(|| within(scales.into_iter())),
+        }
+    }
+}
+
+impl RadarResult {
+    fn new<'a, I: Iterator<Item = &'a EstimateRecord>>(sensor: u8, of: &impl Fn() -> I) -> Self {
+        let errors: Vec<f64> = of().filter_map(|e| e.error_deg).collect();
+        let error_deg = Summary::of(&errors);
+        Self {
+            sensor,
+            error_deg,
+            mean_sigma_deg: error_deg.mean_sigma(),
+            without: of().count() - errors.len(),
+            converged: of().filter(|e| e.converged).count(),
+            rte_m: mean(of().filter_map(|e| e.rte_m)),
+        }
+    }
+}
+
+impl Convergence {
+    fn new(name: &'static str, parts: &[&[PartRecord]]) -> Self {
+        let of = |i: usize| parts.iter().filter_map(move |part| part.get(i));
+        let lengths = 0..DRIVING_TIMES_S.len();
+        Self {
+            name,
+            driving_s: DRIVING_TIMES_S.to_vec(),
+            error_deg: lengths
+                .clone()
+                .map(|i| {
+                    let errors: Vec<f64> =
+                        of(i).flat_map(|p| p.errors_deg.iter().copied()).collect();
+                    Summary::of(&errors)
+                })
+                .collect(),
+            without: lengths.map(|i| of(i).map(|part| part.without).sum()).collect(),
+        }
+    }
+}
+
+/// Share of errors within one and two standard deviations.
+fn within(errors: impl Iterator<Item = (f64, f64)>) -> [f64; 2] {
+    let (mut one, mut two, mut all) = (0_usize, 0_usize, 0_usize);
+    for (error, sigma) in errors {
+        one += usize::from(error.abs() <= sigma);
+        two += usize::from(error.abs() <= 2.0 * sigma);
+        all += 1;
+    }
+    [one, two].map(|count| count as f64 / (all as f64).max(1.0))
+}
+
+fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
+    Summary::of(&numbers.collect::<Vec<_>>()).mean
+}
+
+fn percent([one, two]: [f64; 2]) -> String {
+    format!("{:.0} %, {:.0} %", 100.0 * one, 100.0 * two)
+}
+
+fn table(corner: &str, heads: &[&str], rows: &[(&str, Vec<String>)]) -> String {
+    let mut text =
+        format!("| {corner} | {} |\n|---|{}\n", heads.join(" | "), "---|".repeat(heads.len()));
+    for (name, cells) in rows {
+        text += &format!("| {name} | {} |\n", cells.join(" | "));
+    }
+    text
+}

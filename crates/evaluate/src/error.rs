@@ -1,0 +1,103 @@
+//! Errors of the experiments.
+
+use boresight_calibrate::CalibrateError;
+use boresight_core::{CoreError, Details, Diagnose};
+use boresight_simulate::SimulateError;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// What can stop an experiment.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EvaluateError {
+    /// An option is wrong.
+    #[error(transparent)]
+    Core(#[from] CoreError),
+    /// A scene cannot be simulated.
+    #[error(transparent)]
+    Simulate(#[from] SimulateError),
+    /// A calibration refused.
+    #[error(transparent)]
+    Calibrate(#[from] CalibrateError),
+    /// The system refused a file of the output folder.
+    #[error("cannot {action} {}: {error}", path.display())]
+    File {
+        /// What was tried.
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// The folder holds records of another experiment, version or seed.
+    #[error("{} holds records of another run: {given}", path.display())]
+    OtherRun {
+        /// The file.
+        path: PathBuf,
+        /// What this run's records are headed by.
+        expected: String,
+        /// What was found.
+        given: String,
+    },
+    /// A line of the records cannot be read.
+    #[error("{}, line {line}: {error}", path.display())]
+    Record {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What the reader says.
+        error: serde_json::Error,
+    },
+    /// A figure cannot be drawn.
+    #[error("the figure cannot be drawn: {0}")]
+    Figure(String),
+    /// Stopped by the caller.
+    #[error("stopped after {done} of {total} scenes")]
+    Cancelled {
+        /// Scenes done.
+        done: usize,
+        /// Scenes in all.
+        total: usize,
+    },
+}
+
+impl Diagnose for EvaluateError {
+    fn code(&self) -> &'static str {
+        match self {
+            Self::Core(error) => error.code(),
+            Self::Simulate(error) => error.code(),
+            Self::Calibrate(error) => error.code(),
+            Self::File { .. } => "file",
+            Self::OtherRun { .. } => "other-run",
+            Self::Record { .. } => "malformed-file",
+            Self::Figure(_) => "figure",
+            Self::Cancelled { .. } => "cancelled",
+        }
+    }
+
+    fn details(&self) -> Details {
+        match self {
+            Self::Core(error) => error.details(),
+            Self::Simulate(error) => error.details(),
+            Self::Calibrate(error) => error.details(),
+            Self::File { action, path, error } => Details::new(
+                path.display().to_string(),
+                format!("a path that can be {action}"),
+                error.to_string(),
+            ),
+            Self::OtherRun { path, expected, given } => {
+                Details::new(path.display().to_string(), expected.clone(), given.clone())
+            }
+            Self::Record { path, line, error } => Details::new(
+                format!("{}, line {line}", path.display()),
+                "a record of a scene",
+                error.to_string(),
+            ),
+            Self::Figure(error) => Details::new("figure", "one that can be drawn", error.clone()),
+            Self::Cancelled { done, total } => {
+                Details::new("scenes", total.to_string(), done.to_string())
+            }
+        }
+    }
+}

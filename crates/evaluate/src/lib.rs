@@ -1,0 +1,12 @@
+//! Experiments: estimators over many simulated scenes, and what comes of it as tables and figures.
+//!
+//! A scene depends on the seed and its own number only, so a run can be stopped and taken up again, spread
+//! over threads, or split by scene numbers over machines.
+
+pub mod calibration;
+pub mod error;
+mod plot;
+pub mod statistics;
+pub mod sweep;
+
+pub use error::EvaluateError;

@@ -1,0 +1,236 @@
+//! Scenes by number, over threads, with records that survive a stop.
+
+use crate::EvaluateError;
+use boresight_core::CoreError;
+use boresight_pipeline::Progress;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::io::Write;
+use std::ops::{ControlFlow, Range};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+/// What to run, and where its records are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep<'a> {
+    /// All that a record depends on but the scene's number; heads the file of records.
+    pub setup: Value,
+    /// Numbers of the scenes.
+    pub scenes: Range<u64>,
+    /// Threads to work with, at least one.
+    pub threads: usize,
+    /// File of records, one JSON value a line; `None` keeps none. Scenes found there are not run
+    /// again.
+    pub records: Option<&'a Path>,
+}
+
+#[derive(Serialize, serde::Deserialize)]
+struct Line<R> {
+    scene: u64,
+    record: R,
+}
+
+/// Runs the scenes not yet recorded and returns all of those asked for, by number. `progress` breaks the run;
+/// what was done is recorded.
+///
+/// # Errors
+/// The first error of `work`; [`EvaluateError::OtherRun`] where the file belongs to another run;
+/// [`EvaluateError::Cancelled`]; those of the file.
+pub fn run<R: Serialize + DeserializeOwned + Send>(
+    sweep: &Sweep,
+    work: impl Fn(u64) -> Result<R, EvaluateError> + Sync,
+    mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<BTreeMap<u64, R>, EvaluateError> {
+    if sweep.threads == 0 {
+        return Err(CoreError::OutOfRange {
+            what: "threads".into(),
+            expected: "at least 1".into(),
+            given: 0.0,
+        }
+        .into());
+    }
+    let (mut done, mut file) = match sweep.records {
+        Some(path) => open(path, sweep)?,
+        None => (BTreeMap::new(), None),
+    };
+    let missing: Vec<u64> =
+        sweep.scenes.clone().filter(|scene| !done.contains_key(scene)).collect();
+    let total = done.len() + missing.len();
+    if progress(Progress { done: done.len(), total }).is_break() {
+        return Err(EvaluateError::Cancelled { done: done.len(), total });
+    }
+    let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        let (sender, results) = mpsc::channel();
+        for _ in 0..sweep.threads.min(missing.len()) {
+            let (sender, next, stop, missing, work) =
+                (sender.clone(), &next, &stop, &missing, &work);
+            scope.spawn(move || {
+                while !stop.load(Ordering::Relaxed) {
+                    let Some(&scene) = missing.get(next.fetch_add(1, Ordering::Relaxed)) else {
+                        break;
+                    };
+                    if sender.send((scene, work(scene))).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let finished = (|| {
+            loop {
+                let wait = std::time::Duration::from_millis(200);
+                match results.recv_timeout(wait) {
+                    Ok((scene, record)) => {
+                        let line = Line { scene, record: record? };
+                        if let Some((file, path)) = &mut file {
+                            append(file, path, &line)?;
+                        }
+                        done.insert(scene, line.record);
+                    }
+                    Err(mpsc::RecvTimeoutError::Timeout) => {}
+                    Err(mpsc::RecvTimeoutError::Disconnected) => return Ok(()),
+                }
+                // Ctrl-C is looked at while scenes run, too.
+                if progress(Progress { done: done.len(), total }).is_break() {
+                    return Err(EvaluateError::Cancelled { done: done.len(), total });
+                }
+            }
+        })();
+        stop.store(true, Ordering::Relaxed);
+        finished
+    })?;
+    Ok(done)
+}
+
+type Opened<R> = (BTreeMap<u64, R>, Option<(File, PathBuf)>);
+
+/// Reads what is recorded and opens the file for more.
+fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, EvaluateError> {
+    let failed = |action| move |error| EvaluateError::File { action, path: path.to_owned(), error };
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(failed("written"))?;
+    }
+    let mut text = match std::fs::read_to_string(path) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
+        read => read.map_err(failed("read"))?,
+    };
+    // A run that was killed may have left half a line.
+    text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
+    let mut file = OpenOptions::new()
+        .create(true)
+        .write(true)
+        .truncate(false)
+        .open(path)
+        .map_err(failed("written"))?;
+    file.set_len(text.len() as u64).map_err(failed("written"))?;
+    std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0)).map_err(failed("written"))?;
+    let mut lines = text.lines().enumerate();
+    let mut done = BTreeMap::new();
+    let malformed =
+        |line| move |error| EvaluateError::Record { path: path.to_owned(), line: line + 1, error };
+    match lines.next() {
+        None => append(&mut file, path, &sweep.setup)?,
+        Some((line, head)) => {
+            let found: Value = serde_json::from_str(head).map_err(malformed(line))?;
+            if found != sweep.setup {
+                return Err(EvaluateError::OtherRun {
+                    path: path.to_owned(),
+                    expected: sweep.setup.to_string(),
+                    given: head.to_owned(),
+                });
+            }
+        }
+    }
+    for (line, text) in lines {
+        let found: Line<R> = serde_json::from_str(text).map_err(malformed(line))?;
+        if sweep.scenes.contains(&found.scene) {
+            done.insert(found.scene, found.record);
+        }
+    }
+    Ok((done, Some((file, path.to_owned()))))
+}
+
+fn append(file: &mut File, path: &Path, value: &impl Serialize) -> Result<(), EvaluateError> {
+    let failed = |error| EvaluateError::File { action: "written", path: path.to_owned(), error };
+    let mut line = serde_json::to_string(value).map_err(|e| failed(e.into()))?;
+    line.push('\n');
+    file.write_all(line.as_bytes()).map_err(failed)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use std::sync::Mutex;
+
+    fn folder(name: &str) -> PathBuf {
+        let path = std::env::temp_dir().join(format!("boresight-{name}-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&path);
+        path
+    }
+
+    fn sweep(path: &Path, scenes: Range<u64>) -> Sweep<'_> {
+        Sweep { setup: serde_json::json!({ "seed": 1 }), scenes, threads: 2, records: Some(path) }
+    }
+
+    #[test]
+    fn a_stopped_run_goes_on_where_it_was_and_half_a_line_is_run_again() {
+        let folder = folder("sweep");
+        let path = folder.join("records.jsonl");
+        let ran = Mutex::new(vec![]);
+        let work = |scene| {
+            ran.lock().unwrap().push(scene);
+            Ok(scene * 10)
+        };
+        let halted = run(&sweep(&path, 0..40), work, |p| {
+            if p.done < 5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        assert!(matches!(halted, Err(EvaluateError::Cancelled { done: 5.., total: 40 })));
+        let mut file = OpenOptions::new().append(true).open(&path).unwrap();
+        file.write_all(b"{\"scene\":39,\"rec").unwrap();
+        let recorded = std::fs::read_to_string(&path).unwrap().lines().count() - 2;
+        ran.lock().unwrap().clear();
+        let all = run(&sweep(&path, 0..40), work, |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(all.len(), 40);
+        assert!(all.iter().all(|(scene, record)| *record == scene * 10));
+        assert_eq!(ran.lock().unwrap().len(), 40 - recorded);
+        // Asking for fewer gives fewer, asking for others adds them.
+        let part = run(&sweep(&path, 38..42), work, |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(part.into_keys().collect::<Vec<_>>(), [38, 39, 40, 41]);
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn records_of_another_run_and_broken_ones_are_refused() {
+        let folder = folder("records");
+        let path = folder.join("records.jsonl");
+        let go = |_| ControlFlow::Continue(());
+        run(&sweep(&path, 0..2), Ok, go).unwrap();
+        let other = Sweep { setup: serde_json::json!({ "seed": 2 }), ..sweep(&path, 0..2) };
+        assert!(matches!(run(&other, Ok, go), Err(EvaluateError::OtherRun { .. })));
+        std::fs::write(&path, "{\"seed\":1}\n{\"scene\":\"x\"}\n").unwrap();
+        let broken = run(&sweep(&path, 0..2), Ok, go);
+        assert!(matches!(broken, Err(EvaluateError::Record { line: 2, .. })), "{broken:?}");
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn the_error_of_a_scene_ends_the_run_and_no_threads_is_an_error() {
+        let wrong = |_| -> Result<u64, EvaluateError> { Err(EvaluateError::Figure("x".into())) };
+        let mut sweep = Sweep { setup: Value::Null, scenes: 0..9, threads: 2, records: None };
+        assert!(matches!(
+            run(&sweep, wrong, |_| ControlFlow::Continue(())),
+            Err(EvaluateError::Figure(_))
+        ));
+        sweep.threads = 0;
+        assert!(matches!(
+            run(&sweep, Ok, |_| ControlFlow::Continue(())),
+            Err(EvaluateError::Core(_))
+        ));
+    }
+}
