@@ -11,8 +11,8 @@ pub struct FrameInput<'a> {
     pub detections: &'a [Detection],
     /// Measured yaw rate at this time, rad/s; `None` where the log has none.
     pub yaw_rate_radps: Option<f64>,
-    /// Measured forward speed of the rear axle at this time, m/s. Only the full-velocity method needs
-    /// it; the others take no advantage of it.
+    /// Measured forward speed of the rear axle at this time, m/s, negative in reverse. The full-velocity
+    /// method needs it; to the tracked motion it tells the standing world from a queue of cars.
     pub speed_mps: Option<f64>,
 }
 

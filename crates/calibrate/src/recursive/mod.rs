@@ -167,6 +167,7 @@ impl Recursive {
             x_m: self.options.x_m,
             y_m: self.options.y_m,
             speed: self.speed.map(|(speed, time)| (speed, frame.time_s - time)),
+            measured_speed: frame.speed_mps.filter(|speed| speed.is_finite()),
         };
         let Some(fit) = self.cloud.fit(&prediction, &self.limits, self.noise_scale) else {
             self.miss();
@@ -207,8 +208,19 @@ impl Recursive {
         if sine.abs() >= 1.0 || share < self.options.inlier_ratio_threshold {
             return Verdict::Sparse;
         }
+        let mut angle = wrap(sine.asin() - vy.atan2(vx));
+        // In reverse the radar moves the other way, and its place turns it the other way.
+        let backwards = wrap(-sine.asin() - (-vy).atan2(-vx));
+        let reversing = match (frame.speed_mps, self.options.nominal_rad) {
+            (Some(speed), _) if speed.is_finite() => speed < 0.0,
+            (_, Some(nominal)) => wrap(backwards - nominal).abs() < wrap(angle - nominal).abs(),
+            _ => false,
+        };
+        if reversing {
+            angle = backwards;
+        }
         if let Some(vote) = &mut self.vote {
-            vote.add(wrap(sine.asin() - vy.atan2(vx)), share.min(1.0));
+            vote.add(angle, share.min(1.0));
             if let Some(angle) = vote.settled() {
                 self.vote = None;
                 self.information.restart(angle, ANGLE_PRIOR_RAD);

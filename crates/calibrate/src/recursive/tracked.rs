@@ -8,6 +8,11 @@ const MAX_ACCELERATION: f64 = 8.0;
 const MAX_CANDIDATES: usize = 64;
 /// Range of range rates over which moving detections are taken as spread, m/s.
 const MOVING_SPREAD_MPS: f64 = 20.0;
+/// How far the speed that fits may be from the car's own, m/s and as a share of it.
+const SPEED_WIDTH_MPS: f64 = 0.5;
+const SPEED_WIDTH: f64 = 0.1;
+/// What a speed further off is worth: the car's own may be wrong.
+const DOUBT: f64 = 0.2;
 /// Rounds of expectation and maximisation.
 const ROUNDS: usize = 8;
 
@@ -32,6 +37,8 @@ pub(crate) struct Prediction {
     pub(crate) y_m: f64,
     /// Speed of the car one frame ago and how long that is ago.
     pub(crate) speed: Option<(f64, f64)>,
+    /// Speed of the car as its own sensors have it now.
+    pub(crate) measured_speed: Option<f64>,
 }
 
 impl Prediction {
@@ -141,7 +148,10 @@ impl Cloud {
                 let kernel = (1.0 - distance * distance).max(0.0);
                 score += kernel * kernel;
             }
-            if let Some((speed, age)) = prediction.speed {
+            if let Some(speed) = prediction.measured_speed {
+                let distance = (candidate - speed) / (SPEED_WIDTH_MPS + SPEED_WIDTH * speed.abs());
+                score *= DOUBT + (1.0 - DOUBT) * (1.0 - distance * distance).max(0.0);
+            } else if let Some((speed, age)) = prediction.speed {
                 let width = 0.5 + MAX_ACCELERATION * age;
                 let distance = (candidate - speed) / width;
                 score *= (1.0 - distance * distance / 4.0).max(0.0);
@@ -232,7 +242,8 @@ impl Cloud {
         }
         let speed =
             velocity[0] * cos0 - velocity[1] * sin0 + prediction.yaw_rate_radps * prediction.y_m;
-        if let Some((before, age)) = prediction.speed
+        if prediction.measured_speed.is_none()
+            && let Some((before, age)) = prediction.speed
             && (speed - before).abs() > 2.0 * (0.5 + MAX_ACCELERATION * age)
         {
             return None;

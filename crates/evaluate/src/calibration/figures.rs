@@ -13,7 +13,7 @@ use crate::statistics::Summary;
 pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
     let truth = condition.radars.iter().find(|r| r.sensor == 3).map_or(f64::NAN, |r| r.true_deg);
     let scenes = condition.scenes as f64;
-    let panels: Vec<Panel> = [0, 1, 4]
+    let panels: Vec<Panel> = [0, 1, 5]
         .into_iter()
         .map(|k| {
             let points: Vec<(f64, f64)> = condition.angles_deg[k]

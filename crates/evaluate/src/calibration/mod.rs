@@ -32,6 +32,8 @@ pub struct Candidate {
     pub method: Method,
     /// How the radar's motion is.
     pub motion: MotionMethod,
+    /// Whether it is told the car's speed.
+    pub speed: bool,
     /// Whether all radars share scale, bias and slip.
     pub joint: bool,
     /// Whether Figure 6 shows it.
@@ -44,11 +46,12 @@ const fn candidate(
     motion: MotionMethod,
     convergence: bool,
 ) -> Candidate {
-    Candidate { name, method, motion, joint: false, convergence }
+    let speed = matches!(method, Method::Kabsch) || matches!(motion, MotionMethod::Tracked);
+    Candidate { name, method, motion, speed, joint: false, convergence }
 }
 
 /// The methods compared: those of Table II, ours, then the formulations of Table IV on our motion.
-pub const CANDIDATES: [Candidate; 6] = [
+pub const CANDIDATES: [Candidate; 11] = [
     candidate("weighted mean (Kellner et al.)", Method::WeightedMean, MotionMethod::Ransac, true),
     candidate("Kabsch (Bao et al.)", Method::Kabsch, MotionMethod::Ransac, true),
     candidate(
@@ -63,11 +66,24 @@ pub const CANDIDATES: [Candidate; 6] = [
         MotionMethod::OrthogonalDistance,
         false,
     ),
+    Candidate {
+        speed: false,
+        ..candidate("recursive, without speed", Method::Recursive, MotionMethod::Tracked, true)
+    },
     candidate("recursive", Method::Recursive, MotionMethod::Tracked, true),
     Candidate {
         joint: true,
         ..candidate("recursive, four radars", Method::Recursive, MotionMethod::Tracked, false)
     },
+    candidate("least squares, tracked", Method::LeastSquares, MotionMethod::Tracked, false),
+    candidate("Kabsch, tracked", Method::Kabsch, MotionMethod::Tracked, false),
+    candidate("weighted mean, tracked", Method::WeightedMean, MotionMethod::Tracked, false),
+    candidate(
+        "orthogonal distance, tracked",
+        Method::OrthogonalDistance,
+        MotionMethod::Tracked,
+        false,
+    ),
 ];
 
 /// What to run.

@@ -191,10 +191,15 @@ fn calibrate(
     frames: &[FrameInput],
 ) -> Result<AngleEstimate, EvaluateError> {
     let mut calibrator = Calibrator::new(options(candidate, radar))?;
-    for &frame in frames {
-        calibrator.add(frame)?;
+    for frame in frames {
+        calibrator.add(told(candidate, frame))?;
     }
     Ok(calibrator.estimate())
+}
+
+/// A frame as the method may see it.
+fn told<'a>(candidate: &Candidate, frame: &FrameInput<'a>) -> FrameInput<'a> {
+    FrameInput { speed_mps: frame.speed_mps.filter(|_| candidate.speed), ..*frame }
 }
 
 /// The estimate of all radars together, in their order.
@@ -210,7 +215,7 @@ fn joint(drive: &SimulatedDrive, radars: &[Radar]) -> Result<Vec<AngleEstimate>,
             continue;
         };
         if let Some(frame) = frames[index].next() {
-            joint.add(scan.sensor, *frame)?;
+            joint.add(scan.sensor, told(candidate, frame))?;
         }
     }
     Ok(joint.estimate().into_iter().map(|(_, estimate)| estimate).collect())
@@ -235,7 +240,7 @@ fn record(
             error_deg,
             sigma_deg: error_deg.map(|_| estimate.sigma_rad.to_degrees()),
             scale: (estimate.scale_sigma > 0.0 && estimate.scale_sigma.is_finite())
-                .then(|| (estimate.scale - drive.truth.yaw_rate.scale, estimate.scale_sigma)),
+                .then_some((estimate.scale - drive.truth.yaw_rate.scale, estimate.scale_sigma)),
             used: estimate.frames.used,
             converged: estimate.converged,
             rte_m: error_deg.and_then(|_| track.error_m(estimate.angle_rad)),
@@ -293,7 +298,7 @@ struct Track {
 
 impl Track {
     fn new(drive: &SimulatedDrive, radar: &Radar) -> Result<Self, EvaluateError> {
-        let tracked = CANDIDATES.iter().find(|c| c.method == Method::Recursive && !c.joint);
+        let tracked = CANDIDATES.iter().find(|c| c.method == Method::Recursive && c.speed);
         let mut track = Self { motions: vec![], truth: vec![], mounting: radar.truth };
         let Some(tracked) = tracked else { return Ok(track) };
         let mut calibrator = Calibrator::new(options(tracked, radar))?;
