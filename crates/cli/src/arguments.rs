@@ -4,6 +4,7 @@ use boresight_aoa::Method;
 use boresight_calibrate::{Method as Calibration, MotionMethod};
 use boresight_formats::DriveFormat;
 use boresight_signal::Window;
+use boresight_simulate::Scenario;
 use clap::builder::PossibleValuesParser;
 use clap::{ArgGroup, Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -268,9 +269,58 @@ pub enum SimulateCommand {
     Snapshots(Box<SnapshotArguments>),
     /// FMCW data cubes (frames x loops x transmitters x receivers x samples, complex).
     Cube(Box<CubeArguments>),
+    /// A drive in the layout of RadarScenes: Doppler point clouds of a car's radars, its yaw rate
+    /// and speed, and the truth behind them.
+    Drive(Box<DriveArguments>),
 }
 
-/// Arguments shared by both simulations.
+/// Arguments of `simulate drive`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Writes DIR/data/sequence_1/radar_data.h5 and scenes.json, DIR/data/sensors.json and sequences.json, \
+and the truth, DIR/truth.json, which calibrate does not read. sensors.json has the nominal \
+mountings: those of --sensor less the misalignment.")]
+pub struct DriveArguments {
+    /// Roads and traffic.
+    #[arg(long, default_value = "city",
+          value_parser = PossibleValuesParser::new(Scenario::ALL.map(Scenario::name)))]
+    pub scenario: String,
+    /// Seed; the same one gives the same drive on every machine.
+    #[arg(long, value_name = "S")]
+    pub seed: u64,
+    /// Length of the drive, s.
+    #[arg(long, value_name = "S", default_value_t = 60.0)]
+    pub duration: f64,
+    /// Share of moving detections, 0 to 0.8; without it what the scenario's traffic gives.
+    #[arg(long, value_name = "SHARE")]
+    pub moving_share: Option<f64>,
+    /// A radar: the number of one of the RadarScenes car's (1 to 4), or where it truly sits and
+    /// looks, such as id=1,x=3.7,y=-0.6,yaw=-30: m from the rear axle, deg. Repeat for more;
+    /// without it all four of the RadarScenes car.
+    #[arg(long = "sensor", value_name = "N|KEY=VALUE,...")]
+    pub sensors: Vec<String>,
+    /// By how much a radar's true yaw exceeds the nominal one, such as 2=1.5: its number, deg.
+    /// Repeat for more.
+    #[arg(long = "misalign", value_name = "N=DEG")]
+    pub misalignments: Vec<String>,
+    /// Measured over true yaw rate; without it drawn from 0.98 to 1.02.
+    #[arg(long, value_name = "RATIO")]
+    pub yaw_rate_scale: Option<f64>,
+    /// Yaw rate measured at standstill, deg/s; without it drawn from -0.2 to 0.2.
+    #[arg(long, value_name = "DEG/S", allow_negative_numbers = true)]
+    pub yaw_rate_bias: Option<f64>,
+    /// Slip angle of the rear axle over lateral acceleration, deg/(m/s^2).
+    #[arg(long, value_name = "DEG/(M/S2)", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub slip: f64,
+    /// Write radar_data.h5 in chunks packed by deflate.
+    #[arg(long)]
+    pub packed: bool,
+    /// Folder to write.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Arguments shared by the simulations of snapshots and data cubes.
 #[derive(Debug, Args)]
 pub struct SimulateArguments {
     /// Array: a name (see `boresight arrays`), ulaN, or a JSON file.

@@ -84,7 +84,8 @@ impl CliError {
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Pipeline(PipelineError::Cancelled { .. })
-            | Self::Evaluate(EvaluateError::Cancelled { .. }) => ExitCode::from(INTERRUPTED),
+            | Self::Evaluate(EvaluateError::Cancelled { .. })
+            | Self::Simulate(SimulateError::Cancelled { .. }) => ExitCode::from(INTERRUPTED),
             Self::Option { .. } => ExitCode::from(2),
             _ => ExitCode::FAILURE,
         }

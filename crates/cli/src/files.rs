@@ -5,6 +5,8 @@ use boresight_core::Waveform;
 use boresight_formats::RadarConfig;
 use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated, waveform_awr1642};
 use serde::Deserialize;
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// The bytes of a file.
@@ -12,17 +14,43 @@ pub fn read(path: &Path) -> Result<Vec<u8>, CliError> {
     std::fs::read(path).map_err(|error| CliError::File { action: "read", path: path.into(), error })
 }
 
-/// Writes a file whole or not at all: under another name first.
+/// Writes a file whole or not at all.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    write_with(path, |file| {
+        file.write_all(bytes).map_err(|error| CliError::File {
+            action: "write",
+            path: path.into(),
+            error,
+        })
+    })
+}
+
+/// Writes a file whole or not at all, under another name first, with what `fill` puts into it.
+pub fn write_with<T>(
+    path: &Path,
+    fill: impl FnOnce(&mut File) -> Result<T, CliError>,
+) -> Result<T, CliError> {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".part");
     let part = path.with_file_name(name);
     let failed = |error| CliError::File { action: "write", path: path.into(), error };
-    std::fs::write(&part, bytes).map_err(failed)?;
-    std::fs::rename(&part, path).map_err(|error| {
-        // The name is ours; that it cannot be removed either adds nothing to the report.
-        let _ = std::fs::remove_file(&part);
-        failed(error)
+    let mut file = File::create(&part).map_err(failed)?;
+    let filled = fill(&mut file);
+    drop(file);
+    filled
+        .and_then(|value| std::fs::rename(&part, path).map_err(failed).map(|()| value))
+        .inspect_err(|_| {
+            // The name is ours; that it cannot be removed either adds nothing to the report.
+            let _ = std::fs::remove_file(&part);
+        })
+}
+
+/// Makes a folder and those above it, where they are not there.
+pub fn make_folder(path: &Path) -> Result<(), CliError> {
+    std::fs::create_dir_all(path).map_err(|error| CliError::File {
+        action: "write",
+        path: path.into(),
+        error,
     })
 }
 

@@ -2,34 +2,17 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::{boresight, folder, stdout};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 const BIN: &str = "xwr16xx_crw_dca_module_2018_1015v2.bin";
 const DAT: &str = "xwr16xx_crw_demo_visualizer_2018_1015v2.dat";
 
 fn recording(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../recordings/awr1642").join(name)
-}
-
-/// An empty folder of this test's own.
-fn folder(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
-    path
-}
-
-fn boresight(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_boresight")).args(arguments).output().unwrap()
-}
-
-fn stdout(arguments: &[&str]) -> String {
-    let output = boresight(arguments);
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{arguments:?}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
 }
 
 fn json(arguments: &[&str]) -> Vec<Value> {
@@ -237,43 +220,4 @@ fn errors_say_what_was_expected_and_given() {
         assert!(errors.contains(words), "{arguments:?}: {errors}");
         assert!(output.stdout.is_empty());
     }
-}
-
-#[test]
-fn a_drive_log_is_described() {
-    let delphi = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../recordings/delphi");
-    let text = stdout(&["log", delphi.to_str().unwrap(), "--json"]);
-    let log: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(log["format"], "delphi");
-    assert_eq!((&log["scans"], &log["motionSamples"]), (&12_003.into(), &5997.into()));
-    assert_eq!(log["dropped"]["invalid-marker"], 192);
-    let shown = stdout(&["log", delphi.join("front_radar.csv.gz").to_str().unwrap()]);
-    assert!(shown.contains("307205 of 307397 rows") && shown.contains("motion      0 samples"));
-    let output = boresight(&["log", recording(BIN).to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("no-drive-log"));
-}
-
-#[test]
-fn calibrate_finds_the_angle_of_the_radar_of_a_real_drive() {
-    let drive = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../recordings/delphi");
-    let drive = drive.to_str().unwrap();
-    let text =
-        stdout(&["calibrate", drive, "--method", "weighted-mean", "--min-speed", "3", "--json"]);
-    let result: Value = serde_json::from_str(&text).unwrap();
-    // The set's own extrinsics say -1.96 deg.
-    let angle = result["angleDeg"].as_f64().unwrap();
-    assert!((angle + 1.96).abs() < 0.3, "{text}");
-    assert!(result["frames"]["used"].as_u64().unwrap() > 1000, "{text}");
-    let tracked =
-        ["calibrate", drive, "--method", "least-squares", "--motion", "tracked", "--json"];
-    let result: Value = serde_json::from_str(&stdout(&tracked)).unwrap();
-    assert_eq!(result["motion"], "tracked");
-    assert!((result["angleDeg"].as_f64().unwrap() + 1.96).abs() < 0.3, "{result}");
-    let refused = boresight(&["calibrate", drive, "--motion", "ransac"]);
-    assert!(
-        String::from_utf8_lossy(&refused.stderr).contains("tracked, with the recursive method")
-    );
-    let wrong = boresight(&["calibrate", drive, "--sensor", "9"]);
-    assert_eq!(wrong.status.code(), Some(2));
 }

@@ -20,6 +20,14 @@ pub enum SimulateError {
         /// Values it would return.
         given: usize,
     },
+    /// The caller stopped the simulation.
+    #[error("stopped after {done} of {total} scans")]
+    Cancelled {
+        /// Scans done.
+        done: usize,
+        /// Scans asked for.
+        total: usize,
+    },
 }
 
 impl Diagnose for SimulateError {
@@ -27,6 +35,7 @@ impl Diagnose for SimulateError {
         match self {
             Self::Argument(error) => error.code(),
             Self::TooLarge { .. } => "too-large",
+            Self::Cancelled { .. } => "cancelled",
         }
     }
 
@@ -35,6 +44,9 @@ impl Diagnose for SimulateError {
             Self::Argument(error) => error.details(),
             Self::TooLarge { what, most, given } => {
                 Details::new(*what, format!("at most {most} complex values"), given.to_string())
+            }
+            Self::Cancelled { done, total } => {
+                Details::new("simulation", format!("{total} scans"), format!("stopped at {done}"))
             }
         }
     }

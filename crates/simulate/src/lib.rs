@@ -10,7 +10,7 @@ pub mod snapshots;
 pub mod waveforms;
 
 pub use cube::{CubeOptions, CubeTarget, Field, simulate_cube};
-pub use drive::{DriveOptions, Scenario, SimulatedDrive, simulate_drive};
+pub use drive::{DriveOptions, Scenario, SimulatedDrive, simulate_drive, simulate_drive_reporting};
 pub use error::SimulateError;
 pub use snapshots::{
     Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Snapshots, Target,

@@ -10,5 +10,6 @@ pub mod evaluate;
 pub mod lists;
 pub mod log;
 pub mod simulate;
+mod simulated_drive;
 mod snapshots;
 mod targets;

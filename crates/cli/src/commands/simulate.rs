@@ -20,6 +20,7 @@ pub fn run(what: &SimulateCommand) -> Result<String, CliError> {
     match what {
         SimulateCommand::Snapshots(arguments) => snapshots(arguments),
         SimulateCommand::Cube(arguments) => cube(arguments),
+        SimulateCommand::Drive(arguments) => super::simulated_drive::run(arguments),
     }
 }
 
@@ -150,7 +151,7 @@ fn direction(text: &TargetText<'_>) -> Result<Direction, CliError> {
 }
 
 fn target(text: &str) -> Result<Target, CliError> {
-    let text = TargetText::parse(text, &["azimuth", "elevation", "power", "phase"])?;
+    let text = TargetText::parse("--target", text, &["azimuth", "elevation", "power", "phase"])?;
     text.need("azimuth")?;
     Ok(Target {
         direction: direction(&text)?,
@@ -161,7 +162,7 @@ fn target(text: &str) -> Result<Target, CliError> {
 
 fn cube_target(text: &str) -> Result<CubeTarget, CliError> {
     let keys = ["range", "rate", "azimuth", "elevation", "power", "phase"];
-    let text = TargetText::parse(text, &keys)?;
+    let text = TargetText::parse("--target", text, &keys)?;
     Ok(CubeTarget {
         range_m: text.need("range")?,
         rate_mps: text.get("rate").unwrap_or(0.0),

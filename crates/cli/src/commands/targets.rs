@@ -1,16 +1,17 @@
-//! Targets written as `key=value` pairs.
+//! Targets and radars written as `key=value` pairs.
 
 use crate::error::CliError;
 
 /// The values of a target by key; keys not given are absent.
 pub struct TargetText<'a> {
+    option: &'static str,
     text: &'a str,
     values: Vec<(&'a str, f64)>,
 }
 
 impl<'a> TargetText<'a> {
-    /// Parses `text`; every key must be one of `keys`, once.
-    pub fn parse(text: &'a str, keys: &[&str]) -> Result<Self, CliError> {
+    /// Parses `text`, given for `option`; every key must be one of `keys`, once.
+    pub fn parse(option: &'static str, text: &'a str, keys: &[&str]) -> Result<Self, CliError> {
         let mut values: Vec<(&str, f64)> = vec![];
         for pair in text.split(',') {
             let parsed = pair.split_once('=').and_then(|(key, value)| {
@@ -19,7 +20,7 @@ impl<'a> TargetText<'a> {
                 Some((key, value.trim().parse().ok()?)).filter(|_| fresh)
             });
             values.push(parsed.ok_or_else(|| CliError::Option {
-                option: "--target",
+                option,
                 expected: format!(
                     "key=number pairs with commas, keys {}, each once",
                     keys.join(", ")
@@ -27,7 +28,7 @@ impl<'a> TargetText<'a> {
                 given: format!("{pair:?} in {text:?}"),
             })?);
         }
-        Ok(Self { text, values })
+        Ok(Self { option, text, values })
     }
 
     /// The value of a key.
@@ -38,7 +39,7 @@ impl<'a> TargetText<'a> {
     /// The value of a key that must be there.
     pub fn need(&self, key: &str) -> Result<f64, CliError> {
         self.get(key).ok_or_else(|| CliError::Option {
-            option: "--target",
+            option: self.option,
             expected: format!("{key}=NUMBER among its pairs"),
             given: format!("{:?}", self.text),
         })

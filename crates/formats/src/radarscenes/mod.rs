@@ -9,6 +9,10 @@
 //! HDF5 2.0 brought in (version 5) is refused with an error that names it.
 
 mod compound;
+mod json;
+mod write;
+
+pub use write::{Packing, STATIC_LABEL, SequenceFiles, write};
 
 use crate::drive_log::{DropReason, ReadReport};
 use crate::error::FormatError;
@@ -162,3 +166,5 @@ fn motion(
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod write_tests;

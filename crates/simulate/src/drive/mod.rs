@@ -25,6 +25,7 @@ pub use scenario::Scenario;
 use crate::error::SimulateError;
 use boresight_core::Random;
 use boresight_core::drive::{DriveLog, Mounting, Scan, Sensor};
+use std::ops::ControlFlow;
 
 /// Streams of the seed.
 const ROUTE: u64 = 0;
@@ -69,6 +70,17 @@ pub struct SimulatedDrive {
 /// # Errors
 /// [`SimulateError::Argument`] for options that [`DriveOptions::check`] refuses.
 pub fn simulate_drive(options: &DriveOptions) -> Result<SimulatedDrive, SimulateError> {
+    simulate_drive_reporting(options, |_, _| ControlFlow::Continue(()))
+}
+
+/// As [`simulate_drive`], calling `report` with the scans done and their number before each scan.
+///
+/// # Errors
+/// As [`simulate_drive`]; [`SimulateError::Cancelled`] if `report` breaks.
+pub fn simulate_drive_reporting(
+    options: &DriveOptions,
+    mut report: impl FnMut(usize, usize) -> ControlFlow<()>,
+) -> Result<SimulatedDrive, SimulateError> {
     options.check()?;
     let stream = |stream: u64| Random::new(options.seed, stream);
     let scenario = options.scenario;
@@ -107,7 +119,10 @@ pub fn simulate_drive(options: &DriveOptions) -> Result<SimulatedDrive, Simulate
     let mut traffic =
         traffic::Traffic::new(&path, &motion, scenario, options.moving_share, stream(TRAFFIC));
     let mut scans = Vec::with_capacity(times.len());
-    for &(time_s, i) in &times {
+    for (done, &(time_s, i)) in times.iter().enumerate() {
+        if report(done, times.len()).is_break() {
+            return Err(SimulateError::Cancelled { done, total: times.len() });
+        }
         traffic.advance(time_s - 0.5 * options.noise.coherent_interval_s);
         scans.push(radars[i].scan(time_s, &world, &traffic));
     }

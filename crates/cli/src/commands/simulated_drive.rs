@@ -1,0 +1,144 @@
+//! `boresight simulate drive`.
+
+use super::targets::TargetText;
+use crate::arguments::DriveArguments;
+use crate::error::CliError;
+use crate::files;
+use crate::run::Run;
+use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
+use boresight_formats::radarscenes::{Packing, write};
+use boresight_pipeline::Progress;
+use boresight_simulate::{DriveOptions, Scenario, SimulatedDrive, simulate_drive_reporting};
+use serde_json::{Value, json};
+
+/// The one sequence written.
+const SEQUENCE: &str = "sequence_1";
+
+/// Simulates a drive, writes it and says what there is.
+pub fn run(arguments: &DriveArguments) -> Result<String, CliError> {
+    let options = options(arguments)?;
+    let run = Run::start("scans")?;
+    let drive =
+        simulate_drive_reporting(&options, |done, total| run.report(Progress { done, total }))?;
+    run.finish();
+    let data = arguments.out.join("data");
+    let folder = data.join(SEQUENCE);
+    files::make_folder(&folder)?;
+    let packing = if arguments.packed { Packing::Deflate } else { Packing::Contiguous };
+    let beside = files::write_with(&folder.join("radar_data.h5"), |file| {
+        Ok(write(&drive.log, &drive.tracks, SEQUENCE, packing, file)?)
+    })?;
+    files::write(&folder.join("scenes.json"), beside.scenes.as_bytes())?;
+    files::write(&data.join("sensors.json"), beside.sensors.as_bytes())?;
+    files::write(&data.join("sequences.json"), beside.sequences.as_bytes())?;
+    let truth_path = arguments.out.join("truth.json");
+    files::write(&truth_path, format!("{:#}\n", truth(&options, &drive)).as_bytes())?;
+    let detections: usize = drive.log.scans.iter().map(|scan| scan.detections.len()).sum();
+    Ok(format!(
+        "{}: {} radars, {} scans, {detections} detections, {:.1} % of them moving\n{}: the truth\n",
+        folder.display(),
+        drive.log.sensors.len(),
+        drive.log.scans.len(),
+        100.0 * moving_share(&drive),
+        truth_path.display(),
+    ))
+}
+
+fn moving_share(drive: &SimulatedDrive) -> f64 {
+    let (moving, all) = drive
+        .moving
+        .iter()
+        .flatten()
+        .fold((0_usize, 0_usize), |(m, n), moving| (m + usize::from(*moving), n + 1));
+    moving as f64 / all.max(1) as f64
+}
+
+fn options(arguments: &DriveArguments) -> Result<DriveOptions, CliError> {
+    let mut options = DriveOptions {
+        scenario: Scenario::from_name(&arguments.scenario)?,
+        seed: arguments.seed,
+        duration_s: arguments.duration,
+        misalignment_rad: arguments
+            .misalignments
+            .iter()
+            .map(|text| misalignment(text))
+            .collect::<Result<_, _>>()?,
+        moving_share: arguments.moving_share,
+        yaw_rate_scale: arguments.yaw_rate_scale,
+        yaw_rate_bias_radps: arguments.yaw_rate_bias.map(f64::to_radians),
+        slip_gradient: arguments.slip.to_radians(),
+        ..DriveOptions::default()
+    };
+    if !arguments.sensors.is_empty() {
+        options.sensors =
+            arguments.sensors.iter().map(|text| sensor(text)).collect::<Result<_, _>>()?;
+    }
+    Ok(options)
+}
+
+fn sensor(text: &str) -> Result<(u8, Mounting), CliError> {
+    if let Ok(number) = text.trim().parse::<u8>() {
+        return RADARSCENES_SENSORS.into_iter().find(|(id, _)| *id == number).ok_or_else(|| {
+            CliError::Option {
+                option: "--sensor",
+                expected: "1 to 4, or id=N,x=M,y=M,yaw=DEG".into(),
+                given: number.to_string(),
+            }
+        });
+    }
+    let text = TargetText::parse("--sensor", text, &["id", "x", "y", "yaw"])?;
+    let id = text.need("id")?;
+    if id.fract() != 0.0 || !(0.0..=255.0).contains(&id) {
+        return Err(CliError::Option {
+            option: "--sensor",
+            expected: "an id from 0 to 255".into(),
+            given: id.to_string(),
+        });
+    }
+    let yaw_rad = text.need("yaw")?.to_radians();
+    Ok((id as u8, Mounting { x_m: text.need("x")?, y_m: text.need("y")?, yaw_rad }))
+}
+
+fn misalignment(text: &str) -> Result<(u8, f64), CliError> {
+    text.split_once('=')
+        .and_then(|(id, angle)| {
+            let angle: f64 = angle.trim().parse().ok()?;
+            Some((id.trim().parse().ok()?, angle.to_radians()))
+        })
+        .ok_or_else(|| CliError::Option {
+            option: "--misalign",
+            expected: "a radar's number and an angle in deg, such as 2=1.5".into(),
+            given: format!("{text:?}"),
+        })
+}
+
+fn truth(options: &DriveOptions, drive: &SimulatedDrive) -> Value {
+    let truth = &drive.truth;
+    let sensors: Vec<Value> = truth
+        .sensors
+        .iter()
+        .zip(&drive.log.sensors)
+        .map(|((id, mounting), sensor)| {
+            json!({
+                "id": id,
+                "xM": mounting.x_m,
+                "yM": mounting.y_m,
+                "yawDeg": mounting.yaw_rad.to_degrees(),
+                "nominalYawDeg": sensor.mounting.map(|m| m.yaw_rad.to_degrees()),
+            })
+        })
+        .collect();
+    json!({
+        "scenario": options.scenario.name(),
+        "seed": options.seed,
+        "durationS": options.duration_s,
+        "sensors": sensors,
+        "yawRate": {
+            "scale": truth.yaw_rate.scale,
+            "biasDegps": truth.yaw_rate.bias_radps.to_degrees(),
+            "sigmaDegps": truth.yaw_rate.sigma_radps.to_degrees(),
+        },
+        "slipDegPerMps2": options.slip_gradient.to_degrees(),
+        "movingShare": moving_share(drive),
+    })
+}

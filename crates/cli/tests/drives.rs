@@ -1,0 +1,118 @@
+//! Drive logs on the command line.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{boresight, folder, stdout};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+fn recordings() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../recordings")
+}
+
+fn parsed(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn a_drive_log_is_described() {
+    let delphi = recordings().join("delphi");
+    let text = stdout(&["log", delphi.to_str().unwrap(), "--json"]);
+    let log: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(log["format"], "delphi");
+    assert_eq!((&log["scans"], &log["motionSamples"]), (&12_003.into(), &5997.into()));
+    assert_eq!(log["dropped"]["invalid-marker"], 192);
+    let shown = stdout(&["log", delphi.join("front_radar.csv.gz").to_str().unwrap()]);
+    assert!(shown.contains("307205 of 307397 rows") && shown.contains("motion      0 samples"));
+    let output = boresight(&["log", recordings().join("awr1642/profile.cfg").to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no-drive-log"));
+}
+
+#[test]
+fn calibrate_finds_the_angle_of_the_radar_of_a_real_drive() {
+    let drive = recordings().join("delphi");
+    let drive = drive.to_str().unwrap();
+    let text =
+        stdout(&["calibrate", drive, "--method", "weighted-mean", "--min-speed", "3", "--json"]);
+    let result: Value = serde_json::from_str(&text).unwrap();
+    // The set's own extrinsics say -1.96 deg.
+    let angle = result["angleDeg"].as_f64().unwrap();
+    assert!((angle + 1.96).abs() < 0.3, "{text}");
+    assert!(result["frames"]["used"].as_u64().unwrap() > 1000, "{text}");
+    let tracked =
+        ["calibrate", drive, "--method", "least-squares", "--motion", "tracked", "--json"];
+    let result = parsed(&stdout(&tracked));
+    assert_eq!(result["motion"], "tracked");
+    assert!((result["angleDeg"].as_f64().unwrap() + 1.96).abs() < 0.3, "{result}");
+    let refused = boresight(&["calibrate", drive, "--motion", "ransac"]);
+    assert!(
+        String::from_utf8_lossy(&refused.stderr).contains("tracked, with the recursive method")
+    );
+    let wrong = boresight(&["calibrate", drive, "--sensor", "9"]);
+    assert_eq!(wrong.status.code(), Some(2));
+}
+
+#[test]
+fn a_simulated_drive_is_written_and_read_back() {
+    let folder = folder("drive");
+    let out = folder.to_str().unwrap();
+    let arguments = [
+        "simulate",
+        "drive",
+        "--seed",
+        "1",
+        "--duration",
+        "10",
+        "--misalign",
+        "2=1.5",
+        "--out",
+        out,
+    ];
+    let said = stdout(&arguments);
+    let sequence = folder.join("data/sequence_1");
+    let log = parsed(&stdout(&["log", sequence.to_str().unwrap(), "--json"]));
+    assert_eq!(log["format"], "radarscenes");
+    assert_eq!(log["sensors"].as_array().unwrap().len(), 4);
+    assert!(said.contains(&format!("{} detections", log["detections"])), "{said}");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let truth: Value = serde_json::from_slice(&read("truth.json")).unwrap();
+    let yaw = |key: &str| truth["sensors"][1][key].as_f64().unwrap();
+    assert!((yaw("yawDeg") - yaw("nominalYawDeg") - 1.5).abs() < 1e-9);
+    // The same seed gives the same bytes, packed the same drive.
+    let before = read("data/sequence_1/radar_data.h5");
+    stdout(&arguments);
+    assert_eq!(read("data/sequence_1/radar_data.h5"), before);
+    stdout(&[&arguments[..], &["--packed"]].concat());
+    assert!(read("data/sequence_1/radar_data.h5").len() < before.len());
+    assert_eq!(parsed(&stdout(&["log", sequence.to_str().unwrap(), "--json"])), log);
+}
+
+#[test]
+fn radars_of_a_simulated_drive_are_chosen() {
+    let folder = folder("radars");
+    let out = folder.to_str().unwrap();
+    let base = ["simulate", "drive", "--seed", "1", "--duration", "2", "--out", out];
+    stdout(&[&base[..], &["--sensor", "3", "--sensor", "id=9,x=3.7,y=0,yaw=-30"]].concat());
+    let truth: Value =
+        serde_json::from_slice(&std::fs::read(folder.join("truth.json")).unwrap()).unwrap();
+    let ids: Vec<_> = truth["sensors"].as_array().unwrap().iter().map(|s| &s["id"]).collect();
+    assert_eq!(ids, [3, 9]);
+    assert!((truth["sensors"][1]["yawDeg"].as_f64().unwrap() + 30.0).abs() < 1e-9);
+    for (extra, status, words) in [
+        (&["--sensor", "5"][..], 2, "1 to 4"),
+        (&["--sensor", "id=1.5,x=1,y=1,yaw=1"], 2, "0 to 255"),
+        (&["--sensor", "id=1,x=1"], 2, "yaw=NUMBER"),
+        (&["--misalign", "2"], 2, "2=1.5"),
+        (&["--misalign", "7=1"], 1, "numbers of the sensors"),
+        (&["--moving-share", "0.9"], 1, "moving_share"),
+        (&["--scenario", "moon"], 2, "city"),
+    ] {
+        let output = boresight(&[&base[..], extra].concat());
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{extra:?}: {errors}");
+        assert!(errors.contains(words), "{extra:?}: {errors}");
+    }
+}

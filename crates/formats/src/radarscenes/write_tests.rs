@@ -1,0 +1,124 @@
+use super::read;
+use super::write::{Packing, write};
+use crate::ReadReport;
+use boresight_core::Diagnose;
+use boresight_core::drive::{
+    Detection, DriveLog, MotionSample, Pose, RADARSCENES_SENSORS, Scan, Sensor,
+};
+
+fn scan(time_s: f64, sensor: u8, azimuths: &[f32]) -> Scan {
+    let detection = |azimuth_rad: &f32| Detection {
+        azimuth_rad: *azimuth_rad,
+        range_rate_mps: -2.5,
+        range_m: 20.0,
+        rcs_dbsm: 1.5,
+    };
+    Scan {
+        time_s,
+        sensor,
+        detections: azimuths.iter().map(detection).collect(),
+        labels: azimuths.iter().map(|a| if *a > 0.0 { 11 } else { 0 }).collect(),
+    }
+}
+
+/// Two radars, three scans, motion that begins 0.25 s before.
+fn drive() -> DriveLog {
+    let mounted = |k: usize| {
+        let (id, mounting) = RADARSCENES_SENSORS[k];
+        Sensor { id, mounting: Some(mounting) }
+    };
+    let sample = |k: u32| MotionSample {
+        time_s: -0.25 + 0.01 * f64::from(k),
+        yaw_rate_radps: 0.125,
+        speed_mps: Some(10.0),
+        pose: Some(Pose { x_m: f64::from(k), y_m: 0.5, yaw_rad: 0.25 }),
+    };
+    DriveLog {
+        sensors: vec![mounted(0), mounted(1)],
+        scans: vec![scan(0.0, 1, &[0.5, -0.25]), scan(0.05, 2, &[0.125]), scan(0.0745, 1, &[0.75])],
+        motion: (0..40).map(sample).collect(),
+    }
+}
+
+fn written(log: &DriveLog, packing: Packing) -> Vec<u8> {
+    let mut bytes = vec![];
+    write(log, &[], "sequence_1", packing, &mut bytes).unwrap();
+    bytes
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    for packing in [Packing::Contiguous, Packing::Deflate] {
+        let mut report = ReadReport::default();
+        let log = read(written(&drive(), packing), &mut report).unwrap();
+        let mut expected = drive();
+        // Times of a log begin with its first; stamps are in microseconds.
+        let tidy = |time_s: f64| (time_s * 1e6).round() / 1e6;
+        expected.scans.iter_mut().for_each(|s| s.time_s = tidy(s.time_s + 0.25));
+        expected.motion.iter_mut().for_each(|s| s.time_s = tidy(s.time_s + 0.25));
+        assert_eq!(log, expected);
+        assert_eq!((report.detections, report.motion, report.drops().count()), (4, 40, 0));
+    }
+}
+
+#[test]
+fn scans_of_one_time_keep_apart_and_scenes_point_at_their_rows() {
+    let mut log = drive();
+    log.scans[1].time_s = 0.0;
+    log.scans[2].time_s = 0.0;
+    log.scans[1].detections.clear();
+    log.scans[1].labels.clear();
+    let files = write(&log, &[], "night", Packing::Contiguous, std::io::sink()).unwrap();
+    let scenes: serde_json::Value = serde_json::from_str(&files.scenes).unwrap();
+    assert_eq!(scenes["sequence_name"], "night");
+    let [first, second, third] = ["100000250000", "100000250001", "100000250002"];
+    let scene = |stamp: &str| scenes["scenes"][stamp].clone();
+    assert_eq!(scene(first)["radar_indices"], serde_json::json!([0, 2]));
+    assert_eq!(scene(second)["radar_indices"], serde_json::json!([2, 2]));
+    assert_eq!(scene(third)["radar_indices"], serde_json::json!([2, 3]));
+    assert_eq!(scene(first)["next_timestamp"].to_string(), second);
+    assert_eq!(scene(first)["next_timestamp_same_sensor"].to_string(), third);
+    assert_eq!(scene(third)["prev_timestamp_same_sensor"].to_string(), first);
+    assert!(scene(second)["prev_timestamp_same_sensor"].is_null());
+    assert_eq!(scene(first)["odometry_index"], 25);
+    let sensors: serde_json::Value = serde_json::from_str(&files.sensors).unwrap();
+    assert_eq!(sensors["radar_2"]["yaw"], RADARSCENES_SENSORS[1].1.yaw_rad);
+}
+
+#[test]
+fn what_cannot_be_written_is_refused() {
+    let code = |change: fn(&mut DriveLog), tracks: &[Vec<u32>]| {
+        let mut log = drive();
+        change(&mut log);
+        let error = write(&log, tracks, "s", Packing::Deflate, std::io::sink()).unwrap_err();
+        error.code()
+    };
+    assert_eq!(code(|log| log.scans.clear(), &[]), "empty");
+    assert_eq!(code(|log| log.motion.clear(), &[]), "empty");
+    assert_eq!(code(|log| log.scans[1].labels.clear(), &[]), "shape");
+    assert_eq!(code(|_| (), &[vec![1]]), "shape");
+    assert_eq!(code(|_| (), &[vec![1], vec![1], vec![1]]), "shape");
+    assert_eq!(code(|log| log.scans[1].time_s = -0.125, &[]), "time-backwards");
+    assert_eq!(code(|log| log.motion[1].time_s = -9.0, &[]), "out-of-range");
+    assert_eq!(code(|log| log.scans[2].time_s = f64::NAN, &[]), "out-of-range");
+    assert_eq!(code(|log| log.scans[2].time_s = 1e9, &[]), "out-of-range");
+}
+
+/// A device that is full.
+struct Full;
+
+impl std::io::Write for Full {
+    fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+        Err(std::io::Error::other("full"))
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error() {
+    let error = write(&drive(), &[], "s", Packing::Contiguous, Full).unwrap_err();
+    assert!(error.code() == "malformed-hdf5" && error.to_string().contains("full"), "{error}");
+}
