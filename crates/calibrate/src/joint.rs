@@ -5,14 +5,15 @@ use crate::small::{inverse, times};
 use crate::{AngleEstimate, CalibrateError, FrameInput, FrameOutcome, Options, Recursive};
 use boresight_core::CoreError;
 
-/// Unknowns that belong to the car: inverse scale, bias, slip gradient.
+/// Unknowns that belong to the car: inverse scale, bias, slip gradient, and the delay of its radars, taken to
+/// be of one kind.
 const SHARED: usize = UNKNOWNS - 1;
 
 type SharedVector = [f64; SHARED];
 type SharedMatrix = [[f64; SHARED]; SHARED];
 
-/// Recursive estimates of several radars that share the scale and bias of the yaw rate and the slip of
-/// the rear axle, in constant memory.
+/// Recursive estimates of several radars that share the scale and bias of the yaw rate, the slip of the
+/// rear axle and the radars' delay, in constant memory.
 ///
 /// Each radar keeps its own normal equations. Its angle is eliminated from them, the radars' equations
 /// in the shared unknowns are added up, and each angle follows. Radars count as independent but for

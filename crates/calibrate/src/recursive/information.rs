@@ -3,8 +3,8 @@
 use crate::small::{inverse, times};
 
 /// Unknowns: mounting angle (rad), inverse scale, bias times inverse scale (rad/s), slip gradient
-/// (rad per m/s^2).
-pub(crate) const UNKNOWNS: usize = 4;
+/// (rad per m/s^2), delay of the radar (s).
+pub(crate) const UNKNOWNS: usize = 5;
 const MOMENTS: usize = UNKNOWNS + UNKNOWNS * (UNKNOWNS + 1) / 2;
 /// Blocks that the assumption of independent frames is worth in the covariance.
 const PRIOR_BLOCKS: f64 = 3.0;
@@ -221,7 +221,7 @@ mod tests {
     use super::*;
     use boresight_core::Random;
 
-    const SIGMA: Vector = [10.0, 10.0, 10.0, 10.0];
+    const SIGMA: Vector = [10.0; UNKNOWNS];
 
     fn frame(random: &mut Random, truth: &Vector, at: &Vector, noise: f64) -> (Matrix, Vector) {
         let row: Vector = std::array::from_fn(|_| random.normal());
@@ -233,8 +233,8 @@ mod tests {
 
     #[test]
     fn noise_free_frames_give_the_truth_wherever_they_are_linearised() {
-        let truth = [0.3, 1.1, -0.2, 0.05];
-        let mut information = Information::new([0.0, 1.0, 0.0, 0.0], [1e6; 4]);
+        let truth = [0.3, 1.1, -0.2, 0.05, 0.4];
+        let mut information = Information::new([0.0, 1.0, 0.0, 0.0, 0.0], [1e6; UNKNOWNS]);
         let mut random = Random::new(1, 0);
         for _ in 0..50 {
             let (n, score) = frame(&mut random, &truth, &information.mean(), 0.0);
@@ -252,13 +252,14 @@ mod tests {
         let trials = 300;
         for trial in 0..trials {
             let mut random = Random::new(2, trial);
-            let mut information = Information::new([0.0; 4], SIGMA);
+            let mut information = Information::new([0.0; UNKNOWNS], SIGMA);
             for _ in 0..40 {
                 let noise = random.normal();
                 for _ in 0..10 {
                     let mut n = [[0.0; UNKNOWNS]; UNKNOWNS];
                     n[0][0] = 1.0;
-                    let score = [noise - information.mean()[0], 0.0, 0.0, 0.0];
+                    let mut score = [0.0; UNKNOWNS];
+                    score[0] = noise - information.mean()[0];
                     information.add_frame(&n, &score);
                 }
                 information.end_block();
@@ -277,15 +278,15 @@ mod tests {
     fn a_bias_that_becomes_known_later_leaves_the_scores_consistent() {
         let build = |early: bool| {
             let mut random = Random::new(3, 0);
-            let mut information = Information::new([0.0; 4], SIGMA);
+            let mut information = Information::new([0.0; UNKNOWNS], SIGMA);
             if early {
                 information.set_bias(0.2, 0.1);
             }
             for index in 0..60 {
                 let (n, score) = frame(
                     &mut random,
-                    &[0.1, 0.2, 0.3, 0.4],
-                    &[0.0; 4],
+                    &[0.1, 0.2, 0.3, 0.4, 0.5],
+                    &[0.0; UNKNOWNS],
                     0.01 * f64::from(index % 7),
                 );
                 // The frame is linear: move its score from the origin to the present estimate.

@@ -1,8 +1,9 @@
 //! Recursive robust maximum likelihood: one frame at a time, in constant memory.
 //!
-//! All frames share four unknowns: the mounting angle, the inverse scale and the bias of the yaw
-//! rate, and the slip gradient of the rear axle (a turning car slides outwards in proportion to its
-//! lateral acceleration). Each frame adds two of its own, the speed and the error of its yaw rate,
+//! All frames share five unknowns: the mounting angle, the inverse scale and the bias of the yaw
+//! rate, the slip gradient of the rear axle (a turning car slides outwards in proportion to its
+//! lateral acceleration), and the radar's delay (range rates are measured over tens of milliseconds
+//! before the time a scan is stamped with). Each frame adds two of its own, the speed and the error of its yaw rate,
 //! which are eliminated at once. In a frame:
 //!
 //! 1. the speed that most detections agree on is searched for, given the angle so far, the yaw rate
@@ -31,10 +32,15 @@ use information::{Information, Matrix, UNKNOWNS, Vector};
 use tracked::{Cloud, Fit, Limits, Prediction};
 use vote::Vote;
 
-/// Standard deviations before any frame: angle about its start, inverse scale, slip gradient.
+/// Standard deviations before any frame: angle about its start, inverse scale, slip gradient, delay (s).
 const ANGLE_PRIOR_RAD: f64 = 0.09;
 const SCALE_PRIOR: f64 = 0.05;
 const SLIP_PRIOR: f64 = 0.003;
+const DELAY_PRIOR_S: f64 = 0.03;
+/// Readings further apart than this do not say how fast the yaw rate changes, s, nor do changes of a car
+/// exceed this, rad/s^2.
+const CHANGE_GAP_S: f64 = 0.25;
+const MAX_CHANGE: f64 = 1.0;
 /// Noise of the yaw rate, rad/s, beside its bias and scale.
 const YAW_RATE_NOISE_RADPS: f64 = 0.0035;
 /// Frames closer together than this are taken as correlated, s.
@@ -59,6 +65,7 @@ pub struct Recursive {
     vote: Option<Vote>,
     misses: usize,
     time_s: Option<f64>,
+    reading: Option<(f64, f64)>,
     speed: Option<(f64, f64)>,
     noise_scale: f64,
     excess: f64,
@@ -96,6 +103,7 @@ impl Recursive {
             vote: options.nominal_rad.is_none().then(Vote::new),
             misses: 0,
             time_s: None,
+            reading: None,
             speed: None,
             noise_scale: 1.0,
             excess: 0.2_f64.to_radians().powi(2),
@@ -145,6 +153,7 @@ impl Recursive {
         if measured.abs() > self.options.max_yaw_rate_radps {
             return Verdict::Turning;
         }
+        let change = self.change(frame.time_s, measured);
         self.cloud.set(frame.detections);
         let age = self.speed.map(|(_, time)| frame.time_s - time);
         if age.is_some_and(|age| age > SPEED_LIFE_S) {
@@ -162,7 +171,9 @@ impl Recursive {
         let prediction = Prediction {
             angle_rad: x[0],
             angle_variance: self.information.formal()[0][0],
-            yaw_rate_radps: x[1] * measured - x[2],
+            reading_radps: measured - x[4] * change,
+            change,
+            yaw_rate_radps: x[1] * (measured - x[4] * change) - x[2],
             slip: x[3],
             x_m: self.options.x_m,
             y_m: self.options.y_m,
@@ -188,7 +199,19 @@ impl Recursive {
         }
         let step = LEARNING_RATE * (fit.reduced_squares.clamp(0.2, 5.0) - 1.0);
         self.noise_scale = (self.noise_scale * step.exp()).clamp(1e-4, 1e4);
-        self.inform(frame.time_s, measured, &prediction, &fit, outcome)
+        self.inform(frame.time_s, &prediction, &fit, outcome)
+    }
+
+    /// How fast the yaw rate changes, rad/s^2, from this reading and the one before.
+    fn change(&mut self, time_s: f64, measured: f64) -> f64 {
+        let before = self.reading.replace((time_s, measured));
+        let apart = before.map(|(time, reading)| (time_s - time, measured - reading));
+        match apart {
+            Some((gap, change)) if gap > 0.0 && gap <= CHANGE_GAP_S => {
+                (change / gap).clamp(-MAX_CHANGE, MAX_CHANGE)
+            }
+            _ => 0.0,
+        }
     }
 
     /// Before there is an angle: a frame's own motion, and its vote.
@@ -277,12 +300,11 @@ impl Recursive {
     fn inform(
         &mut self,
         time_s: f64,
-        measured: f64,
         prediction: &Prediction,
         fit: &Fit,
         outcome: &mut FrameOutcome,
     ) -> Verdict {
-        let (n, score) = self.normal_equations(measured, prediction, fit);
+        let (n, score) = self.normal_equations(prediction, fit);
         if !(n[0][0] > 0.0 && n[0][0].is_finite()) {
             return Verdict::Sparse;
         }
@@ -319,18 +341,14 @@ impl Recursive {
         Verdict::Used
     }
 
-    fn normal_equations(
-        &self,
-        measured: f64,
-        prediction: &Prediction,
-        fit: &Fit,
-    ) -> (Matrix, Vector) {
+    fn normal_equations(&self, prediction: &Prediction, fit: &Fit) -> (Matrix, Vector) {
         let (sin0, cos0) = prediction.angle_rad.sin_cos();
         let speed = fit.speed;
         let rate = prediction.yaw_rate_radps;
         let along = speed - rate * prediction.y_m;
         let across = prediction.lateral(speed);
         let lever = prediction.x_m - prediction.slip * speed * speed;
+        let delayed = self.information.mean()[1] * prediction.change;
         // Shared unknowns first, then speed and yaw rate.
         let mut full = [[0.0; UNKNOWNS + 2]; UNKNOWNS + 2];
         let mut right = [0.0; UNKNOWNS + 2];
@@ -341,9 +359,10 @@ impl Recursive {
             let by_rate = lever * sin - prediction.y_m * cos;
             let row = [
                 across * cos - along * sin,
-                by_rate * measured,
+                by_rate * prediction.reading_radps,
                 -by_rate,
                 -speed * speed * rate * sin,
+                -by_rate * delayed,
                 cos - 2.0 * prediction.slip * speed * rate * sin,
                 by_rate,
             ];
@@ -434,7 +453,7 @@ impl Recursive {
 
 fn prior(angle_rad: f64, bias: f64, bias_sigma: f64) -> Information {
     Information::new(
-        [angle_rad, 1.0, bias, 0.0],
-        [ANGLE_PRIOR_RAD, SCALE_PRIOR, bias_sigma, SLIP_PRIOR],
+        [angle_rad, 1.0, bias, 0.0, 0.0],
+        [ANGLE_PRIOR_RAD, SCALE_PRIOR, bias_sigma, SLIP_PRIOR, DELAY_PRIOR_S],
     )
 }

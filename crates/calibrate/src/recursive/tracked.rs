@@ -30,6 +30,9 @@ pub(crate) struct Limits {
 pub(crate) struct Prediction {
     pub(crate) angle_rad: f64,
     pub(crate) angle_variance: f64,
+    /// Reading of the yaw rate at the time the radar measured, rad/s, and its rate of change there.
+    pub(crate) reading_radps: f64,
+    pub(crate) change: f64,
     /// True yaw rate, rad/s.
     pub(crate) yaw_rate_radps: f64,
     pub(crate) slip: f64,
