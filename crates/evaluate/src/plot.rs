@@ -13,8 +13,9 @@ const COLOURS: [RGBColor; 6] = [
     RGBColor(86, 180, 233),
     RGBColor(0, 0, 0),
 ];
-/// Size of a panel, pixels.
-const PANEL: (u32, u32) = (560, 300);
+/// Size of a panel and height of the legend, pixels.
+const PANEL: (u32, u32) = (560, 280);
+const LEGEND: u32 = 30;
 
 /// One pair of axes.
 pub struct Panel {
@@ -26,7 +27,9 @@ pub struct Panel {
     pub y: String,
     /// Both axes logarithmic; needs positive numbers.
     pub logarithmic: bool,
-    /// Lines.
+    /// Smallest and largest ordinate; those of the points if `None`.
+    pub y_limits: Option<[f64; 2]>,
+    /// Lines, the same ones in every panel of a figure.
     pub series: Vec<Series>,
 }
 
@@ -42,15 +45,19 @@ pub struct Series {
     pub marked: bool,
 }
 
-/// Draws the panels in rows of `columns`.
+/// Draws the panels in rows of `columns` under a legend.
 pub fn draw(panels: &[Panel], columns: usize) -> Result<String, EvaluateError> {
     let rows = panels.len().div_ceil(columns);
     let mut svg = String::new();
     {
-        let size = (PANEL.0 * columns as u32, PANEL.1 * rows as u32);
+        let size = (PANEL.0 * columns as u32, PANEL.1 * rows as u32 + LEGEND);
         let area = SVGBackend::with_string(&mut svg, size).into_drawing_area();
         area.fill(&WHITE).map_err(figure)?;
-        for (panel, area) in panels.iter().zip(area.split_evenly((rows, columns))) {
+        let (top, rest) = area.split_vertically(LEGEND);
+        if let Some(panel) = panels.first() {
+            legend(panel, &top)?;
+        }
+        for (panel, area) in panels.iter().zip(rest.split_evenly((rows, columns))) {
             panel_on(panel, &area)?;
         }
         area.present().map_err(figure)?;
@@ -58,11 +65,23 @@ pub fn draw(panels: &[Panel], columns: usize) -> Result<String, EvaluateError> {
     Ok(svg)
 }
 
+fn legend(panel: &Panel, area: &Area) -> Result<(), EvaluateError> {
+    let mut x = 16;
+    for (series, colour) in panel.series.iter().zip(COLOURS.iter().cycle()) {
+        let line = PathElement::new(vec![(x, 17), (x + 18, 17)], colour.stroke_width(3));
+        area.draw(&line).map_err(figure)?;
+        let text = Text::new(series.name.as_str(), (x + 23, 11), ("sans-serif", 12));
+        area.draw(&text).map_err(figure)?;
+        x += 42 + 6 * series.name.len() as i32;
+    }
+    Ok(())
+}
+
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
 fn panel_on(panel: &Panel, area: &Area) -> Result<(), EvaluateError> {
     let [x0, x1] = limits(panel, |point| point.0);
-    let [y0, y1] = limits(panel, |point| point.1);
+    let [y0, y1] = panel.y_limits.unwrap_or_else(|| limits(panel, |point| point.1));
     if panel.logarithmic {
         axes(panel, area, (x0..x1).log_scale(), (y0..y1).log_scale())
     } else {
@@ -84,7 +103,15 @@ where
         .y_label_area_size(60)
         .build_cartesian_2d(x, y)
         .map_err(figure)?;
-    let number = |x: &f64| format!("{}", (x * 1e6).round() / 1e6);
+    // On a logarithmic axis 1, 2 and 5 of each decade.
+    let number = |x: &f64| {
+        let leading = x / 10_f64.powf(x.log10().floor());
+        let shown = [1.0, 2.0, 5.0, 10.0].iter().any(|digit| (leading - digit).abs() < 1e-6);
+        if panel.logarithmic && !shown {
+            return String::new();
+        }
+        format!("{}", (x * 1e6).round() / 1e6)
+    };
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
@@ -98,27 +125,18 @@ where
     for (series, colour) in panel.series.iter().zip(COLOURS.iter().cycle()) {
         let style = colour.stroke_width(2);
         let points = || series.points.iter().copied();
-        let shown = if series.dashed {
+        if series.dashed {
             chart.draw_series(DashedLineSeries::new(points(), 6, 4, style))
         } else {
             chart.draw_series(LineSeries::new(points(), style))
         }
         .map_err(figure)?;
-        shown
-            .label(&series.name)
-            .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + 16, y)], style));
         if series.marked {
             let marks = points().map(|point| Circle::new(point, 3, colour.filled()));
             chart.draw_series(marks).map_err(figure)?;
         }
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .background_style(WHITE.mix(0.8))
-        .label_font(("sans-serif", 11))
-        .draw()
-        .map_err(figure)
+    Ok(())
 }
 
 /// Smallest and largest number with a margin.
@@ -131,7 +149,8 @@ fn limits(panel: &Panel, of: fn(&(f64, f64)) -> f64) -> [f64; 2] {
         return [1.0, 10.0];
     }
     if panel.logarithmic {
-        return [low / 1.25, high * 1.25];
+        // Whole decades: the axis is labelled from one to the next.
+        return [10_f64.powf(low.log10().floor()), 10_f64.powf(high.log10().ceil())];
     }
     let margin = if high > low { 0.05 * (high - low) } else { 1.0 };
     [low - margin, high + margin]

@@ -13,7 +13,10 @@ use crate::statistics::Summary;
 pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
     let truth = condition.radars.iter().find(|r| r.sensor == 3).map_or(f64::NAN, |r| r.true_deg);
     let scenes = condition.scenes as f64;
-    let panels: Vec<Panel> = [0, 1, 5]
+    let shown = [0, 1, 5];
+    let all = || shown.iter().flat_map(|&k| condition.angles_deg[k].iter().flatten().copied());
+    let far = all().fold(0.02, |far: f64, angle| far.max(1.1 * (angle - truth).abs()));
+    let panels: Vec<Panel> = shown
         .into_iter()
         .map(|k| {
             let points: Vec<(f64, f64)> = condition.angles_deg[k]
@@ -21,23 +24,24 @@ pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
                 .enumerate()
                 .filter_map(|(i, angle)| Some((i as f64 + 1.0, (*angle)?)))
                 .collect();
-            let level = |name: &str, y: f64, dashed| Series {
-                name: name.into(),
-                points: vec![(1.0, y), (scenes, y)],
-                dashed,
-                marked: false,
-            };
             let angles: Vec<f64> = points.iter().map(|(_, angle)| *angle).collect();
             let mean = Summary::of(&angles).mean;
+            let line = |name: &str, points, dashed, marked| Series {
+                name: name.into(),
+                points,
+                dashed,
+                marked,
+            };
             Panel {
-                title: CANDIDATES[k].name.into(),
+                title: format!("{}: mean {mean:.3} deg, true {truth:.3} deg", CANDIDATES[k].name),
                 x: "drive".into(),
                 y: "angle / deg".into(),
                 logarithmic: false,
+                y_limits: Some([truth - far, truth + far]),
                 series: vec![
-                    Series { name: "each drive".into(), points, dashed: false, marked: true },
-                    level(&format!("mean {mean:.3}"), mean, true),
-                    level(&format!("true {truth:.3}"), truth, false),
+                    line("each drive", points, false, true),
+                    line("mean", vec![(1.0, mean), (scenes, mean)], true, false),
+                    line("true angle", vec![(1.0, truth), (scenes, truth)], false, false),
                 ],
             }
         })
@@ -55,6 +59,7 @@ pub fn convergence(report: &Report) -> Result<String, EvaluateError> {
         x: "driving time / s".into(),
         y: what.into(),
         logarithmic: true,
+        y_limits: None,
         series: condition.convergence.iter().map(|c| series(c, value)).collect(),
     };
     let panels: Vec<Panel> = report
