@@ -53,6 +53,10 @@ impl Default for Drive {
     }
 }
 
+pub fn detection(azimuth_rad: f32, range_rate_mps: f32) -> Detection {
+    Detection { azimuth_rad, range_rate_mps, range_m: f32::NAN, rcs_dbsm: f32::NAN }
+}
+
 /// A point cloud of a radar that moves with `velocity`, over 120 deg.
 pub fn cloud(random: &mut Random, velocity: [f64; 2], drive: &Drive) -> Vec<Detection> {
     let moving = (drive.moving * drive.detections as f64).round() as usize;
