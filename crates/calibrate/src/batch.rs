@@ -1,6 +1,6 @@
 //! The methods that weigh all frames at once.
 
-use crate::angle::bias::{Bias, PRIOR_SIGMA_RADPS};
+use crate::angle::bias::Bias;
 use crate::angle::{
     Sample, Setting, Solution, kabsch, least_squares, orthogonal_distance, weighted_mean, wrap,
 };
@@ -12,6 +12,8 @@ use crate::{
 
 /// A radar slower than this stands, m/s, if its detections allow for that.
 const STANDSTILL_MPS: f64 = 0.05;
+/// A car that turns faster does not stand, rad/s, whatever its radar sees: no bias is as large.
+const STANDSTILL_RADPS: f64 = 0.05;
 /// Standard deviations that chance is granted.
 const CHANCE: f64 = 3.0;
 /// Standard deviation of the angle from which it counts as undetermined, rad (1 deg).
@@ -124,7 +126,7 @@ impl Batch {
         let [vx, vy] = motion.velocity_mps;
         let [[xx, xy], [_, yy]] = motion.covariance;
         let speed = vx.hypot(vy);
-        if stands(speed, xx + yy, motion) {
+        if stands(speed, xx + yy, motion) && yaw_rate_radps.abs() < STANDSTILL_RADPS {
             return (Verdict::Standing, None);
         }
         if speed < o.min_speed_mps || speed <= CHANCE * (xx + yy).sqrt() {
@@ -159,7 +161,7 @@ impl Batch {
             x_m: self.options.x_m,
             y_m: self.options.y_m,
             bias_radps: self.bias.mean(),
-            bias_sigma_radps: if known { self.bias.sigma() } else { PRIOR_SIGMA_RADPS },
+            bias_sigma_radps: if known { self.bias.sigma() } else { self.options.bias_sigma_radps },
             yaw_rate_sigma_radps: self.bias.noise(),
             nominal_rad: self.options.nominal_rad,
         };

@@ -54,42 +54,6 @@ fn without_frames_the_angle_is_nominal_and_nothing_is_claimed() {
 }
 
 #[test]
-fn what_a_drive_cannot_tell_is_said() {
-    let straight = Drive { turn_radps: 0.0, ..Drive::default() };
-    let beside_axle = Drive { x_m: 0.0, ..Drive::default() };
-    let circle =
-        Drive { turn_radps: 0.0, constant_turn_radps: 0.3, speed_swing: 0.0, ..Drive::default() };
-    for (name, drive) in [("straight", straight), ("beside", beside_axle), ("circle", circle)] {
-        for method in [Method::LeastSquares, Method::OrthogonalDistance] {
-            let e = drive.calibrate(drive.options(method)).estimate();
-            assert!(e.remarks.contains(&Remark::ScaleUndetermined), "{name} {method:?} {e:?}");
-            // With chi constant the scale takes any angle with it.
-            let undetermined = e.remarks.contains(&Remark::AngleUndetermined);
-            assert_eq!(undetermined, name == "circle", "{name} {method:?} {e:?}");
-            assert!((e.angle_rad - drive.angle_rad).abs() < 4.0 * e.sigma_rad, "{name} {e:?}");
-        }
-    }
-}
-
-#[test]
-fn drives_without_motion_or_static_points_give_no_confident_angle() {
-    let stands = Drive { standing: 600, ..Drive::default() };
-    let lone = Drive { detections: 1, moving: 0.0, ..Drive::default() };
-    for drive in [stands, lone] {
-        for method in BATCH {
-            let e = drive.calibrate(drive.options(method)).estimate();
-            assert!(e.remarks.contains(&Remark::NoFrames), "{method:?} {e:?}");
-            assert_eq!((e.sigma_rad, e.frames.used), (f64::INFINITY, 0));
-        }
-    }
-    let traffic = Drive { moving: 1.0, ..Drive::default() };
-    for method in BATCH {
-        let e = traffic.calibrate(traffic.options(method)).estimate();
-        assert!(!e.converged, "{method:?} {e:?}");
-    }
-}
-
-#[test]
 fn time_backwards_is_an_error_and_the_frame_is_not_counted() {
     let drive = Drive::default();
     let mut calibrator = drive.calibrate(drive.options(Method::LeastSquares));

@@ -1,8 +1,5 @@
 //! Bias of the yaw rate from standing frames (equation 5).
 
-/// Standard deviation of an automotive yaw-rate sensor's bias where nothing has been measured of it,
-/// rad/s (0.1 deg/s).
-pub(crate) const PRIOR_SIGMA_RADPS: f64 = 0.001_745_329_251_994_329_5;
 /// Standing frames from which their scatter tells the noise.
 const ENOUGH: u64 = 10;
 /// Noise of the yaw rate where it has not been measured, rad/s (0.1 deg/s).

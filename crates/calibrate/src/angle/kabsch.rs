@@ -1,6 +1,6 @@
 //! Rotation between the velocities of car and radar (Bao et al. 2020; Kabsch 1976), scale taken as 1.
 
-use super::{Sample, Setting, Solution, wrap};
+use super::{ASSUMED_SCALE_SIGMA, Sample, Setting, Solution, wrap};
 use crate::symmetric::Symmetric;
 
 /// The rotation that turns the radar's velocities into `(v - w y_s, w x_s)`, in the plane:
@@ -29,7 +29,8 @@ pub(crate) fn solve(samples: &[Sample], setting: &Setting) -> Option<Solution> {
         return None;
     }
     let angle = cross.atan2(dot);
-    let (mut total, mut middle, mut squares, mut pull) = (0.0, 0.0, 0.0, 0.0);
+    let (mut total, mut middle, mut squares) = (0.0, 0.0, 0.0);
+    let (mut pull, mut stretch) = (0.0, 0.0);
     for (sample, car, weight) in pairs() {
         let speed_squared = car[0] * car[0] + car[1] * car[1];
         if speed_squared == 0.0 {
@@ -43,10 +44,12 @@ pub(crate) fn solve(samples: &[Sample], setting: &Setting) -> Option<Solution> {
         middle += strength * strength * variance;
         squares += residual * residual / variance;
         pull += strength * yaw_noise;
+        stretch += strength * yaw_noise * (sample.yaw_rate_radps - setting.bias_radps);
     }
     let inflation = (squares / used.saturating_sub(1).max(1) as f64).max(1.0);
-    let variance =
-        inflation * middle / (total * total) + (pull / total * setting.bias_sigma_radps).powi(2);
+    let variance = inflation * middle / (total * total)
+        + (pull / total * setting.bias_sigma_radps).powi(2)
+        + (stretch / total * ASSUMED_SCALE_SIGMA).powi(2);
     variance.is_finite().then_some(Solution {
         angle_rad: wrap(angle),
         inverse_scale: 1.0,

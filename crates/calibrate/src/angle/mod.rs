@@ -65,6 +65,10 @@ pub(crate) struct Solution {
 /// rest on the steep end of the arcsine.
 pub(crate) const MAX_SINE: f64 = 0.9;
 
+/// Standard deviation of an automotive yaw-rate sensor's scale, for methods that take it as 1: their angle
+/// is only as sure as that.
+pub(crate) const ASSUMED_SCALE_SIGMA: f64 = 0.02;
+
 /// An angle brought to `(-pi, pi]`.
 pub(crate) fn wrap(angle: f64) -> f64 {
     let wrapped = angle - TAU * (angle / TAU).round();

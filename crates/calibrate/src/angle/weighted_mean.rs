@@ -1,6 +1,6 @@
 //! Weighted mean of the frames' angles, scale taken as 1 (equation 8; Kellner et al. 2015).
 
-use super::{Row, Sample, Setting, Solution, rows, wrap};
+use super::{ASSUMED_SCALE_SIGMA, Row, Sample, Setting, Solution, rows, wrap};
 use crate::symmetric::Symmetric;
 
 /// The mean, weighted by the inverse variance of each frame's direction; `None` without a frame.
@@ -8,11 +8,14 @@ pub(crate) fn solve(samples: &[Sample], setting: &Setting) -> Option<Solution> {
     let (rows, reference, gated) = rows(samples, setting);
     let (offset, variance) = mean(&rows, 1.0)?;
     let pull: f64 = weighted(&rows, |row| row.lever_s / (1.0 - row.chi * row.chi).sqrt());
+    let stretch: f64 = weighted(&rows, |row| row.chi / (1.0 - row.chi * row.chi).sqrt());
     Some(Solution {
         angle_rad: wrap(reference + offset),
         inverse_scale: 1.0,
         covariance: Symmetric {
-            xx: variance + (pull * setting.bias_sigma_radps).powi(2),
+            xx: variance
+                + (pull * setting.bias_sigma_radps).powi(2)
+                + (stretch * ASSUMED_SCALE_SIGMA).powi(2),
             xy: 0.0,
             yy: 0.0,
         },

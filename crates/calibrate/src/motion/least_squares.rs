@@ -1,15 +1,15 @@
 //! Least squares for the velocity, plain and weighted by each detection's noise.
 
-use super::{Columns, MIN_RANGE_RATE_SIGMA_MPS};
+use super::Columns;
 use crate::symmetric::Symmetric;
 
 /// A velocity (m/s) and its covariance.
 pub(crate) type Fit = ([f64; 2], Symmetric);
 
 /// Least squares on the given detections with the covariance of equation 3,
-/// `e'e / (L - 2) (A'A)^-1`. Two detections leave no residual: their covariance is infinite, hence
+/// `e'e / (L - 2) (A'A)^-1`, the residuals' standard deviation taken as `least` (m/s) at least. Two detections leave no residual: their covariance is infinite, hence
 /// `None`; so do azimuths that do not span a plane.
-pub(crate) fn plain(columns: &Columns, inliers: &[u32]) -> Option<Fit> {
+pub(crate) fn plain(columns: &Columns, inliers: &[u32], least: f64) -> Option<Fit> {
     let velocity = solve(columns, inliers)?;
     if inliers.len() < 3 {
         return None;
@@ -21,7 +21,7 @@ pub(crate) fn plain(columns: &Columns, inliers: &[u32]) -> Option<Fit> {
         normal.add(cos, sin, 1.0);
         squares += residual * residual;
     }
-    let variance = (squares / (inliers.len() - 2) as f64).max(MIN_RANGE_RATE_SIGMA_MPS.powi(2));
+    let variance = (squares / (inliers.len() - 2) as f64).max(least * least);
     Some((velocity, normal.inverse()?.scaled(variance)))
 }
 

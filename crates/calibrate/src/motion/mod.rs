@@ -53,9 +53,9 @@ impl Columns {
 /// of missing values such as 1e30 lie above.
 const MAX_RANGE_RATE_MPS: f32 = 1e4;
 
-/// Smallest standard deviation of a range rate that is believed, m/s: noise-free frames keep finite
-/// weights.
-pub(crate) const MIN_RANGE_RATE_SIGMA_MPS: f64 = 1e-4;
+/// Residuals are believed down to this share of the noise expected: few detections agree more closely by
+/// chance, copies of two do so for certain.
+const LEAST_NOISE: f64 = 0.1;
 
 /// Estimates the motion frame by frame, reusing its buffers.
 #[derive(Debug, Clone)]
@@ -138,7 +138,7 @@ impl MotionEstimator {
                 }
                 fit
             }
-            _ => least_squares::plain(&self.columns, &self.inliers),
+            _ => least_squares::plain(&self.columns, &self.inliers, LEAST_NOISE * noise[0]),
         };
         let (velocity_mps, covariance) = fit?;
         for &i in &self.inliers {

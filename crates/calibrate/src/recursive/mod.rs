@@ -425,12 +425,12 @@ impl Recursive {
         };
         let unknown = |i: usize, prior: f64| sigma(i) > 0.7 * prior;
         remark(none, Remark::NoFrames);
-        remark(!none && sigma_rad > 1.0_f64.to_radians(), Remark::AngleUndetermined);
+        remark(sigma_rad > 1.0_f64.to_radians(), Remark::AngleUndetermined);
         remark(unknown(1, SCALE_PRIOR), Remark::ScaleUndetermined);
         remark(unknown(2, self.options.bias_sigma_radps), Remark::BiasUndetermined);
         remark(!none && inlier_share < 0.5, Remark::FewInliers);
         remark(misaligned == Some(true), Remark::Misaligned);
-        remark(!none && !converged, Remark::NotConverged);
+        remark(!converged, Remark::NotConverged);
         AngleEstimate {
             angle_rad,
             sigma_rad,

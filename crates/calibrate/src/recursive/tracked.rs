@@ -13,6 +13,8 @@ const SPEED_WIDTH_MPS: f64 = 0.5;
 const SPEED_WIDTH: f64 = 0.1;
 /// What a speed further off is worth: the car's own may be wrong.
 const DOUBT: f64 = 0.2;
+/// Half the width of the band about a motion in which detections count as static, in standard deviations.
+const BAND: f64 = 2.0;
 /// Rounds of expectation and maximisation.
 const ROUNDS: usize = 8;
 
@@ -240,7 +242,8 @@ impl Cloud {
         }
         let missing = 1.0 / (1.0 - missing / complete.max(f64::MIN_POSITIVE)).max(0.2);
         let inliers = self.weight.iter().filter(|&&w| w >= limits.inlier_threshold).count();
-        if inliers < needed {
+        let deviations: f64 = self.variance.iter().map(|variance| variance.sqrt()).sum();
+        if inliers < needed || (inliers as f64) < by_chance(deviations) {
             return None;
         }
         let speed =
@@ -258,4 +261,12 @@ impl Cloud {
         }
         Some(Fit { velocity, covariance, speed, inliers, reduced_squares, missing })
     }
+}
+
+/// More detections than this agree on no motion by chance: what moves falls into a motion's band at a rate
+/// of the band's width over the spread of moving range rates, and the band searched for is the fullest of
+/// as many as there are detections (Poisson counts, about once in a thousand frames).
+fn by_chance(deviations: f64) -> f64 {
+    let expected = 2.0 * BAND * deviations / MOVING_SPREAD_MPS;
+    expected + 4.0 * expected.sqrt() + 3.0
 }
