@@ -8,6 +8,7 @@ export const modulesBin = join(root, 'node_modules', '.bin');
 export const wasmTarget = 'wasm32-unknown-unknown';
 export const dist = join(root, 'dist');
 export const coreWasm = join(dist, 'wasm', 'boresight_bg.wasm');
+export const drivesWasm = join(dist, 'wasm', 'boresight_drives_bg.wasm');
 
 const exe = process.platform === 'win32' ? '.exe' : '';
 export const tool = (name) => join(toolsBin, name + exe);

@@ -11,4 +11,9 @@ export { readDetectionsCsv, readNpy, readSnapshotsCsv, writeDetectionsCsv, write
 export { countSources, cramerRaoBound } from './theory.js';
 export { simulateCube, simulateSnapshots } from './simulate.js';
 export { Capture, processCube } from './capture.js';
+export type { Report } from './report.js';
 export { Calibration, calibrationMethods } from './calibrate.js';
+export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive.js';
+export { driveFrame } from './drive-view.js';
+export { calibrateDrive, frameVerdicts, jointCalibration } from './drive-calibration.js';
+export { relativeTrajectoryError, trajectory } from './trajectory.js';

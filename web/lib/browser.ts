@@ -1,9 +1,15 @@
 // Entry for browsers and bundlers: the wasm is fetched from beside this file.
-import { start, type WasmSource } from './instance.js';
+import { drives } from './drive.js';
+import { core, type WasmSource } from './instance.js';
 
 export * from './api.js';
 
 /** Loads the module once; see the README for where `source` is needed. */
 export function init(source?: WasmSource | Promise<WasmSource>): Promise<void> {
-  return start(() => source ?? new URL('../wasm/boresight_bg.wasm', import.meta.url));
+  return core.start(() => source ?? new URL('../wasm/boresight_bg.wasm', import.meta.url));
+}
+
+/** Loads what {@link readDrive} and {@link simulateDrive} need, a module of its own. */
+export function initDrives(source?: WasmSource | Promise<WasmSource>): Promise<void> {
+  return drives.start(() => source ?? new URL('../wasm/boresight_drives_bg.wasm', import.meta.url));
 }

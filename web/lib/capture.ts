@@ -1,13 +1,11 @@
 import * as glue from '../wasm/boresight.js';
 import { Handle } from './handle.js';
 import { call } from './instance.js';
+import type { Report } from './report.js';
 import type {
   AngleOptions, BytesInput, CaptureInfo, Cell, ChainOptions, CombineOptions, ComplexData, CubeChainOptions, Estimate,
   FrameResult, TextInput,
 } from './types.js';
-
-/** Called with the steps done and in all; stops the run by returning `false`. */
-export type Report = (done: number, total: number) => boolean | void;
 
 /** A raw capture (`.bin` of a DCA1000) with the board's configuration (`.cfg`). */
 export class Capture extends Handle<glue.Capture> {

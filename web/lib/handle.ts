@@ -1,11 +1,11 @@
 import { failure } from './errors.js';
-import { call, instanceNumber, isAlive } from './instance.js';
+import { call, core } from './instance.js';
 
 const dispose: typeof Symbol.dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 
 /** Something that lives in wasm memory until `free()`, or until it is garbage collected. */
 export class Handle<Raw extends { free(): void }> {
-  readonly #instance = instanceNumber();
+  readonly #instance = core.number;
   #raw: Raw | undefined;
   #busy = false;
 
@@ -31,7 +31,7 @@ export class Handle<Raw extends { free(): void }> {
     if (this.#busy) throw this.#misuse('busy');
     this.#raw = undefined;
     // The memory of a dead instance went with it.
-    if (isAlive(this.#instance)) call(() => raw.free());
+    if (core.isAlive(this.#instance)) call(() => raw.free());
   }
 
   /** For `using`: frees the handle unless that was done already. */
@@ -41,7 +41,7 @@ export class Handle<Raw extends { free(): void }> {
 
   #idle(): Raw {
     if (this.#raw === undefined) throw this.#misuse('freed');
-    if (this.#instance !== instanceNumber()) throw this.#misuse('stale');
+    if (this.#instance !== core.number) throw this.#misuse('stale');
     // A callback of a running method called another one.
     if (this.#busy) throw this.#misuse('busy');
     return this.#raw;

@@ -1,10 +1,16 @@
 // Entry for workerd and other edge runtimes that import wasm as a compiled module.
 import module from '../wasm/boresight_bg.wasm';
-import { start, type WasmSource } from './instance.js';
+import { drives } from './drive.js';
+import { core, type WasmSource } from './instance.js';
 
 export * from './api.js';
 
 /** Loads the module once; see the README for where `source` is needed. */
 export function init(source?: WasmSource | Promise<WasmSource>): Promise<void> {
-  return start(() => source ?? module);
+  return core.start(() => source ?? module);
+}
+
+/** Loads what {@link readDrive} and {@link simulateDrive} need, a module of its own. */
+export function initDrives(source?: WasmSource | Promise<WasmSource>): Promise<void> {
+  return drives.start(() => source ?? import('../wasm/boresight_drives_bg.wasm').then((wasm) => wasm.default));
 }

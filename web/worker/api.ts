@@ -1,4 +1,6 @@
 // The functions of the package as promises.
+import { jointTaskOf, taskOf } from '../lib/drive-radars.js';
+import { driveFrame, selected, viewOf } from '../lib/drive-view.js';
 import type * as lib from '../lib/types.js';
 import { Crew, type JobOptions, type Piece, type Runtime } from './pool.js';
 import type { OperationName, Operations } from './protocol.js';
@@ -145,6 +147,68 @@ export class Pool {
     return this.#one('cellSpectrum', [bytes, config, cell, angle, options], job);
   }
 
+  /** A drive from its files; progress is told at the end alone. */
+  readDrive(files: readonly lib.DriveFile[], options?: lib.ReadDriveOptions, job?: JobOptions): Promise<lib.Drive> {
+    return this.#one('readDrive', [files, options], job);
+  }
+
+  /** Progress counts scans. */
+  simulateDrive(options?: lib.SimulateDriveOptions, job?: JobOptions): Promise<lib.SimulatedDrive> {
+    return this.#one('simulateDrive', [options], job);
+  }
+
+  driveScenarios(job?: JobOptions): Promise<lib.DriveScenarioInfo[]> {
+    return this.#one('driveScenarios', [], job);
+  }
+
+  /** A frame as views of the drive's arrays, made here: it costs less than asking a worker. */
+  async driveFrame(drive: lib.DriveData, scan: number, gap?: lib.MotionGap): Promise<lib.DriveFrame> {
+    return driveFrame(drive, scan, gap);
+  }
+
+  /** The angle of one radar of a drive, of which only that radar's scans are sent; progress counts frames. */
+  async calibrateDrive(
+    drive: lib.DriveData,
+    options?: lib.CalibrateDriveOptions,
+    job: JobOptions = {},
+  ): Promise<lib.DriveCalibration> {
+    job.signal?.throwIfAborted();
+    const { radars } = taskOf(viewOf(drive), options);
+    const part = selected(drive, radars.map(({ sensor }) => sensor));
+    const result = await this.#one('calibrateDrive', [part.drive, options], { ...job, transfer: true });
+    return numbered(result, part.scans);
+  }
+
+  /** The angles of several radars together; progress counts frames. */
+  async jointCalibration(
+    drive: lib.DriveData,
+    options?: lib.JointCalibrationOptions,
+    job: JobOptions = {},
+  ): Promise<lib.DriveCalibration[]> {
+    job.signal?.throwIfAborted();
+    const { radars } = jointTaskOf(viewOf(drive), options);
+    const part = selected(drive, radars.map(({ sensor }) => sensor));
+    const results = await this.#one('jointCalibration', [part.drive, options], { ...job, transfer: true });
+    return results.map((result) => numbered(result, part.scans));
+  }
+
+  trajectory(
+    frames: lib.CalibratedFrames,
+    mounting: { angleDeg: number; xM: number; yM?: number },
+    job?: JobOptions,
+  ): Promise<lib.Trajectory | null> {
+    return this.#one('trajectory', [frames, mounting], job);
+  }
+
+  relativeTrajectoryError(
+    estimated: lib.Trajectory,
+    truth: lib.Trajectory,
+    segmentM?: number,
+    job?: JobOptions,
+  ): Promise<number | null> {
+    return this.#one('relativeTrajectoryError', [estimated, truth, segmentM], job);
+  }
+
   waveformSummary(waveform: lib.Waveform, job?: JobOptions): Promise<lib.WaveformSummary> {
     return this.#one('waveformSummary', [waveform], job);
   }
@@ -208,6 +272,12 @@ export class Pool {
     const [result] = await this.#crew.run([{ name, args, units: 1 }], job);
     return result as ReturnType<Operations[N]>;
   }
+}
+
+/** A calibration of a part of a drive, its scans by their numbers in the whole. */
+function numbered(result: lib.DriveCalibration, scans: Uint32Array): lib.DriveCalibration {
+  const scan = result.frames.scan.map((index) => scans[index] ?? 0);
+  return { ...result, frames: { ...result.frames, scan } };
 }
 
 /** The scenes of several results, one after another. */

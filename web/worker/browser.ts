@@ -7,17 +7,20 @@ export type { JobOptions } from './pool.js';
 export { BoresightError } from '../lib/errors.js';
 export { Pool, type PoolOptions };
 
+async function compile(address: URL): Promise<WebAssembly.Module> {
+  const response = await fetch(address);
+  if (!response.ok) throw new Error(`${response.url} answered ${response.status}`);
+  // Streaming needs the right media type, which not every server sends.
+  const typed = response.headers.get('Content-Type')?.startsWith('application/wasm');
+  if (typed) return WebAssembly.compileStreaming(response);
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
 const runtime: Runtime = {
   workers: () => Math.min(navigator.hardwareConcurrency || 2, 8),
 
-  async compile() {
-    const response = await fetch(new URL('../wasm/boresight_bg.wasm', import.meta.url));
-    if (!response.ok) throw new Error(`${response.url} answered ${response.status}`);
-    // Streaming needs the right media type, which not every server sends.
-    const typed = response.headers.get('Content-Type')?.startsWith('application/wasm');
-    if (typed) return WebAssembly.compileStreaming(response);
-    return WebAssembly.compile(await response.arrayBuffer());
-  },
+  compile: () => compile(new URL('../wasm/boresight_bg.wasm', import.meta.url)),
+  compileDrives: () => compile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)),
 
   spawn(events) {
     const worker = new Worker(new URL('./browser-worker.js', import.meta.url), { type: 'module' });

@@ -14,6 +14,7 @@ const runtime: Runtime = {
   workers: () => Math.min(availableParallelism(), 8),
 
   compile: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_bg.wasm', import.meta.url))),
+  compileDrives: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url))),
 
   spawn(events) {
     const worker = new Worker(new URL('./node-worker.js', import.meta.url));

@@ -1,8 +1,9 @@
 // What a worker can do: the plain functions of the package, and pieces of the batch helpers.
 import * as api from '../lib/api.js';
 import type {
-  AngleOptions, BytesInput, CaptureInfo, Cell, ChainOptions, CombineOptions, ComplexData, Estimate, EstimateInput,
-  EstimatorOptions, FrameResult, TextInput,
+  AngleOptions, BytesInput, CalibrateDriveOptions, CaptureInfo, Cell, ChainOptions, CombineOptions, ComplexData,
+  DriveCalibration, DriveData, Estimate, EstimateInput, EstimatorOptions, FrameResult, JointCalibrationOptions,
+  SimulateDriveOptions, SimulatedDrive, TextInput,
 } from '../lib/api.js';
 
 /** What an operation is called on. */
@@ -62,6 +63,18 @@ function cellSpectrum(
   return freeing(new api.Capture(bytes, config), (capture) => capture.cellSpectrum(cell, angle, options));
 }
 
+function simulateDrive(this: Context, options?: SimulateDriveOptions): SimulatedDrive {
+  return api.simulateDrive(options, (done, total) => this.report(done, total));
+}
+
+function calibrateDrive(this: Context, drive: DriveData, options?: CalibrateDriveOptions): DriveCalibration {
+  return api.calibrateDrive(drive, options, (done, total) => this.report(done, total));
+}
+
+function jointCalibration(this: Context, drive: DriveData, options?: JointCalibrationOptions): DriveCalibration[] {
+  return api.jointCalibration(drive, options, (done, total) => this.report(done, total));
+}
+
 export const operations = {
   version: api.version,
   methods: api.methods,
@@ -75,6 +88,13 @@ export const operations = {
   simulateCube: api.simulateCube,
   processCube: api.processCube,
   calibrationMethods: api.calibrationMethods,
+  readDrive: api.readDrive,
+  simulateDrive,
+  driveScenarios: api.driveScenarios,
+  calibrateDrive,
+  jointCalibration,
+  trajectory: api.trajectory,
+  relativeTrajectoryError: api.relativeTrajectoryError,
   waveformSummary: api.waveformSummary,
   parseConfig: api.parseConfig,
   captureInfo,

@@ -26,8 +26,13 @@ export interface Runtime {
   /** Number of workers where the user names none. */
   workers(): number;
   compile(): Promise<WebAssembly.Module>;
+  /** The module that reads and simulates drives. */
+  compileDrives(): Promise<WebAssembly.Module>;
   spawn(events: WorkerEvents): WorkerLike;
 }
+
+/** What needs the module of drives. */
+const ofDrives: readonly OperationName[] = ['readDrive', 'simulateDrive', 'driveScenarios'];
 
 /** How long a cancelled piece may run on before its worker is replaced, ms. */
 const GRACE_MS = 50;
@@ -59,6 +64,32 @@ interface Task {
 interface Member {
   worker: WorkerLike;
   task: Task | undefined;
+  hasDrives: boolean;
+}
+
+/** Compiles a module once; after a failure the next call tries again. */
+class Loader {
+  readonly #compile: () => Promise<WebAssembly.Module>;
+  readonly #file: string;
+  #pending: Promise<WebAssembly.Module> | undefined;
+  module: WebAssembly.Module | undefined;
+
+  constructor(compile: () => Promise<WebAssembly.Module>, file: string) {
+    this.#compile = compile;
+    this.#file = file;
+  }
+
+  async load(): Promise<void> {
+    this.#pending ??= this.#compile();
+    try {
+      this.module = await this.#pending;
+    } catch (cause) {
+      this.#pending = undefined;
+      const given = cause instanceof Error ? cause.message : String(cause);
+      const details = { what: 'WebAssembly module', expected: `the ${this.#file} of this package`, given };
+      throw failure('not-loaded', details, cause);
+    }
+  }
 }
 
 /** The queue and the workers; the API over it is in api.ts. */
@@ -67,8 +98,8 @@ export class Crew {
   readonly #runtime: Runtime;
   readonly #members = new Set<Member>();
   #queue: Task[] = [];
-  #module: Promise<WebAssembly.Module> | undefined;
-  #compiled: WebAssembly.Module | undefined;
+  readonly #core: Loader;
+  readonly #drives: Loader;
   #terminated = false;
   #lastId = 0;
 
@@ -78,6 +109,8 @@ export class Crew {
       throw failure('out-of-range', { what: 'workers', expected: 'a whole number from 1 to 64', given: String(workers) });
     }
     this.#runtime = runtime;
+    this.#core = new Loader(() => runtime.compile(), 'boresight_bg.wasm');
+    this.#drives = new Loader(() => runtime.compileDrives(), 'boresight_drives_bg.wasm');
     this.size = size;
   }
 
@@ -85,7 +118,9 @@ export class Crew {
   async run<N extends OperationName>(pieces: Piece<N>[], options: JobOptions = {}): Promise<ReturnType<Operations[N]>[]> {
     options.signal?.throwIfAborted();
     if (this.#terminated) throw terminated();
-    await this.#load();
+    await this.#core.load();
+    if (pieces.some(({ name }) => ofDrives.includes(name))) await this.#drives.load();
+    if (this.#terminated) throw terminated();
     options.signal?.throwIfAborted();
     return new Promise((resolve, reject) => {
       const job: Job = {
@@ -114,19 +149,6 @@ export class Crew {
     for (const member of this.#members) this.#dismiss(member);
     for (const job of jobs) job.reject(terminated());
     this.#queue = [];
-  }
-
-  async #load(): Promise<void> {
-    this.#module ??= this.#runtime.compile();
-    try {
-      this.#compiled = await this.#module;
-    } catch (cause) {
-      this.#module = undefined;
-      const given = cause instanceof Error ? cause.message : String(cause);
-      const details = { what: 'WebAssembly module', expected: 'the boresight_bg.wasm of this package', given };
-      throw failure('not-loaded', details, cause);
-    }
-    if (this.#terminated) throw terminated();
   }
 
   /** Makes the job settle once, and takes its pieces back when it fails or is cancelled. */
@@ -179,6 +201,10 @@ export class Crew {
       const { value, buffers } = packed(piece.args, job.options.transfer ?? false);
       member.task = task;
       member.worker.keepAlive(true);
+      if (this.#drives.module && ofDrives.includes(piece.name) && !member.hasDrives) {
+        member.worker.post({ drives: this.#drives.module }, []);
+        member.hasDrives = true;
+      }
       member.worker.post({ id: ++this.#lastId, name: piece.name, args: value }, buffers);
     } catch (cause) {
       this.#release(member);
@@ -187,14 +213,14 @@ export class Crew {
   }
 
   #hire(): Member | undefined {
-    if (this.#members.size >= this.size || this.#compiled === undefined) return undefined;
+    if (this.#members.size >= this.size || this.#core.module === undefined) return undefined;
     const events: WorkerEvents = {
       reply: (reply) => this.#finish(member, reply),
       lost: (reason) => this.#lose(member, reason),
     };
-    const member: Member = { worker: this.#runtime.spawn(events), task: undefined };
+    const member: Member = { worker: this.#runtime.spawn(events), task: undefined, hasDrives: false };
     this.#members.add(member);
-    member.worker.post({ module: this.#compiled }, []);
+    member.worker.post({ module: this.#core.module }, []);
     return member;
   }
 

@@ -5,10 +5,8 @@ import type { operations } from './operations.js';
 export type Operations = typeof operations;
 export type OperationName = keyof Operations;
 
-/** First message to a worker: the compiled module it instantiates. */
-export interface Setup {
-  module: WebAssembly.Module;
-}
+/** A compiled module that a worker instantiates: the core first, that of drives before it is needed. */
+export type Setup = { module: WebAssembly.Module } | { drives: WebAssembly.Module };
 
 /** One piece of work. */
 export interface Request {

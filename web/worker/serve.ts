@@ -1,5 +1,6 @@
 // The inside of a worker.
 import { BoresightError, failure } from '../lib/errors.js';
+import { initDrivesSync } from '../lib/drive.js';
 import { initSync } from '../lib/instance.js';
 import { type Context, operations } from './operations.js';
 import type { Reply, Request, Setup } from './protocol.js';
@@ -8,15 +9,21 @@ import { buffersOf } from './transfer.js';
 /** Answers messages of the pool; `post` sends the answer. */
 export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (message: Setup | Request) => void {
   let module: WebAssembly.Module | undefined;
+  let drives: WebAssembly.Module | undefined;
   return (message) => {
     if ('module' in message) {
       module = message.module;
+      return;
+    }
+    if ('drives' in message) {
+      drives = message.drives;
       return;
     }
     const { id, name, args } = message;
     try {
       if (module === undefined) throw failure('not-initialised', { what: 'worker', expected: 'a module', given: 'none' });
       initSync(module); // makes a fresh instance where the last one stopped
+      if (drives !== undefined) initDrivesSync(drives);
       const operation = operations[name] as (this: Context, ...args: readonly unknown[]) => unknown;
       const report = (done: number, total: number): void => post({ id, done, total }, []);
       const result = operation.apply({ report }, args as unknown[]);

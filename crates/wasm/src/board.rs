@@ -1,10 +1,10 @@
 //! What a board says of its own frames.
 
 use crate::bytes::Bytes;
-use crate::config::{read_config, remarks};
+use crate::config::read_config;
 use crate::error::Fallible;
 use crate::read::Read;
-use crate::write::{Record, float64, list};
+use crate::write::{Record, float64, list, remarks};
 use boresight_formats::{BoardFrame, BoardLog, BoardObject, RadarConfig, UartStream};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -8,7 +8,7 @@ use boresight_calibrate::{
     self as calibrate, AngleEstimate, FrameCounts, FrameInput, FrameOutcome, Method, Motion,
     MotionMethod, Options, Verdict,
 };
-use boresight_core::error::{check_finite, check_range};
+use boresight_core::error::check_finite;
 use boresight_core::{CoreError, Detection};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -87,7 +87,13 @@ impl Read for Frame {
         let ranges =
             if has_ranges { Some(column(&mut fields, "rangeM", azimuth.len())?) } else { None };
         let YawRate(yaw_rate_radps) = fields.required("yawRateDegps")?;
-        let speed_mps = fields.optional("speedMps")?;
+        let speed_mps = fields.raw("speedMps")?.filter(|speed| !speed.is_null());
+        let speed_mps =
+            speed_mps.map(|speed| f64::read(&speed, &fields.path_of("speedMps"))).transpose()?;
+        // What a frame of a drive has beside.
+        for name in ["sensor", "rcsDbsm", "label"] {
+            fields.raw(name)?;
+        }
         fields.finish()?;
         let detection = |i: usize| Detection {
             azimuth_rad: azimuth[i].to_radians() as f32,
@@ -124,21 +130,19 @@ fn column(fields: &mut Fields, name: &'static str, count: usize) -> Fallible<Vec
     Err(CoreError::Shape { what, expected, given: vec![numbers.len()] }.into())
 }
 
-fn read_calibration(mut fields: Fields) -> Fallible<Options> {
+/// Reads the options of a calibration and refuses other fields.
+pub(crate) fn read_calibration(mut fields: Fields) -> Fallible<Options> {
     let mut options = Options { method: fields.required("method")?, ..Options::default() };
     options.motion = fields.optional("motion")?;
     options.x_m = fields.required("xM")?;
     fields.update("yM", &mut options.y_m)?;
-    if let Some(degrees) = fields.optional::<f64>("nominalDeg")? {
-        check_range(&fields.path_of("nominalDeg"), degrees, -180.0, 180.0)?;
-        options.nominal_rad = Some(degrees.to_radians());
-    }
-    update_angle(&mut fields, "alarmDeg", 1e-9, &mut options.alarm_rad)?;
-    update_angle(&mut fields, "convergedDeg", 1e-9, &mut options.converged_rad)?;
+    options.nominal_rad = fields.degrees("nominalDeg", [-180.0, 180.0])?;
+    fields.update_degrees("alarmDeg", [1e-9, 180.0], &mut options.alarm_rad)?;
+    fields.update_degrees("convergedDeg", [1e-9, 180.0], &mut options.converged_rad)?;
     fields.update("rangeRateSigmaMps", &mut options.range_rate_sigma_mps)?;
-    update_angle(&mut fields, "azimuthSigmaDeg", 0.0, &mut options.azimuth_sigma_rad)?;
+    fields.update_degrees("azimuthSigmaDeg", [0.0, 180.0], &mut options.azimuth_sigma_rad)?;
     fields.update("minSpeedMps", &mut options.min_speed_mps)?;
-    update_angle(&mut fields, "maxYawRateDegps", 0.1, &mut options.max_yaw_rate_radps)?;
+    fields.update_degrees("maxYawRateDegps", [0.1, 180.0], &mut options.max_yaw_rate_radps)?;
     fields.update("inlierResidualMps", &mut options.inlier_residual_mps)?;
     fields.update("inlierThreshold", &mut options.inlier_threshold)?;
     fields.update("inlierRatioThreshold", &mut options.inlier_ratio_threshold)?;
@@ -147,20 +151,6 @@ fn read_calibration(mut fields: Fields) -> Fallible<Options> {
     fields.update("seed", &mut options.seed)?;
     fields.finish()?;
     Ok(options)
-}
-
-/// An angle or a rate of turn, given in degrees: at least `lowest`, at most half a turn.
-fn update_angle(
-    fields: &mut Fields,
-    name: &'static str,
-    lowest: f64,
-    rad: &mut f64,
-) -> Fallible<()> {
-    if let Some(degrees) = fields.optional::<f64>(name)? {
-        check_range(&fields.path_of(name), degrees, lowest, 180.0)?;
-        *rad = degrees.to_radians();
-    }
-    Ok(())
 }
 
 impl Read for Method {
@@ -179,17 +169,20 @@ impl Read for MotionMethod {
     }
 }
 
+/// The verdicts in the order of their numbers in JavaScript.
+pub(crate) const VERDICTS: [(Verdict, &str); 6] = [
+    (Verdict::Used, "used"),
+    (Verdict::Standing, "standing"),
+    (Verdict::Slow, "slow"),
+    (Verdict::Turning, "turning"),
+    (Verdict::Sparse, "sparse"),
+    (Verdict::WithoutMotion, "without-motion"),
+];
+
 fn outcome_record(outcome: &FrameOutcome) -> Record {
-    let verdict = match outcome.verdict {
-        Verdict::Used => "used",
-        Verdict::Standing => "standing",
-        Verdict::Slow => "slow",
-        Verdict::Turning => "turning",
-        Verdict::Sparse => "sparse",
-        Verdict::WithoutMotion => "without-motion",
-    };
+    let verdict = VERDICTS.iter().find(|(verdict, _)| *verdict == outcome.verdict);
     Record::new()
-        .with("verdict", verdict)
+        .with_some("verdict", verdict.map(|(_, name)| *name))
         .with_some("motion", outcome.motion.as_ref().map(motion_record))
         .with_some("angleDeg", outcome.angle_rad.map(|(angle, _)| angle.to_degrees()))
         .with_some("angleSigmaDeg", outcome.angle_rad.map(|(_, sigma)| sigma.to_degrees()))
@@ -205,7 +198,7 @@ fn motion_record(motion: &Motion) -> Record {
         .with("detections", motion.detections)
 }
 
-fn estimate_record(estimate: &AngleEstimate) -> Record {
+pub(crate) fn estimate_record(estimate: &AngleEstimate) -> Record {
     let remark = |remark: &calibrate::Remark| {
         Record::new().with("code", remark.code()).with("message", remark.to_string())
     };

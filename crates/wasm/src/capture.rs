@@ -4,17 +4,18 @@ use crate::array::geometry;
 use crate::bytes::Bytes;
 use crate::chain::{read_angle, read_chain};
 use crate::complex::ComplexData;
-use crate::config::{config_record, read_config, remarks};
+use crate::config::{config_record, read_config};
 use crate::error::{BindingError, Fallible};
 use crate::estimate::{estimate_record, shape_error};
 use crate::frames::frame_record;
 use crate::read::{Fields, Read};
-use crate::write::{Record, complex64, list};
+use crate::report::reporter;
+use crate::write::{Record, complex64, list, remarks};
 use boresight_aoa::Method;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64, Waveform};
 use boresight_formats::{self as formats, RadarConfig};
-use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameSource, Progress};
+use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameSource};
 use js_sys::Function;
 use ndarray::{Array2, ArrayView5};
 use std::ops::{ControlFlow, Range};
@@ -225,16 +226,4 @@ pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array
     };
     chain.each(&source, 0..frames, take, &mut |_| ControlFlow::Continue(()))?;
     Ok(results)
-}
-
-/// Calls `report`; an exception in it counts as a request to stop.
-fn reporter(report: Option<Function>) -> impl FnMut(Progress) -> ControlFlow<()> {
-    move |Progress { done, total }| {
-        let Some(report) = &report else { return ControlFlow::Continue(()) };
-        let (done, total) = (JsValue::from(done), JsValue::from(total));
-        match report.call2(&JsValue::UNDEFINED, &done, &total) {
-            Ok(answer) if answer.as_bool() != Some(false) => ControlFlow::Continue(()),
-            _ => ControlFlow::Break(()),
-        }
-    }
 }

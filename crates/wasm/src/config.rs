@@ -4,8 +4,8 @@ use crate::bytes::Text;
 use crate::error::Fallible;
 use crate::read::Read;
 use crate::waveform::{summary_record, waveform_record};
-use crate::write::{Record, list};
-use boresight_formats::{RadarConfig, Remark};
+use crate::write::{Record, list, remarks};
+use boresight_formats::RadarConfig;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -36,15 +36,6 @@ pub fn config_record(config: &RadarConfig) -> Record {
         .with("frameBytes", config.frame_bytes() as f64)
         .with("frames", config.frames.map_or(JsValue::NULL, JsValue::from))
         .with("warnings", remarks(&config.remarks))
-}
-
-/// Remarks of a reader as warnings.
-pub fn remarks(remarks: &[Remark]) -> js_sys::Array {
-    list(
-        remarks
-            .iter()
-            .map(|r| Record::new().with("code", r.code).with("message", r.message.as_str())),
-    )
 }
 
 fn or_null(text: Option<&str>) -> JsValue {

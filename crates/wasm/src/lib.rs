@@ -4,34 +4,65 @@
 //! result as a plain object with typed arrays of its own. Degrees become radians here and nowhere
 //! else. Errors are thrown as objects `{ code, message, what, expected, given }`, which the
 //! TypeScript around this crate turns into a `BoresightError`.
+//!
+//! Two modules come of it, by feature: `core`, and `drives` with the readers and the simulation of
+//! drives, of which HDF5 alone weighs a third of all else.
 
+// Each module leaves helpers of the other unused.
+#![cfg_attr(not(all(feature = "core", feature = "drives")), allow(dead_code))]
+
+#[cfg(feature = "core")]
 pub mod array;
+#[cfg(feature = "core")]
 mod board;
+#[cfg(feature = "core")]
 mod bounds;
 mod bytes;
+#[cfg(feature = "core")]
 mod calibrate;
+#[cfg(feature = "core")]
 pub mod capture;
+#[cfg(feature = "core")]
 mod chain;
 mod complex;
+#[cfg(feature = "core")]
 mod config;
+#[cfg(feature = "core")]
 mod count;
+#[cfg(feature = "drives")]
+mod drive;
+#[cfg(feature = "core")]
+mod drive_calibrator;
 pub mod error;
+#[cfg(feature = "core")]
 pub mod estimate;
+#[cfg(feature = "core")]
 mod frames;
+#[cfg(feature = "core")]
 mod imperfections;
 mod names;
+#[cfg(feature = "core")]
 mod npy;
+#[cfg(feature = "core")]
 mod options;
 mod panic;
 mod read;
+mod report;
+#[cfg(feature = "core")]
 pub mod simulate;
+#[cfg(feature = "core")]
 mod tables;
+#[cfg(feature = "core")]
+mod trajectory;
+#[cfg(feature = "core")]
 mod waveform;
 mod write;
 
+#[cfg(feature = "core")]
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Version of the package.
+#[cfg(feature = "core")]
 #[wasm_bindgen]
 pub fn version() -> String {
     env!("CARGO_PKG_VERSION").into()

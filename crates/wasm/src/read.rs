@@ -3,8 +3,12 @@
 use crate::error::{BindingError, Fallible};
 use crate::names;
 use boresight_core::CoreError;
+use boresight_core::error::check_range;
 use js_sys::{Array, BigInt, Object, Reflect};
 use wasm_bindgen::{JsCast, JsValue};
+
+/// Most items of an array: a longer one, which may well be empty, would not fit into memory.
+const MOST_ITEMS: u32 = 1 << 22;
 
 /// Largest integer a JavaScript number holds exactly.
 const MAX_SAFE_INTEGER: f64 = 9_007_199_254_740_991.0;
@@ -85,6 +89,26 @@ impl Fields {
         Ok(())
     }
 
+    /// An angle or a rate of turn, given in degrees within a range, in radians.
+    pub fn degrees(&mut self, name: &'static str, range: [f64; 2]) -> Fallible<Option<f64>> {
+        let Some(degrees) = self.optional::<f64>(name)? else { return Ok(None) };
+        check_range(&self.path_of(name), degrees, range[0], range[1])?;
+        Ok(Some(degrees.to_radians()))
+    }
+
+    /// Like [`Fields::update`] for what [`Fields::degrees`] reads.
+    pub fn update_degrees(
+        &mut self,
+        name: &'static str,
+        range: [f64; 2],
+        target: &mut f64,
+    ) -> Fallible<()> {
+        if let Some(radians) = self.degrees(name, range)? {
+            *target = radians;
+        }
+        Ok(())
+    }
+
     /// Like [`Fields::update`] for a name out of a fixed list.
     pub fn update_choice<T: Copy>(
         &mut self,
@@ -153,6 +177,9 @@ pub fn items(value: &JsValue, path: &str) -> Fallible<Vec<(JsValue, String)>> {
         return Err(wrong_type(path, "an array", value));
     }
     let array: &Array = value.unchecked_ref();
+    if array.length() > MOST_ITEMS {
+        return Err(wrong_type(path, &format!("an array of at most {MOST_ITEMS} items"), value));
+    }
     Ok(array.iter().enumerate().map(|(i, item)| (item, format!("{path}[{i}]"))).collect())
 }
 
@@ -286,7 +313,7 @@ impl Read for Angle {
 
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
         let degrees = f64::read(value, path)?;
-        boresight_core::error::check_range(path, degrees, -90.0, 90.0)?;
+        check_range(path, degrees, -90.0, 90.0)?;
         Ok(Self { rad: degrees.to_radians() })
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::names;
 use boresight_core::{Complex32, Complex64};
+use boresight_formats::Remark;
 use js_sys::{Array, Float32Array, Float64Array, Object, Reflect};
 use wasm_bindgen::JsValue;
 
@@ -41,6 +42,15 @@ impl From<Record> for JsValue {
 /// A list of anything.
 pub fn list<T: Into<JsValue>>(items: impl IntoIterator<Item = T>) -> Array {
     items.into_iter().map(Into::into).collect()
+}
+
+/// Remarks of a reader as warnings.
+pub fn remarks(remarks: &[Remark]) -> Array {
+    list(
+        remarks
+            .iter()
+            .map(|r| Record::new().with("code", r.code).with("message", r.message.as_str())),
+    )
 }
 
 /// A `Float64Array` of its own.

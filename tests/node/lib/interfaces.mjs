@@ -1,8 +1,10 @@
-// The fields that web/lib/types.ts declares, so that tests can hold results against them.
+// The fields that web/lib/types.ts and drive-types.ts declare, so that tests can hold results against them.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 
-const source = readFileSync(new URL('../../../web/lib/types.ts', import.meta.url), 'utf8');
+const source = ['types.ts', 'drive-types.ts']
+  .map((name) => readFileSync(new URL(`../../../web/lib/${name}`, import.meta.url), 'utf8'))
+  .join('\n');
 
 /** Interface -> { required, optional } field names, with those of the interfaces it extends. */
 export const interfaces = new Map();

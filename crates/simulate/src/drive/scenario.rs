@@ -43,6 +43,18 @@ impl Scenario {
         }
     }
 
+    /// Name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::City => "City",
+            Self::CountryRoad => "Country road",
+            Self::Motorway => "Motorway",
+            Self::CarPark => "Car park",
+            Self::StopAndGo => "Stop and go",
+            Self::DenseTraffic => "Dense traffic",
+        }
+    }
+
     /// Finds a scenario by its [`Scenario::name`].
     ///
     /// # Errors

@@ -1,0 +1,130 @@
+//! Mounting angles from many frames at a time, as flat numbers; for the TypeScript around this
+//! crate, which checks what goes in.
+
+use crate::calibrate::{VERDICTS, estimate_record, read_calibration};
+use crate::error::Fallible;
+use crate::read::{Fields, items};
+use crate::write::list;
+use boresight_calibrate::{AngleEstimate, Calibrator, FrameInput, Joint};
+use boresight_core::Detection;
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// A calibration of one radar, or of several together.
+#[wasm_bindgen]
+pub struct DriveCalibrator {
+    inner: Inner,
+    detections: Vec<Detection>,
+    /// Of the detections of the frames that came last.
+    weights: Option<Vec<f32>>,
+}
+
+enum Inner {
+    One(Box<Calibrator>),
+    Joint(Joint),
+}
+
+#[wasm_bindgen]
+impl DriveCalibrator {
+    /// For one radar, of which the options are given, or for several with a list of them, which
+    /// are then numbered by their place.
+    #[wasm_bindgen(constructor)]
+    pub fn new(options: &JsValue, weights: bool) -> Fallible<Self> {
+        let inner = if js_sys::Array::is_array(options) {
+            let mut radars = vec![];
+            for (place, (item, _)) in (0..=u8::MAX).zip(items(options, "sensors")?) {
+                radars.push((place, read_calibration(Fields::new(&item, "")?)?));
+            }
+            Inner::Joint(Joint::new(&radars)?)
+        } else {
+            Inner::One(Box::new(Calibrator::new(read_calibration(Fields::new(options, "")?)?)?))
+        };
+        Ok(Self { inner, detections: vec![], weights: weights.then(Vec::new) })
+    }
+
+    /// Takes frames in order of time; NaN where there is no yaw rate or speed. Detections of frame
+    /// `i` are those from `ends[i - 1]` to before `ends[i]`, `radars` places in the list of options.
+    ///
+    /// Gives for each frame the place of its verdict, the motion (m/s), the angle it gives alone and
+    /// its standard deviation (deg), its weight, and its inliers; NaN where there is none.
+    #[wasm_bindgen(js_name = addFrames)]
+    pub fn add_frames(
+        &mut self,
+        radars: &[u8],
+        time_s: &[f64],
+        yaw_rate_degps: &[f64],
+        speed_mps: &[f64],
+        ends: &[u32],
+        azimuth_deg: &[f64],
+        range_rate_mps: &[f32],
+    ) -> Fallible<Vec<f64>> {
+        if let Some(weights) = &mut self.weights {
+            weights.clear();
+        }
+        let mut rows = Vec::with_capacity(7 * time_s.len());
+        let mut points = azimuth_deg.iter().zip(range_rate_mps);
+        let mut start = 0;
+        let frames = radars.iter().zip(time_s).zip(ends).zip(yaw_rate_degps.iter().zip(speed_mps));
+        for (((radar, time_s), end), (yaw_rate_degps, speed_mps)) in frames {
+            let count = end.saturating_sub(start) as usize;
+            start = *end;
+            self.detections.clear();
+            self.detections.extend(points.by_ref().take(count).map(|(azimuth, rate)| Detection {
+                azimuth_rad: azimuth.to_radians() as f32,
+                range_rate_mps: *rate,
+                range_m: f32::NAN,
+                rcs_dbsm: f32::NAN,
+            }));
+            let frame = FrameInput {
+                time_s: *time_s,
+                detections: &self.detections,
+                yaw_rate_radps: Some(yaw_rate_degps.to_radians()).filter(|rate| rate.is_finite()),
+                speed_mps: Some(*speed_mps).filter(|speed| speed.is_finite()),
+            };
+            let outcome = match &mut self.inner {
+                Inner::One(calibrator) => calibrator.add(frame)?,
+                Inner::Joint(joint) => joint.add(*radar, frame)?,
+            };
+            let verdict = VERDICTS.iter().position(|(verdict, _)| *verdict == outcome.verdict);
+            let [vx, vy] = outcome.motion.map_or([f64::NAN; 2], |motion| motion.velocity_mps);
+            let (angle, sigma) = outcome.angle_rad.unwrap_or((f64::NAN, f64::NAN));
+            rows.extend([
+                verdict.map_or(f64::NAN, |place| place as f64),
+                vx,
+                vy,
+                angle.to_degrees(),
+                sigma.to_degrees(),
+                outcome.weight,
+                outcome.motion.map_or(0.0, |motion| motion.inliers as f64),
+            ]);
+            if let Some(weights) = &mut self.weights {
+                let none = std::iter::repeat(0.0);
+                weights.extend(outcome.weights.into_iter().chain(none).take(count));
+            }
+        }
+        Ok(rows)
+    }
+
+    /// Weights of the detections of the frames that were taken last, if asked for.
+    pub fn weights(&self) -> Vec<f32> {
+        self.weights.clone().unwrap_or_default()
+    }
+
+    /// Angle and standard deviation of each radar as far as the frames so far tell, deg.
+    pub fn angles(&self) -> Vec<f64> {
+        let pair = |e: AngleEstimate| [e.angle_rad.to_degrees(), e.sigma_rad.to_degrees()];
+        self.estimates().into_iter().flat_map(pair).collect()
+    }
+
+    /// The estimate of each radar.
+    pub fn estimate(&self) -> js_sys::Array {
+        list(self.estimates().iter().map(estimate_record))
+    }
+
+    fn estimates(&self) -> Vec<AngleEstimate> {
+        match &self.inner {
+            Inner::One(calibrator) => vec![calibrator.estimate()],
+            Inner::Joint(joint) => joint.estimate().into_iter().map(|(_, e)| e).collect(),
+        }
+    }
+}

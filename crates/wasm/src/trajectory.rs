@@ -1,0 +1,44 @@
+//! Trajectories from a radar's motion, and how far they stray; for the TypeScript around this
+//! crate, which checks what goes in.
+
+use crate::write::{Record, float64};
+use boresight_calibrate::trajectory::{self, TimedMotion};
+use boresight_core::drive::Pose;
+use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Poses of the rear axle, or null where they do not follow.
+#[wasm_bindgen(js_name = integrateMotion)]
+pub fn integrate_motion(
+    time_s: &[f64],
+    vx_mps: &[f64],
+    vy_mps: &[f64],
+    angle_deg: f64,
+    x_m: f64,
+    y_m: f64,
+) -> JsValue {
+    let motion = |((&time_s, &vx), &vy)| TimedMotion { time_s, velocity_mps: [vx, vy] };
+    let motions: Vec<_> = time_s.iter().zip(vx_mps).zip(vy_mps).map(motion).collect();
+    trajectory::integrate(&motions, angle_deg.to_radians(), x_m, y_m).map_or(
+        JsValue::NULL,
+        |poses| {
+            let column = |of: fn(&Pose) -> f64| float64(&poses.iter().map(of).collect::<Vec<_>>());
+            Record::new()
+                .with("timeS", float64(time_s))
+                .with("xM", column(|p| p.x_m))
+                .with("yM", column(|p| p.y_m))
+                .with("yawDeg", column(|p| p.yaw_rad.to_degrees()))
+                .into()
+        },
+    )
+}
+
+/// Relative trajectory error of poses `[x, y, yaw (deg), ...]` at the same times, m.
+#[wasm_bindgen(js_name = relativeTrajectoryError)]
+pub fn relative_trajectory_error(estimated: &[f64], truth: &[f64], segment_m: f64) -> Option<f64> {
+    let poses = |numbers: &[f64]| -> Vec<Pose> {
+        let pose = |p: &[f64]| Pose { x_m: p[0], y_m: p[1], yaw_rad: p[2].to_radians() };
+        numbers.chunks_exact(3).map(pose).collect()
+    };
+    trajectory::relative_error(&poses(estimated), &poses(truth), segment_m)
+}
