@@ -71,3 +71,4 @@ def test_is_read(layout, tmp_path):
     ]
     assert told["radarSpan"] == {"startS": 0, "endS": pytest.approx(5.98)}
     assert told["dropped"] == {}
+    assert told["incomplete"] == {"detections": 50, "motion": 0}

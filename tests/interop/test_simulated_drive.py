@@ -46,6 +46,13 @@ def test_scenes_tell_of_the_same_drive_as_the_log(drive, sequence):
     assert len(sequence.radar_data) == told["detections"] == told["rowsRead"]["detections"]
     assert len(sequence.odometry_data) == told["motionSamples"]
     assert told["dropped"] == {} and told["format"] == "radarscenes"
+    assert told["sequence"] == {"name": sequence.sequence_name, "category": "train"}
+    assert told["mountings"] == "sensors-json"
+    for sensor in told["sensors"]:
+        mounting = get_mounting(sensor["id"], json_path=str(drive / "data" / "sensors.json"))
+        assert sensor["mounting"]["xM"] == mounting["x"]
+        assert sensor["mounting"]["yM"] == mounting["y"]
+        assert sensor["mounting"]["yawDeg"] == pytest.approx(np.degrees(mounting["yaw"]), abs=1e-9)
     first = sequence.odometry_data["timestamp"][0]
     for stamp, key in ((sequence.first_timestamp, "startS"), (sequence.last_timestamp, "endS")):
         assert told["radarSpan"][key] == pytest.approx((stamp - first) / 1e6, abs=1e-9)

@@ -64,9 +64,12 @@ pub enum Command {
 #[derive(Debug, Args)]
 pub struct LogArguments {
     /// The log: its folder, its one file, or its files. Tables (.csv, also packed as .csv.gz) are
-    /// recognised by their columns.
+    /// recognised by their columns. Of RadarScenes also the folder of the data set.
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
+    /// Which sequence of a data set's folder, such as sequence_7 or 7.
+    #[arg(long, value_name = "NAME")]
+    pub sequence: Option<String>,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
@@ -75,9 +78,12 @@ pub struct LogArguments {
 /// Arguments of `calibrate`.
 #[derive(Debug, Args)]
 pub struct CalibrateArguments {
-    /// The log: its folder, its one file, or its files.
+    /// The log: its folder, its one file, or its files; of RadarScenes also the data set's folder.
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
+    /// Which sequence of a data set's folder, such as sequence_7 or 7.
+    #[arg(long, value_name = "NAME")]
+    pub sequence: Option<String>,
     /// Format of the log, where it is not to be found from the files.
     #[arg(long, value_parser = PossibleValuesParser::new(DriveFormat::ALL.map(DriveFormat::name)))]
     pub format: Option<String>,

@@ -2,43 +2,170 @@
 
 use crate::error::CliError;
 use crate::files;
-use boresight_formats::drive_log::{is_hdf5, is_table, open};
-use boresight_formats::{DriveFormat, DriveRead};
+use boresight_formats::drive_log::{is_hdf5, is_table, no_drive_log, open_owned};
+use boresight_formats::radarscenes::{Companions, read_path, sequence_names};
+use boresight_formats::{DriveFormat, DriveRead, ReadReport};
 use std::path::{Path, PathBuf};
 
+const RADAR_DATA: &str = "radar_data.h5";
+
 /// Reads a drive log from one folder, one file, or several files that belong together. Of a folder
-/// only tables and HDF5 files are read.
+/// only tables and HDF5 files are read, and with the latter the JSON files of a sequence, in its
+/// folder and the one above; of the folder of a data set, the sequence that is asked for.
 pub fn open_path(
     paths: &[impl AsRef<Path>],
     format: Option<DriveFormat>,
+    sequence: Option<&str>,
 ) -> Result<DriveRead, CliError> {
+    let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
     let mut found: Vec<PathBuf> = vec![];
-    for path in paths.iter().map(AsRef::as_ref) {
+    let mut names: Vec<String> = vec![];
+    for path in &paths {
         if path.is_dir() {
-            found.extend(tables(path)?);
+            for path in entries(path)? {
+                names.push(name(&path));
+                if path.is_file() && (is_table(&name(&path)) || is_hdf5(&name(&path))) {
+                    found.push(path);
+                }
+            }
         } else {
-            found.push(path.to_owned());
+            names.push(name(path));
+            found.push((*path).to_owned());
         }
     }
     found.sort();
     found.dedup();
-    let contents = found.iter().map(|path| files::read(path)).collect::<Result<Vec<_>, _>>()?;
-    let names: Vec<_> =
-        found.iter().map(|p| p.file_name().unwrap_or_default().to_string_lossy()).collect();
-    let named: Vec<(&str, &[u8])> =
-        names.iter().zip(&contents).map(|(name, bytes)| (&**name, &**bytes)).collect();
-    Ok(open(&named, format)?)
-}
-
-fn tables(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
-    let failed = |error| CliError::File { action: "read", path: folder.into(), error };
-    let mut found = vec![];
-    for entry in std::fs::read_dir(folder).map_err(failed)? {
-        let path = entry.map_err(failed)?.path();
-        let name = path.to_string_lossy();
-        if path.is_file() && (is_table(&name) || is_hdf5(&name)) {
-            found.push(path);
+    if format.is_none_or(|format| format == DriveFormat::RadarScenes) {
+        let set = match paths[..] {
+            [folder] if found.is_empty() && folder.is_dir() => Sequences::find(folder)?,
+            _ => None,
+        };
+        if let Some(set) = set {
+            return read_sequence(&set.choose(sequence)?, &[]);
+        }
+        not_wanted(sequence)?;
+        let (hdf5, others): (Vec<_>, Vec<_>) =
+            found.iter().cloned().partition(|path| is_hdf5(&name(path)));
+        if let [radar_data] = &hdf5[..] {
+            return read_sequence(radar_data, &others);
         }
     }
-    Ok(found)
+    not_wanted(sequence)?;
+    if found.is_empty() {
+        return Err(no_drive_log(format, names.iter().map(String::as_str)).into());
+    }
+    let mut contents = vec![];
+    for path in &found {
+        contents.push((name(path), files::read(path)?));
+    }
+    Ok(open_owned(contents, format)?)
+}
+
+/// Refuses `--sequence` where there is nothing to choose from.
+fn not_wanted(sequence: Option<&str>) -> Result<(), CliError> {
+    sequence.map_or(Ok(()), |given| {
+        Err(CliError::Option {
+            option: "--sequence",
+            expected: "the folder of a data set of RadarScenes as PATH".into(),
+            given: format!("{given:?}"),
+        })
+    })
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
+    let failed = |error| CliError::File { action: "read", path: folder.into(), error };
+    let mut paths = std::fs::read_dir(folder)
+        .map_err(failed)?
+        .map(|entry| Ok(entry.map_err(failed)?.path()))
+        .collect::<Result<Vec<_>, CliError>>()?;
+    paths.sort();
+    Ok(paths)
+}
+
+/// Reads a sequence of RadarScenes with the JSON files among `others`, in its folder or in the one
+/// above.
+fn read_sequence(radar_data: &Path, others: &[PathBuf]) -> Result<DriveRead, CliError> {
+    let folder = radar_data.parent().unwrap_or(Path::new(""));
+    let beside = |wanted: &str| -> Result<Option<Vec<u8>>, CliError> {
+        let given = others.iter().find(|path| name(path) == wanted).cloned();
+        given
+            .into_iter()
+            .chain([folder.join(wanted), folder.join("..").join(wanted)])
+            .find(|path| path.is_file())
+            .map(|path| files::read(&path))
+            .transpose()
+    };
+    let (scenes, sensors) = (beside("scenes.json")?, beside("sensors.json")?);
+    let companions = Companions { scenes: scenes.as_deref(), sensors: sensors.as_deref() };
+    let mut report = ReadReport::default();
+    let json = ["scenes.json", "sensors.json", "sequences.json"];
+    for other in others.iter().map(|path| name(path)).filter(|name| !json.contains(&&**name)) {
+        report.ignored(&other);
+    }
+    // The reader of a file that is not there would not say that.
+    std::fs::metadata(radar_data).map_err(|error| CliError::File {
+        action: "read",
+        path: radar_data.into(),
+        error,
+    })?;
+    let log = read_path(radar_data, companions, &mut report)?;
+    Ok(DriveRead { log, report, format: DriveFormat::RadarScenes })
+}
+
+/// The sequences of a data set.
+struct Sequences {
+    folder: PathBuf,
+    names: Vec<String>,
+}
+
+impl Sequences {
+    /// Those in a folder or in `data` in it: the ones `sequences.json` names, without it all folders
+    /// with recordings.
+    fn find(folder: &Path) -> Result<Option<Self>, CliError> {
+        for folder in [folder.to_owned(), folder.join("data")] {
+            let list = folder.join("sequences.json");
+            let mut names: Vec<String> = if list.is_file() {
+                sequence_names(&files::read(&list)?)?
+            } else if folder.is_dir() {
+                entries(&folder)?.iter().map(|path| name(path)).collect()
+            } else {
+                continue;
+            };
+            names.retain(|name| folder.join(name).join(RADAR_DATA).is_file());
+            if !names.is_empty() {
+                // sequence_2 before sequence_10.
+                names.sort_by_key(|name| (name.len(), name.clone()));
+                return Ok(Some(Self { folder, names }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The recording of the one asked for, or of the only one.
+    fn choose(&self, wanted: Option<&str>) -> Result<PathBuf, CliError> {
+        let found = match wanted {
+            None if self.names.len() == 1 => self.names.first(),
+            None => None,
+            Some(wanted) => self
+                .names
+                .iter()
+                .find(|name| *name == wanted || name.strip_prefix("sequence_") == Some(wanted)),
+        };
+        let found = found.ok_or_else(|| {
+            let mut shown = self.names.clone();
+            shown.truncate(8);
+            let more = self.names.len() - shown.len();
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            CliError::Option {
+                option: "--sequence",
+                expected: format!("one of {}{more}", shown.join(", ")),
+                given: wanted.map_or("not given".into(), |wanted| format!("{wanted:?}")),
+            }
+        })?;
+        Ok(self.folder.join(found).join(RADAR_DATA))
+    }
 }

@@ -90,6 +90,107 @@ fn a_simulated_drive_is_written_and_read_back() {
     assert_eq!(parsed(&stdout(&["log", sequence.to_str().unwrap(), "--json"])), log);
 }
 
+/// Writes a short drive with radar 2 off by 1.5 deg and gives its folder.
+fn simulated(name: &str) -> PathBuf {
+    let folder = folder(name);
+    let out = folder.to_str().unwrap();
+    let misalign = ["--misalign", "2=1.5", "--out", out];
+    stdout(&[&["simulate", "drive", "--seed", "1", "--duration", "4"][..], &misalign].concat());
+    folder
+}
+
+fn log(path: &Path, extra: &[&str]) -> Value {
+    parsed(&stdout(&[&["log", path.to_str().unwrap(), "--json"], extra].concat()))
+}
+
+#[test]
+fn a_sequence_is_found_from_any_of_its_places() {
+    let top = simulated("places");
+    let sequence = top.join("data/sequence_1");
+    let whole = log(&sequence, &[]);
+    assert_eq!(whole["mountings"], "sensors-json");
+    assert_eq!(whole["sequence"]["name"], "sequence_1");
+    let yaw = whole["sensors"][1]["mounting"]["yawDeg"].as_f64().unwrap();
+    assert!((yaw - (-0.436_185_662_f64.to_degrees() - 1.5)).abs() < 1e-6, "{yaw}");
+    for path in [sequence.join("radar_data.h5"), top.join("data"), top.clone()] {
+        assert_eq!(log(&path, &[]), whole, "{}", path.display());
+    }
+    // A second sequence, which sequences.json does not name, then does.
+    let second = top.join("data/sequence_12");
+    std::fs::create_dir(&second).unwrap();
+    std::fs::copy(sequence.join("radar_data.h5"), second.join("radar_data.h5")).unwrap();
+    assert_eq!(log(&top, &[]), whole);
+    let listed = r#"{"sequences": {"sequence_12": {}, "sequence_1": {}, "sequence_3": {}}}"#;
+    std::fs::write(top.join("data/sequences.json"), listed).unwrap();
+    assert_eq!(log(&top, &["--sequence", "1"]), whole);
+    let other = log(&top, &["--sequence", "sequence_12"]);
+    assert_eq!((&other["sequence"], &other["scans"]), (&Value::Null, &whole["scans"]));
+    let top = top.to_str().unwrap();
+    let sequence = sequence.to_str().unwrap();
+    for (arguments, words) in [
+        (&["log", top][..], "one of sequence_1, sequence_12"),
+        (&["log", top, "--sequence", "3"], "one of sequence_1, sequence_12"),
+        (&["log", sequence, "--sequence", "1"], "folder of a data set"),
+        (&["calibrate", top, "--format", "csv", "--sequence", "1"], "folder of a data set"),
+    ] {
+        let output = boresight(arguments);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {errors}");
+        assert!(errors.contains(words), "{arguments:?}: {errors}");
+    }
+    // Without sensors.json the car of the data set is taken.
+    std::fs::remove_file(Path::new(top).join("data/sensors.json")).unwrap();
+    let without = log(Path::new(sequence), &[]);
+    assert_eq!(without["mountings"], "format");
+    let yaw = without["sensors"][1]["mounting"]["yawDeg"].as_f64().unwrap();
+    assert!((yaw + 0.436_185_662_f64.to_degrees()).abs() < 1e-6, "{yaw}");
+}
+
+#[test]
+fn what_is_no_drive_is_refused_by_log_and_calibrate() {
+    let drive = simulated("damaged");
+    let folder = folder("no-drive");
+    let write = |name: &str, bytes: &[u8]| {
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, bytes).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let whole = std::fs::read(drive.join("data/sequence_1/radar_data.h5")).unwrap();
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/golden/radarscenes");
+    let golden = |name: &str| golden.join(name).to_str().unwrap().to_owned();
+    let pictures = write("pictures/one.jpg", b"jpg");
+    write("pictures/two.jpg", b"jpg");
+    let pictures = Path::new(&pictures).parent().unwrap().to_str().unwrap().to_owned();
+    let empty = folder.join("empty");
+    std::fs::create_dir_all(&empty).unwrap();
+    let head = "time_s,azimuth_rad,range_rate_mps\n";
+    let nowhere = folder.join("nowhere.h5").to_str().unwrap().to_owned();
+    for (path, code, words) in [
+        (pictures, "no-drive-log", &["radar_data.h5", "range_rate_mps", "one.jpg, two.jpg"][..]),
+        (empty.to_str().unwrap().into(), "no-drive-log", &["no files"]),
+        (nowhere, "file", &["nowhere.h5"]),
+        (write("half/radar_data.h5", &whole[..whole.len() / 2]), "malformed-hdf5", &["unexpected EOF"]),
+        (write("short/radar_data.h5", &whole[..40]), "malformed-hdf5", &["whole HDF5 file"]),
+        (golden("no_vr.h5"), "malformed-hdf5", &["radar_data.vr"]),
+        (golden("no_odometry.h5"), "malformed-hdf5", &["odometry"]),
+        (golden("backwards.h5"), "time-backwards", &["row 2"]),
+        (write("a.csv", b""), "malformed-table", &["time_s"]),
+        (write("b.csv", head.as_bytes()), "malformed-table", &["empty"]),
+        (write("c.csv", b"time_s,azimuth_rad\n1,2\n"), "malformed-table", &["range_rate_mps"]),
+        (write("d.csv", format!("{head}2,0,1\n1,0,1\n").as_bytes()), "time-backwards", &["line 3"]),
+    ] {
+        for command in ["log", "calibrate"] {
+            let output = boresight(&[command, &path]);
+            let errors = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(1), "{command} {path}: {errors}");
+            assert!(output.stdout.is_empty());
+            assert!(errors.contains(&format!("code:     {code}")), "{command} {path}: {errors}");
+            assert!(words.iter().all(|word| errors.contains(word)), "{command} {path}: {errors}");
+        }
+    }
+}
+
 #[test]
 fn radars_of_a_simulated_drive_are_chosen() {
     let folder = folder("radars");

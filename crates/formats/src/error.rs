@@ -91,6 +91,16 @@ pub enum FormatError {
         /// What was met.
         given: String,
     },
+    /// A JSON file of a recording cannot be used.
+    #[error("{file}: {given}; expected {expected}")]
+    Json {
+        /// The file.
+        file: &'static str,
+        /// What would have been accepted.
+        expected: &'static str,
+        /// What was met.
+        given: String,
+    },
     /// Compressed data cannot be unpacked.
     #[error("compressed data: {given}; expected a whole gzip file")]
     Compressed {
@@ -128,6 +138,7 @@ impl Diagnose for FormatError {
             Self::Binary { .. } => "malformed-file",
             Self::Table { .. } => "malformed-table",
             Self::Hdf5 { .. } => "malformed-hdf5",
+            Self::Json { .. } => "malformed-json",
             Self::Compressed { .. } => "malformed-gzip",
             Self::TimeBackwards { .. } => "time-backwards",
             Self::NoDriveLog { .. } => "no-drive-log",
@@ -156,6 +167,7 @@ impl Diagnose for FormatError {
                 Details::new(format!("line {line}: {what}"), expected, given)
             }
             Self::Hdf5 { what, expected, given } => Details::new(what, expected, given),
+            Self::Json { file, expected, given } => Details::new(*file, *expected, given),
             Self::Compressed { given } => {
                 Details::new("compressed data", "a whole gzip file", given)
             }

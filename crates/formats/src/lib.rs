@@ -21,7 +21,7 @@ pub mod tables;
 pub mod ti_uart;
 
 pub use dca1000::{Capture, RawFrame};
-pub use drive_log::{DriveFormat, DriveRead, DropReason, ReadReport};
+pub use drive_log::{DriveFormat, DriveRead, DropReason, MountingSource, ReadReport};
 pub use error::{FormatError, Remark};
 pub use mmwave_cfg::RadarConfig;
 pub use npy::{NpyArray, NpyData};

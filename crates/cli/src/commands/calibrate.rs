@@ -19,7 +19,7 @@ const FRAMES_A_REPORT: usize = 64;
 /// The angles, as text or JSON.
 pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
     let format = arguments.format.as_deref().map(DriveFormat::from_name).transpose()?;
-    let read = open_path(&arguments.paths, format)?;
+    let read = open_path(&arguments.paths, format, arguments.sequence.as_deref())?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     let sensors = chosen(&read.log, arguments.sensor)?;
     let run = Run::start("frames")?;

@@ -5,12 +5,12 @@ use crate::drive::open_path;
 use crate::error::CliError;
 use crate::output::remark;
 use boresight_core::drive::DriveLog;
-use boresight_formats::DriveRead;
+use boresight_formats::{DriveRead, MountingSource};
 use serde_json::{Map, Value, json};
 
 /// What is in a log, as text or JSON.
 pub fn run(arguments: &LogArguments) -> Result<String, CliError> {
-    let read = open_path(&arguments.paths, None)?;
+    let read = open_path(&arguments.paths, None, arguments.sequence.as_deref())?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     Ok(if arguments.json { format!("{:#}\n", as_json(&read)) } else { as_text(&read) })
 }
@@ -48,8 +48,15 @@ fn as_json(read: &DriveRead) -> Value {
     let [radar, motion] = spans(log).map(|s| s.map(|(a, b)| json!({ "startS": a, "endS": b })));
     let dropped: Map<String, Value> =
         read.report.drops().map(|(reason, n)| (reason.code().into(), n.into())).collect();
+    let report = &read.report;
+    let sequence = report
+        .sequence
+        .as_ref()
+        .map(|(name, category)| json!({ "name": name, "category": category }));
     json!({
         "format": read.format.name(),
+        "sequence": sequence,
+        "mountings": report.mountings.map(MountingSource::name),
         "sensors": sensors,
         "scans": log.scans.len(),
         "detections": log.scans.iter().map(|s| s.detections.len()).sum::<usize>(),
@@ -58,7 +65,8 @@ fn as_json(read: &DriveRead) -> Value {
         "motionSpan": motion,
         "speeds": log.motion.iter().filter(|s| s.speed_mps.is_some()).count(),
         "poses": log.motion.iter().filter(|s| s.pose.is_some()).count(),
-        "rowsRead": { "detections": read.report.detections, "motion": read.report.motion },
+        "rowsRead": { "detections": report.detections, "motion": report.motion },
+        "incomplete": { "detections": report.incomplete, "motion": report.motion_incomplete },
         "dropped": dropped,
     })
 }
@@ -70,11 +78,16 @@ fn as_text(read: &DriveRead) -> String {
     };
     let [radar, motion] = spans(log).map(seconds);
     let detections: usize = log.scans.iter().map(|scan| scan.detections.len()).sum();
+    let report = &read.report;
+    let name = report.sequence.as_ref().map_or(String::new(), |(name, category)| {
+        let category = category.as_ref().map_or(String::new(), |text| format!(" ({text})"));
+        format!("\nsequence    {name}{category}")
+    });
     let mut text = format!(
-        "format      {}\nscans       {}, {radar}\ndetections  {detections} of {} rows\n",
+        "format      {}{name}\nscans       {}, {radar}\ndetections  {detections} of {} rows\n",
         read.format.name(),
         log.scans.len(),
-        read.report.detections,
+        report.detections,
     );
     for (sensor, (id, scans, detections)) in log.sensors.iter().zip(by_sensor(log)) {
         let place = sensor.mounting.map_or("not stated".to_owned(), |m| {
@@ -83,12 +96,23 @@ fn as_text(read: &DriveRead) -> String {
         text +=
             &format!("sensor {id:<4} {scans} scans, {detections} detections, mounting: {place}\n");
     }
-    text += &format!(
-        "motion      {} samples of {} rows, {motion}\n",
-        log.motion.len(),
-        read.report.motion
-    );
-    for (reason, count) in read.report.drops() {
+    text +=
+        &format!("motion      {} samples of {} rows, {motion}\n", log.motion.len(), report.motion);
+    if let Some(source) = report.mountings {
+        text += match source {
+            MountingSource::SensorsJson => "mountings   from sensors.json\n",
+            _ => "mountings   those of the format's own car\n",
+        };
+    }
+    for (count, lacking) in [
+        (report.incomplete, "detections without range, cross-section, compensated rate or place"),
+        (report.motion_incomplete, "motion samples without speed or pose"),
+    ] {
+        if count > 0 {
+            text += &format!("kept        {count} {lacking}\n");
+        }
+    }
+    for (reason, count) in report.drops() {
         text += &format!("dropped     {count} {}\n", reason.code());
     }
     text

@@ -7,7 +7,7 @@
 //! The point whose pose is given lies about 1.0 m ahead of the axle that does not slip sideways:
 //! its sideways speed is 1.04 m times the yaw rate. The pose is moved back to that axle.
 
-use super::report::{DropReason, ReadReport};
+use super::report::{DropReason, MountingSource, ReadReport};
 use super::text::{Rows, line};
 use super::{motion, text};
 use crate::error::FormatError;
@@ -117,6 +117,7 @@ pub fn read_radar(bytes: &[u8], report: &mut ReadReport) -> Result<DriveLog, For
     }
     scans.extend(frame.map(Frame::scan));
     rows.not_empty()?;
+    report.mountings = Some(MountingSource::Format);
     let sensors = vec![Sensor { id: SENSOR, mounting: Some(MOUNTING) }];
     Ok(DriveLog { sensors, scans, motion: vec![] })
 }

@@ -3,14 +3,14 @@
 //! files' contents, and every row that is left out is counted.
 
 pub mod delphi;
-mod motion;
+pub(crate) mod motion;
 mod open;
 mod report;
 pub mod table;
 mod text;
 
-pub use open::{DriveFormat, DriveRead, is_hdf5, is_table, open};
-pub use report::{DropReason, ReadReport};
+pub use open::{DriveFormat, DriveRead, is_hdf5, is_table, no_drive_log, open, open_owned};
+pub use report::{DropReason, MountingSource, ReadReport};
 
 #[cfg(test)]
 mod tests;

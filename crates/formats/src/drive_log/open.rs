@@ -3,10 +3,11 @@
 use super::report::ReadReport;
 use super::text::{Rows, is_gzip};
 use super::{delphi, table};
-use crate::error::{FormatError, Remark};
-use crate::radarscenes;
+use crate::error::FormatError;
+use crate::radarscenes::{self, Companions};
 use boresight_core::CoreError;
 use boresight_core::drive::DriveLog;
+use std::borrow::Cow;
 
 /// A format of drive logs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,6 +64,9 @@ pub struct DriveRead {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
     RadarScenes,
+    Scenes,
+    Sensors,
+    Sequences,
     DelphiRadar,
     DelphiPose,
     Detections,
@@ -72,6 +76,12 @@ enum Role {
 fn role(name: &str, bytes: &[u8]) -> Result<Option<Role>, FormatError> {
     if is_hdf5(name) {
         return Ok(Some(Role::RadarScenes));
+    }
+    match name.rsplit(['/', '\\']).next() {
+        Some("scenes.json") => return Ok(Some(Role::Scenes)),
+        Some("sensors.json") => return Ok(Some(Role::Sensors)),
+        Some("sequences.json") => return Ok(Some(Role::Sequences)),
+        _ => {}
     }
     if !(is_table(name) || is_gzip(bytes)) {
         return Ok(None);
@@ -124,25 +134,28 @@ fn in_file(error: FormatError, name: &str) -> FormatError {
     }
 }
 
-/// The one file of a role.
-fn find<'a>(
-    files: &[(&'a str, &'a [u8])],
+/// Number of the one file of a role.
+fn find(
+    files: &[File<'_>],
     roles: &[Option<Role>],
     role: Role,
-) -> Result<Option<(&'a str, &'a [u8])>, FormatError> {
-    let mut found = roles.iter().zip(files).filter(|(r, _)| **r == Some(role)).map(|(_, f)| *f);
+) -> Result<Option<usize>, FormatError> {
+    let mut found = (0..files.len()).filter(|i| roles[*i] == Some(role));
     let first = found.next();
-    if let (Some((first, _)), Some((second, _))) = (first, found.next()) {
+    if let (Some(first), Some(second)) = (first, found.next()) {
         return Err(FormatError::NoDriveLog {
             expected: "one file of each kind".into(),
-            given: format!("both {first} and {second}"),
+            given: format!("both {} and {}", files[first].0, files[second].0),
         });
     }
     Ok(first)
 }
 
-/// Reads a drive log from named files, in any order, each recognised by its columns; with a remark
-/// for each that belongs to no format. Tables may be packed with gzip.
+type File<'a> = (&'a str, Cow<'a, [u8]>);
+
+/// Reads a drive log from named files, in any order, each recognised by its columns or, other than
+/// tables, its name (with or without folders before it); with a remark for each that belongs to no
+/// format. Tables may be packed with gzip. An HDF5 file is copied: see [`open_owned`].
 ///
 /// With `format` given only files of that format are looked for.
 ///
@@ -153,50 +166,85 @@ pub fn open(
     files: &[(&str, &[u8])],
     format: Option<DriveFormat>,
 ) -> Result<DriveRead, FormatError> {
+    open_files(files.iter().map(|(name, bytes)| (*name, Cow::Borrowed(*bytes))).collect(), format)
+}
+
+/// As [`open`], from files that are given away, so that none is held twice.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_owned(
+    files: Vec<(String, Vec<u8>)>,
+    format: Option<DriveFormat>,
+) -> Result<DriveRead, FormatError> {
+    let (names, contents): (Vec<_>, Vec<_>) = files.into_iter().unzip();
+    let owned = contents.into_iter().map(Cow::Owned);
+    open_files(names.iter().map(String::as_str).zip(owned).collect(), format)
+}
+
+fn open_files(
+    mut files: Vec<File<'_>>,
+    format: Option<DriveFormat>,
+) -> Result<DriveRead, FormatError> {
     let roles: Vec<_> =
         files.iter().map(|(name, bytes)| role(name, bytes)).collect::<Result<_, _>>()?;
     let wanted = |candidate| format.is_none_or(|format| format == candidate);
     let mut read = None;
-    for (candidate, radar, motion) in [
-        (DriveFormat::RadarScenes, Role::RadarScenes, None),
-        (DriveFormat::Delphi, Role::DelphiRadar, Some(Role::DelphiPose)),
-        (DriveFormat::Csv, Role::Detections, Some(Role::Motion)),
+    for (candidate, radar, beside) in [
+        (
+            DriveFormat::RadarScenes,
+            Role::RadarScenes,
+            &[Role::Scenes, Role::Sensors, Role::Sequences][..],
+        ),
+        (DriveFormat::Delphi, Role::DelphiRadar, &[Role::DelphiPose]),
+        (DriveFormat::Csv, Role::Detections, &[Role::Motion]),
     ] {
         if read.is_none()
             && wanted(candidate)
-            && let Some(radar) = find(files, &roles, radar)?
+            && let Some(radar) = find(&files, &roles, radar)?
         {
-            let motion = motion.map_or(Ok(None), |role| find(files, &roles, role))?;
-            read = Some((candidate, radar, motion));
+            let beside: Vec<_> =
+                beside.iter().map(|role| find(&files, &roles, *role)).collect::<Result<_, _>>()?;
+            read = Some((candidate, radar, beside));
         }
     }
     // One table that is none of these still gets the general reader's word on what it lacks.
-    if let [(name, bytes)] = files
+    if let [(name, _)] = files[..]
         && wanted(DriveFormat::Csv)
         && read.is_none()
         && is_table(name)
     {
-        read = Some((DriveFormat::Csv, (name, bytes), None));
+        read = Some((DriveFormat::Csv, 0, vec![]));
     }
-    let Some((format, radar, motion)) = read else {
+    let Some((format, radar, beside)) = read else {
         return Err(no_drive_log(format, files.iter().map(|(name, _)| *name)));
     };
     let mut report = ReadReport::default();
-    for (name, _) in files.iter().filter(|f| **f != radar && Some(**f) != motion) {
-        report.remarks.push(Remark::new(
-            "ignored-file",
-            format!("{name} is not part of the drive log and was left out"),
-        ));
+    for (i, (name, _)) in files.iter().enumerate() {
+        if i != radar && !beside.contains(&Some(i)) {
+            report.ignored(name);
+        }
     }
-    let radar_error = |error| in_file(error, radar.0);
+    let (name, bytes) = (files[radar].0, std::mem::take(&mut files[radar].1));
+    let radar_error = |error| in_file(error, name);
+    let bytes_beside = |k: usize| {
+        let file = beside.get(k).copied().flatten()?;
+        Some((files[file].0, &*files[file].1))
+    };
     let mut log = match format {
         DriveFormat::RadarScenes => {
-            radarscenes::read(radar.1.to_vec(), &mut report).map_err(radar_error)?
+            let beside = Companions {
+                scenes: bytes_beside(0).map(|file| file.1),
+                sensors: bytes_beside(1).map(|file| file.1),
+            };
+            return radarscenes::read(bytes.into_owned(), beside, &mut report)
+                .map(|log| DriveRead { log, report, format })
+                .map_err(radar_error);
         }
-        DriveFormat::Delphi => delphi::read_radar(radar.1, &mut report).map_err(radar_error)?,
-        DriveFormat::Csv => table::read_detections(radar.1, &mut report).map_err(radar_error)?,
+        DriveFormat::Delphi => delphi::read_radar(&bytes, &mut report).map_err(radar_error)?,
+        DriveFormat::Csv => table::read_detections(&bytes, &mut report).map_err(radar_error)?,
     };
-    if let Some((name, bytes)) = motion {
+    if let Some((name, bytes)) = bytes_beside(0) {
         log.motion = match format {
             DriveFormat::Delphi => delphi::read_poses(bytes, &mut report),
             DriveFormat::Csv | DriveFormat::RadarScenes => table::read_motion(bytes, &mut report),
@@ -206,13 +254,15 @@ pub fn open(
     Ok(DriveRead { log, report, format })
 }
 
-fn no_drive_log<'a>(
+/// The error for files that are no drive log, by their names.
+pub fn no_drive_log<'a>(
     format: Option<DriveFormat>,
     names: impl Iterator<Item = &'a str>,
 ) -> FormatError {
     let one = |format| match format {
         DriveFormat::RadarScenes => {
-            "radar_data.h5 with the datasets radar_data and odometry".to_owned()
+            "radar_data.h5 with the datasets radar_data and odometry (a sequence of RadarScenes)"
+                .to_owned()
         }
         DriveFormat::Delphi => {
             format!("a CSV with the columns {}", delphi::RADAR_COLUMNS.join(", "))

@@ -44,6 +44,26 @@ impl DropReason {
     }
 }
 
+/// Where the mountings of a log are from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MountingSource {
+    /// `sensors.json` of the recording.
+    SensorsJson,
+    /// The format's own car, as no file states them.
+    Format,
+}
+
+impl MountingSource {
+    /// A stable name in kebab case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SensorsJson => "sensors-json",
+            Self::Format => "format",
+        }
+    }
+}
+
 /// What a reader found, kept and left out.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ReadReport {
@@ -51,6 +71,15 @@ pub struct ReadReport {
     pub detections: u64,
     /// Motion samples in the files.
     pub motion: u64,
+    /// Detections kept although a number that no estimator needs is none: range, cross-section, and
+    /// in `RadarScenes` `vr_compensated`, `x_seq` and `y_seq`.
+    pub incomplete: u64,
+    /// Motion samples kept although their speed or pose is none.
+    pub motion_incomplete: u64,
+    /// Name and category of the sequence, where the recording states them.
+    pub sequence: Option<(String, Option<String>)>,
+    /// Where the mountings are from, where the log has any.
+    pub mountings: Option<MountingSource>,
     dropped: [u64; DropReason::ALL.len()],
     /// What else to know.
     pub remarks: Vec<Remark>,
@@ -59,6 +88,14 @@ pub struct ReadReport {
 impl ReadReport {
     pub(crate) fn drop(&mut self, reason: DropReason) {
         self.dropped[reason as usize] += 1;
+    }
+
+    /// Remarks on a file that belongs to no drive log.
+    pub fn ignored(&mut self, name: &str) {
+        self.remarks.push(Remark::new(
+            "ignored-file",
+            format!("{name} is not part of the drive log and was left out"),
+        ));
     }
 
     /// Rows left out for a reason.

@@ -129,6 +129,17 @@ impl Table {
         Ok(Self { name, dataset, row_bytes: size as usize, rows, window, datatype })
     }
 
+    /// Whether the rows have a field.
+    pub(super) fn has(&self, name: &str) -> bool {
+        matches!(&self.datatype, Datatype::Compound { members, .. }
+            if members.iter().any(|member| member.name == name))
+    }
+
+    /// Refuses a dataset without rows.
+    pub(super) fn not_empty(&self) -> Result<(), FormatError> {
+        if self.rows == 0 { Err(wrong(self.name, "at least one row", "none")) } else { Ok(()) }
+    }
+
     /// A field that must be there and inside its row.
     pub(super) fn field(&self, name: &str) -> Result<Field, FormatError> {
         let what = format!("{}.{name}", self.name);

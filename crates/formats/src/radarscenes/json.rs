@@ -1,9 +1,86 @@
 //! The JSON files of the data set: `scenes.json`, `sensors.json`, `sequences.json`.
 
+use crate::error::FormatError;
 use boresight_core::drive::{Mounting, Sensor};
+use serde::de::DeserializeOwned;
 use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 use std::collections::BTreeMap;
+
+fn parse<T: DeserializeOwned>(
+    file: &'static str,
+    expected: &'static str,
+    bytes: &[u8],
+) -> Result<T, FormatError> {
+    serde_json::from_slice(bytes).map_err(|error| FormatError::Json {
+        file,
+        expected,
+        given: error.to_string().chars().take(200).collect(),
+    })
+}
+
+/// What is read of `scenes.json`.
+#[derive(Deserialize)]
+pub(super) struct Scenes {
+    pub sequence_name: String,
+    #[serde(default)]
+    pub category: Option<String>,
+    /// By time stamp, us.
+    pub scenes: BTreeMap<i64, Scene>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Scene {
+    pub sensor_id: u8,
+    pub radar_indices: [u64; 2],
+}
+
+impl Scenes {
+    pub(super) fn read(bytes: &[u8]) -> Result<Self, FormatError> {
+        let expected = "sequence_name and scenes with sensor_id and radar_indices";
+        parse("scenes.json", expected, bytes)
+    }
+}
+
+/// Names of the sequences in `sequences.json`.
+///
+/// # Errors
+/// [`FormatError::Json`].
+pub fn sequence_names(bytes: &[u8]) -> Result<Vec<String>, FormatError> {
+    #[derive(Deserialize)]
+    struct Entry {}
+    #[derive(Deserialize)]
+    struct Sequences {
+        sequences: BTreeMap<String, Entry>,
+    }
+    let read: Sequences = parse("sequences.json", "sequences by name", bytes)?;
+    Ok(read.sequences.into_keys().collect())
+}
+
+/// Mountings by number in `sensors.json`: each `radar_N` of it, with `x`, `y` (m) and `yaw` (rad).
+pub(super) fn mountings(bytes: &[u8]) -> Result<BTreeMap<u8, Mounting>, FormatError> {
+    #[derive(Deserialize)]
+    struct Entry {
+        x: Option<f64>,
+        y: Option<f64>,
+        yaw: Option<f64>,
+    }
+    let expected = "radar_1 and so on, each with x, y and yaw";
+    let read: BTreeMap<String, Entry> = parse("sensors.json", expected, bytes)?;
+    let mut mountings = BTreeMap::new();
+    for (name, entry) in &read {
+        let Some(id) = name.strip_prefix("radar_").and_then(|id| id.parse().ok()) else { continue };
+        let (Some(x_m), Some(y_m), Some(yaw_rad)) = (entry.x, entry.y, entry.yaw) else {
+            return Err(FormatError::Json {
+                file: "sensors.json",
+                expected,
+                given: format!("{name} without one of them"),
+            });
+        };
+        mountings.insert(id, Mounting { x_m, y_m, yaw_rad });
+    }
+    Ok(mountings)
+}
 
 /// `scenes.json` as it is written.
 #[derive(Serialize)]

@@ -1,5 +1,6 @@
+use super::Companions;
 use crate::FormatError;
-use crate::drive_log::{DriveFormat, DropReason, ReadReport, open};
+use crate::drive_log::{DriveFormat, DropReason, MountingSource, ReadReport, open, open_owned};
 use boresight_core::Diagnose;
 use boresight_core::drive::RADARSCENES_SENSORS;
 use boresight_core::drive::{Detection, DriveLog};
@@ -8,12 +9,12 @@ use std::path::PathBuf;
 
 fn read(bytes: Vec<u8>) -> Result<(DriveLog, ReadReport), FormatError> {
     let mut report = ReadReport::default();
-    super::read(bytes, &mut report).map(|log| (log, report))
+    super::read(bytes, Companions::default(), &mut report).map(|log| (log, report))
 }
 
 fn read_path(path: &std::path::Path) -> Result<(DriveLog, ReadReport), FormatError> {
     let mut report = ReadReport::default();
-    super::read_path(path, &mut report).map(|log| (log, report))
+    super::read_path(path, Companions::default(), &mut report).map(|log| (log, report))
 }
 
 fn golden(name: &str) -> PathBuf {
@@ -55,6 +56,7 @@ fn check(log: &DriveLog, report: &ReadReport, name: &str) {
     assert_eq!(log.scans[2].detections[0].azimuth_rad, 0.75, "{name}");
     assert_eq!((report.detections, report.motion), (4, 10), "{name}");
     assert_eq!(report.drops().collect::<Vec<_>>(), [(DropReason::NotFinite, 1)], "{name}");
+    assert_eq!((report.incomplete, report.motion_incomplete), (1, 0), "{name}");
     assert_eq!(log.motion.len(), 10, "{name}");
     let last = log.motion[9];
     assert_eq!(((last.time_s * 1e6).round(), last.speed_mps), (90_000.0, Some(19.0)), "{name}");
@@ -80,11 +82,14 @@ fn every_layout_of_h5py_gives_the_same_drive() {
 #[test]
 fn a_sequence_is_found_among_its_files() {
     let data = bytes("filtered");
-    let files = [("scenes.json", &b"{}"[..]), ("radar_data.h5", &data[..])];
+    let files = [("notes.json", &b"{}"[..]), ("set/one/radar_data.h5", &data[..])];
     let read = open(&files, None).unwrap();
     assert_eq!(read.format, DriveFormat::RadarScenes);
     assert_eq!(read.report.remarks.len(), 1);
     check(&read.log, &read.report, "opened");
+    let owned = files.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).to_vec();
+    let read = open_owned(owned, None).unwrap();
+    check(&read.log, &read.report, "given away");
     let error = open(&[("radar_data.h5", &data[..100])], None).unwrap_err();
     assert_eq!(error.code(), "malformed-hdf5");
     assert!(error.to_string().contains("radar_data.h5"), "{error}");
@@ -102,6 +107,21 @@ fn what_is_missing_or_wrong_is_named() {
         assert_eq!(error.code(), code, "{name}: {error}");
         assert!(error.to_string().contains(word), "{name}: {error}");
     }
+    let with = |name: &str, json: &str| {
+        let data = bytes("contiguous");
+        open(&[("radar_data.h5", &data), (name, json.as_bytes())], None).unwrap_err()
+    };
+    for (name, json, word) in [
+        ("sensors.json", r#"{"radar_1": {"x": 1.0, "yaw": 0.0}}"#, "radar_1 without"),
+        ("sensors.json", r#"{"radar_1": {"x": 1.0"#, "sensors.json: EOF"),
+        ("sensors.json", "[]", "sensors.json: invalid type"),
+        ("scenes.json", "{}", "missing field `sequence_name`"),
+        ("scenes.json", r#"{"sequence_name": "a", "scenes": {"soon": {}}}"#, "scenes.json: "),
+    ] {
+        let error = with(name, json);
+        assert_eq!(error.code(), "malformed-json", "{error}");
+        assert!(error.to_string().contains(word), "{error}");
+    }
     let error = read(bytes("hdf5_2")).unwrap_err();
     assert!(error.to_string().contains("data layout version: 5"), "{error}");
     for other in [&b""[..], b"time_s,azimuth_rad\n", &[0_u8; 4096]] {
@@ -109,6 +129,57 @@ fn what_is_missing_or_wrong_is_named() {
         assert_eq!(error.code(), "malformed-hdf5");
         assert!(error.to_string().contains("a whole HDF5 file"), "{error}");
     }
+}
+
+#[test]
+fn mountings_are_those_of_sensors_json() {
+    let data = bytes("contiguous");
+    let with = |json: &str| {
+        open(&[("sensors.json", json.as_bytes()), ("radar_data.h5", &data)], None).unwrap()
+    };
+    let read =
+        with(r#"{"radar_2": {"id": 2, "x": 1, "y": -2.5, "yaw": 0.75}, "camera": {"x": 3}}"#);
+    assert_eq!(read.log.sensors[0].mounting, None);
+    let mounting = read.log.sensors[1].mounting.unwrap();
+    assert_eq!((mounting.x_m, mounting.y_m, mounting.yaw_rad), (1.0, -2.5, 0.75));
+    assert_eq!(read.report.mountings, Some(MountingSource::SensorsJson));
+    let read = with("{}");
+    assert!(read.log.sensors.iter().all(|sensor| sensor.mounting.is_none()));
+    assert_eq!(read.report.mountings, None);
+    let read = open(&[("radar_data.h5", &data)], None).unwrap();
+    assert_eq!(read.report.mountings, Some(MountingSource::Format));
+}
+
+#[test]
+fn scenes_json_adds_scans_and_is_held_against_the_rows() {
+    let data = bytes("contiguous");
+    // Scans of make.py: radar 1 at ...647501 and ...721501, radar 2 at ...667501.
+    let json = r#"{"sequence_name": "night", "category": "train", "scenes": {
+        "156862647501": {"sensor_id": 1, "radar_indices": [0, 2]},
+        "156862650501": {"sensor_id": 4, "radar_indices": [2, 2]},
+        "156862660501": {"sensor_id": 4, "radar_indices": [2, 9]},
+        "156862667501": {"sensor_id": 1, "radar_indices": [2, 2]}}}"#;
+    let read = open(&[("scenes.json", json.as_bytes()), ("radar_data.h5", &data)], None).unwrap();
+    let scans: Vec<_> = read
+        .log
+        .scans
+        .iter()
+        .map(|s| ((s.time_s * 1e6).round(), s.sensor, s.detections.len()))
+        .collect();
+    let expected = [
+        (501.0, 1, 2),
+        (3501.0, 4, 0),
+        (13_501.0, 4, 0),
+        (20_501.0, 2, 0),
+        (20_501.0, 1, 0),
+        (74_501.0, 1, 1),
+    ];
+    assert_eq!(scans, expected);
+    assert_eq!(read.log.sensors.iter().map(|s| s.id).collect::<Vec<_>>(), [1, 2, 4]);
+    assert_eq!(read.report.sequence, Some(("night".into(), Some("train".into()))));
+    let remarks: Vec<_> = read.report.remarks.iter().map(|r| r.message.as_str()).collect();
+    assert!(remarks.len() == 2 && remarks[0].starts_with("1 scans of scenes.json"), "{remarks:?}");
+    assert!(remarks[1].starts_with("2 scans of radar_data.h5"), "{remarks:?}");
 }
 
 /// The tail of such a file may hold nothing, so a little may be lost; half never.

@@ -1,6 +1,6 @@
-use super::read;
 use super::write::{Packing, write};
-use crate::ReadReport;
+use super::{Companions, read, sequence_names};
+use crate::{DropReason, ReadReport};
 use boresight_core::Diagnose;
 use boresight_core::drive::{
     Detection, DriveLog, MotionSample, Pose, RADARSCENES_SENSORS, Scan, Sensor,
@@ -50,7 +50,7 @@ fn written(log: &DriveLog, packing: Packing) -> Vec<u8> {
 fn what_is_written_is_read_back() {
     for packing in [Packing::Contiguous, Packing::Deflate] {
         let mut report = ReadReport::default();
-        let log = read(written(&drive(), packing), &mut report).unwrap();
+        let log = read(written(&drive(), packing), Companions::default(), &mut report).unwrap();
         let mut expected = drive();
         // Times of a log begin with its first; stamps are in microseconds.
         let tidy = |time_s: f64| (time_s * 1e6).round() / 1e6;
@@ -58,6 +58,70 @@ fn what_is_written_is_read_back() {
         expected.motion.iter_mut().for_each(|s| s.time_s = tidy(s.time_s + 0.25));
         assert_eq!(log, expected);
         assert_eq!((report.detections, report.motion, report.drops().count()), (4, 40, 0));
+    }
+}
+
+#[test]
+fn the_files_beside_bring_back_empty_scans_and_mountings() {
+    let mut log = drive();
+    log.scans[1].detections.clear();
+    log.scans[1].labels.clear();
+    log.sensors[1].mounting.as_mut().unwrap().yaw_rad = -0.5;
+    let mut bytes = vec![];
+    let files = write(&log, &[], "night", Packing::Contiguous, &mut bytes).unwrap();
+    let beside = Companions {
+        scenes: Some(files.scenes.as_bytes()),
+        sensors: Some(files.sensors.as_bytes()),
+    };
+    let mut report = ReadReport::default();
+    let back = read(bytes, beside, &mut report).unwrap();
+    assert_eq!(back.sensors, log.sensors);
+    assert_eq!(back.scans.len(), 3);
+    assert_eq!((back.scans[1].sensor, back.scans[1].detections.len()), (2, 0));
+    assert_eq!((&report.remarks[..], report.sequence.unwrap().0), (&[][..], "night".to_owned()));
+    assert_eq!(sequence_names(files.sequences.as_bytes()).unwrap(), ["night"]);
+}
+
+/// NaN where no estimator needs a number keeps the row; elsewhere it leaves the row out.
+#[test]
+fn numbers_that_are_none_are_counted() {
+    let mut log = drive();
+    log.scans[0].detections[0].range_m = f32::NAN;
+    log.scans[0].detections[1].rcs_dbsm = f32::INFINITY;
+    log.scans[1].detections[0].azimuth_rad = f32::NAN;
+    log.scans[2].detections[0].range_rate_mps = f32::NAN;
+    // Rows without x_seq and y_seq, and one sample without speed, one without a yaw rate.
+    log.motion[0].speed_mps = None;
+    log.motion[1].yaw_rate_radps = f64::NAN;
+    log.motion.iter_mut().for_each(|sample| sample.pose = None);
+    let mut report = ReadReport::default();
+    let bytes = written(&log, Packing::Contiguous);
+    let back = read(bytes, Companions::default(), &mut report).unwrap();
+    assert!(back.scans[0].detections[0].range_m.is_nan());
+    assert_eq!(back.scans[0].detections[0].range_rate_mps, -2.5);
+    assert!(back.scans[0].detections[1].rcs_dbsm.is_nan());
+    assert_eq!(back.scans.iter().map(|s| s.detections.len()).collect::<Vec<_>>(), [2, 0, 0]);
+    assert_eq!((report.incomplete, report.motion_incomplete), (2, 39));
+    assert_eq!(report.dropped(DropReason::NotFinite), 2);
+    assert_eq!(report.dropped(DropReason::MotionNotFinite), 1);
+    assert_eq!((back.motion[0].speed_mps, back.motion[1].speed_mps), (None, Some(10.0)));
+    assert!(back.motion.iter().all(|sample| sample.pose.is_none()));
+}
+
+#[test]
+fn a_recording_without_rows_is_refused() {
+    let mut log = drive();
+    log.scans.iter_mut().for_each(|scan| {
+        scan.detections.clear();
+        scan.labels.clear();
+    });
+    for packing in [Packing::Contiguous, Packing::Deflate] {
+        let bytes = written(&log, packing);
+        let error = read(bytes, Companions::default(), &mut ReadReport::default()).unwrap_err();
+        assert!(
+            error.to_string().contains("radar_data: none; expected at least one row"),
+            "{error}"
+        );
     }
 }
 
