@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { assertCsv, assertPng, drop, parameters, parametersWith, recording, saved, values } from './demo.mjs';
+import { assertCsv, assertPng, clickWhenThere, drop, parameters, parametersWith, recording, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const path = '#/capture';
@@ -112,19 +112,7 @@ browserTest('capture: bytes after the last whole frame are counted', { path }, a
 
 browserTest('capture: long work shows how far it is and can be cancelled', { path: '#/capture?dopplerPadding=8' }, async ({ page }) => {
   await ready(page);
-  // Clicked as soon as it is there: how long the work takes is the machine's affair.
-  const bar = page.evaluate(() => new Promise((resolve) => {
-    const look = () => {
-      const cancel = document.querySelector('[data-progress] [data-action="cancel"]');
-      if (!cancel) return;
-      observer.disconnect();
-      const { value, max } = document.querySelector('[data-progress] progress');
-      cancel.click();
-      resolve({ value, max });
-    };
-    const observer = new MutationObserver(look);
-    observer.observe(document.body, { childList: true, subtree: true });
-  }));
+  const bar = clickWhenThere(page, '[data-progress] [data-action="cancel"]');
   await drop(page, [{ name: 'long.bin', bytes: bin, times: 60 }, { name: 'profile.cfg', bytes: cfg }]);
   const { value, max } = await bar;
   assert.ok(value >= 0 && value < max, `${value} of ${max}`);

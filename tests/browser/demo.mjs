@@ -5,7 +5,8 @@ import { readFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
 
-export const recording = (name) => readFileSync(join(root, 'recordings', 'awr1642', name));
+export const recordings = (folder) => join(root, 'recordings', folder);
+export const recording = (name) => readFileSync(join(recordings('awr1642'), name));
 
 /** Numbers of the cells a selector finds; what is empty is left out. */
 export const values = (page, selector) =>
@@ -38,6 +39,26 @@ export function assertCsv({ name, bytes }, header) {
   for (const line of lines.slice(1)) assert.equal(line.split(',').length, header.split(',').length, line);
   return lines.slice(1).map((line) => line.split(','));
 }
+
+export function assertJson({ name, bytes }) {
+  assert.match(name, /^boresight-.*\.json$/);
+  return JSON.parse(bytes.toString('utf8'));
+}
+
+/** Clicks the first button that shows up under a selector, at once: how long the work behind it takes is the machine's affair. */
+export const clickWhenThere = (page, selector) =>
+  page.evaluate((wanted) => new Promise((resolve) => {
+    const look = () => {
+      const button = document.querySelector(wanted);
+      if (!button) return;
+      observer.disconnect();
+      const { value, max } = button.parentElement.querySelector('progress');
+      button.click();
+      resolve({ value, max });
+    };
+    const observer = new MutationObserver(look);
+    observer.observe(document.body, { childList: true, subtree: true });
+  }), selector);
 
 export function assertPng({ name, bytes }) {
   assert.match(name, /^boresight-.*\.png$/);

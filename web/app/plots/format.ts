@@ -44,3 +44,13 @@ export function milliseconds(value: number): string {
   if (value < 10_000) return `${fixed(value, 0)}\u00a0ms`;
   return `${fixed(value / 1000, 1)}\u00a0s`;
 }
+
+/** A file's size. */
+export function byteSize(bytes: number): string {
+  return bytes < 1024 ? `${bytes} B` : bytes < 1024 ** 2 ? `${(bytes / 1024).toFixed(0)} KiB` : `${(bytes / 1024 ** 2).toFixed(2)} MiB`;
+}
+
+/** A count with its thousands apart. */
+export function count(value: number): string {
+  return value.toLocaleString('en').replaceAll(',', '\u202f');
+}

@@ -2,6 +2,7 @@
 import { type ColorMapName, colorTable } from './colormap.ts';
 import { fixed } from './format.ts';
 import type { Layer } from './layers.ts';
+import type { ThemeName } from './theme.ts';
 
 export interface HeatMap {
   /** Centres of the columns and rows, ascending and evenly spaced. */
@@ -53,16 +54,22 @@ export function heatImage(map: HeatMap): Layer {
   };
 }
 
-/** Colour bar in the space right of the plot. */
-export function colorBar(limits: readonly [number, number], colors: ColorMapName, label: string): Layer {
-  const table = colorTable(colors);
-  return ({ ctx, plot, theme, ratio }) => {
+/** Colour bar in the space right of the plot; colours by name, or for a share from 0 to 1. */
+export function colorBar(
+  limits: readonly [number, number],
+  colors: ColorMapName | ((share: number, theme: ThemeName) => string),
+  label: string,
+): Layer {
+  const color = typeof colors === 'function' ? colors : (share: number): string => {
+    const [r, g, b] = colorTable(colors).subarray(Math.round(255 * share) * 4);
+    return `rgb(${r}, ${g}, ${b})`;
+  };
+  return ({ ctx, plot, theme, themeName, ratio }) => {
     const { left, top, width, height } = plot.bbox;
     const x = left + width + 12 * ratio;
     const bar = 12 * ratio;
     for (let row = 0; row < height; row++) {
-      const level = Math.round(255 * (1 - row / Math.max(height - 1, 1))) * 4;
-      ctx.fillStyle = `rgb(${table[level]}, ${table[level + 1]}, ${table[level + 2]})`;
+      ctx.fillStyle = color(1 - row / Math.max(height - 1, 1), themeName);
       ctx.fillRect(x, top + row, bar, 1.5);
     }
     ctx.strokeStyle = theme.muted;
@@ -73,14 +80,14 @@ export function colorBar(limits: readonly [number, number], colors: ColorMapName
     ctx.textAlign = 'left';
     ctx.textBaseline = 'middle';
     const [low, high] = limits;
-    const step = [1, 2, 5, 10, 20, 50].find((s) => ((high - low) / s) * 26 * ratio <= height) ?? 50;
+    const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find((s) => ((high - low) / s) * 26 * ratio <= height) ?? 50;
     for (let value = Math.ceil(low / step) * step; value <= high; value += step) {
       const at = top + height * (1 - (value - low) / (high - low));
       ctx.beginPath();
       ctx.moveTo(x + bar, at);
       ctx.lineTo(x + bar + 3 * ratio, at);
       ctx.stroke();
-      ctx.fillText(fixed(value, 0), x + bar + 5 * ratio, Math.min(Math.max(at, top + 6 * ratio), top + height - 6 * ratio));
+      ctx.fillText(fixed(value, step < 1 ? 1 : 0), x + bar + 5 * ratio, Math.min(Math.max(at, top + 6 * ratio), top + height - 6 * ratio));
     }
     ctx.textAlign = 'center';
     ctx.save();

@@ -41,25 +41,33 @@ export function verticalLines(
   };
 }
 
-/** Horizontal line across the plot with a label at its right end. */
-export function horizontalLine(value: number, label: string): Layer {
+/** Horizontal line across the plot with a label at its right end, or at its left one. */
+export function horizontalLine(
+  value: number,
+  label: string,
+  style: { color?: (t: PlotTheme) => string; dash?: number[]; left?: boolean } = {},
+): Layer {
   return ({ ctx, plot, theme, ratio, y }) => {
     const { left, top, width, height } = plot.bbox;
     const at = Math.round(y(value)) + 0.5;
     if (at < top || at > top + height) return;
-    ctx.strokeStyle = theme.muted;
-    ctx.fillStyle = theme.muted;
+    ctx.strokeStyle = style.color?.(theme) ?? theme.muted;
+    ctx.fillStyle = ctx.strokeStyle;
     ctx.lineWidth = ratio;
-    ctx.setLineDash([2 * ratio, 3 * ratio]);
+    ctx.setLineDash((style.dash ?? [2, 3]).map((d) => d * ratio));
     ctx.beginPath();
     ctx.moveTo(left, at);
     ctx.lineTo(left + width, at);
     ctx.stroke();
     ctx.setLineDash([]);
     ctx.font = `${11 * ratio}px ${theme.font}`;
-    ctx.textAlign = 'right';
+    ctx.textAlign = style.left ? 'left' : 'right';
     ctx.textBaseline = 'bottom';
-    ctx.fillText(label, left + width - 5 * ratio, at - 3 * ratio);
+    const place = style.left ? left + 5 * ratio : left + width - 5 * ratio;
+    ctx.strokeStyle = theme.background;
+    ctx.lineWidth = 3 * ratio;
+    ctx.strokeText(label, place, at - 3 * ratio);
+    ctx.fillText(label, place, at - 3 * ratio);
   };
 }
 
@@ -76,6 +84,67 @@ export function bands(intervals: readonly (readonly [number, number])[], fill: (
   };
 }
 
+/** A line through points; parts with a missing number are left out. */
+export function polyline(px: ArrayLike<number>, py: ArrayLike<number>, style: SeriesStyle): Layer {
+  return ({ ctx, plot, themeName, ratio, x, y }) => {
+    clipToPlot(ctx, plot);
+    ctx.strokeStyle = style.color[themeName];
+    ctx.lineWidth = (style.width ?? 1.6) * ratio;
+    ctx.lineJoin = 'round';
+    ctx.setLineDash((style.dash ?? []).map((d) => d * ratio));
+    ctx.beginPath();
+    let drawing = false;
+    for (let i = 0; i < px.length; i++) {
+      const [a, b] = [x(px[i] as number), y(py[i] as number)];
+      if (!Number.isFinite(a) || !Number.isFinite(b)) drawing = false;
+      else if (drawing) ctx.lineTo(a, b);
+      else {
+        ctx.moveTo(a, b);
+        drawing = true;
+      }
+    }
+    ctx.stroke();
+  };
+}
+
+/** The area between a lower and an upper curve; where either is missing there is none. */
+export function areaBetween(px: ArrayLike<number>, low: ArrayLike<number>, high: ArrayLike<number>, style: SeriesStyle): Layer {
+  return ({ ctx, plot, themeName, x, y }) => {
+    clipToPlot(ctx, plot);
+    ctx.fillStyle = style.color[themeName];
+    ctx.globalAlpha = 0.17;
+    for (let i = 0; i < px.length; i++) {
+      const start = i;
+      while (i < px.length && Number.isFinite(low[i]) && Number.isFinite(high[i])) i += 1;
+      if (i - start < 2) continue;
+      ctx.beginPath();
+      for (let j = start; j < i; j++) ctx.lineTo(x(px[j] as number), y(high[j] as number));
+      for (let j = i - 1; j >= start; j--) ctx.lineTo(x(px[j] as number), y(low[j] as number));
+      ctx.fill();
+    }
+  };
+}
+
+/** Small dots, for thousands of points. */
+export function dots(px: ArrayLike<number>, py: ArrayLike<number>, style: SeriesStyle, alpha = 0.4): Layer {
+  return ({ ctx, plot, themeName, ratio, x, y }) => {
+    clipToPlot(ctx, plot);
+    ctx.fillStyle = style.color[themeName];
+    ctx.globalAlpha = alpha;
+    const size = 1.5 * ratio;
+    for (let i = 0; i < px.length; i++) {
+      const at = y(py[i] as number);
+      if (Number.isFinite(at)) ctx.fillRect(x(px[i] as number) - size / 2, at - size / 2, size, size);
+    }
+  };
+}
+
+export function clipToPlot(ctx: CanvasRenderingContext2D, { bbox: { left, top, width, height } }: uPlot): void {
+  ctx.beginPath();
+  ctx.rect(left, top, width, height);
+  ctx.clip();
+}
+
 export interface Marker {
   x: number;
   y: number;
@@ -84,14 +153,17 @@ export interface Marker {
   hollow?: boolean;
 }
 
-export function markers(points: readonly Marker[]): Layer {
+/** Markers at points; what is beyond top or bottom stands at the edge unless `edge` is off. */
+export function markers(points: readonly Marker[], { edge = true } = {}): Layer {
   return ({ ctx, plot, theme, themeName, ratio, x, y }) => {
     const { left, top, width, height } = plot.bbox;
     for (const point of points) {
       const size = (point.size ?? 4.5) * ratio;
       const px = x(point.x);
       if (px < left - 1 || px > left + width + 1) continue;
-      const py = Math.min(Math.max(y(point.y), top + size), top + height - size);
+      const level = y(point.y);
+      if (!edge && (level < top || level > top + height)) continue;
+      const py = Math.min(Math.max(level, top + size), top + height - size);
       drawMarker(ctx, point.style.marker ?? 'circle', px, py, size, {
         stroke: point.style.color[themeName],
         fill: point.hollow ? null : point.style.color[themeName],

@@ -17,6 +17,10 @@ export interface AxisOptions {
   label: string;
   /** Preferred tick steps. */
   steps?: number[];
+  /** Space for the labels of a vertical axis, CSS pixels. */
+  width?: number;
+  /** Lowest value with a label: what is below is no number of the axis. */
+  from?: number;
 }
 
 export interface PlotSeries {
@@ -58,6 +62,8 @@ export interface PlotOptions {
   cursorKey?: string;
   theme: ThemeName;
   grid?: boolean;
+  /** A unit takes as much room on one axis as on the other: for places. */
+  equal?: boolean;
   onCursor?(position: CursorPosition | null): void;
   onClick?(position: CursorPosition): void;
   /** Default: reset the zoom. */
@@ -179,7 +185,7 @@ export class Plot {
       const half = ((b - a) / 2) * factor;
       return [middle - half, middle + half];
     };
-    const view: View = { x: scaled(this.view.x), y: this.view.y };
+    const view: View = { x: scaled(this.view.x), y: this.#options.equal ? scaled(this.view.y) : this.view.y };
     const all = view.x[1] - view.x[0] >= extent.x[1] - extent.x[0];
     this.setView(all ? null : view, true);
   }
@@ -260,7 +266,7 @@ export class Plot {
       grid: { show: this.#options.grid ?? true, stroke: () => theme().grid, width: 1 },
       ticks: { show: true, stroke: () => theme().muted, width: 1, size: 4 },
       border: { show: true, stroke: () => theme().muted, width: 1 },
-      values: (_u, splits, _axis, _space, step) => ticks(splits, step),
+      values: (_u, splits, _axis, _space, step) => ticks(splits, step).map((text, i) => ((splits[i] as number) < (options.from ?? Number.NEGATIVE_INFINITY) ? '' : text)),
       ...(options.steps ? { incrs: options.steps } : {}),
     });
     const options = this.#options;
@@ -270,10 +276,10 @@ export class Plot {
       padding: [8, options.right ?? 14, 0, 0],
       legend: { show: false },
       scales: {
-        x: { time: false, auto: false, range: () => [...this.view.x] as [number, number] },
-        y: { auto: false, range: () => [...this.view.y] as [number, number] },
+        x: { time: false, auto: false, range: (u) => [...this.#drawn(u).x] as [number, number] },
+        y: { auto: false, range: (u) => [...this.#drawn(u).y] as [number, number] },
       },
-      axes: [axis(options.x, 2, AXIS_HEIGHT - 18), axis(options.y, 3, AXIS_WIDTH - 18)],
+      axes: [axis(options.x, 2, AXIS_HEIGHT - 18), axis(options.y, 3, (options.y.width ?? AXIS_WIDTH) - 18)],
       series: [{}, { scale: 'y', show: false }],
       cursor: {
         drag: { x: true, y: true, uni: 24, setScale: false },
@@ -318,12 +324,21 @@ export class Plot {
   }
 
   #applyView(): void {
-    const { x, y } = this.view;
+    const { x, y } = this.#drawn(this.u);
     this.u.batch(() => {
       this.u.setScale('x', { min: x[0], max: x[1] });
       this.u.setScale('y', { min: y[0], max: y[1] });
       this.u.redraw(true, true);
     });
+  }
+
+  /** The view, with equal scales widened to the shape of the plot. */
+  #drawn({ bbox }: uPlot): View {
+    const { x, y } = this.view;
+    if (!this.#options.equal || !(bbox.width > 0 && bbox.height > 0)) return { x, y };
+    const unit = Math.max((x[1] - x[0]) / bbox.width, (y[1] - y[0]) / bbox.height);
+    const widened = ([a, b]: Interval, size: number): Interval => [(a + b - unit * size) / 2, (a + b + unit * size) / 2];
+    return { x: widened(x, bbox.width), y: widened(y, bbox.height) };
   }
 
   #within(view: View): View {
@@ -340,6 +355,7 @@ export class Plot {
     const height = this.host.clientHeight;
     if (width > 0 && height > 0 && (width !== this.u.width || height !== this.u.height)) {
       this.u.setSize({ width, height });
+      if (this.#options.equal) this.#applyView();
     }
   }
 
@@ -428,7 +444,11 @@ export class Plot {
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
     const context = this.#context();
-    for (const layer of this.#content.below ?? []) layer(context);
+    for (const layer of this.#content.below ?? []) {
+      ctx.save();
+      layer(context);
+      ctx.restore();
+    }
     ctx.restore();
   }
 

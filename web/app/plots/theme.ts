@@ -50,6 +50,12 @@ const METHOD_STYLES: Record<string, SeriesStyle> = {
   iaa: { color: { light: '#8a3ab9', dark: '#c99af2' }, marker: 'star' },
   nomp: { color: { light: '#3d4650', dark: '#e9edf0' }, marker: 'plus' },
   'maximum-likelihood': { color: { light: '#0e7f92', dark: '#56d3e6' }, marker: 'cross' },
+  'weighted-mean': { color: { light: '#d55e00', dark: '#ff8a3d' }, dash: [7, 3], marker: 'square' },
+  kabsch: { color: { light: '#a3154e', dark: '#ff7fa8' }, dash: [2, 3], marker: 'up' },
+  'least-squares': { color: { light: '#00896a', dark: '#2fcf9f' }, dash: [9, 3, 2, 3], marker: 'diamond' },
+  'orthogonal-distance': { color: { light: '#8a3ab9', dark: '#c99af2' }, dash: [4, 3], marker: 'down' },
+  recursive: { color: { light: '#0072b2', dark: '#4aa8e8' }, width: 2, marker: 'circle' },
+  joint: { color: { light: '#3d4650', dark: '#e9edf0' }, dash: [10, 3], marker: 'star' },
   'sparse-bayesian': { color: { light: '#8c6d00', dark: '#e8c84a' }, dash: [9, 3, 2, 3], marker: 'bar' },
 };
 
@@ -60,5 +66,18 @@ export function methodStyle(method: string): SeriesStyle {
 }
 
 export const ACCENT_STYLE: SeriesStyle = FALLBACK;
+
+/** Static detections have a weight near 1, others near 0: from orange to blue, through grey. */
+const WEIGHT_COLORS: Record<ThemeName, readonly [low: readonly number[], middle: readonly number[], high: readonly number[]]> = {
+  light: [[213, 94, 0], [138, 138, 138], [0, 98, 165]],
+  dark: [[255, 138, 61], [150, 150, 150], [94, 180, 240]],
+};
+
+export function weightColor(weight: number, theme: ThemeName): string {
+  const [low, middle, high] = WEIGHT_COLORS[theme];
+  const share = Math.min(Math.max(weight, 0), 1) * 2;
+  const [from, to, part] = share < 1 ? [low, middle, share] : [middle, high, share - 1];
+  return `rgb(${from.map((value, i) => Math.round(value + ((to[i] as number) - value) * part)).join(', ')})`;
+}
 
 export const TRUTH_STYLE: SeriesStyle = { color: { light: '#23292f', dark: '#f0f3f5' }, marker: 'cross' };

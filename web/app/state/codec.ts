@@ -35,6 +35,11 @@ export function text(fallback: string, valid: (text: string) => boolean): Field<
   return { fallback, read: (value) => (valid(value) ? value : undefined), write: (value) => value };
 }
 
+/** A value that may be left to what follows from others. */
+export function optional<T>(field: Field<T>): Field<T | null> {
+  return { fallback: null, read: field.read, write: (value) => (value === null ? '' : field.write(value)) };
+}
+
 /** Names from a known set, in the set's order; a dash for none. */
 export function names<T extends string>(fallback: readonly T[], known: readonly T[]): Field<readonly T[]> {
   return {

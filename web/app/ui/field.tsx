@@ -13,6 +13,9 @@ function Help({ id, children }: { id: string; children: string }) {
   return <p id={id} class={showHelp.value ? 'help' : 'visually-hidden'}>{children}</p>;
 }
 
+/** Nothing for a number that is not known. */
+const numberText = (value: number): string => (Number.isFinite(value) ? String(value) : '');
+
 export function NumberField(props: FieldProps & {
   value: number;
   min: number;
@@ -24,11 +27,11 @@ export function NumberField(props: FieldProps & {
   onChange(value: number): void;
 }) {
   const id = useId();
-  const [text, setText] = useState(String(props.value));
+  const [text, setText] = useState(numberText(props.value));
   const [problem, setProblem] = useState<string | null>(null);
   useEffect(() => {
-    if (Number(text) !== props.value) {
-      setText(String(props.value));
+    if (text.trim() === '' ? Number.isFinite(props.value) : Number(text) !== props.value) {
+      setText(numberText(props.value));
       setProblem(null);
     }
   }, [props.value]);
@@ -54,7 +57,7 @@ export function NumberField(props: FieldProps & {
           onInput={(event) => input(event.currentTarget.value)}
           onBlur={() => {
             if (problem) {
-              setText(String(props.value));
+              setText(numberText(props.value));
               setProblem(null);
             }
           }} />

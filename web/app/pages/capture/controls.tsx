@@ -1,12 +1,14 @@
 /** Files and options of the capture page. */
-import { useSignal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useRef } from 'preact/hooks';
 import type { Method } from 'boresight';
 import { api } from '../../data.ts';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
+import { byteSize } from '../../plots/format.ts';
 import { methodStyle } from '../../plots/theme.ts';
 import { showHelp } from '../../state/settings.ts';
+import { useFileDrop } from '../../ui/drop.ts';
 import { CheckField, Group, NumberField, SelectField } from '../../ui/field.tsx';
+import { Licence } from '../../ui/licence.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { fileProblem, loaded, openBundled, openFiles } from './files.ts';
@@ -121,47 +123,21 @@ export function Controls() {
   );
 }
 
-function size(bytes: number): string {
-  return bytes < 1024 ? `${bytes} B` : bytes < 1024 ** 2 ? `${(bytes / 1024).toFixed(0)} KiB` : `${(bytes / 1024 ** 2).toFixed(2)} MiB`;
-}
-
 function Files() {
-  const over = useSignal(false);
+  const over = useFileDrop((transfer) => void openFiles([...transfer.files]));
   const input = useRef<HTMLInputElement>(null);
   const files = loaded.value?.files ?? [];
-  useEffect(() => {
-    const holdsFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
-    const drag = (event: DragEvent): void => {
-      if (!holdsFiles(event)) return;
-      event.preventDefault();
-      over.value = true;
-    };
-    const leave = (event: DragEvent): void => {
-      if (event.relatedTarget === null) over.value = false;
-    };
-    const drop = (event: DragEvent): void => {
-      if (!holdsFiles(event)) return;
-      event.preventDefault();
-      over.value = false;
-      void openFiles([...(event.dataTransfer?.files ?? [])]);
-    };
-    addEventListener('dragover', drag);
-    addEventListener('dragleave', leave);
-    addEventListener('drop', drop);
-    return () => {
-      removeEventListener('dragover', drag);
-      removeEventListener('dragleave', leave);
-      removeEventListener('drop', drop);
-    };
-  }, []);
   return (
     <div class={`drop${over.value ? ' over' : ''}`}>
       <ul class="files" aria-label="Open files">
         {files.map(({ kind, name, bytes }) => (
-          <li key={kind}><span class="kind">.{kind}</span><span class="file">{name}</span><span class="muted">{size(bytes)}</span></li>
+          <li key={kind}><span class="kind">.{kind}</span><span class="file">{name}</span><span class="muted">{byteSize(bytes)}</span></li>
         ))}
       </ul>
-      {loaded.value?.bundled && <Licence address={loaded.value.bundled.licence} />}
+      {loaded.value?.bundled && (
+        <Licence address={loaded.value.bundled.licence} summary="Recorded at the University of Colorado Boulder, Apache-2.0"
+          remark="From cstahoviak/radar-velocity-estimation. The scene is not described; the board’s log names its objects." />
+      )}
       <div class="row">
         <button type="button" onClick={() => input.current?.click()} title="A raw capture (.bin) with its configuration (.cfg), and the board’s log (.dat) if there is one">Open files</button>
         <button type="button" onClick={() => void openBundled()} disabled={Boolean(loaded.value?.bundled) && !fileProblem.value}>Bundled capture</button>
@@ -176,21 +152,5 @@ function Files() {
         Or drop a .bin with its .cfg, and a .dat, anywhere on the page. Nothing is uploaded.
       </p>
     </div>
-  );
-}
-
-/** Whose the bundled recording is, and on what terms. */
-function Licence({ address }: { address: string }) {
-  const text = useSignal<string | null>(null);
-  const load = async (): Promise<void> => {
-    const response = await fetch(address);
-    text.value = response.ok ? await response.text() : `The licence could not be loaded: the server answered ${response.status}.`;
-  };
-  return (
-    <details class="licence small" onToggle={(event) => event.currentTarget.open && text.value === null && void load()}>
-      <summary>Recorded at the University of Colorado Boulder, Apache-2.0</summary>
-      <p class="muted">From cstahoviak/radar-velocity-estimation. The scene is not described; the board’s log names its objects.</p>
-      <pre tabIndex={0} aria-label="Licence of the recording">{text.value ?? ''}</pre>
-    </details>
   );
 }

@@ -1,6 +1,6 @@
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { fixed, signed } from '../../plots/format.ts';
+import { count, fixed, signed } from '../../plots/format.ts';
 import { announce } from '../../state/announce.ts';
 import { lastParams, route, writeParams } from '../../state/route.ts';
 import { About } from '../../ui/about.tsx';
@@ -156,7 +156,7 @@ function Remarks({ view }: { view: FrameResult }) {
     <section class="panel" aria-labelledby="counts-title">
       <div class="panel-head"><h3 id="counts-title">What was dropped, and remarks</h3></div>
       <dl class="facts flat" data-facts="counts">
-        {facts.map(([term, value, help]) => <div key={term} title={help}><dt>{term}</dt><dd>{value.toLocaleString('en').replaceAll(',', '\u202f')}</dd></div>)}
+        {facts.map(([term, value, help]) => <div key={term} title={help}><dt>{term}</dt><dd>{count(value)}</dd></div>)}
       </dl>
       {warnings.length > 0 && <ul class="warnings">{warnings.map(({ code, message }, i) => <li key={i}>{message} <code>{code}</code></li>)}</ul>}
     </section>

@@ -4,7 +4,7 @@ import { useMemo } from 'preact/hooks';
 import type { BoardObject, Cell, FrameResult } from 'boresight';
 import { fixed, signed } from '../../plots/format.ts';
 import { cellExtent, COLOR_BAR_WIDTH, colorBar, heatImage } from '../../plots/heat.ts';
-import { type Layer, verticalLines } from '../../plots/layers.ts';
+import { clipToPlot, type Layer, verticalLines } from '../../plots/layers.ts';
 import type { View as Zoom } from '../../plots/plot.ts';
 import { toCsv } from '../../plots/save.ts';
 import { ACCENT_STYLE } from '../../plots/theme.ts';
@@ -169,15 +169,9 @@ function outlined(ctx: CanvasRenderingContext2D, ratio: number, path: Path2D): v
   ctx.stroke(path);
 }
 
-function clip(ctx: CanvasRenderingContext2D, { left, top, width, height }: { left: number; top: number; width: number; height: number }): void {
-  ctx.beginPath();
-  ctx.rect(left, top, width, height);
-  ctx.clip();
-}
-
 function detectionBoxes(view: FrameResult): Layer {
   return ({ ctx, plot, ratio, x, y }) => {
-    clip(ctx, plot.bbox);
+    clipToPlot(ctx, plot);
     const r = 5 * ratio;
     const path = new Path2D();
     for (const row of view.detections) {
@@ -189,7 +183,7 @@ function detectionBoxes(view: FrameResult): Layer {
 
 function selection(view: FrameResult, cell: Cell): Layer {
   return ({ ctx, plot, ratio, x, y }) => {
-    clip(ctx, plot.bbox);
+    clipToPlot(ctx, plot);
     const { left, top, width, height } = plot.bbox;
     const [px, py] = [x(view.rangeM[cell.rangeBin] ?? 0), y(view.rateMps[cell.dopplerBin] ?? 0)];
     const gap = 9 * ratio;

@@ -1,0 +1,102 @@
+/** The angle over driving time, as each method has it, with the deviation it claims. */
+import { useMemo } from 'preact/hooks';
+import type { AngleHistory } from 'boresight';
+import { fixed, signed } from '../../plots/format.ts';
+import { areaBetween, dots, horizontalLine, type Layer, polyline } from '../../plots/layers.ts';
+import { toCsv } from '../../plots/save.ts';
+import { methodStyle, TRUTH_STYLE } from '../../plots/theme.ts';
+import type { LegendItem } from '../../ui/plot-frame.tsx';
+import { loaded, sensor } from './drive.ts';
+import { quantiles } from './frame.ts';
+import { after } from './playhead.ts';
+import { results, shown, shownMethod, where } from './process.ts';
+import { mountingState } from './state.ts';
+import { sinceStart, startTime, TimePlot, timeExtent } from './time-plot.tsx';
+import { about, type Way, WAYS } from './ways.ts';
+
+interface Curve { method: Way; title: string; history: AngleHistory; stale: boolean }
+
+/** The last entry not later than a time. */
+const entry = (history: AngleHistory, timeS: number): number => after(history.timeS, timeS) - 1;
+
+export function AnglePlot() {
+  const { band, singles } = mountingState.value;
+  const sigmas = Number(band);
+  const radar = sensor.value;
+  const open = loaded.value;
+  const trueDeg = radar ? open?.statedDeg.get(radar.id) : undefined;
+  const nominalDeg = where.value?.nominalDeg ?? null;
+  const found = results.value;
+  const frames = shown.value;
+  const method = shownMethod.value;
+  const curves = useMemo(() => WAYS.flatMap((way): Curve[] => {
+    const result = found.get(way);
+    const history = result?.calibration?.history;
+    return history ? [{ method: way, title: about(way).title, history, stale: result.stale }] : [];
+  }), [found]);
+  const content = useMemo(() => {
+    const below: Layer[] = [];
+    const lines: Layer[] = [];
+    for (const { method, history } of curves) {
+      const x = sinceStart(history.timeS);
+      const style = methodStyle(method);
+      const edge = (sign: number): Float64Array => history.angleDeg.map((angle, i) => angle + sign * sigmas * (history.sigmaDeg[i] as number));
+      below.push(areaBetween(x, edge(-1), edge(1), style));
+      lines.push(polyline(x, history.angleDeg, style));
+    }
+    if (frames && method && singles) lines.unshift(dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.3));
+    const extent = { x: timeExtent(), y: angleExtent(curves, sigmas, trueDeg, nominalDeg) };
+    if (nominalDeg !== null) lines.push(horizontalLine(nominalDeg, `nominal ${signed(nominalDeg, 2)}°`, { left: true }));
+    if (trueDeg !== undefined) {
+      lines.push(horizontalLine(trueDeg, `${open?.truth ? 'true' : 'stated'} ${signed(trueDeg, 2)}°`, { color: (t) => t.truth, dash: [6, 3] }));
+    }
+    return { x: sinceStart(curves[0]?.history.timeS ?? new Float64Array()), series: [], extent, below, above: lines };
+  }, [curves, frames, singles, sigmas, trueDeg, nominalDeg]);
+  const at = (curve: Curve, x: number): string => {
+    const i = entry(curve.history, x + startTime());
+    const [angle, sigma] = [curve.history.angleDeg[i] ?? Number.NaN, curve.history.sigmaDeg[i] ?? Number.NaN];
+    return `${signed(angle, 3)}° ± ${sigma === Number.POSITIVE_INFINITY ? '∞' : fixed(sigma, 3)}`;
+  };
+  const legend: LegendItem[] = [
+    ...curves.map((curve): LegendItem => ({
+      id: curve.method, label: curve.title, style: methodStyle(curve.method), line: true, value: ({ x }) => at(curve, x),
+    })),
+    ...(trueDeg === undefined ? [] : [{ id: 'truth', label: open?.truth ? 'True angle' : 'Angle stated by the data set', style: { ...TRUTH_STYLE, dash: [6, 3] }, line: true }]),
+  ];
+  const outside = nominalDeg !== null && (nominalDeg < content.extent.y[0] || nominalDeg > content.extent.y[1]);
+  return (
+    <TimePlot title="Angle over driving time" name="angle-history" height="medium" content={content} legend={legend}
+      y={{ label: 'Mounting angle (°)', width: 64 }}
+      readout={({ x, y }) => `Time ${fixed(x, 1)} s   Angle ${signed(y, 3)}°`}
+      csv={() => toCsv(
+        ['method', 'time_s', 'angle_deg', 'sigma_deg'],
+        curves.flatMap(({ method, history }) => Array.from(history.timeS, (time, i) => [method, time, history.angleDeg[i], history.sigmaDeg[i]])),
+      )}
+      remarks={[
+        `Shaded: the angle ± ${band} standard deviation${band === '1' ? '' : 's'}, as each method claims them.`
+        + `${frames && singles ? ' Dots: what single frames give.' : ''}${outside ? ` The nominal angle, ${signed(nominalDeg, 2)}°, is outside.` : ''}`,
+      ]} />
+  );
+}
+
+/** What is worth showing: the first part of the drive, when little is known, may run out of sight. */
+function angleExtent(curves: readonly Curve[], sigmas: number, trueDeg: number | undefined, nominalDeg: number | null): [number, number] {
+  const edges: number[] = [];
+  const ends: number[] = trueDeg === undefined ? [] : [trueDeg];
+  for (const { history: { angleDeg, sigmaDeg } } of curves) {
+    for (let i = Math.floor(angleDeg.length * 0.1); i < angleDeg.length; i++) {
+      const [angle, sigma] = [angleDeg[i] as number, sigmas * (sigmaDeg[i] as number)];
+      if (Number.isFinite(sigma)) edges.push(angle - sigma, angle + sigma);
+    }
+    const last = angleDeg.at(-1);
+    if (last !== undefined && Number.isFinite(last)) ends.push(last);
+  }
+  const [low, high] = quantiles(edges, 0.04, 0.96) ?? [nominalDeg ?? -1, nominalDeg ?? 1];
+  const [bottom, top] = [Math.min(low, ...ends), Math.max(high, ...ends)];
+  const room = Math.max(0.2 * (top - bottom), 0.05);
+  const shown: [number, number] = [bottom - room, top + room];
+  // The nominal angle is drawn in where that leaves the rest readable.
+  if (nominalDeg !== null && nominalDeg > shown[1] && nominalDeg - shown[1] < top - bottom) shown[1] = nominalDeg + room;
+  if (nominalDeg !== null && nominalDeg < shown[0] && shown[0] - nominalDeg < top - bottom) shown[0] = nominalDeg - room;
+  return shown;
+}

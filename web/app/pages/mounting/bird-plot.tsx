@@ -1,0 +1,113 @@
+/** The frame from above, in the car's frame, with the angle applied. */
+import { useMemo } from 'preact/hooks';
+import { fixed, signed } from '../../plots/format.ts';
+import type { Layer } from '../../plots/layers.ts';
+import { toCsv } from '../../plots/save.ts';
+import { ACCENT_STYLE } from '../../plots/theme.ts';
+import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { detectionLayer, detectionLegend, nearest } from './detections.ts';
+import { loaded } from './drive.ts';
+import { type FrameView, inCar, quantiles, sample, usedAngleDeg } from './frame.ts';
+import { where } from './process.ts';
+import { fileParts, frameKey } from './time-plot.tsx';
+
+/** A car's outline about its rear axle, m: typical, as logs do not say. */
+const CAR = { behind: 1, ahead: 3.9, half: 0.93 } as const;
+
+export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
+  const drive = loaded.value?.drive;
+  const at = where.value;
+  const angleDeg = usedAngleDeg.value;
+  const extent = useMemo(() => {
+    const ranges = drive?.detections.rangeM;
+    const azimuths = drive?.detections.azimuthDeg;
+    const places = sample.value.map((k) => inCar(ranges?.[k] ?? Number.NaN, azimuths?.[k] ?? Number.NaN, at?.nominalDeg ?? angleDeg));
+    const along = (axis: 0 | 1): [number, number] => {
+      const [low, high] = quantiles(places.map((place) => place[axis]), 0.02, 0.95) ?? [-20, 20];
+      return [Math.min(low, -3) - 2, Math.max(high, 6) + 2];
+    };
+    return { x: along(0), y: along(1) };
+  }, [drive, sample.value, at?.nominalDeg]);
+  const places = useMemo(() => {
+    const all = Array.from(view.azimuthDeg, (azimuth, i) => inCar(view.rangeM?.[i] ?? Number.NaN, azimuth, angleDeg));
+    return { x: all.map(([x]) => x), y: all.map(([, y]) => y) };
+  }, [view, angleDeg, at]);
+  const content = useMemo(() => ({
+    x: [], series: [], extent,
+    below: [car(), boresight(at?.xM ?? 0, at?.yM ?? 0, at?.nominalDeg ?? null, angleDeg)],
+    above: [detectionLayer(places.x, places.y, view)],
+  }), [places, view, extent, at?.nominalDeg, angleDeg]);
+  const legend: LegendItem[] = [
+    ...detectionLegend(view),
+    { id: 'boresight', label: `Boresight, ${signed(angleDeg, 2)}°`, style: BORESIGHT, line: true },
+    ...(at?.nominalDeg == null ? [] : [{ id: 'nominal', label: `Nominal, ${signed(at.nominalDeg, 2)}°`, style: { ...BORESIGHT, dash: [3, 4] }, line: true }]),
+  ];
+  const without = !view.rangeM || quantiles(view.rangeM, 0, 1) === null;
+  return (
+    <PlotFrame title="From above, in the car’s frame" name="birds-eye" height="tall" content={content} legend={legend}
+      keys="Space plays; arrows step by a frame, with Shift by ten."
+      options={{ x: { label: 'Ahead of the rear axle (m)' }, y: { label: 'Left (m)' }, equal: true, onKey: frameKey }}
+      readout={(position) => {
+        const i = nearest(places.x, places.y, position, extent);
+        if (i === null) return `Ahead ${signed(position.x, 1)} m   left ${signed(position.y, 1)} m`;
+        const rcs = view.rcsDbsm?.[i];
+        return `Detection ${i + 1}: ahead ${signed(places.x[i] as number, 1)} m   left ${signed(places.y[i] as number, 1)} m   range ${fixed(view.rangeM?.[i] ?? Number.NaN, 1)} m`
+          + (rcs !== undefined && Number.isFinite(rcs) ? `   RCS ${signed(rcs, 1)} dBsm` : '');
+      }}
+      csv={() => toCsv(
+        ['x_m', 'y_m', 'range_m', 'azimuth_deg', 'rcs_dbsm', 'weight'],
+        Array.from(view.azimuthDeg, (azimuth, i) => [places.x[i], places.y[i], view.rangeM?.[i], azimuth, view.rcsDbsm?.[i], view.weights?.[i]]),
+      )}
+      fileParts={[...fileParts(), `${fixed(view.timeS, 2)}s`]}
+      remarks={[without && view.azimuthDeg.length ? 'This drive has no ranges, so its detections have no place.' : `${label}. The radar is turned by the angle found. The car’s outline is a typical one.`]} />
+  );
+}
+
+const BORESIGHT = { color: ACCENT_STYLE.color };
+
+function car(): Layer {
+  return ({ ctx, theme, ratio, x, y }) => {
+    const [back, front] = [x(-CAR.behind), x(CAR.ahead)];
+    const [left, right] = [y(CAR.half), y(-CAR.half)];
+    ctx.fillStyle = theme.shade;
+    ctx.strokeStyle = theme.muted;
+    ctx.lineWidth = 1.5 * ratio;
+    ctx.beginPath();
+    ctx.roundRect(back, left, front - back, right - left, Math.min(4 * ratio, (right - left) / 3));
+    ctx.fill();
+    ctx.stroke();
+    // The windscreen tells front from back, the line is the rear axle.
+    ctx.beginPath();
+    ctx.moveTo(x(2.4), y(CAR.half * 0.8));
+    ctx.lineTo(x(2.4), y(-CAR.half * 0.8));
+    ctx.moveTo(x(0), left);
+    ctx.lineTo(x(0), right);
+    ctx.lineWidth = ratio;
+    ctx.stroke();
+  };
+}
+
+/** The radar and where it looks: as found, and as it should. */
+function boresight(xM: number, yM: number, nominalDeg: number | null, angleDeg: number): Layer {
+  return ({ ctx, plot, themeName, ratio, x, y }) => {
+    const reach = Math.hypot(plot.bbox.width, plot.bbox.height);
+    const [px, py] = [x(xM), y(yM)];
+    const ray = (direction: number, dash: number[]): void => {
+      const radians = (direction * Math.PI) / 180;
+      ctx.setLineDash(dash.map((d) => d * ratio));
+      ctx.beginPath();
+      ctx.moveTo(px, py);
+      ctx.lineTo(px + reach * Math.cos(radians), py - reach * Math.sin(radians));
+      ctx.stroke();
+    };
+    ctx.strokeStyle = BORESIGHT.color[themeName];
+    ctx.fillStyle = BORESIGHT.color[themeName];
+    ctx.lineWidth = 1.3 * ratio;
+    if (nominalDeg !== null) ray(nominalDeg, [3, 4]);
+    ray(angleDeg, []);
+    ctx.setLineDash([]);
+    ctx.beginPath();
+    ctx.arc(px, py, 3.5 * ratio, 0, 2 * Math.PI);
+    ctx.fill();
+  };
+}

@@ -1,0 +1,211 @@
+/** The drive that is open: the bundled one, files that were chosen or dropped, or a simulated one. */
+import { computed, effect, signal } from '@preact/signals';
+import type { Drive, DriveSensor, DriveTruth, SimulateDriveOptions } from 'boresight';
+import type { JobOptions } from 'boresight/worker';
+import radarAddress from '../../../../recordings/delphi/front_radar.csv.gz?url';
+import poseAddress from '../../../../recordings/delphi/pose_10hz.csv.gz?url';
+import licenceAddress from '../../../../recordings/delphi/LICENSE?url';
+import { aborted, describeError, pool, type Problem } from '../../data.ts';
+import type { NamedFile } from './entries.ts';
+import { type MountingState, mountingState, update } from './state.ts';
+
+export interface Loaded {
+  /** For headings and file names. */
+  name: string;
+  source: MountingState['source'];
+  files: { name: string; bytes: number }[];
+  drive: Drive;
+  truth: DriveTruth | null;
+  /** The angle stated by those who recorded it, by radar. */
+  statedDeg: ReadonlyMap<number, number>;
+  licence: string | null;
+}
+
+export const loaded = signal<Loaded | null>(null);
+/** What is being opened, and how far that is where it is known. */
+export const opening = signal<{ what: string; share: number | null } | null>(null);
+/** An opening was ended by the user. */
+export const interrupted = signal(false);
+export const driveProblem = signal<(Problem & { file?: string }) | null>(null);
+/** Said where a link names files that only its maker has. */
+export const filesWanted = signal(false);
+
+/** The radar that is looked at. */
+export const sensor = computed<DriveSensor | null>(() => {
+  const sensors = loaded.value?.drive.sensors ?? [];
+  return sensors.find(({ id }) => id === mountingState.value.sensor) ?? sensors[0] ?? null;
+});
+
+/** Scans of that radar: their numbers and times. */
+export const scans = computed(() => {
+  const drive = loaded.value?.drive;
+  const id = sensor.value?.id;
+  if (!drive || id === undefined) return { scan: new Uint32Array(), timeS: new Float64Array() };
+  const all = drive.scans;
+  const scan = Uint32Array.from(all.sensor.keys()).filter((i) => all.sensor[i] === id);
+  return { scan, timeS: Float64Array.from(scan, (i) => all.timeS[i] as number) };
+});
+
+const KINDS = /\.(csv|csv\.gz|h5|hdf5)$/i;
+/** What a tab can hold beside its copies in workers. */
+const LARGEST_BYTES = 1024 ** 3;
+
+class FileProblem extends Error {
+  readonly code: string;
+  readonly file: string;
+
+  constructor(code: string, file: string, message: string) {
+    super(message);
+    this.code = code;
+    this.file = file;
+  }
+}
+
+/** The latest opening wins, and ends the one before. */
+let controller: AbortController | undefined;
+
+async function open(what: string, work: (signal: AbortSignal, job: JobOptions) => Promise<Loaded>, opened: () => void = () => {}): Promise<void> {
+  controller?.abort();
+  const mine = new AbortController();
+  controller = mine;
+  opening.value = { what, share: null };
+  interrupted.value = false;
+  filesWanted.value = false;
+  const onProgress = (done: number, total: number): void => {
+    if (controller === mine && total > 1) opening.value = { what, share: done / total };
+  };
+  try {
+    const next = await work(mine.signal, { signal: mine.signal, onProgress });
+    if (controller !== mine) return;
+    opened();
+    loaded.value = next;
+    driveProblem.value = null;
+  } catch (error) {
+    if (controller !== mine || aborted(error)) return;
+    driveProblem.value = error instanceof FileProblem
+      ? { code: error.code, message: error.message, file: error.file }
+      : describeError(error);
+  } finally {
+    if (controller === mine) {
+      controller = undefined;
+      opening.value = null;
+    }
+  }
+}
+
+/** Ends an opening under way; what was open stays. */
+export function cancelOpening(): void {
+  controller?.abort();
+  controller = undefined;
+  interrupted.value = opening.value !== null;
+  opening.value = null;
+}
+
+const attempts = signal(0);
+
+/** Takes up what was ended. */
+export function openAgain(): void {
+  attempts.value += 1;
+}
+
+/** A drive of one's own has its own radars and places. */
+const OWN = { sensor: null, xM: null, yM: null, nominal: null, minSpeed: null } as const;
+
+export function openBundled(): Promise<void> {
+  return open('Loading the bundled drive', async (signal, job) => {
+    const addresses = [['front_radar.csv.gz', radarAddress], ['pose_10hz.csv.gz', poseAddress]] as const;
+    const files = await Promise.all(addresses.map(async ([name, address]) => {
+      const response = await fetch(address, { signal });
+      if (!response.ok) throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
+      return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
+    }));
+    const sizes = files.map(({ name, bytes }) => ({ name, bytes: bytes.length }));
+    const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
+    return { name: 'bundled', source: 'delphi', files: sizes, drive, truth: null, statedDeg: new Map([[1, -1.96]]), licence: licenceAddress };
+  });
+}
+
+export function openFiles(given: readonly NamedFile[] | Promise<readonly NamedFile[]>): Promise<void> {
+  return open('Reading the files', async (signal, job) => {
+    const all = await given;
+    const kept = all.filter(({ name }) => KINDS.test(name));
+    const first = all[0];
+    if (!first) throw new FileProblem('no-drive-log', 'The folder', 'it is empty; a .csv, .csv.gz or .h5 with a drive is expected');
+    if (kept.length === 0) {
+      const what = all.length === 1 ? first.name : `${all.length} files`;
+      throw new FileProblem('no-drive-log', what, 'no drive is in it; .csv or .csv.gz tables, or the radar_data.h5 of a RadarScenes sequence, are expected');
+    }
+    const size = kept.reduce((sum, { file }) => sum + file.size, 0);
+    const what = kept.length === 1 ? (kept[0] as NamedFile).name : `${kept.length} files`;
+    if (size > LARGEST_BYTES) {
+      throw new FileProblem('too-large', what, `${Math.round(size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected: choose one sequence`);
+    }
+    const files = await Promise.all(kept.map(async ({ name, file }) => ({ name, bytes: new Uint8Array(await file.arrayBuffer()) })));
+    signal.throwIfAborted();
+    try {
+      const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
+      const name = (kept[0] as NamedFile).name.split('/').at(-2) ?? (kept[0] as NamedFile).name.replace(KINDS, '');
+      return {
+        name, source: 'files', files: kept.map(({ name, file }) => ({ name, bytes: file.size })),
+        drive, truth: null, statedDeg: new Map(), licence: null,
+      };
+    } catch (error) {
+      if (aborted(error)) throw error;
+      const { code, message } = describeError(error);
+      throw new FileProblem(code, what, message);
+    }
+  }, () => update({ ...OWN, source: 'files' }));
+}
+
+function simulation(state: MountingState): SimulateDriveOptions {
+  const { scenario, seed, duration, moving, misalignment } = state;
+  const misalignmentDeg = Object.fromEntries([1, 2, 3, 4].map((id) => [id, misalignment]));
+  return { scenario, seed, durationS: duration, misalignmentDeg, ...(moving === null ? {} : { movingShare: moving / 100 }) };
+}
+
+function openSimulated(options: SimulateDriveOptions): Promise<void> {
+  return open('Simulating a drive', async (_, job) => {
+    const { truth, ...drive } = await pool().simulateDrive(options, job);
+    return {
+      name: `${options.scenario}-seed${options.seed}`, source: 'simulated', files: [], drive, truth,
+      statedDeg: new Map(truth.sensors.map(({ id, yawDeg }) => [id, yawDeg])), licence: null,
+    };
+  });
+}
+
+export function chooseSource(source: 'delphi' | 'simulated'): void {
+  update({ ...OWN, source });
+}
+
+/** Opens what the state names, again when it names something else. */
+export function start(): () => void {
+  const source = computed(() => mountingState.value.source);
+  const options = computed(() => (source.value === 'simulated' ? JSON.stringify(simulation(mountingState.value)) : ''));
+  let simulated = '';
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const stop = effect(() => {
+    void attempts.value;
+    const wanted = source.value;
+    const text = options.value;
+    clearTimeout(timer);
+    const open = loaded.peek();
+    if (wanted === 'delphi') {
+      if (open?.source !== 'delphi') void openBundled();
+    } else if (wanted === 'simulated') {
+      if (open?.source === 'simulated' && simulated === text) return;
+      // Numbers are typed digit by digit.
+      timer = setTimeout(() => {
+        simulated = text;
+        void openSimulated(JSON.parse(text) as SimulateDriveOptions);
+      }, open ? 400 : 0);
+    } else if (open?.source !== 'files' && opening.peek() === null) {
+      void openBundled().then(() => { filesWanted.value = loaded.peek()?.source === 'delphi'; });
+    }
+  });
+  return () => {
+    clearTimeout(timer);
+    cancelOpening();
+    interrupted.value = false;
+    stop();
+  };
+}

@@ -1,0 +1,99 @@
+/** The frame that is shown: its detections, and what the methods made of them. */
+import { computed } from '@preact/signals';
+import type { DriveFrame, FrameVerdict } from 'boresight';
+import { api } from '../../data.ts';
+import { loaded, scans } from './drive.ts';
+import { frame } from './playhead.ts';
+import { results, shown, shownMethod, where } from './process.ts';
+import type { Way } from './ways.ts';
+
+export interface FrameView extends DriveFrame {
+  /** For each detection the weight with which it was taken as static; null without a result. */
+  weights: Float32Array | null;
+  /** For each detection whether it truly comes from something moving, where the drive knows. */
+  moving: Uint8Array | null;
+  verdict: FrameVerdict | null;
+  /** The radar's own motion, by the method that is shown. */
+  motion: Motion | null;
+  /** The same by every method that has one. */
+  motions: ReadonlyMap<Way, Motion>;
+  angleDeg: number | null;
+  angleSigmaDeg: number | null;
+}
+
+/** RadarScenes' class of what does not move. */
+const STATIC_LABEL = 11;
+
+/** In the radar's frame. */
+export interface Motion { vxMps: number; vyMps: number }
+
+/** Range rate of what stands, seen from a moving radar. */
+export function standingRate({ vxMps, vyMps }: Motion, azimuthDeg: number): number {
+  const azimuth = (azimuthDeg * Math.PI) / 180;
+  return -(vxMps * Math.cos(azimuth) + vyMps * Math.sin(azimuth));
+}
+
+export const frameView = computed<FrameView | null>(() => {
+  const { drive, truth } = loaded.value ?? {};
+  const { scan } = scans.value;
+  const index = frame.value;
+  const at = scan[index];
+  if (!drive || at === undefined) return null;
+  const motions = new Map<Way, Motion>();
+  for (const [method, { calibration }] of results.value) {
+    const vxMps = calibration?.frames.vxMps[index];
+    const vyMps = calibration?.frames.vyMps[index];
+    if (vxMps !== undefined && vyMps !== undefined && Number.isFinite(vxMps)) motions.set(method, { vxMps, vyMps });
+  }
+  const calibration = shown.value;
+  const frames = calibration?.frames;
+  const known = (value: number | undefined): number | null => (value !== undefined && Number.isFinite(value) ? value : null);
+  const { offsets, values } = frames?.weights ?? {};
+  const read = api.driveFrame(drive, at);
+  const labelled = read.label?.map((label) => Number(label !== STATIC_LABEL));
+  return {
+    ...read,
+    moving: truth?.moving.subarray(drive.scans.offsets[at], drive.scans.offsets[at + 1]) ?? labelled ?? null,
+    weights: offsets && values ? values.subarray(offsets[index], offsets[index + 1]) : null,
+    verdict: (frames && api.frameVerdicts[frames.verdict[index] ?? -1]) ?? null,
+    motion: (shownMethod.value && motions.get(shownMethod.value)) ?? null,
+    motions,
+    angleDeg: known(frames?.angleDeg[index]),
+    angleSigmaDeg: known(frames?.angleSigmaDeg[index]),
+  };
+});
+
+/** Where detections are in the car's frame if the radar is mounted at an angle. */
+export function inCar(rangeM: number, azimuthDeg: number, angleDeg: number): [x: number, y: number] {
+  const direction = ((azimuthDeg + angleDeg) * Math.PI) / 180;
+  return [(where.value?.xM ?? 0) + rangeM * Math.cos(direction), (where.value?.yM ?? 0) + rangeM * Math.sin(direction)];
+}
+
+/** The angle in use: the one that was found, else the nominal one. */
+export const usedAngleDeg = computed(() => shown.value?.result.angleDeg ?? where.value?.nominalDeg ?? 0);
+
+/** Values below and above which a share lies, of what is finite; of at most about 20,000. */
+export function quantiles(values: ArrayLike<number>, low: number, high: number): [number, number] | null {
+  const every = Math.max(Math.floor(values.length / 20_000), 1);
+  const some: number[] = [];
+  for (let i = 0; i < values.length; i += every) if (Number.isFinite(values[i])) some.push(values[i] as number);
+  if (!some.length) return null;
+  some.sort((a, b) => a - b);
+  return [some[Math.floor(low * (some.length - 1))] as number, some[Math.ceil(high * (some.length - 1))] as number];
+}
+
+/** Numbers of the detections of the radar that is looked at, at most about 20,000 of them. */
+export const sample = computed(() => {
+  const drive = loaded.value?.drive;
+  const { scan } = scans.value;
+  if (!drive) return [];
+  const { offsets } = drive.scans;
+  const total = scan.reduce((sum, at) => sum + (offsets[at + 1] as number) - (offsets[at] as number), 0);
+  const every = Math.max(Math.ceil(total / 20_000), 1);
+  const numbers: number[] = [];
+  for (let i = 0; i < scan.length; i += every) {
+    const at = scan[i] as number;
+    for (let k = offsets[at] as number; k < (offsets[at + 1] as number); k++) numbers.push(k);
+  }
+  return numbers;
+});

@@ -1,0 +1,160 @@
+/** Calibration by every chosen method, on workers: again when drive or options change, the latest wins. */
+import { batch, computed, effect, signal } from '@preact/signals';
+import type { CalibrationOptions, Drive, DriveCalibration } from 'boresight';
+import type { JobOptions } from 'boresight/worker';
+import { aborted, describeError, pool, type Problem } from '../../data.ts';
+import { type Loaded, loaded, sensor } from './drive.ts';
+import { calibrationOptions, mountingState, type Place, place } from './state.ts';
+import { type Way, WAYS } from './ways.ts';
+
+export interface MethodResult {
+  calibration?: DriveCalibration;
+  problem?: Problem;
+  /** Not of the present options: about to be replaced, unless that was cancelled. */
+  stale: boolean;
+  milliseconds?: number;
+}
+
+export const results = signal<ReadonlyMap<Way, MethodResult>>(new Map());
+export const progress = signal<{ done: number; total: number } | null>(null);
+export const wasCancelled = signal(false);
+/** Whether what is shown is about to be replaced. */
+export const working = signal(false);
+
+/** Where the radar is taken to be. */
+export const where = computed<Place | null>(() => (sensor.value ? place(mountingState.value, sensor.value) : null));
+
+/** Whose frames are shown: the chosen method, if it runs. */
+export const shownMethod = computed<Way | null>(() => {
+  const { shown } = mountingState.value;
+  const methods = chosen.value;
+  return methods.includes(shown) ? shown : (methods[0] ?? null);
+});
+
+export const shown = computed<DriveCalibration | null>(() => {
+  const method = shownMethod.value;
+  return (method && results.value.get(method)?.calibration) ?? null;
+});
+
+/** Whether all radars can be estimated together: there are several, each with a place. */
+export const jointPossible = computed(() => {
+  const sensors = loaded.value?.drive.sensors ?? [];
+  return sensors.length > 1 && sensors.every(({ id, xM }) => xM !== null || id === sensor.value?.id);
+});
+
+/** The chosen ways that are possible. */
+const chosen = computed(() => mountingState.value.methods.filter((way) => way !== 'joint' || jointPossible.value));
+
+const attempts = signal(0);
+/** What the results are of; as text, so that effects run when it changes only. */
+const job = computed(() => {
+  const open = loaded.value;
+  const radar = sensor.value;
+  const options = open && where.value && calibrationOptions(mountingState.value, where.value, open.drive.format);
+  return open && radar && options ? JSON.stringify({ sensor: radar.id, ...options }) : '';
+});
+const methods = computed(() => chosen.value.join(','));
+
+let running: AbortController | undefined;
+let knownOf: { open: Loaded; job: string } | null = null;
+const known = new Map<Way, MethodResult>();
+
+export function cancel(): void {
+  running?.abort();
+}
+
+export function restart(): void {
+  attempts.value += 1;
+}
+
+export function start(): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const stop = effect(() => {
+    void attempts.value;
+    const open = loaded.value;
+    const text = job.value;
+    const wanted = WAYS.filter((method) => methods.value.split(',').includes(method));
+    clearTimeout(timer);
+    running?.abort();
+    running = undefined;
+    batch(() => {
+      progress.value = null;
+      wasCancelled.value = false;
+      working.value = false;
+      if (!open || !text) {
+        results.value = new Map();
+        return;
+      }
+      // What another drive or radar gave must not stand beside this one.
+      const same = knownOf?.open === open && JSON.parse(knownOf.job || '{}').sensor === JSON.parse(text).sensor;
+      const before = same ? results.peek() : new Map<Way, MethodResult>();
+      if (knownOf?.open !== open || knownOf.job !== text) {
+        known.clear();
+        knownOf = { open, job: text };
+      }
+      results.value = new Map(wanted.map((method) => [method, known.get(method) ?? { ...before.get(method), stale: true }]));
+    });
+    const missing = wanted.filter((method) => !known.has(method));
+    if (!open || !text || !missing.length) return;
+    working.value = true;
+    timer = setTimeout(() => void calibrate(open, text, missing), 250);
+  });
+  return () => {
+    clearTimeout(timer);
+    running?.abort();
+    running = undefined;
+    stop();
+  };
+}
+
+type Options = Omit<CalibrationOptions, 'method'> & { sensor: number };
+
+async function calibrateBy(way: Way, drive: Drive, options: Options, job: JobOptions): Promise<DriveCalibration> {
+  if (way !== 'joint') return pool().calibrateDrive(drive, { ...options, method: way, weights: true }, job);
+  const { sensor, xM, yM, nominalDeg, motion: _, ...common } = options;
+  const mine = { sensor, xM, ...(yM === undefined ? {} : { yM }), ...(nominalDeg === undefined ? {} : { nominalDeg }) };
+  const sensors = drive.sensors.map(({ id }) => (id === sensor ? mine : id));
+  const all = await pool().jointCalibration(drive, { ...common, sensors, weights: true }, job);
+  return all.find((one) => one.sensor === sensor) as DriveCalibration;
+}
+
+async function calibrate(open: Loaded, text: string, missing: readonly Way[]): Promise<void> {
+  const controller = new AbortController();
+  running = controller;
+  const options = JSON.parse(text) as Options;
+  const shares = new Map(missing.map((method) => [method, 0]));
+  const say = (): void => {
+    if (running === controller) progress.value = { done: [...shares.values()].reduce((sum, share) => sum + share, 0), total: missing.length };
+  };
+  say();
+  await Promise.all(missing.map(async (method) => {
+    const started = performance.now();
+    try {
+      const calibration = await calibrateBy(method, open.drive, options, {
+        signal: controller.signal,
+        onProgress: (done, total) => {
+          shares.set(method, total > 0 ? done / total : 1);
+          say();
+        },
+      });
+      keep(method, { calibration, stale: false, milliseconds: performance.now() - started });
+    } catch (error) {
+      if (!aborted(error)) keep(method, { problem: describeError(error), stale: false });
+    }
+    shares.set(method, 1);
+    say();
+  }));
+  if (running !== controller) return;
+  running = undefined;
+  batch(() => {
+    progress.value = null;
+    working.value = false;
+    wasCancelled.value = controller.signal.aborted;
+  });
+
+  function keep(method: Way, result: MethodResult): void {
+    if (running !== controller) return;
+    known.set(method, result);
+    results.value = new Map(results.peek()).set(method, result);
+  }
+}

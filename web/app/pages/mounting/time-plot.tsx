@@ -1,0 +1,69 @@
+/** A plot over driving time: one zoom and one cursor for all, the playhead, and a click that goes there. */
+import { effect, signal } from '@preact/signals';
+import type { AxisOptions, Plot, View } from '../../plots/plot.ts';
+import { Playhead } from '../../plots/playhead.ts';
+import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
+import { loaded, scans, sensor } from './drive.ts';
+import { playing, step, time, togglePlaying } from './playhead.ts';
+
+/** Begin of the drive on its own clock, s. */
+export function startTime(): number {
+  return scans.value.timeS[0] ?? 0;
+}
+
+export function timeExtent(): [number, number] {
+  const { timeS } = scans.value;
+  return [0, Math.max((timeS.at(-1) ?? 1) - startTime(), 0.1)];
+}
+
+export function sinceStart(timeS: Float64Array): Float64Array {
+  const start = startTime();
+  return timeS.map((value) => value - start);
+}
+
+/** The stretch of time all these plots are zoomed to. */
+const zoom = signal<readonly [number, number] | null>(null);
+
+type Props = Omit<PlotFrameProps, 'options' | 'fileParts'> & { y: AxisOptions };
+
+export function TimePlot({ y, ...props }: Props) {
+  const [x, extentY] = [zoom.value, props.content.extent.y];
+  const follow = (plot: Plot): (() => void) => {
+    const head = new Playhead(plot);
+    const stop = effect(() => head.set(time.value - startTime()));
+    return () => {
+      stop();
+      head.destroy();
+    };
+  };
+  const view: View | null = x ? { x, y: extentY } : null;
+  return (
+    <PlotFrame {...props} view={view} fileParts={fileParts()} onPlot={follow}
+      keys="Space plays; arrows step by a frame, with Shift by ten."
+      hint="Click to go to a time."
+      options={{
+        x: { label: 'Driving time (s)' }, y, cursorKey: 'drive-time',
+        onClick: (position) => {
+          playing.value = false;
+          time.value = position.x + startTime();
+        },
+        onView: (next, zoomed) => { zoom.value = zoomed ? next.x : null; },
+        onKey: frameKey,
+      }} />
+  );
+}
+
+/** Keys that all plots of the page share. */
+export function frameKey(event: KeyboardEvent): boolean {
+  switch (event.key) {
+    case ' ': togglePlaying(); return true;
+    case 'ArrowLeft': step(event.shiftKey ? -10 : -1); return true;
+    case 'ArrowRight': step(event.shiftKey ? 10 : 1); return true;
+    default: return false;
+  }
+}
+
+/** What names the drive in a file's name. */
+export function fileParts(): (string | number)[] {
+  return [loaded.value?.name ?? 'drive', `radar${sensor.value?.id ?? ''}`];
+}

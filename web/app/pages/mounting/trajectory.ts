@@ -1,0 +1,97 @@
+/** Where the radar's own motion takes the car under an angle, and where it really was. */
+import { computed } from '@preact/signals';
+import type { Drive, DriveCalibration, Trajectory } from 'boresight';
+import { api } from '../../data.ts';
+import { loaded } from './drive.ts';
+import { after } from './playhead.ts';
+import { results, shown, where } from './process.ts';
+import type { Way } from './ways.ts';
+
+/** Length of the pieces whose ends are compared, m. */
+export const SEGMENT_M = 50;
+
+/** Null where the radar is too near the axle's line to tell how the car turns. */
+function path({ frames }: DriveCalibration, angleDeg: number): Trajectory | null {
+  const { xM, yM } = where.value ?? {};
+  return xM == null ? null : api.trajectory(frames, { angleDeg, xM, yM: yM ?? 0 });
+}
+
+/** What paths are compared with: the log's own poses, else where its speed and yaw rate take the car. */
+const reference = computed<{ path: Trajectory; kind: 'poses' | 'odometry' } | null>(() => {
+  const { motion } = loaded.value?.drive ?? {};
+  if (motion?.pose) return { path: { timeS: motion.timeS, ...motion.pose }, kind: 'poses' };
+  return motion?.speedMps.some(Number.isFinite) ? { path: odometry(motion), kind: 'odometry' } : null;
+});
+
+const strayed = (estimated: Trajectory | null): number | null =>
+  (estimated && reference.value ? api.relativeTrajectoryError(estimated, reference.value.path, SEGMENT_M) : null);
+
+export interface Paths {
+  /** With the angle that was found, and with the nominal one. */
+  found: Trajectory | null;
+  nominal: Trajectory | null;
+  /** What they are compared with, from the same start. */
+  reference: Trajectory | null;
+  kind: 'poses' | 'odometry' | null;
+  /** Mean end-point error of 50 m pieces, m. */
+  foundError: number | null;
+  nominalError: number | null;
+}
+
+export const paths = computed<Paths | null>(() => {
+  const calibration = shown.value;
+  if (!calibration) return null;
+  const nominalDeg = where.value?.nominalDeg ?? null;
+  const found = path(calibration, calibration.result.angleDeg);
+  const nominal = nominalDeg === null ? null : path(calibration, nominalDeg);
+  return {
+    found, nominal,
+    reference: found && reference.value && fromStart(reference.value.path, found),
+    kind: reference.value?.kind ?? null,
+    foundError: strayed(found), nominalError: strayed(nominal),
+  };
+});
+
+/** The same for every method, with its own motion and angle. */
+export const strays = computed<ReadonlyMap<Way, number>>(() => {
+  const errors = new Map<Way, number>();
+  for (const [way, { calibration }] of results.value) {
+    const error = calibration ? strayed(path(calibration, calibration.result.angleDeg)) : null;
+    if (error !== null) errors.set(way, error);
+  }
+  return errors;
+});
+
+/** By speed and yaw rate as they were measured; between samples with both, their mean. */
+function odometry({ timeS, speedMps, yawRateDegps }: Drive['motion']): Trajectory {
+  const known = Array.from(timeS.keys()).filter((i) => Number.isFinite(speedMps[i]) && Number.isFinite(yawRateDegps[i]));
+  const path = { timeS: Float64Array.from(known, (i) => timeS[i] as number), xM: new Float64Array(known.length), yM: new Float64Array(known.length), yawDeg: new Float64Array(known.length) };
+  for (let k = 1; k < known.length; k++) {
+    const [a, b] = [known[k - 1] as number, known[k] as number];
+    const dt = (timeS[b] as number) - (timeS[a] as number);
+    const turn = (((yawRateDegps[a] as number) + (yawRateDegps[b] as number)) / 2) * dt;
+    const way = (((speedMps[a] as number) + (speedMps[b] as number)) / 2) * dt;
+    const heading = (((path.yawDeg[k - 1] as number) + turn / 2) * Math.PI) / 180;
+    path.xM[k] = (path.xM[k - 1] as number) + way * Math.cos(heading);
+    path.yM[k] = (path.yM[k - 1] as number) + way * Math.sin(heading);
+    path.yawDeg[k] = (path.yawDeg[k - 1] as number) + turn;
+  }
+  return path;
+}
+
+/** The part in the time of another, turned and moved to begin where that does: at the origin, heading along x. */
+function fromStart({ timeS, xM, yM, yawDeg }: Trajectory, other: Trajectory): Trajectory {
+  const last = after(timeS, other.timeS[other.timeS.length - 1] ?? 0);
+  let first = Math.max(after(timeS, other.timeS[0] ?? 0) - 1, 0);
+  while (first < last && !Number.isFinite(xM[first])) first += 1;
+  const [x, y, yaw] = [xM[first] ?? 0, yM[first] ?? 0, yawDeg[first] ?? 0];
+  const [cos, sin] = [Math.cos((yaw * Math.PI) / 180), Math.sin((yaw * Math.PI) / 180)];
+  const numbers = Array.from({ length: Math.max(last - first, 0) }, (_, i) => first + i);
+  const of = (value: (i: number) => number): Float64Array => Float64Array.from(numbers, value);
+  return {
+    timeS: of((i) => timeS[i] as number),
+    xM: of((i) => cos * ((xM[i] as number) - x) + sin * ((yM[i] as number) - y)),
+    yM: of((i) => cos * ((yM[i] as number) - y) - sin * ((xM[i] as number) - x)),
+    yawDeg: of((i) => (yawDeg[i] as number) - yaw),
+  };
+}
