@@ -28,6 +28,7 @@ use crate::estimate::{AngleEstimate, FrameCounts, Remark};
 use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
 use crate::motion::MotionEstimator;
 use crate::options::{MotionMethod, Options};
+use boresight_core::Detection;
 use information::{Information, Matrix, UNKNOWNS, Vector};
 use tracked::{Cloud, Fit, Limits, Prediction};
 use vote::Vote;
@@ -51,6 +52,8 @@ const LEARNING_RATE: f64 = 0.01;
 const FREEDOM: f64 = 4.0;
 /// Frames in vain after which the nominal angle is doubted.
 const MISSES: usize = 50;
+/// Frames used before which the motion is looked for without the prediction, too.
+const START_FRAMES: u64 = 40;
 /// A speed older than this is forgotten, s.
 const SPEED_LIFE_S: f64 = 2.0;
 
@@ -180,7 +183,7 @@ impl Recursive {
             speed: self.speed.map(|(speed, time)| (speed, frame.time_s - time)),
             measured_speed: frame.speed_mps.filter(|speed| speed.is_finite()),
         };
-        let Some(fit) = self.cloud.fit(&prediction, &self.limits, self.noise_scale) else {
+        let Some(fit) = self.fit(&prediction, frame.detections) else {
             self.miss();
             return Verdict::Sparse;
         };
@@ -200,6 +203,25 @@ impl Recursive {
         let step = LEARNING_RATE * (fit.reduced_squares.clamp(0.2, 5.0) - 1.0);
         self.noise_scale = (self.noise_scale * step.exp()).clamp(1e-4, 1e4);
         self.inform(frame.time_s, &prediction, &fit, outcome)
+    }
+
+    /// The frame's motion. While the angle is new and nothing tells the car's speed, a queue of cars may fit
+    /// the prediction better than the standing world does, so that RANSAC's motion is tried as well and
+    /// the more likely one taken.
+    fn fit(&mut self, prediction: &Prediction, detections: &[Detection]) -> Option<Fit> {
+        let predicted = self.cloud.fit(prediction, &self.limits, self.noise_scale, None);
+        if self.counts.used >= START_FRAMES || prediction.measured_speed.is_some() {
+            return predicted;
+        }
+        let start = self.alone.estimate(detections).map(|motion| motion.velocity_mps);
+        let found = start.and_then(|velocity| {
+            self.cloud.fit(prediction, &self.limits, self.noise_scale, Some(velocity))
+        });
+        match (&predicted, &found) {
+            (Some(a), Some(b)) if b.likelihood > a.likelihood => found,
+            (None, _) => found,
+            _ => self.cloud.fit(prediction, &self.limits, self.noise_scale, None),
+        }
     }
 
     /// How fast the yaw rate changes, rad/s^2, from this reading and the one before.

@@ -67,6 +67,8 @@ pub(crate) struct Fit {
     pub(crate) reduced_squares: f64,
     /// Factor of the angle's variance for not knowing which detections are static (Louis 1982).
     pub(crate) missing: f64,
+    /// Logarithm of the mixture's likelihood.
+    pub(crate) likelihood: f64,
 }
 
 /// Detections of a frame as the fits need them, and scratch space.
@@ -170,22 +172,30 @@ impl Cloud {
 
     /// The radar's motion in two dimensions by expectation and maximisation of a mixture: static
     /// detections scatter by their noise, moving ones over the range of speeds on the road. Only the
-    /// start comes from the prediction, so that the angle found does not depend on the one so far.
+    /// start comes from the prediction, so that the angle found does not depend on the one so far; or
+    /// from `start`, a velocity found without it.
     pub(crate) fn fit(
         &mut self,
         prediction: &Prediction,
         limits: &Limits,
         scale: f64,
+        start: Option<[f64; 2]>,
     ) -> Option<Fit> {
         let needed = limits.min_inliers.max(3);
         if self.len() < needed {
             return None;
         }
-        let speed = self.search(prediction, limits, scale)?;
         let (sin0, cos0) = prediction.angle_rad.sin_cos();
-        let along = speed - prediction.yaw_rate_radps * prediction.y_m;
-        let across = prediction.lateral(speed);
-        let mut velocity = [along * cos0 + across * sin0, across * cos0 - along * sin0];
+        let mut velocity = match start {
+            Some(velocity) => velocity,
+            None => {
+                let speed = self.search(prediction, limits, scale)?;
+                let along = speed - prediction.yaw_rate_radps * prediction.y_m;
+                let across = prediction.lateral(speed);
+                [along * cos0 + across * sin0, across * cos0 - along * sin0]
+            }
+        };
+        let mut likelihood = 0.0;
         let mut share = 0.7;
         let mut covariance = [[0.0; 2]; 2];
         let (mut squares, mut sum) = (0.0, 0.0);
@@ -193,7 +203,7 @@ impl Cloud {
             let extra = if round == 0 { prediction.angle_variance } else { 0.0 };
             let mut normal = [0.0; 3];
             let mut right = [0.0; 2];
-            (squares, sum) = (0.0, 0.0);
+            (squares, sum, likelihood) = (0.0, 0.0, 0.0);
             for i in 0..self.len() {
                 let (cos, sin) = (self.cos[i], self.sin[i]);
                 let residual = self.closing[i] - velocity[0] * cos - velocity[1] * sin;
@@ -203,7 +213,9 @@ impl Cloud {
                     * scale;
                 let density = share * (-0.5 * residual * residual / variance).exp()
                     / (std::f64::consts::TAU * variance).sqrt();
-                let weight = density / (density + (1.0 - share) / MOVING_SPREAD_MPS);
+                let either = density + (1.0 - share) / MOVING_SPREAD_MPS;
+                let weight = density / either;
+                likelihood += either.ln();
                 let w = weight / variance;
                 self.weight[i] = weight;
                 self.variance[i] = variance;
@@ -249,6 +261,7 @@ impl Cloud {
         let speed =
             velocity[0] * cos0 - velocity[1] * sin0 + prediction.yaw_rate_radps * prediction.y_m;
         if prediction.measured_speed.is_none()
+            && start.is_none()
             && let Some((before, age)) = prediction.speed
             && (speed - before).abs() > 2.0 * (0.5 + MAX_ACCELERATION * age)
         {
@@ -259,7 +272,7 @@ impl Cloud {
         for entry in covariance.iter_mut().flatten() {
             *entry *= inflation;
         }
-        Some(Fit { velocity, covariance, speed, inliers, reduced_squares, missing })
+        Some(Fit { velocity, covariance, speed, inliers, reduced_squares, missing, likelihood })
     }
 }
 
