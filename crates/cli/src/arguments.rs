@@ -94,6 +94,10 @@ pub struct CalibrateArguments {
     #[arg(long, default_value = "recursive",
           value_parser = PossibleValuesParser::new(Calibration::ALL.map(Calibration::name)))]
     pub method: String,
+    /// Estimate all radars of the log together, by the recursive method with one scale and bias of
+    /// the yaw rate for all; --sensor then says which is printed.
+    #[arg(long, conflicts_with_all = ["method", "motion"])]
+    pub joint: bool,
     /// How the radar's motion is estimated, instead of the way that belongs to the method.
     #[arg(long, value_parser = PossibleValuesParser::new(MotionMethod::ALL.map(MotionMethod::name)))]
     pub motion: Option<String>,
@@ -109,6 +113,11 @@ pub struct CalibrateArguments {
     /// Frames below this speed of the radar are left out, m/s.
     #[arg(long, value_name = "MPS", default_value_t = 1.0)]
     pub min_speed: f64,
+    /// Write the car's trajectory by the radar's motion and the estimated angle: time_s, x_m, y_m,
+    /// yaw_deg of the rear axle, from the origin along x, and where the log has poses
+    /// logged_x_m, logged_y_m, logged_yaw_deg in the same frame.
+    #[arg(long, value_name = "OUT.csv")]
+    pub trajectory: Option<PathBuf>,
     /// Print JSON: an object, or an array of them where there are several radars.
     #[arg(long)]
     pub json: bool,

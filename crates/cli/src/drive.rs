@@ -37,7 +37,9 @@ pub fn open_path(
     found.dedup();
     if format.is_none_or(|format| format == DriveFormat::RadarScenes) {
         let set = match paths[..] {
-            [folder] if found.is_empty() && folder.is_dir() => Sequences::find(folder)?,
+            [folder] if folder.is_dir() && !found.iter().any(|path| is_hdf5(&name(path))) => {
+                Sequences::find(folder)?
+            }
             _ => None,
         };
         if let Some(set) = set {

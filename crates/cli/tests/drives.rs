@@ -51,6 +51,9 @@ fn calibrate_finds_the_angle_of_the_radar_of_a_real_drive() {
     assert!(
         String::from_utf8_lossy(&refused.stderr).contains("tracked, with the recursive method")
     );
+    // With the angle found the trajectory is straighter than with the nominal one.
+    let error = |key: &str| result["trajectoryError"][key].as_f64().unwrap();
+    assert!(error("estimatedM") < 0.8 * error("nominalM"), "{result}");
     let wrong = boresight(&["calibrate", drive, "--sensor", "9"]);
     assert_eq!(wrong.status.code(), Some(2));
 }
@@ -170,7 +173,11 @@ fn what_is_no_drive_is_refused_by_log_and_calibrate() {
         (pictures, "no-drive-log", &["radar_data.h5", "range_rate_mps", "one.jpg, two.jpg"][..]),
         (empty.to_str().unwrap().into(), "no-drive-log", &["no files"]),
         (nowhere, "file", &["nowhere.h5"]),
-        (write("half/radar_data.h5", &whole[..whole.len() / 2]), "malformed-hdf5", &["unexpected EOF"]),
+        (
+            write("half/radar_data.h5", &whole[..whole.len() / 2]),
+            "malformed-hdf5",
+            &["unexpected EOF"],
+        ),
         (write("short/radar_data.h5", &whole[..40]), "malformed-hdf5", &["whole HDF5 file"]),
         (golden("no_vr.h5"), "malformed-hdf5", &["radar_data.vr"]),
         (golden("no_odometry.h5"), "malformed-hdf5", &["odometry"]),
@@ -215,5 +222,80 @@ fn radars_of_a_simulated_drive_are_chosen() {
         let errors = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(status), "{extra:?}: {errors}");
         assert!(errors.contains(words), "{extra:?}: {errors}");
+    }
+}
+
+/// Columns of a CSV file with a header line; what is empty is NaN.
+fn columns(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut lines = text.lines();
+    let names: Vec<String> = lines.next().unwrap().split(',').map(str::to_owned).collect();
+    let rows = lines
+        .map(|line| line.split(',').map(|field| field.parse().unwrap_or(f64::NAN)).collect())
+        .collect();
+    (names, rows)
+}
+
+#[test]
+fn all_radars_together_and_the_trajectory_of_one() {
+    let folder = folder("joint");
+    let out = folder.to_str().unwrap();
+    stdout(&[
+        "simulate",
+        "drive",
+        "--seed",
+        "3",
+        "--duration",
+        "60",
+        "--misalign",
+        "2=1.5",
+        "--out",
+        out,
+    ]);
+    let results = parsed(&stdout(&["calibrate", out, "--joint", "--json"]));
+    let results = results.as_array().unwrap();
+    assert_eq!(results.len(), 4);
+    let truth: Value =
+        serde_json::from_slice(&std::fs::read(folder.join("truth.json")).unwrap()).unwrap();
+    for (result, radar) in results.iter().zip(truth["sensors"].as_array().unwrap()) {
+        let number = |key: &str| result[key].as_f64().unwrap();
+        // Four of its own standard deviations: once in 16,000.
+        let error = number("angleDeg") - radar["yawDeg"].as_f64().unwrap();
+        assert!(error.abs() < 4.0 * number("sigmaDeg"), "{result}");
+        assert_eq!(
+            (&result["scale"], &result["joint"]),
+            (&results[0]["scale"], &Value::Bool(true))
+        );
+    }
+    let off = results[1]["angleDeg"].as_f64().unwrap() - results[1]["nominalDeg"].as_f64().unwrap();
+    assert!((off - 1.5).abs() < 0.5, "{off}");
+
+    let csv = folder.join("way.csv");
+    let path = csv.to_str().unwrap();
+    let arguments = ["calibrate", out, "--sensor", "2", "--trajectory", path];
+    let said = stdout(&[&arguments[..], &["--json"]].concat());
+    let error = &parsed(&said)["trajectoryError"];
+    let [estimated, nominal] = ["estimatedM", "nominalM"].map(|key| error[key].as_f64().unwrap());
+    assert!(3.0 * estimated < nominal, "{error}");
+    let (names, rows) = columns(&std::fs::read_to_string(&csv).unwrap());
+    let expected = "time_s,x_m,y_m,yaw_deg,logged_x_m,logged_y_m,logged_yaw_deg";
+    assert_eq!(names.join(","), expected);
+    assert!(rows.len() > 780 && rows.is_sorted_by(|a, b| a[0] < b[0]));
+    assert_eq!(rows[0][1..4], rows[0][4..7]);
+    // The same way: as long within 2 %, and its end no further off than segments stray.
+    let length = |x: usize| -> f64 {
+        rows.windows(2).map(|w| (w[1][x] - w[0][x]).hypot(w[1][x + 1] - w[0][x + 1])).sum()
+    };
+    let ratio = length(1) / length(4);
+    assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
+    assert!(stdout(&arguments).contains("m by the nominal angle"));
+    for (arguments, words) in [
+        (&["calibrate", out, "--trajectory", path][..], "1, 2, 3, 4"),
+        (&["calibrate", out, "--joint", "--method", "kabsch"], "cannot be used with"),
+        (&["calibrate", out, "--sensor", "2", "--x", "0", "--trajectory", path], "ahead of"),
+    ] {
+        let output = boresight(arguments);
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {errors}");
+        assert!(errors.contains(words), "{arguments:?}: {errors}");
     }
 }

@@ -5,6 +5,8 @@
 //! standing target at azimuth `a` seen by a radar that moves with `(vx, vy)` in its own frame has
 //! `-range_rate = vx cos a + vy sin a`.
 
+use std::f64::consts::TAU;
+
 /// One point of a Doppler point cloud, in the radar's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detection {
@@ -106,6 +108,35 @@ impl DriveLog {
     pub fn speed_at(&self, time_s: f64, max_gap_s: f64) -> Option<f64> {
         interpolate(&self.motion, time_s, max_gap_s, |s| s.speed_mps)
     }
+
+    /// Pose at a time, as [`Self::yaw_rate_at`]; the heading turns the shorter way.
+    pub fn pose_at(&self, time_s: f64, max_gap_s: f64) -> Option<Pose> {
+        let (previous, next, share) = neighbours(&self.motion, time_s, max_gap_s)?;
+        let (a, b) = (previous.pose?, next.pose?);
+        let turn = b.yaw_rad - a.yaw_rad;
+        let mix = |a: f64, b: f64| a * (1.0 - share) + b * share;
+        Some(Pose {
+            x_m: mix(a.x_m, b.x_m),
+            y_m: mix(a.y_m, b.y_m),
+            yaw_rad: a.yaw_rad + share * (turn - TAU * (turn / TAU).round()),
+        })
+    }
+}
+
+/// The samples before and after a time, and its share of the way between them.
+fn neighbours(
+    samples: &[MotionSample],
+    time_s: f64,
+    max_gap_s: f64,
+) -> Option<(&MotionSample, &MotionSample, f64)> {
+    let after = samples.partition_point(|s| s.time_s < time_s);
+    let next = samples.get(after)?;
+    if next.time_s == time_s {
+        return Some((next, next, 0.0));
+    }
+    let previous = samples.get(after.checked_sub(1)?)?;
+    let gap = next.time_s - previous.time_s;
+    (gap <= max_gap_s).then(|| (previous, next, (time_s - previous.time_s) / gap))
 }
 
 fn interpolate(
@@ -114,17 +145,7 @@ fn interpolate(
     max_gap_s: f64,
     value: impl Fn(&MotionSample) -> Option<f64>,
 ) -> Option<f64> {
-    let after = samples.partition_point(|s| s.time_s < time_s);
-    let next = samples.get(after)?;
-    if next.time_s == time_s {
-        return value(next);
-    }
-    let previous = samples.get(after.checked_sub(1)?)?;
-    let gap = next.time_s - previous.time_s;
-    if gap > max_gap_s {
-        return None;
-    }
-    let share = (time_s - previous.time_s) / gap;
+    let (previous, next, share) = neighbours(samples, time_s, max_gap_s)?;
     Some(value(previous)? * (1.0 - share) + value(next)? * share)
 }
 
@@ -154,5 +175,18 @@ mod tests {
         assert_eq!(log.yaw_rate_at(-0.1, 1.5), None);
         assert_eq!(log.yaw_rate_at(4.1, 1.5), None);
         assert_eq!(DriveLog::default().yaw_rate_at(0.0, 1.0), None);
+    }
+
+    #[test]
+    fn headings_turn_the_shorter_way_and_poses_may_be_missing() {
+        let mut log = log(&[0.0, 1.0, 2.0]);
+        let pose = |x_m: f64, yaw_rad: f64| Some(Pose { x_m, y_m: -x_m, yaw_rad });
+        (log.motion[0].pose, log.motion[1].pose) = (pose(1.0, 3.0), pose(3.0, -3.0));
+        let between = log.pose_at(0.25, 1.0).unwrap();
+        assert_eq!((between.x_m, between.y_m), (1.5, -1.5));
+        assert!((between.yaw_rad - (3.0 + 0.25 * (TAU - 6.0))).abs() < 1e-15);
+        assert_eq!(log.pose_at(1.0, 1.0), pose(3.0, -3.0));
+        assert_eq!(log.pose_at(1.5, 1.0), None);
+        assert_eq!(log.pose_at(0.5, 0.9), None);
     }
 }

@@ -1,0 +1,197 @@
+//! `boresight calibrate`: the angle radars are mounted at, from a drive.
+
+mod report;
+mod track;
+
+use crate::arguments::CalibrateArguments;
+use crate::drive::open_path;
+use crate::error::CliError;
+use crate::files;
+use crate::output::remark;
+use crate::run::Run;
+use boresight_calibrate::{
+    AngleEstimate, CalibrateError, Calibrator, FrameInput, FrameOutcome, Joint, Method,
+    MotionMethod, Options,
+};
+use boresight_core::drive::{DriveLog, Scan, Sensor};
+use boresight_formats::DriveFormat;
+use boresight_pipeline::{PipelineError, Progress};
+use serde_json::Value;
+use track::Track;
+
+/// Frames between two looks at progress and Ctrl-C.
+const FRAMES_A_REPORT: usize = 64;
+
+/// What is known of one radar.
+struct Calibrated {
+    sensor: u8,
+    options: Options,
+    estimate: AngleEstimate,
+    track: Track,
+    /// With the other radars of the log.
+    joint: bool,
+}
+
+/// The angles, as text or JSON.
+pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
+    let format = arguments.format.as_deref().map(DriveFormat::from_name).transpose()?;
+    let read = open_path(&arguments.paths, format, arguments.sequence.as_deref())?;
+    remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
+    let log = &read.log;
+    let shown = chosen(log, arguments.sensor)?;
+    if arguments.trajectory.is_some() && shown.len() != 1 {
+        return Err(CliError::Option {
+            option: "--sensor",
+            expected: format!("the radar of the trajectory: {}", ids(log)),
+            given: "not given".into(),
+        });
+    }
+    let run = Run::start("frames")?;
+    let mut results = if arguments.joint {
+        jointly(arguments, log, &run)?
+    } else {
+        let one = |sensor: &&Sensor| alone(log, sensor.id, options(arguments, sensor)?, &run);
+        shown.iter().map(one).collect::<Result<_, CliError>>()?
+    };
+    run.finish();
+    results.retain(|result| shown.iter().any(|sensor| sensor.id == result.sensor));
+    if let (Some(path), [result]) = (&arguments.trajectory, &results[..]) {
+        let csv =
+            result.track.csv(result.estimate.angle_rad, &result.options).ok_or_else(|| {
+                CliError::Option {
+                    option: "--trajectory",
+                    expected: "a radar ahead of or behind the rear axle whose motion is known"
+                        .into(),
+                    given: format!("radar {}, x {} m", result.sensor, result.options.x_m),
+                }
+            })?;
+        files::write(path, csv.as_bytes())?;
+    }
+    Ok(if arguments.json {
+        let mut objects: Vec<Value> = results.iter().map(report::json).collect();
+        let result = if objects.len() == 1 { objects.remove(0) } else { Value::Array(objects) };
+        format!("{result:#}\n")
+    } else {
+        results.iter().map(report::text).collect::<Vec<_>>().join("\n")
+    })
+}
+
+fn ids(log: &DriveLog) -> String {
+    log.sensors.iter().map(|s| s.id.to_string()).collect::<Vec<_>>().join(", ")
+}
+
+/// The radar asked for, or all.
+fn chosen(log: &DriveLog, sensor: Option<u8>) -> Result<Vec<&Sensor>, CliError> {
+    let found: Vec<&Sensor> =
+        log.sensors.iter().filter(|s| sensor.is_none_or(|id| id == s.id)).collect();
+    if found.is_empty() {
+        return Err(CliError::Option {
+            option: "--sensor",
+            expected: format!("a radar of the log: {}", ids(log)),
+            given: sensor.map_or("a log without radars".into(), |id| id.to_string()),
+        });
+    }
+    Ok(found)
+}
+
+fn options(arguments: &CalibrateArguments, sensor: &Sensor) -> Result<Options, CliError> {
+    let x_m = arguments.x.or(sensor.mounting.map(|m| m.x_m)).ok_or_else(|| CliError::Option {
+        option: "--x",
+        expected: "the radar's distance ahead of the rear axle, m: the log does not state it"
+            .into(),
+        given: "not given".into(),
+    })?;
+    Ok(Options {
+        method: Method::from_name(&arguments.method)?,
+        motion: arguments.motion.as_deref().map(MotionMethod::from_name).transpose()?,
+        x_m,
+        y_m: arguments.y.or(sensor.mounting.map(|m| m.y_m)).unwrap_or(0.0),
+        nominal_rad: arguments
+            .nominal
+            .map(f64::to_radians)
+            .or(sensor.mounting.map(|mounting| mounting.yaw_rad)),
+        min_speed_mps: arguments.min_speed,
+        ..Options::default()
+    })
+}
+
+/// Hands the scans that `wanted` picks to `add`, in order.
+fn feed<'a>(
+    log: &'a DriveLog,
+    options: &Options,
+    run: &Run,
+    wanted: impl Fn(&Scan) -> bool,
+    mut add: impl FnMut(u8, FrameInput<'a>) -> Result<(), CalibrateError>,
+) -> Result<(), CliError> {
+    let scans = || log.scans.iter().filter(|scan| wanted(scan));
+    let total = scans().count();
+    for (done, scan) in scans().enumerate() {
+        if done % FRAMES_A_REPORT == 0 && run.report(Progress { done, total }).is_break() {
+            return Err(PipelineError::Cancelled { done, total }.into());
+        }
+        let frame = FrameInput {
+            time_s: scan.time_s,
+            detections: &scan.detections,
+            yaw_rate_radps: log.yaw_rate_at(scan.time_s, options.max_gap_s),
+            speed_mps: log.speed_at(scan.time_s, options.max_gap_s),
+        };
+        add(scan.sensor, frame)?;
+    }
+    Ok(())
+}
+
+fn alone(log: &DriveLog, sensor: u8, options: Options, run: &Run) -> Result<Calibrated, CliError> {
+    let mut calibrator = Calibrator::new(options)?;
+    let mut track = Track::default();
+    feed(
+        log,
+        &options,
+        run,
+        |scan| scan.sensor == sensor,
+        |_, frame| {
+            track.add(log, &options, &frame, &calibrator.add(frame)?);
+            Ok(())
+        },
+    )?;
+    Ok(Calibrated { sensor, options, estimate: calibrator.estimate(), track, joint: false })
+}
+
+/// All radars of the log at once.
+fn jointly(
+    arguments: &CalibrateArguments,
+    log: &DriveLog,
+    run: &Run,
+) -> Result<Vec<Calibrated>, CliError> {
+    let radars = log
+        .sensors
+        .iter()
+        .map(|sensor| Ok((sensor.id, options(arguments, sensor)?)))
+        .collect::<Result<Vec<(u8, Options)>, CliError>>()?;
+    let mut joint = Joint::new(&radars)?;
+    let mut tracks = vec![Track::default(); radars.len()];
+    feed(
+        log,
+        &radars[0].1,
+        run,
+        |_| true,
+        |sensor, frame| {
+            let outcome: FrameOutcome = joint.add(sensor, frame)?;
+            if let Some(at) = radars.iter().position(|(id, _)| *id == sensor) {
+                tracks[at].add(log, &radars[at].1, &frame, &outcome);
+            }
+            Ok(())
+        },
+    )?;
+    Ok(radars
+        .into_iter()
+        .zip(joint.estimate())
+        .zip(tracks)
+        .map(|(((sensor, options), (_, estimate)), track)| Calibrated {
+            sensor,
+            options,
+            estimate,
+            track,
+            joint: true,
+        })
+        .collect())
+}

@@ -1,0 +1,94 @@
+//! What is printed of a calibration.
+
+use super::Calibrated;
+use super::track::SEGMENT_M;
+use serde_json::{Value, json};
+
+/// The result as JSON.
+pub(super) fn json(result: &Calibrated) -> Value {
+    let Calibrated { sensor, options, estimate: e, track, joint } = result;
+    let frames = e.frames;
+    let warnings: Vec<Value> = e
+        .remarks
+        .iter()
+        .map(|remark| json!({ "code": remark.code(), "message": remark.to_string() }))
+        .collect();
+    let error = track.error_m(e.angle_rad, options).map(|estimated| {
+        let nominal = options.nominal_rad.and_then(|angle| track.error_m(angle, options));
+        json!({ "segmentM": SEGMENT_M, "estimatedM": estimated, "nominalM": nominal })
+    });
+    // What is not finite becomes null.
+    json!({
+        "sensor": sensor,
+        "joint": joint,
+        "method": options.method.name(),
+        "motion": options.motion_method().name(),
+        "angleDeg": e.angle_rad.to_degrees(),
+        "sigmaDeg": e.sigma_rad.to_degrees(),
+        "nominalDeg": options.nominal_rad.map(f64::to_degrees),
+        "scale": e.scale,
+        "scaleSigma": e.scale_sigma,
+        "covariance": e.covariance,
+        "biasDegps": e.bias_radps.to_degrees(),
+        "biasSigmaDegps": e.bias_sigma_radps.to_degrees(),
+        "inlierShare": e.inlier_share,
+        "frames": {
+            "given": frames.given,
+            "used": frames.used,
+            "standing": frames.standing,
+            "slow": frames.slow,
+            "turning": frames.turning,
+            "sparse": frames.sparse,
+            "withoutMotion": frames.without_motion,
+        },
+        "converged": e.converged,
+        "misaligned": e.misaligned,
+        "trajectoryError": error,
+        "warnings": warnings,
+    })
+}
+
+/// The result as text.
+pub(super) fn text(result: &Calibrated) -> String {
+    let Calibrated { sensor, options, estimate: e, track, joint } = result;
+    let within = |value: String, sigma: f64, digits: usize| {
+        if sigma == f64::INFINITY {
+            format!("{value}, not determined")
+        } else {
+            format!("{value} +- {sigma:.digits$}")
+        }
+    };
+    let angle = within(format!("{:.3}", e.angle_rad.to_degrees()), e.sigma_rad.to_degrees(), 3);
+    let scale = within(format!("{:.4}", e.scale), e.scale_sigma, 4);
+    let bias =
+        within(format!("{:.3}", e.bias_radps.to_degrees()), e.bias_sigma_radps.to_degrees(), 3);
+    let f = e.frames;
+    let mut text = format!(
+        "sensor       {sensor}, {}{}\nangle        {angle} deg\nscale        {scale}\nbias         {bias} deg/s\n\
+         inliers      {:.1} %\nframes       {} of {} used; {} standing, {} slow, {} turning, {} sparse, {} \
+         without motion\nconverged    {}\n",
+        options.method.title(),
+        if *joint { ", with all radars" } else { "" },
+        100.0 * e.inlier_share,
+        f.used,
+        f.given,
+        f.standing,
+        f.slow,
+        f.turning,
+        f.sparse,
+        f.without_motion,
+        if e.converged { "yes" } else { "no" },
+    );
+    if let Some(error) = track.error_m(e.angle_rad, options) {
+        text += &format!("trajectory   {error:.2} m off at the end of {SEGMENT_M} m, on average");
+        let nominal = options.nominal_rad.and_then(|angle| track.error_m(angle, options));
+        if let Some(error) = nominal {
+            text += &format!("; {error:.2} m by the nominal angle");
+        }
+        text += "\n";
+    }
+    for remark in &e.remarks {
+        text += &format!("warning      {remark}\n");
+    }
+    text
+}
