@@ -165,6 +165,7 @@ impl Recursive {
         if self.stands(measured) {
             self.speed = Some((0.0, frame.time_s));
             self.learn_bias(measured);
+            outcome.motion = Some(self.at_rest(frame.detections.len()));
             return Verdict::Standing;
         }
         if self.vote.is_some() {
@@ -292,6 +293,20 @@ impl Recursive {
             && self.cloud.share_at_rest(&self.limits) >= 0.6
             && self.speed.is_none_or(|(speed, _)| speed.abs() < 1.0)
             && turning < 0.02
+    }
+
+    /// The motion of a radar that stands, which is none: a trajectory without these frames would run
+    /// on through the stop at the speed before it.
+    fn at_rest(&self, detections: usize) -> Motion {
+        let inliers = (self.cloud.share_at_rest(&self.limits) * self.cloud.len() as f64).round();
+        // That of a mean over azimuths all around, of which each component has half.
+        let variance = 2.0 * self.limits.range_rate_sigma_mps.powi(2) / inliers.max(1.0);
+        Motion {
+            velocity_mps: [0.0; 2],
+            covariance: [[variance, 0.0], [0.0, variance]],
+            inliers: inliers as usize,
+            detections,
+        }
     }
 
     fn bias_mean(&self) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! The car's way as a radar saw it, held against the poses of the log.
 
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
-use boresight_calibrate::{FrameInput, FrameOutcome, Options, Verdict};
+use boresight_calibrate::{FrameInput, FrameOutcome, Options};
 use boresight_core::drive::{DriveLog, Pose};
 
 /// Length of the segments that trajectories are compared over, m.
@@ -15,7 +15,7 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// Takes a frame, if its motion is known; a car that stands has none.
+    /// Takes a frame, if its motion is known.
     pub(super) fn add(
         &mut self,
         log: &DriveLog,
@@ -23,13 +23,9 @@ impl Track {
         frame: &FrameInput,
         outcome: &FrameOutcome,
     ) {
-        let velocity_mps = match (outcome.motion, outcome.verdict) {
-            (_, Verdict::Standing) => [0.0; 2],
-            (Some(motion), _) => motion.velocity_mps,
-            (None, _) => return,
-        };
+        let Some(motion) = outcome.motion else { return };
         let time_s = frame.time_s;
-        self.motions.push(TimedMotion { time_s, velocity_mps });
+        self.motions.push(TimedMotion { time_s, velocity_mps: motion.velocity_mps });
         self.logged.push(log.pose_at(time_s, options.max_gap_s));
     }
 
