@@ -73,3 +73,43 @@ export function makeCube({ loops, channels, samples, cells, amplitude, seed }) {
   }
   return { data, shape: [loops, channels, samples] };
 }
+
+/**
+ * A drive of one radar at 13.5 Hz on a winding road, `moving` of its detections with a range rate of their
+ * own: the drive as `calibrateDrive` takes it, and the radar's true velocity in each scan.
+ */
+export function makeDrive({ scans, detections, moving, mounting, noise, seed }) {
+  const random = uniform(seed);
+  const normal = () => complexNormal(random, 2)[0];
+  const yaw = (mounting.trueYawDeg * Math.PI) / 180;
+  const total = scans * detections;
+  const [azimuthDeg, rangeRateMps] = [new Float32Array(total), new Float32Array(total)];
+  const [timeS, yawRateDegps, speedMps] = [0, 1, 2].map(() => new Float64Array(scans));
+  const velocities = [];
+  for (let scan = 0, at = 0; scan < scans; scan++) {
+    timeS[scan] = scan / 13.5;
+    speedMps[scan] = 12 + 4 * Math.sin(timeS[scan] / 7);
+    const rate = 0.25 * Math.sin(timeS[scan] / 5);
+    yawRateDegps[scan] = ((rate + 0.001 * normal()) * 180) / Math.PI;
+    const [u, v] = [speedMps[scan] - rate * mounting.yM, rate * mounting.xM];
+    const [vx, vy] = [Math.cos(yaw) * u + Math.sin(yaw) * v, Math.cos(yaw) * v - Math.sin(yaw) * u];
+    velocities.push([vx, vy]);
+    for (let k = 0; k < detections; k++, at++) {
+      const azimuth = 2 * random() - 1;
+      const own = random() < moving ? 30 * (random() - 0.5) : 0;
+      rangeRateMps[at] = own - vx * Math.cos(azimuth) - vy * Math.sin(azimuth) + noise.rangeRateMps * normal();
+      azimuthDeg[at] = (azimuth * 180) / Math.PI + noise.azimuthDeg * normal();
+    }
+  }
+  const offsets = Uint32Array.from({ length: scans + 1 }, (_, scan) => scan * detections);
+  const { id, xM, yM, yawDeg } = mounting;
+  return {
+    drive: {
+      sensors: [{ id, xM, yM, yawDeg }],
+      scans: { timeS, sensor: new Uint8Array(scans).fill(id), offsets },
+      detections: { azimuthDeg, rangeRateMps },
+      motion: { timeS, yawRateDegps, speedMps },
+    },
+    velocities,
+  };
+}

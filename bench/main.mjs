@@ -8,12 +8,13 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
-import { classical, cube, iaa48, scenesOf } from './cases.mjs';
-import { makeCube } from './data.mjs';
+import { classical, cube, drive, iaa48, scenesOf } from './cases.mjs';
+import { makeCube, makeDrive } from './data.mjs';
 import { rangeDopplerPlan } from './fft-js.mjs';
 import { initSeconds, machine, wasmModule } from './machine.mjs';
-import { compare, here } from './measure.mjs';
+import { compare, here, median } from './measure.mjs';
 import { NumPy } from './numpy.mjs';
+import { ransac } from './ransac-js.mjs';
 import { table, tally, verdict } from './report.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
@@ -198,6 +199,76 @@ async function cubeRows() {
   });
 }
 
+/** Frames of a drive as `Calibration` takes them. */
+function framesOf({ scans, detections, motion }) {
+  return Array.from(motion.timeS, (timeS, scan) => {
+    const own = (values) => values.subarray(scans.offsets[scan], scans.offsets[scan + 1]);
+    return {
+      timeS,
+      azimuthDeg: own(detections.azimuthDeg),
+      rangeRateMps: own(detections.rangeRateMps),
+      yawRateDegps: motion.yawRateDegps[scan],
+      speedMps: motion.speedMps[scan],
+    };
+  });
+}
+
+async function driveRows() {
+  const { mounting, detections } = drive.make;
+  const { drive: made, velocities } = makeDrive({ ...drive.make, scans: drive.frames });
+  const frames = framesOf(made);
+  const calibration = new boresight.Calibration({
+    method: 'weighted-mean', motion: 'ransac', xM: mounting.xM, yM: mounting.yM, ...drive.ransac,
+  });
+  let timeS = 0;
+  const take = (frame) => calibration.addFrame({ ...frame, timeS: (timeS += 1 / 13.5) });
+  const apart = (ours, theirs) => ours.map((v, k) => Math.hypot(v[0] - theirs[k][0], v[1] - theirs[k][1]));
+  const ours = frames.map((frame) => take(frame).motion.velocityMps);
+  const own = here(take, frames);
+  const name = `RANSAC motion, ${detections} detections`;
+  await row(`${name}: a frame taken by a Calibration`, { unit: 's', target: { most: 100e-6 } }, async () => {
+    const error = Math.max(...apart(ours, velocities));
+    if (!(error < 0.5)) throw new Error(`a motion is ${error.toPrecision(2)} m/s from the truth`);
+    const [{ seconds }] = await compare([own], pace);
+    return { ours: seconds, value: seconds.median };
+  });
+  const beside = (otherName, side, theirs) => row(`${name}: beside ${otherName}`, { unit: 'x', otherName }, async () => {
+    const differences = apart(ours, await theirs());
+    const [typical, largest] = [median(differences), Math.max(...differences)];
+    if (!(typical <= drive.differMps.median && largest <= drive.differMps.most)) {
+      throw new Error(`${otherName} differs by ${typical.toPrecision(2)}, at most ${largest.toPrecision(2)} m/s`);
+    }
+    const [first, second] = await compare([own, side], pace);
+    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+  });
+  if (numpy) {
+    const values = new Float64Array(2 * detections * frames.length);
+    frames.forEach((frame, index) => {
+      values.set(Float64Array.from(frame.azimuthDeg, (deg) => (deg * Math.PI) / 180), 2 * detections * index);
+      values.set(frame.rangeRateMps, 2 * detections * index + detections);
+    });
+    await beside('NumPy', (calls) => numpy.seconds('motion', calls), async () => {
+      await numpy.prepare('prepare-motion', 'motion', [values], { shape: [frames.length, 2, detections], options: drive.ransac });
+      return (await numpy.ask({ do: 'motion', id: 'motion' })).velocityMps;
+    });
+  }
+  const plain = ransac(drive.ransac, detections);
+  const run = ({ azimuthDeg, rangeRateMps }) => plain(azimuthDeg, rangeRateMps);
+  await beside('plain JavaScript', here(run, frames), () => frames.map((frame) => run(frame).velocity));
+  calibration.free();
+  for (const { name: method } of boresight.calibrationMethods()) {
+    await row(`an hour of one radar, ${drive.hour} frames of ${detections}: ${method}`, { unit: 's', target: { most: 10 } }, () => {
+      const { drive: hour } = makeDrive({ ...drive.make, scans: drive.hour });
+      const start = process.hrtime.bigint();
+      const { result } = boresight.calibrateDrive(hour, { method });
+      const value = Number(process.hrtime.bigint() - start) / 1e9;
+      const error = Math.abs(result.angleDeg - mounting.trueYawDeg);
+      if (!(error < Math.max(4 * result.sigmaDeg, 0.01))) throw new Error(`off by ${error.toPrecision(2)} +- ${result.sigmaDeg.toPrecision(2)} deg`);
+      return { value };
+    });
+  }
+}
+
 async function boundaryRows() {
   const { options: given, scenes: what } = classical.find(({ name }) => name === 'bartlett, 1 snapshot');
   const inputs = inputsOf(scenesOf(what));
@@ -221,6 +292,7 @@ const wasm = wasmModule(join(root, 'dist', 'wasm', 'boresight_bg.wasm'));
 await iaaRows();
 for (const one of classical) await classicalRow(one);
 await cubeRows();
+await driveRows();
 await boundaryRows();
 await row('init() in a fresh process', { unit: 's' }, () => ({ value: initSeconds(entry, options.quick ? 3 : 15) }));
 await row('core .wasm, raw', { unit: 'bytes' }, () => ({ value: wasm.bytes }));

@@ -10,6 +10,8 @@ A request is one JSON object a line on standard input; the answer is one line on
     {"do": "time", "id", "calls"}     seconds of that many calls, taking the scenes in turn
     {"do": "prepare-chain", "id", "data", "shape", "options"}, {"do": "chain", "id"}
         the same for range and Doppler transforms and CFAR: loops, channels, samples of float32
+    {"do": "prepare-motion", "id", "data", "shape", "options"}, {"do": "motion", "id"}
+        the same for RANSAC: frames, 2 (azimuth in rad, range rate), detections of float64
 """
 
 import json
@@ -22,6 +24,7 @@ import scipy
 
 from chain import Chain
 from methods import METHODS
+from ransac import Ransac
 
 WORK = {}
 
@@ -66,6 +69,17 @@ def chain(request):
     return {"detections": run(scenes[0]).tolist()}
 
 
+def prepare_motion(request):
+    frames = np.fromfile(request["data"], dtype="<f8").reshape(request["shape"])
+    WORK[request["id"]] = (Ransac(request["options"]).motion, list(frames))
+    return {}
+
+
+def motion(request):
+    run, frames = WORK[request["id"]]
+    return {"velocityMps": [run(frame)[0].tolist() for frame in frames]}
+
+
 def measure(request):
     run, scenes = WORK[request["id"]]
     count = len(scenes)
@@ -83,6 +97,8 @@ HANDLERS = {
     "time": measure,
     "prepare-chain": prepare_chain,
     "chain": chain,
+    "prepare-motion": prepare_motion,
+    "motion": motion,
 }
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from chain import Chain
 from grid import Grid
 from methods import METHODS
+from ransac import Ransac
 
 TRUTH_DEG = np.array([-20.3, 5.2, 24.1])
 OPTIONS = {
@@ -168,6 +169,20 @@ class RangeDoppler(unittest.TestCase):
         self.assertEqual(cells[16, 8], 11 * 7 - 5 * 5)
         self.assertEqual(cells[0, 0], 6 * 7 - 3 * 5)
         self.assertEqual(cells[0, 8], cells[0, 15])
+
+
+class Motion(unittest.TestCase):
+    def test_finds_the_motion_among_what_moves(self):
+        options = {"inlierResidualMps": 0.3, "confidence": 0.999, "inlierRatioThreshold": 0.3}
+        rng = np.random.default_rng(5)
+        azimuth = rng.uniform(-1.0, 1.0, 100)
+        rate = -(10.0 * np.cos(azimuth) + 3.0 * np.sin(azimuth)) + 0.1 * rng.standard_normal(100)
+        rate[:30] += rng.uniform(2.0, 20.0, 30)
+        velocity, covariance, inliers = Ransac(options).motion((azimuth, rate))
+        error = velocity - [10.0, 3.0]
+        # Three standard deviations in either direction, of 70 detections.
+        self.assertLess(error @ np.linalg.inv(covariance) @ error, 12.0)
+        self.assertLess(inliers[:30].sum(), 4)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { before, describe, test } from 'node:test';
 import { Calibration, calibrationMethods, init } from 'boresight';
 import { createPool } from 'boresight/worker';
+import glue from '../../dist/wasm/boresight.js';
 import { throwsTyped } from './lib/assert.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 
@@ -102,6 +103,26 @@ describe('a calibration', () => {
     assert.equal(misaligned(28, { nominalDeg: 25 }), true);
     assert.equal(misaligned(25.2, { nominalDeg: 25 }), false);
     assert.equal(misaligned(25, {}), null);
+  });
+
+  test('keeps what it knows in the same memory however long the drive, with the recursive method', async () => {
+    const { memory } = await glue();
+    const frames = Array.from({ length: 100 }, (_, index) => frame(index, 25));
+    const grown = (method) => {
+      const calibration = new Calibration({ ...radar, method, nominalDeg: 24 });
+      const feed = (from, to) => {
+        for (let k = from; k < to; k++) calibration.addFrame({ ...frames[k % 100], timeS: k * 0.06 });
+      };
+      feed(0, 200);
+      const before = memory.buffer.byteLength;
+      feed(200, 20_200);
+      const bytes = memory.buffer.byteLength - before;
+      calibration.free();
+      return bytes;
+    };
+    assert.equal(grown('recursive'), 0);
+    // The others keep 56 bytes of each frame, a megabyte here.
+    assert.ok(grown('weighted-mean') > 0);
   });
 
   test('says what became of each frame', () => {

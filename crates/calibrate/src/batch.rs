@@ -192,8 +192,7 @@ impl Batch {
             frames.used -= s.gated as u64;
             frames.turning += s.gated as u64;
         }
-        let moved = self.moved(angle);
-        let converged = sigma < o.converged_rad && moved <= o.converged_rad;
+        let converged = sigma < o.converged_rad && self.moved(angle) <= o.converged_rad;
         let misaligned =
             o.nominal_rad.map(|nominal| wrap(angle - nominal).abs() > o.alarm_rad + CHANCE * sigma);
         let inlier_share =

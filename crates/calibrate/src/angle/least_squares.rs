@@ -34,6 +34,8 @@ const UNKNOWN_SCALE_SIGMA: f64 = 0.5;
 /// Smallest share of `chi`'s variance that must be more than its noise for a scale to be told from it.
 const MIN_RELIABILITY: f64 = 0.5;
 const ITERATIONS: usize = 20;
+/// A step below this ends the iteration, in rad and of scale 1: no drive tells as much.
+const SETTLED: f64 = 1e-10;
 
 /// The share of the variance of `chi` over the frames that its own noise does not explain (the
 /// reliability ratio of errors-in-variables models, Fuller 1987).
@@ -77,7 +79,7 @@ pub(crate) fn regress(
         if state[1].is_nan() || state[1] <= 0.2 || state[1] >= 5.0 {
             return fixed_scale(rows, setting, &point);
         }
-        if step[0].abs() < 1e-14 && step[1].abs() < 1e-13 {
+        if step[0].abs() < SETTLED && step[1].abs() < SETTLED {
             break;
         }
     }

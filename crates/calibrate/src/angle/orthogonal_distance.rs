@@ -24,10 +24,17 @@ fn nearest(row: &Row, [angle, inverse_scale]: [f64; 2]) -> Point {
         let gradient = inverse_scale / (1.0 - sine * sine).sqrt();
         variance = row.variance + gradient * gradient * row.chi_variance;
         let left = sine.asin() - row.beta - angle - gradient * (chi - row.chi);
-        error = -left * gradient * row.chi_variance / variance;
+        let next = -left * gradient * row.chi_variance / variance;
+        let settled = (next - error).abs() < SETTLED;
+        error = next;
+        if settled {
+            break;
+        }
     }
     Point { weight: 1.0 / variance, variance, chi: (row.chi + error).clamp(-limit, limit) }
 }
 
 /// Gauss-Newton converges fast: noises are small beside the curvature.
 const STEPS: usize = 3;
+/// A change of `chi` below this ends it: its noise is 10,000 times more.
+const SETTLED: f64 = 1e-8;

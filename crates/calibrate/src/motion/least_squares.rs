@@ -114,5 +114,5 @@ pub(crate) fn select(
 
 /// Most renewals of the weights.
 pub(crate) const ITERATIONS: usize = 8;
-/// A step below this ends the iteration, m/s.
-pub(crate) const SETTLED_MPS: f64 = 1e-9;
+/// A step below this ends the iteration, m/s: what is left is less still, and noise is 1000 times more.
+pub(crate) const SETTLED_MPS: f64 = 1e-6;

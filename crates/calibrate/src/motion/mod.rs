@@ -65,7 +65,7 @@ pub struct MotionEstimator {
     random: Random,
     columns: Columns,
     inliers: Vec<u32>,
-    azimuth_errors: Vec<f64>,
+    lines: Vec<orthogonal_distance::Line>,
     weights: Vec<f32>,
 }
 
@@ -91,7 +91,7 @@ impl MotionEstimator {
             random: Random::new(options.seed, 0),
             columns: Columns::default(),
             inliers: Vec::new(),
-            azimuth_errors: Vec::new(),
+            lines: Vec::new(),
             weights: Vec::new(),
         })
     }
@@ -120,13 +120,7 @@ impl MotionEstimator {
                     let next = if self.method == MotionMethod::WeightedLeastSquares {
                         least_squares::weighted(columns, inliers, velocity, noise)
                     } else {
-                        orthogonal_distance::fit(
-                            columns,
-                            inliers,
-                            velocity,
-                            noise,
-                            &mut self.azimuth_errors,
-                        )
+                        orthogonal_distance::fit(columns, inliers, velocity, noise, &mut self.lines)
                     }?;
                     velocity = next.0;
                     fit = Some(next);

@@ -10,62 +10,74 @@ use super::Columns;
 use super::least_squares::{Fit, ITERATIONS, SETTLED_MPS, inflation};
 use crate::symmetric::Symmetric;
 
-/// The fit from a first velocity; `errors` is scratch space and holds the azimuth errors found, rad.
+/// The fit from a first velocity; `lines` is scratch space.
 pub(crate) fn fit(
     columns: &Columns,
     inliers: &[u32],
     first: [f64; 2],
     noise: [f64; 2],
-    errors: &mut Vec<f64>,
+    lines: &mut Vec<Line>,
 ) -> Option<Fit> {
-    errors.clear();
-    errors.resize(inliers.len(), 0.0);
-    let [range_rate_variance, azimuth_variance] = noise.map(|sigma| sigma * sigma);
+    let variances = noise.map(|sigma| sigma * sigma);
     let mut velocity = first;
     let mut covariance = Symmetric::default();
+    let row = |i: &u32| columns.row(*i as usize);
+    lines.clear();
+    lines.extend(inliers.iter().map(|i| Line::new(row(i), 0.0, velocity, variances)));
     for _ in 0..ITERATIONS {
         let (mut normal, mut right) = (Symmetric::default(), [0.0; 2]);
-        for (&i, &error) in inliers.iter().zip(errors.iter()) {
-            let line = Line::new(columns.row(i as usize), error, velocity);
-            let weight = 1.0 / (range_rate_variance + line.slope.powi(2) * azimuth_variance);
-            normal.add(line.cos, line.sin, weight);
-            right[0] += weight * line.cos * line.residual;
-            right[1] += weight * line.sin * line.residual;
+        for line in lines.iter() {
+            normal.add(line.cos, line.sin, line.weight);
+            right[0] += line.weight * line.cos * line.residual;
+            right[1] += line.weight * line.sin * line.residual;
         }
         covariance = normal.inverse()?;
         let step = covariance.times(right);
-        for (&i, error) in inliers.iter().zip(errors.iter_mut()) {
-            let line = Line::new(columns.row(i as usize), *error, velocity);
-            let weight = 1.0 / (range_rate_variance + line.slope.powi(2) * azimuth_variance);
-            let left = line.residual - line.cos * step[0] - line.sin * step[1];
-            *error = (azimuth_variance * line.slope * weight * left)
-                .clamp(-MAX_ERROR_RAD, MAX_ERROR_RAD);
-        }
         velocity = [velocity[0] + step[0], velocity[1] + step[1]];
         if step[0].hypot(step[1]) <= SETTLED_MPS {
             break;
+        }
+        for (i, line) in inliers.iter().zip(lines.iter_mut()) {
+            let left = line.residual - line.cos * step[0] - line.sin * step[1];
+            let error = variances[1] * line.slope * line.weight * left;
+            *line = Line::new(row(i), error, velocity, variances);
         }
     }
     Some((velocity, covariance.scaled(inflation(columns, inliers, velocity, noise))))
 }
 
 /// The model of one detection, linear about its azimuth error.
-struct Line {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Line {
     cos: f64,
     sin: f64,
     /// Change of the predicted approach with azimuth, m/s per rad.
     slope: f64,
     /// What the velocity leaves unexplained at azimuth error 0, on that line, m/s.
     residual: f64,
+    /// Inverse variance of the residual, s^2/m^2.
+    weight: f64,
 }
 
 impl Line {
-    fn new([cos, sin, approach]: [f64; 3], error: f64, velocity: [f64; 2]) -> Self {
+    fn new(
+        [cos, sin, approach]: [f64; 3],
+        error: f64,
+        velocity: [f64; 2],
+        variances: [f64; 2],
+    ) -> Self {
+        let error = error.clamp(-MAX_ERROR_RAD, MAX_ERROR_RAD);
         let (se, ce) = error.sin_cos();
         let (cos, sin) = (cos * ce - sin * se, sin * ce + cos * se);
         let slope = velocity[1] * cos - velocity[0] * sin;
         let predicted = velocity[0] * cos + velocity[1] * sin;
-        Self { cos, sin, slope, residual: approach - predicted + slope * error }
+        Self {
+            cos,
+            sin,
+            slope,
+            residual: approach - predicted + slope * error,
+            weight: 1.0 / (variances[0] + slope * slope * variances[1]),
+        }
     }
 }
 
