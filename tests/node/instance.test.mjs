@@ -2,9 +2,13 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
-import { BoresightError, Estimator, estimate, init, initSync, version } from 'boresight';
+import {
+  BoresightError, Estimator, estimate, init, initDrives, initDrivesSync, initSync, readDrive, version,
+} from 'boresight';
 import glue from '../../dist/wasm/boresight.js';
+import drivesGlue from '../../dist/wasm/boresight_drives.js';
 import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
+import { golden } from './lib/drives.mjs';
 
 const options = { method: 'bartlett', array: 'ula4' };
 const input = { snapshots: planeWaves(4, 1, [10]) };
@@ -50,4 +54,20 @@ test('after a trap calls say so, and init() gives a fresh instance', async () =>
 test('errors show their parts as JSON', () => {
   const shown = JSON.parse(JSON.stringify(new BoresightError('code', 'text', { what: 'a', expected: 'b', given: 'c' })));
   assert.deepEqual(shown, { code: 'code', message: 'text', what: 'a', expected: 'b', given: 'c' });
+});
+
+test('the module of drives has a life of its own', async () => {
+  const files = [golden('contiguous.h5')];
+  throwsTyped(() => readDrive(files), 'not-initialised');
+  throwsTyped(() => initDrivesSync(new Uint8Array(8)), 'not-loaded');
+  await rejectsTyped(initDrives(Promise.reject(new Error('offline'))), 'not-loaded');
+  await Promise.all([initDrives(), initDrives()]);
+  const whole = readDrive(files);
+  const { memory } = await drivesGlue();
+  new Uint8Array(memory.buffer).fill(0xff);
+  throwsTyped(() => readDrive(files), 'trap');
+  throwsTyped(() => readDrive(files), 'trap');
+  assert.ok(estimate(input, options).sources.length > 0);
+  await initDrives();
+  assert.deepEqual(readDrive(files), whole);
 });

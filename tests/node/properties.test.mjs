@@ -35,11 +35,11 @@ const spoilt = (record) => fc.record(
   { requiredKeys: [] },
 );
 
-beforeEach(() => boresight.init());
+beforeEach(() => Promise.all([boresight.init(), boresight.initDrives()]));
 
 describe('anything at all', () => {
   const functions = Object.entries(boresight).filter(([name, value]) =>
-    typeof value === 'function' && !['init', 'initSync', 'BoresightError'].includes(name));
+    typeof value === 'function' && !/^(init.*|BoresightError|simulateDrive)$/.test(name)); // a drive by default takes long
 
   for (const [name, value] of functions) {
     test(`${name} answers or refuses`, () => {
@@ -143,5 +143,61 @@ describe('files', () => {
     fc.assert(fc.property(array, (array) => assert.deepEqual(boresight.readNpy(boresight.writeNpy(array)), array)), settings);
     const npy = boresight.writeNpy({ kind: 'real', data: Float64Array.of(1, 2, 3), shape: [3] });
     fc.assert(fc.property(damaged(npy), (bytes) => { answered(() => boresight.readNpy(bytes)); }), settings);
+  });
+});
+
+describe('drives', () => {
+  test('are simulated or refused, whatever the options', () => {
+    const options = spoilt({
+      scenario: fc.constantFrom('city', 'country-road', 'motorway', 'car-park', 'stop-and-go', 'dense-traffic'),
+      seed: fc.nat(),
+      durationS: fc.constantFrom(1, 1.5),
+      sensors: fc.array(spoilt({ id: fc.nat(5), xM: fc.double({ min: -5, max: 5, noNaN: true }), yM: fc.constant(0), yawDeg: fc.nat(360) }), { maxLength: 3 }),
+      misalignmentDeg: fc.dictionary(fc.constantFrom('0', '1', '2'), numbers, { maxKeys: 2 }),
+      movingShare: fc.constantFrom(0, 0.3, 0.8),
+      noise: spoilt({ clutter: fc.nat(50), ghostShare: fc.double({ min: 0, max: 0.5, noNaN: true }), azimuthSigmaDeg: fc.nat(10) }),
+      yawRateScale: fc.double({ min: 0.5, max: 2, noNaN: true }),
+      yawRateBiasDegps: numbers,
+      slipGradientDeg: fc.double({ min: -1, max: 1, noNaN: true }),
+    });
+    // Stopped at the first report, but for short ones, so that no run lasts.
+    const report = (done, total) => done === 0 && total < 500;
+    fc.assert(fc.property(options, (options) => {
+      const drive = answered(() => boresight.simulateDrive(options, report));
+      if (drive) assert.ok(drive.detections.azimuthDeg.every(Number.isFinite));
+    }), settings);
+  });
+
+  test('are calibrated or refused, whatever they hold', () => {
+    const good = boresight.simulateDrive({ durationS: 3, seed: 2 });
+    const { scans, detections, motion } = good;
+    const spoiltArray = (array) => fc.oneof(
+      { weight: 9, arbitrary: fc.constant(array) },
+      { weight: 1, arbitrary: anything },
+      { weight: 3, arbitrary: fc.tuple(fc.nat(array.length - 1), numbers).map(([at, value]) => Object.assign(array.slice(), { [at]: value })) },
+      { weight: 1, arbitrary: fc.nat(array.length).map((length) => array.subarray(0, length)) },
+    );
+    const of = (part) => fc.record(Object.fromEntries(Object.entries(part).map(([key, array]) => [key, spoiltArray(array)])));
+    const { azimuthDeg, rangeRateMps } = detections;
+    const { timeS, yawRateDegps, speedMps } = motion;
+    const drive = fc.record({
+      sensors: fc.oneof({ weight: 9, arbitrary: fc.constant(good.sensors) }, { weight: 1, arbitrary: anything }),
+      scans: of(scans), detections: of({ azimuthDeg, rangeRateMps }), motion: of({ timeS, yawRateDegps, speedMps }),
+    });
+    const options = spoilt({
+      sensor: fc.constantFrom(1, 2, 3, 4), method: fc.constantFrom(...boresight.calibrationMethods().map(({ name }) => name)),
+      historyS: numbers, maxGapS: numbers, weights: fc.boolean(), xM: numbers, nominalDeg: numbers,
+    });
+    const shared = boresight.jointCalibration(good);
+    fc.assert(fc.property(drive, options, (drive, options) => {
+      const found = answered(() => boresight.calibrateDrive(drive, options));
+      answered(() => boresight.jointCalibration(drive));
+      answered(() => boresight.driveFrame(drive, 3));
+      if (!found) return;
+      assert.equal(found.result.frames.given, found.frames.scan.length);
+      assert.ok(!Number.isNaN(found.result.angleDeg) && !Number.isNaN(found.result.sigmaDeg), JSON.stringify(found.result));
+      answered(() => boresight.trajectory(found.frames, { ...found.mounting, angleDeg: found.result.angleDeg }));
+    }), { ...settings, numRuns: 400 });
+    assert.deepEqual(boresight.jointCalibration(good), shared);
   });
 });

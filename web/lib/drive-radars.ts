@@ -28,6 +28,9 @@ export function taskOf(view: View, options: CalibrateDriveOptions | undefined): 
 /** The task of a joint calibration. */
 export function jointTaskOf(view: View, options: JointCalibrationOptions | undefined): Task {
   const { sensors, historyS, maxGapS, weights, ...rest } = own(options, 'options');
+  for (const name of ['method', 'motion', 'xM', 'yM', 'nominalDeg']) {
+    if (name in rest) throw failure('unknown-option', { what: name, expected: 'an option of all radars', given: 'one of a single radar' });
+  }
   const asked: unknown = sensors ?? view.sensors.map(({ id }) => id);
   if (!Array.isArray(asked) || asked.length === 0 || asked.length > 256) {
     throw wrong('sensors', 'an array of 1 to 256 radars', asked);
@@ -41,6 +44,9 @@ export function jointTaskOf(view: View, options: JointCalibrationOptions | undef
     }
     return placed(known(view, path, sensor), { ...rest, method: 'recursive', xM, yM, nominalDeg });
   });
+  const ids = radars.map(({ sensor }) => sensor);
+  const twice = ids.find((id, index) => ids.indexOf(id) !== index);
+  if (twice !== undefined) throw failure('out-of-range', { what: 'sensors', expected: 'each radar once', given: String(twice) });
   return { radars, joint: true, ...settings({ historyS, maxGapS, weights }) };
 }
 

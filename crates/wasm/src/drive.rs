@@ -46,6 +46,7 @@ pub fn simulate_drive(options: &JsValue, report: Option<Function>) -> Fallible<J
         }
     })?;
     let scans = &drive.log.scans;
+    let _ = report(Progress { done: scans.len(), total: scans.len() });
     let mut counts = ReadReport::default();
     counts.detections = scans.iter().map(|scan| scan.detections.len() as u64).sum();
     counts.motion = drive.log.motion.len() as u64;

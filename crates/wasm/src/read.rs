@@ -139,8 +139,9 @@ impl Fields {
             }
             let given = Reflect::get(&self.object, &key).unwrap_or(JsValue::NULL);
             if !given.is_undefined() {
+                let name = if name.is_empty() { "\"\"".into() } else { shortened(&name) };
                 return Err(BindingError::UnknownField {
-                    what: self.path_of(&shortened(&name)),
+                    what: self.path_of(&name),
                     expected: self.known.join(", "),
                 });
             }
