@@ -22,8 +22,8 @@ export function colorTable(name: ColorMapName): Uint8ClampedArray {
   return table;
 }
 
-/** `rgb(r, g, b)` or `#rrggbb`, as d3 writes them. */
-function parseColor(text: string): [number, number, number, number] {
+/** `rgb(r, g, b)` or `#rrggbb`. */
+export function parseColor(text: string): [number, number, number, number] {
   if (text.startsWith('#')) {
     const value = Number.parseInt(text.slice(1), 16);
     return [(value >> 16) & 255, (value >> 8) & 255, value & 255, 255];

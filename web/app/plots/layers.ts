@@ -1,5 +1,6 @@
 /** Things drawn on a plot besides its series: functions of canvas, plot and theme. */
 import type uPlot from 'uplot';
+import { parseColor } from './colormap.ts';
 import type { MarkerShape, PlotTheme, SeriesStyle, ThemeName } from './theme.ts';
 
 export interface LayerContext {
@@ -84,6 +85,9 @@ export function bands(intervals: readonly (readonly [number, number])[], fill: (
   };
 }
 
+/** More points of a line than a plot shows cost time when it is drawn, dashed ones most. */
+const MOST_POINTS = 4000;
+
 /** A line through points; parts with a missing number are left out. */
 export function polyline(px: ArrayLike<number>, py: ArrayLike<number>, style: SeriesStyle): Layer {
   return ({ ctx, plot, themeName, ratio, x, y }) => {
@@ -94,7 +98,8 @@ export function polyline(px: ArrayLike<number>, py: ArrayLike<number>, style: Se
     ctx.setLineDash((style.dash ?? []).map((d) => d * ratio));
     ctx.beginPath();
     let drawing = false;
-    for (let i = 0; i < px.length; i++) {
+    const every = Math.max(Math.floor(px.length / MOST_POINTS), 1);
+    for (let i = 0; i < px.length; i += every) {
       const [a, b] = [x(px[i] as number), y(py[i] as number)];
       if (!Number.isFinite(a) || !Number.isFinite(b)) drawing = false;
       else if (drawing) ctx.lineTo(a, b);
@@ -125,17 +130,29 @@ export function areaBetween(px: ArrayLike<number>, low: ArrayLike<number>, high:
   };
 }
 
-/** Small dots, for thousands of points. */
+/** Small dots, for tens of thousands of points: painted pixel by pixel, darker where they lie on each other. */
 export function dots(px: ArrayLike<number>, py: ArrayLike<number>, style: SeriesStyle, alpha = 0.4): Layer {
   return ({ ctx, plot, themeName, ratio, x, y }) => {
-    clipToPlot(ctx, plot);
-    ctx.fillStyle = style.color[themeName];
-    ctx.globalAlpha = alpha;
-    const size = 1.5 * ratio;
+    const [left, top, width, height] = [plot.bbox.left, plot.bbox.top, plot.bbox.width, plot.bbox.height].map(Math.round) as [number, number, number, number];
+    if (width < 1 || height < 1) return;
+    const image = document.createElement('canvas');
+    [image.width, image.height] = [width, height];
+    const target = image.getContext('2d');
+    if (!target) return;
+    const pixels = target.createImageData(width, height);
+    const [red, green, blue] = parseColor(style.color[themeName]);
+    const size = Math.max(Math.round(1.5 * ratio), 1);
     for (let i = 0; i < px.length; i++) {
-      const at = y(py[i] as number);
-      if (Number.isFinite(at)) ctx.fillRect(x(px[i] as number) - size / 2, at - size / 2, size, size);
+      const [column, row] = [Math.round(x(px[i] as number) - left - size / 2), Math.round(y(py[i] as number) - top - size / 2)];
+      if (!(column >= 0 && row >= 0 && column + size <= width && row + size <= height)) continue;
+      for (let k = 0; k < size * size; k++) {
+        const at = 4 * ((row + Math.floor(k / size)) * width + column + (k % size));
+        pixels.data.set([red, green, blue], at);
+        pixels.data[at + 3] = 255 - (255 - (pixels.data[at + 3] as number)) * (1 - alpha);
+      }
     }
+    target.putImageData(pixels, 0, 0);
+    ctx.drawImage(image, left, top);
   };
 }
 

@@ -44,7 +44,7 @@ export function AnglePlot() {
       below.push(areaBetween(x, edge(-1), edge(1), style));
       lines.push(polyline(x, history.angleDeg, style));
     }
-    if (frames && method && singles) lines.unshift(dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.3));
+    if (frames && method && singles) lines.unshift(dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.2));
     const extent = { x: timeExtent(), y: angleExtent(curves, sigmas, trueDeg, nominalDeg) };
     if (nominalDeg !== null) lines.push(horizontalLine(nominalDeg, `nominal ${signed(nominalDeg, 2)}°`, { left: true }));
     if (trueDeg !== undefined) {

@@ -46,7 +46,9 @@ export const scans = computed(() => {
   return { scan, timeS: Float64Array.from(scan, (i) => all.timeS[i] as number) };
 });
 
-const KINDS = /\.(csv|csv\.gz|h5|hdf5)$/i;
+/** Tables and HDF5 files, and what stands beside the latter. */
+const DRIVES = /\.(csv|csv\.gz|h5|hdf5)$/i;
+const BESIDE = /(^|\/)(scenes|sensors|sequences)\.json$/i;
 /** What a tab can hold beside its copies in workers. */
 const LARGEST_BYTES = 1024 ** 3;
 
@@ -128,13 +130,16 @@ export function openBundled(): Promise<void> {
 export function openFiles(given: readonly NamedFile[] | Promise<readonly NamedFile[]>): Promise<void> {
   return open('Reading the files', async (signal, job) => {
     const all = await given;
-    const kept = all.filter(({ name }) => KINDS.test(name));
+    const drives = all.filter(({ name }) => DRIVES.test(name));
     const first = all[0];
     if (!first) throw new FileProblem('no-drive-log', 'The folder', 'it is empty; a .csv, .csv.gz or .h5 with a drive is expected');
-    if (kept.length === 0) {
+    if (drives.length === 0) {
       const what = all.length === 1 ? first.name : `${all.length} files`;
       throw new FileProblem('no-drive-log', what, 'no drive is in it; .csv or .csv.gz tables, or the radar_data.h5 of a RadarScenes sequence, are expected');
     }
+    const sequences = drives.filter(({ name }) => /\.(h5|hdf5)$/i.test(name)).length;
+    if (sequences > 1) throw new FileProblem('ambiguous', `${all.length} files`, `${sequences} sequences are in them; one is expected: open the folder of that alone`);
+    const kept = [...drives, ...all.filter(({ name }) => BESIDE.test(name))];
     const size = kept.reduce((sum, { file }) => sum + file.size, 0);
     const what = kept.length === 1 ? (kept[0] as NamedFile).name : `${kept.length} files`;
     if (size > LARGEST_BYTES) {
@@ -144,7 +149,8 @@ export function openFiles(given: readonly NamedFile[] | Promise<readonly NamedFi
     signal.throwIfAborted();
     try {
       const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
-      const name = (kept[0] as NamedFile).name.split('/').at(-2) ?? (kept[0] as NamedFile).name.replace(KINDS, '');
+      const path = (drives[0] as NamedFile).name.split('/');
+      const name = path.at(-2) ?? (path.at(-1) as string).replace(DRIVES, '');
       return {
         name, source: 'files', files: kept.map(({ name, file }) => ({ name, bytes: file.size })),
         drive, truth: null, statedDeg: new Map(), licence: null,

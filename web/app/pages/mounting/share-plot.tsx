@@ -43,7 +43,7 @@ export function SharePlot() {
     return {
       x, series: [], extent,
       above: [
-        dots(x, weight, WEIGHT, 0.25), dots(x, share, SHARE, 0.35),
+        dots(x, weight, WEIGHT, 0.15), dots(x, share, SHARE, 0.2),
         polyline(x, smoothed(x, weight), WEIGHT), polyline(x, smoothed(x, share), SHARE), lanes(x, frames.verdict),
       ],
     };

@@ -9,7 +9,7 @@ import { methodStyle, type SeriesStyle, TRUTH_STYLE } from '../../plots/theme.ts
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded } from './drive.ts';
 import { after, time } from './playhead.ts';
-import { shown, shownMethod, where } from './process.ts';
+import { shown, shownMethod } from './process.ts';
 import { fileParts, frameKey } from './time-plot.tsx';
 import { paths, SEGMENT_M } from './trajectory.ts';
 
@@ -39,7 +39,7 @@ export function TrajectoryPlot() {
     };
   }, [lines, extent, now]);
   const error = (value: number | null | undefined): string => (value == null ? '' : `, strays ${fixed(value, 2)} m in ${SEGMENT_M} m`);
-  const nominalDeg = where.value?.nominalDeg;
+  const nominalDeg = calibration?.mounting.nominalDeg;
   const legend: LegendItem[] = all ? [
     { id: 'found', label: `Angle found, ${signed(calibration?.result.angleDeg ?? Number.NaN, 2)}°${error(all.foundError)}`, style: { ...FOUND, marker: 'circle' }, line: true },
     ...(all.nominal ? [{ id: 'nominal', label: `Nominal angle, ${signed(nominalDeg ?? Number.NaN, 2)}°${error(all.nominalError)}`, style: { ...NOMINAL, marker: 'square' as const }, line: true }] : []),

@@ -4,16 +4,15 @@ import type { Drive, DriveCalibration, Trajectory } from 'boresight';
 import { api } from '../../data.ts';
 import { loaded } from './drive.ts';
 import { after } from './playhead.ts';
-import { results, shown, where } from './process.ts';
+import { results, shown } from './process.ts';
 import type { Way } from './ways.ts';
 
 /** Length of the pieces whose ends are compared, m. */
 export const SEGMENT_M = 50;
 
 /** Null where the radar is too near the axle's line to tell how the car turns. */
-function path({ frames }: DriveCalibration, angleDeg: number): Trajectory | null {
-  const { xM, yM } = where.value ?? {};
-  return xM == null ? null : api.trajectory(frames, { angleDeg, xM, yM: yM ?? 0 });
+function path({ frames, mounting: { xM, yM } }: DriveCalibration, angleDeg: number): Trajectory | null {
+  return api.trajectory(frames, { angleDeg, xM, yM });
 }
 
 /** What paths are compared with: the log's own poses, else where its speed and yaw rate take the car. */
@@ -41,7 +40,7 @@ export interface Paths {
 export const paths = computed<Paths | null>(() => {
   const calibration = shown.value;
   if (!calibration) return null;
-  const nominalDeg = where.value?.nominalDeg ?? null;
+  const { nominalDeg } = calibration.mounting;
   const found = path(calibration, calibration.result.angleDeg);
   const nominal = nominalDeg === null ? null : path(calibration, nominalDeg);
   return {
@@ -52,12 +51,17 @@ export const paths = computed<Paths | null>(() => {
   };
 });
 
+/** What is known of calibrations that stay while others come. */
+const known = new WeakMap<DriveCalibration, number | null>();
+
 /** The same for every method, with its own motion and angle. */
 export const strays = computed<ReadonlyMap<Way, number>>(() => {
   const errors = new Map<Way, number>();
   for (const [way, { calibration }] of results.value) {
-    const error = calibration ? strayed(path(calibration, calibration.result.angleDeg)) : null;
-    if (error !== null) errors.set(way, error);
+    if (!calibration) continue;
+    if (!known.has(calibration)) known.set(calibration, strayed(path(calibration, calibration.result.angleDeg)));
+    const error = known.get(calibration);
+    if (error != null) errors.set(way, error);
   }
   return errors;
 });
