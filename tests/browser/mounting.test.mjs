@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { assertCsv, assertJson, assertPng, clickWhenThere, drop, parameters, parametersWith, recordings, saved, values } from './demo.mjs';
+import { assertCsv, assertJson, assertPng, clickWhenThere, drop, parametersWith, recordings, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const path = '#/mounting';
@@ -90,7 +90,10 @@ browserTest('mounting angle: general tables are dropped, and say where the radar
   await page.locator('input[name="nominal"]').fill('2');
   await page.waitForFunction((selector) => document.querySelector(selector)?.textContent === 'no', cell('recursive', 'misaligned'));
   assert.match(await page.locator('[data-plot="trajectory"] .legend').innerText(), /Speed and yaw rate as measured/);
-  assert.equal(parameters(page).get('source'), 'files');
+  await parametersWith(page, (params) => params.get('source') === 'files' && params.get('xM') === '3.5');
+  await page.reload();
+  await page.waitForSelector('[role="status"].notice');
+  assert.match(await page.locator('[role="status"].notice').innerText(), /files that are not here/);
 });
 
 browserTest('mounting angle: a folder is looked through, dropped or chosen', { path: '#/mounting?source=simulated&duration=5&methods=weighted-mean' }, async ({ page }) => {
@@ -148,13 +151,15 @@ browserTest('mounting angle: work is cancelled and taken up again, and a change 
   await parametersWith(page, (params) => params.get('minSpeed') === '10');
 });
 
-browserTest('mounting angle: a simulated drive has its truth beside it, and the link brings it back', { path: '#/mounting?source=simulated&scenario=country-road&duration=40&seed=3&misalignment=-1&sensor=2&methods=recursive,kabsch' }, async ({ page }) => {
+browserTest('mounting angle: a simulated drive has its truth beside it, and the link brings it back', { path: '#/mounting?source=simulated&scenario=country-road&duration=40&seed=3&misalignment=-1&sensor=2&methods=recursive,kabsch,joint' }, async ({ page }) => {
   await ready(page);
   const truth = (await values(page, '[data-field="truth"]'))[0];
-  const error = await value(page, 'recursive', 'error');
-  const sigma = await value(page, 'recursive', 'sigmaDeg');
   assert.ok(Math.abs(truth + 24.99) < 0.02, `radar 2 looks to ${truth} degrees`);
-  assert.ok(Math.abs(error) < 5 * sigma && sigma < 0.5, `${error} +- ${sigma}`);
+  for (const method of ['recursive', 'joint']) {
+    await ready(page, method);
+    const [error, sigma] = [await value(page, method, 'error'), await value(page, method, 'sigmaDeg')];
+    assert.ok(Math.abs(error) < 5 * sigma && sigma < 0.5, `${method}: ${error} +- ${sigma}`);
+  }
   await page.locator('select[name="sensor"]').selectOption('3');
   await page.waitForFunction(() => /radar 3/.test(document.querySelector('#angles-title').textContent));
   await ready(page);

@@ -10,8 +10,9 @@ import { Swatch } from './swatch.tsx';
 
 export interface LegendItem extends LegendEntry {
   id: string;
-  /** Text for the cursor's position. */
+  /** Text for the cursor's position, and while there is none. */
   value?(position: CursorPosition): string;
+  rest?: string;
 }
 
 export interface PlotFrameProps {
@@ -56,7 +57,8 @@ export function PlotFrame(props: PlotFrameProps) {
     const latest = () => current.current.options;
     const made = new Plot(host.current, {
       ...props.options,
-      label: `${props.title}. ${props.keys ?? ''} Plus and minus zoom, 0 resets, left and right move the cursor.`,
+      label: [`${props.title}.`, props.keys, 'Plus and minus zoom, 0 resets.', !/arrows/i.test(props.keys ?? '') && 'Left and right move the cursor.']
+        .filter(Boolean).join(' '),
       theme: theme.peek(),
       onCursor: (position) => {
         cursor.value = position;
@@ -110,7 +112,7 @@ export function PlotFrame(props: PlotFrameProps) {
             <li key={item.id} data-series={item.id}>
               <Swatch style={item.style} line={item.line} hollow={item.hollow ?? false} />
               <span>{item.label}</span>
-              {item.value && <LegendValue cursor={cursor} value={item.value} />}
+              {item.value && <LegendValue cursor={cursor} value={item.value} rest={item.rest ?? '–'} />}
             </li>
           ))}
         </ul>
@@ -127,7 +129,7 @@ function Readout({ cursor, text }: { cursor: Cursor; text(position: CursorPositi
   return <p class="readout" data-readout>{position ? text(position) : <span class="muted">Cursor: point at the plot</span>}</p>;
 }
 
-function LegendValue({ cursor, value }: { cursor: Cursor; value(position: CursorPosition): string }) {
+function LegendValue({ cursor, value, rest }: { cursor: Cursor; value(position: CursorPosition): string; rest: string }) {
   const position = cursor.value;
-  return <span class="legend-value">{position ? value(position) : '–'}</span>;
+  return <span class="legend-value">{position ? value(position) : rest}</span>;
 }

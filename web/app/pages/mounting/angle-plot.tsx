@@ -59,7 +59,7 @@ export function AnglePlot() {
   };
   const legend: LegendItem[] = [
     ...curves.map((curve): LegendItem => ({
-      id: curve.method, label: curve.title, style: methodStyle(curve.method), line: true, value: ({ x }) => at(curve, x),
+      id: curve.method, label: curve.title, style: methodStyle(curve.method), line: true, value: ({ x }) => at(curve, x), rest: at(curve, Number.POSITIVE_INFINITY),
     })),
     ...(trueDeg === undefined ? [] : [{ id: 'truth', label: open?.truth ? 'True angle' : 'Angle stated by the data set', style: { ...TRUTH_STYLE, dash: [6, 3] }, line: true }]),
   ];

@@ -8,7 +8,7 @@ import { ACCENT_STYLE, methodStyle, type SeriesStyle } from '../../plots/theme.t
 import type { LegendItem } from '../../ui/plot-frame.tsx';
 import { loaded, scans } from './drive.ts';
 import { quantiles } from './frame.ts';
-import { after } from './playhead.ts';
+import { after, frame } from './playhead.ts';
 import { shown, shownMethod } from './process.ts';
 import { sinceStart, startTime, TimePlot, timeExtent } from './time-plot.tsx';
 import { about } from './ways.ts';
@@ -50,9 +50,13 @@ export function SharePlot() {
   }, [data, scans.value]);
   const at = (x: number): number => (data ? Math.max(after(data.frames.timeS, x + startTime()) - 1, 0) : -1);
   const verdict = (i: number): string => api.frameVerdicts[data?.frames.verdict[i] ?? -1] ?? '–';
+  const now = frame.value;
+  const part = (values: Float32Array | undefined) => ({
+    value: ({ x }: { x: number }) => fixed(values?.[at(x)] ?? Number.NaN, 2), rest: fixed(values?.[now] ?? Number.NaN, 2),
+  });
   const legend: LegendItem[] = [
-    { id: 'share', label: 'Share of static detections', style: SHARE, line: true, value: ({ x }) => fixed(data?.share[at(x)] ?? Number.NaN, 2) },
-    { id: 'weight', label: 'Weight of the frame, relative', style: WEIGHT, line: true, value: ({ x }) => fixed(data?.weight[at(x)] ?? Number.NaN, 2) },
+    { id: 'share', label: 'Share of static detections', style: SHARE, line: true, ...part(data?.share) },
+    { id: 'weight', label: 'Weight of the frame, relative', style: WEIGHT, line: true, ...part(data?.weight) },
   ];
   return (
     <TimePlot title="Frames: inliers, weights, what became of them" {...(shownMethod.value ? { detail: about(shownMethod.value).title } : {})} name="frame-weights" height="medium" content={content} legend={legend}
