@@ -14,20 +14,24 @@ let project;
 before(async () => {
   const files = Object.fromEntries(snippets.map((code, k) => [`snippet-${k}.mjs`, code]));
   files['methods.mjs'] = `
-    import { init, methods } from 'boresight';
+    import { calibrationMethods, init, methods } from 'boresight';
     await init();
     console.log(JSON.stringify(methods()));
+    console.log(JSON.stringify(calibrationMethods()));
   `;
   project = await consumer({ files });
   copyFileSync(recording('xwr16xx_crw_dca_module_2018_1015v2.bin'), join(project.folder, 'capture.bin'));
   copyFileSync(recording('profile.cfg'), join(project.folder, 'profile.cfg'));
+  for (const name of ['front_radar.csv.gz', 'pose_10hz.csv.gz']) {
+    copyFileSync(join(root, 'recordings', 'delphi', name), join(project.folder, name));
+  }
 });
 after(() => project?.remove());
 
 const printed = async (script) => (await project.run(process.execPath, [script])).stdout.trim().split('\n');
 
 test('the first snippet finds both targets with the methods that resolve them', async () => {
-  assert.equal(snippets.length, 3);
+  assert.equal(snippets.length, 5);
   assert.ok(snippets[0].trim().split('\n').length <= 15, 'fifteen lines');
   const lines = await printed('snippet-0.mjs');
   assert.deepEqual(lines.map((line) => line.split(' ')[0]), ['bartlett', 'iaa', 'nomp']);
@@ -47,6 +51,27 @@ test('the third snippet reports progress and the shape', async () => {
   const lines = await printed('snippet-2.mjs');
   assert.ok(lines.some((line) => line.endsWith('of 500')), lines.join('\n'));
   assert.match(lines.at(-1), /500, 48, 1/);
+});
+
+test('the fourth snippet finds the angle of a real radar', async () => {
+  const [last, early] = await printed('snippet-3.mjs');
+  const [, angle, sigma] = /^(-\d\.\d\d) \+- (0\.\d\d) deg from \d{4} of 12003 frames$/.exec(last) ?? assert.fail(last);
+  // Stated: -1.96 deg.
+  assert.ok(Math.abs(Number(angle) + 1.96) < 0.15 && Number(sigma) < 0.15, last);
+  assert.match(early, /^after 60 s -\d\.\d\d \+- \d\.\d\d deg$/);
+});
+
+test('the fifth snippet finds a misaligned radar', async () => {
+  const [line] = await printed('snippet-4.mjs');
+  const [, angle] = /^(\d+\.\d\d) \+- 0\.\d\d deg, misaligned$/.exec(line) ?? assert.fail(line);
+  assert.ok(Math.abs(Number(angle) - 30.5) < 0.1, line);
+});
+
+test('the table of methods of mounting angles says what calibrationMethods() says', async () => {
+  const [, json] = await printed('methods.mjs');
+  const expected = JSON.parse(json).map(({ name, title, reference }) => `| \`${name}\` | ${title} | ${reference} |`);
+  const [, ...rows] = readme.split('\n').filter((line) => /^\| `[a-z-]+` \| [^`|]+ \| [^`|]+ \|$/.test(line)); // without the heading
+  assert.deepEqual(rows, expected);
 });
 
 test('the table of estimators says what methods() says', async () => {
