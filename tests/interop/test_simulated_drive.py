@@ -62,6 +62,34 @@ def test_scenes_tell_of_the_same_drive_as_the_log(drive, sequence):
         assert sum(len(scene.radar_data) for scene in scenes) == sensor["detections"]
 
 
+def test_every_number_is_that_of_the_log(drive, sequence, tmp_path):
+    log(drive / "data" / "sequence_1", "--export", tmp_path)
+    table = lambda name: np.genfromtxt(tmp_path / name, delimiter=",", names=True)
+    rows, motion = sequence.radar_data, sequence.odometry_data
+    origin = motion["timestamp"][0]
+    detections = table("detections.csv")
+    seconds = (rows["timestamp"] - origin) / 1e6
+    np.testing.assert_array_equal(detections["time_s"], seconds)
+    np.testing.assert_array_equal(detections["sensor"], rows["sensor_id"])
+    for column, field in (
+        ("azimuth_rad", "azimuth_sc"),
+        ("range_rate_mps", "vr"),
+        ("range_m", "range_sc"),
+        ("rcs_dbsm", "rcs"),
+    ):
+        np.testing.assert_array_equal(detections[column].astype("f4"), rows[field])
+    samples = table("motion.csv")
+    np.testing.assert_array_equal(samples["time_s"], (motion["timestamp"] - origin) / 1e6)
+    for column, field in (
+        ("yaw_rate_radps", "yaw_rate"),
+        ("speed_mps", "vx"),
+        ("x_m", "x_seq"),
+        ("y_m", "y_seq"),
+        ("yaw_rad", "yaw_seq"),
+    ):
+        np.testing.assert_array_equal(samples[column].astype("f4"), motion[field])
+
+
 def test_scenes_follow_one_another(sequence):
     scenes = list(sequence.scenes())
     stamps = [scene.timestamp for scene in scenes]

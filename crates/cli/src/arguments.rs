@@ -70,6 +70,9 @@ pub struct LogArguments {
     /// Which sequence of a data set's folder, such as sequence_7 or 7.
     #[arg(long, value_name = "NAME")]
     pub sequence: Option<String>,
+    /// Write the log as general tables, detections.csv and motion.csv, to this folder.
+    #[arg(long, value_name = "DIR")]
+    pub export: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,

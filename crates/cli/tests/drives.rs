@@ -118,6 +118,13 @@ fn a_sequence_is_found_from_any_of_its_places() {
     for path in [sequence.join("radar_data.h5"), top.join("data"), top.clone()] {
         assert_eq!(log(&path, &[]), whole, "{}", path.display());
     }
+    // As tables it is the same drive, but for the mountings.
+    let tables = top.join("tables");
+    log(&sequence, &["--export", tables.to_str().unwrap()]);
+    let exported = log(&tables, &[]);
+    for key in ["scans", "detections", "radarSpan", "motionSamples", "motionSpan", "poses"] {
+        assert_eq!(exported[key], whole[key], "{key}");
+    }
     // A second sequence, which sequences.json does not name, then does.
     let second = top.join("data/sequence_12");
     std::fs::create_dir(&second).unwrap();

@@ -27,9 +27,8 @@ pub fn read_drive(files: &JsValue, options: &JsValue) -> Fallible<JsValue> {
     let format = fields.optional("format")?;
     fields.finish()?;
     let files = Vec::<File>::read(files, "files")?;
-    let named: Vec<(&str, &[u8])> = files.iter().map(|file| (&*file.name, &*file.bytes)).collect();
-    let read = drive_log::open(&named, format)?;
-    drop(files);
+    let files = files.into_iter().map(|file| (file.name, file.bytes)).collect();
+    let read = drive_log::open_owned(files, format)?;
     Ok(drive_record(&read.log, read.format.name(), &read.report).into())
 }
 

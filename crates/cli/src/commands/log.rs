@@ -3,16 +3,40 @@
 use crate::arguments::LogArguments;
 use crate::drive::open_path;
 use crate::error::CliError;
+use crate::files;
 use crate::output::remark;
 use boresight_core::drive::DriveLog;
+use boresight_formats::drive_log::table::{write_detections, write_motion};
 use boresight_formats::{DriveRead, MountingSource};
 use serde_json::{Map, Value, json};
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
 
 /// What is in a log, as text or JSON.
 pub fn run(arguments: &LogArguments) -> Result<String, CliError> {
     let read = open_path(&arguments.paths, None, arguments.sequence.as_deref())?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
+    if let Some(folder) = &arguments.export {
+        files::make_folder(folder)?;
+        export(&folder.join("detections.csv"), |out| write_detections(&read.log, out))?;
+        export(&folder.join("motion.csv"), |out| write_motion(&read.log, out))?;
+    }
     Ok(if arguments.json { format!("{:#}\n", as_json(&read)) } else { as_text(&read) })
+}
+
+fn export(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>,
+) -> Result<(), CliError> {
+    files::write_with(path, |file| {
+        let mut out = BufWriter::new(file);
+        write(&mut out).and_then(|()| out.flush()).map_err(|error| CliError::File {
+            action: "write",
+            path: path.into(),
+            error,
+        })
+    })
 }
 
 /// A radar's share of a log: its number, scans and detections.

@@ -15,6 +15,8 @@ use crate::error::FormatError;
 use crate::tables::{Columns, field};
 use boresight_core::drive::{DriveLog, MotionSample, Pose, Scan, Sensor};
 use std::collections::BTreeMap;
+use std::fmt::{Display, Formatter};
+use std::io::Write;
 
 const POSE_COLUMNS: [&str; 3] = ["x_m", "y_m", "yaw_rad"];
 
@@ -142,21 +144,64 @@ pub fn read_motion(
     while let Some(row) = rows.next()? {
         let time_s: f64 = field(row, time_at, "time_s", "a number")?;
         let yaw_rate_radps = rate_at.read(row)?;
-        let speed_mps = speed_at.map(|at| field(row, at, "speed_mps", "a number")).transpose()?;
-        let pose = match pose_at {
-            Some(places) => {
-                let mut numbers = [0.0; 3];
-                for ((number, place), name) in numbers.iter_mut().zip(places).zip(POSE_COLUMNS) {
-                    *number = field(row, place, name, "a number")?;
-                }
-                let [x_m, y_m, yaw_rad] = numbers;
-                Some(Pose { x_m, y_m, yaw_rad })
-            }
-            None => None,
-        };
+        let speed = optional(row, speed_at, "speed_mps")?;
+        let speed_mps = Some(speed).filter(|speed| speed.is_finite());
+        let mut numbers = [f64::NAN; 3];
+        for ((number, place), name) in
+            numbers.iter_mut().zip(pose_at.into_iter().flatten()).zip(POSE_COLUMNS)
+        {
+            *number = optional(row, Some(place), name)?;
+        }
+        let [x_m, y_m, yaw_rad] = numbers;
+        let pose = Some(Pose { x_m, y_m, yaw_rad })
+            .filter(|_| numbers.iter().all(|number| number.is_finite()));
+        let whole =
+            speed_mps.is_some() == speed_at.is_some() && pose.is_some() == pose_at.is_some();
         let sample = MotionSample { time_s, yaw_rate_radps, speed_mps, pose };
+        let count = samples.len();
         motion::push(&mut samples, report, sample, row)?;
+        report.motion_incomplete += u64::from(!whole && samples.len() > count);
     }
     rows.not_empty()?;
     Ok(samples)
+}
+
+/// Writes the table of detections, so that [`read_detections`] gives the same scans; those without
+/// detections have no rows.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_detections(log: &DriveLog, out: &mut impl Write) -> std::io::Result<()> {
+    writeln!(out, "time_s,sensor,azimuth_rad,range_rate_mps,range_m,rcs_dbsm")?;
+    for scan in &log.scans {
+        for d in &scan.detections {
+            write!(out, "{},{},{},{}", scan.time_s, scan.sensor, d.azimuth_rad, d.range_rate_mps)?;
+            writeln!(out, ",{},{}", Given(d.range_m.into()), Given(d.rcs_dbsm.into()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes the table of the motion, so that [`read_motion`] gives the same samples.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_motion(log: &DriveLog, out: &mut impl Write) -> std::io::Result<()> {
+    writeln!(out, "time_s,yaw_rate_radps,speed_mps,x_m,y_m,yaw_rad")?;
+    for sample in &log.motion {
+        let pose = sample.pose.map_or([f64::NAN; 3], |p| [p.x_m, p.y_m, p.yaw_rad]);
+        let speed = Given(sample.speed_mps.unwrap_or(f64::NAN));
+        let [x, y, yaw] = pose.map(Given);
+        writeln!(out, "{},{},{speed},{x},{y},{yaw}", sample.time_s, sample.yaw_rate_radps)?;
+    }
+    Ok(())
+}
+
+/// A number, or nothing where there is none.
+struct Given(f64);
+
+impl Display for Given {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        if self.0.is_finite() { self.0.fmt(f) } else { Ok(()) }
+    }
 }

@@ -1,7 +1,8 @@
+use super::table::{write_detections, write_motion};
 use super::{DriveFormat, DriveRead, DropReason, delphi, open};
 use crate::error::FormatError;
 use boresight_core::Diagnose;
-use boresight_core::drive::Pose;
+use boresight_core::drive::{Detection, Pose, Scan};
 use std::f64::consts::FRAC_PI_2;
 use std::io::Write;
 
@@ -102,6 +103,33 @@ fn general_tables_plain_and_packed_are_the_same() {
     let packed = open(&[("b.csv.gz", &b), ("a.csv.gz", &a)], Some(DriveFormat::Csv)).unwrap();
     // NaN keeps them from being equal as they are.
     assert_eq!(format!("{packed:?}"), format!("{plain:?}"));
+}
+
+#[test]
+fn what_is_written_as_tables_is_read_back() {
+    let mut log = open(&[("pose.csv.gz", POSE), ("radar.csv.gz", RADAR)], None).unwrap().log;
+    log.motion[3].speed_mps = None;
+    log.motion[4].pose = None;
+    log.scans[0].detections[0].range_m = f32::NAN;
+    let (mut detections, mut motion) = (vec![], vec![]);
+    write_detections(&log, &mut detections).unwrap();
+    write_motion(&log, &mut motion).unwrap();
+    let back = open(&[("d.csv", &detections), ("m.csv", &motion)], None).unwrap();
+    assert_eq!(back.log.motion, log.motion);
+    log.scans.retain(|scan| !scan.detections.is_empty());
+    // NaN keeps them from being equal as they are.
+    assert!(back.log.scans[0].detections[0].range_m.is_nan());
+    log.scans[0].detections[0].range_m = 0.0;
+    let mut scans = back.log.scans;
+    scans[0].detections[0].range_m = 0.0;
+    // The Delphi's cross-sections are not recorded.
+    let bits = |scans: &[Scan]| -> Vec<_> {
+        let number = |d: &Detection| [d.azimuth_rad, d.range_rate_mps, d.range_m].map(f32::to_bits);
+        let row = |s: &Scan| (s.time_s, s.detections.iter().map(number).collect::<Vec<_>>());
+        scans.iter().map(row).collect()
+    };
+    assert!(bits(&scans) == bits(&log.scans));
+    assert_eq!(back.report.motion_incomplete, 2);
 }
 
 fn message(files: &[(&str, &str)]) -> String {
