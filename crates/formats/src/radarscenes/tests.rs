@@ -150,16 +150,17 @@ fn mountings_are_those_of_sensors_json() {
     assert_eq!(read.report.mountings, Some(MountingSource::Format));
 }
 
+/// Scans of make.py: radar 1 at ...647501 and ...721501, radar 2 at ...667501.
+const SCENES: &str = r#"{"sequence_name": "night", "category": "train", "scenes": {
+    "156862647501": {"sensor_id": 1, "radar_indices": [0, 2]},
+    "156862650501": {"sensor_id": 4, "radar_indices": [2, 2]},
+    "156862660501": {"sensor_id": 4, "radar_indices": [2, 9]},
+    "156862667501": {"sensor_id": 1, "radar_indices": [2, 2]}}}"#;
+
 #[test]
 fn scenes_json_adds_scans_and_is_held_against_the_rows() {
     let data = bytes("contiguous");
-    // Scans of make.py: radar 1 at ...647501 and ...721501, radar 2 at ...667501.
-    let json = r#"{"sequence_name": "night", "category": "train", "scenes": {
-        "156862647501": {"sensor_id": 1, "radar_indices": [0, 2]},
-        "156862650501": {"sensor_id": 4, "radar_indices": [2, 2]},
-        "156862660501": {"sensor_id": 4, "radar_indices": [2, 9]},
-        "156862667501": {"sensor_id": 1, "radar_indices": [2, 2]}}}"#;
-    let read = open(&[("scenes.json", json.as_bytes()), ("radar_data.h5", &data)], None).unwrap();
+    let read = open(&[("scenes.json", SCENES.as_bytes()), ("radar_data.h5", &data)], None).unwrap();
     let scans: Vec<_> = read
         .log
         .scans
@@ -217,6 +218,36 @@ proptest! {
             let dropped = report.dropped(DropReason::NotFinite);
             prop_assert_eq!(kept as u64 + dropped, report.detections);
             prop_assert!(report.detections <= 1100 * length);
+        }
+    }
+
+    /// Rows stay as they are, whatever the files beside say.
+    #[test]
+    fn damaged_json_never_panics_and_keeps_the_rows(
+        edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
+        cut in any::<prop::sample::Index>(),
+    ) {
+        let whole = [SCENES, r#"{"radar_1": {"id": 1, "x": 3.5, "y": -1e-3, "yaw": -1.25}}"#];
+        let [scenes, sensors] = whole.map(|text| {
+            let mut bytes = text.as_bytes().to_vec();
+            for (place, value) in &edits {
+                let at = place.index(bytes.len());
+                bytes[at] = *value;
+            }
+            bytes.truncate(bytes.len() - cut.index(bytes.len()) / 16);
+            bytes
+        });
+        for beside in [
+            Companions { scenes: Some(&scenes), sensors: None },
+            Companions { scenes: None, sensors: Some(&sensors) },
+        ] {
+            let mut report = ReadReport::default();
+            if let Ok(log) = super::read(bytes("contiguous"), beside, &mut report) {
+                let kept: usize = log.scans.iter().map(|scan| scan.detections.len()).sum();
+                prop_assert_eq!(kept, 3);
+                prop_assert!(log.scans.is_sorted_by(|a, b| a.time_s <= b.time_s));
+                prop_assert!(log.sensors.is_sorted_by(|a, b| a.id < b.id));
+            }
         }
     }
 }
