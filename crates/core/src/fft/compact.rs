@@ -107,14 +107,16 @@ mod tests {
         }
     }
 
-    /// In place, out of place and from data that must not change, for two blocks in one call.
+    /// In place, out of place and from data that must not change, for some blocks in one call; several at
+    /// a time give the same bits as one by one.
     #[test]
     fn every_way_of_calling_gives_the_same() {
-        for length in [1, 2, 3, 8, 12, 31, 64, 105, 128, 304] {
+        let lengths = [1, 2, 3, 8, 12, 31, 64, 105, 128, 304, 2048];
+        for (length, blocks) in lengths.into_iter().flat_map(|n| [(n, 2), (n, 7)]) {
             for (direction, _) in DIRECTIONS {
                 let fft = plan::<f64>(length, direction);
                 assert_eq!((fft.len(), fft.fft_direction()), (length, direction));
-                let x = noise(2 * length);
+                let x = noise(blocks * length);
                 let mut expected = x.clone();
                 expected.chunks_mut(length).for_each(|block| fft.process(block));
                 let mut y = x.clone();

@@ -1,9 +1,16 @@
-//! Powers of two by Stockham's self-sorting form of the FFT (Cochran et al. 1967), radix 4: its
-//! inner loops run over neighbouring numbers, which compilers turn into SIMD by themselves.
+//! Powers of two by Stockham's self-sorting form of the FFT (Cochran et al. 1967), radix 4. Of many
+//! transforms, four run side by side: every step of theirs is one on whole vectors, which compilers make
+//! of arrays of four by themselves.
 
 use rustfft::num_complex::Complex;
 use rustfft::{Direction, Fft, FftDirection, FftNum, Length};
 use std::f64::consts::TAU;
+use std::ops::{Add, Mul, Sub};
+
+/// Transforms that run side by side.
+const LANES: usize = 4;
+/// Longest transform that does: twice four of them should fit into the cache.
+const LONGEST: usize = 1024;
 
 /// A transform whose length is a power of two.
 pub struct PowerOfTwo<T> {
@@ -20,6 +27,77 @@ struct Stage<T> {
     stride: usize,
     /// `w^p`, `w^2p` and `w^3p` for each group `p`.
     twiddles: Vec<[Complex<T>; 3]>,
+}
+
+/// A complex number, or one of each of the transforms that run side by side.
+trait Point<T>: Copy {
+    type Part: Copy
+        + Add<Output = Self::Part>
+        + Sub<Output = Self::Part>
+        + Mul<T, Output = Self::Part>;
+    fn parts(self) -> [Self::Part; 2];
+    fn of(parts: [Self::Part; 2]) -> Self;
+}
+
+impl<T: FftNum> Point<T> for Complex<T> {
+    type Part = T;
+
+    #[inline(always)]
+    fn parts(self) -> [T; 2] {
+        [self.re, self.im]
+    }
+
+    #[inline(always)]
+    fn of([re, im]: [T; 2]) -> Self {
+        Self { re, im }
+    }
+}
+
+/// Four real parts, then four imaginary ones, in the memory of four complex numbers.
+impl<T: FftNum> Point<T> for [Complex<T>; LANES] {
+    type Part = Lanes<T>;
+
+    #[inline(always)]
+    fn parts(self) -> [Lanes<T>; 2] {
+        let [a, b, c, d] = self;
+        [Lanes([a.re, a.im, b.re, b.im]), Lanes([c.re, c.im, d.re, d.im])]
+    }
+
+    #[inline(always)]
+    fn of([Lanes(re), Lanes(im)]: [Lanes<T>; 2]) -> Self {
+        [(re[0], re[1]), (re[2], re[3]), (im[0], im[1]), (im[2], im[3])]
+            .map(|(re, im)| Complex { re, im })
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Lanes<T>([T; LANES]);
+
+impl<T: FftNum> Add for Lanes<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+}
+
+impl<T: FftNum> Sub for Lanes<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
+    }
+}
+
+impl<T: FftNum> Mul<T> for Lanes<T> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, by: T) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] * by))
+    }
 }
 
 impl<T: FftNum> PowerOfTwo<T> {
@@ -42,14 +120,14 @@ impl<T: FftNum> PowerOfTwo<T> {
         Self { length, direction, stages, halves: left == 2 }
     }
 
-    /// Transforms `x` in place; `y` is of the same length.
-    fn run(&self, x: &mut [Complex<T>], y: &mut [Complex<T>]) {
+    /// Transforms `x`, with `y` of the same length as scratch space. Whether the result is in `y`.
+    fn run<P: Point<T>>(&self, x: &mut [P], y: &mut [P]) -> bool {
         let (mut from, mut to) = (x, y);
         let mut swapped = false;
         for stage in &self.stages {
             match self.direction {
-                FftDirection::Forward => stage.run::<true>(from, to),
-                FftDirection::Inverse => stage.run::<false>(from, to),
+                FftDirection::Forward => stage.run::<P, true>(from, to),
+                FftDirection::Inverse => stage.run::<P, false>(from, to),
             }
             std::mem::swap(&mut from, &mut to);
             swapped = !swapped;
@@ -58,20 +136,46 @@ impl<T: FftNum> PowerOfTwo<T> {
             let (a, b) = from.split_at(self.length / 2);
             let (sums, differences) = to.split_at_mut(self.length / 2);
             for (((sum, difference), a), b) in sums.iter_mut().zip(differences).zip(a).zip(b) {
-                *sum = a + b;
-                *difference = a - b;
+                let ([a_re, a_im], [b_re, b_im]) = (a.parts(), b.parts());
+                *sum = P::of([a_re + b_re, a_im + b_im]);
+                *difference = P::of([a_re - b_re, a_im - b_im]);
             }
-            std::mem::swap(&mut from, &mut to);
             swapped = !swapped;
         }
-        if swapped {
-            to.copy_from_slice(from);
+        swapped
+    }
+
+    /// Transforms `x` in place.
+    fn run_one(&self, x: &mut [Complex<T>], scratch: &mut [Complex<T>]) {
+        if self.run(x, scratch) {
+            x.copy_from_slice(scratch);
+        }
+    }
+
+    /// Transforms four rows in place, side by side.
+    fn run_lanes(&self, rows: &mut [Complex<T>], scratch: &mut [Complex<T>]) {
+        let (x, y) = scratch[..2 * LANES * self.length].split_at_mut(LANES * self.length);
+        let (x, y) = (x.as_chunks_mut().0, y.as_chunks_mut().0);
+        let (a, rest) = rows.split_at_mut(self.length);
+        let (b, rest) = rest.split_at_mut(self.length);
+        let (c, d) = rest.split_at_mut(self.length);
+        for ((((x, a), b), c), d) in x.iter_mut().zip(&*a).zip(&*b).zip(&*c).zip(&*d) {
+            let (re, im) = ([a.re, b.re, c.re, d.re], [a.im, b.im, c.im, d.im]);
+            *x = Point::<T>::of([Lanes(re), Lanes(im)]);
+        }
+        let result = if self.run(x, y) { y } else { x };
+        for ((((x, a), b), c), d) in result.iter().zip(a).zip(b).zip(c).zip(d) {
+            let [Lanes(re), Lanes(im)] = x.parts();
+            *a = Complex { re: re[0], im: im[0] };
+            *b = Complex { re: re[1], im: im[1] };
+            *c = Complex { re: re[2], im: im[2] };
+            *d = Complex { re: re[3], im: im[3] };
         }
     }
 }
 
 impl<T: FftNum> Stage<T> {
-    fn run<const FORWARD: bool>(&self, x: &[Complex<T>], y: &mut [Complex<T>]) {
+    fn run<P: Point<T>, const FORWARD: bool>(&self, x: &[P], y: &mut [P]) {
         let quarter = x.len() / 4;
         let (x0, rest) = x.split_at(quarter);
         let (x1, rest) = rest.split_at(quarter);
@@ -80,7 +184,7 @@ impl<T: FftNum> Stage<T> {
         if self.stride == 1 {
             for ((y, w), (((a, b), c), d)) in y.chunks_exact_mut(4).zip(&self.twiddles).zip(inputs)
             {
-                let out = butterfly::<T, FORWARD>([*a, *b, *c, *d], w);
+                let out = butterfly::<T, P, FORWARD>([*a, *b, *c, *d], w);
                 y.copy_from_slice(&out);
             }
             return;
@@ -94,7 +198,7 @@ impl<T: FftNum> Stage<T> {
             let [x0, x1, x2, x3] = [x0, x1, x2, x3].map(|x| &x[group.clone()]);
             for q in 0..s {
                 [y0[q], y1[q], y2[q], y3[q]] =
-                    butterfly::<T, FORWARD>([x0[q], x1[q], x2[q], x3[q]], w);
+                    butterfly::<T, P, FORWARD>([x0[q], x1[q], x2[q], x3[q]], w);
             }
         }
     }
@@ -102,20 +206,27 @@ impl<T: FftNum> Stage<T> {
 
 /// Transform of four numbers, turned by the twiddle factors.
 #[inline(always)]
-fn butterfly<T: FftNum, const FORWARD: bool>(
-    [a, b, c, d]: [Complex<T>; 4],
+fn butterfly<T: FftNum, P: Point<T>, const FORWARD: bool>(
+    points: [P; 4],
     [w1, w2, w3]: &[Complex<T>; 3],
-) -> [Complex<T>; 4] {
-    let (even_sum, even_difference) = (a + c, a - c);
-    let (odd_sum, odd) = (b + d, b - d);
-    // -j (b - d) forward, +j (b - d) inverse.
-    let turned =
-        if FORWARD { Complex::new(odd.im, -odd.re) } else { Complex::new(-odd.im, odd.re) };
+) -> [P; 4] {
+    let [[a_re, a_im], [b_re, b_im], [c_re, c_im], [d_re, d_im]] = points.map(P::parts);
+    let (even_re, even_im) = (a_re + c_re, a_im + c_im);
+    let (even_difference_re, even_difference_im) = (a_re - c_re, a_im - c_im);
+    let (odd_re, odd_im) = (b_re + d_re, b_im + d_im);
+    let (odd_difference_re, odd_difference_im) = (b_re - d_re, b_im - d_im);
+    // Plus and minus -j (b - d) forward, +j (b - d) inverse.
+    let plus = [even_difference_re + odd_difference_im, even_difference_im - odd_difference_re];
+    let minus = [even_difference_re - odd_difference_im, even_difference_im + odd_difference_re];
+    let (first, third) = if FORWARD { (plus, minus) } else { (minus, plus) };
+    let turned = |[re, im]: [P::Part; 2], w: &Complex<T>| {
+        P::of([re * w.re - im * w.im, re * w.im + im * w.re])
+    };
     [
-        even_sum + odd_sum,
-        (even_difference + turned) * w1,
-        (even_sum - odd_sum) * w2,
-        (even_difference - turned) * w3,
+        P::of([even_re + odd_re, even_im + odd_im]),
+        turned(first, w1),
+        turned([even_re - odd_re, even_im - odd_im], w2),
+        turned(third, w3),
     ]
 }
 
@@ -127,8 +238,13 @@ fn twiddle<T: FftNum>(phase_rad: f64) -> Complex<T> {
 
 impl<T: FftNum> Fft<T> for PowerOfTwo<T> {
     fn process_with_scratch(&self, buffer: &mut [Complex<T>], scratch: &mut [Complex<T>]) {
-        for block in buffer.chunks_exact_mut(self.length) {
-            self.run(block, &mut scratch[..self.length]);
+        let fours = if self.length <= LONGEST { buffer.len() / (LANES * self.length) } else { 0 };
+        let (fours, rest) = buffer.split_at_mut(fours * LANES * self.length);
+        for rows in fours.chunks_exact_mut(LANES * self.length) {
+            self.run_lanes(rows, scratch);
+        }
+        for row in rest.chunks_exact_mut(self.length) {
+            self.run_one(row, &mut scratch[..self.length]);
         }
     }
 
@@ -141,7 +257,7 @@ impl<T: FftNum> Fft<T> for PowerOfTwo<T> {
         let blocks = input.chunks_exact_mut(self.length);
         for (from, to) in blocks.zip(output.chunks_exact_mut(self.length)) {
             to.copy_from_slice(from);
-            self.run(to, from);
+            self.run_one(to, from);
         }
     }
 
@@ -156,7 +272,7 @@ impl<T: FftNum> Fft<T> for PowerOfTwo<T> {
     }
 
     fn get_inplace_scratch_len(&self) -> usize {
-        self.length
+        if self.length <= LONGEST { 2 * LANES * self.length } else { self.length }
     }
 
     fn get_outofplace_scratch_len(&self) -> usize {
@@ -164,7 +280,7 @@ impl<T: FftNum> Fft<T> for PowerOfTwo<T> {
     }
 
     fn get_immutable_scratch_len(&self) -> usize {
-        self.length
+        self.get_inplace_scratch_len()
     }
 }
 
