@@ -11,8 +11,8 @@ const TRUTH_GAP_S = 1;
 
 /**
  * Where the car went by the motion of one radar's frames, taken as mounted at this angle and place: from the
- * origin, heading along x. While the car stands it stays; other frames without a motion, and sparse ones,
- * are left out. Null where xM is too near 0 for the motion to tell the yaw rate.
+ * origin, heading along x. Frames without a motion, and sparse ones, are left out; null where xM is too
+ * near 0 for the motion to tell the yaw rate.
  */
 export function trajectory(frames: CalibratedFrames, mounting: { angleDeg: number; xM: number; yM?: number }): Trajectory | null {
   const reader = new Reader(frames, 'frames');
@@ -25,13 +25,12 @@ export function trajectory(frames: CalibratedFrames, mounting: { angleDeg: numbe
     if (!Number.isFinite(given)) throw wrong(place.path(name), 'a finite number', given);
     return given as number;
   }) as [number, number, number];
-  const [sparse, standing] = [frameVerdicts.indexOf('sparse'), frameVerdicts.indexOf('standing')];
-  const stands = (index: number): boolean => verdict[index] === standing;
+  const sparse = frameVerdicts.indexOf('sparse');
   const kept = Array.from(timeS.keys()).filter(
-    (index) => stands(index) || (verdict[index] !== sparse && Number.isFinite(vx[index]) && Number.isFinite(vy[index])),
+    (index) => verdict[index] !== sparse && Number.isFinite(vx[index]) && Number.isFinite(vy[index]),
   );
-  const of = (values: Floats): Float64Array => Float64Array.from(kept, (index) => (stands(index) ? 0 : values[index] ?? NaN));
-  const times = Float64Array.from(kept, (index) => timeS[index] ?? NaN);
+  const of = (values: Floats): Float64Array => Float64Array.from(kept, (index) => values[index] ?? NaN);
+  const times = of(timeS);
   ascending('frames.timeS', times);
   return call(() => glue.integrateMotion(times, of(vx), of(vy), angleDeg, xM, yM) as Trajectory | null);
 }
