@@ -48,7 +48,7 @@ browserTest('mounting angle: the bundled drive loads by itself and gives the ang
   assert.equal(counted.reduce((sum, frames) => sum + frames, 0), 12_003, 'every frame is counted once');
   assert.match(await page.locator('[data-fact="frames"]').innerText(), /12.003 at 20\.0.Hz/);
   assert.match(await page.locator('[data-facts="counts"]').innerText(), /Without range rate\s*192/);
-  assert.match(await page.locator('[data-plot="trajectory"] .legend').innerText(), /Angle found, −1\.9\d°, strays [\d.]+ m[^]*Nominal angle, 0\.00°, strays [\d.]+ m[^]*Poses of the log/);
+  assert.match(await page.locator('[data-plot="trajectory"] .legend').innerText(), /Angle found, −1\.9\d°, RTE [\d.]+ m[^]*Nominal angle, 0\.00°, RTE [\d.]+ m[^]*Poses of the log/);
   await page.waitForSelector('[data-plot="doppler-azimuth"] [data-series="recursive"]');
 });
 
@@ -73,6 +73,29 @@ browserTest('mounting angle: slider, keys and playback move through the frames',
   const over = page.locator('[data-plot="angle-history"] .u-over');
   await over.click({ position: { x: (await over.boundingBox()).width / 2, y: 40 } });
   assert.ok(Math.abs((await frameNumber(page)) - 6000) < 40, 'a click on a plot over time goes there');
+});
+
+browserTest('mounting angle: plots over time share a zoom of time, each has its own of values', { path: '#/mounting?methods=weighted-mean' }, async ({ page }) => {
+  await ready(page, 'weighted-mean');
+  const readout = async (plot) => {
+    const over = page.locator(`[data-plot="${plot}"] .u-over`);
+    const { width, height } = await over.boundingBox();
+    await over.hover({ position: { x: width / 2, y: height / 2 } });
+    return page.locator(`[data-plot="${plot}"] [data-readout]`).innerText();
+  };
+  const numbers = (text) => [...text.replaceAll('−', '-').matchAll(/[+-]?\d+\.\d+/g)].map(Number);
+  const [, middle] = numbers(await readout('angle-history'));
+  const { x, y, width, height } = await page.locator('[data-plot="angle-history"] .u-over').boundingBox();
+  await page.mouse.move(x + width / 2, y + 2);
+  await page.mouse.down();
+  await page.mouse.move(x + width * 0.75, y + height / 2, { steps: 5 });
+  await page.mouse.up();
+  const [time, angle] = numbers(await readout('angle-history'));
+  assert.ok(Math.abs(time - 375) < 3, `${time} s`);
+  assert.ok(angle > middle + 0.02, `${angle} degrees, ${middle} before`);
+  assert.ok(Math.abs(numbers(await readout('frame-weights'))[0] - 375) < 3, 'the other plot has the same time');
+  await page.locator('[data-plot="frame-weights"] .plot-host').press('0');
+  assert.ok(Math.abs(numbers(await readout('angle-history'))[0] - 300) < 3, 'and shows all of it again');
 });
 
 browserTest('mounting angle: general tables are dropped, and say where the radar is not', { path: '#/mounting?methods=recursive,weighted-mean' }, async ({ page }) => {

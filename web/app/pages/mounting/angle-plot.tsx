@@ -37,21 +37,21 @@ export function AnglePlot() {
   const content = useMemo(() => {
     const below: Layer[] = [];
     const lines: Layer[] = [];
-    for (const { method, history } of curves) {
+    for (const { method: way, history } of [...curves].sort((a, b) => Number(a.method === method) - Number(b.method === method))) {
       const x = sinceStart(history.timeS);
-      const style = methodStyle(method);
+      const style = methodStyle(way);
       const edge = (sign: number): Float64Array => history.angleDeg.map((angle, i) => angle + sign * sigmas * (history.sigmaDeg[i] as number));
       below.push(areaBetween(x, edge(-1), edge(1), style));
       lines.push(polyline(x, history.angleDeg, style));
     }
     if (frames && method && singles) lines.unshift(dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.2));
-    const extent = { x: timeExtent(), y: angleExtent(curves, sigmas, trueDeg, nominalDeg) };
+    const extent = { x: timeExtent(), y: angleExtent(curves, sigmas, trueDeg, nominalDeg, found.get(method ?? 'recursive')?.calibration?.result.angleDeg) };
     if (nominalDeg !== null) lines.push(horizontalLine(nominalDeg, `nominal ${signed(nominalDeg, 2)}°`, { left: true }));
     if (trueDeg !== undefined) {
       lines.push(horizontalLine(trueDeg, `${open?.truth ? 'true' : 'stated'} ${signed(trueDeg, 2)}°`, { color: (t) => t.truth, dash: [6, 3] }));
     }
     return { x: sinceStart(curves[0]?.history.timeS ?? new Float64Array()), series: [], extent, below, above: lines };
-  }, [curves, frames, singles, sigmas, trueDeg, nominalDeg]);
+  }, [curves, frames, method, singles, sigmas, trueDeg, nominalDeg]);
   const at = (curve: Curve, x: number): string => {
     const i = entry(curve.history, x + startTime());
     const [angle, sigma] = [curve.history.angleDeg[i] ?? Number.NaN, curve.history.sigmaDeg[i] ?? Number.NaN];
@@ -63,6 +63,8 @@ export function AnglePlot() {
     })),
     ...(trueDeg === undefined ? [] : [{ id: 'truth', label: open?.truth ? 'True angle' : 'Angle stated by the data set', style: { ...TRUTH_STYLE, dash: [6, 3] }, line: true }]),
   ];
+  const ends = curves.map(({ history }) => history.angleDeg.at(-1) ?? Number.NaN);
+  const beyond = curves.filter((_, i) => (ends[i] as number) < content.extent.y[0] || (ends[i] as number) > content.extent.y[1]).map(({ title }) => title);
   const outside = nominalDeg !== null && (nominalDeg < content.extent.y[0] || nominalDeg > content.extent.y[1]);
   return (
     <TimePlot title="Angle over driving time" name="angle-history" height="medium" content={content} legend={legend}
@@ -74,13 +76,18 @@ export function AnglePlot() {
       )}
       remarks={[
         `Shaded: the angle ± ${band} standard deviation${band === '1' ? '' : 's'}, as each method claims them.`
-        + `${frames && singles ? ' Dots: what single frames give.' : ''}${outside ? ` The nominal angle, ${signed(nominalDeg, 2)}°, is outside.` : ''}`,
+        + `${frames && singles ? ' Dots: what single frames give.' : ''}${outside ? ` The nominal angle, ${signed(nominalDeg, 2)}°, is outside.` : ''}${beyond.length ? ` Out of sight at the end: ${beyond.join('; ')}.` : ''}`,
       ]} />
   );
 }
 
+/** Most that is shown on either side of the angle, deg: a method that is far off must not hide what the others do. */
+const REACH_DEG = 4;
+
 /** What is worth showing: the first part of the drive, when little is known, may run out of sight. */
-function angleExtent(curves: readonly Curve[], sigmas: number, trueDeg: number | undefined, nominalDeg: number | null): [number, number] {
+function angleExtent(
+  curves: readonly Curve[], sigmas: number, trueDeg: number | undefined, nominalDeg: number | null, shownDeg: number | undefined,
+): [number, number] {
   const edges: number[] = [];
   const ends: number[] = trueDeg === undefined ? [] : [trueDeg];
   for (const { history: { angleDeg, sigmaDeg } } of curves) {
@@ -92,7 +99,9 @@ function angleExtent(curves: readonly Curve[], sigmas: number, trueDeg: number |
     if (last !== undefined && Number.isFinite(last)) ends.push(last);
   }
   const [low, high] = quantiles(edges, 0.04, 0.96) ?? [nominalDeg ?? -1, nominalDeg ?? 1];
-  const [bottom, top] = [Math.min(low, ...ends), Math.max(high, ...ends)];
+  const centre = trueDeg ?? shownDeg ?? (low + high) / 2;
+  const bottom = Math.max(Math.min(low, ...ends), centre - REACH_DEG);
+  const top = Math.min(Math.max(high, ...ends), centre + REACH_DEG);
   const room = Math.max(0.2 * (top - bottom), 0.05);
   const shown: [number, number] = [bottom - room, top + room];
   // The nominal angle is drawn in where that leaves the rest readable.

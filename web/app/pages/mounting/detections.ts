@@ -20,7 +20,7 @@ export function detectionLegend({ moving }: Pick<FrameView, 'moving'>): LegendIt
   return [
     { id: 'inlier', label: `Static, weight ≥ ${INLIER}`, style: INLIER_STYLE, line: false },
     { id: 'outlier', label: 'Outlier', style: OUTLIER_STYLE, line: false, hollow: true },
-    ...(moving ? [{ id: 'moving', label: 'Ring: moves, as the drive knows', style: MOVING_STYLE, line: false, hollow: true }] : []),
+    ...(moving ? [{ id: 'moving', label: 'Ring: moving by the drive’s own labels', style: MOVING_STYLE, line: false, hollow: true }] : []),
   ];
 }
 

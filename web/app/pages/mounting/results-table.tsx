@@ -9,7 +9,7 @@ import { type Loaded, loaded, sensor } from './drive.ts';
 import { type MethodResult, results, where } from './process.ts';
 import { calibrationOptions, mountingState } from './state.ts';
 import { fileParts } from './time-plot.tsx';
-import { SEGMENT_M, strays } from './trajectory.ts';
+import { relativeErrors, SEGMENT_M } from './trajectory.ts';
 import { about, type Way, WAYS } from './ways.ts';
 
 interface Row extends MethodResult {
@@ -41,7 +41,7 @@ const frames = (key: keyof CalibrationResult['frames'], title: string, help: str
 });
 
 function columns(trueDeg: number | undefined, open: Loaded): Column[] {
-  const trajectory = strays.value;
+  const trajectory = relativeErrors.value;
   const angle: Column[] = [
     { key: 'angleDeg', group: 'Mounting angle', title: 'Angle (°)', csv: 'angle_deg', help: 'Yaw of boresight in the car’s frame, positive to the left',
       value: (r) => r.angleDeg, show: (v) => signed(v, 3), reference: (_, stated) => signed(stated, 3) },
@@ -61,8 +61,8 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
     { key: 'biasDegps', group: 'Yaw rate', title: 'Bias (°/s)', csv: 'bias_degps', help: 'Measured at standstill',
       value: (r) => r.biasDegps, show: (v) => signed(v, 4), reference: ({ truth }) => (truth ? signed(truth.yawRate.biasDegps, 4) : '–') },
     { key: 'biasSigmaDegps', group: 'Yaw rate', title: 'σ (°/s)', csv: 'bias_sigma_degps', help: 'Standard deviation of the bias', value: (r) => r.biasSigmaDegps, show: sigma(4) },
-    { key: 'strays', group: 'Trajectory', title: `Strays (m in ${SEGMENT_M} m)`, csv: 'trajectory_error_m_in_50_m',
-      help: `Mean end-point error of ${SEGMENT_M} m pieces of the path that the radar’s motion and this angle give`, value: (_, { method }) => trajectory.get(method), show: (v) => fixed(v, 2) },
+    { key: 'rte', group: 'Trajectory', title: `RTE ${SEGMENT_M} m (m)`, csv: 'rte_50m_m',
+      help: `Relative trajectory error: mean end-point error of ${SEGMENT_M} m segments of the path that the radar’s motion and this angle give`, value: (_, { method }) => trajectory.get(method), show: (v) => fixed(v, 2) },
     { key: 'inlierShare', group: 'Frames', title: 'Inliers (%)', csv: 'inlier_share', help: 'Static detections over all, of the frames used', value: (r) => r.inlierShare, show: (v) => fixed(100 * v, 1) },
     frames('used', 'Used', 'Frames that went into the angle'),
     frames('standing', 'Standing', 'Left out: the car stood. They tell the bias of the yaw rate'),
@@ -93,7 +93,14 @@ export function ResultsTable() {
     ['method', ...list.map((column) => column.csv), 'warnings'],
     rows.map((row) => [row.method, ...list.map(({ value }) => row.result && value(row.result, row)), row.result?.warnings.map(({ code }) => code).join(' ')]),
   );
-  const warnings = rows.flatMap(({ title, result }) => (result?.warnings ?? []).map((warning) => ({ title, ...warning })));
+  const warnings = new Map<string, { message: string; titles: string[] }>();
+  for (const { title, result } of rows) {
+    for (const { code, message } of result?.warnings ?? []) {
+      const known = warnings.get(code);
+      if (known) known.titles.push(title);
+      else warnings.set(code, { message, titles: [title] });
+    }
+  }
   const save = (content: string, extension: 'csv' | 'json'): void =>
     download(new Blob([content], { type: extension === 'csv' ? 'text/csv;charset=utf-8' : 'application/json' }), fileName(['mounting', ...fileParts()], extension));
   return (
@@ -146,20 +153,22 @@ export function ResultsTable() {
           </tbody>
         </table>
       </div>
-      {warnings.length > 0 && (
+      {warnings.size > 0 && (
         <ul class="warnings" aria-label="Warnings">
-          {warnings.map(({ title, code, message }) => <li key={`${title} ${code}`}>{title}: {message} <code>{code}</code></li>)}
+          {[...warnings].map(([code, { message, titles }]) => <li key={code}>{sentence(message)} <code>{code}</code>: {titles.join('; ')}</li>)}
         </ul>
       )}
     </section>
   );
 }
 
+const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
 /** Everything a result rests on; infinite deviations become null. */
 function report(open: Loaded, radar: number, rows: readonly Row[]): string {
   const { name, files, drive, source, truth } = open;
   const { scenario, seed, duration, moving, misalignment } = mountingState.value;
-  const trajectory = strays.value;
+  const trajectory = relativeErrors.value;
   const stated = open.statedDeg.get(radar);
   return JSON.stringify({
     boresight: api.version(),
@@ -171,6 +180,6 @@ function report(open: Loaded, radar: number, rows: readonly Row[]): string {
     sensor: radar,
     options: where.value && calibrationOptions(mountingState.value, where.value, drive.format),
     ...(stated === undefined ? {} : { [truth ? 'trueDeg' : 'statedDeg']: stated }),
-    methods: rows.map(({ method, result, problem }) => ({ method, ...(problem ? { error: problem } : result), trajectoryErrorM: trajectory.get(method) ?? null })),
+    methods: rows.map(({ method, result, problem }) => ({ method, ...(problem ? { error: problem } : result), relativeTrajectoryErrorM: trajectory.get(method) ?? null })),
   }, null, 2);
 }

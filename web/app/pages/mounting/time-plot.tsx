@@ -1,6 +1,6 @@
 /** A plot over driving time: one zoom and one cursor for all, the playhead, and a click that goes there. */
-import { effect, signal } from '@preact/signals';
-import type { AxisOptions, Plot, View } from '../../plots/plot.ts';
+import { effect, signal, useSignal } from '@preact/signals';
+import type { AxisOptions, Interval, Plot, View } from '../../plots/plot.ts';
 import { Playhead } from '../../plots/playhead.ts';
 import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
 import { loaded, scans, sensor } from './drive.ts';
@@ -22,12 +22,13 @@ export function sinceStart(timeS: Float64Array): Float64Array {
 }
 
 /** The stretch of time all these plots are zoomed to. */
-const zoom = signal<readonly [number, number] | null>(null);
+const zoom = signal<Interval | null>(null);
 
 type Props = Omit<PlotFrameProps, 'options' | 'fileParts'> & { y: AxisOptions };
 
 export function TimePlot({ y, ...props }: Props) {
-  const [x, extentY] = [zoom.value, props.content.extent.y];
+  const zoomY = useSignal<Interval | null>(null);
+  const { extent } = props.content;
   const follow = (plot: Plot): (() => void) => {
     const head = new Playhead(plot);
     const stop = effect(() => head.set(time.value - startTime()));
@@ -36,7 +37,7 @@ export function TimePlot({ y, ...props }: Props) {
       head.destroy();
     };
   };
-  const view: View | null = x ? { x, y: extentY } : null;
+  const view: View | null = zoom.value || zoomY.value ? { x: zoom.value ?? extent.x, y: zoomY.value ?? extent.y } : null;
   return (
     <PlotFrame {...props} view={view} fileParts={fileParts()} onPlot={follow}
       keys="Space plays; arrows step by a frame, with Shift by ten."
@@ -47,7 +48,11 @@ export function TimePlot({ y, ...props }: Props) {
           playing.value = false;
           time.value = position.x + startTime();
         },
-        onView: (next, zoomed) => { zoom.value = zoomed ? next.x : null; },
+        onView: (next, zoomed) => {
+          const within = (part: Interval, all: Interval): boolean => zoomed && (part[0] > all[0] || part[1] < all[1]);
+          zoom.value = within(next.x, extent.x) ? next.x : null;
+          zoomY.value = within(next.y, extent.y) ? next.y : null;
+        },
         onKey: frameKey,
       }} />
   );

@@ -38,7 +38,7 @@ export function TrajectoryPlot() {
       above: [...lines, markers([...here(all?.nominal, NOMINAL, 'square'), ...here(all?.reference, REFERENCE, 'cross'), ...here(all?.found, FOUND, 'circle')], { edge: false })],
     };
   }, [lines, extent, now]);
-  const error = (value: number | null | undefined): string => (value == null ? '' : `, strays ${fixed(value, 2)} m in ${SEGMENT_M} m`);
+  const error = (value: number | null | undefined): string => (value == null ? '' : `, RTE ${fixed(value, 2)} m`);
   const nominalDeg = calibration?.mounting.nominalDeg;
   const legend: LegendItem[] = all ? [
     { id: 'found', label: `Angle found, ${signed(calibration?.result.angleDeg ?? Number.NaN, 2)}°${error(all.foundError)}`, style: { ...FOUND, marker: 'circle' }, line: true },
@@ -47,7 +47,7 @@ export function TrajectoryPlot() {
   ] : [];
   const remark = !all ? 'Not calibrated yet.'
     : !all.found ? 'The radar is too near the rear axle’s line to tell how the car turns.'
-      : `The radar’s own motion alone, integrated from the start; no yaw rate is used.${all.reference ? '' : ' This drive has neither poses nor speed to compare with.'}`;
+      : `The radar’s own motion alone, integrated from the start; no yaw rate is used. RTE: mean end-point error of ${SEGMENT_M} m segments.${all.reference ? '' : ' This drive has neither poses nor speed to compare with.'}`;
   return (
     <PlotFrame title="Trajectory" name="trajectory" height="tall" content={content} legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."

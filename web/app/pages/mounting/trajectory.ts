@@ -7,7 +7,7 @@ import { after } from './playhead.ts';
 import { results, shown } from './process.ts';
 import type { Way } from './ways.ts';
 
-/** Length of the pieces whose ends are compared, m. */
+/** Length of the segments that the relative trajectory error (RTE) is taken over, m. */
 export const SEGMENT_M = 50;
 
 /** Null where the radar is too near the axle's line to tell how the car turns. */
@@ -22,7 +22,7 @@ const reference = computed<{ path: Trajectory; kind: 'poses' | 'odometry' } | nu
   return motion?.speedMps.some(Number.isFinite) ? { path: odometry(motion), kind: 'odometry' } : null;
 });
 
-const strayed = (estimated: Trajectory | null): number | null =>
+const relativeError = (estimated: Trajectory | null): number | null =>
   (estimated && reference.value ? api.relativeTrajectoryError(estimated, reference.value.path, SEGMENT_M) : null);
 
 export interface Paths {
@@ -32,7 +32,7 @@ export interface Paths {
   /** What they are compared with, from the same start. */
   reference: Trajectory | null;
   kind: 'poses' | 'odometry' | null;
-  /** Mean end-point error of 50 m pieces, m. */
+  /** Relative trajectory errors, m. */
   foundError: number | null;
   nominalError: number | null;
 }
@@ -47,7 +47,7 @@ export const paths = computed<Paths | null>(() => {
     found, nominal,
     reference: found && reference.value && fromStart(reference.value.path, found),
     kind: reference.value?.kind ?? null,
-    foundError: strayed(found), nominalError: strayed(nominal),
+    foundError: relativeError(found), nominalError: relativeError(nominal),
   };
 });
 
@@ -55,11 +55,11 @@ export const paths = computed<Paths | null>(() => {
 const known = new WeakMap<DriveCalibration, number | null>();
 
 /** The same for every method, with its own motion and angle. */
-export const strays = computed<ReadonlyMap<Way, number>>(() => {
+export const relativeErrors = computed<ReadonlyMap<Way, number>>(() => {
   const errors = new Map<Way, number>();
   for (const [way, { calibration }] of results.value) {
     if (!calibration) continue;
-    if (!known.has(calibration)) known.set(calibration, strayed(path(calibration, calibration.result.angleDeg)));
+    if (!known.has(calibration)) known.set(calibration, relativeError(path(calibration, calibration.result.angleDeg)));
     const error = known.get(calibration);
     if (error != null) errors.set(way, error);
   }
