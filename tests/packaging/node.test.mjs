@@ -21,6 +21,15 @@ before(async () => {
         boresight.initSync(readFileSync(fileURLToPath(import.meta.resolve('boresight/boresight.wasm'))));
         console.log(await planeWaveAzimuth(boresight, -35));
       `,
+      'drives.mjs': `
+        import { readFileSync } from 'node:fs';
+        import { fileURLToPath } from 'node:url';
+        import * as boresight from 'boresight';
+        import { createPool } from 'boresight/worker';
+        import { simulatedScans } from './program.mjs';
+        boresight.initDrivesSync(readFileSync(fileURLToPath(import.meta.resolve('boresight/boresight_drives.wasm'))));
+        console.log(await simulatedScans(boresight) === await simulatedScans(createPool({ workers: 1 })));
+      `,
       'pool.mjs': `
         import { createPool } from 'boresight/worker';
         import { planeWaveAzimuth } from './program.mjs';
@@ -53,6 +62,10 @@ test('its workers run too, and do not keep the process alive', async () => {
 
 test('the wasm can be had by name and given to initSync', async () => {
   near(await printed('bytes.mjs'), -35);
+});
+
+test('the module of drives can be had by name, and a pool loads it by itself', async () => {
+  assert.equal(await printed('drives.mjs'), 'true');
 });
 
 test('using the package before init() is a typed error', async () => {

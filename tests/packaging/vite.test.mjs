@@ -18,11 +18,14 @@ before(async () => {
       'page.js': `
         import * as boresight from 'boresight';
         import { createPool } from 'boresight/worker';
-        import { planeWaveAzimuth } from './program.mjs';
+        import { planeWaveAzimuth, simulatedScans } from './program.mjs';
         await boresight.init();
         const here = await planeWaveAzimuth(boresight, 20);
-        const inWorker = await planeWaveAzimuth(createPool({ workers: 1 }), -35);
-        document.querySelector('main').textContent = JSON.stringify([here, inWorker]);
+        const pool = createPool({ workers: 1 });
+        const inWorker = await planeWaveAzimuth(pool, -35);
+        await boresight.initDrives();
+        const scans = [await simulatedScans(boresight), await simulatedScans(pool)];
+        document.querySelector('main').textContent = JSON.stringify([here, inWorker, scans]);
       `,
     },
   });
@@ -40,9 +43,10 @@ async function checkPage(url) {
   const text = await opened.page.textContent('main');
   await opened.close();
   assert.deepEqual(opened.problems, []);
-  const [here, inWorker] = JSON.parse(text);
+  const [here, inWorker, scans] = JSON.parse(text);
   assert.ok(Math.abs(here - 20) < 0.1, `the page found ${here} deg, expected 20`);
   assert.ok(Math.abs(inWorker + 35) < 0.1, `the worker found ${inWorker} deg, expected -35`);
+  assert.ok(scans[0] > 40 && scans[1] === scans[0], `scans of a simulated second: ${scans}`);
 }
 
 test('a Vite project builds with the package and runs in Chromium', { skip: skipWithoutBrowser, timeout: 120_000 }, async () => {

@@ -8,12 +8,13 @@ import { consumer } from './consumer.mjs';
 
 const main = `
   import * as boresight from 'boresight';
-  import { planeWaveAzimuth } from './program.mjs';
+  import { planeWaveAzimuth, simulatedScans } from './program.mjs';
   export default {
     async fetch(request) {
       await boresight.init();
       const azimuthDeg = Number(new URL(request.url).searchParams.get('azimuthDeg'));
-      return Response.json({ azimuthDeg: await planeWaveAzimuth(boresight, azimuthDeg) });
+      await boresight.initDrives();
+      return Response.json({ azimuthDeg: await planeWaveAzimuth(boresight, azimuthDeg), scans: await simulatedScans(boresight) });
     },
   };
 `;
@@ -77,12 +78,13 @@ function start(config) {
   });
 }
 
-test('workerd takes the wasm as a module and estimates an angle', async () => {
+test('workerd takes the wasm as modules, estimates an angle and simulates a drive', async () => {
   for (const expected of [20, -35]) {
     const response = await fetch(`${url}?azimuthDeg=${expected}`);
     const text = await response.text();
     assert.equal(response.status, 200, text);
-    const { azimuthDeg } = JSON.parse(text);
+    const { azimuthDeg, scans } = JSON.parse(text);
+    assert.ok(scans > 40, `${scans} scans of a simulated second`);
     assert.ok(Math.abs(azimuthDeg - expected) < 0.1, `${azimuthDeg} deg should be within 0.1 of ${expected}`);
   }
 });
