@@ -279,6 +279,16 @@ describe('bad drives', () => {
     });
   }
 
+  test('taken away during the run: refused', () => {
+    for (const take of ['timeS', 'offsets', 'azimuthDeg', 'rangeRateMps']) {
+      const drive = structuredClone(beginning(front, 60));
+      const buffer = (drive.scans[take] ?? drive.detections[take]).buffer;
+      const report = (done) => { if (done < 200) structuredClone(buffer, { transfer: [buffer] }); };
+      throwsTyped(() => calibrateDrive(drive, {}, report));
+    }
+    assert.equal(calibrateDrive(beginning(front, 20)).sensor, 1);
+  });
+
   test('options are refused by name', async () => {
     const bad = async (drive, options, code, what) => {
       throwsTyped(() => calibrateDrive(drive, options), code, what);

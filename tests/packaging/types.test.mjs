@@ -3,9 +3,9 @@ import { after, before, test } from 'node:test';
 import { consumer } from './consumer.mjs';
 
 const program = `
-  import { BoresightError, Estimator, array, estimate, init } from 'boresight';
+  import { BoresightError, Estimator, array, calibrateDrive, estimate, init } from 'boresight';
   import { createPool, type Pool } from 'boresight/worker';
-  import type { Estimate, EstimatorOptions, Source } from 'boresight';
+  import type { Drive, DriveCalibration, DriveData, Estimate, EstimatorOptions, Source } from 'boresight';
 
   await init();
   const options: EstimatorOptions = { method: 'music', array: 'ula8', sources: 2 };
@@ -24,6 +24,16 @@ const program = `
   const pool: Pool = createPool({ workers: 1 });
   const later: Estimate = await pool.estimate({ snapshots: { data, shape: [8, 1] } }, options, { signal: AbortSignal.timeout(1000) });
   console.log(later.resolved);
+  const mine: DriveData = {
+    sensors: [{ id: 1, xM: 3.6, yM: null, yawDeg: null }],
+    scans: { timeS: new Float64Array(0), sensor: new Uint8Array(0), offsets: new Uint32Array(1) },
+    detections: { azimuthDeg: new Float32Array(0), rangeRateMps: new Float32Array(0) },
+    motion: { timeS: new Float64Array(0), yawRateDegps: new Float32Array(0) },
+  };
+  const here: DriveCalibration = calibrateDrive(mine, { method: 'kabsch' }, (done, total) => done < total);
+  const drive: Drive = await pool.simulateDrive({ scenario: 'city', seed: 1n }, { onProgress: (done) => console.log(done) });
+  const there: DriveCalibration[] = await pool.jointCalibration(drive, { sensors: [1, { sensor: 2, xM: 3 }] });
+  console.log(here.history.angleDeg, there[0]?.frames.verdict);
   pool.terminate();
 `;
 const wrong = `

@@ -140,6 +140,9 @@ function run(view: View, task: Task, report: Report | undefined): DriveCalibrati
         }
       }
       const nextS = view.timeS[scans[next] ?? 0] ?? NaN;
+      if (frames === 0 && !(nextS > dueS)) {
+        throw failure('wrong-type', { what: 'drive.scans', expected: 'arrays that stay', given: 'arrays given away meanwhile' });
+      }
       const finished = next === scans.length;
       if (finished || nextS > dueS) {
         if (next > asked && (finished || !all || next - asked >= SHARE * next)) {

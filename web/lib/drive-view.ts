@@ -149,10 +149,12 @@ export function ascending(what: string, times: Floats): void {
 /** Where the detections of a scan begin and end. */
 export function extent(view: View, scan: number): [start: number, end: number] {
   const [start, end] = [view.offsets[scan] ?? 0, view.offsets[scan + 1] ?? 0];
-  if (start <= end && end <= view.azimuthDeg.length && end - start <= MOST_DETECTIONS) return [start, end];
+  // A report may have given one of them away since.
+  const count = Math.min(view.azimuthDeg.length, view.rangeRateMps.length);
+  if (start <= end && end <= count && end - start <= MOST_DETECTIONS) return [start, end];
   throw failure('out-of-range', {
     what: 'drive.scans.offsets',
-    expected: `ascending to at most ${view.azimuthDeg.length}, by at most ${MOST_DETECTIONS}`,
+    expected: `ascending to at most ${count}, by at most ${MOST_DETECTIONS}`,
     given: `${start}, ${end} at index ${scan}`,
   });
 }

@@ -14,7 +14,8 @@ export function rejectsTyped(promise, code, what) {
 
 function isTyped(error, code, what) {
   assert.ok(error instanceof BoresightError, `a BoresightError, not ${error}`);
-  assert.equal(error.code, code, error.message);
+  if (code !== undefined) assert.equal(error.code, code, error.message);
+  assert.notEqual(error.code, code === 'trap' ? '' : 'trap', error.message);
   for (const key of ['what', 'expected', 'given']) {
     assert.equal(typeof error.details[key], 'string', `details.${key} of ${error.message}`);
     assert.notEqual(error.details[key], '', `details.${key} of ${error.message}`);
