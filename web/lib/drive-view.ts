@@ -148,7 +148,7 @@ export function ascending(what: string, times: Floats): void {
 
 /** Where the detections of a scan begin and end. */
 export function extent(view: View, scan: number): [start: number, end: number] {
-  const [start, end] = [view.offsets[scan] ?? 0, view.offsets[scan + 1] ?? 0];
+  const [start, end] = [view.offsets[scan] ?? NaN, view.offsets[scan + 1] ?? NaN];
   // A report may have given one of them away since.
   const count = Math.min(view.azimuthDeg.length, view.rangeRateMps.length);
   if (start <= end && end <= count && end - start <= MOST_DETECTIONS) return [start, end];
