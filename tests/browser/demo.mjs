@@ -58,6 +58,7 @@ export const clickWhenThere = (page, selector) =>
     };
     const observer = new MutationObserver(look);
     observer.observe(document.body, { childList: true, subtree: true });
+    look();
   }), selector);
 
 export function assertPng({ name, bytes }) {

@@ -1,8 +1,12 @@
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { root } from '../../scripts/lib/paths.mjs';
 import { assertCsv, assertJson, assertPng, clickWhenThere, drop, parametersWith, recordings, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const path = '#/mounting';
+const golden = (name) => join(root, 'tests', 'golden', name);
 const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"]:not(.stale) [data-field="${field}"]`;
 const ready = (page, method = 'recursive') => page.waitForSelector(`${cell(method, 'angleDeg')}[data-value]`);
 const value = async (page, method, field) => (await values(page, cell(method, field)))[0];
@@ -140,6 +144,17 @@ browserTest('mounting angle: a folder is looked through, dropped or chosen', { p
   await page.waitForFunction(() => /mine, csv/.test(document.querySelector('[data-fact="name"]').textContent));
 });
 
+browserTest('mounting angle: a RadarScenes sequence of two scans opens, and no angle is claimed from it', { path: '#/mounting?source=simulated&duration=5&methods=recursive' }, async ({ page }) => {
+  await page.waitForSelector('[data-fact="name"]');
+  await drop(page, [{ name: 'radar_data.h5', bytes: readFileSync(golden('radarscenes/deflated.h5')) }]);
+  await page.waitForFunction(() => /radar_data, radarscenes/.test(document.querySelector('[data-fact="name"]').textContent));
+  await ready(page);
+  assert.equal(await page.locator(cell('recursive', 'sigmaDeg')).innerText(), 'not determined');
+  assert.match(await page.locator('[data-table="results"] .warnings').innerText(), /no-frames/);
+  assert.equal(await page.locator('select[name="sensor"] option').count(), 2);
+  assert.match(await page.locator('[data-plot="birds-eye"] .legend').innerText(), /Ring: moving by the drive’s own labels/);
+});
+
 browserTest('mounting angle: what is no drive is refused by name, and the page goes on', { path: '#/mounting?methods=weighted-mean' }, async ({ page }) => {
   await ready(page, 'weighted-mean');
   const before = await value(page, 'weighted-mean', 'angleDeg');
@@ -172,6 +187,16 @@ browserTest('mounting angle: work is cancelled and taken up again, and a change 
   await page.locator('input[name="minSpeed"]').fill('10');
   await page.waitForFunction(([selector, before]) => Number(document.querySelector(selector)?.dataset.value) < before, [cell('least-squares', 'used'), used]);
   await parametersWith(page, (params) => params.get('minSpeed') === '10');
+});
+
+browserTest('mounting angle: opening is cancelled and taken up again', { path: '#/mounting?source=simulated&duration=300&methods=weighted-mean' }, async ({ page }) => {
+  await clickWhenThere(page, '[data-opening] [data-action="cancel-opening"]');
+  await page.waitForSelector('[data-interrupted]');
+  assert.equal(await page.locator('[data-fact="name"]').count(), 0);
+  await page.locator('input[name="duration"]').fill('10');
+  await page.waitForSelector('[data-fact="name"]');
+  await ready(page, 'weighted-mean');
+  assert.equal(await page.locator('[data-interrupted]').count(), 0);
 });
 
 browserTest('mounting angle: a simulated drive has its truth beside it, and the link brings it back', { path: '#/mounting?source=simulated&scenario=country-road&duration=40&seed=3&misalignment=-1&sensor=2&methods=recursive,kabsch,joint' }, async ({ page }) => {

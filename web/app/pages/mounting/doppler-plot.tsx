@@ -4,15 +4,17 @@ import { fixed, signed } from '../../plots/format.ts';
 import { COLOR_BAR_WIDTH, colorBar } from '../../plots/heat.ts';
 import { type Layer, polyline } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
-import { methodStyle, weightColor } from '../../plots/theme.ts';
+import { methodStyle, type SeriesStyle, TRUTH_STYLE, weightColor } from '../../plots/theme.ts';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { detectionLayer, detectionLegend, nearest } from './detections.ts';
-import { type FrameView, quantiles, sample, standingRate } from './frame.ts';
+import { expectedMotion, type FrameView, type Motion, quantiles, sample, standingRate } from './frame.ts';
 import { loaded } from './drive.ts';
 import { shownMethod } from './process.ts';
 import { mountingState } from './state.ts';
 import { fileParts, frameKey } from './time-plot.tsx';
 import { about } from './ways.ts';
+
+const EXPECTED: SeriesStyle = { color: TRUTH_STYLE.color, width: 1.2, dash: [2, 3] };
 
 /** Azimuths of the curves, 2 degrees apart. */
 const GRID = Float64Array.from({ length: 181 }, (_, i) => 2 * i - 180);
@@ -28,21 +30,25 @@ export function DopplerPlot({ view, label }: { view: FrameView; label: string })
   }, [drive, sample.value]);
   const y = useMemo(() => Float64Array.from(view.rangeRateMps, (rate, i) =>
     (residual && view.motion ? rate - standingRate(view.motion, view.azimuthDeg[i] as number) : rate)), [view, residual]);
+  const expected = expectedMotion(view);
   const content = useMemo(() => {
     const lines: Layer[] = [];
+    const against = residual ? view.motion : null;
+    const curve = (motion: Motion): Float64Array =>
+      GRID.map((azimuth) => standingRate(motion, azimuth) - (against ? standingRate(against, azimuth) : 0));
+    if (expected) lines.push(polyline(GRID, curve(expected), EXPECTED));
     const curves = [...view.motions].sort(([a], [b]) => Number(a === method) - Number(b === method));
     for (const [name, motion] of curves) {
-      const against = residual && view.motion ? view.motion : null;
-      const values = GRID.map((azimuth) => standingRate(motion, azimuth) - (against ? standingRate(against, azimuth) : 0));
-      lines.push(polyline(GRID, values, { ...methodStyle(name), width: name === method ? 2.4 : 1.2 }));
+      lines.push(polyline(GRID, curve(motion), { ...methodStyle(name), width: name === method ? 2.4 : 1.2 }));
     }
     return {
       x: GRID, series: [], extent: { x: sector, y: rateExtent(view, y, sector, residual) },
       above: [...lines, detectionLayer(view.azimuthDeg, y, view, { edge: true }), colorBar([0, 1], weightColor, 'Weight')],
     };
-  }, [view, y, method, sector]);
+  }, [view, y, method, sector, expected?.vxMps, expected?.vyMps]);
   const legend: LegendItem[] = [
     ...detectionLegend(view),
+    ...(expected ? [{ id: 'expected', label: 'From the car’s speed and yaw rate, with the angle found', style: EXPECTED, line: true }] : []),
     ...[...view.motions].map(([name, motion]): LegendItem => ({
       id: name, label: `${about(name).title}: ${fixed(Math.hypot(motion.vxMps, motion.vyMps), 2)} m/s`, style: { ...methodStyle(name), marker: undefined as never }, line: true,
     })),

@@ -33,6 +33,16 @@ export function standingRate({ vxMps, vyMps }: Motion, azimuthDeg: number): numb
   return -(vxMps * Math.cos(azimuth) + vyMps * Math.sin(azimuth));
 }
 
+/** The radar's motion as the car's speed and yaw rate, and the angle in use, have it. */
+export function expectedMotion({ speedMps, yawRateDegps }: DriveFrame): Motion | null {
+  const at = where.value;
+  if (speedMps == null || yawRateDegps === null || at === null || at.xM === null) return null;
+  const rate = (yawRateDegps * Math.PI) / 180;
+  const [x, y] = [speedMps - rate * at.yM, rate * at.xM];
+  const [cos, sin] = [Math.cos((usedAngleDeg.value * Math.PI) / 180), Math.sin((usedAngleDeg.value * Math.PI) / 180)];
+  return { vxMps: cos * x + sin * y, vyMps: cos * y - sin * x };
+}
+
 export const frameView = computed<FrameView | null>(() => {
   const { drive, truth } = loaded.value ?? {};
   const { scan } = scans.value;

@@ -72,7 +72,7 @@ export function SharePlot() {
           return [time, verdict(i), data!.sizes[i], inliers[i], weight[i], vxMps[i], vyMps[i], angleDeg[i], angleSigmaDeg[i]];
         }),
       )}
-      remarks={[`Lines: means over 4 s.${data ? ` Weights are relative to ${data.heaviest.toExponential(1)} rad⁻².` : ''}`]} />
+      remarks={[`Lines: means over 4 s.${data && data.heaviest > 0 ? ` Weights are relative to ${data.heaviest.toExponential(1)} rad⁻².` : ''}`]} />
   );
 }
 
