@@ -165,6 +165,7 @@ browserTest('mounting angle: what is no drive is refused by name, and the page g
     [[{ name: 'cut.h5', bytes: Buffer.from('\x89HDF\r\n\x1a\n', 'latin1') }], 'malformed-hdf5'],
     [[{ name: 'list.csv', bytes: Buffer.from('a,b\n1,2\n') }], 'malformed-table'],
     [[{ name: 'turned.csv', bytes: backwards }, motion], 'time-backwards'],
+    [[{ name: 'a.h5', bytes: Buffer.alloc(9) }, { name: 'b.h5', bytes: Buffer.alloc(9) }], 'ambiguous'],
   ]) {
     await drop(page, files);
     await page.waitForFunction((wanted) => document.querySelector('[role="alert"]')?.dataset.error === wanted, code);

@@ -1,7 +1,7 @@
 /** Detections on a plot, by the weight with which they were taken as static. */
 import type { CursorPosition, View } from '../../plots/plot.ts';
 import { drawMarker, type Layer } from '../../plots/layers.ts';
-import { methodStyle, type SeriesStyle, weightColor } from '../../plots/theme.ts';
+import { methodStyle, type SeriesStyle, THEMES, weightColor } from '../../plots/theme.ts';
 import type { LegendItem } from '../../ui/plot-frame.tsx';
 import type { FrameView } from './frame.ts';
 
@@ -11,15 +11,18 @@ const INLIER = 0.5;
 const style = (weight: number, marker: 'circle' | 'diamond'): SeriesStyle =>
   ({ color: { light: weightColor(weight, 'light'), dark: weightColor(weight, 'dark') }, marker });
 const INLIER_STYLE = style(1, 'circle');
+const UNWEIGHED_STYLE: SeriesStyle = { color: { light: THEMES.light.muted, dark: THEMES.dark.muted }, marker: 'circle' };
 const OUTLIER_STYLE = style(0, 'diamond');
 /** A ring around what the drive itself knows to move. */
 const MOVING_STYLE: SeriesStyle = { color: methodStyle('kabsch').color, marker: 'circle' };
 
 /** What the marks mean. */
-export function detectionLegend({ moving }: Pick<FrameView, 'moving'>): LegendItem[] {
+export function detectionLegend({ weights, moving }: Pick<FrameView, 'weights' | 'moving'>): LegendItem[] {
   return [
-    { id: 'inlier', label: `Static, weight ≥ ${INLIER}`, style: INLIER_STYLE, line: false },
-    { id: 'outlier', label: 'Outlier', style: OUTLIER_STYLE, line: false, hollow: true },
+    ...(weights ? [
+      { id: 'inlier', label: `Static, weight ≥ ${INLIER}`, style: INLIER_STYLE, line: false },
+      { id: 'outlier', label: 'Outlier', style: OUTLIER_STYLE, line: false, hollow: true },
+    ] : [{ id: 'unweighed', label: 'Detection, not weighed in this frame', style: UNWEIGHED_STYLE, line: false }]),
     ...(moving ? [{ id: 'moving', label: 'Ring: moving by the drive’s own labels', style: MOVING_STYLE, line: false, hollow: true }] : []),
   ];
 }

@@ -8,7 +8,7 @@ import { results, shown, shownMethod, where } from './process.ts';
 import type { Way } from './ways.ts';
 
 export interface FrameView extends DriveFrame {
-  /** For each detection the weight with which it was taken as static; null without a result. */
+  /** For each detection the weight with which it was taken as static; null where none was weighed. */
   weights: Float32Array | null;
   /** For each detection whether it truly comes from something moving, where the drive knows. */
   moving: Uint8Array | null;
@@ -59,12 +59,13 @@ export const frameView = computed<FrameView | null>(() => {
   const frames = calibration?.frames;
   const known = (value: number | undefined): number | null => (value !== undefined && Number.isFinite(value) ? value : null);
   const { offsets, values } = frames?.weights ?? {};
+  const weights = offsets && values?.subarray(offsets[index], offsets[index + 1]);
   const read = api.driveFrame(drive, at);
   const labelled = read.label?.map((label) => Number(label !== STATIC_LABEL));
   return {
     ...read,
     moving: truth?.moving.subarray(drive.scans.offsets[at], drive.scans.offsets[at + 1]) ?? labelled ?? null,
-    weights: offsets && values ? values.subarray(offsets[index], offsets[index + 1]) : null,
+    weights: weights?.some((weight) => weight > 0) ? weights : null,
     verdict: (frames && api.frameVerdicts[frames.verdict[index] ?? -1]) ?? null,
     motion: (shownMethod.value && motions.get(shownMethod.value)) ?? null,
     motions,

@@ -10,7 +10,7 @@ export function TimeBar() {
   const start = timeS[0] ?? 0;
   const at = frame.value;
   return (
-    <section class="panel frame-bar" aria-label="Time">
+    <section class="panel frame-bar time-bar" aria-label="Time">
       <button type="button" aria-pressed={playing.value} data-action="play" disabled={timeS.length < 2} title="Play the frames on (space)"
         onClick={togglePlaying}>{playing.value ? 'Pause' : 'Play'}</button>
       <select class="speed" aria-label="Playback speed" title="Playback speed" name="speed" value={mountingState.value.speed}
