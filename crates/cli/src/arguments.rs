@@ -438,22 +438,18 @@ fn pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
 /// Experiments.
 #[derive(Debug, Subcommand)]
 pub enum EvaluateCommand {
+    /// Angles in single snapshots of 2 to 10 targets: detection and accuracy by method.
+    Aoa(EvaluateAoaArguments),
     /// Mounting angles on simulated drives of four radars: errors, trajectories, driving time.
     Calibration(EvaluateCalibrationArguments),
 }
 
-/// Arguments of `evaluate calibration`.
+/// Arguments of all experiments.
 #[derive(Debug, Args)]
-pub struct EvaluateCalibrationArguments {
-    /// Drives of each kind: all roads with up to 30 % moving detections, and dense traffic.
-    #[arg(long, value_name = "N", default_value_t = 64)]
-    pub scenes: u64,
+pub struct EvaluateArguments {
     /// Seed.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub seed: u64,
-    /// Length of a drive, s.
-    #[arg(long, value_name = "S", default_value_t = 120.0)]
-    pub duration: f64,
     /// Threads; without it one a processor core.
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
@@ -463,4 +459,47 @@ pub struct EvaluateCalibrationArguments {
     /// Folder for records, tables and figures. A run that was stopped goes on from the records.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `evaluate aoa`.
+#[derive(Debug, Args)]
+pub struct EvaluateAoaArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Comma-separated values, a row a condition and method.
+    #[arg(long, conflicts_with = "json")]
+    pub csv: bool,
+    /// Snapshots a condition: 2 to 10 targets at 15 to 35 dB.
+    #[arg(long, value_name = "N", default_value_t = 4000)]
+    pub trials: u64,
+    /// Array, by name.
+    #[arg(long, value_name = "NAME", default_value = "lrr48")]
+    pub array: String,
+    /// Standard deviation of the elements' gain, dB.
+    #[arg(long, value_name = "DB", default_value_t = 0.0)]
+    pub gain_error: f64,
+    /// Standard deviation of the elements' phase, deg.
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    pub phase_error: f64,
+    /// Standard deviation of the elements' position, half wavelengths.
+    #[arg(long, value_name = "HALF-WAVELENGTHS", default_value_t = 0.0)]
+    pub position_error: f64,
+    /// Coupling of elements half a wavelength apart, dB.
+    #[arg(long, value_name = "DB", allow_hyphen_values = true)]
+    pub coupling: Option<f64>,
+}
+
+/// Arguments of `evaluate calibration`.
+#[derive(Debug, Args)]
+pub struct EvaluateCalibrationArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Drives of each kind: all roads with up to 30 % moving detections, and dense traffic.
+    #[arg(long, value_name = "N", default_value_t = 64)]
+    pub scenes: u64,
+    /// Length of a drive, s.
+    #[arg(long, value_name = "S", default_value_t = 120.0)]
+    pub duration: f64,
 }

@@ -1,5 +1,6 @@
 //! Errors of the experiments.
 
+use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_simulate::SimulateError;
@@ -16,6 +17,9 @@ pub enum EvaluateError {
     /// A scene cannot be simulated.
     #[error(transparent)]
     Simulate(#[from] SimulateError),
+    /// An estimator of angles refused.
+    #[error(transparent)]
+    Angle(#[from] AoaError),
     /// A calibration refused.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
@@ -67,6 +71,7 @@ impl Diagnose for EvaluateError {
         match self {
             Self::Core(error) => error.code(),
             Self::Simulate(error) => error.code(),
+            Self::Angle(error) => error.code(),
             Self::Calibrate(error) => error.code(),
             Self::File { .. } => "file",
             Self::OtherRun { .. } => "other-run",
@@ -80,6 +85,7 @@ impl Diagnose for EvaluateError {
         match self {
             Self::Core(error) => error.details(),
             Self::Simulate(error) => error.details(),
+            Self::Angle(error) => error.details(),
             Self::Calibrate(error) => error.details(),
             Self::File { action, path, error } => Details::new(
                 path.display().to_string(),

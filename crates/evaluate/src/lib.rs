@@ -3,10 +3,12 @@
 //! A scene depends on the seed and its own number only, so a run can be stopped and taken up again, spread
 //! over threads, or split by scene numbers over machines.
 
+pub mod aoa;
 pub mod calibration;
 pub mod error;
 mod plot;
 pub mod statistics;
 pub mod sweep;
+mod table;
 
 pub use error::EvaluateError;

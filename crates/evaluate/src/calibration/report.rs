@@ -3,6 +3,7 @@
 use super::scene::{EstimateRecord, PartRecord, RadarRecord, SEGMENT_M, SceneRecord};
 use super::{CANDIDATES, DRIVING_TIMES_S, Options};
 use crate::statistics::Summary;
+use crate::table::table;
 use serde::Serialize;
 
 /// The experiment's result.
@@ -331,13 +332,4 @@ fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
 
 fn percent([one, two]: [f64; 2]) -> String {
     format!("{:.0} %, {:.0} %", 100.0 * one, 100.0 * two)
-}
-
-fn table(corner: &str, heads: &[&str], rows: &[(&str, Vec<String>)]) -> String {
-    let mut text =
-        format!("| {corner} | {} |\n|---|{}\n", heads.join(" | "), "---|".repeat(heads.len()));
-    for (name, cells) in rows {
-        text += &format!("| {name} | {} |\n", cells.join(" | "));
-    }
-    text
 }

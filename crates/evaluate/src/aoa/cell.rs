@@ -1,0 +1,271 @@
+//! The snapshots of one condition through every method.
+
+use super::score::{Point, Score};
+use super::{Condition, Options};
+use crate::EvaluateError;
+use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
+use boresight_aoa::gauss_newton::{Limits, refine};
+use boresight_aoa::{Data, Estimate, Estimator, Method, Options as AngleOptions};
+use boresight_core::imperfections::ImperfectionSpread;
+use boresight_core::presets::preset;
+use boresight_core::steering::{cis, steering_matrix};
+use boresight_core::units::{db_to_amplitude, db_to_power};
+use boresight_core::{Array, Complex64, Direction, Imperfections};
+use boresight_simulate::snapshots::{
+    Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Target,
+};
+use ndarray::{Array2, ArrayView2};
+use serde::{Deserialize, Serialize};
+
+/// Half width of the sector of targets, rad (60 deg).
+const FIELD_OF_VIEW_RAD: f64 = 1.047_197_551_196_597_6;
+/// Targets with at least this many beamwidths to the next are separated.
+const SEPARATED_BEAMS: f64 = 2.0;
+/// Most predictions of a snapshot.
+const MOST: usize = 64;
+
+/// A method, and whether its directions are refined on the snapshot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Candidate {
+    method: Method,
+    refined: bool,
+}
+
+/// What of a condition is kept for one method.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
+pub struct MethodRecord {
+    /// Detections against targets.
+    pub score: Score,
+    /// Sums over separated targets that were found, and their number: squared error, squared bound, deg^2.
+    pub separated: (f64, f64, u32),
+    /// Separated targets in all.
+    pub separated_targets: u32,
+}
+
+/// Some snapshots of one condition.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Index of the condition.
+    pub condition: usize,
+    /// Methods in order.
+    pub methods: Vec<MethodRecord>,
+}
+
+/// All that snapshots share.
+pub struct Plan {
+    array: Array,
+    seed: u64,
+    imperfections: ImperfectionSpread,
+    candidates: Vec<Candidate>,
+    beam: f64,
+}
+
+impl Plan {
+    /// For an array.
+    ///
+    /// # Errors
+    /// An array that is not known.
+    pub fn new(options: &Options) -> Result<Self, EvaluateError> {
+        let array = preset(&options.array)?;
+        let plain = |method| Candidate { method, refined: false };
+        let refined = |method| Candidate { method, refined: true };
+        let mut candidates = vec![
+            plain(Method::Bartlett),
+            plain(Method::Iaa),
+            refined(Method::Iaa),
+            plain(Method::Nomp),
+            refined(Method::Nomp),
+        ];
+        if Estimator::new(Method::SingleSnapshotMusic, &array, &angle_options()).is_ok() {
+            candidates.push(plain(Method::SingleSnapshotMusic));
+        }
+        let across: Vec<f64> = array.positions().iter().map(|position| position[1]).collect();
+        let aperture = across.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+            - across.iter().copied().fold(f64::INFINITY, f64::min);
+        // Between the first zeros of a line of that length, in half wavelengths, half of it.
+        let beam = 2.0 / aperture.max(1.0);
+        let (seed, imperfections) = (options.seed, options.imperfections);
+        Ok(Self { array, seed, imperfections, candidates, beam })
+    }
+
+    /// Names of the methods in order.
+    pub fn names(&self) -> Vec<String> {
+        let title = |candidate: &Candidate| {
+            let method = candidate.method.name();
+            if candidate.refined { format!("{method}, refined") } else { method.into() }
+        };
+        self.candidates.iter().map(title).collect()
+    }
+
+    /// Runs snapshots `first` to `first + trials - 1` of a condition.
+    ///
+    /// # Errors
+    /// Those of the simulation and the estimators.
+    pub fn run(
+        &self,
+        index: usize,
+        condition: Condition,
+        first: u64,
+        trials: u64,
+    ) -> Result<Record, EvaluateError> {
+        let noise_power = db_to_power(-condition.snr_db);
+        let options = angle_options();
+        let mut estimators = vec![];
+        for candidate in self.candidates.iter().filter(|candidate| !candidate.refined) {
+            estimators.push(Estimator::new(candidate.method, &self.array, &options)?);
+        }
+        let mut methods = vec![MethodRecord::default(); self.candidates.len()];
+        for trial in first..first + trials {
+            let (y, truth) = self.scene(index, condition, trial)?;
+            let points: Vec<Point> = truth
+                .iter()
+                .map(|t| Point { azimuth_rad: t.direction.azimuth_rad, power_db: t.power_db })
+                .collect();
+            let bound = self.bound(&truth, noise_power);
+            let mut estimates: Vec<(Method, Estimate)> = vec![];
+            for estimator in &mut estimators {
+                let estimate = estimator.estimate(Data::Snapshots(y.view()))?;
+                estimates.push((estimator.method(), estimate));
+            }
+            for (candidate, record) in self.candidates.iter().zip(&mut methods) {
+                let Some((_, estimate)) = estimates.iter().find(|e| e.0 == candidate.method) else {
+                    continue;
+                };
+                let found = if candidate.refined {
+                    self.refined(estimate, y.view())?
+                } else {
+                    estimate
+                        .sources
+                        .iter()
+                        .map(|s| Point {
+                            azimuth_rad: s.direction.azimuth_rad,
+                            power_db: 10.0 * s.power.log10(),
+                        })
+                        .collect()
+                };
+                record.score.add(&points, &found);
+                self.separated(record, &points, &found, &bound);
+            }
+        }
+        Ok(Record { condition: index, methods })
+    }
+
+    fn scene(
+        &self,
+        index: usize,
+        condition: Condition,
+        trial: u64,
+    ) -> Result<(Array2<Complex64>, Vec<Target>), EvaluateError> {
+        // A condition has its own block of the seed's streams.
+        let stream = ((index as u64) << 40) + trial;
+        let imperfections = match self.imperfections == ImperfectionSpread::default() {
+            true => None,
+            false => Some(Imperfections::random(&self.array, self.imperfections, stream)?),
+        };
+        let sampling = SceneSampling {
+            targets: [condition.targets; 2],
+            field_of_view_rad: FIELD_OF_VIEW_RAD,
+            ..SceneSampling::default()
+        };
+        let simulator = SnapshotSimulator::new(
+            &self.array,
+            &SnapshotOptions {
+                scene: Scene::Sampled(sampling),
+                snr_db: condition.snr_db,
+                snapshots: 1,
+                fluctuation: Fluctuation::RandomPhase,
+                imperfections,
+                seed: self.seed,
+            },
+        )?;
+        Ok(simulator.scene(stream)?)
+    }
+
+    /// Standard deviation of each azimuth at the bound, deg; infinite where there is none.
+    fn bound(&self, truth: &[Target], noise_power: f64) -> Vec<f64> {
+        let amplitudes: Vec<Complex64> = truth
+            .iter()
+            .map(|t| cis(t.phase_rad.unwrap_or(0.0)) * db_to_amplitude(t.power_db))
+            .collect();
+        let covariance = single_snapshot(&amplitudes);
+        let signals = Signals { covariance: covariance.view(), noise_power, snapshots: 1 };
+        let directions: Vec<Direction> = truth.iter().map(|t| t.direction).collect();
+        match deterministic_bound(&self.array, &directions, &signals) {
+            Ok(bound) => bound.azimuth_rad.iter().map(|sigma| sigma.to_degrees()).collect(),
+            Err(_) => vec![f64::INFINITY; truth.len()],
+        }
+    }
+
+    /// The estimate's sources down to the noise, refined together by Gauss-Newton.
+    fn refined(
+        &self,
+        estimate: &Estimate,
+        y: ArrayView2<Complex64>,
+    ) -> Result<Vec<Point>, EvaluateError> {
+        let strongest = estimate.sources.iter().map(|s| s.power).fold(0.0, f64::max);
+        let directions: Vec<Direction> = estimate
+            .sources
+            .iter()
+            .filter(|s| s.power > strongest * db_to_power(-REFINED_DB))
+            .take(self.array.len() / 3)
+            .map(|s| s.direction)
+            .collect();
+        if directions.is_empty() {
+            return Ok(vec![]);
+        }
+        let limits = Limits { iterations: 10, tolerance: 1e-9 };
+        let refined = refine(&self.array, &directions, Data::Snapshots(y), limits)?;
+        let steering = steering_matrix(&self.array, &refined.directions);
+        let Some(amplitudes) = boresight_core::linalg::least_squares(steering.view(), y)? else {
+            return Ok(vec![]);
+        };
+        let powers = amplitudes.rows().into_iter().map(|row| row[0].norm_sqr());
+        Ok(refined
+            .directions
+            .iter()
+            .zip(powers)
+            .map(|(d, power)| Point { azimuth_rad: d.azimuth_rad, power_db: 10.0 * power.log10() })
+            .collect())
+    }
+
+    /// Errors of targets that stand apart from all others, against the bound.
+    fn separated(
+        &self,
+        record: &mut MethodRecord,
+        truth: &[Point],
+        found: &[Point],
+        bound_deg: &[f64],
+    ) {
+        for (index, target) in truth.iter().enumerate() {
+            let sine = target.azimuth_rad.sin();
+            let apart = truth.iter().enumerate().all(|(other, t)| {
+                other == index || (t.azimuth_rad.sin() - sine).abs() > SEPARATED_BEAMS * self.beam
+            });
+            if !apart || !bound_deg[index].is_finite() {
+                continue;
+            }
+            record.separated_targets += 1;
+            let near = found.iter().map(|p| (p.azimuth_rad - target.azimuth_rad).abs());
+            let error = near.fold(f64::INFINITY, f64::min);
+            if error <= super::score::WITHIN_RAD {
+                record.separated.0 += error.to_degrees().powi(2);
+                record.separated.1 += bound_deg[index].powi(2);
+                record.separated.2 += 1;
+            }
+        }
+    }
+}
+
+/// Sources this far below the strongest are refined, dB.
+const REFINED_DB: f64 = 20.0;
+
+/// Options of every method: all predictions, so that their power can be swept.
+fn angle_options() -> AngleOptions {
+    AngleOptions {
+        grid_points: 2048,
+        field_of_view_rad: FIELD_OF_VIEW_RAD,
+        dynamic_range_db: 40.0,
+        max_peaks: MOST,
+        ..AngleOptions::default()
+    }
+}

@@ -1,0 +1,70 @@
+//! Figures 4 and 5 of the AAETR paper, as SVG.
+
+use super::report::{MethodResult, Report};
+use super::{SNRS_DB, TARGETS};
+use crate::EvaluateError;
+use crate::plot::{Panel, Series, draw};
+
+/// Figure 4: precision against recall at the highest signal-to-noise ratio.
+///
+/// # Errors
+/// [`EvaluateError::Figure`].
+pub fn precision_recall(report: &Report) -> Result<String, EvaluateError> {
+    let snr_db = SNRS_DB[SNRS_DB.len() - 1];
+    let panels: Vec<Panel> = [2, 4, 6, 8, 9, 10]
+        .into_iter()
+        .map(|targets| Panel {
+            title: format!("{targets} targets, {snr_db} dB"),
+            x: "recall".into(),
+            y: "precision".into(),
+            logarithmic: false,
+            y_limits: Some([0.5, 1.01]),
+            series: lines(report, |k| {
+                let result = report.at(targets, snr_db, k);
+                result.map_or(vec![], |m| m.curve.iter().map(|p| (p.recall, p.precision)).collect())
+            }),
+        })
+        .collect();
+    draw(&panels, 2)
+}
+
+/// Figure 5: largest F1 and the errors there, against the number of targets.
+///
+/// # Errors
+/// [`EvaluateError::Figure`].
+pub fn scores(report: &Report) -> Result<String, EvaluateError> {
+    type Value = fn(&MethodResult) -> Option<f64>;
+    let rows: [(&str, Value); 3] = [
+        ("largest F1", |m| m.best.map(|best| best.f1)),
+        ("mean error of angle / deg", |m| m.best.map(|best| best.angle_error_deg)),
+        ("mean error of power / dB", |m| m.best.map(|best| best.power_error_db)),
+    ];
+    let mut panels = vec![];
+    for (label, value) in rows {
+        for snr_db in [SNRS_DB[0], SNRS_DB[4]] {
+            panels.push(Panel {
+                title: format!("{snr_db} dB"),
+                x: "targets".into(),
+                y: label.into(),
+                logarithmic: false,
+                y_limits: None,
+                series: lines(report, |k| {
+                    let point =
+                        |&n: &usize| Some((n as f64, report.at(n, snr_db, k).and_then(value)?));
+                    TARGETS.iter().filter_map(point).collect()
+                }),
+            });
+        }
+    }
+    draw(&panels, 2)
+}
+
+fn lines(report: &Report, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<Series> {
+    let line = |(k, name): (usize, &String)| Series {
+        name: name.clone(),
+        points: points(k),
+        dashed: name.contains("refined"),
+        marked: false,
+    };
+    report.methods.iter().enumerate().map(line).collect()
+}

@@ -1,0 +1,225 @@
+//! Scores of detections against true targets, at every threshold on power at once.
+//!
+//! A prediction within half a degree of a true target is right, else it is false; a target with such a
+//! prediction is found. Precision is right over all predictions, recall found over all targets. The strict
+//! score matches one to one: of two predictions on one target one is false. Whether a prediction is
+//! right does not depend on the threshold, and neither does the matching where predictions are taken in
+//! order of power; so histograms over power are enough.
+
+use serde::{Deserialize, Serialize};
+
+/// Half width of a hit, rad (0.5 deg).
+pub const WITHIN_RAD: f64 = 0.008_726_646_259_971_648;
+/// Highest threshold, dB, width of a bin, dB, and number of bins downwards.
+const TOP_DB: f64 = 10.0;
+const STEP_DB: f64 = 0.25;
+const BINS: usize = 280;
+
+/// A direction with its power.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Azimuth, rad.
+    pub azimuth_rad: f64,
+    /// Power at one element, dB.
+    pub power_db: f64,
+}
+
+/// Histograms over power of what became of predictions and targets; bin 0 holds the strongest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Score {
+    /// True targets.
+    pub targets: u32,
+    right: Vec<u32>,
+    wrong: Vec<u32>,
+    found: Vec<u32>,
+    matched: Vec<u32>,
+    /// Sums over right predictions of their distance from the nearest target, deg and dB.
+    angle_deg: Vec<f32>,
+    power_db: Vec<f32>,
+}
+
+/// A point of a precision-recall curve.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Operating {
+    /// Threshold on power, dB.
+    pub threshold_db: f64,
+    /// Right over all predictions.
+    pub precision: f64,
+    /// Found over all targets.
+    pub recall: f64,
+    /// Their harmonic mean.
+    pub f1: f64,
+    /// The same with one prediction a target.
+    pub strict_f1: f64,
+    /// Mean distance of right predictions from the nearest target, deg and dB.
+    pub angle_error_deg: f64,
+    /// See `angle_error_deg`.
+    pub power_error_db: f64,
+}
+
+impl Default for Score {
+    fn default() -> Self {
+        let zeros = vec![0; BINS];
+        Self {
+            targets: 0,
+            right: zeros.clone(),
+            wrong: zeros.clone(),
+            found: zeros.clone(),
+            matched: zeros,
+            angle_deg: vec![0.0; BINS],
+            power_db: vec![0.0; BINS],
+        }
+    }
+}
+
+impl Score {
+    /// Adds a scene. Predictions that are no numbers are false at every threshold.
+    pub fn add(&mut self, truth: &[Point], predictions: &[Point]) {
+        self.targets += truth.len() as u32;
+        let mut order: Vec<&Point> = predictions.iter().collect();
+        order.sort_by(|a, b| b.power_db.total_cmp(&a.power_db));
+        let mut taken = vec![false; truth.len()];
+        let mut found = vec![false; truth.len()];
+        for prediction in order {
+            let bin = bin(prediction.power_db);
+            let near = |target: &Point| (target.azimuth_rad - prediction.azimuth_rad).abs();
+            let mut nearest: Option<(f64, &Point)> = None;
+            let mut free: Option<(f64, usize)> = None;
+            for (index, target) in truth.iter().enumerate() {
+                let distance = near(target);
+                if distance <= WITHIN_RAD {
+                    if nearest.is_none_or(|(best, _)| distance < best) {
+                        nearest = Some((distance, target));
+                    }
+                    if !taken[index] && free.is_none_or(|(best, _)| distance < best) {
+                        free = Some((distance, index));
+                    }
+                    if !found[index] {
+                        found[index] = true;
+                        self.found[bin] += 1;
+                    }
+                }
+            }
+            match nearest {
+                Some((distance, target)) => {
+                    self.right[bin] += 1;
+                    self.angle_deg[bin] += distance.to_degrees() as f32;
+                    self.power_db[bin] += (prediction.power_db - target.power_db).abs() as f32;
+                }
+                None => self.wrong[bin] += 1,
+            }
+            if let Some((_, index)) = free {
+                taken[index] = true;
+                self.matched[bin] += 1;
+            }
+        }
+    }
+
+    /// Adds the scenes of another score.
+    pub fn merge(&mut self, other: &Self) {
+        fn add<T: Copy + std::ops::AddAssign>(to: &mut [T], from: &[T]) {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to += *from;
+            }
+        }
+        self.targets += other.targets;
+        add(&mut self.right, &other.right);
+        add(&mut self.wrong, &other.wrong);
+        add(&mut self.found, &other.found);
+        add(&mut self.matched, &other.matched);
+        add(&mut self.angle_deg, &other.angle_deg);
+        add(&mut self.power_db, &other.power_db);
+    }
+
+    /// Precision and recall at every threshold with predictions, from high to low.
+    pub fn curve(&self) -> Vec<Operating> {
+        let (mut right, mut wrong, mut found, mut matched) = (0.0, 0.0, 0.0, 0.0);
+        let (mut angle, mut power) = (0.0, 0.0);
+        let targets = f64::from(self.targets).max(1.0);
+        let mut curve = vec![];
+        for bin in 0..BINS {
+            let new = self.right[bin] + self.wrong[bin];
+            right += f64::from(self.right[bin]);
+            wrong += f64::from(self.wrong[bin]);
+            found += f64::from(self.found[bin]);
+            matched += f64::from(self.matched[bin]);
+            angle += f64::from(self.angle_deg[bin]);
+            power += f64::from(self.power_db[bin]);
+            if new > 0 {
+                let all: f64 = right + wrong;
+                let mean = |hits: f64, recalled: f64| 2.0 * hits * recalled / (hits + recalled);
+                let (precision, recall) = (right / all, found / targets);
+                let (strict_precision, strict_recall) = (matched / all, matched / targets);
+                let f1 = if found > 0.0 { mean(precision, recall) } else { 0.0 };
+                let strict =
+                    if matched > 0.0 { mean(strict_precision, strict_recall) } else { 0.0 };
+                curve.push(Operating {
+                    threshold_db: TOP_DB - STEP_DB * (bin as f64 + 1.0),
+                    precision,
+                    recall,
+                    f1,
+                    strict_f1: strict,
+                    angle_error_deg: angle / right.max(1.0),
+                    power_error_db: power / right.max(1.0),
+                });
+            }
+        }
+        curve
+    }
+
+    /// The point of the largest F1; `None` without predictions.
+    pub fn best(&self) -> Option<Operating> {
+        self.curve().into_iter().max_by(|a, b| a.f1.total_cmp(&b.f1))
+    }
+}
+
+/// Bin of a power; what is no number counts as the strongest.
+fn bin(power_db: f64) -> usize {
+    (((TOP_DB - power_db) / STEP_DB).floor().max(0.0) as usize).min(BINS - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    fn at(azimuth_deg: f64, power_db: f64) -> Point {
+        Point { azimuth_rad: azimuth_deg.to_radians(), power_db }
+    }
+
+    #[test]
+    fn two_predictions_on_one_target_are_right_twice_and_strictly_once() {
+        let mut score = Score::default();
+        let truth = [at(10.0, 0.0), at(20.0, -5.0)];
+        score.add(&truth, &[at(10.3, -0.1), at(9.8, -3.1), at(-40.0, -8.1)]);
+        let curve = score.curve();
+        assert_eq!(curve.len(), 3);
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-6, "{a} {b}");
+        close(curve[0].precision, 1.0);
+        close(curve[0].recall, 0.5);
+        close(curve[0].angle_error_deg, 0.3);
+        close(curve[0].power_error_db, 0.1);
+        close(curve[1].precision, 1.0);
+        close(curve[1].f1, 2.0 / 3.0);
+        // One of two predictions, one of two targets.
+        close(curve[1].strict_f1, 0.5);
+        close(curve[2].precision, 2.0 / 3.0);
+        let best = score.best().unwrap();
+        close(best.f1, 2.0 / 3.0);
+    }
+
+    #[test]
+    fn merging_is_adding_and_nothing_makes_no_curve() {
+        let (mut a, mut b, mut both) = (Score::default(), Score::default(), Score::default());
+        for (k, score) in [&mut a, &mut b].into_iter().enumerate() {
+            let truth = [at(5.0 * k as f64, -1.0)];
+            let found = [at(5.1 * k as f64, -1.2), at(30.0, f64::NAN), at(1.0, -300.0)];
+            score.add(&truth, &found);
+            both.add(&truth, &found);
+        }
+        a.merge(&b);
+        assert_eq!(a, both);
+        assert!(Score::default().best().is_none());
+    }
+}
