@@ -70,6 +70,12 @@ describe('readDrive', () => {
     const known = drive.sensors.find(({ id }) => id === 2);
     assert.deepEqual([known.xM, known.yM], [3.86, -0.7]);
     for (const other of others) assert.deepEqual(other, drive);
+    assert.deepEqual([drive.mountings, drive.counts.incompleteDetections], ['format', 1]);
+    const sensors = table('set/sensors.json', '{"radar_2": {"x": 1, "y": 2, "yaw": 0.5}}');
+    const stated = readDrive([sensors, golden('contiguous.h5')]);
+    assert.equal(stated.mountings, 'sensors-json');
+    assert.deepEqual(stated.sensors.map(({ xM }) => xM), [null, 1]);
+    assert.throws(() => readDrive([table('sensors.json', '{'), golden('contiguous.h5')]), { code: 'malformed-json' });
   });
 
   test('refuses what is no drive with a typed error, and reads on', async () => {

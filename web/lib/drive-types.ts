@@ -52,7 +52,10 @@ export interface DriveData {
 /** A format of drive logs. */
 export type DriveFormat = 'radarscenes' | 'delphi' | 'csv';
 
-/** A file of a drive. Its name tells tables (`.csv`, `.csv.gz`) and HDF5 (`.h5`, `.hdf5`) from the rest. */
+/**
+ * A file of a drive. Its name, with or without folders before it, tells tables (`.csv`, `.csv.gz`), HDF5 (`.h5`, `.hdf5`)
+ * and what stands beside that (`scenes.json`, `sensors.json`, `sequences.json`) from the rest.
+ */
 export interface DriveFile {
   name: string;
   bytes: Uint8Array | ArrayBuffer;
@@ -67,6 +70,8 @@ export interface ReadDriveOptions {
 export interface Drive extends DriveData {
   format: DriveFormat | 'simulated';
   sensors: DriveSensor[];
+  /** Where the sensors' places are from, if read: `sensors.json` of the files, or the format's own car. */
+  mountings: 'sensors-json' | 'format' | null;
   detections: {
     azimuthDeg: Float64Array;
     rangeRateMps: Float32Array;
@@ -91,6 +96,10 @@ export interface DriveCounts {
   detections: number;
   /** Motion samples in the files. */
   motion: number;
+  /** Detections kept although their range, cross-section, compensated rate or place is no number. */
+  incompleteDetections: number;
+  /** Motion samples kept although their speed or pose is no number. */
+  incompleteMotion: number;
   /** Rows left out, by reason: `not-finite`, `invalid-marker`, `status`, `duplicate`, `motion-not-finite`, `motion-duplicate`. */
   dropped: Record<string, number>;
 }

@@ -210,10 +210,13 @@ fn drive_record(log: &DriveLog, format: &str, report: &ReadReport) -> Record {
     let counts = Record::new()
         .with("detections", report.detections as f64)
         .with("motion", report.motion as f64)
+        .with("incompleteDetections", report.incomplete as f64)
+        .with("incompleteMotion", report.motion_incomplete as f64)
         .with("dropped", dropped);
     Record::new()
         .with("format", format)
         .with("sensors", list(sensors))
+        .with("mountings", report.mountings.map_or(JsValue::NULL, |from| from.name().into()))
         .with("scans", scans_record(log))
         .with("detections", detections_record(log))
         .with("motion", motion_record(&log.motion))
