@@ -6,8 +6,13 @@ use hdf5_pure::{Dataset, Datatype, DatatypeByteOrder, File, FloatingPointLayout}
 
 /// Bytes of rows read at a time, at least one chunk.
 const WINDOW_BYTES: u64 = 1 << 20;
-/// Deflate shrinks at most about this much; a dataset that claims more holds nothing but fill values.
-const GROWTH: u64 = 1100;
+/// Rows may unpack to this, bytes, and [`GROWTH`] times the length of the file beside: what claims more
+/// is no recording.
+const ALLOWANCE: u64 = 16 << 20;
+const GROWTH: u64 = 64;
+/// A row counts as at least so long, about what a scan of one detection takes in memory: else a file
+/// of overlapping fields grows without need.
+const LEAST_ROW_BYTES: u64 = 64;
 
 pub(super) fn wrong(
     what: impl Into<String>,
@@ -114,14 +119,15 @@ impl Table {
         let [rows] = shape[..] else {
             return Err(wrong(name, "one axis", format!("{} axes", shape.len())));
         };
-        let limit = file.file_size().saturating_mul(GROWTH);
+        let limit = file.file_size().saturating_mul(GROWTH).saturating_add(ALLOWANCE);
         let row_bytes = u64::from(size).max(1);
         let chunk = match dataset.chunk_shape().map_err(failed)?.as_deref() {
             Some([rows]) => (*rows).max(1),
             _ => 1,
         };
         for count in [rows, chunk] {
-            if count.checked_mul(row_bytes).is_none_or(|bytes| bytes > limit) {
+            let counted = count.checked_mul(row_bytes.max(LEAST_ROW_BYTES));
+            if counted.is_none_or(|bytes| bytes > limit) {
                 return Err(wrong(name, "no more rows than the file can hold", count));
             }
         }

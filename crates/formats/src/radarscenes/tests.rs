@@ -217,7 +217,7 @@ proptest! {
             let kept: usize = log.scans.iter().map(|scan| scan.detections.len()).sum();
             let dropped = report.dropped(DropReason::NotFinite);
             prop_assert_eq!(kept as u64 + dropped, report.detections);
-            prop_assert!(report.detections <= 1100 * length);
+            prop_assert!(report.detections <= (16 << 20) / 64 + length);
         }
     }
 

@@ -5,6 +5,7 @@ use boresight_core::Diagnose;
 use boresight_core::drive::{
     Detection, DriveLog, MotionSample, Pose, RADARSCENES_SENSORS, Scan, Sensor,
 };
+use hdf5_pure::{CompoundTypeBuilder, FileBuilder};
 
 fn scan(time_s: f64, sensor: u8, azimuths: &[f32]) -> Scan {
     let detection = |azimuth_rad: &f32| Detection {
@@ -123,6 +124,33 @@ fn a_recording_without_rows_is_refused() {
             "{error}"
         );
     }
+}
+
+/// What packs to less than a 64th is no recording but a file made to fill memory.
+#[test]
+fn a_recording_that_unpacks_beyond_reason_is_refused() {
+    let zeros = |rows: usize| {
+        let mut file = FileBuilder::new();
+        let names = ["range_sc", "azimuth_sc", "rcs", "vr"];
+        let builder = CompoundTypeBuilder::new().i64_field("timestamp").u8_field("sensor_id");
+        let fields = names.iter().fold(builder, |builder, name| builder.f32_field(name));
+        let radar = fields.u8_field("label_id").build().unwrap();
+        let builder = CompoundTypeBuilder::new().i64_field("timestamp");
+        let names = ["x_seq", "y_seq", "yaw_seq", "vx", "yaw_rate"];
+        let odometry =
+            names.iter().fold(builder, |builder, name| builder.f32_field(name)).build().unwrap();
+        for (name, datatype, rows) in [("radar_data", radar, rows), ("odometry", odometry, 4)] {
+            let bytes = vec![0; rows * datatype.type_size() as usize];
+            let count = rows as u64;
+            let dataset = file.create_dataset(name).with_compound_data(datatype, bytes, count);
+            dataset.with_chunks(&[count.min(1 << 16)]).with_deflate(6);
+        }
+        let bytes = file.finish().unwrap();
+        read(bytes, Companions::default(), &mut ReadReport::default())
+    };
+    assert_eq!(zeros(200_000).unwrap().scans[0].detections.len(), 200_000);
+    let error = zeros(1_000_000).unwrap_err().to_string();
+    assert!(error.contains("no more rows than the file can hold"), "{error}");
 }
 
 #[test]
