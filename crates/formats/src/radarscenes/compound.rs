@@ -97,6 +97,19 @@ fn field(name: &str, offset: u64, datatype: &Datatype) -> Result<Field, FormatEr
     Ok(Field { offset, size: size as usize, kind, big_endian })
 }
 
+/// Refuses chunks that claim more bytes than the file has: their length is reserved before it is read.
+fn chunks_inside(file: &File, name: &str, dataset: &Dataset) -> Result<(), FormatError> {
+    // Contiguous data has none; an index that cannot be listed fails when rows are read.
+    for chunk in dataset.chunks().unwrap_or_default() {
+        let end = chunk.address.checked_add(chunk.storage_size);
+        if end.is_none_or(|end| end > file.file_size()) {
+            let given = format!("{} bytes at {}", chunk.storage_size, chunk.address);
+            return Err(wrong(name, "chunks inside the file", given));
+        }
+    }
+    Ok(())
+}
+
 /// A one-dimensional dataset of rows.
 pub(super) struct Table {
     name: &'static str,
@@ -131,6 +144,7 @@ impl Table {
                 return Err(wrong(name, "no more rows than the file can hold", count));
             }
         }
+        chunks_inside(file, name, &dataset)?;
         let window = (WINDOW_BYTES / row_bytes).max(1).next_multiple_of(chunk);
         Ok(Self { name, dataset, row_bytes: size as usize, rows, window, datatype })
     }

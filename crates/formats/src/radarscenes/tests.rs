@@ -183,6 +183,16 @@ fn scenes_json_adds_scans_and_is_held_against_the_rows() {
     assert!(remarks[1].starts_with("2 scans of radar_data.h5"), "{remarks:?}");
 }
 
+/// In the B-tree of a chunked dataset a chunk's key begins with its length.
+#[test]
+fn a_chunk_longer_than_the_file_is_refused_before_it_is_reserved() {
+    let mut file = bytes("deflated");
+    let tree = file.windows(5).position(|bytes| bytes == b"TREE\x01").unwrap();
+    file[tree + 24..tree + 28].copy_from_slice(&u32::MAX.to_le_bytes());
+    let error = read(file).unwrap_err().to_string();
+    assert!(error.contains("4294967295 bytes") && error.contains("chunks inside"), "{error}");
+}
+
 /// The tail of such a file may hold nothing, so a little may be lost; half never.
 #[test]
 fn truncated_files_are_refused() {
