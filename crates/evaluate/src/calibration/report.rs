@@ -333,3 +333,65 @@ fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
 fn percent([one, two]: [f64; 2]) -> String {
     format!("{:.0} %, {:.0} %", 100.0 * one, 100.0 * two)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn estimate(error_deg: Option<f64>, sigma_deg: f64) -> EstimateRecord {
+        EstimateRecord {
+            error_deg,
+            sigma_deg: error_deg.map(|_| sigma_deg),
+            scale: Some((0.02, 0.015)),
+            used: 100,
+            converged: error_deg.is_some(),
+            rte_m: error_deg.map(f64::abs),
+        }
+    }
+
+    fn scene(number: u64, error_deg: Option<f64>) -> SceneRecord {
+        let part = |n: usize| PartRecord { errors_deg: vec![0.5; n], without: 1 };
+        SceneRecord {
+            scene: number,
+            scenario: "city".into(),
+            dense: number % 2 == 1,
+            moving_share: 0.1 * number as f64,
+            driven_m: 500.0,
+            driven_s: 90.0,
+            radars: vec![RadarRecord {
+                sensor: 3,
+                true_deg: 25.0,
+                rte_true_m: Some(0.1),
+                estimates: vec![estimate(error_deg, 0.17); CANDIDATES.len()],
+                parts: vec![vec![part(2); DRIVING_TIMES_S.len()]; CANDIDATES.len()],
+            }],
+        }
+    }
+
+    #[test]
+    fn tables_are_those_of_the_records() {
+        let options = Options { scenes: 4, seed: 0, duration_s: 120.0, threads: 1 };
+        let errors = [Some(0.1), None, Some(-0.3), None, Some(0.5), None, None, None];
+        let records = errors.iter().zip(0..).map(|(error, number)| scene(number, *error));
+        let report = Report::new(&options, records);
+        let [mixed, dense] = &report.conditions[..] else { panic!("two conditions") };
+        assert_eq!((mixed.scenes, dense.scenes), (4, 4));
+        assert!((mixed.driven_km - 2.0).abs() < 1e-12 && (mixed.driven_h - 0.1).abs() < 1e-12);
+        assert!((mixed.moving_share[0] - 0.3).abs() < 1e-12);
+        let method = &mixed.methods[0];
+        let radar = &method.radars[0];
+        assert_eq!((radar.error_deg.count, radar.without, radar.converged), (3, 1, 3));
+        assert!((radar.error_deg.mean - 0.1).abs() < 1e-12);
+        assert!((radar.error_deg.variance - 0.16).abs() < 1e-12);
+        assert!((radar.rte_m - 0.3).abs() < 1e-12);
+        // Of 0.1, 0.3 and 0.5 at 0.17 one lies within one deviation and two within two.
+        assert!((method.within[0] - 1.0 / 3.0).abs() < 1e-12);
+        assert!((method.within[1] - 2.0 / 3.0).abs() < 1e-12);
+        assert_eq!(method.scale_within, Some([0.0, 1.0]));
+        assert_eq!(mixed.angles_deg[0], [Some(25.1), Some(24.7), Some(25.5), None]);
+        let curve = &mixed.convergence[0];
+        assert_eq!((curve.error_deg[0].count, curve.without[0]), (8, 4));
+        assert_eq!(dense.methods[0].radars[0].without, 4);
+        assert!(report.tables().contains("| +0.1000, 0.1600 (1) | 33 %, 67 % |"));
+    }
+}
