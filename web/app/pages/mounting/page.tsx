@@ -179,8 +179,11 @@ const REASONS: Record<string, string> = {
 function Remarks() {
   const drive = loaded.value?.drive;
   if (!drive) return null;
+  const { incompleteDetections, incompleteMotion } = drive.counts;
   const facts: [string, number][] = [
     ['Detections in the files', drive.counts.detections], ['Motion samples', drive.counts.motion],
+    ...(incompleteDetections > 0 ? [['Kept without range, place or cross-section', incompleteDetections] as [string, number]] : []),
+    ...(incompleteMotion > 0 ? [['Motion kept without speed or pose', incompleteMotion] as [string, number]] : []),
     ...Object.entries(drive.counts.dropped).map(([reason, number]): [string, number] => [REASONS[reason] ?? reason, number]),
   ];
   return (
@@ -189,6 +192,7 @@ function Remarks() {
       <dl class="facts flat" data-facts="counts">
         {facts.map(([term, value]) => <div key={term}><dt>{term}</dt><dd>{count(value)}</dd></div>)}
       </dl>
+      {drive.mountings && <p class="remark">Nominal mountings are from {drive.mountings === 'sensors-json' ? 'sensors.json' : 'what is known of the format'}.</p>}
       {drive.warnings.length > 0 && <ul class="warnings">{drive.warnings.map(({ code, message }, i) => <li key={i}>{message} <code>{code}</code></li>)}</ul>}
     </section>
   );
