@@ -223,6 +223,23 @@ describe('trajectories', () => {
     assert.ok(relativeTrajectoryError(truth, jumping, 20) < 1e-6);
   });
 
+  test('turn by a yaw rate where one is given', async () => {
+    const { frames, mounting, result } = calibrateDrive(four, { sensor: 2 });
+    const truth = { timeS: four.motion.timeS, ...four.motion.pose };
+    const yawRateDegps = Float64Array.from(frames.scan, (scan) => (driveFrame(four, scan).yawRateDegps ?? NaN) - result.biasDegps);
+    const path = (angleDeg, options) => trajectory(frames, { ...mounting, angleDeg }, options);
+    const error = (angleDeg, options) => relativeTrajectoryError(path(angleDeg, options), truth);
+    // A wrong angle then moves the car sideways, 3 deg of 50 m being 2.6 m, where it bent the way before.
+    const off = error(result.angleDeg + 3, { yawRateDegps });
+    assert.ok(error(result.angleDeg, { yawRateDegps }) < 0.5 && off > 2 && off < 3.2, `${off}`);
+    assert.deepEqual(await pool.trajectory(frames, { ...mounting, angleDeg: 1 }, { yawRateDegps }), path(1, { yawRateDegps }));
+    // What is not known follows from the radar's motion.
+    assert.deepEqual(path(1, { yawRateDegps: yawRateDegps.map(() => NaN) }), path(1));
+    assert.ok(trajectory(frames, { angleDeg: 0, xM: 0 }, { yawRateDegps: yawRateDegps.fill(0) }));
+    throwsTyped(() => path(1, { yawRateDegps: new Float64Array(1) }), 'shape', 'options.yawRateDegps');
+    throwsTyped(() => path(1, 3), 'wrong-type', 'options');
+  });
+
   test('that cannot be had are null, and bad input is refused', () => {
     const { frames, mounting } = calibrateDrive(four, { sensor: 2 });
     assert.equal(trajectory(frames, { angleDeg: 0, xM: 0 }), null);

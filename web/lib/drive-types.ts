@@ -243,6 +243,11 @@ export interface CalibratedFrames {
   weights?: { offsets: Uint32Array; values: Float32Array };
 }
 
+export interface TrajectoryOptions {
+  /** Yaw rate of the car at each frame, NaN where none is known. Default: what the radar's motion implies. */
+  yawRateDegps?: Floats;
+}
+
 /** Poses of the rear axle. */
 export interface Trajectory {
   timeS: Floats;

@@ -3,7 +3,7 @@ import { frameVerdicts } from './drive-calibration.js';
 import { type Floats, Reader, ascending, floats, interpolate, positive, wrong } from './drive-view.js';
 import { failure } from './errors.js';
 import { call } from './instance.js';
-import type { CalibratedFrames, Trajectory } from './types.js';
+import type { CalibratedFrames, Trajectory, TrajectoryOptions } from './types.js';
 
 const MOST_POSES = 1 << 22;
 /** Longest gap of a true trajectory that is bridged, s. */
@@ -11,14 +11,21 @@ const TRUTH_GAP_S = 1;
 
 /**
  * Where the car went by the motion of one radar's frames, taken as mounted at this angle and place: from the
- * origin, heading along x. Frames without a motion, and sparse ones, are left out; null where xM is too
- * near 0 for the motion to tell the yaw rate.
+ * origin, heading along x. The car turns as the motion tells, or by its yaw rate at each frame where that is
+ * given (NaN where it is not); the radar's velocity then moves it sideways where the angle is wrong. Frames
+ * without a motion, and sparse ones, are left out; null where xM is too near 0 for the motion to tell the
+ * yaw rate.
  */
-export function trajectory(frames: CalibratedFrames, mounting: { angleDeg: number; xM: number; yM?: number }): Trajectory | null {
+export function trajectory(
+  frames: CalibratedFrames,
+  mounting: { angleDeg: number; xM: number; yM?: number },
+  options: TrajectoryOptions = {},
+): Trajectory | null {
   const reader = new Reader(frames, 'frames');
   const timeS = counted('frames.timeS', reader.array('timeS', floats));
   const verdict = reader.array('verdict', [Uint8Array], timeS.length);
   const [vx, vy] = [reader.array('vxMps', floats, timeS.length), reader.array('vyMps', floats, timeS.length)];
+  const rates = new Reader(options, 'options').maybe('yawRateDegps', floats, timeS.length);
   const place = new Reader(mounting, 'mounting');
   const [angleDeg, xM, yM] = ['angleDeg', 'xM', 'yM'].map((name) => {
     const given = place.get(name) ?? (name === 'yM' ? 0 : undefined);
@@ -32,7 +39,7 @@ export function trajectory(frames: CalibratedFrames, mounting: { angleDeg: numbe
   const of = (values: Floats): Float64Array => Float64Array.from(kept, (index) => values[index] ?? NaN);
   const times = of(timeS);
   ascending('frames.timeS', times);
-  return call(() => glue.integrateMotion(times, of(vx), of(vy), angleDeg, xM, yM) as Trajectory | null);
+  return call(() => glue.integrateMotion(times, of(vx), of(vy), rates ? of(rates) : new Float64Array(), angleDeg, xM, yM) as Trajectory | null);
 }
 
 /**

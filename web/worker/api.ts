@@ -195,9 +195,10 @@ export class Pool {
   trajectory(
     frames: lib.CalibratedFrames,
     mounting: { angleDeg: number; xM: number; yM?: number },
+    options?: lib.TrajectoryOptions,
     job?: JobOptions,
   ): Promise<lib.Trajectory | null> {
-    return this.#one('trajectory', [frames, mounting], job);
+    return this.#one('trajectory', [frames, mounting, options], job);
   }
 
   relativeTrajectoryError(

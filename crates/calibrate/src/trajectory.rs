@@ -9,22 +9,28 @@ pub struct TimedMotion {
     pub time_s: f64,
     /// Velocity in the radar's frame, m/s.
     pub velocity_mps: [f64; 2],
+    /// Yaw rate of the car, rad/s, where it is not to follow from the velocity.
+    pub yaw_rate_radps: Option<f64>,
 }
 
 /// Poses of the rear axle at the motions' times, from the origin, heading along x: a radar at
 /// `(x_m, y_m)` turned by `angle_rad` moves with `(v - w y, w x)` in the car's frame, which gives speed
-/// `v` and yaw rate `w` (Kellner et al. 2013). Between two times both are the mean of the two, on a
-/// circle. `None` where `x_m` is too near 0 (below 1 mm) for the yaw rate to follow, or a number is
-/// not finite.
+/// `v` and yaw rate `w` (Kellner et al. 2013). Where the yaw rate is given, what is left of the radar's
+/// velocity across the car moves it sideways, as a wrong angle does. Between two times all are the mean
+/// of the two, on a circle. `None` where a yaw rate has to follow and `x_m` is too near 0 for it (below
+/// 1 mm), or a number is not finite.
 pub fn integrate(motions: &[TimedMotion], angle_rad: f64, x_m: f64, y_m: f64) -> Option<Vec<Pose>> {
-    if x_m.is_nan() || x_m.abs() < 1e-3 {
+    let follows = motions.iter().any(|motion| motion.yaw_rate_radps.is_none());
+    if x_m.is_nan() || (follows && x_m.abs() < 1e-3) {
         return None;
     }
     let (sin, cos) = angle_rad.sin_cos();
     let car = |motion: &TimedMotion| {
         let [vx, vy] = motion.velocity_mps;
-        let rate = (sin * vx + cos * vy) / x_m;
-        (cos * vx - sin * vy + rate * y_m, rate)
+        let across = sin * vx + cos * vy;
+        let rate = motion.yaw_rate_radps.unwrap_or(across / x_m);
+        let sideways = motion.yaw_rate_radps.map_or(0.0, |rate| across - rate * x_m);
+        (cos * vx - sin * vy + rate * y_m, sideways, rate)
     };
     let mut pose = Pose { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0 };
     let mut poses = Vec::with_capacity(motions.len());
@@ -32,14 +38,15 @@ pub fn integrate(motions: &[TimedMotion], angle_rad: f64, x_m: f64, y_m: f64) ->
         if let Some(previous) = i.checked_sub(1).map(|before| &motions[before]) {
             let (before, after) = (car(previous), car(motion));
             let step_s = motion.time_s - previous.time_s;
-            let turn = 0.5 * (before.1 + after.1) * step_s;
+            let turn = 0.5 * (before.2 + after.2) * step_s;
             // The chord of an arc: its length over the arc's is sinc of half the turn.
             let half = 0.5 * turn;
             let shorter = if half.abs() < 1e-8 { 1.0 } else { half.sin() / half };
             let chord = 0.5 * (before.0 + after.0) * step_s * shorter;
+            let aside = 0.5 * (before.1 + after.1) * step_s * shorter;
             let (s, c) = (pose.yaw_rad + half).sin_cos();
-            pose.x_m += chord * c;
-            pose.y_m += chord * s;
+            pose.x_m += chord * c - aside * s;
+            pose.y_m += chord * s + aside * c;
             pose.yaw_rad += turn;
         }
         if !(pose.x_m.is_finite() && pose.y_m.is_finite() && pose.yaw_rad.is_finite()) {
@@ -95,7 +102,7 @@ mod tests {
                 let yaw_rad = w * time_s;
                 let (s, c) = yaw_rad.sin_cos();
                 let pose = Pose { x_m: 40.0 * s, y_m: 40.0 * (1.0 - c), yaw_rad };
-                (TimedMotion { time_s, velocity_mps }, pose)
+                (TimedMotion { time_s, velocity_mps, yaw_rate_radps: None }, pose)
             })
             .unzip()
     }
@@ -110,6 +117,21 @@ mod tests {
         let error = relative_error(&off, &truth, 50.0).unwrap();
         let expected = 50.0 * 50.0 * 0.001 / (2.0 * 3.8);
         assert!((error - expected).abs() < 0.2 * expected, "{error} {expected}");
+    }
+
+    #[test]
+    fn with_the_yaw_rate_known_a_wrong_angle_moves_the_car_sideways_and_needs_no_lever() {
+        let (mut motions, truth) = circle(600);
+        motions.iter_mut().for_each(|motion| motion.yaw_rate_radps = Some(0.25));
+        let poses = integrate(&motions, 0.4, 3.8, 0.7).unwrap();
+        assert!(relative_error(&poses, &truth, 50.0).unwrap() < 1e-9);
+        // The velocity is turned by the error, so the way is: 1e-3 of the chord of 50 m on 40 m (46.8 m).
+        let off = integrate(&motions, 0.401, 3.8, 0.7).unwrap();
+        let error = relative_error(&off, &truth, 50.0).unwrap();
+        assert!((error - 0.0468).abs() < 0.005, "{error}");
+        assert!(integrate(&motions, 0.4, 0.0, 0.7).is_some());
+        motions[3].yaw_rate_radps = None;
+        assert!(integrate(&motions, 0.4, 0.0, 0.7).is_none());
     }
 
     #[test]

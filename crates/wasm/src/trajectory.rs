@@ -7,18 +7,30 @@ use boresight_core::drive::Pose;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Poses of the rear axle, or null where they do not follow.
+/// Poses of the rear axle, or null where they do not follow. Yaw rates are empty or one a motion, NaN for
+/// what follows from the motion.
 #[wasm_bindgen(js_name = integrateMotion)]
 pub fn integrate_motion(
     time_s: &[f64],
     vx_mps: &[f64],
     vy_mps: &[f64],
+    yaw_rate_degps: &[f64],
     angle_deg: f64,
     x_m: f64,
     y_m: f64,
 ) -> JsValue {
-    let motion = |((&time_s, &vx), &vy)| TimedMotion { time_s, velocity_mps: [vx, vy] };
-    let motions: Vec<_> = time_s.iter().zip(vx_mps).zip(vy_mps).map(motion).collect();
+    let given = |i: usize| yaw_rate_degps.get(i).filter(|rate| rate.is_finite());
+    let motions: Vec<_> = time_s
+        .iter()
+        .zip(vx_mps)
+        .zip(vy_mps)
+        .enumerate()
+        .map(|(i, ((&time_s, &vx), &vy))| TimedMotion {
+            time_s,
+            velocity_mps: [vx, vy],
+            yaw_rate_radps: given(i).map(|rate| rate.to_radians()),
+        })
+        .collect();
     trajectory::integrate(&motions, angle_deg.to_radians(), x_m, y_m).map_or(
         JsValue::NULL,
         |poses| {

@@ -305,7 +305,11 @@ impl Track {
         for &frame in &radar.frames {
             if let Some(motion) = calibrator.add(frame)?.motion {
                 let velocity_mps = motion.velocity_mps;
-                track.motions.push(TimedMotion { time_s: frame.time_s, velocity_mps });
+                track.motions.push(TimedMotion {
+                    time_s: frame.time_s,
+                    velocity_mps,
+                    yaw_rate_radps: None,
+                });
                 track.truth.push(truth_at(drive, frame.time_s).pose);
             }
         }

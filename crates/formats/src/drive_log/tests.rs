@@ -65,15 +65,17 @@ fn frames_become_scans_and_what_is_left_out_is_counted() {
 }
 
 #[test]
-fn poses_are_moved_to_the_axle_and_speed_has_a_sign() {
+fn poses_are_moved_to_the_axle_and_turned_to_where_the_car_drives_and_speed_has_a_sign() {
+    let heading = FRAC_PI_2 - delphi::HEADING_OFFSET_RAD;
     let pose = format!(
-        "{POSE_HEAD}0,10,20,{FRAC_PI_2},3,4,0.1\n0,10,20,0,3,4,0.1\n1,10,20,0,-3,-4,0.2\n2,10,20,0,nan,1,0\n"
+        "{POSE_HEAD}0,10,20,{heading},3,4,0.1\n0,10,20,0,3,4,0.1\n1,10,20,0,-3,-4,0.2\n2,10,20,0,nan,1,0\n"
     );
     let read =
         read(&[("pose.csv", &pose), ("radar.csv", &format!("{HEAD}0,0,1,3,9,0,1\n"))]).unwrap();
     let motion = &read.log.motion;
     assert_eq!(motion.len(), 2);
-    let Pose { x_m, y_m, .. } = motion[0].pose.unwrap();
+    let Pose { x_m, y_m, yaw_rad } = motion[0].pose.unwrap();
+    assert!((yaw_rad - FRAC_PI_2).abs() < 1e-12);
     assert!((x_m - 10.0).abs() < 1e-12 && (y_m - (20.0 - delphi::POSE_AHEAD_M)).abs() < 1e-12);
     assert_eq!((motion[0].speed_mps, motion[1].speed_mps), (Some(5.0), Some(-5.0)));
     assert_eq!(read.report.dropped(DropReason::MotionDuplicate), 1);

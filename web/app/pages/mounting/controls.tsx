@@ -88,6 +88,9 @@ export function Controls() {
           help="Dots: what each frame alone gives by the method whose frames are shown." onChange={(singles) => update({ singles })} />
         <CheckField label="Residuals to the fit" name="residual" value={state.residual}
           help="Draws range rates less the fitted curve, which shows small deviations." onChange={(residual) => update({ residual })} />
+        <SelectField label="Heading" name="heading" value={state.heading} options={[['sensor', 'yaw-rate sensor'], ['radar', 'radar alone']]}
+          help="What turns the car in its trajectory: the yaw rate as measured less its bias, or the radar's own motion, in which a wrong angle turns the car."
+          onChange={(heading) => update({ heading })} />
       </Group>
     </Sidebar>
   );

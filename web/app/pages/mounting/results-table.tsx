@@ -62,7 +62,7 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
       value: (r) => r.biasDegps, show: (v) => signed(v, 4), reference: ({ truth }) => (truth ? signed(truth.yawRate.biasDegps, 4) : '–') },
     { key: 'biasSigmaDegps', group: 'Yaw rate', title: 'σ (°/s)', csv: 'bias_sigma_degps', help: 'Standard deviation of the bias', value: (r) => r.biasSigmaDegps, show: sigma(4) },
     { key: 'rte', group: 'Trajectory', title: `RTE ${SEGMENT_M} m (m)`, csv: 'rte_50m_m',
-      help: `Relative trajectory error: mean end-point error of ${SEGMENT_M} m segments of the path that the radar’s motion and this angle give`, value: (_, { method }) => trajectory.get(method), show: (v) => fixed(v, 2) },
+      help: `Relative trajectory error: mean end-point error of ${SEGMENT_M} m segments of the path that the radar’s motion alone and this angle give`, value: (_, { method }) => trajectory.get(method), show: (v) => fixed(v, 2) },
     { key: 'inlierShare', group: 'Frames', title: 'Inliers (%)', csv: 'inlier_share', help: 'Static detections over all, of the frames used', value: (r) => r.inlierShare, show: (v) => fixed(100 * v, 1) },
     frames('used', 'Used', 'Frames that went into the angle'),
     frames('standing', 'Standing', 'Left out: the car stood. They tell the bias of the yaw rate'),

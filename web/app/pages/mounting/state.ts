@@ -45,6 +45,8 @@ export const mountingCodec = codec({
   band: choice('1', ['1', '2']),
   singles: flag(true),
   residual: flag(false),
+  /** What turns the car in its trajectory. */
+  heading: choice('sensor', ['sensor', 'radar']),
   speed: choice('5', SPEEDS),
   /** The time that is shown, s; null for a moment worth seeing. */
   t: optional(number(0, [-1e9, 1e12])),

@@ -11,6 +11,7 @@ import { loaded } from './drive.ts';
 import { after, time } from './playhead.ts';
 import { shown, shownMethod } from './process.ts';
 import { fileParts, frameKey } from './time-plot.tsx';
+import { mountingState } from './state.ts';
 import { paths, SEGMENT_M } from './trajectory.ts';
 
 const NOMINAL: SeriesStyle = { color: methodStyle('weighted-mean').color, dash: [5, 4] };
@@ -47,7 +48,7 @@ export function TrajectoryPlot() {
   ] : [];
   const remark = !all ? 'Not calibrated yet.'
     : !all.found ? 'The radar is too near the rear axle’s line to tell how the car turns.'
-      : `The radar’s own motion alone, integrated from the start; no yaw rate is used. RTE: mean end-point error of ${SEGMENT_M} m segments.${all.reference ? '' : ' This drive has neither poses nor speed to compare with.'}`;
+      : `The radar’s own motion from the start, ${mountingState.value.heading === 'sensor' ? 'turned by the yaw rate as measured less its bias' : 'which also turns the car: a wrong angle bends the way'}. RTE: mean end-point error of ${SEGMENT_M} m segments.${all.reference ? '' : ' This drive has neither poses nor speed to compare with.'}`;
   return (
     <PlotFrame title="Trajectory" name="trajectory" height="tall" content={content} legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."

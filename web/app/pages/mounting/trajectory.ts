@@ -1,18 +1,25 @@
 /** Where the radar's own motion takes the car under an angle, and where it really was. */
 import { computed } from '@preact/signals';
-import type { Drive, DriveCalibration, Trajectory } from 'boresight';
+import type { Drive, DriveCalibration, Trajectory, TrajectoryOptions } from 'boresight';
 import { api } from '../../data.ts';
 import { loaded } from './drive.ts';
 import { after } from './playhead.ts';
 import { results, shown } from './process.ts';
+import { mountingState } from './state.ts';
 import type { Way } from './ways.ts';
 
 /** Length of the segments that the relative trajectory error (RTE) is taken over, m. */
 export const SEGMENT_M = 50;
 
-/** Null where the radar is too near the axle's line to tell how the car turns. */
-function path({ frames, mounting: { xM, yM } }: DriveCalibration, angleDeg: number): Trajectory | null {
-  return api.trajectory(frames, { angleDeg, xM, yM });
+/** By the radar alone; null where it is too near the axle's line to tell how the car turns. */
+function path({ frames, mounting: { xM, yM } }: DriveCalibration, angleDeg: number, options?: TrajectoryOptions): Trajectory | null {
+  return api.trajectory(frames, { angleDeg, xM, yM }, options);
+}
+
+/** The car's yaw rate as its sensor has it at each frame, less the bias that was found. */
+function sensorTurns({ frames, result }: DriveCalibration, drive: Drive): TrajectoryOptions {
+  const bias = Number.isFinite(result.biasDegps) ? result.biasDegps : 0;
+  return { yawRateDegps: Float64Array.from(frames.scan, (scan) => (api.driveFrame(drive, scan).yawRateDegps ?? Number.NaN) - bias) };
 }
 
 /** What paths are compared with: the log's own poses, else where its speed and yaw rate take the car. */
@@ -37,12 +44,16 @@ export interface Paths {
   nominalError: number | null;
 }
 
+const heading = computed(() => mountingState.value.heading);
+
 export const paths = computed<Paths | null>(() => {
   const calibration = shown.value;
-  if (!calibration) return null;
+  const drive = loaded.value?.drive;
+  if (!calibration || !drive) return null;
   const { nominalDeg } = calibration.mounting;
-  const found = path(calibration, calibration.result.angleDeg);
-  const nominal = nominalDeg === null ? null : path(calibration, nominalDeg);
+  const turns = heading.value === 'sensor' ? sensorTurns(calibration, drive) : undefined;
+  const found = path(calibration, calibration.result.angleDeg, turns);
+  const nominal = nominalDeg === null ? null : path(calibration, nominalDeg, turns);
   return {
     found, nominal,
     reference: found && reference.value && fromStart(reference.value.path, found),
@@ -54,7 +65,7 @@ export const paths = computed<Paths | null>(() => {
 /** What is known of calibrations that stay while others come. */
 const known = new WeakMap<DriveCalibration, number | null>();
 
-/** The same for every method, with its own motion and angle. */
+/** By the radar alone with every method's own motion and angle, as published. */
 export const relativeErrors = computed<ReadonlyMap<Way, number>>(() => {
   const errors = new Map<Way, number>();
   for (const [way, { calibration }] of results.value) {

@@ -25,7 +25,11 @@ impl Track {
     ) {
         let Some(motion) = outcome.motion else { return };
         let time_s = frame.time_s;
-        self.motions.push(TimedMotion { time_s, velocity_mps: motion.velocity_mps });
+        self.motions.push(TimedMotion {
+            time_s,
+            velocity_mps: motion.velocity_mps,
+            yaw_rate_radps: None,
+        });
         self.logged.push(log.pose_at(time_s, options.max_gap_s));
     }
 
