@@ -65,7 +65,6 @@ impl Batch {
     pub(crate) fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
         check_time(self.last_time_s, frame.time_s)?;
         self.last_time_s = Some(frame.time_s);
-        self.counts.given += 1;
         let mut outcome = self.look(frame)?;
         let (verdict, sample) = match outcome.verdict {
             Verdict::Used => self.judge(&frame, outcome.motion.as_ref()),
@@ -74,15 +73,7 @@ impl Batch {
         if let (Verdict::Standing, Some(yaw_rate_radps)) = (verdict, frame.yaw_rate_radps) {
             self.bias.add(yaw_rate_radps);
         }
-        let count = match verdict {
-            Verdict::Used => &mut self.counts.used,
-            Verdict::Standing => &mut self.counts.standing,
-            Verdict::Slow => &mut self.counts.slow,
-            Verdict::Turning => &mut self.counts.turning,
-            Verdict::Sparse => &mut self.counts.sparse,
-            Verdict::WithoutMotion => &mut self.counts.without_motion,
-        };
-        *count += 1;
+        self.counts.add(verdict);
         outcome.verdict = verdict;
         outcome.angle_rad = None;
         outcome.weight = 0.0;

@@ -1,5 +1,6 @@
 //! The estimate of a mounting angle, with all that is needed to judge it.
 
+use crate::Verdict;
 use std::fmt::{Display, Formatter};
 
 /// How many frames became what; every frame given is counted once.
@@ -19,6 +20,21 @@ pub struct FrameCounts {
     pub sparse: u64,
     /// Without a yaw rate (or speed) at their time.
     pub without_motion: u64,
+}
+
+impl FrameCounts {
+    /// Counts one more frame.
+    pub(crate) fn add(&mut self, verdict: Verdict) {
+        self.given += 1;
+        *match verdict {
+            Verdict::Used => &mut self.used,
+            Verdict::Standing => &mut self.standing,
+            Verdict::Slow => &mut self.slow,
+            Verdict::Turning => &mut self.turning,
+            Verdict::Sparse => &mut self.sparse,
+            Verdict::WithoutMotion => &mut self.without_motion,
+        } += 1;
+    }
 }
 
 /// Something to know of an estimate; not an error.

@@ -129,7 +129,6 @@ impl Recursive {
     pub fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
         check_time(self.time_s, frame.time_s)?;
         self.time_s = Some(frame.time_s);
-        self.counts.given += 1;
         let mut outcome = FrameOutcome {
             verdict: Verdict::Sparse,
             motion: None,
@@ -138,14 +137,7 @@ impl Recursive {
             weights: vec![0.0; frame.detections.len()],
         };
         outcome.verdict = self.take(&frame, &mut outcome);
-        match outcome.verdict {
-            Verdict::Used => self.counts.used += 1,
-            Verdict::Standing => self.counts.standing += 1,
-            Verdict::Slow => self.counts.slow += 1,
-            Verdict::Turning => self.counts.turning += 1,
-            Verdict::Sparse => self.counts.sparse += 1,
-            Verdict::WithoutMotion => self.counts.without_motion += 1,
-        }
+        self.counts.add(outcome.verdict);
         Ok(outcome)
     }
 
