@@ -7,6 +7,18 @@ export const api = boresight;
 /** An error as the pages show it. */
 export interface Problem { code: string; message: string }
 
+/** What is wrong with a file, before the package has seen it. */
+export class FileProblem extends Error {
+  readonly code: string;
+  readonly file: string;
+
+  constructor(code: string, file: string, message: string) {
+    super(message);
+    this.code = code;
+    this.file = file;
+  }
+}
+
 export function describeError(error: unknown): Problem {
   if (error instanceof boresight.BoresightError) return { code: error.code, message: error.message };
   return { code: 'unexpected', message: error instanceof Error ? error.message : String(error) };

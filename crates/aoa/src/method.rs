@@ -1,6 +1,7 @@
 //! The estimators by name, and what each asks for.
 
 use boresight_core::CoreError;
+use boresight_core::error::named;
 use serde::{Deserialize, Serialize};
 
 /// An angle-of-arrival estimator.
@@ -97,13 +98,7 @@ impl Method {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        Self::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            CoreError::Unknown {
-                what: "method".into(),
-                expected: Self::ALL.map(Self::name).join(", "),
-                given: name.into(),
-            }
-        })
+        named("method", &Self::ALL, Self::name, name)
     }
 
     /// What the method needs and gives.

@@ -2,7 +2,7 @@
 
 use crate::CalibrateError;
 use boresight_core::CoreError;
-use boresight_core::error::{check_positive, check_range};
+use boresight_core::error::{check_positive, check_range, named};
 use std::f64::consts::PI;
 
 /// How the mounting angle is estimated.
@@ -198,13 +198,7 @@ impl Method {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        Self::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            CoreError::Unknown {
-                what: "method".into(),
-                expected: Self::ALL.map(Self::name).join(", "),
-                given: name.into(),
-            }
-        })
+        named("method", &Self::ALL, Self::name, name)
     }
 }
 
@@ -248,12 +242,6 @@ impl MotionMethod {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        Self::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            CoreError::Unknown {
-                what: "motion".into(),
-                expected: Self::ALL.map(Self::name).join(", "),
-                given: name.into(),
-            }
-        })
+        named("motion", &Self::ALL, Self::name, name)
     }
 }

@@ -29,12 +29,7 @@ fn calibrate(log: &DriveLog, method: Method, from_s: f64, to_s: f64) -> AngleEst
     };
     let mut calibrator = Calibrator::new(options).unwrap();
     for scan in log.scans.iter().filter(|scan| scan.time_s >= from_s && scan.time_s < to_s) {
-        let frame = FrameInput {
-            time_s: scan.time_s,
-            detections: &scan.detections,
-            yaw_rate_radps: log.yaw_rate_at(scan.time_s, options.max_gap_s),
-            speed_mps: log.speed_at(scan.time_s, options.max_gap_s),
-        };
+        let frame = FrameInput::of(log, scan, options.max_gap_s);
         calibrator.add(frame).unwrap();
     }
     calibrator.estimate()
@@ -123,13 +118,8 @@ fn the_angle_found_takes_the_car_where_it_went() {
     let mut calibrator = Calibrator::new(options).unwrap();
     let (mut motions, mut truth) = (vec![], vec![]);
     for scan in &log.scans {
-        let yaw_rate_radps = log.yaw_rate_at(scan.time_s, 0.25);
-        let frame = FrameInput {
-            time_s: scan.time_s,
-            detections: &scan.detections,
-            yaw_rate_radps,
-            speed_mps: log.speed_at(scan.time_s, 0.25),
-        };
+        let frame = FrameInput::of(&log, scan, options.max_gap_s);
+        let yaw_rate_radps = frame.yaw_rate_radps;
         let outcome = calibrator.add(frame).unwrap();
         if let (Some(motion), Some(pose)) = (outcome.motion, log.pose_at(scan.time_s, 0.25)) {
             let velocity_mps = motion.velocity_mps;

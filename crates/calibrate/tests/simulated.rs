@@ -21,12 +21,7 @@ fn calibrate(log: &DriveLog, sensor: u8, method: Method, motion: MotionMethod) -
     };
     let mut calibrator = Calibrator::new(options).unwrap();
     for scan in log.scans.iter().filter(|scan| scan.sensor == sensor) {
-        let frame = FrameInput {
-            time_s: scan.time_s,
-            detections: &scan.detections,
-            yaw_rate_radps: log.yaw_rate_at(scan.time_s, options.max_gap_s),
-            speed_mps: log.speed_at(scan.time_s, options.max_gap_s),
-        };
+        let frame = FrameInput::of(log, scan, options.max_gap_s);
         calibrator.add(frame).unwrap();
     }
     let e = calibrator.estimate();

@@ -131,6 +131,24 @@ impl Diagnose for CoreError {
     }
 }
 
+/// Finds what has a name among all there are.
+///
+/// # Errors
+/// [`CoreError::Unknown`], listing the known names.
+pub fn named<T: Copy>(
+    what: &str,
+    all: &[T],
+    name: impl Fn(T) -> &'static str,
+    given: &str,
+) -> Result<T, CoreError> {
+    all.iter().copied().find(|&one| name(one) == given).ok_or_else(|| CoreError::Unknown {
+        what: what.into(),
+        expected: all.iter().map(|&one| name(one)).collect::<Vec<_>>().join(", "),
+        // A name may be a whole file.
+        given: given.chars().take(40).collect(),
+    })
+}
+
 /// Checks that a number lies in `low..=high`.
 ///
 /// # Errors

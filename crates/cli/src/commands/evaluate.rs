@@ -6,7 +6,6 @@ use crate::arguments::{
 use crate::error::CliError;
 use crate::files;
 use crate::run::Run;
-use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::{aoa, calibration};
 use serde_json::json;
 
@@ -24,12 +23,7 @@ fn aoa(arguments: &EvaluateAoaArguments) -> Result<String, CliError> {
         array: arguments.array.clone(),
         trials: arguments.trials,
         seed: shared.seed,
-        imperfections: ImperfectionSpread {
-            gain_db: arguments.gain_error,
-            phase_rad: arguments.phase_error.to_radians(),
-            position: arguments.position_error,
-            coupling_db: arguments.coupling,
-        },
+        imperfections: arguments.imperfections.spread(),
         threads: threads(shared),
     };
     let run = Run::start("parts")?;

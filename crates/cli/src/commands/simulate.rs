@@ -130,12 +130,7 @@ fn imperfections(
     shared: &SimulateArguments,
     array: &Array,
 ) -> Result<Option<Imperfections>, CliError> {
-    let spread = ImperfectionSpread {
-        gain_db: shared.gain_error,
-        phase_rad: shared.phase_error.to_radians(),
-        position: shared.position_error,
-        coupling_db: shared.coupling,
-    };
+    let spread = shared.imperfections.spread();
     if spread == ImperfectionSpread::default() {
         return Ok(None);
     }

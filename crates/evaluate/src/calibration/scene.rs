@@ -142,14 +142,7 @@ fn radar(drive: &SimulatedDrive, (sensor, truth): (u8, Mounting)) -> Radar<'_> {
         sensor,
         truth,
         nominal_rad: nominal.map_or(truth.yaw_rad, |mounting| mounting.yaw_rad),
-        frames: scans()
-            .map(|scan| FrameInput {
-                time_s: scan.time_s,
-                detections: &scan.detections,
-                yaw_rate_radps: log.yaw_rate_at(scan.time_s, gap),
-                speed_mps: log.speed_at(scan.time_s, gap),
-            })
-            .collect(),
+        frames: scans().map(|scan| FrameInput::of(log, scan, gap)).collect(),
         driving: scans()
             .map(|scan| truth_at(drive, scan.time_s).speed_mps.abs() > DRIVING_MPS)
             .collect(),

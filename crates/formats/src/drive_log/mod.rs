@@ -6,6 +6,7 @@ pub mod delphi;
 pub(crate) mod motion;
 mod open;
 mod report;
+pub(crate) mod scans;
 pub mod table;
 mod text;
 

@@ -7,6 +7,7 @@ use crate::error::FormatError;
 use crate::radarscenes::{self, Companions};
 use boresight_core::CoreError;
 use boresight_core::drive::DriveLog;
+use boresight_core::error::named;
 use std::borrow::Cow;
 
 /// A format of drive logs.
@@ -39,13 +40,7 @@ impl DriveFormat {
     /// # Errors
     /// [`CoreError::Unknown`] with the names there are.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        Self::ALL.into_iter().find(|format| format.name() == name).ok_or_else(|| {
-            CoreError::Unknown {
-                what: "format".into(),
-                expected: Self::ALL.map(Self::name).join(", "),
-                given: name.chars().take(40).collect(),
-            }
-        })
+        named("format", &Self::ALL, Self::name, name)
     }
 }
 

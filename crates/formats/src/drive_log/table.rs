@@ -9,12 +9,12 @@
 //! `x_m`, `y_m`, `yaw_rad` together. Times must not run backwards.
 
 use super::report::{DropReason, ReadReport};
+use super::scans::Scans;
 use super::text::{Rows, line};
 use super::{motion, text};
 use crate::error::FormatError;
 use crate::tables::{Columns, field};
-use boresight_core::drive::{DriveLog, MotionSample, Pose, Scan, Sensor};
-use std::collections::BTreeMap;
+use boresight_core::drive::{DriveLog, MotionSample, Pose, Sensor};
 use std::fmt::{Display, Formatter};
 use std::io::Write;
 
@@ -75,9 +75,7 @@ pub fn read_detections(bytes: &[u8], report: &mut ReadReport) -> Result<DriveLog
     let rate_at = rows.columns.need("range_rate_mps")?;
     let [sensor_at, range_at, rcs_at] =
         ["sensor", "range_m", "rcs_dbsm"].map(|name| rows.columns.find(name));
-    let mut scans: Vec<Scan> = vec![];
-    // The latest scan of each sensor, by its place in `scans`.
-    let mut latest: BTreeMap<u8, usize> = BTreeMap::new();
+    let mut scans = Scans::default();
     while let Some(row) = rows.next()? {
         report.detections += 1;
         let time_s: f64 = field(row, time_at, "time_s", "a number")?;
@@ -92,30 +90,16 @@ pub fn read_detections(bytes: &[u8], report: &mut ReadReport) -> Result<DriveLog
             report.drop(DropReason::NotFinite);
             continue;
         }
-        let previous = latest.get(&sensor).map(|&at| (at, scans[at].time_s));
-        let at = match previous {
-            Some((at, previous)) if time_s == previous => at,
-            Some((_, previous)) if time_s < previous => {
-                return Err(FormatError::TimeBackwards {
-                    place: format!("detections, line {}", line(row)),
-                    previous,
-                    given: time_s,
-                });
-            }
-            _ => {
-                scans.push(Scan { time_s, sensor, detections: vec![], labels: vec![] });
-                latest.insert(sensor, scans.len() - 1);
-                scans.len() - 1
-            }
-        };
+        let scan = scans.at(time_s, sensor, || format!("detections, line {}", line(row)))?;
         match motion::detection(azimuth, rate, range, rcs) {
-            Some(detection) => scans[at].detections.push(detection),
+            Some(detection) => scan.detections.push(detection),
             None => report.drop(DropReason::NotFinite),
         }
     }
     rows.not_empty()?;
+    let sensors = scans.sensors().map(|id| Sensor { id, mounting: None }).collect();
+    let mut scans = scans.into_vec();
     scans.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
-    let sensors = latest.into_keys().map(|id| Sensor { id, mounting: None }).collect();
     Ok(DriveLog { sensors, scans, motion: vec![] })
 }
 

@@ -18,6 +18,7 @@ mod write;
 pub use json::sequence_names;
 pub use write::{Packing, STATIC_LABEL, SequenceFiles, write};
 
+use crate::drive_log::scans::Scans;
 use crate::drive_log::{self, DropReason, MountingSource, ReadReport};
 use crate::error::{FormatError, Remark};
 use boresight_core::drive::{
@@ -160,9 +161,7 @@ fn scans(
         .filter(|name| table.has(name))
         .map(|name| table.field(name))
         .collect::<Result<Vec<_>, _>>()?;
-    let mut scans: Vec<Scan> = vec![];
-    // The latest scan of each sensor, by its place in `scans`.
-    let mut latest: BTreeMap<u8, usize> = BTreeMap::new();
+    let mut scans = Scans::default();
     table.for_each(|k, row| {
         report.detections += 1;
         let byte = |field: compound::Field, name: &str| {
@@ -172,22 +171,7 @@ fn scans(
         };
         let (sensor, label) = (byte(sensor_id, "sensor_id")?, byte(label_id, "label_id")?);
         let time_s = seconds(stamp.integer(row), origin_us);
-        let previous = latest.get(&sensor).map(|&at| (at, scans[at].time_s));
-        let at = match previous {
-            Some((at, previous)) if time_s == previous => at,
-            Some((_, previous)) if time_s < previous => {
-                return Err(FormatError::TimeBackwards {
-                    place: format!("radar_data, row {k}"),
-                    previous,
-                    given: time_s,
-                });
-            }
-            _ => {
-                scans.push(Scan { time_s, sensor, detections: vec![], labels: vec![] });
-                latest.insert(sensor, scans.len() - 1);
-                scans.len() - 1
-            }
-        };
+        let scan = scans.at(time_s, sensor, || format!("radar_data, row {k}"))?;
         let [azimuth, rate, range, rcs] = [azimuth, rate, range, rcs].map(|f| f.number(row));
         let Some(detection) = drive_log::motion::detection(azimuth, rate, range, rcs) else {
             report.drop(DropReason::NotFinite);
@@ -197,11 +181,11 @@ fn scans(
             && detection.rcs_dbsm.is_finite()
             && beside.iter().all(|field| field.number(row).is_finite());
         report.incomplete += u64::from(!whole);
-        scans[at].detections.push(detection);
-        scans[at].labels.push(label);
+        scan.detections.push(detection);
+        scan.labels.push(label);
         Ok(())
     })?;
-    Ok(scans)
+    Ok(scans.into_vec())
 }
 
 fn motion(

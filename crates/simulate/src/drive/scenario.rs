@@ -1,5 +1,6 @@
 //! Kinds of roads, and routes over them: curvature, speed limits and stops along the way.
 
+use boresight_core::error::named;
 use boresight_core::{CoreError, Random};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -60,13 +61,7 @@ impl Scenario {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        Self::ALL.into_iter().find(|scenario| scenario.name() == name).ok_or_else(|| {
-            CoreError::Unknown {
-                what: "scenario".into(),
-                expected: Self::ALL.map(Self::name).join(", "),
-                given: name.into(),
-            }
-        })
+        named("scenario", &Self::ALL, Self::name, name)
     }
 
     /// Free speed from and to, m/s.

@@ -5,7 +5,7 @@ import binAddress from '../../../../recordings/awr1642/xwr16xx_crw_dca_module_20
 import datAddress from '../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat?url';
 import cfgAddress from '../../../../recordings/awr1642/profile.cfg?url';
 import licenceAddress from '../../../../recordings/awr1642/LICENSE?url';
-import { api, describeError, type Problem } from '../../data.ts';
+import { api, describeError, FileProblem, type Problem } from '../../data.ts';
 import { update } from './state.ts';
 
 const KINDS = ['bin', 'cfg', 'dat'] as const;
@@ -28,17 +28,6 @@ export const fileProblem = signal<(Problem & { file?: string }) | null>(null);
 
 /** What a tab can hold beside its copies in workers. */
 const LARGEST_BYTES = 512 * 1024 * 1024;
-
-class FileProblem extends Error {
-  readonly code: string;
-  readonly file: string;
-
-  constructor(code: string, file: string, message: string) {
-    super(message);
-    this.code = code;
-    this.file = file;
-  }
-}
 
 /** The latest opening wins, should two overlap. */
 let opening = 0;

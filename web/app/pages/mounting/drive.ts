@@ -5,7 +5,7 @@ import type { JobOptions } from 'boresight/worker';
 import radarAddress from '../../../../recordings/delphi/front_radar.csv.gz?url';
 import poseAddress from '../../../../recordings/delphi/pose_10hz.csv.gz?url';
 import licenceAddress from '../../../../recordings/delphi/LICENSE?url';
-import { aborted, describeError, pool, type Problem } from '../../data.ts';
+import { aborted, describeError, FileProblem, pool, type Problem } from '../../data.ts';
 import type { NamedFile } from './entries.ts';
 import { type MountingState, mountingState, update } from './state.ts';
 
@@ -51,17 +51,6 @@ const DRIVES = /\.(csv|csv\.gz|h5|hdf5)$/i;
 const BESIDE = /(^|\/)(scenes|sensors|sequences)\.json$/i;
 /** What a tab can hold beside its copies in workers. */
 const LARGEST_BYTES = 1024 ** 3;
-
-class FileProblem extends Error {
-  readonly code: string;
-  readonly file: string;
-
-  constructor(code: string, file: string, message: string) {
-    super(message);
-    this.code = code;
-    this.file = file;
-  }
-}
 
 /** The latest opening wins, and ends the one before. */
 let controller: AbortController | undefined;

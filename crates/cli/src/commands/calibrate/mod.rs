@@ -129,12 +129,7 @@ fn feed<'a>(
         if done % FRAMES_A_REPORT == 0 && run.report(Progress { done, total }).is_break() {
             return Err(PipelineError::Cancelled { done, total }.into());
         }
-        let frame = FrameInput {
-            time_s: scan.time_s,
-            detections: &scan.detections,
-            yaw_rate_radps: log.yaw_rate_at(scan.time_s, options.max_gap_s),
-            speed_mps: log.speed_at(scan.time_s, options.max_gap_s),
-        };
+        let frame = FrameInput::of(log, scan, options.max_gap_s);
         add(scan.sensor, frame)?;
     }
     Ok(())

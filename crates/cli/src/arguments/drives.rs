@@ -1,0 +1,73 @@
+//! What `log` and `calibrate` take.
+
+use boresight_calibrate::{Method as Calibration, MotionMethod};
+use boresight_formats::DriveFormat;
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+use std::path::PathBuf;
+
+/// Arguments of `log`.
+#[derive(Debug, Args)]
+pub struct LogArguments {
+    /// The log: its folder, its one file, or its files. Tables (.csv, also packed as .csv.gz) are
+    /// recognised by their columns. Of RadarScenes also the folder of the data set.
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Which sequence of a data set's folder, such as sequence_7 or 7.
+    #[arg(long, value_name = "NAME")]
+    pub sequence: Option<String>,
+    /// Write the log as general tables, detections.csv and motion.csv, to this folder.
+    #[arg(long, value_name = "DIR")]
+    pub export: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `calibrate`.
+#[derive(Debug, Args)]
+pub struct CalibrateArguments {
+    /// The log: its folder, its one file, or its files; of RadarScenes also the data set's folder.
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Which sequence of a data set's folder, such as sequence_7 or 7.
+    #[arg(long, value_name = "NAME")]
+    pub sequence: Option<String>,
+    /// Format of the log, where it is not to be found from the files.
+    #[arg(long, value_parser = PossibleValuesParser::new(DriveFormat::ALL.map(DriveFormat::name)))]
+    pub format: Option<String>,
+    /// Only this radar of the log.
+    #[arg(long, value_name = "N")]
+    pub sensor: Option<u8>,
+    /// How the angle is estimated.
+    #[arg(long, default_value = "recursive",
+          value_parser = PossibleValuesParser::new(Calibration::ALL.map(Calibration::name)))]
+    pub method: String,
+    /// Estimate all radars of the log together, by the recursive method with one scale and bias of
+    /// the yaw rate for all; --sensor then says which is printed.
+    #[arg(long, conflicts_with_all = ["method", "motion"])]
+    pub joint: bool,
+    /// How the radar's motion is estimated, instead of the way that belongs to the method.
+    #[arg(long, value_parser = PossibleValuesParser::new(MotionMethod::ALL.map(MotionMethod::name)))]
+    pub motion: Option<String>,
+    /// The angle the radar should be mounted at, deg, positive to the left.
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub nominal: Option<f64>,
+    /// The radar's distance ahead of the rear axle, m, where the log does not state it.
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub x: Option<f64>,
+    /// The radar's distance left of the centre line, m.
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub y: Option<f64>,
+    /// Frames below this speed of the radar are left out, m/s.
+    #[arg(long, value_name = "MPS", default_value_t = 1.0)]
+    pub min_speed: f64,
+    /// Write the car's trajectory by the radar's motion and the estimated angle: time_s, x_m, y_m,
+    /// yaw_deg of the rear axle, from the origin along x, and where the log has poses
+    /// logged_x_m, logged_y_m, logged_yaw_deg in the same frame.
+    #[arg(long, value_name = "OUT.csv")]
+    pub trajectory: Option<PathBuf>,
+    /// Print JSON: an object, or an array of them where there are several radars.
+    #[arg(long)]
+    pub json: bool,
+}

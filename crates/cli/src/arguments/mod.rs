@@ -1,0 +1,126 @@
+//! What the command line takes: a file a command, and what several share.
+
+mod drives;
+mod estimate;
+mod evaluate;
+mod simulate;
+
+pub use drives::{CalibrateArguments, LogArguments};
+pub use estimate::{AngleArguments, ChainArguments, EstimateArguments};
+pub use evaluate::{
+    EvaluateAoaArguments, EvaluateArguments, EvaluateCalibrationArguments, EvaluateCommand,
+};
+pub use simulate::{
+    CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,
+};
+
+use boresight_core::imperfections::ImperfectionSpread;
+use clap::{ArgGroup, Args, Parser, Subcommand};
+
+const EXAMPLES: &str = "\
+Examples:
+  Angles in a raw capture of a TI board, all frames together:
+    boresight estimate capture.bin --config profile.cfg
+  One frame, by IAA, as JSON:
+    boresight estimate capture.bin --config profile.cfg --method iaa --frame 0 --json
+  What the board itself detected:
+    boresight estimate board.dat
+  Two targets seen by an 8-element array, and their angles by MUSIC:
+    boresight simulate snapshots --array ula8 --target azimuth=-5 --target azimuth=20,power=-3 \\
+      --snapshots 50 --seed 1 --out two.npy
+    boresight estimate two.npy --array ula8 --method music --sources 2
+
+Angles are in degrees, positive to the left; range rates are positive when receding.";
+
+/// Automotive radar: angles from captures and snapshots, and simulation.
+#[derive(Debug, Parser)]
+#[command(name = "boresight", version, after_help = EXAMPLES, max_term_width = 100)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// Commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Print the detections in a capture, or the angles in snapshots.
+    Estimate(Box<EstimateArguments>),
+    /// Simulate data of which the truth is known, as a .npy file.
+    Simulate {
+        /// What to simulate.
+        #[command(subcommand)]
+        what: SimulateCommand,
+    },
+    /// Estimate the angle a car's radars are mounted at from a drive log.
+    Calibrate(CalibrateArguments),
+    /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.
+    Log(LogArguments),
+    /// Run an experiment on simulated scenes: tables, figures, records.
+    Evaluate {
+        /// What to run.
+        #[command(subcommand)]
+        what: EvaluateCommand,
+    },
+    /// List the methods of angle estimation, and what each needs.
+    Methods(ListFormat),
+    /// List the arrays known by name.
+    Arrays(ListFormat),
+}
+
+/// How lists are printed.
+#[derive(Debug, Args)]
+pub struct ListFormat {
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How results are printed.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("format").args(["json", "csv"]))]
+pub struct OutputFormat {
+    /// Print a JSON array of objects (rangeM, rateMps, azimuthDeg, elevationDeg, powerDb, snrDb...).
+    #[arg(long)]
+    pub json: bool,
+    /// Print comma-separated values with a header line.
+    #[arg(long)]
+    pub csv: bool,
+}
+
+/// Errors of the array's elements.
+#[derive(Debug, Args)]
+pub struct ImperfectionArguments {
+    /// Standard deviation of the elements' gain, dB.
+    #[arg(long, value_name = "DB", default_value_t = 0.0)]
+    pub gain_error: f64,
+    /// Standard deviation of the elements' phase, deg.
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    pub phase_error: f64,
+    /// Standard deviation of the elements' position, half wavelengths.
+    #[arg(long, value_name = "HALF-WAVELENGTHS", default_value_t = 0.0)]
+    pub position_error: f64,
+    /// Coupling of elements half a wavelength apart, dB.
+    #[arg(long, value_name = "DB", allow_hyphen_values = true)]
+    pub coupling: Option<f64>,
+}
+
+impl ImperfectionArguments {
+    /// The spread that errors are drawn from.
+    pub fn spread(&self) -> ImperfectionSpread {
+        ImperfectionSpread {
+            gain_db: self.gain_error,
+            phase_rad: self.phase_error.to_radians(),
+            position: self.position_error,
+            coupling_db: self.coupling,
+        }
+    }
+}
+
+/// Two numbers with a comma between.
+fn pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
+    let number = |part: &str| part.trim().parse::<T>().ok();
+    text.split_once(',')
+        .and_then(|(a, b)| Some([number(a)?, number(b)?]))
+        .ok_or_else(|| "expected two numbers with a comma between, such as 4,2".into())
+}

@@ -1,0 +1,145 @@
+//! What `simulate` takes.
+
+use super::{ImperfectionArguments, pair};
+use boresight_simulate::Scenario;
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+/// What to simulate.
+#[derive(Debug, Subcommand)]
+pub enum SimulateCommand {
+    /// Snapshots of an array (scenes x elements x snapshots, complex).
+    Snapshots(Box<SnapshotArguments>),
+    /// FMCW data cubes (frames x loops x transmitters x receivers x samples, complex).
+    Cube(Box<CubeArguments>),
+    /// A drive in the layout of RadarScenes: Doppler point clouds of a car's radars, its yaw rate
+    /// and speed, and the truth behind them.
+    Drive(Box<DriveArguments>),
+}
+
+/// Arguments of `simulate drive`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Writes DIR/data/sequence_1/radar_data.h5 and scenes.json, DIR/data/sensors.json and sequences.json, \
+and the truth, DIR/truth.json, which calibrate does not read. sensors.json has the nominal \
+mountings: those of --sensor less the misalignment.")]
+pub struct DriveArguments {
+    /// Roads and traffic.
+    #[arg(long, default_value = "city",
+          value_parser = PossibleValuesParser::new(Scenario::ALL.map(Scenario::name)))]
+    pub scenario: String,
+    /// Seed; the same one gives the same drive on every machine.
+    #[arg(long, value_name = "S")]
+    pub seed: u64,
+    /// Length of the drive, s.
+    #[arg(long, value_name = "S", default_value_t = 60.0)]
+    pub duration: f64,
+    /// Share of moving detections, 0 to 0.8; without it what the scenario's traffic gives.
+    #[arg(long, value_name = "SHARE")]
+    pub moving_share: Option<f64>,
+    /// A radar: the number of one of the RadarScenes car's (1 to 4), or where it truly sits and
+    /// looks, such as id=1,x=3.7,y=-0.6,yaw=-30: m from the rear axle, deg. Repeat for more;
+    /// without it all four of the RadarScenes car.
+    #[arg(long = "sensor", value_name = "N|KEY=VALUE,...")]
+    pub sensors: Vec<String>,
+    /// By how much a radar's true yaw exceeds the nominal one, such as 2=1.5: its number, deg.
+    /// Repeat for more.
+    #[arg(long = "misalign", value_name = "N=DEG")]
+    pub misalignments: Vec<String>,
+    /// Measured over true yaw rate; without it drawn from 0.98 to 1.02.
+    #[arg(long, value_name = "RATIO")]
+    pub yaw_rate_scale: Option<f64>,
+    /// Yaw rate measured at standstill, deg/s; without it drawn from -0.2 to 0.2.
+    #[arg(long, value_name = "DEG/S", allow_negative_numbers = true)]
+    pub yaw_rate_bias: Option<f64>,
+    /// Slip angle of the rear axle over lateral acceleration, deg/(m/s^2).
+    #[arg(long, value_name = "DEG/(M/S2)", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub slip: f64,
+    /// Write radar_data.h5 in chunks packed by deflate.
+    #[arg(long)]
+    pub packed: bool,
+    /// Folder to write.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+}
+
+/// Arguments shared by the simulations of snapshots and data cubes.
+#[derive(Debug, Args)]
+pub struct SimulateArguments {
+    /// Array: a name (see `boresight arrays`), ulaN, or a JSON file.
+    #[arg(long, value_name = "NAME|JSON")]
+    pub array: String,
+    /// Power of a 0 dB target at one element over the noise power there, dB.
+    #[arg(long, value_name = "DB", default_value_t = 20.0, allow_hyphen_values = true)]
+    pub snr: f64,
+    /// Seed; the same one gives the same numbers on every machine.
+    #[arg(long, value_name = "S")]
+    pub seed: u64,
+    /// File to write, .npy.
+    #[arg(long, value_name = "F.npy")]
+    pub out: PathBuf,
+    /// File for the truth, JSON; without it beside the data, ending in .json.
+    #[arg(long, value_name = "F.json")]
+    pub truth: Option<PathBuf>,
+    /// What is wrong with the array.
+    #[command(flatten)]
+    pub imperfections: ImperfectionArguments,
+}
+
+/// Arguments of `simulate snapshots`.
+#[derive(Debug, Args)]
+pub struct SnapshotArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: SimulateArguments,
+    /// A target, such as azimuth=12,power=-3: azimuth and elevation in deg, power in dB, phase in
+    /// deg. Repeat for more.
+    #[arg(long = "target", value_name = "KEY=VALUE,...", allow_hyphen_values = true)]
+    pub targets: Vec<String>,
+    /// Draw the number of targets between these, and their angles and powers, for each scene.
+    #[arg(long, value_name = "FEWEST,MOST", value_parser = pair::<usize>, conflicts_with = "targets")]
+    pub random_targets: Option<[usize; 2]>,
+    /// Half width of the sector random targets are drawn from, deg.
+    #[arg(long, value_name = "DEG", default_value_t = 60.0)]
+    pub field_of_view: f64,
+    /// Snapshots a scene.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub snapshots: usize,
+    /// Scenes.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub scenes: usize,
+    /// Number of the first scene, to split a sweep.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub first_scene: u64,
+    /// How targets change from snapshot to snapshot.
+    #[arg(long, default_value = "random-phase",
+          value_parser = ["random-phase", "complex-normal", "coherent"])]
+    pub fluctuation: String,
+}
+
+/// Arguments of `simulate cube`.
+#[derive(Debug, Args)]
+pub struct CubeArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: SimulateArguments,
+    /// Waveform: awr1642, 3dcnn-simulated, 3dcnn-experiment, a JSON file or a board's .cfg.
+    #[arg(long, value_name = "NAME|FILE", default_value = "awr1642")]
+    pub waveform: String,
+    /// A target, such as range=5,rate=-1.5,azimuth=10,power=-3: range in m, rate in m/s, azimuth,
+    /// elevation and phase in deg, power of one raw sample in dB. Repeat for more.
+    #[arg(
+        long = "target",
+        value_name = "KEY=VALUE,...",
+        required = true,
+        allow_hyphen_values = true
+    )]
+    pub targets: Vec<String>,
+    /// Frames.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub frames: usize,
+    /// Spherical wavefronts instead of plane ones.
+    #[arg(long)]
+    pub near_field: bool,
+}
