@@ -3,6 +3,7 @@
  * the name. Azimuth is positive to the left of boresight, range rate positive when receding.
  */
 export type * from './drive-types.js';
+export type * from './image-types.js';
 
 /** Interleaved [re, im] numbers in C order with their shape (complex numbers, not floats). */
 export interface ComplexData {
