@@ -8,7 +8,7 @@ export interface HeatMap {
   /** Centres of the columns and rows, ascending and evenly spaced. */
   x: ArrayLike<number>;
   y: ArrayLike<number>;
-  /** Value of column i and row j at `i * y.length + j`. */
+  /** Value of column i and row j at `i * y.length + j`; nothing is painted where it is not a number. */
   values: ArrayLike<number>;
   /** Values of the first and last colour. */
   limits: readonly [number, number];
@@ -41,7 +41,8 @@ export function heatImage(map: HeatMap): Layer {
   for (let i = 0; i < columns; i++) {
     for (let j = 0; j < rows; j++) {
       const value = map.values[i * rows + j] as number;
-      const level = Math.min(Math.max(Math.round((value - low) * scale), 0), 255) || 0;
+      if (Number.isNaN(value)) continue;
+      const level = Math.min(Math.max(Math.round((value - low) * scale), 0), 255);
       out[(rows - 1 - j) * columns + i] = table[level] as number;
     }
   }

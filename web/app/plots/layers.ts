@@ -16,6 +16,14 @@ export interface LayerContext {
 
 export type Layer = (c: LayerContext) => void;
 
+/** A layer that lets through what is under it; opacity from 0 to 1. */
+export function faded(layer: Layer, opacity: number): Layer {
+  return (context) => {
+    context.ctx.globalAlpha = opacity;
+    layer(context);
+  };
+}
+
 /** Vertical lines at given abscissae, full height, with an optional label at the top. */
 export function verticalLines(
   lines: readonly { x: number; label?: string }[],

@@ -7,6 +7,7 @@ import 'uplot/dist/uPlot.min.css';
 import './plot.css';
 import { ticks } from './format.ts';
 import { drawSwatch, type Layer, type LayerContext, SWATCH } from './layers.ts';
+import { navigate } from './navigate.ts';
 import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
 
 export type Interval = readonly [number, number];
@@ -58,12 +59,14 @@ export interface PlotOptions {
   right?: number;
   /** Smallest share of the extent a zoom may show. */
   minZoom?: number;
-  /** Plots with the same key share their cursor's abscissa. */
+  /** Plots with the same key share their cursor's abscissa, those with equal scales the whole of it. */
   cursorKey?: string;
   theme: ThemeName;
   grid?: boolean;
   /** A unit takes as much room on one axis as on the other: for places. */
   equal?: boolean;
+  /** A drag, two fingers or the arrows move the view, the wheel zooms; else a drag zooms to a region, as it does with Shift here. */
+  navigate?: boolean;
   onCursor?(position: CursorPosition | null): void;
   onClick?(position: CursorPosition): void;
   /** Default: reset the zoom. */
@@ -110,6 +113,7 @@ export class Plot {
   #ids: string[] = [];
   #observer: ResizeObserver;
   #listeners = new Set<() => void>();
+  #stopNavigating: (() => void) | undefined;
 
   constructor(host: HTMLElement, options: PlotOptions) {
     this.host = host;
@@ -122,6 +126,7 @@ export class Plot {
     this.u = new uPlot(this.#uplotOptions(), [[], []], host);
     this.u.over.addEventListener('click', this.#click);
     host.addEventListener('keydown', this.#key);
+    if (options.navigate) this.#stopNavigating = navigate(this);
     this.#observer = new ResizeObserver(() => this.#resize());
     this.#observer.observe(host);
     this.#resize();
@@ -177,15 +182,11 @@ export class Plot {
     if (report) this.#options.onView?.(this.view, this.zoomed);
   }
 
-  /** Zooms about the middle; a factor below 1 shows less. */
-  zoomBy(factor: number): void {
+  /** Zooms about a place, the middle if none is given; a factor below 1 shows less. */
+  zoomBy(factor: number, about?: { x: number; y: number }): void {
     const { extent } = this.#content;
-    const scaled = ([a, b]: Interval): Interval => {
-      const middle = (a + b) / 2;
-      const half = ((b - a) / 2) * factor;
-      return [middle - half, middle + half];
-    };
-    const view: View = { x: scaled(this.view.x), y: this.#options.equal ? scaled(this.view.y) : this.view.y };
+    const scaled = ([a, b]: Interval, at = (a + b) / 2): Interval => [at + (a - at) * factor, at + (b - at) * factor];
+    const view: View = { x: scaled(this.view.x, about?.x), y: this.#options.equal ? scaled(this.view.y, about?.y) : this.view.y };
     const all = view.x[1] - view.x[0] >= extent.x[1] - extent.x[0];
     this.setView(all ? null : view, true);
   }
@@ -194,10 +195,17 @@ export class Plot {
     this.setView(null, true);
   }
 
-  panBy(share: number): void {
+  /** Moves a zoomed view along by shares of what it shows. */
+  panBy(x: number, y = 0): void {
+    const drawn = this.#drawn(this.u);
+    this.moveBy((drawn.x[1] - drawn.x[0]) * x, (drawn.y[1] - drawn.y[0]) * y);
+  }
+
+  /** Moves a zoomed view along by what its axes say. */
+  moveBy(x: number, y: number): void {
     if (!this.#view) return;
-    const step = (this.#view.x[1] - this.#view.x[0]) * share;
-    this.setView({ x: [this.#view.x[0] + step, this.#view.x[1] + step], y: this.#view.y }, true);
+    const moved = ([a, b]: Interval, step: number): Interval => [a + step, b + step];
+    this.setView({ x: moved(this.#view.x, x), y: moved(this.#view.y, y) }, true);
   }
 
   /** The plot as an image with a heading, a legend and remarks, at the screen's resolution. */
@@ -243,6 +251,7 @@ export class Plot {
 
   destroy(): void {
     this.#observer.disconnect();
+    this.#stopNavigating?.();
     this.#listeners.clear();
     this.host.removeEventListener('keydown', this.#key);
     this.u.destroy();
@@ -289,13 +298,21 @@ export class Plot {
             this.#doubleClick(event);
             return null;
           },
+          ...(options.navigate
+            ? {
+                mousedown: (_u, _over, handler) => (event: MouseEvent) => {
+                  if (event.button === 0 && event.shiftKey) handler(event);
+                  return null;
+                },
+              }
+            : {}),
         },
         ...(options.cursorKey
           ? {
               sync: {
                 key: options.cursorKey,
                 setSeries: false,
-                scales: ['x', null] as [string, null],
+                scales: ['x', options.equal ? 'y' : null] as [string, string | null],
                 filters: { pub: (type: string) => type === 'mousemove' || type === 'mouseleave' },
               },
             }
@@ -391,6 +408,7 @@ export class Plot {
   };
 
   #ownKey(event: KeyboardEvent): boolean {
+    if (this.#options.navigate && this.#arrow(event)) return true;
     switch (event.key) {
       case '+': case '=': this.zoomBy(0.5); return true;
       case '-': this.zoomBy(2); return true;
@@ -400,6 +418,23 @@ export class Plot {
       case 'ArrowLeft': case 'ArrowRight': this.#moveCursor((event.key === 'ArrowLeft' ? -1 : 1) * (event.shiftKey ? 10 : 1)); return true;
       default: return false;
     }
+  }
+
+  /** Arrows move the view, or with Shift the cursor. */
+  #arrow({ key, shiftKey }: KeyboardEvent): boolean {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key];
+    if (!step) return false;
+    const [x, y] = step as [number, number];
+    if (shiftKey) {
+      const { clientWidth: width, clientHeight: height } = this.u.over;
+      const { left = -1, top = -1 } = this.u.cursor;
+      const at = left >= 0 ? { left, top } : { left: width / 2, top: height / 2 };
+      const within = (value: number, size: number): number => Math.min(Math.max(value, 0), size - 1);
+      this.u.setCursor({ left: within(at.left + 4 * x, width), top: within(at.top - 4 * y, height) });
+    } else {
+      this.panBy(0.1 * x, 0.1 * y);
+    }
+    return true;
   }
 
   #moveCursor(steps: number): void {

@@ -1,11 +1,10 @@
 /** Everything the angle lab can be told. */
 import { api } from '../../data.ts';
 import { milliseconds } from '../../plots/format.ts';
-import { methodStyle } from '../../plots/theme.ts';
 import { showHelp } from '../../state/settings.ts';
 import { CheckField, Group, NumberField, SelectField, TextField } from '../../ui/field.tsx';
+import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { Swatch } from '../../ui/swatch.tsx';
 import { results, unavailable } from './compute.ts';
 import {
   addTarget, angleCodec, angleState, freeAzimuth, LIMITS, positionsProblem, removeTarget, setTarget, update,
@@ -39,7 +38,7 @@ export function Controls() {
           help="From snapshot to snapshot: amplitude and phase fluctuate (complex normal), the phase alone, or nothing, as with multipath; coherent targets call for averaging or smoothing. One snapshot keeps the powers given."
           onChange={(fluctuation) => update({ fluctuation })} />
       </Group>
-      <Group title="Methods"><MethodList /></Group>
+      <Group title="Methods"><Methods /></Group>
       <Group title="Estimation">
         <SelectField label="Sources" name="sources" value={state.sources}
           options={[['known', 'known'], ['mdl', 'counted, MDL'], ['aic', 'counted, AIC']]}
@@ -146,36 +145,23 @@ function CellNumber(props: { label: string; name: string; value: number; step: n
   );
 }
 
-function MethodList() {
-  const { methods } = angleState.value;
-  const all = api.methods();
+function Methods() {
   return (
-    <fieldset class="methods" aria-label="Methods">
-      {all.map((info) => {
-        const reason = unavailable.value.get(info.name);
-        const chosen = methods.includes(info.name);
+    <MethodList label="Methods" prefix="method" chosen={angleState.value.methods} onChange={(methods) => update({ methods })}
+      items={api.methods().map((info) => {
+        const off = unavailable.value.get(info.name);
         const result = results.value.get(info.name);
-        const id = `method-${info.name}`;
-        return (
-          <div key={info.name} class={`method${reason ? ' off' : ''}`} title={`${info.reference}. Cost: ${info.cost}.`}>
-            <input type="checkbox" id={id} name={id} checked={chosen} disabled={Boolean(reason) && !chosen} aria-describedby={`${id}-note`}
-              onChange={(event) => {
-                const on = event.currentTarget.checked;
-                update({ methods: all.map(({ name }) => name).filter((name) => (name === info.name ? on : methods.includes(name))) });
-              }} />
-            <Swatch style={methodStyle(info.name)} line={info.spectrum} />
-            <label for={id}>{info.title}</label>
+        const shown = !off && angleState.value.methods.includes(info.name);
+        return {
+          name: info.name, title: info.title, about: `${info.reference}. Cost: ${info.cost}.`, line: info.spectrum, off, note: result?.problem?.message,
+          extra: (
             <span class="time" data-time={info.name}>
-              {!reason && chosen && result?.milliseconds !== undefined
+              {shown && result?.milliseconds !== undefined
                 ? <span class={result.stale ? 'muted' : ''} title={result.where === 'worker' ? 'On a worker, with the way there and back' : 'On this page'}>{milliseconds(result.milliseconds)}</span>
-                : !reason && chosen && result?.stale ? <span class="muted">running</span> : null}
+                : shown && result?.stale ? <span class="muted">running</span> : null}
             </span>
-            <p id={`${id}-note`} class="note" hidden={!reason && !result?.problem}>
-              {reason ?? (result?.problem ? result.problem.message : '')}
-            </p>
-          </div>
-        );
-      })}
-    </fieldset>
+          ),
+        };
+      })} />
   );
 }

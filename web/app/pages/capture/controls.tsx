@@ -4,13 +4,12 @@ import type { Method } from 'boresight';
 import { api } from '../../data.ts';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
 import { byteSize } from '../../plots/format.ts';
-import { methodStyle } from '../../plots/theme.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
 import { CheckField, Group, NumberField, SelectField } from '../../ui/field.tsx';
 import { Licence } from '../../ui/licence.tsx';
+import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { Swatch } from '../../ui/swatch.tsx';
 import { fileProblem, loaded, openBundled, openFiles } from './files.ts';
 import { captureCodec, captureState, CFARS, FALSE_ALARMS, update, WINDOWS } from './state.ts';
 import { cellUnavailable } from './process.ts';
@@ -37,25 +36,10 @@ export function Controls() {
       </div>
       <Group title="Files"><Files /></Group>
       <Group title="Angle methods for the cell">
-        <fieldset class="methods" aria-label="Methods for the chosen cell">
-          {methods.map((info) => {
-            const reason = cellUnavailable.value.get(info.name);
-            const chosen = state.methods.includes(info.name);
-            const id = `cell-${info.name}`;
-            return (
-              <div key={info.name} class={`method${reason ? ' off' : ''}`} title={`${info.reference}. Cost: ${info.cost}.`}>
-                <input type="checkbox" id={id} name={id} checked={chosen} disabled={Boolean(reason) && !chosen} aria-describedby={`${id}-note`}
-                  onChange={(event) => {
-                    const on = event.currentTarget.checked;
-                    update({ methods: methods.map(({ name }) => name).filter((name) => (name === info.name ? on : state.methods.includes(name))) });
-                  }} />
-                <Swatch style={methodStyle(info.name)} line={info.spectrum} />
-                <label for={id}>{info.title}</label>
-                <p id={`${id}-note`} class="note" hidden={!reason}>{reason}</p>
-              </div>
-            );
-          })}
-        </fieldset>
+        <MethodList label="Methods for the chosen cell" prefix="cell" chosen={state.methods} onChange={(chosen) => update({ methods: chosen })}
+          items={methods.map((info) => ({
+            name: info.name, title: info.title, about: `${info.reference}. Cost: ${info.cost}.`, line: info.spectrum, off: cellUnavailable.value.get(info.name),
+          }))} />
         <SelectField label="Sources in the cell" name="sources" value={state.sources}
           options={[['mdl', 'counted, MDL'], ['aic', 'counted, AIC'], ['1', '1'], ['2', '2'], ['3', '3'], ['4', '4']]}
           help="How many directions the subspace methods look for in one cell."

@@ -1,5 +1,6 @@
 /** The frame from above, in the car's frame, with the angle applied. */
 import { useMemo } from 'preact/hooks';
+import { carOutline } from '../../plots/car.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import type { Layer } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -10,9 +11,6 @@ import { loaded } from './drive.ts';
 import { type FrameView, inCar, quantiles, sample, usedAngleDeg } from './frame.ts';
 import { where } from './process.ts';
 import { fileParts, frameKey } from './time-plot.tsx';
-
-/** A car's outline about its rear axle, m: typical, as logs do not say. */
-const CAR = { behind: 1, ahead: 3.9, half: 0.93 } as const;
 
 export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
   const drive = loaded.value?.drive;
@@ -34,7 +32,7 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
   }, [view, angleDeg, at]);
   const content = useMemo(() => ({
     x: [], series: [], extent,
-    below: [car(), boresight(at?.xM ?? 0, at?.yM ?? 0, at?.nominalDeg ?? null, angleDeg)],
+    below: [carOutline(), boresight(at?.xM ?? 0, at?.yM ?? 0, at?.nominalDeg ?? null, angleDeg)],
     above: [detectionLayer(places.x, places.y, view)],
   }), [places, view, extent, at?.nominalDeg, angleDeg]);
   const legend: LegendItem[] = [
@@ -64,28 +62,6 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
 }
 
 const BORESIGHT = { color: ACCENT_STYLE.color };
-
-function car(): Layer {
-  return ({ ctx, theme, ratio, x, y }) => {
-    const [back, front] = [x(-CAR.behind), x(CAR.ahead)];
-    const [left, right] = [y(CAR.half), y(-CAR.half)];
-    ctx.fillStyle = theme.shade;
-    ctx.strokeStyle = theme.muted;
-    ctx.lineWidth = 1.5 * ratio;
-    ctx.beginPath();
-    ctx.roundRect(back, left, front - back, right - left, Math.min(4 * ratio, (right - left) / 3));
-    ctx.fill();
-    ctx.stroke();
-    // The windscreen tells front from back, the line is the rear axle.
-    ctx.beginPath();
-    ctx.moveTo(x(2.4), y(CAR.half * 0.8));
-    ctx.lineTo(x(2.4), y(-CAR.half * 0.8));
-    ctx.moveTo(x(0), left);
-    ctx.lineTo(x(0), right);
-    ctx.lineWidth = ratio;
-    ctx.stroke();
-  };
-}
 
 /** The radar and where it looks: as found, and as it should. */
 function boresight(xM: number, yM: number, nominalDeg: number | null, angleDeg: number): Layer {

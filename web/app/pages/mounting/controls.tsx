@@ -1,13 +1,12 @@
 /** Drive, radar, methods and options. */
 import { useRef } from 'preact/hooks';
 import { byteSize } from '../../plots/format.ts';
-import { methodStyle } from '../../plots/theme.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
 import { CheckField, Group, NumberField, SelectField } from '../../ui/field.tsx';
 import { Licence } from '../../ui/licence.tsx';
+import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { Swatch } from '../../ui/swatch.tsx';
 import { chooseSource, loaded, openFiles, sensor } from './drive.ts';
 import { droppedFiles, pickedFiles } from './entries.ts';
 import { jointPossible, shownMethod, where } from './process.ts';
@@ -31,25 +30,12 @@ export function Controls() {
       <Group title="Drive"><Source /></Group>
       <Group title="Radar"><Radar /></Group>
       <Group title="Methods">
-        <fieldset class="methods" aria-label="Methods">
-          {WAYS.map((name) => {
+        <MethodList label="Methods" prefix="calibration" chosen={state.methods} onChange={(methods) => update({ methods })}
+          items={WAYS.map((name) => {
             const { title, reference } = about(name);
-            const id = `calibration-${name}`;
-            const off = name === 'joint' && !jointPossible.value;
-            return (
-              <div key={name} class={`method${off ? ' off' : ''}`} title={reference}>
-                <input type="checkbox" id={id} name={id} checked={state.methods.includes(name)} disabled={off} aria-describedby={`${id}-note`}
-                  onChange={(event) => {
-                    const on = event.currentTarget.checked;
-                    update({ methods: WAYS.filter((other) => (other === name ? on : state.methods.includes(other))) });
-                  }} />
-                <Swatch style={methodStyle(name)} line />
-                <label for={id}>{title}</label>
-                <p id={`${id}-note`} class="note" hidden={!off}>needs several radars whose places are known</p>
-              </div>
-            );
-          })}
-        </fieldset>
+            const off = name === 'joint' && !jointPossible.value ? 'needs several radars whose places are known' : undefined;
+            return { name, title, about: reference, line: true, off };
+          })} />
         <SelectField label="Frames by" name="shown" value={shownMethod.value ?? state.shown} wide
           options={(state.methods.length ? state.methods : WAYS).map((name) => [name, about(name).title] as const)}
           help="The method whose inliers, weights and trajectory are shown." onChange={(shown) => update({ shown })} />
