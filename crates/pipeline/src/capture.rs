@@ -1,11 +1,11 @@
 //! The chain over several frames.
 
-use crate::chain::Chain;
+use crate::chain::{Chain, Found, frame_cells};
 use crate::error::PipelineError;
-use crate::result::{Detection, FrameResult, Remark};
+use crate::result::{Detection, FrameCells, FrameResult, Remark};
 use crate::source::{FrameSource, Progress};
 use boresight_core::{Complex64, CoreError};
-use ndarray::{Array2, Axis};
+use ndarray::{Array2, Array3, Axis};
 use std::ops::{ControlFlow, Range};
 
 /// Most snapshots kept for one cell when frames are combined; further frames still count in the
@@ -58,6 +58,39 @@ impl Chain {
         report: Report<'_>,
     ) -> Result<FrameResult, S::Error> {
         let count = frames.len();
+        let (found, snapshots) = self.find_in_mean(source, frames.clone(), report)?;
+        let mut result = self.conclude(found, snapshots.view())?;
+        proceed(report, Progress { done: 2 * count, total: 2 * count })?;
+        result.frame = frames.start;
+        result.frames = count;
+        result.detections.iter_mut().for_each(|d| d.frame = frames.start);
+        self.remark_on_motion(&mut result);
+        Ok(result)
+    }
+
+    /// Cells of the frames in `frames` together, as [`Chain::combine`] finds them, without angles.
+    ///
+    /// # Errors
+    /// As [`Chain::combine`].
+    pub fn combined_cells<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        report: Report<'_>,
+    ) -> Result<FrameCells, S::Error> {
+        let (found, snapshots) = self.find_in_mean(source, frames, report)?;
+        Ok(frame_cells(found, snapshots))
+    }
+
+    /// Cells in the mean of the frames' power maps, which is then the map, and their snapshots:
+    /// cells x elements x frames.
+    fn find_in_mean<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        report: Report<'_>,
+    ) -> Result<(Found, Array3<Complex64>), S::Error> {
+        let count = frames.len();
         if count == 0 {
             let empty = CoreError::Empty { what: "frames".into(), expected: "at least one".into() };
             return Err(PipelineError::from(empty).into());
@@ -72,26 +105,19 @@ impl Chain {
         }
         let mean = mean.mapv(|sum| (sum / count as f64) as f32);
         self.map.power.assign(&mean);
-        let found = self.detect()?;
+        let mut found = self.detect()?;
+        found.counts.clipped_samples = clipped;
         let used = count.min(MAX_SNAPSHOTS);
-        let mut snapshots =
-            vec![Array2::<Complex64>::zeros((self.array().len(), used)); found.cells.len()];
-        for (done, index) in frames.clone().take(used).enumerate() {
+        let mut snapshots = Array3::zeros((found.cells.len(), self.array().len(), used));
+        for (done, index) in frames.take(used).enumerate() {
             proceed(report, Progress { done: count + done, total })?;
             self.load(source, index)?;
-            for (cell, snapshots) in found.cells.iter().zip(&mut snapshots) {
-                snapshots.index_axis_mut(Axis(1), done).assign(&self.snapshot(cell)?);
+            for (cell, mut rows) in found.cells.iter().zip(snapshots.outer_iter_mut()) {
+                rows.index_axis_mut(Axis(1), done).assign(&self.snapshot(cell)?);
             }
         }
         self.map.power.assign(&mean);
-        let mut result = self.conclude(found, &snapshots)?;
-        proceed(report, Progress { done: total, total })?;
-        result.frame = frames.start;
-        result.frames = count;
-        result.counts.clipped_samples = clipped;
-        result.detections.iter_mut().for_each(|d| d.frame = frames.start);
-        self.remark_on_motion(&mut result);
-        Ok(result)
+        Ok((found, snapshots))
     }
 
     /// A target that leaves its range cell makes several detections, one behind the other.

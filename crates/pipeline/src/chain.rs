@@ -3,14 +3,14 @@
 use crate::beam::suited;
 use crate::error::PipelineError;
 use crate::options::{ChainOptions, usable_range_m};
-use crate::result::{Counts, Detection, FrameResult, Remark};
+use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult, Remark};
 use crate::warnings::Warnings;
 use boresight_aoa::{Data, Estimate, Estimator, Method, Options};
 use boresight_core::{Array, Complex32, Complex64, Direction, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
 use boresight_signal::{Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, Region, tdm};
-use ndarray::{Array1, Array2, ArrayView2, ArrayView4, Axis};
+use ndarray::{Array1, Array3, ArrayView2, ArrayView3, ArrayView4, Axis};
 
 /// Least power in decibels of an empty cell, so that plots and tables need no infinities.
 const FLOOR_DB: f64 = -300.0;
@@ -114,14 +114,31 @@ impl Chain {
         &mut self,
         frame: ArrayView4<'_, Complex32>,
     ) -> Result<FrameResult, PipelineError> {
+        let (found, snapshots) = self.find(frame)?;
+        self.conclude(found, snapshots.view())
+    }
+
+    /// Detected cells of one frame of loops x transmitters x receivers x samples, without angles.
+    ///
+    /// # Errors
+    /// Another shape than planned; samples that are not finite.
+    pub fn cells(&mut self, frame: ArrayView4<'_, Complex32>) -> Result<FrameCells, PipelineError> {
+        let (found, snapshots) = self.find(frame)?;
+        Ok(frame_cells(found, snapshots))
+    }
+
+    /// Cells of a frame, and a snapshot of each: cells x elements x 1.
+    fn find(
+        &mut self,
+        frame: ArrayView4<'_, Complex32>,
+    ) -> Result<(Found, Array3<Complex64>), PipelineError> {
         self.transform.process(frame, &mut self.map)?;
         let found = self.detect()?;
-        let snapshots = found
-            .cells
-            .iter()
-            .map(|cell| Ok(self.snapshot(cell)?.insert_axis(Axis(1))))
-            .collect::<Result<Vec<_>, PipelineError>>()?;
-        self.conclude(found, &snapshots)
+        let mut snapshots = Array3::zeros((found.cells.len(), self.array.len(), 1));
+        for (cell, mut rows) in found.cells.iter().zip(snapshots.outer_iter_mut()) {
+            rows.index_axis_mut(Axis(1), 0).assign(&self.snapshot(cell)?);
+        }
+        Ok((found, snapshots))
     }
 
     /// The array's snapshot of a cell of the frame processed last, the transmitters' Doppler phase
@@ -210,17 +227,18 @@ impl Chain {
         Ok(self.channels.iter().map(|&channel| all[channel]).collect())
     }
 
-    /// Angles in the cells found in the power map, and everything a result holds.
+    /// Angles in the cells found in the power map, of which `snapshots` has cells x elements x
+    /// snapshots, and everything a result holds.
     pub(crate) fn conclude(
         &mut self,
         found: Found,
-        snapshots: &[Array2<Complex64>],
+        snapshots: ArrayView3<'_, Complex64>,
     ) -> Result<FrameResult, PipelineError> {
         let Found { cells, mut counts } = found;
         let mut detections = vec![];
         let mut warnings = Warnings::default();
-        for (cell, snapshots) in cells.iter().zip(snapshots) {
-            let estimate = self.estimator.estimate(Data::Snapshots(snapshots.view()))?;
+        for (cell, snapshots) in cells.iter().zip(snapshots.outer_iter()) {
+            let estimate = self.estimator.estimate(Data::Snapshots(snapshots))?;
             warnings.add(&estimate.warnings);
             counts.without_angle += usize::from(estimate.sources.is_empty());
             detections
@@ -249,6 +267,22 @@ impl Chain {
             warnings,
         })
     }
+}
+
+/// Cells with their snapshots, without angles.
+pub(crate) fn frame_cells(found: Found, snapshots: Array3<Complex64>) -> FrameCells {
+    let cell = |cell: &Cell| {
+        let found = cell.peak.detection;
+        DetectedCell {
+            range_m: cell.range_m,
+            rate_mps: cell.rate_mps,
+            power: cell.peak.power,
+            snr: found.power / found.noise_power.max(f64::MIN_POSITIVE),
+            range_bin: found.range_bin,
+            doppler_bin: found.doppler_bin,
+        }
+    };
+    FrameCells { cells: found.cells.iter().map(cell).collect(), snapshots, counts: found.counts }
 }
 
 fn detection(cell: &Cell, direction: Direction, power: f64) -> Detection {

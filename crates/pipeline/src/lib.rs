@@ -18,5 +18,5 @@ mod warnings;
 pub use chain::Chain;
 pub use error::PipelineError;
 pub use options::{ChainOptions, usable_range_m};
-pub use result::{Counts, Detection, FrameResult, Remark};
+pub use result::{Counts, DetectedCell, Detection, FrameCells, FrameResult, Remark};
 pub use source::{CubeFrames, Frame, FrameSource, Progress};

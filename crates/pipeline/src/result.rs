@@ -1,6 +1,7 @@
 //! What the chain gives.
 
-use ndarray::Array2;
+use boresight_core::Complex64;
+use ndarray::{Array2, Array3};
 
 /// A target in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,6 +24,35 @@ pub struct Detection {
     pub range_bin: usize,
     /// Doppler bin.
     pub doppler_bin: usize,
+}
+
+/// A cell of the range-Doppler map that stands out of the noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DetectedCell {
+    /// Range, m, interpolated between bins and corrected for the range rate.
+    pub range_m: f64,
+    /// Range rate, m/s, positive when receding, interpolated between bins.
+    pub rate_mps: f64,
+    /// Power of one raw sample at one element (mean over channels), interpolated between bins; 1
+    /// is full scale.
+    pub power: f64,
+    /// Power of the cell over the noise around it, linear.
+    pub snr: f64,
+    /// Range bin.
+    pub range_bin: usize,
+    /// Doppler bin.
+    pub doppler_bin: usize,
+}
+
+/// Detected cells of a frame, or of several combined, with what estimators take.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameCells {
+    /// The cells, strongest first.
+    pub cells: Vec<DetectedCell>,
+    /// Cells x elements x frames, the transmitters' Doppler phase taken off.
+    pub snapshots: Array3<Complex64>,
+    /// What became of cells and samples.
+    pub counts: Counts,
 }
 
 /// What became of cells and samples.
