@@ -11,7 +11,9 @@
 //! hypothesis that nothing is left is all noise: the peak's share of the residual power is compared
 //! with what a share of noise of unknown power can be with the residual's degrees of freedom,
 //! `N (K - D) - D/2` for `N` snapshots, `K` elements and `D` sources so far (`D` in place of `D/2`
-//! with elevation).
+//! with elevation). Sources not yet found are in that residual, too, and may hide each other: ten of
+//! equal power hold a tenth of it each. So a beam that fails the test is still taken off as long as
+//! the beams after it could pass, and counts as a source once one of them has passed.
 
 mod false_alarm;
 mod newton;
@@ -69,7 +71,19 @@ struct Thresholds {
     shares: Vec<Option<f64>>,
 }
 
+/// What the strongest beam of a residual is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    /// More than noise makes.
+    Source,
+    /// No more than noise makes if all of the residual is noise, which other sources may belie.
+    Hidden,
+    /// Noise.
+    Noise,
+}
+
 /// Sources so far.
+#[derive(Debug, Clone)]
 struct Fitted {
     points: Vec<Point>,
     /// Sources x snapshots.
@@ -133,26 +147,43 @@ impl Nomp {
         residual: &Array2<Complex64>,
         found: usize,
         noise_power: Option<f64>,
-    ) -> bool {
+    ) -> Verdict {
         let (elements, snapshots) = residual.dim();
         let gain = power / elements as f64;
         if self.thresholds.snapshots != snapshots {
             self.thresholds = Thresholds { snapshots, ..Thresholds::default() };
         }
-        let (volumes, false_alarm) = (&self.volumes, self.options.false_alarm);
         if let Some(noise) = noise_power {
+            let (volumes, false_alarm) = (&self.volumes, self.options.false_alarm);
             let level = &mut self.thresholds.level;
-            return gain
-                > noise * *level.get_or_insert_with(|| volumes.level(false_alarm, snapshots));
+            let level = *level.get_or_insert_with(|| volumes.level(false_alarm, snapshots));
+            return if gain > noise * level { Verdict::Source } else { Verdict::Noise };
         }
-        // Sources are found one by one, so that at most one share is missing.
+        let share = gain / energy(residual);
+        if self.share(found, snapshots, elements).is_some_and(|least| share > least) {
+            return Verdict::Source;
+        }
+        // Beams hardly grow as sources are taken off, so that `more` of them leave at least this.
+        for more in 1..self.options.max_sources.saturating_sub(found) {
+            let left = 1.0 - more as f64 * share;
+            let Some(least) = self.share(found + more, snapshots, elements) else { break };
+            if left <= 0.0 || share > least * left {
+                return Verdict::Hidden;
+            }
+        }
+        Verdict::Noise
+    }
+
+    /// Share of the residual power that the peak of noise of unknown power has with the false-alarm
+    /// probability, after `found` sources; nothing where too few degrees of freedom are left.
+    fn share(&mut self, found: usize, snapshots: usize, elements: usize) -> Option<f64> {
         let shares = &mut self.thresholds.shares;
         while shares.len() <= found {
             let angles = 0.5 * (self.geometry.axes * shares.len()) as f64;
-            let freedom = (snapshots * (elements - shares.len())) as f64 - angles;
-            shares.push(volumes.share(false_alarm, snapshots, freedom));
+            let freedom = (snapshots * elements.saturating_sub(shares.len())) as f64 - angles;
+            shares.push(self.volumes.share(self.options.false_alarm, snapshots, freedom));
         }
-        shares[found].is_some_and(|share| gain > share * energy(residual))
+        shares[found]
     }
 
     /// Newton steps on every source in turn, with all others taken off.
@@ -187,26 +218,29 @@ impl Nomp {
         let total = energy(y);
         let none = Array2::zeros((0, snapshots));
         let mut fitted = Fitted { points: Vec::new(), amplitudes: none, residual: y.clone() };
+        // What was found when a beam last stood out.
+        let mut sure = fitted.clone();
         loop {
             let found = fitted.points.len();
             if energy(&fitted.residual) <= EXHAUSTED * total || found + 1 >= y.nrows() {
-                return (fitted, true);
+                return (sure, true);
             }
             let (point, power) = self.strongest(&fitted.residual);
-            if !self.stands_out(power, &fitted.residual, found, noise_power) {
-                return (fitted, true);
+            let verdict = self.stands_out(power, &fitted.residual, found, noise_power);
+            if verdict == Verdict::Noise {
+                return (sure, true);
             }
             if found >= self.options.max_sources {
-                return (fitted, false);
+                return (sure, verdict == Verdict::Hidden);
             }
             let apart = 1e-3 * self.geometry.half_beam();
             if fitted.points.iter().any(|&p| self.geometry.distance(p, point) < apart) {
-                return (fitted, true);
+                return (sure, true);
             }
             let mut points = fitted.points.clone();
             points.push(point);
             let Some(mut next) = self.fit(y, points) else {
-                return (fitted, true);
+                return (sure, true);
             };
             for _ in 0..self.options.cyclic_refinements {
                 self.cycle(&mut next);
@@ -214,7 +248,10 @@ impl Nomp {
             // Two sources that have run into each other are one.
             match self.fit(y, next.points) {
                 Some(next) if energy(&next.residual) < energy(&fitted.residual) => fitted = next,
-                _ => return (fitted, true),
+                _ => return (sure, true),
+            }
+            if verdict == Verdict::Source {
+                sure = fitted.clone();
             }
         }
     }

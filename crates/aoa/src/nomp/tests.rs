@@ -81,6 +81,27 @@ fn counts_sources_in_noise_of_unknown_power() {
     assert!(right >= 95, "{right} of {trials}");
 }
 
+/// Each of ten equal sources holds a tenth of the power, less than the strongest beam of noise may.
+#[test]
+fn sources_that_hide_each_other_are_found() {
+    let array = preset("lrr48").unwrap();
+    let mut plan = Nomp::new(&array, &Options::default()).unwrap();
+    let (mut right, trials) = (0, 60);
+    for trial in 0..trials {
+        let mut random = Random::new(73, trial);
+        let at: Vec<Direction> = (0..10)
+            .map(|i| {
+                Direction::azimuth((-0.8 + 0.17 * (f64::from(i) + random.uniform(0.0, 0.5))).asin())
+            })
+            .collect();
+        let s = Array2::from_shape_fn((10, 1), |_| cis(random.phase()));
+        let y = steering_matrix(&array, &at).dot(&s) + noise(48, 1, 1e-2, &mut random);
+        let result = plan.estimate(Data::Snapshots(y.view())).unwrap();
+        right += usize::from(result.sources.len() == 10);
+    }
+    assert!(right >= 55, "{right} of {trials}");
+}
+
 #[test]
 fn silence_limits_and_wrong_data() {
     let array = preset("ula8").unwrap();
