@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { before, test } from 'node:test';
 import * as boresight from 'boresight';
 import * as workers from 'boresight/worker';
-import { planeWaves } from './lib/assert.mjs';
+import { batchOf, planeWaves } from './lib/assert.mjs';
 import { assertShape, interfaces } from './lib/interfaces.mjs';
 import { bin, cfg, dat } from './lib/recording.mjs';
 
@@ -36,6 +36,17 @@ test('estimates', () => {
   assertShape(boresight.countSources(input), 'CountResult');
   const bound = { targets: [{ azimuthDeg: 3, snrDb: 10 }], snapshots: 2 };
   for (const array of ['ula8', 'awr1843']) assertShape(boresight.cramerRaoBound({ ...bound, array }), 'Bound');
+});
+
+test('batches', () => {
+  const cells = batchOf([[10], [], [-20, 5]].map((angles) => planeWaves(8, 1, angles)));
+  const estimator = new boresight.Estimator({ method: 'capon', array: 'ula8' });
+  const batch = estimator.estimateBatch({ snapshots: cells }, { spectra: true });
+  estimator.free();
+  assertShape(batch, 'BatchEstimate');
+  assertShape(batch.spectra, 'BatchSpectra');
+  assert.ok(batch.warnings.length > 0);
+  batch.warnings.forEach((warning) => assertShape(warning, 'BatchWarning'));
 });
 
 test('simulations', () => {

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { before, describe, test } from 'node:test';
 import { Estimator, array, arrayPresets, estimate, init, methods, version } from 'boresight';
-import { planeWaves, throwsTyped } from './lib/assert.mjs';
+import { batchOf, planeWaves, throwsTyped } from './lib/assert.mjs';
 
 before(() => init());
 
@@ -137,6 +137,46 @@ describe('estimate', () => {
     structuredClone(lent, { transfer: [lent.buffer] });
     bad({ snapshots: { data: lent, shape: snapshots.shape } }, 'empty', 'input.snapshots.data');
     assert.ok(estimate({ snapshots }, options).sources.length > 0);
+  });
+});
+
+describe('a batch', () => {
+  test('gives for each cell what an estimate of it gives, by every method', () => {
+    const angles = [[-15, 22], [3], [], [40, -8]];
+    for (const { name, minSnapshots, spectrum } of methods()) {
+      const count = minSnapshots > 1 ? 20 : 1;
+      const cells = angles.map((at) => planeWaves(10, count, at));
+      const options = { method: name, array: 'ula10', gridPoints: 256, maxIterations: 20 };
+      const estimator = new Estimator(options);
+      const batch = estimator.estimateBatch({ snapshots: batchOf(cells) }, { spectra: true });
+      estimator.free();
+      const alone = cells.map((snapshots) => estimate({ snapshots }, options));
+      const sources = alone.flatMap((cell) => cell.sources);
+      for (const field of ['azimuthDeg', 'elevationDeg', 'powerDb']) {
+        assert.deepEqual([...batch[field]], sources.map((source) => source[field]), `${name} ${field}`);
+      }
+      assert.deepEqual([...batch.cell], alone.flatMap((cell, c) => cell.sources.map(() => c)), name);
+      assert.equal(batch.method, name);
+      assert.equal(batch.unresolved, alone.filter(({ resolved }) => !resolved).length, name);
+      assert.equal(batch.spectra !== undefined, spectrum, name);
+      if (!spectrum) continue;
+      assert.deepEqual(batch.spectra.shape, [4, 256]);
+      assert.deepEqual(batch.spectra.azimuthDeg, alone[0].spectrum.azimuthDeg);
+      assert.equal(batch.spectra.kind, alone[0].spectrum.kind);
+      const loudest = alone[1].spectrum.valuesDb.indexOf(Math.max(...alone[1].spectrum.valuesDb));
+      const db = 10 * Math.log10(batch.spectra.power[256 + loudest]);
+      // Single precision: 6e-8 of a power are 3e-7 dB.
+      assert.ok(Math.abs(db - alone[1].spectrum.valuesDb[loudest]) < 1e-6, name);
+    }
+  });
+
+  test('of an array that sees elevation has spectra over both angles', () => {
+    const estimator = new Estimator({ method: 'bartlett', array: 'awr1843', gridPoints: 64, elevationPoints: 9 });
+    const cells = { data: new Float32Array(2 * 3 * 12).fill(1), shape: [3, 12] };
+    const { spectra } = estimator.estimateBatch({ snapshots: cells }, { spectra: true });
+    estimator.free();
+    assert.deepEqual(spectra.shape, [3, 9, 64]);
+    assert.deepEqual([spectra.elevationDeg.length, spectra.power.length], [9, 3 * 9 * 64]);
   });
 });
 

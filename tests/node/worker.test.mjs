@@ -1,9 +1,9 @@
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { BoresightError, estimate, init } from 'boresight';
+import { BoresightError, Estimator, estimate, init } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { Crew } from '../../dist/worker/pool.js';
-import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
+import { batchOf, planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
 
 const options = { method: 'bartlett', array: 'ula10' };
 const angles = Array.from({ length: 40 }, (_, i) => -50 + 2.5 * i);
@@ -63,6 +63,47 @@ describe('a pool of worker threads', () => {
     await rejectsTyped(pool.estimateMany([inputs[0], {}], options), 'wrong-type', 'input');
     await rejectsTyped(pool.estimate(inputs[0], { ...options, method: () => {} }), 'wrong-type', 'arguments');
     assert.equal((await pool.estimate(inputs[0], options)).method, 'bartlett');
+  });
+
+  test('splits a batch over cells and gives what one estimator gives for all', async () => {
+    const cells = batchOf(inputs.map(({ snapshots }) => snapshots));
+    const progress = [];
+    const onProgress = (done, total) => progress.push([done, total]);
+    const batch = await pool.estimateBatch({ snapshots: cells }, { ...options, spectra: true }, { onProgress });
+    const estimator = new Estimator(options);
+    assert.deepEqual(batch, estimator.estimateBatch({ snapshots: cells }, { spectra: true }));
+    estimator.free();
+    assert.equal(progress.length, 16);
+    assert.deepEqual(progress.at(-1), [40, 40]);
+    assert.deepEqual(batch.spectra.shape, [40, 1024]);
+    const none = await pool.estimateBatch({ snapshots: { data: new Float64Array(0), shape: [0, 10] } }, options);
+    assert.deepEqual([none.cells, none.cell.length], [0, 0]);
+  });
+
+  test('counts the warnings of a batch, and its cells, over all pieces', async () => {
+    const silent = { data: new Float64Array(20 * 9 * 2), shape: [9, 10, 2] };
+    const batch = await pool.estimateBatch({ snapshots: silent }, options);
+    assert.deepEqual(batch.warnings.map(({ code, cells }) => [code, cells]), [['no-sources', 9]]);
+    assert.deepEqual([batch.cells, batch.unresolved, batch.cell.length], [9, 9, 0]);
+    const pairs = batchOf([inputs[3], inputs[3], inputs[7]].map(({ snapshots }) => snapshots));
+    assert.deepEqual([...(await pool.estimateBatch({ snapshots: pairs }, { ...options, maxPeaks: 1 })).cell], [0, 1, 2]);
+  });
+
+  test('refuses what is no batch, and the next one is fine', async () => {
+    const snapshots = batchOf(inputs.slice(0, 4).map(({ snapshots }) => snapshots));
+    const refused = (input, own, ...how) => rejectsTyped(pool.estimateBatch(input, own), ...how);
+    await refused(undefined, options, 'wrong-type', 'input');
+    await refused({ snapshots: inputs[0] }, options, 'missing', 'input.snapshots.data');
+    await refused({ snapshots: { ...snapshots, shape: [5, 10, 2] } }, options, 'shape', 'input.snapshots.data');
+    await refused({ snapshots: { ...snapshots, shape: [80] } }, options, 'shape', 'snapshots');
+    await refused({ snapshots, covariance: snapshots }, options, 'unknown-option', 'input.covariance');
+    await refused({ snapshots }, { ...options, spectra: 1 }, 'wrong-type', 'spectra');
+    await refused({ snapshots }, { ...options, gridPoints: 2n }, 'wrong-type', 'gridPoints');
+    await refused({ snapshots }, undefined, 'missing', 'method');
+    const data = snapshots.data.slice();
+    data[2 * 3 * 20 - 1] = Number.NaN;
+    await refused({ snapshots: { ...snapshots, data } }, options, 'not-finite', 'snapshots');
+    assert.equal((await pool.estimateBatch({ snapshots }, options)).cells, 4);
   });
 
   test('cancels promptly although the workers are busy, and works on', async () => {

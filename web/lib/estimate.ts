@@ -1,7 +1,9 @@
 import * as glue from '../wasm/boresight.js';
 import { Handle } from './handle.js';
 import { call } from './instance.js';
-import type { Estimate, EstimateInput, EstimatorOptions, MethodInfo } from './types.js';
+import type {
+  BatchEstimate, BatchInput, BatchOptions, Estimate, EstimateInput, EstimatorOptions, MethodInfo,
+} from './types.js';
 
 /** The estimators and what each needs and gives. */
 export function methods(): MethodInfo[] {
@@ -21,5 +23,10 @@ export class Estimator extends Handle<glue.Estimator> {
 
   estimate(input: EstimateInput): Estimate {
     return this.use((raw) => raw.estimate(input) as Estimate);
+  }
+
+  /** Estimates every cell of a batch; each gives what {@link Estimator.estimate} gives for it alone. */
+  estimateBatch(input: BatchInput, options?: BatchOptions): BatchEstimate {
+    return this.use((raw) => raw.estimateBatch(input, options) as BatchEstimate);
   }
 }

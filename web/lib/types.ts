@@ -148,6 +148,49 @@ export interface Estimate {
   warnings: Warning[];
 }
 
+/** Snapshots of many cells: [cells, elements] or [cells, elements, snapshots]. */
+export interface BatchInput {
+  snapshots: ComplexData;
+}
+
+export interface BatchOptions {
+  /** Whether spectra are kept, of methods that have them. Default false. */
+  spectra?: boolean;
+}
+
+/** The estimates of many cells, flat: numbers of each source, those of a cell together, strongest first. */
+export interface BatchEstimate {
+  method: Method;
+  cells: number;
+  /** The index of each source's cell. */
+  cell: Uint32Array;
+  azimuthDeg: Float64Array;
+  elevationDeg: Float64Array;
+  powerDb: Float64Array;
+  spectra?: BatchSpectra;
+  /** Cells in which not all sources asked for or counted were found. */
+  unresolved: number;
+  /** Each kind once. */
+  warnings: BatchWarning[];
+}
+
+export interface BatchSpectra {
+  azimuthDeg: Float64Array;
+  /** One zero where the array sees azimuth only. */
+  elevationDeg: Float64Array;
+  /** Linear. */
+  power: Float32Array;
+  /** Elevations are an axis where there are several. */
+  shape: [cells: number, azimuths: number] | [cells: number, elevations: number, azimuths: number];
+  kind: 'power' | 'pseudo';
+}
+
+/** A warning of the first cell that has one of its kind. */
+export interface BatchWarning extends Warning {
+  /** Number of cells that have one. */
+  cells: number;
+}
+
 export interface CountOptions {
   /** Default `mdl`. */
   criterion?: 'aic' | 'mdl';

@@ -4,6 +4,7 @@ import { driveFrame, selected, viewOf } from '../lib/drive-view.js';
 import type * as lib from '../lib/types.js';
 import { Crew, type JobOptions, type Piece, type Runtime } from './pool.js';
 import type { OperationName, Operations } from './protocol.js';
+import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { split } from './split.js';
 
 /** Options of {@link createPool}. */
@@ -67,7 +68,7 @@ export class Pool {
       args: [{ ...options, scenes: count, firstScene: firstScene + first }],
       units: count,
     }));
-    return joined(await this.#crew.run(pieces, job));
+    return joinedScenes(await this.#crew.run(pieces, job));
   }
 
   simulateCube(options: lib.CubeOptions, job?: JobOptions): Promise<lib.CubeResult> {
@@ -260,6 +261,21 @@ export class Pool {
     return (await this.#crew.run(pieces, job)).flat();
   }
 
+  /** Estimates of a batch of cells, split over the workers; progress counts cells. */
+  async estimateBatch(
+    input: lib.BatchInput,
+    options: lib.EstimatorOptions & lib.BatchOptions,
+    job?: JobOptions,
+  ): Promise<lib.BatchEstimate> {
+    const pieces = stretchesOf(input, this.workers).map(({ input, cells }): Piece<'estimateBatch'> => ({
+      name: 'estimateBatch',
+      args: [input, options],
+      units: cells,
+    }));
+    const [first, ...rest] = await this.#crew.run(pieces, job);
+    return joinedBatches([first as lib.BatchEstimate, ...rest]);
+  }
+
   /** Ends the workers; jobs under way reject with the code `terminated`. */
   terminate(): void {
     this.#crew.terminate();
@@ -282,15 +298,9 @@ function numbered(result: lib.DriveCalibration, scans: Uint32Array): lib.DriveCa
 }
 
 /** The scenes of several results, one after another. */
-function joined(results: lib.SnapshotResult[]): lib.SnapshotResult {
-  const [first] = results;
-  const [, elements, snapshots] = first?.shape ?? [0, 0, 0];
-  const data = new Float64Array(results.reduce((sum, result) => sum + result.data.length, 0));
-  let at = 0;
-  for (const result of results) {
-    data.set(result.data, at);
-    at += result.data.length;
-  }
+function joinedScenes(results: lib.SnapshotResult[]): lib.SnapshotResult {
+  const [, elements, snapshots] = results[0]?.shape ?? [0, 0, 0];
   const truth = results.flatMap((result) => result.truth);
+  const data = joined(results.map((result) => result.data));
   return { data, shape: [truth.length, elements, snapshots], truth };
 }

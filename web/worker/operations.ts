@@ -1,10 +1,11 @@
 // What a worker can do: the plain functions of the package, and pieces of the batch helpers.
 import * as api from '../lib/api.js';
 import type {
-  AngleOptions, BytesInput, CalibrateDriveOptions, CaptureInfo, Cell, ChainOptions, CombineOptions, ComplexData,
-  DriveCalibration, DriveData, Estimate, EstimateInput, EstimatorOptions, FrameResult, JointCalibrationOptions,
-  SimulateDriveOptions, SimulatedDrive, TextInput,
+  AngleOptions, BatchEstimate, BatchInput, BatchOptions, BytesInput, CalibrateDriveOptions, CaptureInfo, Cell,
+  ChainOptions, CombineOptions, ComplexData, DriveCalibration, DriveData, Estimate, EstimateInput, EstimatorOptions,
+  FrameResult, JointCalibrationOptions, SimulateDriveOptions, SimulatedDrive, TextInput,
 } from '../lib/api.js';
+import { core } from '../lib/instance.js';
 
 /** What an operation is called on. */
 export interface Context {
@@ -24,6 +25,21 @@ function freeing<H extends { free(): void }, T>(handle: H, work: (handle: H) => 
 /** Estimates of many inputs with one estimator. */
 function estimateMany(inputs: readonly EstimateInput[], options: EstimatorOptions): Estimate[] {
   return freeing(new api.Estimator(options), (estimator) => inputs.map((input) => estimator.estimate(input)));
+}
+
+/** The estimator of the last batch: a job brings many pieces, and a frame is followed by the next. */
+let kept: { key: string; estimator: api.Estimator } | undefined;
+
+function estimateBatch(input: BatchInput, options: EstimatorOptions & BatchOptions): BatchEstimate {
+  const { spectra, ...own } = { ...options };
+  // An instance that is gone took its estimators along.
+  const key = `${core.number} ${JSON.stringify(own, (_, value: unknown) => (typeof value === 'bigint' ? `${value}n` : value))}`;
+  if (kept?.key !== key) {
+    kept?.estimator.free();
+    kept = undefined;
+    kept = { key, estimator: new api.Estimator(own) };
+  }
+  return kept.estimator.estimateBatch(input, { ...(spectra !== undefined && { spectra }) });
 }
 
 function captureInfo(bytes: BytesInput, config: TextInput): CaptureInfo {
@@ -82,6 +98,7 @@ export const operations = {
   array: api.array,
   estimate: api.estimate,
   estimateMany,
+  estimateBatch,
   countSources: api.countSources,
   cramerRaoBound: api.cramerRaoBound,
   simulateSnapshots: api.simulateSnapshots,

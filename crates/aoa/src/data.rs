@@ -3,7 +3,7 @@
 use crate::error::AoaError;
 use boresight_core::error::check_finite;
 use boresight_core::{Complex64, CoreError};
-use ndarray::ArrayView2;
+use ndarray::{ArrayView, ArrayView2, Dimension};
 
 /// Measurements of one cell.
 #[derive(Debug, Clone, Copy)]
@@ -76,7 +76,10 @@ impl Data<'_> {
 }
 
 /// Looks at everything at once and, only if something is amiss, for the first offender.
-fn check_all_finite(what: &str, data: ArrayView2<Complex64>) -> Result<(), CoreError> {
+pub(crate) fn check_all_finite<D: Dimension>(
+    what: &str,
+    data: ArrayView<Complex64, D>,
+) -> Result<(), CoreError> {
     let sound = |z: &Complex64| z.re.is_finite() & z.im.is_finite();
     if let Some(numbers) = data.as_slice()
         && numbers.iter().fold(true, |all, z| all & sound(z))

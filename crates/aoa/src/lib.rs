@@ -1,9 +1,11 @@
 //! Angle-of-arrival estimators behind one interface, source counting and Cramer-Rao bounds.
 //!
 //! [`Estimator::new`] takes a method, an array and options and checks that they go together;
-//! [`Estimator::estimate`] takes snapshots or a covariance and returns an [`Estimate`].
+//! [`Estimator::estimate`] takes snapshots or a covariance and returns an [`Estimate`];
+//! [`Estimator::estimate_batch`] takes the snapshots of many cells and returns a [`BatchEstimate`].
 
 mod bartlett;
+pub mod batch;
 pub mod bounds;
 mod capon;
 mod checks;
@@ -37,6 +39,7 @@ mod single_snapshot_music;
 mod sparse_bayesian;
 mod subspace;
 
+pub use batch::{BatchEstimate, Spectra, WarningCount};
 pub use data::Data;
 pub use error::AoaError;
 pub use estimate::{Estimate, Source, Spectrum, SpectrumKind, Warning};

@@ -19,7 +19,16 @@ pub struct ComplexData {
 impl ComplexData {
     /// Reads `data` and `shape`, and refuses other fields.
     pub fn of(fields: Fields) -> Fallible<Self> {
-        let RealData { data, shape, single } = numbers(fields, 2)?;
+        Self::read_with(fields, Fewest::One)
+    }
+
+    /// The same, and takes none where the shape says so.
+    pub fn or_none(fields: Fields) -> Fallible<Self> {
+        Self::read_with(fields, Fewest::None)
+    }
+
+    fn read_with(fields: Fields, fewest: Fewest) -> Fallible<Self> {
+        let RealData { data, shape, single } = numbers(fields, 2, fewest)?;
         let data = data.chunks_exact(2).map(|z| Complex64::new(z[0], z[1])).collect();
         Ok(Self { data, shape, single })
     }
@@ -51,17 +60,24 @@ pub struct RealData {
 impl RealData {
     /// Reads `data` and `shape`, and refuses other fields.
     pub fn of(fields: Fields) -> Fallible<Self> {
-        numbers(fields, 1)
+        numbers(fields, 1, Fewest::One)
     }
 }
 
+/// The fewest numbers accepted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Fewest {
+    None,
+    One,
+}
+
 /// Reads `data` and `shape`, with `each` numbers for every entry of the shape.
-fn numbers(mut fields: Fields, each: usize) -> Fallible<RealData> {
+fn numbers(mut fields: Fields, each: usize, fewest: Fewest) -> Fallible<RealData> {
     let (data, single) = float_array(&mut fields, "data")?;
     let shape: Vec<usize> = fields.required("shape")?;
     let path = fields.path_of("data");
     fields.finish()?;
-    check_length(path, &shape, data.len(), each)?;
+    check_length(path, &shape, data.len(), each, fewest)?;
     Ok(RealData { data, shape, single })
 }
 
@@ -102,11 +118,17 @@ pub fn zeros<T: Clone>(what: &str, len: usize, zero: T) -> Fallible<Vec<T>> {
 }
 
 /// Checks that `given` numbers fill `shape` with `each` of them an entry.
-fn check_length(what: String, shape: &[usize], given: usize, each: usize) -> Fallible<()> {
-    if given == 0 {
+fn check_length(
+    what: String,
+    shape: &[usize],
+    given: usize,
+    each: usize,
+    fewest: Fewest,
+) -> Fallible<()> {
+    let entries = shape.iter().try_fold(each, |product, &n| product.checked_mul(n));
+    if given == 0 && (fewest == Fewest::One || entries != Some(0)) {
         return Err(CoreError::Empty { what, expected: "at least one number".into() }.into());
     }
-    let entries = shape.iter().try_fold(each, |product, &n| product.checked_mul(n));
     if entries == Some(given) {
         return Ok(());
     }

@@ -4,10 +4,11 @@ use crate::complex::ComplexData;
 use crate::error::{BindingError, Fallible};
 use crate::options::read_options;
 use crate::read::{Fields, Read};
-use crate::write::{Record, degrees, finite_db, finite_dbs, list};
+use crate::write::{Record, degrees, finite_db, finite_dbs, float32, float64, list};
 use boresight_aoa::{self as aoa, Data, Method, SpectrumKind};
 use boresight_core::{Array, Complex64, CoreError};
-use ndarray::ArrayView2;
+use js_sys::Uint32Array;
+use ndarray::{ArrayView2, ArrayView3};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -43,6 +44,7 @@ pub fn estimate(input: &JsValue, options: &JsValue) -> Fallible<JsValue> {
 #[wasm_bindgen]
 pub struct Estimator {
     inner: aoa::Estimator,
+    batch: aoa::BatchEstimate,
 }
 
 #[wasm_bindgen]
@@ -55,13 +57,53 @@ impl Estimator {
         let array: Array = fields.required("array")?;
         let options = read_options(&mut fields)?;
         fields.finish()?;
-        Ok(Self { inner: aoa::Estimator::new(method, &array, &options)? })
+        let inner = aoa::Estimator::new(method, &array, &options)?;
+        Ok(Self { inner, batch: aoa::BatchEstimate::new(method) })
     }
 
     /// Estimates the angles in `{ snapshots }` or `{ covariance, snapshotCount }`.
     pub fn estimate(&mut self, input: &JsValue) -> Fallible<JsValue> {
         let input = Input::read(input, "input")?;
         Ok(estimate_record(&self.inner.estimate(input.data()?)?).into())
+    }
+
+    /// Estimates the angles in every cell of `{ snapshots }`: [cells, elements] or
+    /// [cells, elements, snapshots].
+    #[wasm_bindgen(js_name = estimateBatch)]
+    pub fn estimate_batch(&mut self, input: &JsValue, options: &JsValue) -> Fallible<JsValue> {
+        let mut fields = Fields::new(input, "input")?;
+        let cells: Cells = fields.required("snapshots")?;
+        fields.finish()?;
+        let mut fields = Fields::of_optional(options)?;
+        let spectra = fields.optional("spectra")?.unwrap_or(false);
+        fields.finish()?;
+        self.inner.estimate_batch_into(cells.view()?, spectra, &mut self.batch)?;
+        Ok(batch_record(&self.batch).into())
+    }
+}
+
+/// Snapshots of many cells, or of none.
+struct Cells(ComplexData);
+
+impl Read for Cells {
+    const EXPECTED: &'static str = ComplexData::EXPECTED;
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        ComplexData::or_none(Fields::new(value, path)?).map(Self)
+    }
+}
+
+impl Cells {
+    fn view(&self) -> Fallible<ArrayView3<'_, Complex64>> {
+        let ComplexData { data, shape, .. } = &self.0;
+        let axes = match shape[..] {
+            [cells, elements] => Some((cells, elements, 1)),
+            [cells, elements, snapshots] => Some((cells, elements, snapshots)),
+            _ => None,
+        };
+        axes.and_then(|axes| ArrayView3::from_shape(axes, data).ok()).ok_or_else(|| {
+            shape_error("snapshots", "[cells, elements] or [cells, elements, snapshots]", shape)
+        })
     }
 }
 
@@ -171,13 +213,52 @@ fn source_record(source: &aoa::Source) -> Record {
 }
 
 fn spectrum_record(spectrum: &aoa::Spectrum) -> Record {
-    let kind = match spectrum.kind {
-        SpectrumKind::Power => "power",
-        SpectrumKind::Pseudo => "pseudo",
-    };
     Record::new()
         .with("azimuthDeg", degrees(&spectrum.azimuth_rad))
         .with("elevationDeg", degrees(&spectrum.elevation_rad))
         .with("valuesDb", finite_dbs(&spectrum.values))
-        .with("kind", kind)
+        .with("kind", kind_name(spectrum.kind))
+}
+
+fn kind_name(kind: SpectrumKind) -> &'static str {
+    match kind {
+        SpectrumKind::Power => "power",
+        SpectrumKind::Pseudo => "pseudo",
+    }
+}
+
+fn batch_record(batch: &aoa::BatchEstimate) -> Record {
+    let sources = &batch.sources;
+    let each = |number: fn(&aoa::Source) -> f64| sources.iter().map(number).collect::<Vec<_>>();
+    Record::new()
+        .with("method", batch.method.name())
+        .with("cells", batch.cells as f64)
+        .with("cell", Uint32Array::new_from_slice(&batch.cell))
+        .with("azimuthDeg", degrees(&each(|s| s.direction.azimuth_rad)))
+        .with("elevationDeg", degrees(&each(|s| s.direction.elevation_rad)))
+        .with("powerDb", float64(&each(|s| finite_db(s.power))))
+        .with_some("spectra", batch.spectra.as_ref().map(|s| spectra_record(s, batch.cells)))
+        .with("unresolved", batch.unresolved as f64)
+        .with("warnings", list(batch.warnings.iter().map(warning_count_record)))
+}
+
+fn spectra_record(spectra: &aoa::Spectra, cells: usize) -> Record {
+    let (azimuths, elevations) = (spectra.azimuth_rad.len(), spectra.elevation_rad.len());
+    let shape: Vec<f64> = match elevations {
+        1 => vec![cells as f64, azimuths as f64],
+        _ => vec![cells as f64, elevations as f64, azimuths as f64],
+    };
+    Record::new()
+        .with("azimuthDeg", degrees(&spectra.azimuth_rad))
+        .with("elevationDeg", degrees(&spectra.elevation_rad))
+        .with("power", float32(&spectra.values))
+        .with("shape", list(shape))
+        .with("kind", kind_name(spectra.kind))
+}
+
+fn warning_count_record(count: &aoa::WarningCount) -> Record {
+    Record::new()
+        .with("code", count.first.code())
+        .with("message", count.first.to_string())
+        .with("cells", count.cells as f64)
 }

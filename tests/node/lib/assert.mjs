@@ -40,3 +40,10 @@ export function planeWaves(elements, count, anglesDeg) {
   });
   return { data, shape: [elements, count] };
 }
+
+/** Snapshots of several cells as one batch. */
+export function batchOf(cells) {
+  const data = new Float64Array(cells.length * cells[0].data.length);
+  cells.forEach((cell, c) => data.set(cell.data, c * cell.data.length));
+  return { data, shape: [cells.length, ...cells[0].shape] };
+}

@@ -1,0 +1,108 @@
+//! A batch gives for every cell what an estimate of that cell alone gives.
+
+#![allow(clippy::unwrap_used)]
+
+mod support;
+
+use boresight_aoa::{BatchEstimate, Data, Estimator, Method, Options, Source};
+use boresight_core::presets::preset;
+use boresight_core::{Array, Complex64, Diagnose, Random};
+use ndarray::{Array3, Axis, s};
+use support::{azimuths, scene};
+
+const CELLS: usize = 11;
+
+/// Cells of none to four sources, the seventh silent.
+fn cells(array: &Array, snapshots: usize) -> Array3<Complex64> {
+    let mut random = Random::new(5, snapshots as u64);
+    let mut y = Array3::zeros((CELLS, array.len(), snapshots));
+    for (c, mut cell) in y.outer_iter_mut().enumerate() {
+        let at: Vec<f64> =
+            (0..c % 5).map(|i| random.uniform(-65.0, -35.0) + 35.0 * i as f64).collect();
+        let powers = [1.0, 0.5, 0.8, 0.1];
+        cell.assign(&scene(array, &azimuths(&at), &powers, 1e-2, snapshots, &mut random));
+    }
+    y.slice_mut(s![6, .., ..]).fill(Complex64::ZERO);
+    y
+}
+
+/// The spectrum in the batch is single precision.
+fn assert_same_cells(method: Method, array: &Array, options: &Options, y: &Array3<Complex64>) {
+    let name = method.name();
+    let mut warm = Estimator::new(method, array, options).unwrap();
+    let mut batch = BatchEstimate::new(method);
+    for spectra in [false, true, true] {
+        warm.estimate_batch_into(y.view(), spectra, &mut batch).unwrap();
+        let mut unresolved = 0;
+        let mut warnings = 0;
+        for (c, cell) in y.outer_iter().enumerate() {
+            let mut fresh = Estimator::new(method, array, options).unwrap();
+            let alone = fresh.estimate(Data::Snapshots(cell)).unwrap();
+            assert_eq!(batch.sources_of(c), alone.sources, "{name}, cell {c}");
+            unresolved += usize::from(!alone.resolved);
+            warnings += alone.warnings.len();
+            if let Some(spectrum) = alone.spectrum.filter(|_| spectra) {
+                let all = batch.spectra.as_ref().unwrap();
+                assert_eq!(all.azimuth_rad, spectrum.azimuth_rad);
+                assert_eq!(all.elevation_rad, spectrum.elevation_rad);
+                assert_eq!(all.kind, spectrum.kind);
+                let points = spectrum.values.len();
+                let values: Vec<f32> = spectrum.values.iter().map(|&v| v as f32).collect();
+                assert_eq!(all.values[c * points..(c + 1) * points], values, "{name}, cell {c}");
+                assert_eq!(all.values.len(), CELLS * points);
+            }
+        }
+        assert_eq!(batch.spectra.is_some(), spectra && method.requirements().spectrum, "{name}");
+        assert_eq!((batch.cells, batch.unresolved), (CELLS, unresolved), "{name}");
+        assert_eq!(batch.warnings.iter().map(|w| w.cells).sum::<usize>(), warnings, "{name}");
+        assert!(batch.cell.is_sorted());
+        assert_eq!(batch.cell.len(), batch.sources.len());
+    }
+}
+
+#[test]
+fn every_method_gives_the_same_cell_by_cell() {
+    let options = Options { grid_points: 256, max_iterations: 20, ..Options::default() };
+    let uniform = Array::ula(12).unwrap();
+    for method in Method::ALL {
+        let needs = method.requirements();
+        for snapshots in [1, 3, 20] {
+            let few = snapshots < needs.min_snapshots;
+            if few || needs.max_snapshots.is_some_and(|most| snapshots > most) {
+                continue;
+            }
+            assert_same_cells(method, &uniform, &options, &cells(&uniform, snapshots));
+        }
+    }
+    let planar = preset("awr1843").unwrap();
+    let options = Options { elevation_points: 9, grid_points: 64, ..options };
+    for method in [Method::Bartlett, Method::Iaa] {
+        assert_same_cells(method, &planar, &options, &cells(&planar, 2));
+    }
+}
+
+#[test]
+fn no_cells_are_an_empty_result() {
+    let array = Array::ula(4).unwrap();
+    let mut estimator = Estimator::new(Method::Bartlett, &array, &Options::default()).unwrap();
+    let batch = estimator.estimate_batch(Array3::zeros((0, 4, 1)).view(), true).unwrap();
+    assert_eq!(batch, BatchEstimate::new(Method::Bartlett));
+    assert_eq!(batch.sources_of(0), &[] as &[Source]);
+}
+
+#[test]
+fn what_is_malformed_is_refused_whole() {
+    let array = Array::ula(4).unwrap();
+    let mut estimator = Estimator::new(Method::Bartlett, &array, &Options::default()).unwrap();
+    for shape in [(2, 5, 1), (2, 4, 0)] {
+        let refused = estimator.estimate_batch(Array3::zeros(shape).view(), false).unwrap_err();
+        assert_eq!(refused.code(), "shape");
+    }
+    let mut y = Array3::zeros((3, 4, 2));
+    y[[2, 1, 0]] = Complex64::new(f64::NAN, 0.0);
+    let refused = estimator.estimate_batch(y.view(), false).unwrap_err();
+    assert_eq!(refused.code(), "not-finite");
+    assert!(refused.to_string().contains("index 36"), "{refused}");
+    y.invert_axis(Axis(1));
+    assert!(estimator.estimate_batch(y.slice(s![..2, .., ..]), false).is_ok());
+}
