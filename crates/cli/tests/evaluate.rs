@@ -26,6 +26,23 @@ fn a_run_is_kept_goes_on_and_is_not_mixed_with_another() {
     assert_eq!(stdout(&short), first);
     assert_eq!(std::fs::read_to_string(folder.join("run/calibration.jsonl")).unwrap(), records);
 
+    // In two parts, one after the other, and put together: the same files.
+    let parts = folder.join("parts");
+    let parts = parts.to_str().unwrap();
+    for (part, records) in [("1/2", "1 records"), ("2/2", "1 records")] {
+        let said = stdout(&[&short[..6], &["--out", parts, "--part", part]].concat());
+        assert!(said.contains(records), "{said}");
+    }
+    let whole = folder.join("whole");
+    let merge = ["evaluate", "merge", parts, "--out", whole.to_str().unwrap()];
+    assert_eq!(stdout(&merge), first);
+    for file in ["calibration.json", "calibration.csv", "angles.svg", "calibration.jsonl"] {
+        let read = |run: &str| std::fs::read(folder.join(run).join(file)).unwrap();
+        assert!(read("run").len() > 100 && read("whole").len() == read("run").len(), "{file}");
+    }
+    let alone = boresight(&["evaluate", "calibration", "--part", "1/2"]);
+    assert_eq!(alone.status.code(), Some(2));
+
     let other = boresight(&[&short[..], &["--seed", "2"]].concat());
     assert!(!other.status.success());
     let error = String::from_utf8(other.stderr).unwrap();

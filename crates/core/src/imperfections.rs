@@ -8,6 +8,7 @@ use crate::steering::{cis, steering_vector};
 use crate::units::db_to_amplitude;
 use ndarray::{Array1, Array2};
 use num_complex::Complex64;
+use serde::{Deserialize, Serialize};
 
 /// Errors of each element and coupling between them. The response becomes
 /// `C diag(g exp(j phi)) a(p + dp)`.
@@ -24,7 +25,8 @@ pub struct Imperfections {
 }
 
 /// Standard deviations from which [`Imperfections::random`] draws, and the coupling of neighbours.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct ImperfectionSpread {
     /// Standard deviation of the gain, dB.
     pub gain_db: f64,

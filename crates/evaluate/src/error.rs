@@ -53,6 +53,36 @@ pub enum EvaluateError {
         /// What the reader says.
         error: serde_json::Error,
     },
+    /// A record is not one of this experiment.
+    #[error("{}, scene {scene}: {error}", path.display())]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// Number of the scene.
+        scene: u64,
+        /// What the reader says.
+        error: serde_json::Error,
+    },
+    /// Two files hold different records of one scene.
+    #[error("{} and {} hold different records of scene {scene}", path.display(), other.display())]
+    Conflict {
+        /// Number of the scene.
+        scene: u64,
+        /// A file.
+        path: PathBuf,
+        /// Another.
+        other: PathBuf,
+    },
+    /// Not all scenes of a run are there.
+    #[error("{missing} of {total} scenes are missing, the first of them number {first}")]
+    Incomplete {
+        /// Scenes missing.
+        missing: usize,
+        /// The first of them.
+        first: u64,
+        /// Scenes in all.
+        total: u64,
+    },
     /// A figure cannot be drawn.
     #[error("the figure cannot be drawn: {0}")]
     Figure(String),
@@ -75,7 +105,9 @@ impl Diagnose for EvaluateError {
             Self::Calibrate(error) => error.code(),
             Self::File { .. } => "file",
             Self::OtherRun { .. } => "other-run",
-            Self::Record { .. } => "malformed-file",
+            Self::Record { .. } | Self::Scene { .. } => "malformed-file",
+            Self::Conflict { .. } => "conflict",
+            Self::Incomplete { .. } => "incomplete",
             Self::Figure(_) => "figure",
             Self::Cancelled { .. } => "cancelled",
         }
@@ -100,6 +132,19 @@ impl Diagnose for EvaluateError {
                 "a record of a scene",
                 error.to_string(),
             ),
+            Self::Scene { path, scene, error } => Details::new(
+                format!("{}, scene {scene}", path.display()),
+                "a record of this experiment",
+                error.to_string(),
+            ),
+            Self::Conflict { scene, path, other } => Details::new(
+                format!("scene {scene}"),
+                format!("the record in {}", other.display()),
+                format!("another one in {}", path.display()),
+            ),
+            Self::Incomplete { missing, total, .. } => {
+                Details::new("scenes", total.to_string(), (total - *missing as u64).to_string())
+            }
             Self::Figure(error) => Details::new("figure", "one that can be drawn", error.clone()),
             Self::Cancelled { done, total } => {
                 Details::new("scenes", total.to_string(), done.to_string())

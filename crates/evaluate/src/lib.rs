@@ -6,9 +6,12 @@
 pub mod aoa;
 pub mod calibration;
 pub mod error;
+pub mod experiment;
+mod merge;
 mod plot;
 pub mod statistics;
 pub mod sweep;
 mod table;
 
 pub use error::EvaluateError;
+pub use merge::{Outcome, merge};

@@ -2,6 +2,7 @@
 
 use crate::EvaluateError;
 use boresight_core::CoreError;
+use boresight_core::error::check_range;
 use boresight_pipeline::Progress;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -21,6 +22,8 @@ pub struct Sweep<'a> {
     pub setup: Value,
     /// Numbers of the scenes.
     pub scenes: Range<u64>,
+    /// Which of them to run.
+    pub part: Part,
     /// Threads to work with, at least one.
     pub threads: usize,
     /// File of records, one JSON value a line; `None` keeps none. Scenes found there are not run
@@ -28,10 +31,70 @@ pub struct Sweep<'a> {
     pub records: Option<&'a Path>,
 }
 
+/// One of several parts of a sweep: every `of`-th scene, so that all parts take about as long.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    number: u64,
+    of: u64,
+}
+
+impl Part {
+    /// All scenes.
+    pub const WHOLE: Self = Self { number: 1, of: 1 };
+
+    /// Part `number`, from 1, of `of`.
+    ///
+    /// # Errors
+    /// [`CoreError::OutOfRange`] unless `number` is within 1 and `of`, and `of` at most a million.
+    pub fn new(number: u64, of: u64) -> Result<Self, CoreError> {
+        check_range("parts", of as f64, 1.0, 1e6)?;
+        check_range("number of the part", number as f64, 1.0, of as f64)?;
+        Ok(Self { number, of })
+    }
+
+    /// Whether it holds a scene.
+    pub fn contains(&self, scene: u64) -> bool {
+        scene % self.of == self.number - 1
+    }
+
+    /// Name of the file of its records.
+    pub fn file_name(&self, experiment: &str) -> String {
+        match *self {
+            Self::WHOLE => format!("{experiment}.jsonl"),
+            Self { number, of } => format!("{experiment}-{number}-of-{of}.jsonl"),
+        }
+    }
+
+    /// The head of its records.
+    fn head(&self, setup: &Value) -> Value {
+        let mut head = setup.clone();
+        if let (false, Some(head)) = (*self == Self::WHOLE, head.as_object_mut()) {
+            head.insert(PART.into(), format!("{self}").into());
+        }
+        head
+    }
+
+    /// Takes from a head what [`Part::head`] added.
+    pub(crate) fn take_from(head: &mut Value) {
+        if let Some(head) = head.as_object_mut() {
+            head.remove(PART);
+        }
+    }
+}
+
+const PART: &str = "part";
+
+impl std::fmt::Display for Part {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+/// A line of a file of records.
 #[derive(Serialize, serde::Deserialize)]
-struct Line<R> {
-    scene: u64,
-    record: R,
+pub(crate) struct Line<R> {
+    pub scene: u64,
+    pub record: R,
 }
 
 /// Runs the scenes not yet recorded and returns all of those asked for, by number. `progress` breaks the run;
@@ -57,8 +120,8 @@ pub fn run<R: Serialize + DeserializeOwned + Send>(
         Some(path) => open(path, sweep)?,
         None => (BTreeMap::new(), None),
     };
-    let missing: Vec<u64> =
-        sweep.scenes.clone().filter(|scene| !done.contains_key(scene)).collect();
+    let wanted = sweep.scenes.clone().filter(|&scene| sweep.part.contains(scene));
+    let missing: Vec<u64> = wanted.filter(|scene| !done.contains_key(scene)).collect();
     let total = done.len() + missing.len();
     if progress(Progress { done: done.len(), total }).is_break() {
         return Err(EvaluateError::Cancelled { done: done.len(), total });
@@ -119,8 +182,7 @@ fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, Ev
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
         read => read.map_err(failed("read"))?,
     };
-    // A run that was killed may have left half a line.
-    text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
+    text.truncate(whole_lines(&text).len());
     let mut file = OpenOptions::new()
         .create(true)
         .write(true)
@@ -133,14 +195,15 @@ fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, Ev
     let mut done = BTreeMap::new();
     let malformed =
         |line| move |error| EvaluateError::Record { path: path.to_owned(), line: line + 1, error };
+    let expected = sweep.part.head(&sweep.setup);
     match lines.next() {
-        None => append(&mut file, path, &sweep.setup)?,
+        None => append(&mut file, path, &expected)?,
         Some((line, head)) => {
             let found: Value = serde_json::from_str(head).map_err(malformed(line))?;
-            if found != sweep.setup {
+            if found != expected {
                 return Err(EvaluateError::OtherRun {
                     path: path.to_owned(),
-                    expected: sweep.setup.to_string(),
+                    expected: expected.to_string(),
                     given: head.to_owned(),
                 });
             }
@@ -148,11 +211,31 @@ fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, Ev
     }
     for (line, text) in lines {
         let found: Line<R> = serde_json::from_str(text).map_err(malformed(line))?;
-        if sweep.scenes.contains(&found.scene) {
+        if sweep.scenes.contains(&found.scene) && sweep.part.contains(found.scene) {
             done.insert(found.scene, found.record);
         }
     }
     Ok((done, Some((file, path.to_owned()))))
+}
+
+/// What of a file is whole: a run that was killed may have left half a line.
+pub(crate) fn whole_lines(text: &str) -> &str {
+    &text[..text.rfind('\n').map_or(0, |end| end + 1)]
+}
+
+/// Writes the records of a whole run, whatever was there before.
+pub(crate) fn write<R: Serialize>(
+    path: &Path,
+    setup: &Value,
+    records: &BTreeMap<u64, R>,
+) -> Result<(), EvaluateError> {
+    let failed = |error| EvaluateError::File { action: "written", path: path.to_owned(), error };
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(failed)?;
+    }
+    let mut file = File::create(path).map_err(failed)?;
+    append(&mut file, path, setup)?;
+    records.iter().try_for_each(|(&scene, record)| append(&mut file, path, &Line { scene, record }))
 }
 
 fn append(file: &mut File, path: &Path, value: &impl Serialize) -> Result<(), EvaluateError> {
@@ -175,7 +258,13 @@ mod tests {
     }
 
     fn sweep(path: &Path, scenes: Range<u64>) -> Sweep<'_> {
-        Sweep { setup: serde_json::json!({ "seed": 1 }), scenes, threads: 2, records: Some(path) }
+        Sweep {
+            setup: serde_json::json!({ "seed": 1 }),
+            scenes,
+            part: Part::WHOLE,
+            threads: 2,
+            records: Some(path),
+        }
     }
 
     #[test]
@@ -220,9 +309,30 @@ mod tests {
     }
 
     #[test]
+    fn parts_hold_every_scene_once() {
+        let go = |_| ControlFlow::Continue(());
+        let mut all = BTreeMap::new();
+        for number in 1..=3 {
+            let part = Part::new(number, 3).unwrap();
+            let sweep = Sweep { part, records: None, ..sweep(Path::new(""), 0..10) };
+            all.extend(run(&sweep, Ok, go).unwrap().into_keys().map(|scene| (scene, number)));
+        }
+        assert_eq!(all.into_values().collect::<Vec<_>>(), [1, 2, 3, 1, 2, 3, 1, 2, 3, 1]);
+        for (number, of) in [(0, 3), (4, 3), (1, 0), (1, 2_000_000)] {
+            assert!(Part::new(number, of).is_err());
+        }
+    }
+
+    #[test]
     fn the_error_of_a_scene_ends_the_run_and_no_threads_is_an_error() {
         let wrong = |_| -> Result<u64, EvaluateError> { Err(EvaluateError::Figure("x".into())) };
-        let mut sweep = Sweep { setup: Value::Null, scenes: 0..9, threads: 2, records: None };
+        let mut sweep = Sweep {
+            setup: Value::Null,
+            scenes: 0..9,
+            part: Part::WHOLE,
+            threads: 2,
+            records: None,
+        };
         assert!(matches!(
             run(&sweep, wrong, |_| ControlFlow::Continue(())),
             Err(EvaluateError::Figure(_))

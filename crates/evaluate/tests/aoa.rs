@@ -3,23 +3,28 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::imperfections::ImperfectionSpread;
-use boresight_evaluate::aoa::{Options, SNRS_DB, TARGETS, figures, run};
+use boresight_evaluate::EvaluateError;
+use boresight_evaluate::aoa::{Options, Report, SNRS_DB, TARGETS};
+use boresight_evaluate::experiment::{self, How, Report as _};
 use std::ops::ControlFlow;
 
-fn options(array: &str, threads: usize) -> Options {
+fn run(options: &Options, threads: usize) -> Result<Report, EvaluateError> {
+    experiment::run(options, How { threads, folder: None }, |_| ControlFlow::Continue(()))
+}
+
+fn options(array: &str) -> Options {
     Options {
         array: array.into(),
         trials: 8,
         seed: 1,
         imperfections: ImperfectionSpread::default(),
-        threads,
     }
 }
 
 #[test]
 fn methods_score_in_the_known_order_whatever_the_threads() {
-    let report = run(&options("lrr48", 2), None, |_| ControlFlow::Continue(())).unwrap();
-    let again = run(&options("lrr48", 1), None, |_| ControlFlow::Continue(())).unwrap();
+    let report = run(&options("lrr48"), 2).unwrap();
+    let again = run(&options("lrr48"), 1).unwrap();
     // NaN stands for what has no number, so that reports are compared as text.
     assert_eq!(format!("{report:?}"), format!("{again:?}"));
     assert_eq!(report.conditions.len(), TARGETS.len() * SNRS_DB.len());
@@ -49,17 +54,17 @@ fn methods_score_in_the_known_order_whatever_the_threads() {
     }
     let ratio = (errors / bounds).sqrt();
     assert!((0.8..1.25).contains(&ratio), "{ratio}");
-    assert!(figures::precision_recall(&report).unwrap().contains("recall"));
-    assert!(figures::scores(&report).unwrap().contains("targets"));
+    let figures = report.figures().unwrap();
+    assert!(figures[0].1.contains("recall") && figures[1].1.contains("targets"));
     assert_eq!(report.csv().lines().count(), 1 + 45 * report.methods.len());
     assert!(report.tables().contains("Largest F1, 15 dB"));
 }
 
 #[test]
 fn uniform_arrays_add_what_needs_one_and_unknown_ones_are_refused() {
-    let report = run(&options("ula16", 2), None, |_| ControlFlow::Continue(())).unwrap();
+    let report = run(&options("ula16"), 2).unwrap();
     assert!(report.methods.iter().any(|name| name == "single-snapshot-music"));
-    assert!(run(&options("nothing", 1), None, |_| ControlFlow::Continue(())).is_err());
-    let none = Options { trials: 0, ..options("lrr48", 1) };
-    assert!(run(&none, None, |_| ControlFlow::Continue(())).is_err());
+    assert!(run(&options("nothing"), 1).is_err());
+    let none = Options { trials: 0, ..options("lrr48") };
+    assert!(run(&none, 1).is_err());
 }

@@ -2,14 +2,16 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_evaluate::calibration::{CANDIDATES, Options, figures, run};
+use boresight_evaluate::calibration::{CANDIDATES, Options, figures};
+use boresight_evaluate::experiment::{How, Report as _, run};
 use std::ops::ControlFlow;
 
 #[test]
 fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn() {
-    let options = |threads| Options { scenes: 2, seed: 3, duration_s: 30.0, threads };
-    let report = run(&options(2), None, |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!(report, run(&options(1), None, |_| ControlFlow::Continue(())).unwrap());
+    let options = Options { scenes: 2, seed: 3, duration_s: 30.0 };
+    let how = |threads| How { threads, folder: None };
+    let report = run(&options, how(2), |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(report, run(&options, how(1), |_| ControlFlow::Continue(())).unwrap());
     assert_eq!(report.conditions.len(), 2);
     for condition in &report.conditions {
         assert_eq!((condition.scenes, condition.radars.len()), (2, 4));
@@ -42,6 +44,7 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
     assert!(worst(1, "weighted mean (Kellner et al.)") > 1.0);
     let svg = figures::convergence(&report).unwrap();
     assert!(svg.contains("driving time / s") && svg.contains("dense traffic"));
+    assert_eq!(report.csv().lines().count(), 1 + 2 * CANDIDATES.len() * 4);
     let tables = report.tables();
     for candidate in &CANDIDATES {
         assert!(tables.contains(&format!("| {} |", candidate.name)), "{}", candidate.name);

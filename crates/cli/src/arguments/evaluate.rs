@@ -1,7 +1,8 @@
 //! What `evaluate` takes.
 
 use super::ImperfectionArguments;
-use clap::{Args, Subcommand};
+use boresight_evaluate::sweep::Part;
+use clap::{ArgGroup, Args, Subcommand};
 use std::path::PathBuf;
 
 /// Experiments.
@@ -11,6 +12,8 @@ pub enum EvaluateCommand {
     Aoa(EvaluateAoaArguments),
     /// Mounting angles on simulated drives of four radars: errors, trajectories, driving time.
     Calibration(EvaluateCalibrationArguments),
+    /// Put together what was run in parts.
+    Merge(EvaluateMergeArguments),
 }
 
 /// Arguments of all experiments.
@@ -22,12 +25,41 @@ pub struct EvaluateArguments {
     /// Threads; without it one a processor core.
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
-    /// JSON instead of Markdown tables.
-    #[arg(long)]
-    pub json: bool,
+    /// How it is printed.
+    #[command(flatten)]
+    pub format: EvaluateFormat,
     /// Folder for records, tables and figures. A run that was stopped goes on from the records.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Run the K-th of N parts only, and keep its records for `evaluate merge`.
+    #[arg(long, value_name = "K/N", value_parser = part, requires = "out")]
+    pub part: Option<Part>,
+}
+
+/// How experiments print.
+#[derive(Debug, Args)]
+#[command(group = ArgGroup::new("evaluate-format").args(["json", "csv"]))]
+pub struct EvaluateFormat {
+    /// JSON instead of Markdown tables.
+    #[arg(long)]
+    pub json: bool,
+    /// Comma-separated values with a header line.
+    #[arg(long)]
+    pub csv: bool,
+}
+
+/// Arguments of `evaluate merge`.
+#[derive(Debug, Args)]
+pub struct EvaluateMergeArguments {
+    /// Files of records (.jsonl) or folders with such files, all of one run.
+    #[arg(value_name = "DIR", required = true)]
+    pub sources: Vec<PathBuf>,
+    /// Folder for records, tables and figures of the whole.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// How it is printed.
+    #[command(flatten)]
+    pub format: EvaluateFormat,
 }
 
 /// Arguments of `evaluate aoa`.
@@ -36,9 +68,6 @@ pub struct EvaluateAoaArguments {
     /// Shared arguments.
     #[command(flatten)]
     pub shared: EvaluateArguments,
-    /// Comma-separated values, a row a condition and method.
-    #[arg(long, conflicts_with = "json")]
-    pub csv: bool,
     /// Snapshots a condition: 2 to 10 targets at 15 to 35 dB.
     #[arg(long, value_name = "N", default_value_t = 4000)]
     pub trials: u64,
@@ -62,4 +91,11 @@ pub struct EvaluateCalibrationArguments {
     /// Length of a drive, s.
     #[arg(long, value_name = "S", default_value_t = 120.0)]
     pub duration: f64,
+}
+
+fn part(text: &str) -> Result<Part, String> {
+    let (number, of) =
+        text.split_once('/').ok_or("expected the number of a part and of all, such as 1/4")?;
+    let number_of = |text: &str| text.parse::<u64>().map_err(|error| error.to_string());
+    Part::new(number_of(number)?, number_of(of)?).map_err(|error| error.to_string())
 }

@@ -7,9 +7,7 @@ mod simulate;
 
 pub use drives::{CalibrateArguments, LogArguments};
 pub use estimate::{AngleArguments, ChainArguments, EstimateArguments};
-pub use evaluate::{
-    EvaluateAoaArguments, EvaluateArguments, EvaluateCalibrationArguments, EvaluateCommand,
-};
+pub use evaluate::{EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
 pub use simulate::{
     CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,
 };

@@ -1,85 +1,99 @@
 //! `boresight evaluate`.
 
-use crate::arguments::{
-    EvaluateAoaArguments, EvaluateArguments, EvaluateCalibrationArguments, EvaluateCommand,
-};
+use crate::arguments::{EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
 use crate::error::CliError;
 use crate::files;
+use crate::output::remark;
 use crate::run::Run;
-use boresight_evaluate::{aoa, calibration};
-use serde_json::json;
+use boresight_core::CoreError;
+use boresight_evaluate::experiment::{self, Experiment, How};
+use boresight_evaluate::{Outcome, aoa, calibration, merge};
+use std::path::Path;
+use std::time::Instant;
 
 /// Runs the experiment and returns what it prints.
 pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
     match what {
-        EvaluateCommand::Aoa(arguments) => aoa(arguments),
-        EvaluateCommand::Calibration(arguments) => calibration(arguments),
+        EvaluateCommand::Aoa(arguments) => {
+            let options = aoa::Options {
+                array: arguments.array.clone(),
+                trials: arguments.trials,
+                seed: arguments.shared.seed,
+                imperfections: arguments.imperfections.spread(),
+            };
+            evaluate(&options, &arguments.shared)
+        }
+        EvaluateCommand::Calibration(arguments) => {
+            let options = calibration::Options {
+                scenes: arguments.scenes,
+                seed: arguments.shared.seed,
+                duration_s: arguments.duration,
+            };
+            evaluate(&options, &arguments.shared)
+        }
+        EvaluateCommand::Merge(arguments) => merged(arguments),
     }
 }
 
-fn aoa(arguments: &EvaluateAoaArguments) -> Result<String, CliError> {
-    let shared = &arguments.shared;
-    let options = aoa::Options {
-        array: arguments.array.clone(),
-        trials: arguments.trials,
-        seed: shared.seed,
-        imperfections: arguments.imperfections.spread(),
-        threads: threads(shared),
-    };
-    let run = Run::start("parts")?;
-    let report = aoa::run(&options, shared.out.as_deref(), |progress| run.report(progress))?;
-    run.finish();
-    let (tables, json, csv) = (report.tables(), format!("{:#}\n", json!(report)), report.csv());
-    keep(
-        shared,
-        &[
-            ("aoa.md", &tables),
-            ("aoa.json", &json),
-            ("aoa.csv", &csv),
-            ("precision-recall.svg", &aoa::figures::precision_recall(&report)?),
-            ("scores.svg", &aoa::figures::scores(&report)?),
-        ],
-    )?;
-    Ok(match (shared.json, arguments.csv) {
-        (true, _) => json,
-        (_, true) => csv,
-        _ => tables,
-    })
-}
-
-fn calibration(arguments: &EvaluateCalibrationArguments) -> Result<String, CliError> {
-    let shared = &arguments.shared;
-    let options = calibration::Options {
-        scenes: arguments.scenes,
-        seed: shared.seed,
-        duration_s: arguments.duration,
-        threads: threads(shared),
-    };
-    let run = Run::start("drives")?;
-    let out = shared.out.as_deref();
-    let report = calibration::run(&options, out, |progress| run.report(progress))?;
-    run.finish();
-    let (tables, json) = (report.tables(), format!("{:#}\n", json!(report)));
-    let mut files = vec![
-        ("calibration.md", tables.clone()),
-        ("calibration.json", json.clone()),
-        ("convergence.svg", calibration::figures::convergence(&report)?),
-    ];
-    for (condition, name) in report.conditions.iter().zip(["angles.svg", "angles-dense.svg"]) {
-        files.push((name, calibration::figures::angles(condition)?));
-    }
-    let files: Vec<(&str, &str)> = files.iter().map(|(name, text)| (*name, &**text)).collect();
-    keep(shared, &files)?;
-    Ok(if shared.json { json } else { tables })
-}
-
-fn threads(shared: &EvaluateArguments) -> usize {
+fn evaluate<E: Experiment>(options: &E, shared: &EvaluateArguments) -> Result<String, CliError> {
     let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-    shared.threads.unwrap_or_else(cores)
+    let folder = shared.out.as_deref();
+    let how = How { threads: shared.threads.unwrap_or_else(cores), folder };
+    let run = Run::start("records")?;
+    let started = Instant::now();
+    let mut before = None;
+    let progress = |progress: boresight_pipeline::Progress| {
+        before.get_or_insert(progress.done);
+        run.report(progress)
+    };
+    let took = |done: usize, before: Option<usize>| {
+        let (new, s) = (done - before.unwrap_or(0), started.elapsed().as_secs_f64());
+        remark([format!("{new} records in {s:.1} s on {} threads", how.threads)]);
+    };
+    if let Some(part) = shared.part {
+        let Some(folder) = folder else {
+            return Err(CoreError::Empty {
+                what: "--out".into(),
+                expected: "a folder for the part's records".into(),
+            }
+            .into());
+        };
+        let records = experiment::run_part(options, how, part, progress)?;
+        run.finish();
+        took(records, before);
+        let file = folder.join(part.file_name(E::NAME));
+        return Ok(format!("Part {part}: {records} records in {}\n", file.display()));
+    }
+    let report = experiment::run(options, how, progress)?;
+    run.finish();
+    took(options.scenes() as usize, before);
+    let outcome = Outcome::new::<E>(&report)?;
+    if let Some(folder) = folder {
+        keep(&outcome, folder)?;
+    }
+    Ok(printed(outcome, shared.format.json, shared.format.csv))
 }
 
-/// Writes the files into the output folder, if there is one.
-fn keep(shared: &EvaluateArguments, contents: &[(&str, &str)]) -> Result<(), CliError> {
-    let Some(folder) = &shared.out else { return Ok(()) };
-    contents.iter().try_for_each(|(name, text)| files::write(&folder.join(name), text.as_bytes()))
+fn merged(arguments: &EvaluateMergeArguments) -> Result<String, CliError> {
+    let outcome = merge(&arguments.sources, &arguments.out)?;
+    keep(&outcome, &arguments.out)?;
+    Ok(printed(outcome, arguments.format.json, arguments.format.csv))
+}
+
+/// Writes tables, numbers and figures.
+fn keep(outcome: &Outcome, folder: &Path) -> Result<(), CliError> {
+    let name = outcome.name;
+    let write = |file: &str, text: &str| files::write(&folder.join(file), text.as_bytes());
+    write(&format!("{name}.md"), &outcome.tables)?;
+    write(&format!("{name}.json"), &outcome.json)?;
+    write(&format!("{name}.csv"), &outcome.csv)?;
+    outcome.figures.iter().try_for_each(|(file, svg)| write(file, svg))
+}
+
+fn printed(outcome: Outcome, json: bool, csv: bool) -> String {
+    match (json, csv) {
+        (true, _) => outcome.json,
+        (_, true) => outcome.csv,
+        _ => outcome.tables,
+    }
 }

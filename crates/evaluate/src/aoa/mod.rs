@@ -9,13 +9,10 @@ pub use report::Report;
 pub use score::Score;
 
 use crate::EvaluateError;
-use crate::sweep::{self, Sweep};
+use crate::experiment::Experiment;
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
-use boresight_pipeline::Progress;
-use serde_json::json;
-use std::ops::ControlFlow;
-use std::path::Path;
+use serde::{Deserialize, Serialize};
 
 /// Numbers of targets of the conditions.
 pub const TARGETS: [usize; 9] = [2, 3, 4, 5, 6, 7, 8, 9, 10];
@@ -25,7 +22,8 @@ pub const SNRS_DB: [f64; 5] = [15.0, 20.0, 25.0, 30.0, 35.0];
 const CHUNK: u64 = 250;
 
 /// What to run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Options {
     /// Name of the array.
     pub array: String,
@@ -35,8 +33,6 @@ pub struct Options {
     pub seed: u64,
     /// Errors of the array that no method knows of.
     pub imperfections: ImperfectionSpread,
-    /// Threads.
-    pub threads: usize,
 }
 
 /// Number of targets and signal-to-noise ratio.
@@ -56,43 +52,39 @@ impl Condition {
     }
 }
 
-/// Runs the experiment; with a folder, its records are kept there and a stopped run goes on.
-///
-/// # Errors
-/// Options out of range; those of [`sweep::run`].
-pub fn run(
-    options: &Options,
-    folder: Option<&Path>,
-    progress: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Report, EvaluateError> {
-    check_range("trials", options.trials as f64, 1.0, 1e7)?;
-    let plan = cell::Plan::new(options)?;
-    let records = folder.map(|folder| folder.join("aoa.jsonl"));
-    let setup = json!({
-        "experiment": "aoa",
-        "version": env!("CARGO_PKG_VERSION"),
-        "seed": options.seed,
-        "array": options.array,
-        "trials": options.trials,
-        "gainDb": options.imperfections.gain_db,
-        "phaseRad": options.imperfections.phase_rad,
-        "position": options.imperfections.position,
-        "couplingDb": options.imperfections.coupling_db,
-        "methods": plan.names(),
-    });
-    let chunks = options.trials.div_ceil(CHUNK);
-    let conditions = Condition::all();
-    let sweep = Sweep {
-        setup,
-        scenes: 0..chunks * conditions.len() as u64,
-        threads: options.threads,
-        records: records.as_deref(),
-    };
-    let work = |number: u64| {
-        let (index, chunk) = ((number / chunks) as usize, number % chunks);
-        let trials = CHUNK.min(options.trials - chunk * CHUNK);
-        plan.run(index, conditions[index], chunk * CHUNK, trials)
-    };
-    let done = sweep::run(&sweep, work, progress)?;
-    Ok(Report::new(options, &plan.names(), done.into_values()))
+impl Experiment for Options {
+    const NAME: &'static str = "aoa";
+    type Plan = cell::Plan;
+    type Record = cell::Record;
+    type Report = Report;
+
+    fn plan(&self) -> Result<cell::Plan, EvaluateError> {
+        check_range("trials", self.trials as f64, 1.0, 1e7)?;
+        cell::Plan::new(self)
+    }
+
+    fn methods(plan: &cell::Plan) -> Vec<String> {
+        plan.names()
+    }
+
+    fn scenes(&self) -> u64 {
+        self.chunks() * (TARGETS.len() * SNRS_DB.len()) as u64
+    }
+
+    fn scene(&self, plan: &cell::Plan, number: u64) -> Result<cell::Record, EvaluateError> {
+        let chunks = self.chunks();
+        let (index, first) = ((number / chunks) as usize, number % chunks * CHUNK);
+        plan.run(index, Condition::all()[index], first, CHUNK.min(self.trials - first))
+    }
+
+    fn report(&self, plan: &cell::Plan, records: impl Iterator<Item = cell::Record>) -> Report {
+        Report::new(self, &plan.names(), records)
+    }
+}
+
+impl Options {
+    /// Records a condition.
+    fn chunks(&self) -> u64 {
+        self.trials.div_ceil(CHUNK)
+    }
 }

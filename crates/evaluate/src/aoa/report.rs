@@ -2,7 +2,8 @@
 
 use super::cell::{MethodRecord, Record};
 use super::score::Operating;
-use super::{Condition, Options, SNRS_DB, TARGETS};
+use super::{Condition, Options, SNRS_DB, TARGETS, figures};
+use crate::EvaluateError;
 use crate::table::table;
 use serde::Serialize;
 
@@ -102,9 +103,10 @@ impl Report {
             .find(|c| c.targets == targets && c.snr_db == snr_db)
             .and_then(|condition| condition.methods.get(method))
     }
+}
 
-    /// The tables, as Markdown.
-    pub fn tables(&self) -> String {
+impl crate::experiment::Report for Report {
+    fn tables(&self) -> String {
         let mut text = format!("Array {}, {} snapshots a condition.\n", self.array, self.trials);
         let none = f64::NAN;
         type Value = fn(&MethodResult) -> f64;
@@ -144,8 +146,7 @@ impl Report {
         text
     }
 
-    /// Every condition and method, one row each, as comma-separated values.
-    pub fn csv(&self) -> String {
+    fn csv(&self) -> String {
         let mut text = "method,targets,snr_db,threshold_db,precision,recall,f1,strict_f1,angle_error_deg,\
                         power_error_db,separated_rmse_deg,bound_deg,separated_found,separated_targets\n"
             .to_owned();
@@ -174,6 +175,13 @@ impl Report {
             }
         }
         text
+    }
+
+    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
+        Ok(vec![
+            ("precision-recall.svg", figures::precision_recall(self)?),
+            ("scores.svg", figures::scores(self)?),
+        ])
     }
 }
 

@@ -12,13 +12,10 @@ pub use report::Report;
 pub use scene::SceneRecord;
 
 use crate::EvaluateError;
-use crate::sweep::{self, Sweep};
+use crate::experiment::Experiment;
 use boresight_calibrate::{Method, MotionMethod};
 use boresight_core::error::check_range;
-use boresight_pipeline::Progress;
-use serde_json::json;
-use std::ops::ControlFlow;
-use std::path::Path;
+use serde::{Deserialize, Serialize};
 
 /// Driving times of Figure 6, s.
 pub const DRIVING_TIMES_S: [f64; 8] = [2.0, 5.0, 10.0, 15.0, 25.0, 40.0, 60.0, 90.0];
@@ -87,7 +84,8 @@ pub const CANDIDATES: [Candidate; 11] = [
 ];
 
 /// What to run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub struct Options {
     /// Drives of each kind.
     pub scenes: u64,
@@ -95,35 +93,32 @@ pub struct Options {
     pub seed: u64,
     /// Length of a drive, s.
     pub duration_s: f64,
-    /// Threads.
-    pub threads: usize,
 }
 
-/// Runs the experiment; with a folder, its records are kept there and a stopped run goes on.
-///
-/// # Errors
-/// Options out of range; those of [`sweep::run`].
-pub fn run(
-    options: &Options,
-    folder: Option<&Path>,
-    progress: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<Report, EvaluateError> {
-    check_range("scenes", options.scenes as f64, 1.0, 1e5)?;
-    check_range("durationS", options.duration_s, 10.0, 3600.0)?;
-    let records = folder.map(|folder| folder.join("calibration.jsonl"));
-    let setup = json!({
-        "experiment": "calibration",
-        "version": env!("CARGO_PKG_VERSION"),
-        "seed": options.seed,
-        "durationS": options.duration_s,
-        "methods": CANDIDATES.map(|c| c.name),
-    });
-    let sweep = Sweep {
-        setup,
-        scenes: 0..2 * options.scenes,
-        threads: options.threads,
-        records: records.as_deref(),
-    };
-    let done = sweep::run(&sweep, |number| scene::run(options, number), progress)?;
-    Ok(Report::new(options, done.into_values()))
+impl Experiment for Options {
+    const NAME: &'static str = "calibration";
+    type Plan = ();
+    type Record = SceneRecord;
+    type Report = Report;
+
+    fn plan(&self) -> Result<(), EvaluateError> {
+        check_range("scenes", self.scenes as f64, 1.0, 1e5)?;
+        Ok(check_range("durationS", self.duration_s, 10.0, 3600.0)?)
+    }
+
+    fn methods((): &()) -> Vec<String> {
+        CANDIDATES.iter().map(|candidate| candidate.name.into()).collect()
+    }
+
+    fn scenes(&self) -> u64 {
+        2 * self.scenes
+    }
+
+    fn scene(&self, (): &(), number: u64) -> Result<SceneRecord, EvaluateError> {
+        scene::run(self, number)
+    }
+
+    fn report(&self, (): &(), records: impl Iterator<Item = SceneRecord>) -> Report {
+        Report::new(self, records)
+    }
 }

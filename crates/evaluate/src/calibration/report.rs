@@ -1,7 +1,8 @@
 //! From records to the tables.
 
 use super::scene::{EstimateRecord, PartRecord, RadarRecord, SEGMENT_M, SceneRecord};
-use super::{CANDIDATES, DRIVING_TIMES_S, Options};
+use super::{CANDIDATES, DRIVING_TIMES_S, Options, figures};
+use crate::EvaluateError;
 use crate::statistics::Summary;
 use crate::table::table;
 use serde::Serialize;
@@ -115,10 +116,46 @@ impl Report {
             ],
         }
     }
+}
 
-    /// The tables, as Markdown.
-    pub fn tables(&self) -> String {
+impl crate::experiment::Report for Report {
+    fn tables(&self) -> String {
         self.conditions.iter().map(Condition::tables).collect::<Vec<_>>().join("\n")
+    }
+
+    fn csv(&self) -> String {
+        let mut text = "condition,method,radar,drives,without,error_mean_deg,error_variance_deg2,\
+                        error_mean_absolute_deg,error_largest_deg,converged,rte_m\n"
+            .to_owned();
+        for condition in &self.conditions {
+            for method in &condition.methods {
+                for r in &method.radars {
+                    let (name, e) = (method.name, &r.error_deg);
+                    text += &format!(
+                        "\"{}\",\"{name}\",{},{},{},{},{},{},{},{},{}\n",
+                        condition.name,
+                        r.sensor,
+                        e.count + r.without,
+                        r.without,
+                        e.mean,
+                        e.variance,
+                        e.mean_absolute,
+                        e.largest,
+                        r.converged,
+                        r.rte_m,
+                    );
+                }
+            }
+        }
+        text
+    }
+
+    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
+        let mut drawn = vec![("convergence.svg", figures::convergence(self)?)];
+        for (condition, name) in self.conditions.iter().zip(["angles.svg", "angles-dense.svg"]) {
+            drawn.push((name, figures::angles(condition)?));
+        }
+        Ok(drawn)
     }
 }
 
@@ -337,6 +374,7 @@ fn percent([one, two]: [f64; 2]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiment::Report as _;
 
     fn estimate(error_deg: Option<f64>, sigma_deg: f64) -> EstimateRecord {
         EstimateRecord {
@@ -370,7 +408,7 @@ mod tests {
 
     #[test]
     fn tables_are_those_of_the_records() {
-        let options = Options { scenes: 4, seed: 0, duration_s: 120.0, threads: 1 };
+        let options = Options { scenes: 4, seed: 0, duration_s: 120.0 };
         let errors = [Some(0.1), None, Some(-0.3), None, Some(0.5), None, None, None];
         let records = errors.iter().zip(0..).map(|(error, number)| scene(number, *error));
         let report = Report::new(&options, records);

@@ -1,0 +1,98 @@
+//! A sweep run in parts and put together is the sweep run at once, byte for byte.
+
+#![allow(clippy::unwrap_used)]
+
+use boresight_core::imperfections::ImperfectionSpread;
+use boresight_evaluate::experiment::{Experiment, How, run, run_part};
+use boresight_evaluate::sweep::Part;
+use boresight_evaluate::{EvaluateError, Outcome, aoa, calibration, merge};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+fn folder(name: &str) -> PathBuf {
+    let path = std::env::temp_dir().join(format!("boresight-merge-{name}-{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&path);
+    path
+}
+
+fn part<E: Experiment>(options: &E, number: u64, of: u64, folder: &Path) -> usize {
+    let how = How { threads: 2, folder: Some(folder) };
+    let part = Part::new(number, of).unwrap();
+    run_part(options, how, part, |_| ControlFlow::Continue(())).unwrap()
+}
+
+/// Runs at once and in three parts, two of them in one folder.
+fn check<E: Experiment>(options: &E) {
+    let root = folder(E::NAME);
+    let how = How { threads: 1, folder: Some(&root) };
+    let at_once = run(options, how, |_| ControlFlow::Continue(())).unwrap();
+    let at_once = Outcome::new::<E>(&at_once).unwrap();
+    let [a, b, out] = ["a", "b", "out"].map(|name| root.join(name));
+    let records = part(options, 1, 3, &a) + part(options, 3, 3, &a) + part(options, 2, 3, &b);
+    assert_eq!(records as u64, options.scenes());
+    // Compared without printing: outcomes are long.
+    assert!(merge(&[a, b], &out).unwrap() == at_once);
+    let name = Part::WHOLE.file_name(E::NAME);
+    let sorted = |folder: &Path| {
+        let text = std::fs::read_to_string(folder.join(&name)).unwrap();
+        let mut lines: Vec<String> = text.lines().map(String::from).collect();
+        lines[1..].sort();
+        lines
+    };
+    assert!(sorted(&out) == sorted(&root));
+    // What was put together can be put together again.
+    assert!(merge(&[out.join(&name)], &out).unwrap() == at_once);
+    std::fs::remove_dir_all(root).unwrap();
+}
+
+fn aoa_options(seed: u64) -> aoa::Options {
+    let imperfections = ImperfectionSpread { phase_rad: 0.1, ..ImperfectionSpread::default() };
+    aoa::Options { array: "ula8".into(), trials: 3, seed, imperfections }
+}
+
+#[test]
+fn parts_make_the_whole() {
+    check(&aoa_options(1));
+    check(&calibration::Options { scenes: 2, seed: 3, duration_s: 12.0 });
+}
+
+#[test]
+fn parts_that_do_not_go_together_are_refused() {
+    let root = folder("refused");
+    let [a, b, c, out] = ["a", "b", "c", "out"].map(|name| root.join(name));
+    part(&aoa_options(1), 1, 2, &a);
+    let missing = merge(std::slice::from_ref(&a), &out);
+    let scenes = aoa_options(1).scenes() as usize;
+    assert!(
+        matches!(missing, Err(EvaluateError::Incomplete { missing, first: 1, .. }) if missing == scenes / 2),
+        "{missing:?}"
+    );
+    // Another seed.
+    part(&aoa_options(2), 2, 2, &b);
+    let other = merge(&[a.clone(), b], &out);
+    assert!(matches!(other, Err(EvaluateError::OtherRun { .. })), "{other:?}");
+    // The same scenes twice are fine, with other records they are not, and records of another version are
+    // not those of this one.
+    part(&aoa_options(1), 2, 2, &c);
+    let file = a.join("aoa-1-of-2.jsonl");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let copy = c.join("copy.jsonl");
+    std::fs::write(&copy, &text).unwrap();
+    merge(&[a.clone(), c.clone()], &out).unwrap();
+    std::fs::write(&copy, text.replacen("\"targets\":", "\"targets\":1", 1)).unwrap();
+    let conflict = merge(&[a.clone(), c.clone()], &out);
+    assert!(matches!(conflict, Err(EvaluateError::Conflict { .. })), "{conflict:?}");
+    std::fs::remove_file(copy).unwrap();
+    for file in [file, c.join("aoa-2-of-2.jsonl")] {
+        let text = std::fs::read_to_string(&file).unwrap();
+        let version = format!("\"version\":\"{}\"", env!("CARGO_PKG_VERSION"));
+        assert!(text.contains(&version));
+        std::fs::write(&file, text.replacen(&version, "\"version\":\"0.0.0\"", 1)).unwrap();
+    }
+    let version = merge(&[a, c], &out);
+    assert!(matches!(version, Err(EvaluateError::OtherRun { .. })), "{version:?}");
+    let nothing = merge(std::slice::from_ref(&root), &out);
+    assert!(matches!(nothing, Err(EvaluateError::Core(_))), "{nothing:?}");
+    assert!(matches!(merge(&[root.join("x")], &out), Err(EvaluateError::File { .. })));
+    std::fs::remove_dir_all(root).unwrap();
+}
