@@ -3,7 +3,7 @@
 use super::report::{MethodResult, Report};
 use super::{SNRS_DB, TARGETS};
 use crate::EvaluateError;
-use crate::plot::{Panel, Series, draw};
+use crate::plot::{Axes, Panel, Series, draw};
 
 /// Figure 4: precision against recall at the highest signal-to-noise ratio.
 ///
@@ -17,7 +17,7 @@ pub fn precision_recall(report: &Report) -> Result<String, EvaluateError> {
             title: format!("{targets} targets, {snr_db} dB"),
             x: "recall".into(),
             y: "precision".into(),
-            logarithmic: false,
+            axes: Axes::Linear,
             y_limits: Some([0.5, 1.01]),
             series: lines(report, |k| {
                 let result = report.at(targets, snr_db, k);
@@ -46,7 +46,7 @@ pub fn scores(report: &Report) -> Result<String, EvaluateError> {
                 title: format!("{snr_db} dB"),
                 x: "targets".into(),
                 y: label.into(),
-                logarithmic: false,
+                axes: Axes::Linear,
                 y_limits: None,
                 series: lines(report, |k| {
                     let point =

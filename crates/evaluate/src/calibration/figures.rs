@@ -3,7 +3,7 @@
 use super::CANDIDATES;
 use super::report::{Condition, Convergence, Report};
 use crate::EvaluateError;
-use crate::plot::{Panel, Series, draw};
+use crate::plot::{Axes, Panel, Series, draw};
 use crate::statistics::Summary;
 
 /// Figure 5: the angle of radar 3 by drive, for two published methods and ours.
@@ -36,7 +36,7 @@ pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
                 title: format!("{}: mean {mean:.3} deg, true {truth:.3} deg", CANDIDATES[k].name),
                 x: "drive".into(),
                 y: "angle / deg".into(),
-                logarithmic: false,
+                axes: Axes::Linear,
                 y_limits: Some([truth - far, truth + far]),
                 series: vec![
                     line("each drive", points, false, true),
@@ -58,7 +58,7 @@ pub fn convergence(report: &Report) -> Result<String, EvaluateError> {
         title: condition.name.into(),
         x: "driving time / s".into(),
         y: what.into(),
-        logarithmic: true,
+        axes: Axes::Logarithmic,
         y_limits: None,
         series: condition.convergence.iter().map(|c| series(c, value)).collect(),
     };
