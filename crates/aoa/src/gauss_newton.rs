@@ -11,7 +11,7 @@ use crate::cosines::{Geometry, Point, Steering};
 use crate::data::Data;
 use boresight_core::linalg::{Cholesky, adjoint};
 use boresight_core::{Array, Complex64, CoreError, Direction};
-use ndarray::{Array1, Array2};
+use ndarray::{Array1, Array2, ArrayView1};
 
 /// When refinement ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,7 +126,7 @@ pub(crate) fn refine_points(
 }
 
 /// Mean power of the data, summed over elements.
-fn total_power(data: Data<'_>) -> f64 {
+pub(crate) fn total_power(data: Data<'_>) -> f64 {
     match data {
         Data::Snapshots(y) => y.iter().map(|z| z.norm_sqr()).sum::<f64>() / y.ncols() as f64,
         Data::Covariance { matrix, .. } => matrix.diag().iter().map(|z| z.re).sum(),
@@ -145,18 +145,18 @@ fn covariance_times(data: Data<'_>, x: &Array2<Complex64>) -> Array2<Complex64> 
 }
 
 /// The least-squares fit at given directions.
-struct Fit {
+pub(crate) struct Fit {
     steering: Vec<Steering>,
     a: Array2<Complex64>,
     /// `A (A^H A)^-1`: its adjoint is the pseudo-inverse of `A`.
     weights: Array2<Complex64>,
     /// `R` times the weights.
     seen: Array2<Complex64>,
-    residual: f64,
+    pub residual: f64,
 }
 
 impl Fit {
-    fn new(geometry: &Geometry, points: &[Point], data: Data<'_>, total: f64) -> Option<Self> {
+    pub fn new(geometry: &Geometry, points: &[Point], data: Data<'_>, total: f64) -> Option<Self> {
         let elements = geometry.elements();
         if points.len() > elements {
             return None;
@@ -174,6 +174,19 @@ impl Fit {
         let explained: f64 = a.iter().zip(&seen).map(|(a, s)| (a.conj() * s).re).sum();
         let residual = total - explained;
         residual.is_finite().then_some(Self { steering, a, weights, seen, residual })
+    }
+
+    /// By how much the residual power would rise without each source.
+    pub fn gains(&self) -> Vec<f64> {
+        let pairs = self.weights.columns().into_iter().zip(self.seen.columns());
+        pairs
+            .map(|(weight, seen)| {
+                let dot = |x: ArrayView1<Complex64>| -> f64 {
+                    weight.iter().zip(x).map(|(w, x)| (w.conj() * x).re).sum()
+                };
+                dot(seen) / dot(weight)
+            })
+            .collect()
     }
 
     fn normal_equations(&self, axes: usize) -> NormalEquations {

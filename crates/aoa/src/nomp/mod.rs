@@ -15,7 +15,6 @@
 //! equal power hold a tenth of it each. So a beam that fails the test is still taken off as long as
 //! the beams after it could pass, and counts as a source once one of them has passed.
 
-mod false_alarm;
 mod newton;
 
 use crate::checks::{ambiguity, check_array, conclude};
@@ -24,6 +23,7 @@ use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Warning};
 use crate::estimator::Plan;
+use crate::false_alarm::{Shares, Volumes};
 use crate::gauss_newton::{Limits, refine_points};
 use crate::grid::Grid;
 use crate::method::Method;
@@ -34,7 +34,6 @@ use crate::quadratic::QuadraticSpectrum;
 use boresight_core::linalg::least_squares;
 use boresight_core::{Array, Complex64, Direction};
 use boresight_signal::sample_covariance;
-use false_alarm::Volumes;
 use ndarray::Array2;
 use newton::{beam_power, step};
 use std::f64::consts::FRAC_PI_2;
@@ -56,19 +55,11 @@ pub(crate) struct Nomp {
     options: NompOptions,
     spectrum: QuadraticSpectrum,
     volumes: Volumes,
+    /// Number of snapshots and the threshold in noise powers that holds for it.
+    level: Option<(usize, f64)>,
+    shares: Shares,
     field_of_view: [f64; 2],
     ambiguity: Option<Warning>,
-    thresholds: Thresholds,
-}
-
-/// Thresholds computed so far; they hold for one number of snapshots.
-#[derive(Default)]
-struct Thresholds {
-    snapshots: usize,
-    /// In noise powers.
-    level: Option<f64>,
-    /// In shares of the residual power, by the number of sources found.
-    shares: Vec<Option<f64>>,
 }
 
 /// What the strongest beam of a residual is.
@@ -113,17 +104,25 @@ impl Nomp {
             ..*options
         };
         let grid = Grid::new(array, &coarse);
-        let period = array.lattice().map(|lattice| 2.0 / lattice.spacing);
+        let volumes = Volumes::new(array, &geometry, options.elevation_field_of_view_rad);
         Ok(Self {
             array: array.clone(),
-            volumes: Volumes::new(&geometry, period, options.elevation_field_of_view_rad),
+            shares: Shares::new(volumes, &geometry, options.nomp.false_alarm),
+            volumes,
+            level: None,
             geometry,
             options: options.nomp,
             spectrum: QuadraticSpectrum::new(array, &grid),
             field_of_view: [options.field_of_view_rad, options.elevation_field_of_view_rad],
             ambiguity: ambiguity(array, options),
-            thresholds: Thresholds::default(),
         })
+    }
+
+    /// Whether a direction is in the field of view.
+    pub fn sees(&self, direction: Direction) -> bool {
+        let [azimuth, elevation] = self.field_of_view;
+        direction.azimuth_rad.abs() <= azimuth + 1e-9
+            && direction.elevation_rad.abs() <= elevation + 1e-9
     }
 
     /// The strongest beam in `residual`, refined, and its power.
@@ -150,23 +149,18 @@ impl Nomp {
     ) -> Verdict {
         let (elements, snapshots) = residual.dim();
         let gain = power / elements as f64;
-        if self.thresholds.snapshots != snapshots {
-            self.thresholds = Thresholds { snapshots, ..Thresholds::default() };
-        }
-        if let Some(noise) = noise_power {
-            let (volumes, false_alarm) = (&self.volumes, self.options.false_alarm);
-            let level = &mut self.thresholds.level;
-            let level = *level.get_or_insert_with(|| volumes.level(false_alarm, snapshots));
-            return if gain > noise * level { Verdict::Source } else { Verdict::Noise };
-        }
-        let share = gain / energy(residual);
-        if self.share(found, snapshots, elements).is_some_and(|least| share > least) {
+        let left = energy(residual);
+        if self.is_source(gain, left, found, snapshots, noise_power) {
             return Verdict::Source;
         }
+        if noise_power.is_some() {
+            return Verdict::Noise;
+        }
+        let share = gain / left;
         // Beams hardly grow as sources are taken off, so that `more` of them leave at least this.
         for more in 1..self.options.max_sources.saturating_sub(found) {
             let left = 1.0 - more as f64 * share;
-            let Some(least) = self.share(found + more, snapshots, elements) else { break };
+            let Some(least) = self.shares.after(found + more, snapshots) else { break };
             if left <= 0.0 || share > least * left {
                 return Verdict::Hidden;
             }
@@ -174,16 +168,25 @@ impl Nomp {
         Verdict::Noise
     }
 
-    /// Share of the residual power that the peak of noise of unknown power has with the false-alarm
-    /// probability, after `found` sources; nothing where too few degrees of freedom are left.
-    fn share(&mut self, found: usize, snapshots: usize, elements: usize) -> Option<f64> {
-        let shares = &mut self.thresholds.shares;
-        while shares.len() <= found {
-            let angles = 0.5 * (self.geometry.axes * shares.len()) as f64;
-            let freedom = (snapshots * elements.saturating_sub(shares.len())) as f64 - angles;
-            shares.push(self.volumes.share(self.options.false_alarm, snapshots, freedom));
-        }
-        shares[found]
+    /// Whether noise seldom gains that much of an energy `left`, summed over elements and snapshots,
+    /// after `found` sources.
+    fn is_source(
+        &mut self,
+        gain: f64,
+        left: f64,
+        found: usize,
+        snapshots: usize,
+        noise_power: Option<f64>,
+    ) -> bool {
+        let Some(noise) = noise_power else {
+            return self.shares.after(found, snapshots).is_some_and(|least| gain > least * left);
+        };
+        let level = match self.level {
+            Some((count, level)) if count == snapshots => level,
+            _ => self.volumes.level(self.options.false_alarm, snapshots),
+        };
+        self.level = Some((snapshots, level));
+        gain > noise * level
     }
 
     /// Newton steps on every source in turn, with all others taken off.
@@ -212,12 +215,21 @@ impl Nomp {
         Some(Fitted { points, amplitudes, residual })
     }
 
-    /// Pursues sources; also whether it ended for another reason than its limit on sources.
-    fn pursue(&mut self, y: &Array2<Complex64>, noise_power: Option<f64>) -> (Fitted, bool) {
-        let snapshots = y.ncols();
+    /// Pursues sources beyond `start`; also whether it ended for another reason than its limit on
+    /// sources.
+    fn pursue(
+        &mut self,
+        y: &Array2<Complex64>,
+        start: Vec<Point>,
+        noise_power: Option<f64>,
+    ) -> (Fitted, bool) {
         let total = energy(y);
-        let none = Array2::zeros((0, snapshots));
-        let mut fitted = Fitted { points: Vec::new(), amplitudes: none, residual: y.clone() };
+        let nothing = || {
+            let none = Array2::zeros((0, y.ncols()));
+            Fitted { points: Vec::new(), amplitudes: none, residual: y.clone() }
+        };
+        let fitted = if start.is_empty() { None } else { self.fit(y, start) };
+        let mut fitted = fitted.unwrap_or_else(nothing);
         // What was found when a beam last stood out.
         let mut sure = fitted.clone();
         loop {
@@ -277,6 +289,59 @@ fn add_source(
     sum
 }
 
+impl Nomp {
+    /// Sources in snapshots that stand out beside those at `start`, and these, refined
+    /// together.
+    pub fn complete(&mut self, normalised: &Normalised, start: Vec<Point>) -> Vec<Point> {
+        let y = &normalised.snapshots;
+        let noise_power = self.options.noise_power.map(|power| normalised.power_in(power));
+        let fitted = self.pursue(y, start, noise_power).0;
+        self.polish(y, fitted.points, noise_power)
+    }
+
+    /// Gauss-Newton steps on all sources, and one source in place of two that stand within half a
+    /// beam of each other where that costs no more than noise gains: such a pair is often one source
+    /// and what an earlier, inexact fit of it had left, grown to two large amplitudes that cancel.
+    fn polish(
+        &mut self,
+        y: &Array2<Complex64>,
+        points: Vec<Point>,
+        noise_power: Option<f64>,
+    ) -> Vec<Point> {
+        if points.is_empty() {
+            return points;
+        }
+        let data = Data::Snapshots(y.view());
+        let (mut points, mut outcome) = refine_points(&self.geometry, points, data, POLISH);
+        let mut kept: Vec<(Point, Point)> = Vec::new();
+        while let Some((i, k)) = self.close_pair(&points, &kept) {
+            let mut fewer = points.clone();
+            let second = fewer.remove(k);
+            fewer[i] = [0, 1].map(|axis| 0.5 * (fewer[i][axis] + second[axis]));
+            let (fewer, merged) = refine_points(&self.geometry, fewer, data, POLISH);
+            let (before, after) = (merged.residual_power, outcome.residual_power);
+            let snapshots = y.ncols();
+            let energies = [before - after, before].map(|power| power * snapshots as f64);
+            let found = fewer.len();
+            if self.is_source(energies[0], energies[1], found, snapshots, noise_power) {
+                kept.push((points[i], points[k]));
+            } else {
+                (points, outcome) = (fewer, merged);
+            }
+        }
+        points
+    }
+
+    /// Two sources within half a beam of each other, the earlier first, other than those in `kept`.
+    fn close_pair(&self, points: &[Point], kept: &[(Point, Point)]) -> Option<(usize, usize)> {
+        let half_beam = self.geometry.half_beam();
+        let close = |i: usize, k: usize| self.geometry.distance(points[i], points[k]) < half_beam;
+        (1..points.len())
+            .flat_map(|k| (0..k).map(move |i| (i, k)))
+            .find(|&(i, k)| close(i, k) && !kept.contains(&(points[i], points[k])))
+    }
+}
+
 impl Plan for Nomp {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
         let method = Method::Nomp;
@@ -289,26 +354,18 @@ impl Plan for Nomp {
         };
         let y = &normalised.snapshots;
         let noise_power = self.options.noise_power.map(|power| normalised.power_in(power));
-        let (fitted, ended) = self.pursue(y, noise_power);
+        let (fitted, ended) = self.pursue(y, Vec::new(), noise_power);
         let found = fitted.points.len();
         if !ended {
             warnings.push(Warning::NotConverged { iterations: found });
         }
         let scaled = Data::Snapshots(y.view());
-        let points = if found > 0 {
-            refine_points(&self.geometry, fitted.points, scaled, POLISH).0
-        } else {
-            Vec::new()
-        };
+        let points = self.polish(y, fitted.points, noise_power);
         let directions: Vec<Direction> =
             points.iter().map(|&p| self.geometry.direction(p)).collect();
-        let [azimuth, elevation] = self.field_of_view;
         let sources: Vec<Source> = sources_at(&self.array, &directions, scaled)
             .into_iter()
-            .filter(|source| {
-                source.direction.azimuth_rad.abs() <= azimuth + 1e-9
-                    && source.direction.elevation_rad.abs() <= elevation + 1e-9
-            })
+            .filter(|source| self.sees(source.direction))
             .map(|source| normalised.source_out(source))
             .collect();
         Ok(conclude(method, sources, None, None, found, warnings))

@@ -4,17 +4,17 @@ use super::score::{Point, Score};
 use super::{Condition, Options};
 use crate::EvaluateError;
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
-use boresight_aoa::gauss_newton::{Limits, refine};
+use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{Data, Estimate, Estimator, Method, Options as AngleOptions};
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
-use boresight_core::steering::{cis, steering_matrix};
+use boresight_core::steering::cis;
 use boresight_core::units::{db_to_amplitude, db_to_power};
 use boresight_core::{Array, Complex64, Direction, Imperfections};
 use boresight_simulate::snapshots::{
     Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Target,
 };
-use ndarray::{Array2, ArrayView2};
+use ndarray::Array2;
 use serde::{Deserialize, Serialize};
 
 /// Half width of the sector of targets, rad (60 deg).
@@ -74,7 +74,6 @@ impl Plan {
             plain(Method::Iaa),
             refined(Method::Iaa),
             plain(Method::Nomp),
-            refined(Method::Nomp),
         ];
         if Estimator::new(Method::SingleSnapshotMusic, &array, &angle_options()).is_ok() {
             candidates.push(plain(Method::SingleSnapshotMusic));
@@ -114,6 +113,7 @@ impl Plan {
         for candidate in self.candidates.iter().filter(|candidate| !candidate.refined) {
             estimators.push(Estimator::new(candidate.method, &self.array, &options)?);
         }
+        let mut refinement = Refinement::new(&self.array, &options)?;
         let mut methods = vec![MethodRecord::default(); self.candidates.len()];
         for trial in first..first + trials {
             let (y, truth) = self.scene(index, condition, trial)?;
@@ -131,18 +131,22 @@ impl Plan {
                 let Some((_, estimate)) = estimates.iter().find(|e| e.0 == candidate.method) else {
                     continue;
                 };
-                let found = if candidate.refined {
-                    self.refined(estimate, y.view())?
+                let refined;
+                let sources = if candidate.refined {
+                    let directions: Vec<Direction> =
+                        estimate.sources.iter().map(|s| s.direction).collect();
+                    refined = refinement.refine(&directions, Data::Snapshots(y.view()))?;
+                    &refined
                 } else {
-                    estimate
-                        .sources
-                        .iter()
-                        .map(|s| Point {
-                            azimuth_rad: s.direction.azimuth_rad,
-                            power_db: 10.0 * s.power.log10(),
-                        })
-                        .collect()
+                    &estimate.sources
                 };
+                let found: Vec<Point> = sources
+                    .iter()
+                    .map(|s| Point {
+                        azimuth_rad: s.direction.azimuth_rad,
+                        power_db: 10.0 * s.power.log10(),
+                    })
+                    .collect();
                 record.score.add(&points, &found);
                 self.separated(record, &points, &found, &bound);
             }
@@ -196,38 +200,6 @@ impl Plan {
         }
     }
 
-    /// The estimate's sources down to the noise, refined together by Gauss-Newton.
-    fn refined(
-        &self,
-        estimate: &Estimate,
-        y: ArrayView2<Complex64>,
-    ) -> Result<Vec<Point>, EvaluateError> {
-        let strongest = estimate.sources.iter().map(|s| s.power).fold(0.0, f64::max);
-        let directions: Vec<Direction> = estimate
-            .sources
-            .iter()
-            .filter(|s| s.power > strongest * db_to_power(-REFINED_DB))
-            .take(self.array.len() / 3)
-            .map(|s| s.direction)
-            .collect();
-        if directions.is_empty() {
-            return Ok(vec![]);
-        }
-        let limits = Limits { iterations: 10, tolerance: 1e-9 };
-        let refined = refine(&self.array, &directions, Data::Snapshots(y), limits)?;
-        let steering = steering_matrix(&self.array, &refined.directions);
-        let Some(amplitudes) = boresight_core::linalg::least_squares(steering.view(), y)? else {
-            return Ok(vec![]);
-        };
-        let powers = amplitudes.rows().into_iter().map(|row| row[0].norm_sqr());
-        Ok(refined
-            .directions
-            .iter()
-            .zip(powers)
-            .map(|(d, power)| Point { azimuth_rad: d.azimuth_rad, power_db: 10.0 * power.log10() })
-            .collect())
-    }
-
     /// Errors of targets that stand apart from all others, against the bound.
     fn separated(
         &self,
@@ -255,9 +227,6 @@ impl Plan {
         }
     }
 }
-
-/// Sources this far below the strongest are refined, dB.
-const REFINED_DB: f64 = 20.0;
 
 /// Options of every method: all predictions, so that their power can be swept.
 fn angle_options() -> AngleOptions {

@@ -8,23 +8,24 @@
 //! follow from those of the Gaussian field by conditioning on the total power.
 
 use crate::cosines::Geometry;
+use boresight_core::Array;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 /// Intrinsic volumes of the set of directions, in units of the field's slope: the number of points
 /// (1), half the circumference (or the length of an interval), and the area.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Volumes {
+pub(crate) struct Volumes {
     length: f64,
     area: f64,
 }
 
 impl Volumes {
-    /// For all azimuths, over `period` in the sine if that is shorter, and elevations up to
+    /// For all azimuths, over one period in the sine if that is shorter, and elevations up to
     /// `elevation_rad` on arrays that span an area.
-    pub fn new(geometry: &Geometry, period: Option<f64>, elevation_rad: f64) -> Self {
+    pub fn new(array: &Array, geometry: &Geometry, elevation_rad: f64) -> Self {
         let spread = geometry.spread();
         if geometry.axes == 1 {
-            let range = period.map_or(2.0, |period| period.min(2.0));
+            let range = array.lattice().map_or(2.0, |lattice| (2.0 / lattice.spacing).min(2.0));
             return Self { length: range * spread[0].max(0.0).sqrt(), area: 0.0 };
         }
         // The set is |v| <= sqrt(1 - w^2), |w| <= sin(elevation).
@@ -110,6 +111,41 @@ impl Volumes {
         }
         bisect(&mut low, &mut high, above);
         Some(0.5 * (low + high))
+    }
+}
+
+/// Shares of the residual power that the peak of noise of unknown power has with a probability, by
+/// the number of sources taken off before; computed once for a number of snapshots.
+pub(crate) struct Shares {
+    volumes: Volumes,
+    false_alarm: f64,
+    elements: usize,
+    /// Real unknowns of a direction.
+    axes: usize,
+    snapshots: usize,
+    shares: Vec<Option<f64>>,
+}
+
+impl Shares {
+    pub fn new(volumes: Volumes, geometry: &Geometry, false_alarm: f64) -> Self {
+        let (elements, axes) = (geometry.elements(), geometry.axes);
+        Self { volumes, false_alarm, elements, axes, snapshots: 0, shares: Vec::new() }
+    }
+
+    /// After `found` sources in `snapshots`; nothing where too few degrees of freedom are left,
+    /// `snapshots (elements - found) - found / 2` for sources of one angle.
+    pub fn after(&mut self, found: usize, snapshots: usize) -> Option<f64> {
+        if self.snapshots != snapshots {
+            self.snapshots = snapshots;
+            self.shares.clear();
+        }
+        while self.shares.len() <= found {
+            let taken = self.shares.len();
+            let angles = 0.5 * (self.axes * taken) as f64;
+            let freedom = (snapshots * self.elements.saturating_sub(taken)) as f64 - angles;
+            self.shares.push(self.volumes.share(self.false_alarm, snapshots, freedom));
+        }
+        self.shares[found]
     }
 }
 

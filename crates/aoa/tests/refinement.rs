@@ -1,0 +1,116 @@
+//! Refinement of peaks on the matched model, against the Cramer-Rao bound.
+#![allow(clippy::unwrap_used)]
+
+use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
+use boresight_aoa::refinement::Refinement;
+use boresight_aoa::{AoaError, Data, Estimator, Method, Options};
+use boresight_core::linalg::adjoint;
+use boresight_core::presets::preset;
+use boresight_core::steering::{cis, steering_matrix};
+use boresight_core::{Array, Complex64, Direction, Random};
+use ndarray::Array2;
+
+/// Directions at least two beamwidths apart within 60 deg, and one snapshot of them.
+fn scene(
+    array: &Array,
+    count: usize,
+    noise_power: f64,
+    random: &mut Random,
+) -> (Vec<Direction>, Vec<Complex64>, Array2<Complex64>) {
+    let mut sines: Vec<f64> = Vec::new();
+    while sines.len() < count {
+        let sine = random.uniform(-0.86, 0.86);
+        if sines.iter().all(|other| (other - sine).abs() > 4.0 / 92.0) {
+            sines.push(sine);
+        }
+    }
+    let directions: Vec<Direction> = sines.iter().map(|s| Direction::azimuth(s.asin())).collect();
+    let signals: Vec<Complex64> =
+        (0..count).map(|_| cis(random.phase()) * random.uniform(0.22, 1.0)).collect();
+    let s = Array2::from_shape_vec((count, 1), signals.clone()).unwrap();
+    let mut y = steering_matrix(array, &directions).dot(&s);
+    y.mapv_inplace(|z| z + random.complex_normal(noise_power));
+    (directions, signals, y)
+}
+
+/// 60 scenes of 6 targets: the root mean square of 360 normal errors scatters by 3.7 %. At 35 dB the
+/// grid of IAA alone costs more than the bound, and its sidelobes are among 64 peaks.
+#[test]
+fn peaks_of_iaa_and_nomp_come_to_the_bound_and_sidelobes_go() {
+    let array = preset("lrr48").unwrap();
+    let options = Options { dynamic_range_db: 40.0, max_peaks: 64, ..Options::default() };
+    let mut refinement = Refinement::new(&array, &options).unwrap();
+    for method in [Method::Bartlett, Method::Iaa, Method::Nomp] {
+        let mut estimator = Estimator::new(method, &array, &options).unwrap();
+        let (mut errors, mut bounds, mut right) = (0.0, 0.0, 0);
+        for trial in 0..60 {
+            let noise_power = 10.0_f64.powf(-3.5);
+            let (truth, signals, y) = scene(&array, 6, noise_power, &mut Random::new(81, trial));
+            let data = Data::Snapshots(y.view());
+            let peaks = estimator.estimate(data).unwrap().sources;
+            let peaks: Vec<Direction> = peaks.iter().map(|s| s.direction).collect();
+            let sources = refinement.refine(&peaks, data).unwrap();
+            right += usize::from(sources.len() == truth.len());
+            let covariance = single_snapshot(&signals);
+            let given = Signals { covariance: covariance.view(), noise_power, snapshots: 1 };
+            let bound = deterministic_bound(&array, &truth, &given).unwrap();
+            for (target, sigma) in truth.iter().zip(&bound.azimuth_rad) {
+                let error = sources
+                    .iter()
+                    .map(|s| (s.direction.azimuth_rad - target.azimuth_rad).abs())
+                    .fold(f64::INFINITY, f64::min);
+                errors += error * error;
+                bounds += sigma * sigma;
+            }
+        }
+        let ratio = (errors / bounds).sqrt();
+        println!("{}: {ratio:.3} of the bound, {right} of 60 counted right", method.name());
+        assert!((0.88..1.12).contains(&ratio), "{}: {ratio}", method.name());
+        // One false alarm in a hundred is asked for.
+        assert!(right >= 56, "{}: {right}", method.name());
+    }
+}
+
+#[test]
+fn a_covariance_is_refined_without_additions() {
+    let array = preset("lrr48").unwrap();
+    let mut random = Random::new(82, 0);
+    let (truth, _, y) = scene(&array, 3, 1e-4, &mut random);
+    let r = y.dot(&adjoint(y.view()));
+    let data = Data::Covariance { matrix: r.view(), snapshots: 1 };
+    let mut refinement = Refinement::new(&array, &Options::default()).unwrap();
+    let near = |d: &Direction| Direction::azimuth(d.azimuth_rad + 2e-3);
+    let found = refinement.refine(&[near(&truth[0]), near(&truth[1])], data).unwrap();
+    assert_eq!(found.len(), 2);
+    let mut all: Vec<Direction> = truth.iter().map(near).collect();
+    all.push(Direction::azimuth(1.2));
+    let found = refinement.refine(&all, data).unwrap();
+    assert_eq!(found.len(), 3, "{found:?}");
+    for (found, truth) in found.iter().zip(&truth) {
+        assert!((found.direction.azimuth_rad - truth.azimuth_rad).abs() < 2e-4);
+    }
+}
+
+#[test]
+fn nothing_one_place_and_wrong_data() {
+    let array = preset("ula8").unwrap();
+    let mut refinement = Refinement::new(&array, &Options::default()).unwrap();
+    let silence = Array2::zeros((8, 1));
+    let one = [Direction::azimuth(0.2)];
+    assert!(refinement.refine(&one, Data::Snapshots(silence.view())).unwrap().is_empty());
+    let target = Direction::azimuth(0.1);
+    let y = steering_matrix(&array, &[target]);
+    // Nothing given: the target is added. Given twice: it is one.
+    for given in [vec![], vec![target; 2], vec![Direction::azimuth(0.1); 9]] {
+        let found = refinement.refine(&given, Data::Snapshots(y.view())).unwrap();
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!((found[0].direction.azimuth_rad - 0.1).abs() < 1e-6);
+        assert!((found[0].power - 1.0).abs() < 1e-9);
+    }
+    let other = Array2::zeros((7, 1));
+    let refused = refinement.refine(&one, Data::Snapshots(other.view()));
+    assert!(matches!(refused, Err(AoaError::Argument(_))), "{refused:?}");
+    assert!(refinement.refine(&[Direction::azimuth(2.0)], Data::Snapshots(y.view())).is_err());
+    let wrong = Options { dynamic_range_db: -1.0, ..Options::default() };
+    assert!(Refinement::new(&array, &wrong).is_err());
+}
