@@ -105,6 +105,11 @@ export interface EstimatorOptions {
     cyclicRefinements?: number;
     maxSources?: number;
   };
+  /**
+   * Refine the sources on the matched model: those that noise explains are dropped, what stands out of the rest is added,
+   * all are taken to the best fit by Gauss-Newton steps. With the false-alarm probability and noise power of `nomp`.
+   */
+  refine?: boolean;
   maxIterations?: number;
   tolerance?: number;
 }

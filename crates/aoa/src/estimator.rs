@@ -13,6 +13,7 @@ use crate::min_norm::MinNorm;
 use crate::music::Music;
 use crate::nomp::Nomp;
 use crate::options::Options;
+use crate::refinement::Refinement;
 use crate::root_music::RootMusic;
 use crate::single_snapshot_music::SingleSnapshotMusic;
 use crate::sparse_bayesian::SparseBayesian;
@@ -33,6 +34,7 @@ pub struct Estimator {
     method: Method,
     array: Array,
     plan: Box<dyn Plan>,
+    refinement: Option<Refinement>,
 }
 
 impl Estimator {
@@ -44,7 +46,8 @@ impl Estimator {
     pub fn new(method: Method, array: &Array, options: &Options) -> Result<Self, AoaError> {
         options.check()?;
         let plan = plan(method, array, options)?;
-        Ok(Self { method, array: array.clone(), plan })
+        let refinement = options.refine.then(|| Refinement::new(array, options)).transpose()?;
+        Ok(Self { method, array: array.clone(), plan, refinement })
     }
 
     /// The method.
@@ -63,7 +66,11 @@ impl Estimator {
     /// [`AoaError`] when the data is malformed or does not suit the method.
     pub fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
         data.check(self.array.len())?;
-        self.plan.estimate(data)
+        let mut estimate = self.plan.estimate(data)?;
+        if let Some(refinement) = &mut self.refinement {
+            refinement.apply(&mut estimate, data)?;
+        }
+        Ok(estimate)
     }
 }
 

@@ -110,6 +110,9 @@ pub struct Options {
     pub iaa: IaaOptions,
     /// NOMP.
     pub nomp: NompOptions,
+    /// Refine the sources on the matched model (see [`crate::refinement`]), with the false-alarm
+    /// probability and noise power of `nomp`.
+    pub refine: bool,
     /// Most iterations of maximum likelihood and sparse Bayesian learning.
     pub max_iterations: usize,
     /// Change of angle (rad) or relative change of power at which iterations stop.
@@ -145,6 +148,7 @@ impl Default for Options {
                 cyclic_refinements: 3,
                 max_sources: 16,
             },
+            refine: false,
             max_iterations: 200,
             tolerance: 1e-8,
         }

@@ -12,23 +12,17 @@
 use crate::cosines::{Geometry, Point};
 use crate::data::Data;
 use crate::error::AoaError;
-use crate::estimate::Source;
-use crate::false_alarm::{Shares, Volumes};
-use crate::gauss_newton::{Fit, Limits, refine_points, total_power};
+use crate::estimate::{Estimate, Source, Warning};
 use crate::nomp::Nomp;
 use crate::normalised::Normalised;
 use crate::options::Options;
 use crate::powers::sources_at;
 use boresight_core::{Array, Direction};
 
-/// Gauss-Newton steps once nothing is left to remove.
-const STEPS: Limits = Limits { iterations: 10, tolerance: 1e-9 };
-
 /// A refinement prepared for one array.
 pub struct Refinement {
     array: Array,
     geometry: Geometry,
-    shares: Shares,
     nomp: Nomp,
 }
 
@@ -40,10 +34,7 @@ impl Refinement {
     pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
         options.check()?;
         let nomp = Nomp::new(array, options)?;
-        let geometry = Geometry::new(array);
-        let volumes = Volumes::new(array, &geometry, options.elevation_field_of_view_rad);
-        let shares = Shares::new(volumes, &geometry, options.nomp.false_alarm);
-        Ok(Self { array: array.clone(), shares, geometry, nomp })
+        Ok(Self { array: array.clone(), geometry: Geometry::new(array), nomp })
     }
 
     /// Refines `directions`, strongest first, on snapshots or a covariance. Returns the sources that
@@ -64,12 +55,13 @@ impl Refinement {
         let most = self.array.len() / 2;
         let points: Vec<Point> =
             directions.iter().take(most).map(|&d| self.geometry.point(d)).collect();
-        let mut points = self.kept(points, data);
-        if let Data::Snapshots(y) = data
-            && let Some(normalised) = Normalised::new(y)
-        {
-            points = self.nomp.complete(&normalised, points);
-        }
+        let points = match data {
+            Data::Snapshots(y) => match Normalised::new(y) {
+                Some(normalised) => self.nomp.complete(&normalised, points),
+                None => Vec::new(),
+            },
+            Data::Covariance { .. } => self.nomp.prune(points, data),
+        };
         let directions: Vec<Direction> =
             points.iter().map(|&p| self.geometry.direction(p)).collect();
         let mut sources = sources_at(&self.array, &directions, data);
@@ -77,48 +69,21 @@ impl Refinement {
         Ok(sources)
     }
 
-    /// The points that are more than noise, refined.
-    fn kept(&mut self, mut points: Vec<Point>, data: Data<'_>) -> Vec<Point> {
-        let total = total_power(data);
-        let mut refined = false;
-        loop {
-            let Some(fit) = Fit::new(&self.geometry, &points, data, total) else {
-                // Two of them cannot be told apart: the weaker one is none.
-                match self.closest(&points) {
-                    Some(weaker) => points.remove(weaker),
-                    None => return points,
-                };
-                continue;
-            };
-            let gains = fit.gains();
-            let weakest = (0..gains.len()).min_by(|&a, &b| gains[a].total_cmp(&gains[b]));
-            let Some(weakest) = weakest else { return points };
-            let left = fit.residual.max(0.0) + gains[weakest];
-            let share = self.shares.after(points.len() - 1, data.snapshots());
-            let is_source = share.is_some_and(|least| gains[weakest] > least * left);
-            if !is_source {
-                points.remove(weakest);
-                refined = false;
-            } else if refined {
-                return points;
-            } else {
-                points = refine_points(&self.geometry, points, data, STEPS).0;
-                refined = true;
-            }
+    /// Puts the refined sources in place of those of an estimate; its spectrum stays as it is.
+    pub(crate) fn apply(
+        &mut self,
+        estimate: &mut Estimate,
+        data: Data<'_>,
+    ) -> Result<(), AoaError> {
+        let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
+        estimate.sources = self.refine(&directions, data)?;
+        estimate.sources.sort_by(|a, b| b.power.total_cmp(&a.power));
+        let nothing = estimate.sources.is_empty();
+        estimate.resolved &= !nothing;
+        estimate.warnings.retain(|warning| *warning != Warning::NoSources);
+        if nothing {
+            estimate.warnings.push(Warning::NoSources);
         }
-    }
-
-    /// The later of the two closest points; nothing where there are no two.
-    fn closest(&self, points: &[Point]) -> Option<usize> {
-        let mut closest = None;
-        for (later, &b) in points.iter().enumerate() {
-            for &a in &points[..later] {
-                let distance = self.geometry.distance(a, b);
-                if closest.is_none_or(|(least, _)| distance < least) {
-                    closest = Some((distance, later));
-                }
-            }
-        }
-        closest.map(|(_, later)| later)
+        Ok(())
     }
 }

@@ -114,3 +114,30 @@ fn nothing_one_place_and_wrong_data() {
     let wrong = Options { dynamic_range_db: -1.0, ..Options::default() };
     assert!(Refinement::new(&array, &wrong).is_err());
 }
+
+#[test]
+fn as_an_option_of_every_method() {
+    let array = preset("ula16").unwrap();
+    let at = [Direction::azimuth(-0.3), Direction::azimuth(0.35)];
+    let s = Array2::from_shape_fn((2, 40), |(i, n)| cis((n * n + 3 * i * n) as f64));
+    let many = steering_matrix(&array, &at).dot(&s);
+    for method in Method::ALL {
+        let snapshots = method.requirements().max_snapshots.unwrap_or(40);
+        let y = many.slice(ndarray::s![.., ..snapshots]);
+        let options = Options { refine: true, grid_points: 256, ..Options::default() };
+        let mut estimator = Estimator::new(method, &array, &options).unwrap();
+        let estimate = estimator.estimate(Data::Snapshots(y)).unwrap();
+        let mut found: Vec<f64> =
+            estimate.sources.iter().map(|s| s.direction.azimuth_rad).collect();
+        found.sort_by(f64::total_cmp);
+        assert_eq!(found.len(), 2, "{}: {found:?}", method.name());
+        for (found, at) in found.iter().zip(&at) {
+            assert!((found - at.azimuth_rad).abs() < 1e-7, "{}: {found}", method.name());
+        }
+        let mut silent = estimator.estimate(Data::Snapshots((&y * 0.0).view())).unwrap();
+        assert!(!silent.resolved && silent.sources.is_empty(), "{}", method.name());
+        silent.warnings.dedup();
+        let nothing = silent.warnings.iter().filter(|w| w.code() == "no-sources").count();
+        assert_eq!(nothing, 1, "{}: {:?}", method.name(), silent.warnings);
+    }
+}

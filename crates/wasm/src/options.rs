@@ -53,6 +53,7 @@ pub fn read_options(fields: &mut Fields) -> Fallible<Options> {
     if let Some(fields) = fields.object("nomp")? {
         read_nomp(fields, &mut options.nomp)?;
     }
+    fields.update("refine", &mut options.refine)?;
     fields.update("maxIterations", &mut options.max_iterations)?;
     fields.update("tolerance", &mut options.tolerance)?;
     Ok(options)

@@ -16,6 +16,7 @@
 //! the beams after it could pass, and counts as a source once one of them has passed.
 
 mod newton;
+mod polish;
 
 use crate::checks::{ambiguity, check_array, conclude};
 use crate::cosines::{Geometry, Point};
@@ -24,7 +25,6 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Warning};
 use crate::estimator::Plan;
 use crate::false_alarm::{Shares, Volumes};
-use crate::gauss_newton::{Limits, refine_points};
 use crate::grid::Grid;
 use crate::method::Method;
 use crate::normalised::Normalised;
@@ -44,9 +44,6 @@ const MAX_ELEVATIONS: usize = 1 << 7;
 
 /// Share of the power below which the residual is nothing but rounding.
 const EXHAUSTED: f64 = 1e-24;
-
-/// Gauss-Newton steps over all sources at the end.
-const POLISH: Limits = Limits { iterations: 10, tolerance: 1e-8 };
 
 /// NOMP prepared for one array.
 pub(crate) struct Nomp {
@@ -289,59 +286,6 @@ fn add_source(
     sum
 }
 
-impl Nomp {
-    /// Sources in snapshots that stand out beside those at `start`, and these, refined
-    /// together.
-    pub fn complete(&mut self, normalised: &Normalised, start: Vec<Point>) -> Vec<Point> {
-        let y = &normalised.snapshots;
-        let noise_power = self.options.noise_power.map(|power| normalised.power_in(power));
-        let fitted = self.pursue(y, start, noise_power).0;
-        self.polish(y, fitted.points, noise_power)
-    }
-
-    /// Gauss-Newton steps on all sources, and one source in place of two that stand within half a
-    /// beam of each other where that costs no more than noise gains: such a pair is often one source
-    /// and what an earlier, inexact fit of it had left, grown to two large amplitudes that cancel.
-    fn polish(
-        &mut self,
-        y: &Array2<Complex64>,
-        points: Vec<Point>,
-        noise_power: Option<f64>,
-    ) -> Vec<Point> {
-        if points.is_empty() {
-            return points;
-        }
-        let data = Data::Snapshots(y.view());
-        let (mut points, mut outcome) = refine_points(&self.geometry, points, data, POLISH);
-        let mut kept: Vec<(Point, Point)> = Vec::new();
-        while let Some((i, k)) = self.close_pair(&points, &kept) {
-            let mut fewer = points.clone();
-            let second = fewer.remove(k);
-            fewer[i] = [0, 1].map(|axis| 0.5 * (fewer[i][axis] + second[axis]));
-            let (fewer, merged) = refine_points(&self.geometry, fewer, data, POLISH);
-            let (before, after) = (merged.residual_power, outcome.residual_power);
-            let snapshots = y.ncols();
-            let energies = [before - after, before].map(|power| power * snapshots as f64);
-            let found = fewer.len();
-            if self.is_source(energies[0], energies[1], found, snapshots, noise_power) {
-                kept.push((points[i], points[k]));
-            } else {
-                (points, outcome) = (fewer, merged);
-            }
-        }
-        points
-    }
-
-    /// Two sources within half a beam of each other, the earlier first, other than those in `kept`.
-    fn close_pair(&self, points: &[Point], kept: &[(Point, Point)]) -> Option<(usize, usize)> {
-        let half_beam = self.geometry.half_beam();
-        let close = |i: usize, k: usize| self.geometry.distance(points[i], points[k]) < half_beam;
-        (1..points.len())
-            .flat_map(|k| (0..k).map(move |i| (i, k)))
-            .find(|&(i, k)| close(i, k) && !kept.contains(&(points[i], points[k])))
-    }
-}
-
 impl Plan for Nomp {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
         let method = Method::Nomp;
@@ -360,7 +304,7 @@ impl Plan for Nomp {
             warnings.push(Warning::NotConverged { iterations: found });
         }
         let scaled = Data::Snapshots(y.view());
-        let points = self.polish(y, fitted.points, noise_power);
+        let points = self.polish(fitted.points, scaled, noise_power);
         let directions: Vec<Direction> =
             points.iter().map(|&p| self.geometry.direction(p)).collect();
         let sources: Vec<Source> = sources_at(&self.array, &directions, scaled)

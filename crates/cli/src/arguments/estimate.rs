@@ -84,6 +84,10 @@ pub struct AngleArguments {
     /// Most angles in a cell.
     #[arg(long, value_name = "N", default_value_t = 16)]
     pub max_peaks: usize,
+    /// Refine the angles on the matched model by Gauss-Newton: drop what noise explains, add what was
+    /// missed.
+    #[arg(long)]
+    pub refine: bool,
 }
 
 /// Options of the chain.

@@ -32,6 +32,7 @@ pub fn angle_options(arguments: &AngleArguments) -> Result<(Method, Options), Cl
         loading: arguments.loading,
         dynamic_range_db: arguments.dynamic_range,
         max_peaks: arguments.max_peaks,
+        refine: arguments.refine,
         ..Options::default()
     };
     Ok((Method::from_name(&arguments.method)?, options))

@@ -86,6 +86,7 @@ export function estimatorOptions(method: Method, state: AngleState): EstimatorOp
     sources: state.sources === 'known' ? state.targets.length : state.sources,
     gridPoints: state.grid,
     ...(state.average ? { forwardBackward: true } : {}),
+    ...(state.refine ? { refine: true } : {}),
     ...(state.smoothing > 1 ? { smoothing: state.smoothing } : {}),
     ...(state.sources === 'known' ? { maxPeaks: Math.max(state.targets.length, 1) } : {}),
   };

@@ -51,6 +51,9 @@ export function Controls() {
         <CheckField label="Forward-backward averaging" name="average" value={state.average}
           help="Averages the covariance with its mirror image, which decorrelates coherent targets on symmetric arrays."
           onChange={(average) => update({ average })} />
+        <CheckField label="Refine by Gauss-Newton" name="refine" value={state.refine}
+          help="Fits all angles of a method together to the data: drops those that noise explains, adds what was missed."
+          onChange={(refine) => update({ refine })} />
         <NumberField label="Smoothing subarray" name="smoothing" integer value={state.smoothing} min={0} max={LIMITS.elements[1]}
           help="Elements of the subarrays that spatial smoothing averages over; 0 for none. Uniform arrays only."
           onChange={(smoothing) => update({ smoothing })} />

@@ -55,6 +55,7 @@ export const angleCodec = codec({
   methods: names<Method>(['bartlett', 'capon', 'music', 'root-music'], METHODS),
   grid: number(1024, LIMITS.gridPoints, 'integer'),
   average: flag(false),
+  refine: flag(false),
   smoothing: number(0, [0, LIMITS.elements[1]], 'integer'),
 }, ['array', 'targets', 'snr', 'snapshots', 'seed', 'methods']);
 

@@ -1,0 +1,128 @@
+//! What becomes of the sources that were pursued, or given: all of them refined together, without
+//! those that noise explains.
+
+use super::{EXHAUSTED, Nomp};
+use crate::cosines::Point;
+use crate::data::Data;
+use crate::gauss_newton::{Fit, Limits, refine_points, total_power};
+use crate::normalised::Normalised;
+
+/// Gauss-Newton steps over all sources.
+const STEPS: Limits = Limits { iterations: 10, tolerance: 1e-8 };
+
+impl Nomp {
+    /// Those of `start` that are more than noise, and the sources that stand out beside them,
+    /// refined together.
+    pub fn complete(&mut self, normalised: &Normalised, start: Vec<Point>) -> Vec<Point> {
+        let y = &normalised.snapshots;
+        let data = Data::Snapshots(y.view());
+        let noise_power = self.options.noise_power.map(|power| normalised.power_in(power));
+        let start = self.without_noise(start, data, noise_power);
+        let (fitted, _) = self.pursue(y, start, noise_power);
+        self.polish(fitted.points, data, noise_power)
+    }
+
+    /// Those of the points that are more than noise, refined together.
+    pub fn prune(&mut self, points: Vec<Point>, data: Data<'_>) -> Vec<Point> {
+        self.without_noise(points, data, self.options.noise_power)
+    }
+
+    /// Refined, merged and without noise.
+    pub(super) fn polish(
+        &mut self,
+        points: Vec<Point>,
+        data: Data<'_>,
+        noise_power: Option<f64>,
+    ) -> Vec<Point> {
+        let points = self.merged(points, data, noise_power);
+        self.without_noise(points, data, noise_power)
+    }
+
+    /// Removes, one by one, the source whose removal costs least, as long as noise would gain as
+    /// much; the rest is refined and tested again.
+    fn without_noise(
+        &mut self,
+        mut points: Vec<Point>,
+        data: Data<'_>,
+        noise_power: Option<f64>,
+    ) -> Vec<Point> {
+        let snapshots = data.snapshots();
+        let total = total_power(data);
+        let mut refined = false;
+        while !points.is_empty() {
+            let Some(fit) = Fit::new(&self.geometry, &points, data, total) else {
+                // Two of them cannot be told apart: the weaker one is none.
+                let closest = self.closest(&points, f64::INFINITY, &[]);
+                points.remove(closest.map_or(points.len() - 1, |(_, later)| later));
+                continue;
+            };
+            let gains = fit.gains().into_iter().enumerate();
+            let Some((weakest, gain)) = gains.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let left = fit.residual.max(0.0) + gain;
+            let energies = [gain, left].map(|power| power * snapshots as f64);
+            let is_source = gain > EXHAUSTED * total
+                && self.is_source(
+                    energies[0],
+                    energies[1],
+                    points.len() - 1,
+                    snapshots,
+                    noise_power,
+                );
+            if !is_source {
+                points.remove(weakest);
+                refined = false;
+            } else if refined {
+                break;
+            } else {
+                points = refine_points(&self.geometry, points, data, STEPS).0;
+                refined = true;
+            }
+        }
+        points
+    }
+
+    /// Refined, with one source in place of two that stand within half a beam of each other where
+    /// that costs no more than noise gains: such a pair is often one source and what an earlier,
+    /// inexact fit of it had left, grown to two large amplitudes that cancel.
+    fn merged(
+        &mut self,
+        points: Vec<Point>,
+        data: Data<'_>,
+        noise_power: Option<f64>,
+    ) -> Vec<Point> {
+        let snapshots = data.snapshots();
+        let (mut points, mut outcome) = refine_points(&self.geometry, points, data, STEPS);
+        let mut kept: Vec<(Point, Point)> = Vec::new();
+        while let Some((i, k)) = self.closest(&points, self.geometry.half_beam(), &kept) {
+            let mut fewer = points.clone();
+            let second = fewer.remove(k);
+            fewer[i] = [0, 1].map(|axis| 0.5 * (fewer[i][axis] + second[axis]));
+            let (fewer, merged) = refine_points(&self.geometry, fewer, data, STEPS);
+            let gain = merged.residual_power - outcome.residual_power;
+            let energies = [gain, merged.residual_power].map(|power| power * snapshots as f64);
+            if self.is_source(energies[0], energies[1], fewer.len(), snapshots, noise_power) {
+                kept.push((points[i], points[k]));
+            } else {
+                (points, outcome) = (fewer, merged);
+            }
+        }
+        points
+    }
+
+    /// The two closest points less than `within` apart, the earlier first, but none of the pairs in
+    /// `but`.
+    fn closest(
+        &self,
+        points: &[Point],
+        within: f64,
+        but: &[(Point, Point)],
+    ) -> Option<(usize, usize)> {
+        (0..points.len())
+            .flat_map(|k| (0..k).map(move |i| (i, k)))
+            .filter(|&(i, k)| !but.contains(&(points[i], points[k])))
+            .map(|(i, k)| (self.geometry.distance(points[i], points[k]), (i, k)))
+            .filter(|(distance, _)| *distance < within)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, pair)| pair)
+    }
+}
