@@ -4,6 +4,7 @@ use crate::cube::{CubeOptions, CubeTarget, Field, simulate_cube};
 use crate::drive::{DriveOptions, Scenario, simulate_drive};
 use crate::error::SimulateError;
 use crate::snapshots::{Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator};
+use crate::street::{Street, StreetOptions};
 use crate::waveforms::waveform_awr1642;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
@@ -17,6 +18,9 @@ pub const REFERENCE_CUBE: u64 = 0xb0e4_f2ee_454c_6c6e;
 
 /// What [`reference_drive`] returns on every platform.
 pub const REFERENCE_DRIVE: u64 = 0x39e9_07b6_0d8a_cd56;
+
+/// What [`reference_street`] returns on every platform.
+pub const REFERENCE_STREET: u64 = 0xd292_cf4a_9c81_f565;
 
 /// FNV-1a over the bytes, low first, of the numbers' bits.
 pub fn fnv1a(bits: impl IntoIterator<Item = u64>) -> u64 {
@@ -92,6 +96,19 @@ pub fn reference_drive() -> Result<u64, SimulateError> {
     })
 }
 
+/// Digest of a small frame of one radar of a street.
+///
+/// # Errors
+/// None, unless the simulator is broken.
+pub fn reference_street() -> Result<u64, SimulateError> {
+    let mut street = Street::new(StreetOptions { seed: 3, ..StreetOptions::default() })?;
+    street.radars[1].waveform.loops = 2;
+    let (cube, targets) = street.cube(1)?;
+    let samples = cube.iter().flat_map(|z| [z.re, z.im].map(|x| u64::from(x.to_bits())));
+    let rates = targets.iter().map(|target| target.echo.rate_mps.to_bits());
+    Ok(fnv1a(samples.chain(rates)))
+}
+
 /// Digest of all that a drive's log holds.
 ///
 /// # Errors
@@ -132,6 +149,12 @@ mod tests {
     fn drives_have_the_bits_they_always_had() {
         let digest = reference_drive().unwrap();
         assert_eq!(digest, REFERENCE_DRIVE, "{digest:#x}");
+    }
+
+    #[test]
+    fn streets_have_the_bits_they_always_had() {
+        let digest = reference_street().unwrap();
+        assert_eq!(digest, REFERENCE_STREET, "{digest:#x}");
     }
 
     /// Test vector of the FNV authors: the empty string, and "a".

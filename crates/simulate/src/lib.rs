@@ -1,5 +1,5 @@
 //! Seeded simulation of what a radar's array receives: snapshots of scenes, and FMCW data cubes;
-//! and of drives, as Doppler point clouds.
+//! a street around a car with four radars, and drives as Doppler point clouds.
 //! The same seed gives the same bits natively and in wasm.
 
 pub mod cube;
@@ -7,6 +7,7 @@ pub mod digest;
 pub mod drive;
 pub mod error;
 pub mod snapshots;
+pub mod street;
 pub mod waveforms;
 
 pub use cube::{CubeOptions, CubeTarget, Field, simulate_cube};
@@ -15,4 +16,7 @@ pub use error::SimulateError;
 pub use snapshots::{
     Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Snapshots, Target,
 };
-pub use waveforms::{waveform_3dcnn_experiment, waveform_3dcnn_simulated, waveform_awr1642};
+pub use street::{Street, StreetOptions, StreetRadar, VisibleTarget};
+pub use waveforms::{
+    waveform_3dcnn_experiment, waveform_3dcnn_simulated, waveform_awr1642, waveform_corner,
+};

@@ -54,6 +54,22 @@ pub fn waveform_awr1642() -> Waveform {
     }
 }
 
+/// A corner radar of six transmitters in turn: 256 samples over 375 MHz and 128 loops, so 0.4 m and
+/// 0.2 m/s a bin, unambiguous to 102 m and +-13 m/s.
+pub fn waveform_corner() -> Waveform {
+    Waveform {
+        start_frequency_hz: 76.5e9,
+        slope_hz_per_s: 375e6 / 10.24e-6,
+        sample_rate_hz: 25e6,
+        samples: 256,
+        adc_start_s: 1e-6,
+        chirp_interval_s: 12.5e-6,
+        transmitters: 6,
+        loops: 128,
+        frame_interval_s: 50e-3,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,6 +80,7 @@ mod tests {
             (waveform_3dcnn_simulated(), 0.15e9, 0.9993),
             (waveform_3dcnn_experiment(), 3.5e9, 0.04283),
             (waveform_awr1642(), 2.949e9, 0.0508),
+            (waveform_corner(), 0.375e9, 0.3997),
         ] {
             waveform.check().unwrap();
             assert!((waveform.bandwidth_hz() / bandwidth_hz - 1.0).abs() < 1e-3);

@@ -1,0 +1,189 @@
+//! A street around a car with four radars: parked and moving cars, a wall, a guard rail, poles and
+//! people as points that scatter, of which each radar's data cubes are made. Bit for bit the same
+//! natively and in wasm.
+
+mod layout;
+mod view;
+
+pub use view::VisibleTarget;
+
+use crate::cube::{CubeOptions, simulate_cube};
+use crate::error::SimulateError;
+use crate::waveforms::waveform_corner;
+use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
+use boresight_core::error::check_range;
+use boresight_core::presets::preset;
+use boresight_core::{Complex32, Random, Waveform};
+use ndarray::Array5;
+use std::f64::consts::FRAC_PI_3;
+
+/// Names of the radars, by the way they look.
+pub const STREET_RADARS: [&str; 4] = ["right", "front-right", "front-left", "left"];
+
+/// Power of a 0 dB target over the noise, both of a raw sample, dB. With the powers of
+/// [`VisibleTarget`], 1 m^2 at 40 m stands 20 dB above the noise in its range-Doppler cell under
+/// Hann windows.
+pub const STREET_SNR_DB: f64 = 38.0;
+
+/// What a street is made from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StreetOptions {
+    /// The things in it come from stream 0 of this seed, the cube of radar `i` from one that stream
+    /// `i + 1` gives.
+    pub seed: u64,
+    /// Speed of the car along x, m/s. What stands still spreads over Doppler with it.
+    pub ego_speed_mps: f64,
+}
+
+impl Default for StreetOptions {
+    fn default() -> Self {
+        Self { seed: 0, ego_speed_mps: 6.0 }
+    }
+}
+
+/// What a point belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StreetKind {
+    /// A car at the kerb.
+    ParkedCar,
+    /// A rail on posts, over which radars see.
+    GuardRail,
+    /// House fronts.
+    Wall,
+    /// A lamp post or a tree.
+    Pole,
+    /// Somebody on foot.
+    Pedestrian,
+    /// A car that drives.
+    Vehicle,
+}
+
+impl StreetKind {
+    /// Its name in kebab case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ParkedCar => "parked-car",
+            Self::GuardRail => "guard-rail",
+            Self::Wall => "wall",
+            Self::Pole => "pole",
+            Self::Pedestrian => "pedestrian",
+            Self::Vehicle => "vehicle",
+        }
+    }
+
+    /// Loss of what lies behind it, dB: under and over a car some power gets through.
+    fn loss_db(self) -> Option<f64> {
+        match self {
+            Self::ParkedCar | Self::Vehicle => Some(10.0),
+            Self::Wall => Some(40.0),
+            Self::GuardRail | Self::Pole | Self::Pedestrian => None,
+        }
+    }
+}
+
+/// A point that scatters, in the car's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StreetTarget {
+    /// Ahead of the rear axle, m.
+    pub x_m: f64,
+    /// Left of the centre line, m.
+    pub y_m: f64,
+    /// Velocity over ground, m/s.
+    pub velocity_mps: [f64; 2],
+    /// Radar cross-section, dBsm.
+    pub rcs_dbsm: f64,
+    /// What it belongs to.
+    pub kind: StreetKind,
+    /// Index of that thing's outline.
+    pub outline: usize,
+}
+
+/// The shape of a thing on the ground.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StreetOutline {
+    /// What it is.
+    pub kind: StreetKind,
+    /// Corners in the car's frame, m: of a polygon, the two ends of a line, or one point.
+    pub corners_m: Vec<[f64; 2]>,
+}
+
+/// A radar on the car.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StreetRadar {
+    /// One of [`STREET_RADARS`].
+    pub name: &'static str,
+    /// Its place and direction.
+    pub mounting: Mounting,
+    /// Name of its array.
+    pub array: &'static str,
+    /// Its waveform.
+    pub waveform: Waveform,
+    /// Half width of what it sees, rad.
+    pub field_of_view_rad: f64,
+}
+
+/// The street at the start of a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Street {
+    options: StreetOptions,
+    /// The car's radars, mounted as those of the `RadarScenes` car.
+    pub radars: Vec<StreetRadar>,
+    /// All points.
+    pub targets: Vec<StreetTarget>,
+    /// All things.
+    pub outlines: Vec<StreetOutline>,
+}
+
+impl Street {
+    /// Lays out a street.
+    ///
+    /// # Errors
+    /// [`boresight_core::CoreError::OutOfRange`] for a speed beyond 30 m/s either way.
+    pub fn new(options: StreetOptions) -> Result<Self, SimulateError> {
+        check_range("ego_speed_mps", options.ego_speed_mps, -30.0, 30.0)?;
+        let radar = |(name, (_, mounting)): (&'static str, (u8, Mounting))| StreetRadar {
+            name,
+            mounting,
+            array: "lrr48",
+            waveform: waveform_corner(),
+            field_of_view_rad: FRAC_PI_3,
+        };
+        let radars = STREET_RADARS.into_iter().zip(RADARSCENES_SENSORS).map(radar).collect();
+        let (targets, outlines) = layout::layout(&mut Random::new(options.seed, 0));
+        Ok(Self { options, radars, targets, outlines })
+    }
+
+    /// The options.
+    pub fn options(&self) -> &StreetOptions {
+        &self.options
+    }
+
+    /// Points that radar `radar` (an index) sees: in its field of view, in no deep shadow.
+    ///
+    /// # Errors
+    /// [`boresight_core::CoreError::OutOfRange`] for a radar there is not.
+    pub fn visible(&self, radar: usize) -> Result<Vec<VisibleTarget>, SimulateError> {
+        check_range("radar", radar as f64, 0.0, self.radars.len() as f64 - 1.0)?;
+        Ok(view::visible(self, &self.radars[radar]))
+    }
+
+    /// A frame of radar `radar` (an index), 1 x loops x transmitters x receivers x samples, of the
+    /// points it sees.
+    ///
+    /// # Errors
+    /// As [`Street::visible`] and [`simulate_cube`].
+    pub fn cube(
+        &self,
+        radar: usize,
+    ) -> Result<(Array5<Complex32>, Vec<VisibleTarget>), SimulateError> {
+        let targets = self.visible(radar)?;
+        let StreetRadar { array, waveform, .. } = self.radars[radar];
+        let options = CubeOptions {
+            snr_db: STREET_SNR_DB,
+            seed: Random::new(self.options.seed, radar as u64 + 1).bits(),
+            ..CubeOptions::default()
+        };
+        let echoes: Vec<_> = targets.iter().map(|target| target.echo).collect();
+        Ok((simulate_cube(&waveform, &preset(array)?, &echoes, &options)?, targets))
+    }
+}
