@@ -3,6 +3,8 @@
 use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
+use boresight_image::ImageError;
+use boresight_pipeline::PipelineError;
 use boresight_simulate::SimulateError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -23,6 +25,12 @@ pub enum EvaluateError {
     /// A calibration refused.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
+    /// Cells cannot be found in a frame.
+    #[error(transparent)]
+    Pipeline(#[from] PipelineError),
+    /// An image cannot be made.
+    #[error(transparent)]
+    Image(#[from] ImageError),
     /// The system refused a file of the output folder.
     #[error("cannot {action} {}: {error}", path.display())]
     File {
@@ -103,6 +111,8 @@ impl Diagnose for EvaluateError {
             Self::Simulate(error) => error.code(),
             Self::Angle(error) => error.code(),
             Self::Calibrate(error) => error.code(),
+            Self::Pipeline(error) => error.code(),
+            Self::Image(error) => error.code(),
             Self::File { .. } => "file",
             Self::OtherRun { .. } => "other-run",
             Self::Record { .. } | Self::Scene { .. } => "malformed-file",
@@ -119,6 +129,8 @@ impl Diagnose for EvaluateError {
             Self::Simulate(error) => error.details(),
             Self::Angle(error) => error.details(),
             Self::Calibrate(error) => error.details(),
+            Self::Pipeline(error) => error.details(),
+            Self::Image(error) => error.details(),
             Self::File { action, path, error } => Details::new(
                 path.display().to_string(),
                 format!("a path that can be {action}"),

@@ -8,6 +8,7 @@ pub mod calibration;
 pub mod error;
 pub mod experiment;
 mod merge;
+pub mod images;
 mod plot;
 pub mod statistics;
 pub mod sweep;

@@ -16,7 +16,7 @@ const CAPON_LOADING: f64 = 0.1;
 /// Options under which a cell's spectrum gives sources only. The conventional beamformer, and
 /// Capon's with its loading, show each source with the sidelobes of the array; what lies below the
 /// highest of them, and a margin, is not reported. Other methods keep their dynamic range.
-pub(crate) fn suited(method: Method, array: &Array, options: &Options) -> Options {
+pub fn suited(method: Method, array: &Array, options: &Options) -> Options {
     let mut options = *options;
     if method == Method::Capon && options.loading == 0.0 {
         options.loading = CAPON_LOADING;

@@ -15,6 +15,7 @@ mod result;
 mod source;
 mod warnings;
 
+pub use beam::suited;
 pub use chain::Chain;
 pub use error::PipelineError;
 pub use options::{ChainOptions, usable_range_m};
