@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::imperfections::ImperfectionSpread;
+use boresight_core::presets::preset;
 use boresight_evaluate::EvaluateError;
-use boresight_evaluate::aoa::{Options, Report, SNRS_DB, TARGETS};
+use boresight_evaluate::aoa::{Options, Report, SNRS_DB, TARGETS, default_methods};
 use boresight_evaluate::experiment::{self, How, Report as _};
 use std::ops::ControlFlow;
 
@@ -18,6 +19,7 @@ fn options(array: &str) -> Options {
         trials: 8,
         seed: 1,
         imperfections: ImperfectionSpread::default(),
+        methods: default_methods(&preset(array).unwrap()),
     }
 }
 
@@ -64,7 +66,15 @@ fn methods_score_in_the_known_order_whatever_the_threads() {
 fn uniform_arrays_add_what_needs_one_and_unknown_ones_are_refused() {
     let report = run(&options("ula16"), 2).unwrap();
     assert!(report.methods.iter().any(|name| name == "single-snapshot-music"));
-    assert!(run(&options("nothing"), 1).is_err());
+    let named = |array: &str, methods: &[&str]| {
+        let methods = methods.iter().map(|&name| name.into()).collect();
+        run(&Options { array: array.into(), methods, ..options("lrr48") }, 1)
+    };
+    assert!(named("nothing", &["iaa"]).is_err());
+    assert!(named("lrr48", &[]).is_err());
+    assert!(named("lrr48", &["single-snapshot-music"]).is_err());
+    assert!(named("lrr48", &["music"]).is_err());
+    assert!(named("lrr48", &["iaa+sharpened"]).is_err());
     let none = Options { trials: 0, ..options("lrr48") };
     assert!(run(&none, 1).is_err());
 }

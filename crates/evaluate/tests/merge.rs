@@ -47,7 +47,8 @@ fn check<E: Experiment>(options: &E) {
 
 fn aoa_options(seed: u64) -> aoa::Options {
     let imperfections = ImperfectionSpread { phase_rad: 0.1, ..ImperfectionSpread::default() };
-    aoa::Options { array: "ula8".into(), trials: 3, seed, imperfections }
+    let methods = vec!["iaa".into(), "nomp+refined".into()];
+    aoa::Options { array: "ula8".into(), trials: 3, seed, imperfections, methods }
 }
 
 #[test]

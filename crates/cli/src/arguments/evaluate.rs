@@ -74,6 +74,11 @@ pub struct EvaluateAoaArguments {
     /// Array, by name.
     #[arg(long, value_name = "NAME", default_value = "lrr48")]
     pub array: String,
+    /// Methods, separated by commas; NAME+refined for one refined on the matched model. Those that need
+    /// the number of targets are told it. Without it bartlett, capon, iaa, iaa+refined, nomp and, on
+    /// evenly spaced arrays, single-snapshot-music.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub methods: Vec<String>,
     /// What is wrong with the array.
     #[command(flatten)]
     pub imperfections: ImperfectionArguments,

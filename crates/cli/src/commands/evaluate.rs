@@ -6,6 +6,7 @@ use crate::files;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_core::CoreError;
+use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Experiment, How};
 use boresight_evaluate::{Outcome, aoa, calibration, merge};
 use std::path::Path;
@@ -15,8 +16,13 @@ use std::time::Instant;
 pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
     match what {
         EvaluateCommand::Aoa(arguments) => {
+            let methods = match arguments.methods.is_empty() {
+                true => aoa::default_methods(&preset(&arguments.array)?),
+                false => arguments.methods.clone(),
+            };
             let options = aoa::Options {
                 array: arguments.array.clone(),
+                methods,
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
                 imperfections: arguments.imperfections.spread(),

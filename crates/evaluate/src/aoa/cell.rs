@@ -1,16 +1,18 @@
 //! The snapshots of one condition through every method.
 
 use super::score::{Point, Score};
-use super::{Condition, Options};
+use super::{Condition, Options, TARGETS};
 use crate::EvaluateError;
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::refinement::Refinement;
-use boresight_aoa::{Data, Estimate, Estimator, Method, Options as AngleOptions};
+use boresight_aoa::{
+    AoaError, Data, Estimate, Estimator, Method, Options as AngleOptions, SourceCount,
+};
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
 use boresight_core::steering::cis;
 use boresight_core::units::{db_to_amplitude, db_to_power};
-use boresight_core::{Array, Complex64, Direction, Imperfections};
+use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections};
 use boresight_simulate::snapshots::{
     Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Target,
 };
@@ -23,12 +25,47 @@ const FIELD_OF_VIEW_RAD: f64 = 1.047_197_551_196_597_6;
 const SEPARATED_BEAMS: f64 = 2.0;
 /// Most predictions of a snapshot.
 const MOST: usize = 64;
+/// What follows the name of a method whose sources are refined.
+const REFINED: &str = "+refined";
 
 /// A method, and whether its directions are refined on the snapshot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Candidate {
     method: Method,
     refined: bool,
+}
+
+impl Candidate {
+    fn from_name(name: &str) -> Result<Self, EvaluateError> {
+        let method = name.strip_suffix(REFINED);
+        Ok(Self { method: Method::from_name(method.unwrap_or(name))?, refined: method.is_some() })
+    }
+
+    fn name(&self) -> String {
+        format!("{}{}", self.method.name(), if self.refined { REFINED } else { "" })
+    }
+
+    /// For `targets` targets, or as many as the method can find.
+    fn estimator(&self, array: &Array, targets: usize) -> Result<Estimator, AoaError> {
+        match Estimator::new(self.method, array, &angle_options(targets)) {
+            Err(AoaError::TooManySources { most, .. }) => {
+                Estimator::new(self.method, array, &angle_options(most))
+            }
+            result => result,
+        }
+    }
+}
+
+/// All predictions, so that their power can be swept.
+fn angle_options(targets: usize) -> AngleOptions {
+    AngleOptions {
+        grid_points: 2048,
+        field_of_view_rad: FIELD_OF_VIEW_RAD,
+        dynamic_range_db: 40.0,
+        max_peaks: MOST,
+        sources: SourceCount::Known(targets),
+        ..AngleOptions::default()
+    }
 }
 
 /// What of a condition is kept for one method.
@@ -67,16 +104,24 @@ impl Plan {
     /// An array that is not known.
     pub fn new(options: &Options) -> Result<Self, EvaluateError> {
         let array = preset(&options.array)?;
-        let plain = |method| Candidate { method, refined: false };
-        let refined = |method| Candidate { method, refined: true };
-        let mut candidates = vec![
-            plain(Method::Bartlett),
-            plain(Method::Iaa),
-            refined(Method::Iaa),
-            plain(Method::Nomp),
-        ];
-        if Estimator::new(Method::SingleSnapshotMusic, &array, &angle_options()).is_ok() {
-            candidates.push(plain(Method::SingleSnapshotMusic));
+        let mut candidates = vec![];
+        for name in &options.methods {
+            let candidate = Candidate::from_name(name)?;
+            // Whether it takes the array, one snapshot and the most targets, before anything is run.
+            let silence = Array2::zeros((array.len(), 1));
+            candidate
+                .estimator(&array, TARGETS[TARGETS.len() - 1])?
+                .estimate(Data::Snapshots(silence.view()))?;
+            if !candidates.contains(&candidate) {
+                candidates.push(candidate);
+            }
+        }
+        if candidates.is_empty() {
+            return Err(CoreError::Empty {
+                what: "methods".into(),
+                expected: "at least one".into(),
+            }
+            .into());
         }
         let across: Vec<f64> = array.positions().iter().map(|position| position[1]).collect();
         let aperture = across.iter().copied().fold(f64::NEG_INFINITY, f64::max)
@@ -89,11 +134,7 @@ impl Plan {
 
     /// Names of the methods in order.
     pub fn names(&self) -> Vec<String> {
-        let title = |candidate: &Candidate| {
-            let method = candidate.method.name();
-            if candidate.refined { format!("{method}, refined") } else { method.into() }
-        };
-        self.candidates.iter().map(title).collect()
+        self.candidates.iter().map(Candidate::name).collect()
     }
 
     /// Runs snapshots `first` to `first + trials - 1` of a condition.
@@ -108,12 +149,13 @@ impl Plan {
         trials: u64,
     ) -> Result<Record, EvaluateError> {
         let noise_power = db_to_power(-condition.snr_db);
-        let options = angle_options();
-        let mut estimators = vec![];
-        for candidate in self.candidates.iter().filter(|candidate| !candidate.refined) {
-            estimators.push(Estimator::new(candidate.method, &self.array, &options)?);
+        let mut estimators: Vec<Estimator> = vec![];
+        for candidate in &self.candidates {
+            if !estimators.iter().any(|known| known.method() == candidate.method) {
+                estimators.push(candidate.estimator(&self.array, condition.targets)?);
+            }
         }
-        let mut refinement = Refinement::new(&self.array, &options)?;
+        let mut refinement = Refinement::new(&self.array, &angle_options(condition.targets))?;
         let mut methods = vec![MethodRecord::default(); self.candidates.len()];
         for trial in first..first + trials {
             let (y, truth) = self.scene(index, condition, trial)?;
@@ -225,16 +267,5 @@ impl Plan {
                 record.separated.2 += 1;
             }
         }
-    }
-}
-
-/// Options of every method: all predictions, so that their power can be swept.
-fn angle_options() -> AngleOptions {
-    AngleOptions {
-        grid_points: 2048,
-        field_of_view_rad: FIELD_OF_VIEW_RAD,
-        dynamic_range_db: 40.0,
-        max_peaks: MOST,
-        ..AngleOptions::default()
     }
 }

@@ -10,6 +10,7 @@ pub use score::Score;
 
 use crate::EvaluateError;
 use crate::experiment::Experiment;
+use boresight_core::Array;
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,18 @@ pub struct Options {
     pub seed: u64,
     /// Errors of the array that no method knows of.
     pub imperfections: ImperfectionSpread,
+    /// Methods by name, with `+refined` for those whose sources are refined on the snapshot. Methods
+    /// that need the number of sources are told it.
+    pub methods: Vec<String>,
+}
+
+/// Methods that are run if none are named: those quick enough for many snapshots.
+pub fn default_methods(array: &Array) -> Vec<String> {
+    let mut names = vec!["bartlett", "capon", "iaa", "iaa+refined", "nomp"];
+    if array.is_uniform() {
+        names.push("single-snapshot-music");
+    }
+    names.into_iter().map(String::from).collect()
 }
 
 /// Number of targets and signal-to-noise ratio.
