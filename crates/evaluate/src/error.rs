@@ -5,6 +5,7 @@ use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_image::ImageError;
 use boresight_pipeline::PipelineError;
+use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -19,6 +20,9 @@ pub enum EvaluateError {
     /// A scene cannot be simulated.
     #[error(transparent)]
     Simulate(#[from] SimulateError),
+    /// Signal processing refused.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
     /// An estimator of angles refused.
     #[error(transparent)]
     Angle(#[from] AoaError),
@@ -109,6 +113,7 @@ impl Diagnose for EvaluateError {
         match self {
             Self::Core(error) => error.code(),
             Self::Simulate(error) => error.code(),
+            Self::Signal(error) => error.code(),
             Self::Angle(error) => error.code(),
             Self::Calibrate(error) => error.code(),
             Self::Pipeline(error) => error.code(),
@@ -127,6 +132,7 @@ impl Diagnose for EvaluateError {
         match self {
             Self::Core(error) => error.details(),
             Self::Simulate(error) => error.details(),
+            Self::Signal(error) => error.details(),
             Self::Angle(error) => error.details(),
             Self::Calibrate(error) => error.details(),
             Self::Pipeline(error) => error.details(),

@@ -5,14 +5,18 @@
 
 pub mod aoa;
 pub mod calibration;
+pub mod doa;
 pub mod error;
 pub mod experiment;
+pub mod imperfections;
 mod merge;
 pub mod images;
 mod plot;
+pub mod resolution;
 pub mod statistics;
 pub mod sweep;
 mod table;
+mod told;
 
 pub use error::EvaluateError;
 pub use merge::{Outcome, merge};

@@ -3,7 +3,10 @@
 use crate::EvaluateError;
 use crate::aoa;
 use crate::calibration;
+use crate::doa;
 use crate::experiment::{Experiment, Report, setup};
+use crate::imperfections;
+use crate::resolution;
 use crate::sweep::{self, Line, Part};
 use boresight_core::CoreError;
 use serde_json::Value;
@@ -61,9 +64,12 @@ pub fn merge(sources: &[PathBuf], folder: &Path) -> Result<Outcome, EvaluateErro
     match name {
         aoa::Options::NAME => merge_as::<aoa::Options>(gathered, folder),
         calibration::Options::NAME => merge_as::<calibration::Options>(gathered, folder),
+        doa::Options::NAME => merge_as::<doa::Options>(gathered, folder),
+        imperfections::Options::NAME => merge_as::<imperfections::Options>(gathered, folder),
+        resolution::Options::NAME => merge_as::<resolution::Options>(gathered, folder),
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", gathered.first.display()),
-            expected: [aoa::Options::NAME, calibration::Options::NAME].join(", "),
+            expected: "aoa, calibration, doa, imperfections, resolution".into(),
             given: name.into(),
         }
         .into()),

@@ -2,7 +2,7 @@
 
 use super::ImperfectionArguments;
 use boresight_evaluate::sweep::Part;
-use clap::{ArgGroup, Args, Subcommand};
+use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Experiments.
@@ -12,6 +12,12 @@ pub enum EvaluateCommand {
     Aoa(EvaluateAoaArguments),
     /// Mounting angles on simulated drives of four radars: errors, trajectories, driving time.
     Calibration(EvaluateCalibrationArguments),
+    /// Counting and angles of up to two targets in the region of interest of a data cube.
+    Doa(EvaluateDoaArguments),
+    /// When two targets are resolved, by separation and signal-to-noise ratio.
+    Resolution(EvaluateResolutionArguments),
+    /// What gain, phase, position and coupling errors of the array do to detection and angles.
+    Imperfections(EvaluateImperfectionsArguments),
     /// Put together what was run in parts.
     Merge(EvaluateMergeArguments),
 }
@@ -82,6 +88,63 @@ pub struct EvaluateAoaArguments {
     /// What is wrong with the array.
     #[command(flatten)]
     pub imperfections: ImperfectionArguments,
+}
+
+/// Arguments of `evaluate doa`.
+#[derive(Debug, Args)]
+pub struct EvaluateDoaArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Trials a condition: 0, 1 and 2 targets, these at two ranges or one, at -10 to 15 dB.
+    #[arg(long, value_name = "N", default_value_t = 2100)]
+    pub trials: u64,
+    /// The paper's simulated radar (Table 3) or that of its experiments (Table 4), simulated.
+    #[arg(long, value_enum, default_value_t = DoaSetup::Simulation)]
+    pub setup: DoaSetup,
+}
+
+/// Radar of `evaluate doa`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DoaSetup {
+    /// Range bins of 1 m, targets at 70 to 90 m.
+    Simulation,
+    /// Range bins of 43 mm, targets at 9.7 to 10.3 m.
+    Experiment,
+}
+
+/// Arguments of `evaluate resolution`.
+#[derive(Debug, Args)]
+pub struct EvaluateResolutionArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Trials a condition: 0.05 to 2 beam widths apart, at 0 to 40 dB.
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub trials: u64,
+    /// Array, by name.
+    #[arg(long, value_name = "NAME", default_value = "ula8")]
+    pub array: String,
+    /// Numbers of snapshots.
+    #[arg(long, value_name = "N,N", value_delimiter = ',', default_values_t = [1, 16])]
+    pub snapshots: Vec<usize>,
+}
+
+/// Arguments of `evaluate imperfections`.
+#[derive(Debug, Args)]
+pub struct EvaluateImperfectionsArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Snapshots a condition: 2, 5 and 10 targets under each of 25 settings of the errors.
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    pub trials: u64,
+    /// Array, by name.
+    #[arg(long, value_name = "NAME", default_value = "lrr48")]
+    pub array: String,
+    /// Signal-to-noise ratio, dB: 15, 20, 25, 30 or 35.
+    #[arg(long, value_name = "DB", default_value_t = 25.0)]
+    pub snr: f64,
 }
 
 /// Arguments of `evaluate calibration`.

@@ -7,7 +7,7 @@ mod simulate;
 
 pub use drives::{CalibrateArguments, LogArguments};
 pub use estimate::{AngleArguments, ChainArguments, EstimateArguments};
-pub use evaluate::{EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
+pub use evaluate::{DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
 pub use simulate::{
     CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,
 };

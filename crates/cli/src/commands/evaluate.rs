@@ -1,6 +1,6 @@
 //! `boresight evaluate`.
 
-use crate::arguments::{EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
+use crate::arguments::{DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
 use crate::error::CliError;
 use crate::files;
 use crate::output::remark;
@@ -8,7 +8,7 @@ use crate::run::Run;
 use boresight_core::CoreError;
 use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Experiment, How};
-use boresight_evaluate::{Outcome, aoa, calibration, merge};
+use boresight_evaluate::{Outcome, aoa, calibration, doa, imperfections, merge, resolution};
 use std::path::Path;
 use std::time::Instant;
 
@@ -34,6 +34,33 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
                 scenes: arguments.scenes,
                 seed: arguments.shared.seed,
                 duration_s: arguments.duration,
+            };
+            evaluate(&options, &arguments.shared)
+        }
+        EvaluateCommand::Doa(arguments) => {
+            let setup = match arguments.setup {
+                DoaSetup::Simulation => doa::Setup::Simulation,
+                DoaSetup::Experiment => doa::Setup::Experiment,
+            };
+            let seed = arguments.shared.seed;
+            let options = doa::Options { setup, trials: arguments.trials, seed };
+            evaluate(&options, &arguments.shared)
+        }
+        EvaluateCommand::Resolution(arguments) => {
+            let options = resolution::Options {
+                array: arguments.array.clone(),
+                snapshots: arguments.snapshots.clone(),
+                trials: arguments.trials,
+                seed: arguments.shared.seed,
+            };
+            evaluate(&options, &arguments.shared)
+        }
+        EvaluateCommand::Imperfections(arguments) => {
+            let options = imperfections::Options {
+                array: arguments.array.clone(),
+                snr_db: arguments.snr,
+                trials: arguments.trials,
+                seed: arguments.shared.seed,
             };
             evaluate(&options, &arguments.shared)
         }

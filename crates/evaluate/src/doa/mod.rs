@@ -1,0 +1,131 @@
+//! Counting and angles of up to two targets in the region of interest of a data cube: Figures 6 to 9 of Sang et
+//! al., "DoA Estimation for FMCW Radar by 3D-CNN" (2021).
+//!
+//! Every trial simulates the cube of one frame, takes its range spectrum with a rectangular window, centres the
+//! region of 65 range bins and 4 chirps on the strongest bin, as detection would, and gives each method the
+//! covariance of what passes a band-pass filter around that region (the paper's equation 7), from 260 vectors over
+//! the 8 channels. Methods that take snapshots only get eight that have this covariance.
+
+pub mod figures;
+pub mod report;
+pub mod trial;
+
+pub use report::Report;
+
+use crate::EvaluateError;
+use crate::experiment::Experiment;
+use boresight_core::error::check_range;
+use boresight_core::presets::preset;
+use boresight_core::{Array, Waveform};
+use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated};
+use serde::{Deserialize, Serialize};
+use trial::{Plan, Record};
+
+/// Signal-to-noise ratios, dB: power of one target over noise power, of one sample of one chirp at one element,
+/// before any transform.
+pub const SNRS_DB: [f64; 6] = [-10.0, -5.0, 0.0, 5.0, 10.0, 15.0];
+/// Trials of one record: a tenth of all pairs of angles.
+const CHUNK: u64 = 21;
+/// Range bins and chirps of the region.
+pub const REGION: [usize; 2] = [65, 4];
+
+/// The radar and where its targets are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Setup {
+    /// The paper's Table 3: range bins of 1 m, one transmitter, 8 receivers, targets at 70 to 90 m.
+    Simulation,
+    /// Its Table 4: range bins of 43 mm, 2 transmitters in turn, 4 receivers, targets at 9.7 to 10.3 m.
+    Experiment,
+}
+
+impl Setup {
+    /// Waveform, array, nearest and farthest range.
+    fn radar(self) -> Result<(Waveform, Array, [f64; 2]), EvaluateError> {
+        Ok(match self {
+            Self::Simulation => (waveform_3dcnn_simulated(), Array::ula(8)?, [70.0, 90.0]),
+            Self::Experiment => (waveform_3dcnn_experiment(), preset("awr1642")?, [9.7, 10.3]),
+        })
+    }
+}
+
+/// What is in a scene; targets have equal powers and stand still.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Targets {
+    /// Nothing.
+    None,
+    /// One target.
+    One,
+    /// Two, each at its own range.
+    Apart,
+    /// Two at one range: their echoes are coherent.
+    Together,
+}
+
+impl Targets {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::None, Self::One, Self::Apart, Self::Together];
+
+    /// How many.
+    pub fn count(self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::One => 1,
+            Self::Apart | Self::Together => 2,
+        }
+    }
+}
+
+/// What to run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Options {
+    /// The radar.
+    pub setup: Setup,
+    /// Trials a condition. Angles go through all whole degrees within 10, or all pairs of them, in turn.
+    pub trials: u64,
+    /// Everything random comes from it.
+    pub seed: u64,
+}
+
+impl Options {
+    fn chunks(&self) -> u64 {
+        self.trials.div_ceil(CHUNK)
+    }
+}
+
+impl Experiment for Options {
+    const NAME: &'static str = "doa";
+    type Plan = Plan;
+    type Record = Record;
+    type Report = Report;
+
+    fn plan(&self) -> Result<Plan, EvaluateError> {
+        check_range("trials", self.trials as f64, 1.0, 1e6)?;
+        Plan::new(self)
+    }
+
+    fn methods(plan: &Plan) -> Vec<String> {
+        plan.names()
+    }
+
+    fn scenes(&self) -> u64 {
+        self.chunks() * (Targets::ALL.len() * SNRS_DB.len()) as u64
+    }
+
+    fn scene(&self, plan: &Plan, number: u64) -> Result<Record, EvaluateError> {
+        let chunks = self.chunks();
+        let (condition, first) = ((number / chunks) as usize, number % chunks * CHUNK);
+        plan.run(condition, first, CHUNK.min(self.trials - first))
+    }
+
+    fn report(&self, plan: &Plan, records: impl Iterator<Item = Record>) -> Report {
+        Report::new(self, plan, records)
+    }
+}
+
+/// Targets and signal-to-noise ratio of a condition.
+fn condition(index: usize) -> (Targets, f64) {
+    (Targets::ALL[index / SNRS_DB.len()], SNRS_DB[index % SNRS_DB.len()])
+}

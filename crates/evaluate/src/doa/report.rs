@@ -1,0 +1,260 @@
+//! From records to tables.
+
+use super::trial::{CLOSE_DEG, COUNTERS, DEVIATIONS_DEG, Plan, Record, Tally, conditions};
+use super::{Options, SNRS_DB, Setup, Targets, figures};
+use crate::EvaluateError;
+use crate::table::table;
+use serde::Serialize;
+
+/// The experiment's result.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Report {
+    /// The radar.
+    pub setup: Setup,
+    /// Trials a condition.
+    pub trials: u64,
+    /// Seed.
+    pub seed: u64,
+    /// Methods.
+    pub methods: Vec<String>,
+    /// Bounds of the error of one target's angle by signal-to-noise ratio, deg: of the frame, and of MUSIC on the
+    /// region.
+    pub bounds_deg: Vec<[f64; 2]>,
+    /// Results by condition.
+    pub conditions: Vec<ConditionResult>,
+}
+
+/// What came of a condition.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct ConditionResult {
+    /// What is in the scene.
+    pub targets: Targets,
+    /// Signal-to-noise ratio, dB.
+    pub snr_db: f64,
+    /// Trials.
+    pub trials: u32,
+    /// Trials with a close pair.
+    pub close: u32,
+    /// Share of trials in which each rule counted 0, 1, 2 and more targets.
+    pub counted: Vec<[f64; 4]>,
+    /// Methods in order; none where there is no target.
+    pub methods: Vec<MethodResult>,
+}
+
+/// What a method reached in a condition; shares are of all trials, those without as many angles as targets
+/// included.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct MethodResult {
+    /// Share of trials with as many angles as targets.
+    pub found: f64,
+    /// Root mean square error over these, deg.
+    pub rmse_deg: f64,
+    /// Share with every angle within 1 deg.
+    pub success: f64,
+    /// Share with every angle, rounded to a whole degree, within 0, 2 and 4 deg.
+    pub within: [f64; 3],
+    /// `success` of close pairs.
+    pub close_success: f64,
+    /// `within` of close pairs.
+    pub close_within: [f64; 3],
+}
+
+impl Report {
+    pub(super) fn new(
+        options: &Options,
+        plan: &Plan,
+        records: impl Iterator<Item = Record>,
+    ) -> Self {
+        let empty = Record { condition: 0, trials: 0, close: 0, counted: vec![], methods: vec![] };
+        let mut sums: Vec<Record> = conditions().map(|_| empty.clone()).collect();
+        for record in records {
+            let Some(sum) = sums.get_mut(record.condition) else { continue };
+            sum.trials += record.trials;
+            sum.close += record.close;
+            sum.counted.resize(record.counted.len(), [0; 4]);
+            sum.methods.resize(record.methods.len(), Tally::default());
+            for (to, from) in sum.counted.iter_mut().zip(&record.counted) {
+                for (to, from) in to.iter_mut().zip(from) {
+                    *to += from;
+                }
+            }
+            for (to, from) in sum.methods.iter_mut().zip(&record.methods) {
+                to.add(from);
+            }
+        }
+        let share = |count: u32, of: u32| f64::from(count) / f64::from(of);
+        let conditions = conditions()
+            .zip(&sums)
+            .map(|((_, targets, snr_db), sum)| ConditionResult {
+                targets,
+                snr_db,
+                trials: sum.trials,
+                close: sum.close,
+                counted: sum.counted.iter().map(|c| c.map(|c| share(c, sum.trials))).collect(),
+                methods: sum
+                    .methods
+                    .iter()
+                    .map(|m| MethodResult {
+                        found: share(m.found, sum.trials),
+                        rmse_deg: (m.squared_deg2 / (targets.count() as f64 * f64::from(m.found)))
+                            .sqrt(),
+                        success: share(m.success, sum.trials),
+                        within: m.within.map(|count| share(count, sum.trials)),
+                        close_success: share(m.close_success, sum.close),
+                        close_within: m.close_within.map(|count| share(count, sum.close)),
+                    })
+                    .collect(),
+            })
+            .collect();
+        let none = [f64::NAN; 2];
+        Self {
+            setup: options.setup,
+            trials: options.trials,
+            seed: options.seed,
+            methods: plan.names(),
+            bounds_deg: SNRS_DB.map(|snr_db| plan.bounds_deg(snr_db).unwrap_or(none)).to_vec(),
+            conditions,
+        }
+    }
+
+    /// The result of a condition.
+    pub fn at(&self, targets: Targets, snr_db: f64) -> Option<&ConditionResult> {
+        self.conditions.iter().find(|c| c.targets == targets && c.snr_db == snr_db)
+    }
+
+    /// Share of scenes, a third each of no, one and two targets, that a rule counted rightly.
+    pub fn counted_rightly(&self, counter: usize, two: Targets, snr_db: f64) -> f64 {
+        let share = |targets: Targets| {
+            self.at(targets, snr_db).map_or(f64::NAN, |c| c.counted[counter][targets.count()])
+        };
+        (share(Targets::None) + share(Targets::One) + share(two)) / 3.0
+    }
+
+    /// A method's figure against the signal-to-noise ratio.
+    pub(super) fn over_snr(
+        &self,
+        targets: Targets,
+        method: usize,
+        value: fn(&MethodResult) -> f64,
+    ) -> impl Iterator<Item = (f64, f64)> {
+        SNRS_DB.into_iter().filter_map(move |snr_db| {
+            Some((snr_db, value(self.at(targets, snr_db)?.methods.get(method)?)))
+        })
+    }
+}
+
+impl crate::experiment::Report for Report {
+    fn tables(&self) -> String {
+        let heads = SNRS_DB.map(|snr_db| format!("{snr_db} dB"));
+        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
+        let percent = |share: f64| format!("{:.1}", 100.0 * share);
+        let mut text = format!("{} trials a condition.\n", self.trials);
+        for (two, which) in PAIRS {
+            text += &format!(
+                "\nScenes counted rightly, %, a third each of 0, 1 and 2 targets, the two {which} (Figure 6).\n\n"
+            );
+            let rows: Vec<(&str, Vec<String>)> = COUNTERS
+                .iter()
+                .enumerate()
+                .map(|(k, (name, ..))| {
+                    let share = |snr_db| percent(self.counted_rightly(k, two, snr_db));
+                    (*name, SNRS_DB.map(share).to_vec())
+                })
+                .collect();
+            text += &table("rule", &heads, &rows);
+        }
+        text += "\nRoot mean square error of one target's angle, deg (Figure 7).\n\n";
+        let mut rows: Vec<(&str, Vec<String>)> = vec![];
+        for (k, name) in self.methods.iter().enumerate() {
+            let errors = self.over_snr(Targets::One, k, |m| m.rmse_deg);
+            rows.push((name, errors.map(|(_, rmse)| format!("{rmse:.4}")).collect()));
+        }
+        for (k, name) in BOUNDS.into_iter().enumerate() {
+            let bounds = self.bounds_deg.iter().map(|bounds| format!("{:.4}", bounds[k]));
+            rows.push((name, bounds.collect()));
+        }
+        text += &table("method", &heads, &rows);
+        for (two, which) in PAIRS {
+            text +=
+                &format!("\nBoth angles of two targets {which} within 1 deg, % (Figure 8).\n\n");
+            let shares = |k| {
+                let shares = self.over_snr(two, k, |m| m.success);
+                shares.map(|(_, share)| percent(share)).collect()
+            };
+            let rows: Vec<(&str, Vec<String>)> =
+                self.methods.iter().enumerate().map(|(k, m)| (m.as_str(), shares(k))).collect();
+            text += &table("method", &heads, &rows);
+        }
+        for (two, which) in PAIRS {
+            for snr_db in [SNRS_DB[2], SNRS_DB[5]] {
+                let Some(condition) = self.at(two, snr_db) else { continue };
+                text += &format!(
+                    "\nBoth angles of two targets {which}, rounded to whole degrees, within 0, 2 and 4 deg at {snr_db} dB, \
+                     %, and the same of pairs closer than {CLOSE_DEG} deg (Figure 9).\n\n"
+                );
+                let all = DEVIATIONS_DEG.map(|deviation| format!("{deviation} deg"));
+                let close = DEVIATIONS_DEG.map(|deviation| format!("close, {deviation} deg"));
+                let heads: Vec<&str> = all.iter().chain(&close).map(String::as_str).collect();
+                let rows: Vec<(&str, Vec<String>)> = self
+                    .methods
+                    .iter()
+                    .zip(&condition.methods)
+                    .map(|(name, m)| {
+                        let shares = m.within.iter().chain(&m.close_within);
+                        (name.as_str(), shares.map(|share| percent(*share)).collect())
+                    })
+                    .collect();
+                text += &table("method", &heads, &rows);
+            }
+        }
+        text
+    }
+
+    fn csv(&self) -> String {
+        let mut text = "targets,snr_db,method,trials,found,rmse_deg,within_1_deg,rounded_0_deg,rounded_2_deg,\
+                        rounded_4_deg,close,close_within_1_deg,close_rounded_0_deg,close_rounded_2_deg,\
+                        close_rounded_4_deg,counted_0,counted_1,counted_2,counted_more\n"
+            .to_owned();
+        for c in &self.conditions {
+            let targets = c.targets.name();
+            for (name, m) in self.methods.iter().zip(&c.methods) {
+                let ([a, b, d], [e, f, g]) = (m.within, m.close_within);
+                text += &format!(
+                    "{targets},{},\"{name}\",{},{},{},{},{a},{b},{d},{},{},{e},{f},{g},,,,\n",
+                    c.snr_db, c.trials, m.found, m.rmse_deg, m.success, c.close, m.close_success,
+                );
+            }
+            for ((name, ..), [none, one, two, more]) in COUNTERS.iter().zip(&c.counted) {
+                let (snr_db, trials) = (c.snr_db, c.trials);
+                text += &format!(
+                    "{targets},{snr_db},\"{name}\",{trials},,,,,,,,,,,,{none},{one},{two},{more}\n"
+                );
+            }
+        }
+        text
+    }
+
+    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
+        figures::all(self)
+    }
+}
+
+impl Targets {
+    fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::One => "one",
+            Self::Apart => "apart",
+            Self::Together => "together",
+        }
+    }
+}
+
+/// The two kinds of pairs, in words.
+pub(super) const PAIRS: [(Targets, &str); 2] =
+    [(Targets::Apart, "at ranges of their own"), (Targets::Together, "at one range")];
+/// Names of the bounds.
+pub(super) const BOUNDS: [&str; 2] = ["Cramer-Rao bound", "MUSIC in theory"];
