@@ -5,7 +5,9 @@
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::experiment::{Experiment, How, run, run_part};
 use boresight_evaluate::sweep::Part;
-use boresight_evaluate::{EvaluateError, Outcome, aoa, calibration, merge};
+use boresight_evaluate::{
+    EvaluateError, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
+};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -55,6 +57,10 @@ fn aoa_options(seed: u64) -> aoa::Options {
 fn parts_make_the_whole() {
     check(&aoa_options(1));
     check(&calibration::Options { scenes: 2, seed: 3, duration_s: 12.0 });
+    check(&doa::Options { setup: doa::Setup::Simulation, trials: 1, seed: 1 });
+    let (array, snapshots) = ("ula4".into(), vec![1, 3]);
+    check(&resolution::Options { array, snapshots, trials: 1, seed: 1 });
+    check(&imperfections::Options { array: "ula8".into(), snr_db: 15.0, trials: 1, seed: 1 });
 }
 
 #[test]

@@ -120,7 +120,7 @@ pub struct EvaluateResolutionArguments {
     #[command(flatten)]
     pub shared: EvaluateArguments,
     /// Trials a condition: 0.05 to 2 beam widths apart, at 0 to 40 dB.
-    #[arg(long, value_name = "N", default_value_t = 1000)]
+    #[arg(long, value_name = "N", default_value_t = 600)]
     pub trials: u64,
     /// Array, by name.
     #[arg(long, value_name = "NAME", default_value = "ula8")]
