@@ -12,13 +12,21 @@ const HOW: How = How { threads: 2, folder: None };
 
 #[test]
 fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them() {
-    let options = Options { array: "lrr48".into(), snr_db: 25.0, trials: 10, seed: 3 };
+    let methods: Vec<String> = ["bartlett", "iaa", "nomp"].map(String::from).to_vec();
+    let options = Options {
+        array: "lrr48".into(),
+        snr_db: 25.0,
+        trials: 10,
+        seed: 3,
+        methods: methods.clone(),
+    };
     let report = run(&options, HOW, |_| ControlFlow::Continue(())).unwrap();
     let plain = aoa::Options {
         array: "lrr48".into(),
         trials: 10,
         seed: 3,
         imperfections: ImperfectionSpread::default(),
+        methods,
     };
     let plain = run(&plain, HOW, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(report.methods, plain.methods);

@@ -60,7 +60,8 @@ fn parts_make_the_whole() {
     check(&doa::Options { setup: doa::Setup::Simulation, trials: 1, seed: 1 });
     let (array, snapshots) = ("ula4".into(), vec![1, 3]);
     check(&resolution::Options { array, snapshots, trials: 1, seed: 1 });
-    check(&imperfections::Options { array: "ula8".into(), snr_db: 15.0, trials: 1, seed: 1 });
+    let (array, methods) = ("ula8".into(), vec!["iaa".into()]);
+    check(&imperfections::Options { array, snr_db: 15.0, trials: 1, seed: 1, methods });
 }
 
 #[test]

@@ -142,6 +142,9 @@ pub struct EvaluateImperfectionsArguments {
     /// Array, by name.
     #[arg(long, value_name = "NAME", default_value = "lrr48")]
     pub array: String,
+    /// Methods, separated by commas, as for `evaluate aoa`.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub methods: Vec<String>,
     /// Signal-to-noise ratio, dB: 15, 20, 25, 30 or 35.
     #[arg(long, value_name = "DB", default_value_t = 25.0)]
     pub snr: f64,

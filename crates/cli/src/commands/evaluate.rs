@@ -16,13 +16,9 @@ use std::time::Instant;
 pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
     match what {
         EvaluateCommand::Aoa(arguments) => {
-            let methods = match arguments.methods.is_empty() {
-                true => aoa::default_methods(&preset(&arguments.array)?),
-                false => arguments.methods.clone(),
-            };
             let options = aoa::Options {
                 array: arguments.array.clone(),
-                methods,
+                methods: methods(&arguments.methods, &arguments.array)?,
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
                 imperfections: arguments.imperfections.spread(),
@@ -58,6 +54,7 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
         EvaluateCommand::Imperfections(arguments) => {
             let options = imperfections::Options {
                 array: arguments.array.clone(),
+                methods: methods(&arguments.methods, &arguments.array)?,
                 snr_db: arguments.snr,
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
@@ -66,6 +63,14 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
         }
         EvaluateCommand::Merge(arguments) => merged(arguments),
     }
+}
+
+/// The methods named, or the usual ones.
+fn methods(named: &[String], array: &str) -> Result<Vec<String>, CliError> {
+    Ok(match named {
+        [] => aoa::default_methods(&preset(array)?),
+        _ => named.to_vec(),
+    })
 }
 
 fn evaluate<E: Experiment>(options: &E, shared: &EvaluateArguments) -> Result<String, CliError> {

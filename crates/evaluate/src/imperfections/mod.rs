@@ -91,6 +91,8 @@ pub struct Options {
     pub trials: u64,
     /// Everything random comes from it.
     pub seed: u64,
+    /// Methods, as in [`aoa::Options`].
+    pub methods: Vec<String>,
 }
 
 impl Options {
@@ -123,6 +125,7 @@ impl Experiment for Options {
                     array: self.array.clone(),
                     trials: self.trials,
                     seed: self.seed,
+                    methods: self.methods.clone(),
                     imperfections: setting
                         .map_or(ImperfectionSpread::default(), |(kind, s)| kind.spread(s)),
                 })
