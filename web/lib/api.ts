@@ -11,6 +11,9 @@ export { readDetectionsCsv, readNpy, readSnapshotsCsv, writeDetectionsCsv, write
 export { countSources, cramerRaoBound } from './theory.js';
 export { simulateCube, simulateSnapshots } from './simulate.js';
 export { Capture, processCube } from './capture.js';
+export {
+  birdsEyeView, frameCells, imageFrame, imagePlan, rangeAzimuthMap, sidelobeMeasure, simulateStreet, streetScene,
+} from './image.js';
 export type { Report } from './report.js';
 export { Calibration, calibrationMethods } from './calibrate.js';
 export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive.js';

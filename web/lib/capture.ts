@@ -4,7 +4,7 @@ import { call } from './instance.js';
 import type { Report } from './report.js';
 import type {
   AngleOptions, BytesInput, CaptureInfo, Cell, ChainOptions, CombineOptions, ComplexData, CubeChainOptions, Estimate,
-  FrameResult, TextInput,
+  FrameCells, FrameResult, TextInput,
 } from './types.js';
 
 /** A raw capture (`.bin` of a DCA1000) with the board's configuration (`.cfg`). */
@@ -20,6 +20,11 @@ export class Capture extends Handle<glue.Capture> {
   /** Detections of one frame, from 0. */
   processFrame(frame: number, options?: ChainOptions): FrameResult {
     return this.use((raw) => raw.processFrame(frame, options) as FrameResult);
+  }
+
+  /** Detected cells of one frame, with what estimators take; angles are not estimated. */
+  frameCells(frame: number, options?: ChainOptions): FrameCells {
+    return this.use((raw) => raw.frameCells(frame, options) as FrameCells);
   }
 
   /**

@@ -1,5 +1,5 @@
 import type {
-  ComplexData, CubeChainOptions, CubeResult, FrameCounts, Warning, Waveform,
+  BatchEstimate, BatchSpectra, ComplexData, CubeChainOptions, CubeResult, EstimatorOptions, FrameCounts, Waveform,
 } from './types.js';
 
 /** Where a radar sits in the car's frame (origin at the rear axle, x forward, y left) and which way it looks. */
@@ -41,7 +41,7 @@ export interface StreetOutline {
 }
 
 export interface StreetRadar {
-  /** `rear-right`, `front-right`, `front-left`, `rear-left`: by the way it looks. */
+  /** `right`, `front-right`, `front-left` or `left`: by the way it looks. */
   name: string;
   mounting: Mounting;
   /** A preset's name. */
@@ -78,7 +78,7 @@ export interface VisibleTarget {
 export interface SimulatedStreet {
   cube: CubeResult;
   radar: StreetRadar;
-  /** The points in its field of view that nothing hides. */
+  /** The points in its field of view and in no deep shadow. */
   targets: VisibleTarget[];
 }
 
@@ -93,13 +93,12 @@ export interface FrameCells {
   snrDb: Float64Array;
   rangeBin: Uint32Array;
   dopplerBin: Uint32Array;
-  /** cells x elements, or cells x elements x frames; the Doppler phase of the transmitters' turns taken off. */
+  /** cells x elements; the Doppler phase of the transmitters' turns taken off. */
   snapshots: ComplexData;
   counts: FrameCounts;
-  warnings: Warning[];
 }
 
-/** What an image needs of the estimates of a frame's cells. */
+/** What an image needs of the estimates of a frame's cells: a batch of them, or anybody's own. */
 export interface ImageEstimates {
   /** Of each source, the index of its cell. */
   cell: Uint32Array;
@@ -107,12 +106,8 @@ export interface ImageEstimates {
   powerDb: Float64Array;
   /** Of each source, 0 to 1; 1 where absent. */
   confidence?: Float64Array;
-  spectra?: {
-    azimuthDeg: Float64Array;
-    /** cells x azimuths, linear. */
-    power: Float32Array;
-    shape: readonly [cells: number, azimuths: number];
-  };
+  /** A pseudo-spectrum tells no power; its peak is given that of the cell. At several elevations the strongest counts. */
+  spectra?: Pick<BatchSpectra, 'azimuthDeg' | 'power' | 'kind'>;
 }
 
 /** Angles of each cell as points, or the spectrum of each cell. */
@@ -131,8 +126,7 @@ export interface MapGrid {
 }
 
 export interface RangeAzimuthMapInput {
-  /** Ranges of the cells. */
-  cells: Pick<FrameCells, 'rangeM'>;
+  cells: Pick<FrameCells, 'rangeM' | 'powerDb'>;
   estimates: ImageEstimates;
   from: ImageFrom;
   grid: MapGrid;
@@ -203,9 +197,24 @@ export interface SidelobeMeasure {
   gated: number;
 }
 
+/** Options of the chain, of which `peakGrouping` is off here unless asked for: an image takes every detected cell. */
 export interface ImageFrameOptions extends CubeChainOptions {
-  /** Default `spectra`. */
+  /** Default `spectra` where the method of `angle` has them. */
   from?: ImageFrom;
-  /** Default: the ranges the chain looks at in steps of its bins, 512 azimuths over 75 deg to each side. */
+  /** Default: the waveform's range bins, 512 azimuths over 60 deg to each side. */
   grid?: Partial<MapGrid>;
+}
+
+/** What {@link ImageFrameOptions} come to. */
+export interface ImagePlan {
+  estimator: EstimatorOptions;
+  from: ImageFrom;
+  grid: MapGrid;
+}
+
+/** The map of a frame and what it is made of. */
+export interface ImageFrame {
+  map: RangeAzimuthMap;
+  cells: FrameCells;
+  estimates: BatchEstimate;
 }

@@ -1,6 +1,7 @@
 // The functions of the package as promises.
 import { jointTaskOf, taskOf } from '../lib/drive-radars.js';
 import { driveFrame, selected, viewOf } from '../lib/drive-view.js';
+import { chainOf } from '../lib/image-options.js';
 import type * as lib from '../lib/types.js';
 import { Crew, type JobOptions, type Piece, type Runtime } from './pool.js';
 import type { OperationName, Operations } from './protocol.js';
@@ -274,6 +275,74 @@ export class Pool {
     }));
     const [first, ...rest] = await this.#crew.run(pieces, job);
     return joinedBatches([first as lib.BatchEstimate, ...rest]);
+  }
+
+  streetScene(options?: lib.StreetOptions, job?: JobOptions): Promise<lib.StreetScene> {
+    return this.#one('streetScene', [options], job);
+  }
+
+  simulateStreet(options: lib.SimulateStreetOptions, job?: JobOptions): Promise<lib.SimulatedStreet> {
+    return this.#one('simulateStreet', [options], job);
+  }
+
+  frameCells(cube: lib.ComplexData, options: lib.CubeChainOptions, job?: JobOptions): Promise<lib.FrameCells> {
+    return this.#one('frameCells', [cube, options], job);
+  }
+
+  /** Detected cells of one frame of a capture. */
+  captureCells(
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    frame: number,
+    options?: lib.ChainOptions,
+    job?: JobOptions,
+  ): Promise<lib.FrameCells> {
+    return this.#one('captureCells', [bytes, config, frame, options], job);
+  }
+
+  rangeAzimuthMap(input: lib.RangeAzimuthMapInput, job?: JobOptions): Promise<lib.RangeAzimuthMap> {
+    return this.#one('rangeAzimuthMap', [input], job);
+  }
+
+  birdsEyeView(input: lib.BirdsEyeViewInput, job?: JobOptions): Promise<lib.BirdsEyeView> {
+    return this.#one('birdsEyeView', [input], job);
+  }
+
+  sidelobeMeasure(
+    view: lib.BirdsEyeView,
+    targets: readonly { xM: number; yM: number }[],
+    gate: lib.Gate,
+    job?: JobOptions,
+  ): Promise<lib.SidelobeMeasure> {
+    return this.#one('sidelobeMeasure', [view, targets, gate], job);
+  }
+
+  imagePlan(options: lib.ImageFrameOptions, job?: JobOptions): Promise<lib.ImagePlan> {
+    return this.#one('imagePlan', [options], job);
+  }
+
+  /**
+   * From a cube of one frame to its map. One worker finds the cells (with `transfer` the cube moves there instead of
+   * being copied), all estimate their angles; progress counts cells.
+   */
+  async imageFrame(cube: lib.ComplexData, options: lib.ImageFrameOptions, job: JobOptions = {}): Promise<lib.ImageFrame> {
+    const { onProgress: _, ...quiet } = job;
+    const cells = await this.frameCells(cube, chainOf(options), quiet);
+    return this.imageCells(cells, options, { ...job, transfer: false });
+  }
+
+  /** From the cells of a frame to its map; the same cells serve every method. Progress counts cells. */
+  async imageCells(
+    cells: lib.FrameCells,
+    options: lib.ImageFrameOptions,
+    job: JobOptions = {},
+  ): Promise<lib.ImageFrame> {
+    const { onProgress: _, ...quiet } = job;
+    const { estimator, from, grid } = await this.imagePlan(options, quiet);
+    const spectra = from === 'spectra';
+    const estimates = await this.estimateBatch({ snapshots: cells.snapshots }, { ...estimator, spectra }, job);
+    const map = await this.rangeAzimuthMap({ cells, estimates, from, grid }, quiet);
+    return { map, cells, estimates };
   }
 
   /** Ends the workers; jobs under way reject with the code `terminated`. */

@@ -3,7 +3,7 @@ import * as api from '../lib/api.js';
 import type {
   AngleOptions, BatchEstimate, BatchInput, BatchOptions, BytesInput, CalibrateDriveOptions, CaptureInfo, Cell,
   ChainOptions, CombineOptions, ComplexData, DriveCalibration, DriveData, Estimate, EstimateInput, EstimatorOptions,
-  FrameResult, JointCalibrationOptions, SimulateDriveOptions, SimulatedDrive, TextInput,
+  FrameCells, FrameResult, JointCalibrationOptions, SimulateDriveOptions, SimulatedDrive, TextInput,
 } from '../lib/api.js';
 import { core } from '../lib/instance.js';
 
@@ -69,6 +69,10 @@ function cellSnapshots(bytes: BytesInput, config: TextInput, cell: Cell, options
   return freeing(new api.Capture(bytes, config), (capture) => capture.cellSnapshots(cell, options));
 }
 
+function captureCells(bytes: BytesInput, config: TextInput, frame: number, options?: ChainOptions): FrameCells {
+  return freeing(new api.Capture(bytes, config), (capture) => capture.frameCells(frame, options));
+}
+
 function cellSpectrum(
   bytes: BytesInput,
   config: TextInput,
@@ -120,6 +124,14 @@ export const operations = {
   combineFrames,
   cellSnapshots,
   cellSpectrum,
+  captureCells,
+  streetScene: api.streetScene,
+  simulateStreet: api.simulateStreet,
+  frameCells: api.frameCells,
+  imagePlan: api.imagePlan,
+  rangeAzimuthMap: api.rangeAzimuthMap,
+  birdsEyeView: api.birdsEyeView,
+  sidelobeMeasure: api.sidelobeMeasure,
   parseBoardLog: api.parseBoardLog,
   readNpy: api.readNpy,
   writeNpy: api.writeNpy,

@@ -3,7 +3,7 @@
 use crate::array::geometry;
 use crate::bytes::Bytes;
 use crate::chain::{read_angle, read_chain};
-use crate::complex::ComplexData;
+use crate::complex::Cube;
 use crate::config::{config_record, read_config};
 use crate::error::{BindingError, Fallible};
 use crate::estimate::{estimate_record, shape_error};
@@ -15,7 +15,7 @@ use boresight_aoa::Method;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64, Waveform};
 use boresight_formats::{self as formats, RadarConfig};
-use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameSource};
+use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameCells, FrameSource};
 use js_sys::Function;
 use ndarray::{Array2, ArrayView5};
 use std::ops::{ControlFlow, Range};
@@ -137,6 +137,19 @@ impl Capture {
 }
 
 impl Capture {
+    /// Detected cells of one frame.
+    pub(crate) fn cells_of(&mut self, frame: &JsValue, options: &JsValue) -> Fallible<FrameCells> {
+        let frame = self.read_frame(frame)?;
+        let mut fields = Fields::of_optional(options)?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let (chain, recording) = self.planned(array, &options)?;
+        let Frame { samples, clipped } = recording.frame(frame)?;
+        let mut cells = chain.cells(samples.view())?;
+        cells.counts.clipped_samples = clipped;
+        Ok(cells)
+    }
+
     fn read_frame(&self, frame: &JsValue) -> Fallible<usize> {
         let index = usize::read(frame, "frame")?;
         check_range("frame", index as f64, 0.0, (self.frames - 1) as f64)?;
@@ -200,7 +213,7 @@ impl Capture {
 /// Detections of each frame of a cube: frames x loops x transmitters x receivers x samples.
 #[wasm_bindgen(js_name = processCube)]
 pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array> {
-    let cube = ComplexData::read(cube, "cube")?;
+    let cube = Cube::read(cube, "cube")?;
     let [frames, loops, transmitters, receivers, samples] = cube.shape[..] else {
         let expected = "[frames, loops, transmitters, receivers, samples]";
         return Err(shape_error("cube", expected, &cube.shape));
@@ -213,10 +226,9 @@ pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array
         what: "array".into(),
         expected: Array::EXPECTED.into(),
     })?;
-    let values = cube.to_complex32();
     let shape = (frames, loops, transmitters, receivers, samples);
     let source = CubeFrames(
-        ArrayView5::from_shape(shape, &values)
+        ArrayView5::from_shape(shape, &cube.data)
             .map_err(|_| shape_error("cube", "five axes", &cube.shape))?,
     );
     let mut chain = Chain::new(&waveform, receivers, &array, &options)?;

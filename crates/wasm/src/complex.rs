@@ -47,6 +47,38 @@ impl Read for ComplexData {
     }
 }
 
+/// Complex numbers in single precision in C order with their shape.
+pub struct Cube {
+    /// The numbers.
+    pub data: Vec<Complex32>,
+    /// Their shape; its product is the number of them.
+    pub shape: Vec<usize>,
+}
+
+impl Read for Cube {
+    const EXPECTED: &'static str = ComplexData::EXPECTED;
+
+    /// A `Float32Array` does not take the way over double precision: cubes are large.
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let data_path = fields.path_of("data");
+        let given = fields.raw("data")?;
+        let Some(array) = given.as_ref().and_then(|value| value.dyn_ref::<Float32Array>()) else {
+            let all = ComplexData::of(Fields::new(value, path)?)?;
+            return Ok(Self { data: all.to_complex32(), shape: all.shape });
+        };
+        let mut numbers = zeros(&data_path, array.length() as usize, 0.0_f32)?;
+        if !numbers.is_empty() {
+            array.copy_to(&mut numbers);
+        }
+        let shape: Vec<usize> = fields.required("shape")?;
+        fields.finish()?;
+        check_length(data_path, &shape, numbers.len(), 2, Fewest::One)?;
+        let data = numbers.chunks_exact(2).map(|z| Complex32::new(z[0], z[1])).collect();
+        Ok(Self { data, shape })
+    }
+}
+
 /// Real numbers in C order with their shape.
 pub struct RealData {
     /// The numbers.

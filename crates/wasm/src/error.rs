@@ -5,6 +5,7 @@ use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_formats::FormatError;
+use boresight_image::ImageError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
@@ -30,6 +31,9 @@ pub enum BindingError {
     /// A file cannot be read or written.
     #[error(transparent)]
     Format(#[from] FormatError),
+    /// An image cannot be made.
+    #[error(transparent)]
+    Image(#[from] ImageError),
     /// The chain from frames to detections refused.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
@@ -82,6 +86,7 @@ impl Diagnose for BindingError {
             Self::Aoa(error) => error.code(),
             Self::Calibrate(error) => error.code(),
             Self::Format(error) => error.code(),
+            Self::Image(error) => error.code(),
             Self::Pipeline(error) => error.code(),
             Self::Signal(error) => error.code(),
             Self::Simulate(error) => error.code(),
@@ -98,6 +103,7 @@ impl Diagnose for BindingError {
             Self::Aoa(error) => error.details(),
             Self::Calibrate(error) => error.details(),
             Self::Format(error) => error.details(),
+            Self::Image(error) => error.details(),
             Self::Pipeline(error) => error.details(),
             Self::Signal(error) => error.details(),
             Self::Simulate(error) => error.details(),

@@ -34,7 +34,8 @@ fn detection_record(detection: &Detection) -> Record {
         .with("dopplerBin", detection.doppler_bin)
 }
 
-fn counts_record(counts: &Counts) -> Record {
+/// What became of cells and samples.
+pub fn counts_record(counts: &Counts) -> Record {
     Record::new()
         .with("cellsOverThreshold", counts.cells_over_threshold)
         .with("grouped", counts.grouped)

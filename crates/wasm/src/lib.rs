@@ -23,6 +23,8 @@ mod calibrate;
 #[cfg(feature = "core")]
 pub mod capture;
 #[cfg(feature = "core")]
+mod cells;
+#[cfg(feature = "core")]
 mod chain;
 mod complex;
 #[cfg(feature = "core")]
@@ -39,6 +41,8 @@ pub mod estimate;
 #[cfg(feature = "core")]
 mod frames;
 #[cfg(feature = "core")]
+mod image;
+#[cfg(feature = "core")]
 mod imperfections;
 mod names;
 #[cfg(feature = "core")]
@@ -50,6 +54,8 @@ mod read;
 mod report;
 #[cfg(feature = "core")]
 pub mod simulate;
+#[cfg(feature = "core")]
+mod street;
 #[cfg(feature = "core")]
 mod tables;
 #[cfg(feature = "core")]

@@ -1,8 +1,8 @@
-// The fields that web/lib/types.ts and drive-types.ts declare, so that tests can hold results against them.
+// The fields that web/lib/*types.ts declare, so that tests can hold results against them.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 
-const source = ['types.ts', 'drive-types.ts']
+const source = ['types.ts', 'drive-types.ts', 'image-types.ts']
   .map((name) => readFileSync(new URL(`../../../web/lib/${name}`, import.meta.url), 'utf8'))
   .join('\n');
 

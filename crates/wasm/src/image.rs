@@ -1,0 +1,337 @@
+//! Range-azimuth maps, bird's-eye views and the measure of their sidelobes.
+
+use crate::complex::float_array;
+use crate::error::{BindingError, Fallible};
+use crate::estimate::shape_error;
+use crate::read::{Angle, Fields, Read, wrong_type};
+use crate::write::{Record, degrees, float32, float64, list};
+use boresight_core::CoreError;
+use boresight_core::drive::Mounting;
+use boresight_core::error::check_range;
+use boresight_core::units::{db_to_power, power_to_db};
+use boresight_image::{
+    Axis, BirdsEyeView, Gate, Grid, NO_RADAR, Outside, RangeAzimuthDoppler, RangeAzimuthMap,
+    SidelobeMeasure, SpectrumPlan, Target, ViewGrid, birds_eye_view, sidelobe_measure,
+};
+use js_sys::{Int8Array, Uint8Array, Uint32Array};
+use ndarray::Array2;
+use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsCast, JsValue};
+
+/// Adds the targets or spectra of a frame's cells up to a map.
+#[wasm_bindgen(js_name = rangeAzimuthMap)]
+pub fn range_azimuth_map(input: &JsValue) -> Fallible<JsValue> {
+    let mut fields = Fields::new(input, "")?;
+    let cells = Cells::read(fields.object("cells")?)?;
+    let estimates = fields.object("estimates")?;
+    let mut estimates = estimates.ok_or_else(|| missing("estimates", "estimates of the cells"))?;
+    let mut of_spectra = false;
+    fields.update_choice("from", &[("targets", false), ("spectra", true)], &mut of_spectra)?;
+    let grid: Grid = fields.required("grid")?;
+    fields.finish()?;
+    let mut image = RangeAzimuthDoppler::new(grid, None)?;
+    if of_spectra {
+        add_spectra(&mut image, &cells, &mut estimates)?;
+    } else {
+        add_targets(&mut image, &cells, &mut estimates)?;
+    }
+    Ok(map_record(&image.to_map()).into())
+}
+
+/// What a map needs of cells.
+struct Cells {
+    range_m: Vec<f64>,
+    power_db: Vec<f64>,
+}
+
+impl Cells {
+    /// Reads two of the fields of a frame's cells; the others are of no use here.
+    fn read(fields: Option<Fields>) -> Fallible<Self> {
+        let mut fields = fields.ok_or_else(|| missing("cells", "cells of a frame"))?;
+        let range_m = float_array(&mut fields, "rangeM")?.0;
+        let power_db = float_array(&mut fields, "powerDb")?.0;
+        check_length("cells.powerDb", range_m.len(), power_db.len())?;
+        Ok(Self { range_m, power_db })
+    }
+}
+
+fn missing(what: &str, expected: &str) -> BindingError {
+    BindingError::Missing { what: what.into(), expected: expected.into() }
+}
+
+fn check_length(what: &str, expected: usize, given: usize) -> Fallible<()> {
+    if given == expected {
+        return Ok(());
+    }
+    Err(shape_error(what, &format!("[{expected}]"), &[given]))
+}
+
+fn add_targets(
+    image: &mut RangeAzimuthDoppler,
+    cells: &Cells,
+    estimates: &mut Fields,
+) -> Fallible<()> {
+    let cell: Vec<u32> = match estimates.raw("cell")? {
+        Some(value) => match value.dyn_ref::<Uint32Array>() {
+            Some(array) => array.to_vec(),
+            None => return Err(wrong_type("estimates.cell", "a Uint32Array", &value)),
+        },
+        None => return Err(missing("estimates.cell", "a Uint32Array")),
+    };
+    let azimuth_deg = float_array(estimates, "azimuthDeg")?.0;
+    let power_db = float_array(estimates, "powerDb")?.0;
+    let has_confidence = estimates.raw("confidence")?.is_some();
+    let confidence = match has_confidence {
+        true => float_array(estimates, "confidence")?.0,
+        false => vec![1.0; cell.len()],
+    };
+    for (what, length) in [
+        ("estimates.azimuthDeg", azimuth_deg.len()),
+        ("estimates.powerDb", power_db.len()),
+        ("estimates.confidence", confidence.len()),
+    ] {
+        check_length(what, cell.len(), length)?;
+    }
+    for (index, &cell) in cell.iter().enumerate() {
+        let last = cells.range_m.len() as f64 - 1.0;
+        check_range("cell of an estimate", f64::from(cell), 0.0, last)?;
+        image.add_target(&Target {
+            range_m: cells.range_m[cell as usize],
+            rate_mps: 0.0,
+            azimuth_rad: azimuth_deg[index].to_radians(),
+            power: db_to_power(power_db[index]),
+            confidence: confidence[index],
+        })?;
+    }
+    Ok(())
+}
+
+fn add_spectra(
+    image: &mut RangeAzimuthDoppler,
+    cells: &Cells,
+    estimates: &mut Fields,
+) -> Fallible<()> {
+    if cells.range_m.is_empty() {
+        return Ok(());
+    }
+    let expected = "spectra, which not every method has, and which have to be asked for";
+    let spectra = estimates.object("spectra")?;
+    let mut spectra = spectra.ok_or_else(|| missing("estimates.spectra", expected))?;
+    let azimuth_deg = float_array(&mut spectra, "azimuthDeg")?.0;
+    let azimuth_rad: Vec<f64> = azimuth_deg.iter().map(|azimuth| azimuth.to_radians()).collect();
+    let power: Vec<f32> =
+        float_array(&mut spectra, "power")?.0.into_iter().map(|power| power as f32).collect();
+    let mut is_pseudo = false;
+    spectra.update_choice("kind", &[("power", false), ("pseudo", true)], &mut is_pseudo)?;
+    let plan = SpectrumPlan::new(&azimuth_rad, &image.grid)?;
+    let each = power.len() / cells.range_m.len();
+    check_length("estimates.spectra.power", cells.range_m.len() * each.max(1), power.len())?;
+    for (index, power) in power.chunks_exact(each).enumerate() {
+        let level = is_pseudo.then(|| db_to_power(cells.power_db[index]));
+        image.add_spectrum(&plan, cells.range_m[index], 0.0, power, level)?;
+    }
+    Ok(())
+}
+
+impl Read for Grid {
+    const EXPECTED: &'static str = "{ rangeM, ranges, fieldOfViewDeg, azimuths }";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let range_m = fields.required("rangeM")?;
+        let ranges = fields.required("ranges")?;
+        let field_of_view: Angle = fields.required("fieldOfViewDeg")?;
+        let azimuths = fields.required("azimuths")?;
+        fields.finish()?;
+        Ok(Self::new(range_m, ranges, field_of_view.rad, azimuths)?)
+    }
+}
+
+fn map_record(map: &RangeAzimuthMap) -> Record {
+    let Outside { count, power } = map.outside;
+    Record::new()
+        .with("rangeM", float64(&map.grid.range_m.values()))
+        .with("azimuthDeg", degrees(&map.grid.azimuth_rad()))
+        .with("power", float32(&map.power.iter().copied().collect::<Vec<_>>()))
+        .with("shape", list(map.power.shape().iter().copied()))
+        .with("outside", Record::new().with("count", count).with("power", power))
+}
+
+/// A map as [`map_record`] wrote it.
+struct Map(RangeAzimuthMap);
+
+impl Read for Map {
+    const EXPECTED: &'static str = "a range-azimuth map";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let range_m = axis(&mut fields, "rangeM", |range_m| range_m)?;
+        let sine = axis(&mut fields, "azimuthDeg", |azimuth| azimuth.to_radians().sin())?;
+        let power = powers(&mut fields, (range_m.len(), sine.len()))?;
+        let grid = Grid { range_m, sine };
+        Ok(Self(RangeAzimuthMap { grid, power, outside: Outside::default() }))
+    }
+}
+
+/// An evenly spaced axis from its first and last point.
+fn axis(fields: &mut Fields, name: &'static str, unit: fn(f64) -> f64) -> Fallible<Axis> {
+    let path = fields.path_of(name);
+    let values = float_array(fields, name)?.0;
+    let [first, .., last] = values[..] else {
+        return Err(shape_error(&path, "two points or more", &[values.len()]));
+    };
+    Ok(Axis::new(&path, unit(first), unit(last), values.len())?)
+}
+
+fn powers(fields: &mut Fields, shape: (usize, usize)) -> Fallible<Array2<f32>> {
+    let path = fields.path_of("power");
+    let power: Vec<f32> =
+        float_array(fields, "power")?.0.into_iter().map(|power| power as f32).collect();
+    if let Some(index) = power.iter().position(|power| !(0.0..=f32::MAX).contains(power)) {
+        let given = power[index].into();
+        return Err(CoreError::NotFinite { what: path, index, given }.into());
+    }
+    let given = [power.len()];
+    let expected = format!("[{}, {}]", shape.0, shape.1);
+    Array2::from_shape_vec(shape, power).map_err(|_| shape_error(&path, &expected, &given))
+}
+
+/// A mounting in JavaScript.
+struct Placed(Mounting);
+
+impl Read for Placed {
+    const EXPECTED: &'static str = "{ xM, yM, yawDeg }";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let (x_m, y_m) = (fields.required("xM")?, fields.required("yM")?);
+        let yaw: Angle = fields.required("yawDeg")?;
+        fields.finish()?;
+        Ok(Self(Mounting { x_m, y_m, yaw_rad: yaw.rad }))
+    }
+}
+
+/// A mounting as a plain object.
+pub fn mounting_record(mounting: &Mounting) -> Record {
+    Record::new()
+        .with("xM", mounting.x_m)
+        .with("yM", mounting.y_m)
+        .with("yawDeg", mounting.yaw_rad.to_degrees())
+}
+
+/// One of the radars of a view.
+struct Radar {
+    map: Map,
+    mounting: Mounting,
+}
+
+impl Read for Radar {
+    const EXPECTED: &'static str = "{ map, mounting }";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let map = fields.required("map")?;
+        let Placed(mounting) = fields.required("mounting")?;
+        fields.finish()?;
+        Ok(Self { map, mounting })
+    }
+}
+
+impl Read for ViewGrid {
+    const EXPECTED: &'static str = "{ xM, yM, cellM }";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let (x_m, y_m) = (fields.required("xM")?, fields.required("yM")?);
+        let cell_m = fields.required("cellM")?;
+        fields.finish()?;
+        Ok(Self::new(x_m, y_m, cell_m)?)
+    }
+}
+
+/// Maps of several radars on the ground around the car.
+#[wasm_bindgen(js_name = birdsEyeView)]
+pub fn view(input: &JsValue) -> Fallible<JsValue> {
+    let mut fields = Fields::new(input, "")?;
+    let radars: Vec<Radar> = fields.required("radars")?;
+    let grid: ViewGrid = fields.required("grid")?;
+    fields.finish()?;
+    let radars: Vec<_> = radars.iter().map(|radar| (&radar.map.0, radar.mounting)).collect();
+    Ok(view_record(&birds_eye_view(&radars, grid)?).into())
+}
+
+fn view_record(view: &BirdsEyeView) -> Record {
+    let radar: Vec<i8> = view.radar.iter().copied().collect();
+    let seen: Vec<u8> = radar.iter().map(|&radar| u8::from(radar != NO_RADAR)).collect();
+    Record::new()
+        .with("xM", float64(&view.grid.x_m.values()))
+        .with("yM", float64(&view.grid.y_m.values()))
+        .with("power", float32(&view.power.iter().copied().collect::<Vec<_>>()))
+        .with("seen", Uint8Array::new_from_slice(&seen))
+        .with("radar", Int8Array::new_from_slice(&radar))
+        .with("shape", list(view.power.shape().iter().copied()))
+        .with("cellM", view.grid.cell_m)
+        .with("mountings", list(view.mountings.iter().map(mounting_record)))
+}
+
+/// How much of a view is not where targets are.
+#[wasm_bindgen(js_name = sidelobeMeasure)]
+pub fn measure(view: &JsValue, targets: &JsValue, gate: &JsValue) -> Fallible<JsValue> {
+    let view = read_view(Fields::new(view, "view")?)?;
+    let targets: Vec<Place> = Vec::read(targets, "targets")?;
+    let targets: Vec<[f64; 2]> = targets.into_iter().map(|Place(place)| place).collect();
+    let measured = sidelobe_measure(&view, &targets, read_gate(Fields::new(gate, "gate")?)?)?;
+    let SidelobeMeasure { lit_outside, lit_targets, targets, gated, .. } = measured;
+    Ok(Record::new()
+        .with("outsideDb", power_to_db(measured.outside_share))
+        .with("peakOutsideDb", power_to_db(measured.peak_outside))
+        .with("litOutside", lit_outside)
+        .with("litTargets", lit_targets)
+        .with("targets", targets)
+        .with("gated", gated)
+        .into())
+}
+
+fn read_view(mut fields: Fields) -> Fallible<BirdsEyeView> {
+    let (x_m, y_m) = (axis(&mut fields, "xM", |x| x)?, axis(&mut fields, "yM", |y| y)?);
+    let cell_m = fields.required("cellM")?;
+    check_range("view.cellM", cell_m, 1e-3, 1e3)?;
+    let shape = (x_m.len(), y_m.len());
+    let power = powers(&mut fields, shape)?;
+    let radar = match fields.raw("radar")? {
+        Some(value) => match value.dyn_ref::<Int8Array>() {
+            Some(array) => array.to_vec(),
+            None => return Err(wrong_type("view.radar", "an Int8Array", &value)),
+        },
+        None => return Err(missing("view.radar", "an Int8Array")),
+    };
+    let given = [radar.len()];
+    let radar = Array2::from_shape_vec(shape, radar)
+        .map_err(|_| shape_error("view.radar", "a radar for each cell", &given))?;
+    let mountings: Vec<Placed> = fields.required("mountings")?;
+    let mountings = mountings.into_iter().map(|Placed(mounting)| mounting).collect();
+    Ok(BirdsEyeView { grid: ViewGrid { x_m, y_m, cell_m }, power, radar, mountings })
+}
+
+/// A place on the ground; whatever else a target has is of no use here.
+struct Place([f64; 2]);
+
+impl Read for Place {
+    const EXPECTED: &'static str = "{ xM, yM }";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        Ok(Self([fields.required("xM")?, fields.required("yM")?]))
+    }
+}
+
+fn read_gate(mut fields: Fields) -> Fallible<Gate> {
+    let gate = match fields.optional("gateM")? {
+        Some(radius_m) => Gate::Circle { radius_m },
+        None => {
+            Gate::Resolution { range_m: fields.required("rangeM")?, sine: fields.required("sine")? }
+        }
+    };
+    fields.finish()?;
+    Ok(gate)
+}
