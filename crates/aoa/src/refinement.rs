@@ -16,7 +16,6 @@ use crate::estimate::{Estimate, Source, Warning};
 use crate::nomp::Nomp;
 use crate::normalised::Normalised;
 use crate::options::Options;
-use crate::powers::sources_at;
 use boresight_core::{Array, Direction};
 
 /// A refinement prepared for one array.
@@ -62,11 +61,7 @@ impl Refinement {
             },
             Data::Covariance { .. } => self.nomp.prune(points, data),
         };
-        let directions: Vec<Direction> =
-            points.iter().map(|&p| self.geometry.direction(p)).collect();
-        let mut sources = sources_at(&self.array, &directions, data);
-        sources.retain(|source| self.nomp.sees(source.direction));
-        Ok(sources)
+        Ok(self.nomp.sources(points, data))
     }
 
     /// Puts the refined sources in place of those of an estimate; its spectrum stays as it is.

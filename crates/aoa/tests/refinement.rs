@@ -141,3 +141,27 @@ fn as_an_option_of_every_method() {
         assert_eq!(nothing, 1, "{}: {:?}", method.name(), silent.warnings);
     }
 }
+
+/// Pairs a quarter of a beam apart, which a snapshot fits as well by two strong sources that cancel.
+#[test]
+fn no_source_is_stronger_than_the_data_allow() {
+    let array = preset("lrr48").unwrap();
+    let mut nomp = Estimator::new(Method::Nomp, &array, &Options::default()).unwrap();
+    for trial in 0..100 {
+        let mut random = Random::new(83, trial);
+        let at = [0.3, 0.3 + 0.25 * 2.0 / 92.0].map(|sine: f64| Direction::azimuth(sine.asin()));
+        let s = Array2::from_shape_fn((2, 1), |_| cis(random.phase()));
+        let mut y = steering_matrix(&array, &at).dot(&s);
+        y.mapv_inplace(|z| z + random.complex_normal(1e-3));
+        let sources = nomp.estimate(Data::Snapshots(y.view())).unwrap().sources;
+        assert!(!sources.is_empty());
+        for source in &sources {
+            // In phase they are one of 6 dB, of opposite phases two of less than 0 dB.
+            assert!(source.power < 10.0, "trial {trial}: {sources:?}");
+            assert!(
+                (source.direction.azimuth_rad - 0.3).abs() < 0.05,
+                "trial {trial}: {sources:?}"
+            );
+        }
+    }
+}

@@ -29,7 +29,6 @@ use crate::grid::Grid;
 use crate::method::Method;
 use crate::normalised::Normalised;
 use crate::options::{NompOptions, Options};
-use crate::powers::sources_at;
 use crate::quadratic::QuadraticSpectrum;
 use boresight_core::linalg::least_squares;
 use boresight_core::{Array, Complex64, Direction};
@@ -305,13 +304,8 @@ impl Plan for Nomp {
         }
         let scaled = Data::Snapshots(y.view());
         let points = self.polish(fitted.points, scaled, noise_power);
-        let directions: Vec<Direction> =
-            points.iter().map(|&p| self.geometry.direction(p)).collect();
-        let sources: Vec<Source> = sources_at(&self.array, &directions, scaled)
-            .into_iter()
-            .filter(|source| self.sees(source.direction))
-            .map(|source| normalised.source_out(source))
-            .collect();
+        let sources = self.sources(points, scaled).into_iter();
+        let sources: Vec<Source> = sources.map(|source| normalised.source_out(source)).collect();
         Ok(conclude(method, sources, None, None, found, warnings))
     }
 }

@@ -4,11 +4,16 @@
 use super::{EXHAUSTED, Nomp};
 use crate::cosines::Point;
 use crate::data::Data;
+use crate::estimate::Source;
 use crate::gauss_newton::{Fit, Limits, refine_points, total_power};
 use crate::normalised::Normalised;
+use crate::powers::sources_at;
+use boresight_core::Direction;
 
 /// Gauss-Newton steps over all sources.
 const STEPS: Limits = Limits { iterations: 10, tolerance: 1e-8 };
+/// Share of their powers that two sources that cancel leave at most.
+const CANCELLED: f64 = 0.01;
 
 impl Nomp {
     /// Those of `start` that are more than noise, and the sources that stand out beside them,
@@ -25,6 +30,41 @@ impl Nomp {
     /// Those of the points that are more than noise, refined together.
     pub fn prune(&mut self, points: Vec<Point>, data: Data<'_>) -> Vec<Point> {
         self.without_noise(points, data, self.options.noise_power)
+    }
+
+    /// The sources at `points` in the field of view, with their powers.
+    ///
+    /// Two sources of one snapshot closer than half a beam that cancel by more than 20 dB are a fit
+    /// to first order of one at their centre, `a_1 v_1 + a_2 v_2` over `a_1 + a_2`: that is returned
+    /// in place of two of absurd power.
+    pub fn sources(&self, points: Vec<Point>, data: Data<'_>) -> Vec<Source> {
+        let directions: Vec<Direction> =
+            points.iter().map(|&p| self.geometry.direction(p)).collect();
+        let mut points = points;
+        let mut sources = sources_at(&self.array, &directions, data);
+        let mut apart: Vec<(Point, Point)> = Vec::new();
+        let half_beam = self.geometry.half_beam();
+        while let Some((i, k)) = self.closest(&points, half_beam, &apart) {
+            let (Some(a), Some(b)) = (sources[i].amplitude, sources[k].amplitude) else { break };
+            let sum = a + b;
+            if sum.norm_sqr() > CANCELLED * (a.norm_sqr() + b.norm_sqr()) {
+                apart.push((points[i], points[k]));
+                continue;
+            }
+            let share = (sum.conj() * b).re / sum.norm_sqr().max(f64::MIN_POSITIVE);
+            let gaps = [0, 1].map(|axis| points[k][axis] - points[i][axis]);
+            let step = gaps.map(|gap| (share * gap).clamp(-half_beam, half_beam));
+            points[i] = self.geometry.moved(points[i], step);
+            points.remove(k);
+            sources.remove(k);
+            sources[i] = Source {
+                direction: self.geometry.direction(points[i]),
+                power: sum.norm_sqr(),
+                amplitude: Some(sum),
+            };
+        }
+        sources.retain(|source| self.sees(source.direction));
+        sources
     }
 
     /// Refined, merged and without noise.
