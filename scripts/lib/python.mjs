@@ -1,0 +1,30 @@
+import { join, resolve } from 'node:path';
+import { environment, root } from './paths.mjs';
+import { output, run } from './run.mjs';
+import { whenChanged } from './stamp.mjs';
+import { atLeast } from './versions.mjs';
+
+const windows = process.platform === 'win32';
+const python = windows ? 'python' : 'python3';
+
+/**
+ * Runs pytest on tests that use the command line, in a virtual environment of exactly the packages of a requirements
+ * file, `.tools/NAME`. Needs Python 3.11 or newer with its venv module.
+ */
+export async function pytest(name, requirements, tests, variables = {}) {
+  const found = /^Python (\S+)/.exec(output(python, ['--version']) ?? '')?.[1];
+  if (!found || !atLeast(found, '3.11.0')) {
+    throw new Error(`Python 3.11 or newer is needed for the ${name} tests; this is ${found ?? 'none'}`);
+  }
+  const venv = join('.tools', name);
+  const venvPython = join(venv, ...(windows ? ['Scripts', 'python.exe'] : ['bin', 'python']));
+  await whenChanged(name, { inputs: [requirements], extra: [found], outputs: [venvPython] }, async () => {
+    await run(python, ['-m', 'venv', '--clear', venv]);
+    await run(join(root, venvPython), ['-m', 'pip', 'install', '--quiet', '--no-deps', '-r', requirements]);
+  });
+  await run('cargo', ['build', '--quiet', '--package', 'boresight-cli']);
+  const boresight = resolve(root, process.env.CARGO_TARGET_DIR ?? 'target', 'debug', windows ? 'boresight.exe' : 'boresight');
+  await run(join(root, venvPython), ['-m', 'pytest', '-q', '-p', 'no:cacheprovider', tests, ...process.argv.slice(2)], {
+    env: { ...environment, BORESIGHT: boresight, PYTHONDONTWRITEBYTECODE: '1', ...variables },
+  });
+}

@@ -1,0 +1,121 @@
+"""`python -m boresight_training train|evaluate|export`."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import torch
+
+from . import export, processes
+from .tasks import NETWORKS, task
+from .train import Settings, Training
+
+
+def parser() -> argparse.ArgumentParser:
+    """What the command takes."""
+    top = argparse.ArgumentParser(prog="boresight_training", description=__doc__)
+    commands = top.add_subparsers(dest="command", required=True)
+
+    sizes = "; ".join(f"{name}: {', '.join(configs)}" for name, configs in NETWORKS.items())
+    train = commands.add_parser("train", help="train a network, or go on where a folder's training stopped")
+    train.add_argument("network", choices=NETWORKS)
+    train.add_argument("--config", default="small", help=f"size: {sizes}")
+    train.add_argument("--targets", type=int, help="most targets of aaetr (16); targets cnn3d and dnn see (1), 1 or 2")
+    train.add_argument("--position-error", type=float, default=0.0, help="aaetr: perturb positions, half wavelengths")
+    train.add_argument(
+        "--resume",
+        "--folder",
+        dest="folder",
+        type=Path,
+        metavar="DIR",
+        help="folder of checkpoint and log; goes on from its checkpoint (runs/NETWORK-CONFIG)",
+    )
+    train.add_argument("--minutes", type=float, help="stop this run after so long")
+    train.add_argument("--total-minutes", type=float, help="length of the schedule over all runs (as --minutes)")
+    train.add_argument("--steps", type=int, help="length of the schedule in steps instead")
+    train.add_argument("--batch", type=int, help="examples a step, of all processes together")
+    train.add_argument("--learning-rate", type=float)
+    train.add_argument("--warmup-steps", type=int, default=200)
+    train.add_argument("--ema", type=float, default=0.999)
+    train.add_argument("--seed", type=int, default=0)
+    train.add_argument("--device", default="cuda" if torch.cuda.is_available() else "cpu")
+    train.add_argument("--threads", type=int, help="threads on the CPU")
+    train.add_argument("--bfloat16", action=argparse.BooleanOptionalAction, help="default: on a GPU")
+    train.add_argument("--compile", action=argparse.BooleanOptionalAction, help="default: on a GPU")
+    train.add_argument("--evaluate-minutes", type=float, default=5.0)
+    train.add_argument("--evaluate-count", type=int, default=250)
+    train.add_argument("--checkpoint-minutes", type=float, default=2.0)
+    train.add_argument("--log-seconds", type=float, default=10.0)
+
+    evaluate = commands.add_parser("evaluate", help="score the network of a training folder")
+    evaluate.add_argument("folder", type=Path)
+    evaluate.add_argument("--count", type=int, default=4000, help="examples a condition")
+
+    write = commands.add_parser("export", help="write the network of a training folder as ONNX, with its card")
+    write.add_argument("folder", type=Path)
+    write.add_argument("out", type=Path, metavar="F.onnx")
+    write.add_argument("--half", action="store_true", help="store weights in half precision")
+    write.add_argument("--count", type=int, default=4000, help="examples a condition for the card's metrics")
+    return top
+
+
+def train(arguments) -> dict:
+    """Trains as the arguments say; final scores."""
+    a = arguments
+    if a.threads:
+        torch.set_num_threads(a.threads)
+    identity = {"name": a.network, "config": a.config, "targets": a.targets, "position_error": a.position_error}
+    what = task(**identity)
+    group = processes.start(a.device)
+    on_gpu = group.device.type == "cuda"
+    settings = Settings(
+        batch=a.batch or what.batch,
+        learning_rate=a.learning_rate or what.learning_rate,
+        steps=a.steps,
+        minutes=a.minutes,
+        total_minutes=a.total_minutes or (None if a.steps else a.minutes),
+        warmup_steps=a.warmup_steps,
+        ema=a.ema,
+        seed=a.seed,
+        bfloat16=on_gpu if a.bfloat16 is None else a.bfloat16,
+        compile=on_gpu if a.compile is None else a.compile,
+        log_seconds=a.log_seconds,
+        checkpoint_seconds=60 * a.checkpoint_minutes,
+        evaluate_seconds=60 * a.evaluate_minutes,
+        evaluate_count=a.evaluate_count,
+    )
+    folder = a.folder or Path("runs") / f"{a.network}-{a.config}"
+    try:
+        return Training(what, settings, folder, identity, group).run()
+    finally:
+        processes.end()
+
+
+def evaluate(arguments) -> dict:
+    """Scores of a training folder."""
+    _, what, network = export.restore(arguments.folder)
+    with torch.no_grad():
+        return what.evaluate(network, arguments.count, torch.Generator().manual_seed(30_000))
+
+
+def main() -> int:
+    """Runs the command."""
+    arguments = parser().parse_args()
+    try:
+        if arguments.command == "train":
+            result = train(arguments)
+        elif arguments.command == "evaluate":
+            result = evaluate(arguments)
+        else:
+            result = export.export(arguments.folder, arguments.out, arguments.half, arguments.count)
+    except (ValueError, FileNotFoundError) as error:
+        print(f"boresight_training: {error}", file=sys.stderr)
+        return 2
+    if result:
+        print(json.dumps(result, indent=2))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

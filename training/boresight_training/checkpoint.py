@@ -1,0 +1,25 @@
+"""Checkpoints: one file, replaced in one step, from which training goes on as if it had not stopped."""
+
+import os
+from pathlib import Path
+
+import torch
+
+NAME = "checkpoint.pt"
+
+
+def save(folder: Path, state: dict) -> None:
+    """Writes the state beside the last one, then puts it in its place."""
+    folder.mkdir(parents=True, exist_ok=True)
+    temporary = folder / f"{NAME}.{os.getpid()}.new"
+    with open(temporary, "wb") as file:
+        torch.save(state, file)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(temporary, folder / NAME)
+
+
+def load(folder: Path) -> dict | None:
+    """The state last saved in a folder, on the CPU; `None` where there is none."""
+    path = Path(folder) / NAME
+    return torch.load(path, map_location="cpu", weights_only=True) if path.exists() else None

@@ -1,0 +1,136 @@
+"""Trained networks as ONNX files with their cards."""
+
+import hashlib
+import json
+import platform
+import warnings
+from pathlib import Path
+
+import numpy as np
+import onnx
+import onnxruntime
+import torch
+from onnx import TensorProto, helper, numpy_helper
+
+from . import checkpoint
+from .tasks import Task, task
+
+OPSET = 16
+HALF_FROM = 256
+"""Smaller weights stay in single precision."""
+PARITY = 1e-4
+"""Largest difference of the exported model from PyTorch, relative to the largest output or 1."""
+
+
+def restore(folder: Path) -> tuple[dict, Task, torch.nn.Module]:
+    """Checkpoint, task and averaged network of a training folder."""
+    saved = checkpoint.load(folder)
+    if saved is None:
+        raise FileNotFoundError(f"{folder} holds no {checkpoint.NAME}")
+    what = task(**saved["identity"])
+    network = what.model()
+    network.load_state_dict(saved["ema"])
+    return saved, what, network.eval()
+
+
+def to_onnx(what: Task, network: torch.nn.Module, path: Path, half: bool = False) -> float:
+    """Writes the exported form and returns its largest difference from PyTorch.
+
+    With `half` the weights are stored in half precision and widened when the model loads; the difference then is that
+    of the same rounded weights, so that it speaks of the export alone.
+    """
+    form = what.export_form(network).eval()
+    if half:
+        with torch.no_grad():
+            for value in form.parameters():
+                if value.numel() >= HALF_FROM:
+                    value.copy_(value.half())
+    generator = torch.Generator().manual_seed(7)
+    example = what.example(3, generator)
+    free = {
+        port.name: {axis: name for axis, name in enumerate(port.axes) if isinstance(name, str)}
+        for port in (*what.inputs, *what.outputs)
+    }
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        torch.onnx.export(
+            form,
+            example,
+            str(path),
+            dynamo=False,
+            opset_version=OPSET,
+            input_names=[port.name for port in what.inputs],
+            output_names=[port.name for port in what.outputs],
+            dynamic_axes={name: axes for name, axes in free.items() if axes},
+        )
+    model = onnx.load(path)
+    for port, value in zip(what.outputs, model.graph.output, strict=True):
+        for axis, dimension in zip(port.axes, value.type.tensor_type.shape.dim, strict=True):
+            if isinstance(axis, int):
+                dimension.dim_value = axis
+    if half:
+        _store_half(model.graph)
+    onnx.checker.check_model(model, full_check=True)
+    onnx.save(model, path)
+    difference = max(_difference(what, form, path, batch, generator) for batch in (1, 5))
+    if not difference <= PARITY:
+        raise ValueError(f"{path} differs from PyTorch by {difference:.2g}, more than {PARITY}")
+    return difference
+
+
+def _difference(what, form, path, batch, generator) -> float:
+    example = what.example(batch, generator)
+    session = onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
+    names = [port.name for port in what.inputs]
+    (given,) = session.run(None, {name: x.numpy() for name, x in zip(names, example, strict=True)})
+    with torch.no_grad():
+        expected = form(*example).numpy()
+    return float(np.abs(given - expected).max() / max(1.0, np.abs(expected).max()))
+
+
+def _store_half(graph) -> None:
+    """Stores large weights in half precision, each followed by a cast."""
+    casts = []
+    for weight in graph.initializer:
+        values = numpy_helper.to_array(weight)
+        if values.dtype == np.float32 and values.size >= HALF_FROM:
+            name = weight.name
+            weight.CopyFrom(numpy_helper.from_array(values.astype(np.float16), f"{name}_half"))
+            casts.append(helper.make_node("Cast", [f"{name}_half"], [name], to=TensorProto.FLOAT))
+    for cast in reversed(casts):
+        graph.node.insert(0, cast)
+
+
+def export(folder: Path, path: Path, half: bool = False, count: int = 4000) -> dict:
+    """Writes the network of a training folder to `path`, its card beside it, and returns the card."""
+    saved, what, network = restore(folder)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    difference = to_onnx(what, network, path, half)
+    with torch.no_grad():
+        metrics = what.evaluate(network, count, torch.Generator().manual_seed(30_000))
+    identity = saved["identity"]
+    card = {
+        "network": identity["name"],
+        "form": identity["config"],
+        "inputs": _ports(what.inputs),
+        "outputs": _ports(what.outputs),
+        "parameters": sum(p.numel() for p in network.parameters()),
+        **what.describe(),
+        "training": saved["settings"],
+        "steps": saved["step"],
+        "samplesSeen": saved["samples"],
+        "hours": round(saved["seconds"] / 3600, 3),
+        "hardware": saved["hardware"],
+        "software": f"PyTorch {torch.__version__.split('+')[0]}, Python {platform.python_version()}",
+        "metrics": {name: round(value, 5) for name, value in metrics.items()},
+        "metricsExamples": count,
+        "onnx": {"opset": OPSET, "weights": "float16" if half else "float32", "parity": difference},
+        "bytes": path.stat().st_size,
+        "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
+    }
+    path.with_suffix(".json").write_text(json.dumps(card, indent=2) + "\n")
+    return card
+
+
+def _ports(ports) -> list[dict]:
+    return [{"name": p.name, "axes": list(p.axes), "meaning": p.meaning} for p in ports]

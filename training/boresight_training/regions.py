@@ -1,0 +1,165 @@
+"""Regions of interest of FMCW data cubes, and their covariances, as the networks of Sang et al. (2021) take them.
+
+A sample at time `t` after the start of its ramp is `alpha exp(j 2 pi (2 R(t) / c) (f_0 + S t))` (equation 9), with the
+range `R` at that very moment; element `k` adds the phase `pi p_k . d`.
+"""
+
+from dataclasses import dataclass
+from math import radians
+
+import torch
+
+from .arrays import array, steering
+from .snapshots import complex_normal, uniform
+
+SPEED_OF_LIGHT = 299_792_458.0
+LENGTH, CHIRPS = 65, 4
+"""Range bins and chirps of a region."""
+CLASSES = 21
+"""Directions from -10 to 10 degrees in whole degrees."""
+
+
+@dataclass(frozen=True)
+class Waveform:
+    """Timing and frequency plan of a frame, as `boresight` has it."""
+
+    start_frequency_hz: float
+    slope_hz_per_s: float
+    sample_rate_hz: float
+    samples: int
+    chirp_interval_s: float
+    transmitters: int
+    adc_start_s: float = 0.0
+    loops: int = CHIRPS
+
+
+WAVEFORMS = {
+    "3dcnn-simulated": Waveform(77e9, 3.476e12, 256 * 3.476e12 / 0.15e9, 256, 50e-6, 1),
+    "3dcnn-experiment": Waveform(77e9, 4.2e12, 512 * 4.2e12 / 3.5e9, 512, 850e-6, 2),
+}
+
+
+@dataclass(frozen=True)
+class Reflectors:
+    """Targets of a batch of cubes, each [batch, most]; where `valid` is false there is none."""
+
+    range_m: torch.Tensor
+    rate_mps: torch.Tensor
+    azimuth: torch.Tensor
+    """rad"""
+    phase: torch.Tensor
+    valid: torch.Tensor
+
+
+@dataclass(frozen=True)
+class Cubes:
+    """How cubes are drawn (Tables 3 and 4); every quantity is uniform, targets have 0 dB and stand still."""
+
+    waveform: str = "3dcnn-simulated"
+    targets: tuple[int, int] = (0, 2)
+    range_m: tuple[float, float] = (70.0, 90.0)
+    snr_db: tuple[float, float] = (0.0, 15.0)
+    """Power of a target over the noise power, both of one raw sample."""
+    shift_m: float = 0.0
+    """Greatest shift in range by equation 10."""
+
+    def elements(self) -> torch.Tensor:
+        """Positions of the 8 virtual elements, a uniform row however many transmitters make it."""
+        return array("ula8")
+
+
+def draw_reflectors(cubes: Cubes, batch: int, generator: torch.Generator) -> Reflectors:
+    """Random targets at distinct whole degrees; two of them at independent ranges."""
+    fewest, most = cubes.targets
+    device = generator.device
+    count = torch.randint(fewest, most + 1, (batch, 1), generator=generator, device=device)
+    degrees = torch.rand((batch, CLASSES), generator=generator, device=device).topk(most).indices - CLASSES // 2
+    return Reflectors(
+        range_m=uniform((batch, most), *cubes.range_m, generator),
+        rate_mps=torch.zeros(batch, most, dtype=torch.float64, device=device),
+        azimuth=degrees.double() * radians(1),
+        phase=uniform((batch, most), 0.0, 2 * torch.pi, generator),
+        valid=torch.arange(most, device=device) < count,
+    )
+
+
+def tones(waveform: Waveform, reflectors: Reflectors) -> torch.Tensor:
+    """What one element at the origin receives of each target, [batch, most, loops, transmitters, samples]."""
+    w, device = waveform, reflectors.range_m.device
+    fast = w.adc_start_s + torch.arange(w.samples, dtype=torch.float64, device=device) / w.sample_rate_hz
+    chirps = torch.arange(w.loops * w.transmitters, dtype=torch.float64, device=device)
+    time = (chirps * w.chirp_interval_s).view(w.loops, w.transmitters, 1) + fast
+
+    def spread(x):
+        return x[..., None, None, None]
+
+    path = 2 * (spread(reflectors.range_m) + spread(reflectors.rate_mps) * time)
+    turns = path / SPEED_OF_LIGHT * (w.start_frequency_hz + w.slope_hz_per_s * fast)
+    phase = 2 * torch.pi * (turns - turns.floor()) + spread(reflectors.phase)
+    return torch.polar(spread(reflectors.valid.double()).expand_as(phase), phase)
+
+
+def shift(waveform: Waveform, shift_m: torch.Tensor) -> torch.Tensor:
+    """Factor along the samples that moves everything by a range, [..., samples] (equation 10)."""
+    w = waveform
+    fast = w.adc_start_s + torch.arange(w.samples, dtype=torch.float64, device=shift_m.device) / w.sample_rate_hz
+    turns = 2 * shift_m.unsqueeze(-1) / SPEED_OF_LIGHT * (w.start_frequency_hz + w.slope_hz_per_s * fast)
+    return torch.polar(torch.ones_like(turns), 2 * torch.pi * (turns - turns.floor()))
+
+
+def join(tones: torch.Tensor, waveform: Waveform, reflectors: Reflectors, positions: torch.Tensor) -> torch.Tensor:
+    """Sums the targets over the array: [batch, loops, transmitters, receivers, samples]."""
+    response = steering(positions, reflectors.azimuth.sin())
+    response = response.unflatten(-1, (waveform.transmitters, -1))
+    return torch.einsum("bmlts,bmtr->bltrs", tones, response.to(tones.dtype))
+
+
+def regions(cubes: Cubes, batch: int, generator: torch.Generator):
+    """Random regions of interest: targets, and range bins x elements x chirps, complex64, around the strongest bin.
+
+    The range spectrum is scaled so that a tone in the middle of a bin keeps its amplitude; range bins wrap.
+    """
+    waveform = WAVEFORMS[cubes.waveform]
+    reflectors = draw_reflectors(cubes, batch, generator)
+    tone = tones(waveform, reflectors)
+    if cubes.shift_m > 0:
+        by = uniform((batch,), -cubes.shift_m, cubes.shift_m, generator)
+        tone = tone * shift(waveform, by)[:, None, None, None, :]
+    spectrum = torch.fft.fft(tone, norm="forward").to(torch.complex64)
+    spectrum = join(spectrum, waveform, reflectors, cubes.elements().to(generator.device)).flatten(2, 3)
+    # White noise stays white in the transform, at 1 / samples of its power.
+    snr_db = uniform((batch, 1, 1, 1), *cubes.snr_db, generator, torch.float32)
+    noise = (10 ** (-snr_db / 10) / waveform.samples).sqrt()
+    spectrum = spectrum + noise * complex_normal(spectrum.shape, generator)
+    power = (spectrum.real**2 + spectrum.imag**2).sum((1, 2))
+    return reflectors, crop(spectrum, power.argmax(-1))
+
+
+def crop(spectrum: torch.Tensor, centre: torch.Tensor) -> torch.Tensor:
+    """LENGTH range bins around `centre` of [batch, loops, elements, bins], as [batch, LENGTH, elements, CHIRPS]."""
+    bins = spectrum.shape[-1]
+    index = (centre.unsqueeze(1) + torch.arange(LENGTH, device=centre.device) - LENGTH // 2) % bins
+    spectrum = spectrum[:, :CHIRPS].permute(0, 3, 2, 1)
+    return spectrum[torch.arange(len(centre), device=centre.device).unsqueeze(1), index]
+
+
+def channels(region: torch.Tensor) -> torch.Tensor:
+    """Magnitude, real and imaginary part on a last axis."""
+    return torch.stack((region.abs(), region.real, region.imag), -1)
+
+
+def covariance_features(region: torch.Tensor) -> torch.Tensor:
+    """Upper triangle of the region's covariance over its largest entry (equation 8), [batch, 56]."""
+    snapshots = region.transpose(1, 2).flatten(2)
+    covariance = snapshots @ snapshots.mH
+    largest = covariance.diagonal(dim1=1, dim2=2).real.amax(1).clamp_min(1e-30)
+    row, column = torch.triu_indices(*covariance.shape[1:], offset=1, device=region.device)
+    upper = covariance[:, row, column] / largest.unsqueeze(1)
+    return torch.view_as_real(upper).flatten(1)
+
+
+def labels(reflectors: Reflectors) -> torch.Tensor:
+    """One or zero for each direction, [batch, CLASSES]."""
+    index = reflectors.azimuth.rad2deg().round().long() + CLASSES // 2
+    empty = torch.zeros(len(index), CLASSES, device=index.device)
+    return empty.scatter_add(1, index, reflectors.valid.float()).clamp_max(1)

@@ -1,0 +1,65 @@
+"""Set loss of AAETR: bipartite matching, then classification and regression, after every decoder layer."""
+
+from dataclasses import dataclass
+
+import torch
+from torch.nn import functional
+
+from .arrays import LRR48_APERTURE
+from .matching import assign
+
+
+@dataclass(frozen=True)
+class SetLossConfig:
+    """Weights of the parts of the loss, in the matching too."""
+
+    confidence: float = 1.0
+    sine: float = 1.0
+    """Per Rayleigh cell, 2 over the aperture."""
+    magnitude: float = 0.1
+    """Per dB."""
+    focal: float = 0.0
+    """Exponent of the focal loss; 0 is cross-entropy."""
+    reach: float = 1e9
+    """Errors in sine cost no more than this many cells."""
+
+
+def set_loss(outputs, targets, config: SetLossConfig):
+    """Loss of `outputs` [layers, batch, queries, 3] (sine, dB, logit): its sum over layers, and the parts of the last.
+
+    Every part is a sum over a batch divided by its number of targets.
+    """
+    layers, batch = outputs.shape[:2]
+    u, db, logit = outputs.float().unbind(-1)
+    true_u, true_db = targets.u.float(), targets.db.float()
+    cell = 2 / LRR48_APERTURE
+    with torch.no_grad():
+        far = (u.unsqueeze(-2) - true_u.unsqueeze(-1)).abs().div(cell).clamp_max(config.reach)
+        cost = config.sine * far + config.magnitude * (db.unsqueeze(-2) - true_db.unsqueeze(-1)).abs()
+        cost = cost + config.confidence * _gain(logit, config).unsqueeze(-2)
+        rows = targets.valid.sum(1).repeat(layers)
+        columns = assign(cost.flatten(0, 1), rows).view(layers, batch, -1)
+        there = (columns >= 0).float()
+        columns = columns.clamp_min(0)
+        label = torch.zeros_like(logit).scatter_add_(2, columns, there)
+    count = targets.valid.sum().clamp_min(1)
+    confidence = (_classification(logit, label, config)).sum((1, 2)) / count
+    error_u = (u.gather(2, columns) - true_u).abs() / cell
+    sine = (error_u * there).sum((1, 2)) / count
+    magnitude = ((db.gather(2, columns) - true_db).abs() * there).sum((1, 2)) / count
+    total = config.confidence * confidence + config.sine * sine + config.magnitude * magnitude
+    parts = {"confidence": confidence[-1], "sine": sine[-1], "magnitude": magnitude[-1]}
+    return total.sum(), {k: v.detach() for k, v in parts.items()}
+
+
+def _classification(logit, label, config):
+    loss = functional.binary_cross_entropy_with_logits(logit, label, reduction="none")
+    if config.focal > 0:
+        loss = loss * 2**config.focal * (logit.sigmoid() - label).abs().detach() ** config.focal
+    return loss
+
+
+def _gain(logit, config):
+    """What a query's confidence costs more as a target than as none."""
+    one, zero = torch.ones_like(logit), torch.zeros_like(logit)
+    return _classification(logit, one, config) - _classification(logit, zero, config)

@@ -1,0 +1,90 @@
+"""Snapshots of an array with random targets: `y = sum_m alpha_m a(theta_m) + n` (equations 4 to 6 of AAETR)."""
+
+from dataclasses import dataclass
+from math import radians
+
+import torch
+
+from .arrays import steering
+
+
+@dataclass(frozen=True)
+class Targets:
+    """Targets of a batch of scenes, each [batch, most]; where `valid` is false there is none."""
+
+    azimuth: torch.Tensor
+    """rad"""
+    db: torch.Tensor
+    """20 log10 of the amplitude"""
+    phase: torch.Tensor
+    """rad, at the array's origin"""
+    valid: torch.Tensor
+
+    @property
+    def u(self) -> torch.Tensor:
+        """Sine of the azimuth."""
+        return self.azimuth.sin()
+
+    @property
+    def amplitude(self) -> torch.Tensor:
+        """Complex amplitude, 0 where there is no target."""
+        return torch.polar(torch.where(self.valid, 10 ** (self.db / 20), 0), self.phase)
+
+
+@dataclass(frozen=True)
+class Scenes:
+    """How scenes are drawn; every quantity is uniform."""
+
+    targets: tuple[int, int] = (0, 16)
+    field_of_view_deg: float = 60.0
+    db: tuple[float, float] = (-13.0, 0.0)
+    snr_db: tuple[float, float] = (10.0, 40.0)
+    """Power of a 0 dB target over the noise power, both at one element."""
+    position_error: float = 0.0
+    """Standard deviation of each coordinate of the elements, drawn anew for each scene; half wavelengths."""
+
+
+def uniform(shape, low, high, generator, dtype=torch.float64):
+    """Uniform numbers on the generator's device."""
+    return torch.rand(shape, generator=generator, device=generator.device, dtype=dtype) * (high - low) + low
+
+
+def complex_normal(shape, generator, dtype=torch.float32):
+    """Circular complex normal numbers of power 1 on the generator's device."""
+    parts = torch.randn((*shape, 2), generator=generator, device=generator.device, dtype=dtype)
+    return torch.view_as_complex(parts * 0.5**0.5)
+
+
+def draw_targets(scenes: Scenes, batch: int, generator: torch.Generator) -> Targets:
+    """Random targets of `batch` scenes."""
+    fewest, most = scenes.targets
+    count = torch.randint(fewest, most + 1, (batch, 1), generator=generator, device=generator.device)
+    half = radians(scenes.field_of_view_deg)
+    return Targets(
+        azimuth=uniform((batch, most), -half, half, generator),
+        db=uniform((batch, most), *scenes.db, generator),
+        phase=uniform((batch, most), 0.0, 2 * torch.pi, generator),
+        valid=torch.arange(most, device=generator.device) < count,
+    )
+
+
+def responses(targets: Targets, positions: torch.Tensor) -> torch.Tensor:
+    """What the elements receive without noise, [batch, elements], in double precision."""
+    waves = steering(positions.double(), targets.u.double())
+    return (targets.amplitude.to(torch.complex128).unsqueeze(-1) * waves).sum(-2)
+
+
+def snapshots(scenes: Scenes, positions: torch.Tensor, batch: int, generator: torch.Generator):
+    """Random scenes: targets, snapshots (complex64, [batch, elements]) and the positions as simulated.
+
+    With position errors those are [batch, elements, 3], else as given.
+    """
+    targets = draw_targets(scenes, batch, generator)
+    positions = positions.to(generator.device)
+    if scenes.position_error > 0:
+        shape = (batch, *positions.shape)
+        errors = torch.randn(shape, generator=generator, device=generator.device, dtype=torch.float64)
+        positions = positions + scenes.position_error * errors
+    values = responses(targets, positions).to(torch.complex64)
+    noise = 10 ** (-uniform((batch, 1), *scenes.snr_db, generator, torch.float32) / 20)
+    return targets, values + noise * complex_normal(values.shape, generator), positions

@@ -1,0 +1,243 @@
+"""What is trained: for each network its model, its data, its loss, its scores and its exported form."""
+
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from typing import Any, Protocol
+
+import torch
+from torch import nn
+from torch.nn import functional
+
+from .aaetr import CONFIGS, Aaetr
+from .arrays import array
+from .classifiers import COVARIANCE_FEATURES, DNN_HIDDEN, Cnn3d, counting, dnn, folded
+from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
+from .score import best_f1
+from .setloss import SetLossConfig, set_loss
+from .snapshots import Scenes, snapshots
+
+
+@dataclass(frozen=True)
+class Port:
+    """An input or output of an exported model; axes are numbers, or names where any length goes."""
+
+    name: str
+    axes: tuple[int | str, ...]
+    meaning: str
+
+
+class Task(Protocol):
+    """One network and all that training it takes."""
+
+    inputs: tuple[Port, ...]
+    outputs: tuple[Port, ...]
+    batch: int
+    learning_rate: float
+
+    def model(self) -> nn.Module:
+        """A new network."""
+
+    def draw(self, batch: int, progress: float, generator: torch.Generator) -> Any:
+        """A batch of data; `progress` through training goes from 0 to 1."""
+
+    def loss(self, model: nn.Module, data: Any) -> tuple[torch.Tensor, dict[str, torch.Tensor]]:
+        """What is minimised, and parts worth a log."""
+
+    def evaluate(self, model: nn.Module, count: int, generator: torch.Generator) -> dict[str, float]:
+        """Scores, `count` examples a condition."""
+
+    def export_form(self, model: nn.Module) -> nn.Module:
+        """The module whose graph is exported."""
+
+    def example(self, batch: int, generator: torch.Generator) -> tuple[torch.Tensor, ...]:
+        """Inputs of the exported form."""
+
+    def describe(self) -> dict:
+        """Settings of data and model, for the card."""
+
+
+class AaetrTask:
+    """Angles of arrival of up to 16 targets in one snapshot of `lrr48`."""
+
+    inputs = (
+        Port("snapshots", ("batch", 48, 2), "real and imaginary part of each virtual element, transmitter-major"),
+        Port("positions", (48, 3), "positions of the virtual elements, half wavelengths, x forward, y left, z up"),
+    )
+
+    def __init__(self, config: str, position_error: float = 0.0, targets: int = 16):
+        self.config = CONFIGS[config]
+        self.scenes = Scenes(targets=(0, targets), position_error=position_error)
+        self.loss_config = SetLossConfig()
+        self.positions = array("lrr48")
+        self.batch, self.learning_rate = (32, 2e-3) if self.config.steered else (1024, 4e-4)
+        meaning = "sine of azimuth, magnitude in dB (20 log10), confidence from 0 to 1"
+        self.outputs = (Port("targets", ("batch", self.config.queries, 3), meaning),)
+
+    def model(self):
+        return Aaetr(self.config)
+
+    def draw(self, batch, progress, generator):
+        targets, values, positions = snapshots(self.scenes, self.positions, batch, generator)
+        return targets, torch.view_as_real(values), positions.float()
+
+    def loss(self, model, data):
+        targets, values, positions = data
+        return set_loss(model(values, positions), targets, self.loss_config)
+
+    def evaluate(self, model, count, generator):
+        scores = {}
+        for snr_db in (15, 25, 35):
+            for number in (2, 6, 10):
+                scenes = replace(self.scenes, targets=(number, number), snr_db=(snr_db, snr_db))
+                targets, values, positions = snapshots(scenes, self.positions, count, generator)
+                parts = zip(values.split(250), positions.float().expand(count, -1, -1).split(250), strict=True)
+                answers = torch.cat([model(torch.view_as_real(v), p)[-1] for v, p in parts]).double()
+                best = best_f1(answers[..., 0].clamp(-1, 1).asin(), answers[..., 1], answers[..., 2], targets)
+                for name, value in best.items():
+                    scores[f"{name}_{number}_targets_{snr_db}_db"] = value
+        return scores
+
+    def export_form(self, model):
+        return _Targets(model)
+
+    def example(self, batch, generator):
+        _, values, _ = snapshots(replace(self.scenes, position_error=0.0), self.positions, batch, generator)
+        return torch.view_as_real(values), self.positions.float().to(generator.device)
+
+    def describe(self):
+        data = {"array": "lrr48", **asdict(self.scenes)}
+        return {"model": asdict(self.config), "data": data, "loss": asdict(self.loss_config)}
+
+
+class _Targets(nn.Module):
+    def __init__(self, model):
+        super().__init__()
+        self.model = model
+
+    def forward(self, snapshots, positions):
+        sine, db, logit = self.model(snapshots, positions)[-1].split(1, -1)
+        return torch.cat((sine, db, logit.sigmoid()), -1)
+
+
+REGION = Port(
+    "region",
+    ("batch", LENGTH, 8, CHIRPS, 3),
+    "range bins around the strongest, elements, chirps; magnitude, real and imaginary part; any scale",
+)
+COVARIANCE = Port(
+    "covariance",
+    ("batch", COVARIANCE_FEATURES),
+    "upper triangle of the region's covariance by rows, real and imaginary parts, over its largest diagonal entry",
+)
+
+
+@dataclass
+class ClassifierTask:
+    """A network of Sang et al.: number of targets, or directions of a known number of them."""
+
+    network: Any
+    """Makes the model."""
+    cubes: Cubes
+    lowest_db: float
+    """Lowest SNR of the second stage of training; that of the first is the cubes'."""
+    on_covariance: bool
+    batch: int
+    learning_rate: float
+
+    def __post_init__(self):
+        self.counts = self.cubes.targets[0] != self.cubes.targets[1]
+        self.inputs = (COVARIANCE if self.on_covariance else REGION,)
+        if self.counts:
+            self.outputs = (Port("probability", ("batch", 3), "of 0, 1 and 2 targets, each for itself"),)
+        else:
+            meaning = "of a target at each whole degree of azimuth from -10 to 10"
+            self.outputs = (Port("probability", ("batch", CLASSES), meaning),)
+
+    def model(self):
+        return self.network()
+
+    def draw(self, batch, progress, generator):
+        cubes = self.cubes
+        if progress >= 0.5:
+            cubes = replace(cubes, snr_db=(self.lowest_db, cubes.snr_db[1]))
+        return self._features(*regions(cubes, batch, generator))
+
+    def _features(self, reflectors, region):
+        values = covariance_features(region) if self.on_covariance else channels(region)
+        if self.counts:
+            return values, functional.one_hot(reflectors.valid.sum(1), 3).float()
+        return values, labels(reflectors)
+
+    def loss(self, model, data):
+        values, label = data
+        answer = model(values).float()
+        loss = functional.binary_cross_entropy_with_logits(answer, label)
+        return loss * label.shape[1], {}
+
+    def evaluate(self, model, count, generator):
+        scores = {}
+        for snr_db in (-10, -5, 0, 5, 10, 15):
+            cubes = replace(self.cubes, snr_db=(snr_db, snr_db))
+            values, label = self._features(*regions(cubes, count, generator))
+            answer = torch.cat([model(part) for part in values.split(250)])
+            if self.counts:
+                right = (answer.argmax(1) == label.argmax(1)).float()
+                scores[f"accuracy_{snr_db}_db"] = float(right.mean())
+            else:
+                scores |= self._directions(answer, label, f"{snr_db}_db")
+        return scores
+
+    def _directions(self, answer, label, condition):
+        most = self.cubes.targets[1]
+        given = answer.topk(most).indices.sort(1).values
+        true = label.topk(most).indices.sort(1).values
+        error = (given - true).abs()
+        scores = {
+            f"within_{allowed}_deg_{condition}": float((error <= allowed).all(1).float().mean())
+            for allowed in (0, 1, 2, 4)
+        }
+        scores[f"rmse_deg_{condition}"] = float(error.float().square().mean().sqrt())
+        if most == 2:
+            close = (true[:, 1] - true[:, 0]) < 4
+            scores[f"close_pairs_within_1_deg_{condition}"] = float((error[close] <= 1).all(1).float().mean())
+        return scores
+
+    def export_form(self, model):
+        return nn.Sequential(folded(model) if isinstance(model, nn.Sequential) else model, nn.Sigmoid())
+
+    def example(self, batch, generator):
+        return (self._features(*regions(self.cubes, batch, generator))[0],)
+
+    def describe(self):
+        return {"data": {**asdict(self.cubes), "second_stage_lowest_snr_db": self.lowest_db}}
+
+
+def classifier(name: str, config: str, targets: int) -> ClassifierTask:
+    """The counting network, the 3D-CNN or the DNN, for one or two targets."""
+    if name == "counting":
+        hidden = {"small": 256, "paper": 1024}[config]
+        return ClassifierTask(partial(counting, hidden), Cubes(), -10.0, True, 256, 1e-3)
+    cubes = Cubes(targets=(targets, targets))
+    if name == "dnn":
+        return ClassifierTask(partial(dnn, DNN_HIDDEN[config]), cubes, -5.0, True, 256, 1e-3)
+    if config == "experiment":
+        cubes = replace(cubes, waveform="3dcnn-experiment", range_m=(10.0, 10.0), shift_m=0.3)
+    filters = 48 if config == "small" else 256
+    return ClassifierTask(partial(Cnn3d, filters), cubes, -5.0, False, 64, 5e-4)
+
+
+NETWORKS = {
+    "aaetr": tuple(CONFIGS),
+    "counting": ("small", "paper"),
+    "cnn3d": ("small", "paper", "experiment"),
+    "dnn": tuple(DNN_HIDDEN),
+}
+
+
+def task(name: str, config: str, targets: int | None = None, position_error: float = 0.0) -> Task:
+    """A network by name and size; `targets` is the most of AAETR (16), or how many a classifier sees (1)."""
+    if config not in NETWORKS[name]:
+        raise ValueError(f"config {config!r} of {name}: expected {', '.join(NETWORKS[name])}")
+    if name == "aaetr":
+        return AaetrTask(config, position_error, 16 if targets is None else targets)
+    return classifier(name, config, 1 if targets is None else targets)

@@ -1,0 +1,163 @@
+"""Networks: the papers' sizes, symmetries, and exported files that give the same numbers."""
+
+import onnx
+import pytest
+import torch
+
+from boresight_training import export
+from boresight_training.aaetr import CONFIGS, Aaetr
+from boresight_training.arrays import array
+from boresight_training.classifiers import Cnn3d, counting, folded, fully_connected
+from boresight_training.snapshots import Scenes, snapshots
+from boresight_training.tasks import task
+
+EVERY = [
+    ("aaetr", "tiny", None),
+    ("aaetr", "small", None),
+    ("aaetr", "paper", None),
+    ("counting", "paper", None),
+    ("cnn3d", "small", 1),
+    ("cnn3d", "experiment", 2),
+    ("dnn", "small", 1),
+    ("dnn", "large", 2),
+]
+# What tract-onnx takes, as far as our graphs need it.
+OPERATORS = {
+    "Add",
+    "Cast",
+    "Clip",
+    "Concat",
+    "Constant",
+    "ConstantOfShape",
+    "Conv",
+    "Cos",
+    "Div",
+    "Equal",
+    "Expand",
+    "Flatten",
+    "Gather",
+    "Gemm",
+    "Identity",
+    "Log",
+    "MatMul",
+    "MaxPool",
+    "Mul",
+    "Pow",
+    "ReduceMax",
+    "ReduceMean",
+    "ReduceSum",
+    "Relu",
+    "Reshape",
+    "Shape",
+    "Sigmoid",
+    "Sin",
+    "Slice",
+    "Softmax",
+    "Split",
+    "Sqrt",
+    "Squeeze",
+    "Sub",
+    "Transpose",
+    "Unsqueeze",
+    "Where",
+}
+
+
+def parameters(network):
+    return sum(p.numel() for p in network.parameters())
+
+
+def test_the_papers_sizes():
+    assert parameters(Aaetr(CONFIGS["paper"])) == 1_611_779
+    linear = [m for m in counting() if isinstance(m, torch.nn.Linear)]
+    assert [(m.in_features, m.out_features) for m in linear] == [(56, 1024), *3 * [(1024, 1024)], (1024, 3)]
+    features = Cnn3d().features
+    x = torch.zeros(1, 3, 65, 8, 4)
+    sizes = [tuple((x := layer(x)).shape[1:]) for layer in features]
+    assert sizes == [*2 * [(256, 36, 4, 2)], *2 * [(256, 35, 3, 1)], (256, 18, 2, 1)]
+    assert abs(parameters(task("dnn", "small").model()) / 0.135e6 - 1) < 0.01
+    assert abs(parameters(task("dnn", "large").model()) / 11e6 - 1) < 0.01
+
+
+@pytest.mark.parametrize("config", ["tiny", "small", "paper"])
+def test_magnitudes_follow_the_snapshots_scale(config):
+    torch.manual_seed(0)
+    network = Aaetr(CONFIGS[config]).eval()
+    values = torch.view_as_real(snapshots(Scenes(), array("lrr48"), 4, torch.Generator().manual_seed(1))[1])
+    positions = array("lrr48").float()
+    with torch.no_grad():
+        difference = network(1000 * values, positions) - network(values, positions)
+    assert (difference - torch.tensor([0.0, 60.0, 0.0])).abs().max() < 2e-3
+    assert network(torch.zeros_like(values), positions).isfinite().all()
+
+
+def test_the_steered_form_ignores_the_phase_of_the_whole():
+    torch.manual_seed(0)
+    network = Aaetr(CONFIGS["small"]).eval()
+    values = snapshots(Scenes(), array("lrr48"), 4, torch.Generator().manual_seed(2))[1]
+    positions = array("lrr48").float()
+    turned = values * torch.polar(torch.tensor(1.0), torch.tensor(2.1))
+    with torch.no_grad():
+        first, second = (network(torch.view_as_real(v), positions) for v in (values, turned))
+    assert (first - second).abs().max() < 1e-2  # dB; rounding, magnified over six layers
+
+
+def test_positions_may_differ_from_snapshot_to_snapshot():
+    torch.manual_seed(0)
+    for config in ("tiny", "paper"):
+        network = Aaetr(CONFIGS[config]).eval()
+        scenes = Scenes(position_error=0.1)
+        _, values, positions = snapshots(scenes, array("lrr48"), 3, torch.Generator().manual_seed(3))
+        values, positions = torch.view_as_real(values), positions.float()
+        with torch.no_grad():
+            together = network(values, positions)
+            alone = torch.cat([network(values[k : k + 1], positions[k]) for k in range(3)], 1)
+        assert (together - alone).abs().max() < 1e-3
+
+
+def test_batch_normalisation_folds_away():
+    torch.manual_seed(0)
+    network = fully_connected([5, 7, 3])
+    for _ in range(20):
+        network(torch.randn(32, 5) * 3 + 1)
+    network.eval()
+    plain = folded(network)
+    assert all(not isinstance(layer, torch.nn.BatchNorm1d) for layer in plain)
+    x = torch.randn(9, 5)
+    assert (plain(x) - network(x)).abs().max() < 1e-5
+
+
+@pytest.mark.parametrize("name,config,targets", EVERY)
+def test_exports_equal_pytorch_with_common_operators(tmp_path, name, config, targets):
+    torch.manual_seed(0)
+    what = task(name, config, targets)
+    path = tmp_path / "model.onnx"
+    assert export.to_onnx(what, what.model().eval(), path) < 1e-4
+    model = onnx.load(path)
+    assert {node.op_type for node in model.graph.node} <= OPERATORS
+    for ports, values in ((what.inputs, model.graph.input), (what.outputs, model.graph.output)):
+        for port, value in zip(ports, values, strict=True):
+            axes = [d.dim_param or d.dim_value for d in value.type.tensor_type.shape.dim]
+            assert (port.name, list(port.axes)) == (value.name, axes)
+
+
+def test_half_precision_halves_the_file(tmp_path):
+    torch.manual_seed(0)
+    what = task("dnn", "small", 1)
+    network = what.model().eval()
+    export.to_onnx(what, network, tmp_path / "full.onnx")
+    export.to_onnx(what, network, tmp_path / "half.onnx", half=True)
+    assert (tmp_path / "half.onnx").stat().st_size < 0.52 * (tmp_path / "full.onnx").stat().st_size
+
+
+def test_an_export_that_differs_is_refused(tmp_path, monkeypatch):
+    what = task("dnn", "small", 1)
+    monkeypatch.setattr(export, "PARITY", 0.0)
+    monkeypatch.setattr(export, "_difference", lambda *_: 1e-3)
+    with pytest.raises(ValueError, match="differs from PyTorch"):
+        export.to_onnx(what, what.model().eval(), tmp_path / "model.onnx")
+
+
+def test_unknown_sizes_are_refused_by_name():
+    with pytest.raises(ValueError, match="'huge' of dnn: expected small, large"):
+        task("dnn", "huge")

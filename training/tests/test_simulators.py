@@ -1,0 +1,163 @@
+"""Simulated data: the same as the native command line's on the same targets, and with the statistics they claim."""
+
+import json
+from math import pi, radians
+
+import pytest
+import torch
+
+from boresight_training.arrays import array
+from boresight_training.regions import (
+    WAVEFORMS,
+    Cubes,
+    Reflectors,
+    channels,
+    covariance_features,
+    crop,
+    join,
+    labels,
+    regions,
+    shift,
+    tones,
+)
+from boresight_training.snapshots import Scenes, Targets, responses, snapshots
+
+SAME = 1e-5
+
+
+def row(*values):
+    return torch.tensor([values], dtype=torch.float64)
+
+
+@pytest.mark.parametrize("displaced", [False, True])
+def test_snapshots_are_those_of_the_command_line(boresight, tmp_path, displaced):
+    positions, name = array("lrr48"), "lrr48"
+    if displaced:
+        moved = torch.randn(48, 3, generator=torch.Generator().manual_seed(3), dtype=torch.float64)
+        moved[:, 2] = 0
+        positions = positions + 0.1 * moved
+        name = tmp_path / "array.json"
+        name.write_text(json.dumps({"positions": positions.tolist()}))
+    given = boresight(
+        "snapshots",
+        "--array",
+        name,
+        "--snr",
+        300,
+        "--target",
+        "azimuth=-60,power=-13,phase=200",
+        "--target",
+        "azimuth=12.34,phase=70",
+        "--target",
+        "azimuth=55,power=-3,phase=-20",
+    )
+    targets = Targets(
+        azimuth=row(-60, 12.34, 55, 0).deg2rad(),
+        db=row(-13, 0, -3, 0),
+        phase=row(200, 70, -20, 0).deg2rad(),
+        valid=torch.tensor([[True, True, True, False]]),
+    )
+    ours = responses(targets, positions)
+    assert (ours[0] - given.reshape(48)).abs().max() < SAME
+
+
+@pytest.mark.parametrize("waveform", WAVEFORMS)
+def test_cubes_are_those_of_the_command_line(boresight, waveform, tmp_path):
+    w = WAVEFORMS[waveform]
+    name = "ula8"
+    if w.transmitters == 2:
+        name = tmp_path / "array.json"
+        tx, rx = [[0, 0, 0], [0, 4, 0]], [[0, y, 0] for y in range(4)]
+        name.write_text(json.dumps({"tx": tx, "rx": rx}))
+    far = 80.3 if w.transmitters == 1 else 10.01
+    given = boresight(
+        "cube",
+        "--array",
+        name,
+        "--waveform",
+        waveform,
+        "--snr",
+        300,
+        "--target",
+        f"range={far},azimuth=-7,phase=30",
+        "--target",
+        f"range={far / 2},rate=3.5,azimuth=10,phase=-100",
+    )
+    reflectors = Reflectors(
+        range_m=row(far, far / 2),
+        rate_mps=row(0, 3.5),
+        azimuth=row(-7, 10).deg2rad(),
+        phase=row(30, -100).deg2rad(),
+        valid=torch.tensor([[True, True]]),
+    )
+    ours = join(tones(w, reflectors), w, reflectors, array("ula8"))
+    assert ours.shape[1:] == given.shape[1:]
+    assert (ours[0] - given[0]).abs().max() < SAME
+
+
+def test_a_shift_by_equation_10_moves_the_target():
+    w = WAVEFORMS["3dcnn-experiment"]
+
+    def at(range_m):
+        one = torch.tensor([[True]])
+        return tones(w, Reflectors(row(range_m), row(0), row(0), row(0.5), one))
+
+    moved = at(10.0) * shift(w, torch.tensor(0.23, dtype=torch.float64))
+    assert (moved - at(10.23)).abs().max() < 1e-9
+
+
+def test_regions_are_around_the_target_with_its_noise():
+    cubes = Cubes(targets=(1, 1), snr_db=(10, 10))
+    reflectors, region = regions(cubes, 400, torch.Generator().manual_seed(1))
+    power = region.abs().square()
+    assert (power.mean((2, 3)).argmax(1) == 32).all()
+    # Far from the target lie the noise, 0.1 / 256, and sidelobes of at most 1 / (20 pi)^2 that vary.
+    far = power[:, :8].mean((1, 2, 3)).quantile(0.05)
+    assert abs(float(far) * 256 / 0.1 - 1) < 0.15
+    assert (labels(reflectors).sum(1) == 1).all()
+    assert channels(region).shape == (400, 65, 8, 4, 3)
+
+
+def test_a_crop_wraps():
+    spectrum = torch.arange(100.0).expand(1, 4, 8, 100).to(torch.complex64)
+    assert crop(spectrum, torch.tensor([3]))[0, :, 0, 0].real.tolist() == [float(k % 100) for k in range(71, 136)]
+
+
+def test_the_covariance_of_one_target_is_its_steering():
+    cubes = Cubes(targets=(1, 1), snr_db=(60, 60))
+    reflectors, region = regions(cubes, 20, torch.Generator().manual_seed(2))
+    features = torch.view_as_complex(covariance_features(region).unflatten(1, (28, 2)))
+    row_of, column_of = torch.triu_indices(8, 8, offset=1)
+    phase = pi * (row_of - column_of) * reflectors.azimuth.sin()
+    assert (features - torch.polar(torch.ones_like(phase), phase)).abs().max() < 0.02
+    assert (features.abs() <= 1 + 1e-6).all()
+
+
+def test_scenes_have_the_statistics_they_claim():
+    scenes = Scenes(targets=(0, 16), snr_db=(10, 10))
+    generator = torch.Generator().manual_seed(4)
+    targets, values, _ = snapshots(scenes, array("lrr48"), 4000, generator)
+    count = targets.valid.sum(1)
+    assert count.min() == 0 and count.max() == 16
+    # 4,000 draws of a standard deviation of 4.9 give the mean to 0.08.
+    assert abs(float(count.float().mean()) - 8) < 0.4
+    assert targets.azimuth.abs().max() <= radians(60) and targets.db.min() >= -13 and targets.db.max() <= 0
+    empty = values[count == 0]
+    assert abs(float(empty.abs().square().mean()) / 0.1 - 1) < 0.05
+
+
+def test_displaced_elements_are_reported_as_simulated():
+    scenes = Scenes(targets=(3, 3), snr_db=(200, 200), position_error=0.05)
+    targets, values, positions = snapshots(scenes, array("lrr48"), 50, torch.Generator().manual_seed(5))
+    assert (responses(targets, positions) - values).abs().max() < SAME
+    errors = positions - array("lrr48")
+    assert abs(float(errors.std()) / 0.05 - 1) < 0.05
+
+
+def test_the_generator_alone_decides():
+    def drawn(seed):
+        generator = torch.Generator().manual_seed(seed)
+        return snapshots(Scenes(), array("lrr48"), 8, generator)[1], regions(Cubes(shift_m=0.1), 8, generator)[1]
+
+    assert all(torch.equal(a, b) for a, b in zip(drawn(6), drawn(6), strict=True))
+    assert not any(torch.equal(a, b) for a, b in zip(drawn(6), drawn(7), strict=True))

@@ -1,0 +1,219 @@
+"""Training: every network learns, runs resume exactly, several processes agree, the command line works."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+import torch
+
+from boresight_training import checkpoint
+from boresight_training.processes import Processes
+from boresight_training.tasks import task
+from boresight_training.train import Settings, Training
+
+PACKAGE = Path(__file__).parents[1]
+ALONE = Processes(0, 1, torch.device("cpu"))
+
+
+def training(folder, steps, stop_at_step=None, network=("dnn", "small"), **settings):
+    name, config = network
+    what = task(name, config)
+    s = Settings(
+        batch=settings.pop("batch", 16),
+        learning_rate=settings.pop("learning_rate", 1e-3),
+        steps=steps,
+        stop_at_step=stop_at_step,
+        warmup_steps=5,
+        log_seconds=0,
+        evaluate_count=20,
+        **settings,
+    )
+    return Training(what, s, folder, {"name": name, "config": config, "targets": None, "position_error": 0.0}, ALONE)
+
+
+def log(folder):
+    return [json.loads(line) for line in (Path(folder) / "log.jsonl").read_text().splitlines()]
+
+
+@pytest.mark.parametrize(
+    "name,config,steps,batch,learning_rate",
+    [
+        ("aaetr", "tiny", 60, 16, 5e-3),
+        ("aaetr", "paper", 40, 8, 1e-3),
+        ("counting", "small", 100, 64, 1e-3),
+        ("cnn3d", "small", 40, 8, 1e-3),
+        ("dnn", "small", 150, 64, 3e-3),
+    ],
+)
+def test_every_network_lowers_its_loss(tmp_path, name, config, steps, batch, learning_rate):
+    training(tmp_path, steps, network=(name, config), batch=batch, learning_rate=learning_rate).run()
+    losses = torch.tensor([entry["loss"] for entry in log(tmp_path) if "loss" in entry])
+    tenth = len(losses) // 10
+    assert losses[-tenth:].mean() < 0.8 * losses[:tenth].mean()
+
+
+@pytest.mark.parametrize("network", [("dnn", "small"), ("aaetr", "tiny")])
+def test_a_resumed_run_goes_on_as_if_it_had_not_stopped(tmp_path, network):
+    training(tmp_path / "whole", 12, network=network).run()
+    for stop in (5, 6, None):
+        training(tmp_path / "parts", 12, stop, network=network).run()
+    whole, parts = (checkpoint.load(tmp_path / name) for name in ("whole", "parts"))
+    assert whole["step"] == parts["step"] == 12 and whole["samples"] == parts["samples"] == 12 * 16
+    for part in ("model", "ema"):
+        assert all(torch.equal(whole[part][name], parts[part][name]) for name in whole[part])
+    moments = [list(saved["optimizer"]["state"].values()) for saved in (whole, parts)]
+    assert all(torch.equal(a[k], b[k]) for a, b in zip(*moments, strict=True) for k in a)
+
+
+def test_another_networks_folder_is_refused(tmp_path):
+    training(tmp_path, 2).run()
+    with pytest.raises(ValueError, match="dnn"):
+        training(tmp_path, 2, network=("counting", "small"))
+
+
+def test_a_checkpoint_is_replaced_whole(tmp_path, monkeypatch):
+    checkpoint.save(tmp_path, {"step": 1})
+
+    def broken(state, file):
+        file.write(b"half of it")
+        raise OSError("disk full")
+
+    monkeypatch.setattr(checkpoint.torch, "save", broken)
+    with pytest.raises(OSError, match="disk full"):
+        checkpoint.save(tmp_path, {"step": 2})
+    assert checkpoint.load(tmp_path) == {"step": 1}
+    assert checkpoint.load(tmp_path / "nowhere") is None
+
+
+def test_the_schedule_over_time_ends_with_the_time(tmp_path):
+    run = training(tmp_path, None, total_minutes=0.05)
+    run.run()
+    assert run.progress() == 1.0
+    rates = [entry["learning_rate"] for entry in log(tmp_path)]
+    assert rates[-1] < 0.1 * max(rates)
+    with pytest.raises(ValueError, match="steps or total_minutes"):
+        training(tmp_path, None)
+
+
+def test_the_second_stage_has_noisier_data():
+    what = task("dnn", "small")
+    what.cubes = replace(what.cubes, snr_db=(15.0, 15.0))
+    what.lowest_db = -30.0
+    first, second = (what.draw(200, progress, torch.Generator().manual_seed(1))[0] for progress in (0.4, 0.6))
+
+    # Without noise every entry of the covariance of one target has magnitude 1.
+    def magnitude(x):
+        return x.unflatten(1, (28, 2)).norm(dim=2).mean()
+
+    assert magnitude(first) > 0.98 and magnitude(second) < 0.9
+
+
+def command(*arguments, processes=1, **options):
+    start = [sys.executable, "-m"]
+    if processes > 1:
+        start += ["torch.distributed.run", "--standalone", "--nproc-per-node", str(processes), "-m"]
+    environment = {**os.environ, "PYTHONPATH": str(PACKAGE), "OMP_NUM_THREADS": "1"}
+    return subprocess.Popen(
+        [*start, "boresight_training", *map(str, arguments)],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        **options,
+    )
+
+
+def finish(process):
+    try:
+        out, errors = process.communicate(timeout=240)
+    finally:
+        process.kill()
+    assert process.returncode == 0, errors
+    return out
+
+
+SHORT = ("--batch", 32, "--device", "cpu", "--evaluate-count", 20, "--log-seconds", 0)
+
+
+def test_two_processes_train_as_one_would(tmp_path):
+    finish(
+        command(
+            "train",
+            "aaetr",
+            "--config",
+            "tiny",
+            "--steps",
+            3,
+            *SHORT,
+            "--resume",
+            tmp_path,
+            "--warmup-steps",
+            1,
+            processes=2,
+        )
+    )
+    assert checkpoint.load(tmp_path)["step"] == 3
+    # The same gradient from both halves of each batch in one process.
+    what = task("aaetr", "tiny")
+    alone = Training(
+        what,
+        Settings(batch=32, learning_rate=what.learning_rate, steps=3, warmup_steps=1),
+        tmp_path / "alone",
+        {},
+        ALONE,
+    )
+    halves = []
+
+    def draw(batch, progress, generator):
+        seed = generator.initial_seed()
+        halves[:] = [type(what).draw(what, batch // 2, progress, generator.manual_seed(seed + rank)) for rank in (0, 1)]
+        return halves
+
+    def loss(model, data):
+        losses = [type(what).loss(what, model, half)[0] for half in data]
+        return sum(losses) / 2, {}
+
+    what.draw, what.loss = draw, loss
+    for _ in range(3):
+        alone._step()
+    together = checkpoint.load(tmp_path)["model"]
+    for name, value in alone.network.state_dict().items():
+        assert torch.allclose(value, together[name], atol=2e-5), name
+
+
+def test_the_command_line_trains_evaluates_and_exports(tmp_path):
+    folder, path = tmp_path / "run", tmp_path / "models" / "counting.onnx"
+    finish(command("train", "counting", "--config", "small", "--minutes", 0.05, *SHORT, "--resume", folder))
+    scores = json.loads(finish(command("evaluate", folder, "--count", 50)))
+    assert set(scores) == {f"accuracy_{snr}_db" for snr in (-10, -5, 0, 5, 10, 15)}
+    finish(command("export", folder, path, "--half", "--count", 50))
+    card = json.loads(path.with_suffix(".json").read_text())
+    assert card["samplesSeen"] > 0 and card["hours"] > 0 and card["hardware"]
+    assert card["bytes"] == path.stat().st_size and len(card["sha256"]) == 64
+    assert card["metrics"].keys() == scores.keys()
+
+
+def test_a_signal_saves_and_stops(tmp_path):
+    process = command("train", "dnn", "--config", "small", "--minutes", 10, *SHORT, "--resume", tmp_path)
+    until = time.monotonic() + 120
+    while not (tmp_path / "log.jsonl").exists():
+        assert time.monotonic() < until and process.poll() is None
+        time.sleep(0.1)
+    process.send_signal(signal.SIGTERM)
+    finish(process)
+    assert checkpoint.load(tmp_path)["step"] > 0
+
+
+def test_mistakes_are_named(tmp_path):
+    process = command("train", "dnn", "--config", "paper", "--minutes", 1)
+    _, errors = process.communicate(timeout=120)
+    assert process.returncode == 2 and "expected small, large" in errors
+    process = command("evaluate", tmp_path)
+    _, errors = process.communicate(timeout=120)
+    assert process.returncode == 2 and "holds no checkpoint.pt" in errors
