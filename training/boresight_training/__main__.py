@@ -31,6 +31,7 @@ def parser() -> argparse.ArgumentParser:
         metavar="DIR",
         help="folder of checkpoint and log; goes on from its checkpoint (runs/NETWORK-CONFIG)",
     )
+    train.add_argument("--start-from", type=Path, metavar="DIR", help="begin with the weights of another run")
     train.add_argument("--minutes", type=float, help="stop this run after so long")
     train.add_argument("--total-minutes", type=float, help="length of the schedule over all runs (as --minutes)")
     train.add_argument("--steps", type=int, help="length of the schedule in steps instead")
@@ -87,7 +88,7 @@ def train(arguments) -> dict:
     )
     folder = a.folder or Path("runs") / f"{a.network}-{a.config}"
     try:
-        return Training(what, settings, folder, identity, group).run()
+        return Training(what, settings, folder, identity, group, a.start_from).run()
     finally:
         processes.end()
 

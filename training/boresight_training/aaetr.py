@@ -146,13 +146,17 @@ class Aaetr(nn.Module):
         steering = Steering(self.config, values, positions) if self.config.steered else None
         outputs = []
         for index, layer in enumerate(self.decoder):
-            if steering is None:
-                query = layer(query, *memory)
-                u, db, confidence = self.head(self.norm(query)).float().unbind(-1)
-                db = 10 * db
-            else:
-                query = layer(self.steer[index].look(query, steering), *memory)
-                u, db, confidence = self.steer[index].answer(self.norm(query), steering)
+            if steering is not None:
+                query = self.steer[index].look(query, steering)
+            query = layer(query, *memory)
+            # Sines need more digits than bfloat16 has.
+            with torch.autocast(query.device.type, enabled=False):
+                answer = self.norm(query.float())
+                if steering is not None:
+                    u, db, confidence = self.steer[index].answer(answer, steering)
+                else:
+                    u, db, confidence = self.head(answer).unbind(-1)
+                    db = 10 * db
             outputs.append(torch.stack((u, db + scale_db, confidence), -1))
         return torch.stack(outputs)
 
@@ -247,7 +251,7 @@ class Steer(nn.Module):
 
     def answer(self, query, s: Steering):
         """Moves the queries and their amplitudes; sine, magnitude relative to the snapshot's (dB), logit."""
-        out = self.head(query).float()
+        out = self.head(query)
         w_re, w_im = out[..., : WEIGHTS // 2], out[..., WEIGHTS // 2 : WEIGHTS]
         s.amplitude_re = (w_re * s.parts_re - w_im * s.parts_im).sum(-1)
         s.amplitude_im = (w_re * s.parts_im + w_im * s.parts_re).sum(-1)

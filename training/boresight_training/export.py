@@ -108,7 +108,7 @@ def export(folder: Path, path: Path, half: bool = False, count: int = 4000) -> d
     difference = to_onnx(what, network, path, half)
     with torch.no_grad():
         metrics = what.evaluate(network, count, torch.Generator().manual_seed(30_000))
-    identity = saved["identity"]
+    identity, before = saved["identity"], saved["before"]
     card = {
         "network": identity["name"],
         "form": identity["config"],
@@ -117,9 +117,9 @@ def export(folder: Path, path: Path, half: bool = False, count: int = 4000) -> d
         "parameters": sum(p.numel() for p in network.parameters()),
         **what.describe(),
         "training": saved["settings"],
-        "steps": saved["step"],
-        "samplesSeen": saved["samples"],
-        "hours": round(saved["seconds"] / 3600, 3),
+        "steps": saved["step"] + before["step"],
+        "samplesSeen": saved["samples"] + before["samples"],
+        "hours": round((saved["seconds"] + before["seconds"]) / 3600, 3),
         "hardware": saved["hardware"],
         "software": f"PyTorch {torch.__version__.split('+')[0]}, Python {platform.python_version()}",
         "metrics": {name: round(value, 5) for name, value in metrics.items()},

@@ -50,7 +50,15 @@ class Settings:
 class Training:
     """A network being trained; `run` goes on from the checkpoint in `folder` where there is one."""
 
-    def __init__(self, task: Task, settings: Settings, folder: Path, identity: dict, processes: Processes):
+    def __init__(
+        self,
+        task: Task,
+        settings: Settings,
+        folder: Path,
+        identity: dict,
+        processes: Processes,
+        start_from: Path | None = None,
+    ):
         self.task, self.settings, self.folder, self.processes = task, settings, Path(folder), processes
         self.identity = identity
         """Which network this is; a checkpoint of another one is refused."""
@@ -66,10 +74,14 @@ class Training:
         )
         self.generator = torch.Generator(device=processes.device)
         self.step, self.samples, self.seconds = 0, 0, 0.0
+        self.before = {"step": 0, "samples": 0, "seconds": 0.0}
+        """What the runs took that this one started from."""
         self.stop_requested = False
         saved = checkpoint.load(self.folder)
         if saved is not None:
             self._restore(saved)
+        elif start_from is not None:
+            self._start_from(Path(start_from))
         model: nn.Module = self.network
         if settings.compile:
             model = torch.compile(model)
@@ -138,6 +150,7 @@ class Training:
                     "step": self.step,
                     "samples": self.samples,
                     "seconds": self.seconds,
+                    "before": self.before,
                     "model": self.network.state_dict(),
                     "ema": self.ema.state_dict(),
                     "optimizer": self.optimizer.state_dict(),
@@ -151,6 +164,19 @@ class Training:
         self.ema.load_state_dict(saved["ema"])
         self.optimizer.load_state_dict(saved["optimizer"])
         self.step, self.samples, self.seconds = saved["step"], saved["samples"], saved["seconds"]
+        self.before = saved["before"]
+
+    def _start_from(self, folder: Path) -> None:
+        """Takes the averaged weights of another run of the same network; everything else begins anew."""
+        saved = checkpoint.load(folder)
+        if saved is None:
+            raise FileNotFoundError(f"{folder} holds no {checkpoint.NAME}")
+        same = ("name", "config")
+        if any(saved["identity"][k] != self.identity[k] for k in same):
+            raise ValueError(f"{folder} holds {saved['identity']}, not {self.identity}")
+        self.network.load_state_dict(saved["ema"])
+        self.ema.load_state_dict(saved["ema"])
+        self.before = {k: saved["before"][k] + saved[k] for k in self.before}
 
     def _finished(self, elapsed: float) -> bool:
         s = self.settings

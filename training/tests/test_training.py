@@ -21,7 +21,7 @@ PACKAGE = Path(__file__).parents[1]
 ALONE = Processes(0, 1, torch.device("cpu"))
 
 
-def training(folder, steps, stop_at_step=None, network=("dnn", "small"), **settings):
+def training(folder, steps, stop_at_step=None, network=("dnn", "small"), start_from=None, **settings):
     name, config = network
     what = task(name, config)
     s = Settings(
@@ -34,7 +34,8 @@ def training(folder, steps, stop_at_step=None, network=("dnn", "small"), **setti
         evaluate_count=20,
         **settings,
     )
-    return Training(what, s, folder, {"name": name, "config": config, "targets": None, "position_error": 0.0}, ALONE)
+    identity = {"name": name, "config": config, "targets": None, "position_error": 0.0}
+    return Training(what, s, folder, identity, ALONE, start_from)
 
 
 def log(folder):
@@ -58,6 +59,14 @@ def test_every_network_lowers_its_loss(tmp_path, name, config, steps, batch, lea
     assert losses[-tenth:].mean() < 0.8 * losses[:tenth].mean()
 
 
+@pytest.mark.parametrize("network", [("aaetr", "tiny"), ("aaetr", "paper"), ("cnn3d", "small")])
+def test_bfloat16_trains_weights_in_single_precision(tmp_path, network):
+    run = training(tmp_path, 2, network=network, batch=4, bfloat16=True)
+    run.run()
+    assert all(p.dtype == torch.float32 and p.isfinite().all() for p in run.network.parameters())
+    assert log(tmp_path)[-1]["scores"]
+
+
 @pytest.mark.parametrize("network", [("dnn", "small"), ("aaetr", "tiny")])
 def test_a_resumed_run_goes_on_as_if_it_had_not_stopped(tmp_path, network):
     training(tmp_path / "whole", 12, network=network).run()
@@ -75,6 +84,18 @@ def test_another_networks_folder_is_refused(tmp_path):
     training(tmp_path, 2).run()
     with pytest.raises(ValueError, match="dnn"):
         training(tmp_path, 2, network=("counting", "small"))
+
+
+def test_a_run_starts_from_the_weights_of_another(tmp_path):
+    training(tmp_path / "first", 3).run()
+    first = checkpoint.load(tmp_path / "first")
+    second = training(tmp_path / "second", 2, start_from=tmp_path / "first")
+    assert all(torch.equal(value, first["ema"][name]) for name, value in second.network.state_dict().items())
+    second.run()
+    saved = checkpoint.load(tmp_path / "second")
+    assert saved["step"] == 2 and saved["before"]["step"] == 3 and saved["before"]["samples"] == 48
+    with pytest.raises(ValueError, match="dnn"):
+        training(tmp_path / "third", 2, network=("counting", "small"), start_from=tmp_path / "first")
 
 
 def test_a_checkpoint_is_replaced_whole(tmp_path, monkeypatch):
