@@ -5,6 +5,7 @@ use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_evaluate::EvaluateError;
 use boresight_formats::FormatError;
+use boresight_image::ImageError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
@@ -34,6 +35,9 @@ pub enum CliError {
     /// Calibration refused.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
+    /// An image cannot be made.
+    #[error(transparent)]
+    Image(#[from] ImageError),
     /// The chain refused, or was stopped.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
@@ -110,6 +114,7 @@ impl CliError {
             Self::Signal(error) => error,
             Self::Angle(error) => error,
             Self::Calibrate(error) => error,
+            Self::Image(error) => error,
             Self::Pipeline(error) => error,
             Self::Simulate(error) => error,
             Self::Evaluate(error) => error,

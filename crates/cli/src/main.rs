@@ -9,6 +9,7 @@ mod drive;
 mod error;
 mod files;
 mod output;
+mod picture;
 mod run;
 
 use arguments::{Cli, Command};
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
         Command::Simulate { what } => commands::simulate::run(&what),
         Command::Calibrate(arguments) => commands::calibrate::run(&arguments),
         Command::Evaluate { what } => commands::evaluate::run(&what),
+        Command::Image { what } => commands::image::run(&what),
         Command::Log(arguments) => commands::log::run(&arguments),
         Command::Methods(format) => commands::lists::methods(format.json),
         Command::Arrays(format) => commands::lists::arrays(format.json),

@@ -56,6 +56,11 @@ pub struct FrameMap {
     pub warnings: Vec<WarningCount>,
 }
 
+/// Options of the chain for images, which take every detected cell instead of one a peak.
+pub fn chain_options() -> ChainOptions {
+    ChainOptions { peak_grouping: false, max_detections: 4096, ..ChainOptions::default() }
+}
+
 /// The grid of a map: the range bins of a waveform, and 512 azimuths over `field_of_view_rad` to
 /// each side.
 ///

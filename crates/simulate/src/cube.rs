@@ -99,19 +99,20 @@ pub fn simulate_cube(
     let echoes: Vec<Echo> = targets.iter().map(|t| model.echo(t, &mut phases)).collect();
     let noise_power = db_to_power(-options.snr_db);
     let mut cube = Array5::zeros(shape);
-    let mut block = vec![Complex64::ZERO; rx * waveform.samples];
+    let mut block = Block::new(rx, waveform.samples);
     for (frame_index, mut frame) in cube.outer_iter_mut().enumerate() {
         let mut random = Random::new(options.seed, frame_index as u64 + 1);
         for (l, mut chirps) in frame.outer_iter_mut().enumerate() {
             for (t, mut chirp) in chirps.outer_iter_mut().enumerate() {
                 let start_s = frame_index as f64 * waveform.frame_interval_s
                     + (l * tx + t) as f64 * waveform.chirp_interval_s;
-                block.fill(Complex64::ZERO);
+                block.re.fill(0.0);
+                block.im.fill(0.0);
                 for echo in &echoes {
                     model.add(echo, t, start_s, &mut block);
                 }
-                for (out, value) in chirp.iter_mut().zip(&block) {
-                    let noisy = value + random.complex_normal(noise_power);
+                for ((out, &re), &im) in chirp.iter_mut().zip(&block.re).zip(&block.im) {
+                    let noisy = Complex64::new(re, im) + random.complex_normal(noise_power);
                     *out = Complex32::new(noisy.re as f32, noisy.im as f32);
                 }
             }
@@ -178,6 +179,40 @@ struct Echo {
     gains: Vec<Complex64>,
 }
 
+/// The samples of a chirp, receivers x samples, and one wave over the samples. Real and imaginary
+/// parts apart keep vector units busy.
+struct Block {
+    re: Vec<f64>,
+    im: Vec<f64>,
+    wave_re: Vec<f64>,
+    wave_im: Vec<f64>,
+}
+
+impl Block {
+    fn new(receivers: usize, samples: usize) -> Self {
+        let zeros = |len| vec![0.0; len];
+        let all = receivers * samples;
+        Self { re: zeros(all), im: zeros(all), wave_re: zeros(samples), wave_im: zeros(samples) }
+    }
+
+    fn set_wave(&mut self, wave: impl Iterator<Item = Complex64>) {
+        let parts = self.wave_re.iter_mut().zip(&mut self.wave_im);
+        parts.zip(wave).for_each(|((re, im), wave)| (*re, *im) = (wave.re, wave.im));
+    }
+
+    /// Adds the wave times `gain` to the samples of receiver `r`.
+    fn add_wave(&mut self, r: usize, gain: Complex64) {
+        let samples = self.wave_re.len();
+        let row = r * samples..(r + 1) * samples;
+        let (re, im) = (&mut self.re[row.clone()], &mut self.im[row]);
+        let wave = self.wave_re.iter().zip(&self.wave_im);
+        for ((re, im), (wave_re, wave_im)) in re.iter_mut().zip(im).zip(wave) {
+            *re += wave_re * gain.re - wave_im * gain.im;
+            *im += wave_re * gain.im + wave_im * gain.re;
+        }
+    }
+}
+
 impl<'a> Model<'a> {
     fn new(waveform: &'a Waveform, array: &Array, options: &'a CubeOptions) -> Self {
         let metres = -waveform.wavelength_m() / 2.0;
@@ -223,34 +258,23 @@ impl<'a> Model<'a> {
 
     /// Adds the echo in the chirp of transmitter `tx` that starts at `start_s` to receivers x
     /// samples.
-    fn add(&self, echo: &Echo, tx: usize, start_s: f64, block: &mut [Complex64]) {
+    fn add(&self, echo: &Echo, tx: usize, start_s: f64, block: &mut Block) {
         let samples = self.waveform.samples;
-        let receivers = block.len() / samples;
+        let receivers = block.re.len() / samples;
         let gains = &echo.gains[tx * receivers..(tx + 1) * receivers];
         let first_s = start_s + self.waveform.adc_start_s;
         let last_s = first_s + (samples - 1) as f64 / self.waveform.sample_rate_hz;
         let range_m = |time_s: f64| echo.range_m + echo.rate_mps * time_s;
-        match self.field {
-            Field::Far => {
-                let wave = self.tone(2.0 * range_m(first_s), 2.0 * range_m(last_s));
-                let gains = gains.iter().zip(block.chunks_exact_mut(samples));
-                let mut rows: Vec<(&Complex64, &mut [Complex64])> = gains.collect();
-                wave.enumerate().take(samples).for_each(|(n, wave)| {
-                    for (gain, row) in &mut rows {
-                        row[n] += wave * **gain;
-                    }
-                });
+        if self.field == Field::Far {
+            block.set_wave(self.tone(2.0 * range_m(first_s), 2.0 * range_m(last_s)));
+        }
+        for (r, gain) in gains.iter().enumerate() {
+            if self.field == Field::Near {
+                let element = tx * receivers + r;
+                let path = |time_s| self.path_m(tx, element, range_m(time_s), &echo.unit);
+                block.set_wave(self.tone(path(first_s), path(last_s)));
             }
-            Field::Near => {
-                for (r, row) in block.chunks_exact_mut(samples).enumerate() {
-                    let element = tx * receivers + r;
-                    let path = |time_s| self.path_m(tx, element, range_m(time_s), &echo.unit);
-                    let wave = self.tone(path(first_s), path(last_s));
-                    for (out, wave) in row.iter_mut().zip(wave) {
-                        *out += wave * gains[r];
-                    }
-                }
-            }
+            block.add_wave(r, *gain);
         }
     }
 

@@ -3,11 +3,13 @@
 mod drives;
 mod estimate;
 mod evaluate;
+mod image;
 mod simulate;
 
 pub use drives::{CalibrateArguments, LogArguments};
 pub use estimate::{AngleArguments, ChainArguments, EstimateArguments};
 pub use evaluate::{DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
+pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 pub use simulate::{
     CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,
 };
@@ -59,6 +61,12 @@ pub enum Command {
         /// What to run.
         #[command(subcommand)]
         what: EvaluateCommand,
+    },
+    /// Make a bird's-eye image of a simulated street or of a capture, as a PNG file.
+    Image {
+        /// What to make it of.
+        #[command(subcommand)]
+        what: ImageCommand,
     },
     /// List the methods of angle estimation, and what each needs.
     Methods(ListFormat),

@@ -9,7 +9,8 @@ use boresight_core::Array;
 use boresight_formats::{Capture, RadarConfig};
 use boresight_pipeline::{Chain, Frame, FrameSource};
 
-struct CaptureFrames<'a>(Capture<'a>);
+/// The frames of a capture.
+pub struct CaptureFrames<'a>(pub Capture<'a>);
 
 impl FrameSource for CaptureFrames<'_> {
     type Error = CliError;
@@ -42,7 +43,12 @@ pub fn run(arguments: &EstimateArguments, bytes: &[u8]) -> Result<String, CliErr
 
 /// The array asked for, or the board's.
 pub fn array_of(arguments: &EstimateArguments, config: &RadarConfig) -> Result<Array, CliError> {
-    match &arguments.array {
+    board_array(arguments.array.as_deref(), config)
+}
+
+/// The array of a name, or the board's.
+pub fn board_array(name: Option<&str>, config: &RadarConfig) -> Result<Array, CliError> {
+    match name {
         Some(name) => array::array(name),
         None => config.array().ok_or_else(|| CliError::Option {
             option: "--array",

@@ -7,6 +7,7 @@ mod chain;
 mod cube;
 pub mod estimate;
 pub mod evaluate;
+pub mod image;
 pub mod lists;
 pub mod log;
 pub mod simulate;

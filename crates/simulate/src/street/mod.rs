@@ -158,7 +158,8 @@ impl Street {
         &self.options
     }
 
-    /// Points that radar `radar` (an index) sees: in its field of view, in no deep shadow.
+    /// Points that radar `radar` (an index) sees: in its field of view, in no deep
+    /// shadow, and not far below the noise.
     ///
     /// # Errors
     /// [`boresight_core::CoreError::OutOfRange`] for a radar there is not.

@@ -20,6 +20,9 @@ const EDGE_LOSS_DB: f64 = 8.0;
 /// Points in a deeper shadow are not simulated, dB.
 const DEEPEST_SHADOW_DB: f64 = 25.0;
 
+/// Weaker points are not simulated: in their range-Doppler cell they lie 10 dB below the noise, dB.
+const WEAKEST_DB: f64 = -90.0;
+
 /// A point of the street as a radar sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VisibleTarget {
@@ -62,6 +65,9 @@ pub(super) fn visible(street: &Street, radar: &StreetRadar) -> Vec<VisibleTarget
         let spreading_db = 40.0 * libm::log10(REFERENCE_M / range_m.max(SATURATION_M));
         let power_db =
             target.rcs_dbsm + spreading_db - EDGE_LOSS_DB * edge * edge - shadow_db + REFERENCE_DB;
+        if power_db < WEAKEST_DB {
+            return None;
+        }
         let direction = Direction::azimuth(azimuth_rad);
         let echo = CubeTarget { range_m, rate_mps, direction, power_db, phase_rad: None };
         Some(VisibleTarget { target: index, echo })

@@ -1,0 +1,84 @@
+//! What `image` takes.
+
+use super::pair;
+use boresight_aoa::Method;
+use boresight_simulate::street::STREET_RADARS;
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Subcommand};
+use std::path::PathBuf;
+
+/// What to make an image of.
+#[derive(Debug, Subcommand)]
+pub enum ImageCommand {
+    /// A simulated street seen by four radars, with how much of the image is not target.
+    Street(ImageStreetArguments),
+    /// A frame of a raw capture.
+    Capture(ImageCaptureArguments),
+}
+
+/// Arguments of all images.
+#[derive(Debug, Args)]
+pub struct ImageArguments {
+    /// Method of angle estimation; several, with commas between, make an image each.
+    #[arg(long, default_value = "iaa", value_delimiter = ',',
+          value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
+    pub method: Vec<String>,
+    /// What goes into the image: the angles found in each cell, or the spectrum of each cell;
+    /// without it spectra where the method has them.
+    #[arg(long, value_name = "WHAT", value_parser = ["targets", "spectra"])]
+    pub from: Option<String>,
+    /// Picture to write; of several methods, each has the method's name before the ending.
+    #[arg(long, value_name = "OUT.png")]
+    pub out: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `image street`.
+#[derive(Debug, Args)]
+pub struct ImageStreetArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: ImageArguments,
+    /// Seed.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u64,
+    /// Radars, with commas between; without it all four.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',',
+          value_parser = PossibleValuesParser::new(STREET_RADARS))]
+    pub radars: Vec<String>,
+    /// Mark the true targets in the picture.
+    #[arg(long)]
+    pub truth: bool,
+    /// Ground ahead that is shown, m.
+    #[arg(long, value_name = "FROM,TO", default_value = "-20,80", value_parser = pair::<f64>,
+          allow_hyphen_values = true)]
+    pub x: [f64; 2],
+    /// Ground to the left that is shown, m.
+    #[arg(long, value_name = "FROM,TO", default_value = "-25,25", value_parser = pair::<f64>,
+          allow_hyphen_values = true)]
+    pub y: [f64; 2],
+    /// Width of a cell, and so of a pixel, m.
+    #[arg(long, value_name = "M", default_value_t = 0.2)]
+    pub cell: f64,
+}
+
+/// Arguments of `image capture`.
+#[derive(Debug, Args)]
+pub struct ImageCaptureArguments {
+    /// Raw samples of a DCA1000 capture card (.bin).
+    pub file: PathBuf,
+    /// The board's configuration (.cfg).
+    #[arg(long, value_name = "CFG")]
+    pub config: PathBuf,
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: ImageArguments,
+    /// Only this frame, from 0; without it all together, for scenes that stand still.
+    #[arg(long, value_name = "I")]
+    pub frame: Option<usize>,
+    /// Array, where the configuration names no board with a known one.
+    #[arg(long, value_name = "NAME|JSON")]
+    pub array: Option<String>,
+}

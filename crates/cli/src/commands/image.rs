@@ -1,0 +1,150 @@
+//! `boresight image`.
+
+use super::capture::{CaptureFrames, board_array};
+use super::estimate::frame_within;
+use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
+use crate::error::CliError;
+use crate::output::remark;
+use crate::run::Run;
+use crate::{files, picture};
+use boresight_aoa::Method;
+use boresight_core::drive::Mounting;
+use boresight_evaluate::images::{
+    Angles, Content, StreetFrames, chain_options, frame_map, map_grid,
+};
+use boresight_formats::{Capture, RadarConfig};
+use boresight_image::{BirdsEyeView, Outside, ViewGrid, birds_eye_view, sidelobe_measure};
+use boresight_pipeline::{Chain, FrameSource};
+use boresight_simulate::street::STREET_RADARS;
+use boresight_simulate::{Street, StreetOptions};
+use serde_json::{Value, json};
+use std::f64::consts::FRAC_PI_3;
+use std::path::{Path, PathBuf};
+
+/// Makes images, writes the pictures and returns what is printed.
+pub fn run(what: &ImageCommand) -> Result<String, CliError> {
+    match what {
+        ImageCommand::Street(arguments) => street(arguments),
+        ImageCommand::Capture(arguments) => capture(arguments),
+    }
+}
+
+fn street(arguments: &ImageStreetArguments) -> Result<String, CliError> {
+    let grid = ViewGrid::new(arguments.x, arguments.y, arguments.cell)?;
+    let asked = |name: &str| {
+        arguments.radars.is_empty() || arguments.radars.iter().any(|radar| radar == name)
+    };
+    let radars: Vec<usize> =
+        (0..STREET_RADARS.len()).filter(|&index| asked(STREET_RADARS[index])).collect();
+    let street = Street::new(StreetOptions { seed: arguments.seed, ..StreetOptions::default() })?;
+    let frames = StreetFrames::new(street, &radars, &chain_options())?;
+    let cells: Vec<usize> = frames.frames.iter().map(|frame| frame.cells.cells.len()).collect();
+    let (targets, gate) = (frames.targets_m(), frames.gate()?);
+    let truth = if arguments.truth { &targets[..] } else { &[] };
+    let shared = &arguments.shared;
+    let mut text = format!(
+        "{:<22}{:>11}{:>16}{:>13}{:>13}\n",
+        "method", "outside_db", "peak_outside_db", "lit_outside", "lit_targets"
+    );
+    let mut rows = vec![];
+    for name in &shared.method {
+        let image = frames.image(&angles(shared, name)?, grid)?;
+        remark(image.warnings.iter().map(|warning| format!("{name}: {warning}")));
+        let measure = sidelobe_measure(&image.view, &targets, gate)?;
+        let (outside_db, peak_db) = (measure.outside_db(), measure.peak_outside_db());
+        text += &format!(
+            "{name:<22}{outside_db:>11.1}{peak_db:>16.1}{:>12.2}%{:>12.1}%\n",
+            100.0 * measure.lit_outside,
+            100.0 * measure.lit_targets
+        );
+        rows.push(json!({
+            "method": name,
+            "outsideDb": outside_db,
+            "peakOutsideDb": peak_db,
+            "litOutside": measure.lit_outside,
+            "litTargets": measure.lit_targets,
+            "targets": measure.targets,
+            "gated": measure.gated,
+            "offMap": outside_json(image.outside),
+        }));
+        keep(shared, name, &image.view, truth)?;
+    }
+    remark([format!("cells of each radar: {cells:?}; targets in view of any: {}", targets.len())]);
+    Ok(if shared.json { format!("{:#}\n", Value::Array(rows)) } else { text })
+}
+
+fn capture(arguments: &ImageCaptureArguments) -> Result<String, CliError> {
+    let shared = &arguments.shared;
+    let config = RadarConfig::parse(&files::read(&arguments.config)?)?;
+    let bytes = files::read(&arguments.file)?;
+    let source = CaptureFrames(Capture::new(&bytes, &config)?);
+    let array = board_array(arguments.array.as_deref(), &config)?;
+    let waveform = config.waveform;
+    let mut chain = Chain::new(&waveform, config.receivers.len(), &array, &chain_options())?;
+    let cells = match arguments.frame {
+        Some(frame) => {
+            let frame = source.frame(frame_within(frame, source.frames())?)?;
+            chain.cells(frame.samples.view())?
+        }
+        None => {
+            let run = Run::start("frames")?;
+            let frames = 0..source.frames();
+            let cells = chain.combined_cells(&source, frames, &mut |at| run.report(at))?;
+            run.finish();
+            cells
+        }
+    };
+    let far_m = 0.9 * waveform.max_range_m();
+    let grid = ViewGrid::new([0.0, far_m], [-far_m / 2.0, far_m / 2.0], far_m / 500.0)?;
+    let mut text = format!("{:<22}{:>8}{:>12}{:>12}\n", "method", "cells", "off_map", "off_map_db");
+    let mut rows = vec![];
+    for name in &shared.method {
+        let map_grid = map_grid(&waveform, FRAC_PI_3)?;
+        let made = frame_map(&cells, &array, &angles(shared, name)?, map_grid)?;
+        remark(made.warnings.iter().map(|warning| format!("{name}: {warning}")));
+        let here = Mounting { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0 };
+        let view = birds_eye_view(&[(&made.map, here)], grid)?;
+        let Outside { count, power } = made.map.outside;
+        let all = power + f64::from(made.map.power.sum());
+        let count_of = cells.cells.len();
+        let share_db = 10.0 * (power / all).log10();
+        text += &format!("{name:<22}{count_of:>8}{count:>12}{share_db:>12.1}\n");
+        let off_map = outside_json(made.map.outside);
+        rows.push(json!({ "method": name, "cells": count_of, "offMap": off_map }));
+        keep(shared, name, &view, &[])?;
+    }
+    Ok(if shared.json { format!("{:#}\n", Value::Array(rows)) } else { text })
+}
+
+fn angles(shared: &ImageArguments, name: &str) -> Result<Angles, CliError> {
+    let mut angles = Angles::of(Method::from_name(name)?);
+    match shared.from.as_deref() {
+        Some("targets") => angles.content = Content::Targets,
+        Some(_) => angles.content = Content::Spectra,
+        None => {}
+    }
+    Ok(angles)
+}
+
+fn outside_json(outside: Outside) -> Value {
+    json!({ "count": outside.count, "power": outside.power })
+}
+
+/// Writes the picture, if one is asked for.
+fn keep(
+    shared: &ImageArguments,
+    method: &str,
+    view: &BirdsEyeView,
+    truth: &[[f64; 2]],
+) -> Result<(), CliError> {
+    let Some(path) = &shared.out else { return Ok(()) };
+    let path = if shared.method.len() > 1 { named(path, method) } else { path.clone() };
+    files::write(&path, &picture::png(&path, view, truth)?)
+}
+
+/// `street.png` as `street-iaa.png`.
+fn named(path: &Path, method: &str) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{method}.{}", files::ending(path)));
+    path.with_file_name(name)
+}
