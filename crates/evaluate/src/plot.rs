@@ -4,9 +4,9 @@ use crate::EvaluateError;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
-/// Colours that people with colour-blindness can tell apart: those of Okabe and Ito (2008), then dark ones of
-/// Tol's palette.
-const COLOURS: [RGBColor; 10] = [
+/// Colours that people with colour-blindness can tell apart: those of Okabe and Ito (2008), then some of
+/// Tol's.
+const COLOURS: [RGBColor; 12] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -17,6 +17,8 @@ const COLOURS: [RGBColor; 10] = [
     RGBColor(153, 153, 51),
     RGBColor(51, 34, 136),
     RGBColor(119, 119, 119),
+    RGBColor(204, 102, 119),
+    RGBColor(102, 37, 6),
 ];
 /// Size of a panel and height of a line of the legend, pixels.
 const PANEL: (u32, u32) = (560, 280);

@@ -109,5 +109,5 @@ fn panel(x: &str, y: &str, series: impl Iterator<Item = Series>) -> Panel {
 
 /// A line; beyond as many as there are colours they are dashed.
 fn line(name: &str, points: Vec<(f64, f64)>, index: usize) -> Series {
-    Series { name: name.into(), points, dashed: index >= 10, marked: true }
+    Series { name: name.into(), points, dashed: index >= 12, marked: true }
 }

@@ -1,7 +1,7 @@
 //! Probability of resolution against separation, as SVG.
 
 use super::SNRS_DB;
-use super::report::Report;
+use super::report::{Report, counted};
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
 
@@ -18,7 +18,7 @@ pub(super) fn probabilities(report: &Report) -> Result<String, EvaluateError> {
                 dashed,
                 marked: !dashed,
             };
-            let mut series = vec![line("estimator at the bound", &condition.efficient, true)];
+            let mut series = vec![];
             // Methods that are smoothed with one snapshot go under their plain name, so that all panels share a
             // legend.
             for name in names(report) {
@@ -26,8 +26,9 @@ pub(super) fn probabilities(report: &Report) -> Result<String, EvaluateError> {
                     condition.methods.iter().find(|m| m.name.trim_end_matches(SMOOTHED) == name);
                 series.push(line(name, method.map_or(&[], |m| &m.resolved), false));
             }
+            series.push(line("estimator at the bound", &condition.efficient, true));
             Panel {
-                title: format!("{} snapshots, {} dB", condition.snapshots, condition.snr_db),
+                title: format!("{}, {} dB", counted(condition.snapshots), condition.snr_db),
                 x: "separation / beam widths".into(),
                 y: "share resolved".into(),
                 axes: Axes::Linear,

@@ -124,6 +124,11 @@ fn theory(plan: &Plan, snr_db: f64, snapshots: usize) -> ConditionResult {
     }
 }
 
+/// A number of snapshots in words.
+pub(super) fn counted(snapshots: usize) -> String {
+    format!("{snapshots} snapshot{}", if snapshots == 1 { "" } else { "s" })
+}
+
 /// Separation above which all shares are at least a half.
 fn crossing(shares: &[f64]) -> Option<f64> {
     let below = shares.iter().rposition(|share| share.is_nan() || *share < 0.5);
@@ -142,8 +147,8 @@ impl crate::experiment::Report for Report {
         for group in self.conditions.chunk_by(|a, b| a.snapshots == b.snapshots) {
             let Some(first) = group.first() else { continue };
             text += &format!(
-                "\nSeparation from which on half of the trials are resolved, beam widths (deg), {} snapshots.\n\n",
-                first.snapshots
+                "\nSeparation from which on half of the trials are resolved, beam widths (deg), {}.\n\n",
+                counted(first.snapshots)
             );
             let heads: Vec<String> = group.iter().map(|c| format!("{} dB", c.snr_db)).collect();
             let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
