@@ -261,3 +261,48 @@ pub(super) fn conditions() -> impl Iterator<Item = (usize, Targets, f64)> {
         (index, targets, snr_db)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn angles_go_through_all_pairs() {
+        let pairs: BTreeSet<Vec<i32>> =
+            (0..210).map(|trial| angles(Targets::Apart, trial)).collect();
+        assert_eq!(pairs.len(), 210);
+        assert!(pairs.iter().all(|pair| -10 <= pair[0] && pair[0] < pair[1] && pair[1] <= 10));
+        assert_eq!(angles(Targets::Together, 210), [-10, -9]);
+        let single: BTreeSet<i32> = (0..21).map(|trial| angles(Targets::One, trial)[0]).collect();
+        assert_eq!(single.len(), 21);
+        assert!(angles(Targets::None, 3).is_empty());
+    }
+
+    #[test]
+    fn errors_are_counted_exactly_and_rounded() {
+        let mut tally = Tally::default();
+        // Off by 0.4 and 0.1 deg; rounded they are right.
+        tally.count(&[-2.0, 1.0], &[-2.4, 1.1], true);
+        assert_eq!((tally.success, tally.within, tally.close_within), (1, [1; 3], [1; 3]));
+        assert!((tally.squared_deg2 - 0.17).abs() < 1e-12);
+        // Beyond 10 deg there is no class: 12.4 counts as 10.
+        tally.count(&[-2.0, 9.0], &[-2.0, 12.4], false);
+        assert_eq!((tally.success, tally.within), (1, [1, 2, 2]));
+        tally.count(&[5.0], &[5.0 + 3.4], false);
+        assert_eq!((tally.found, tally.within, tally.close_success), (3, [1, 2, 3], 1));
+        let mut sum = Tally::default();
+        sum.add(&tally);
+        assert_eq!(sum, tally);
+    }
+
+    #[test]
+    fn the_snapshots_have_the_covariance() {
+        let mut random = Random::new(1, 0);
+        let y = Array2::from_shape_fn((4, 9), |_| random.complex_normal(1.0));
+        let covariance = boresight_signal::sample_covariance(y.view());
+        let again = boresight_signal::sample_covariance(root(&covariance).unwrap().view());
+        assert!((again - covariance).iter().all(|z| z.norm() < 1e-12));
+    }
+}
