@@ -2,7 +2,7 @@
 
 use crate::peaks::wrap;
 use boresight_core::steering::cis;
-use boresight_core::{Array, Complex64, Direction, Extent};
+use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
 use std::f64::consts::PI;
 
 /// A direction: cosines along y and z. The second is 0 for arrays that see azimuth only.
@@ -20,6 +20,8 @@ pub(crate) struct Geometry {
     pub axes: usize,
     /// Period in the first cosine, where it is within the visible range.
     period: Option<f64>,
+    /// The lattice of elements that stand on the line x = z = 0, and its span.
+    line: Option<(Lattice, usize)>,
 }
 
 /// A steering vector with its first derivatives by the cosines.
@@ -32,9 +34,11 @@ pub(crate) struct Steering {
 
 impl Geometry {
     pub fn new(array: &Array) -> Self {
+        let lattice = array.lattice();
+        let period = lattice.as_ref().map(|lattice| 2.0 / lattice.spacing).filter(|&p| p < 2.001);
+        let line = lattice.and_then(|lattice| line(array, lattice));
         let axes = if array.extent() == Extent::Area { 2 } else { 1 };
-        let period = array.lattice().map(|lattice| 2.0 / lattice.spacing).filter(|&p| p < 2.001);
-        Self { positions: array.positions().to_vec(), axes, period }
+        Self { positions: array.positions().to_vec(), axes, period, line }
     }
 
     /// Number of elements.
@@ -79,6 +83,17 @@ impl Geometry {
 
     /// Steering vector and its slopes.
     pub fn steering(&self, at: Point) -> Steering {
+        if let Some((lattice, span)) = &self.line {
+            // Powers of one turn: a rounding error each, and no sines.
+            let turn = cis(PI * lattice.spacing * at[0]);
+            let mut powers = vec![cis(PI * lattice.origin * at[0]); *span];
+            for m in 1..*span {
+                powers[m] = powers[m - 1] * turn;
+            }
+            let vector = lattice.indices.iter().map(|&index| powers[index]).collect();
+            let slopes = self.positions.iter().map(|p| [PI * p[1], PI * p[2]]).collect();
+            return Steering { vector, slopes };
+        }
         let x = Self::third(at);
         let mut vector = Vec::with_capacity(self.positions.len());
         let mut slopes = Vec::with_capacity(self.positions.len());
@@ -129,6 +144,17 @@ impl Geometry {
         };
         1.0 / (length(1).max(if self.axes == 2 { length(2) } else { 0.0 }) + 1.0)
     }
+}
+
+/// The lattice, where the elements stand on the line x = z = 0, to rounding on its points, and no
+/// long way apart for their number; and its span.
+fn line(array: &Array, lattice: Lattice) -> Option<(Lattice, usize)> {
+    let (positions, span) = (array.positions(), lattice.span());
+    let on_line = positions.iter().zip(&lattice.indices).all(|(p, &index)| {
+        let y = lattice.origin + lattice.spacing * index as f64;
+        p[0] == 0.0 && p[2] == 0.0 && (p[1] - y).abs() < 1e-12
+    });
+    (on_line && span <= 16 * positions.len()).then_some((lattice, span))
 }
 
 #[cfg(test)]

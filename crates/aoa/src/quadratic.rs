@@ -10,6 +10,7 @@ use crate::iaa::fourier::LatticeFourier;
 use crate::lags::LagPolynomial;
 use boresight_core::steering::{cis, steering_derivatives, steering_vector};
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
+use boresight_signal::sample_covariance;
 use ndarray::{Array1, ArrayView2};
 use std::f64::consts::PI;
 
@@ -75,6 +76,26 @@ impl QuadraticSpectrum {
                 })
                 .collect(),
         }
+    }
+
+    /// `sum_n |a^H y_n|^2` at every grid point for the columns `y_n`, elevation-major.
+    pub fn evaluate_snapshots(&mut self, y: ArrayView2<Complex64>) -> Vec<f64> {
+        let Way::Lattice { lattice, transform, circle } = &mut self.way else {
+            let count = y.ncols() as f64;
+            return self.evaluate(sample_covariance(y).mapv(|z| z * count).view());
+        };
+        circle.fill(0.0);
+        let mut placed = vec![Complex64::ZERO; lattice.span()];
+        for column in y.columns() {
+            placed.fill(Complex64::ZERO);
+            for (&index, y) in lattice.indices.iter().zip(column) {
+                placed[index] += y;
+            }
+            let beams = transform.vector(&placed);
+            circle.iter_mut().zip(beams).for_each(|(sum, beam)| *sum += beam.norm_sqr());
+        }
+        let inside = self.grid.first..self.grid.first + self.grid.sines.len();
+        circle[inside].to_vec()
     }
 
     /// Moves `start` to the nearest stationary point of `a^H Q a` that is a minimum (or a maximum)

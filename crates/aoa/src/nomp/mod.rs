@@ -15,6 +15,7 @@
 //! equal power hold a tenth of it each. So a beam that fails the test is still taken off as long as
 //! the beams after it could pass, and counts as a source once one of them has passed.
 
+mod look_ahead;
 mod newton;
 mod polish;
 
@@ -32,7 +33,6 @@ use crate::options::{NompOptions, Options};
 use crate::quadratic::QuadraticSpectrum;
 use boresight_core::linalg::least_squares;
 use boresight_core::{Array, Complex64, Direction};
-use boresight_signal::sample_covariance;
 use ndarray::Array2;
 use newton::{beam_power, step};
 use std::f64::consts::FRAC_PI_2;
@@ -123,7 +123,7 @@ impl Nomp {
 
     /// The strongest beam in `residual`, refined, and its power.
     fn strongest(&mut self, residual: &Array2<Complex64>) -> (Point, f64) {
-        let values = self.spectrum.evaluate(sample_covariance(residual.view()).view());
+        let values = self.spectrum.evaluate_snapshots(residual.view());
         let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
         let mut point = self.geometry.point(self.spectrum.grid().direction(best));
         for _ in 0..self.options.single_refinements {
@@ -226,8 +226,9 @@ impl Nomp {
         };
         let fitted = if start.is_empty() { None } else { self.fit(y, start) };
         let mut fitted = fitted.unwrap_or_else(nothing);
-        // What was found when a beam last stood out.
+        // What was found when a beam last stood out, and how many sources are expected at least.
         let mut sure = fitted.clone();
+        let mut expected = 0;
         loop {
             let found = fitted.points.len();
             if energy(&fitted.residual) <= EXHAUSTED * total || found + 1 >= y.nrows() {
@@ -235,7 +236,10 @@ impl Nomp {
             }
             let (point, power) = self.strongest(&fitted.residual);
             let verdict = self.stands_out(power, &fitted.residual, found, noise_power);
-            if verdict == Verdict::Noise {
+            if verdict == Verdict::Hidden && found >= expected {
+                expected = self.look_ahead(&fitted);
+            }
+            if verdict == Verdict::Noise || (verdict == Verdict::Hidden && found >= expected) {
                 return (sure, true);
             }
             if found >= self.options.max_sources {

@@ -22,14 +22,14 @@ impl Nomp {
         let y = &normalised.snapshots;
         let data = Data::Snapshots(y.view());
         let noise_power = self.options.noise_power.map(|power| normalised.power_in(power));
-        let start = self.without_noise(start, data, noise_power);
+        let start = self.without_noise(start, data, noise_power, false);
         let (fitted, _) = self.pursue(y, start, noise_power);
         self.polish(fitted.points, data, noise_power)
     }
 
     /// Those of the points that are more than noise, refined together.
     pub fn prune(&mut self, points: Vec<Point>, data: Data<'_>) -> Vec<Point> {
-        self.without_noise(points, data, self.options.noise_power)
+        self.without_noise(points, data, self.options.noise_power, false)
     }
 
     /// The sources at `points` in the field of view, with their powers.
@@ -75,20 +75,20 @@ impl Nomp {
         noise_power: Option<f64>,
     ) -> Vec<Point> {
         let points = self.merged(points, data, noise_power);
-        self.without_noise(points, data, noise_power)
+        self.without_noise(points, data, noise_power, true)
     }
 
     /// Removes, one by one, the source whose removal costs least, as long as noise would gain as
-    /// much; the rest is refined and tested again.
+    /// much; the rest is refined, unless `refined` says that it is, and tested again.
     fn without_noise(
         &mut self,
         mut points: Vec<Point>,
         data: Data<'_>,
         noise_power: Option<f64>,
+        mut refined: bool,
     ) -> Vec<Point> {
         let snapshots = data.snapshots();
         let total = total_power(data);
-        let mut refined = false;
         while !points.is_empty() {
             let Some(fit) = Fit::new(&self.geometry, &points, data, total) else {
                 // Two of them cannot be told apart: the weaker one is none.
