@@ -1,26 +1,36 @@
-/** The car from above, at the origin of its frame. */
-import type { Layer } from './layers.ts';
+/** The car's frame on a plot, and the car in it. */
+import type { Layer, LayerContext } from './layers.ts';
+
+/** Where a place in the car's frame (x ahead, y left) is on the canvas. */
+export type Ground = (context: LayerContext) => (xM: number, yM: number) => [x: number, y: number];
+
+/** The car looks to the right: the horizontal axis is x. */
+export const aheadRight: Ground = ({ x, y }) => (xM, yM) => [x(xM), y(yM)];
+/** The car looks up: the vertical axis is x, the horizontal one y, descending. */
+export const aheadUp: Ground = ({ x, y }) => (xM, yM) => [x(yM), y(xM)];
 
 /** A car's outline about its rear axle, m: typical, as logs do not say. */
 const CAR = { behind: 1, ahead: 3.9, half: 0.93 } as const;
 
-export function carOutline(): Layer {
-  return ({ ctx, theme, ratio, x, y }) => {
-    const [back, front] = [x(-CAR.behind), x(CAR.ahead)];
-    const [left, right] = [y(CAR.half), y(-CAR.half)];
+export function carOutline(ground: Ground = aheadRight): Layer {
+  return (context) => {
+    const { ctx, theme, ratio } = context;
+    const at = ground(context);
+    const [ax, ay] = at(-CAR.behind, CAR.half);
+    const [bx, by] = at(CAR.ahead, -CAR.half);
     ctx.fillStyle = theme.shade;
     ctx.strokeStyle = theme.muted;
     ctx.lineWidth = 1.5 * ratio;
     ctx.beginPath();
-    ctx.roundRect(back, left, front - back, right - left, Math.min(4 * ratio, (right - left) / 3));
+    ctx.roundRect(ax, ay, bx - ax, by - ay, Math.min(4 * ratio, Math.abs(bx - ax) / 3, Math.abs(by - ay) / 3));
     ctx.fill();
     ctx.stroke();
     // The windscreen tells front from back, the line is the rear axle.
     ctx.beginPath();
-    ctx.moveTo(x(2.4), y(CAR.half * 0.8));
-    ctx.lineTo(x(2.4), y(-CAR.half * 0.8));
-    ctx.moveTo(x(0), left);
-    ctx.lineTo(x(0), right);
+    for (const [xM, half] of [[2.4, CAR.half * 0.8], [0, CAR.half]] as const) {
+      ctx.moveTo(...at(xM, half));
+      ctx.lineTo(...at(xM, -half));
+    }
     ctx.lineWidth = ratio;
     ctx.stroke();
   };

@@ -37,6 +37,11 @@ export function ticks(splits: number[], step: number): string[] {
   return splits.map((value) => (value == null ? '' : fixed(value, decimals)));
 }
 
+/** A ratio that may be of nothing. */
+export function decibels(value: number): string {
+  return value === Number.NEGATIVE_INFINITY ? 'nothing' : `${fixed(value, 1)}\u00a0dB`;
+}
+
 /** A duration of a computation. */
 export function milliseconds(value: number): string {
   if (value < 0.1) return '<0.1\u00a0ms';

@@ -2,6 +2,7 @@
 import { type ColorMapName, colorTable } from './colormap.ts';
 import { fixed } from './format.ts';
 import type { Layer } from './layers.ts';
+import { AXIS_HEIGHT } from './plot.ts';
 import type { ThemeName } from './theme.ts';
 
 export interface HeatMap {
@@ -55,16 +56,27 @@ export function heatImage(map: HeatMap): Layer {
   };
 }
 
-/** Colour bar in the space right of the plot; colours by name, or for a share from 0 to 1. */
-export function colorBar(
-  limits: readonly [number, number],
-  colors: ColorMapName | ((share: number, theme: ThemeName) => string),
-  label: string,
-): Layer {
-  const color = typeof colors === 'function' ? colors : (share: number): string => {
+type BarColors = ColorMapName | ((share: number, theme: ThemeName) => string);
+
+function barColor(colors: BarColors): (share: number, theme: ThemeName) => string {
+  if (typeof colors === 'function') return colors;
+  return (share) => {
     const [r, g, b] = colorTable(colors).subarray(Math.round(255 * share) * 4);
     return `rgb(${r}, ${g}, ${b})`;
   };
+}
+
+/** Values beside a bar with room for that many labels. */
+function barTicks([low, high]: readonly [number, number], room: number): { value: number; text: string }[] {
+  const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find((s) => (high - low) / s <= room) ?? 50;
+  const found = [];
+  for (let value = Math.ceil(low / step) * step; value <= high; value += step) found.push({ value, text: fixed(value, step < 1 ? 1 : 0) });
+  return found;
+}
+
+/** Colour bar in the space right of the plot; colours by name, or for a share from 0 to 1. */
+export function colorBar(limits: readonly [number, number], colors: BarColors, label: string): Layer {
+  const color = barColor(colors);
   return ({ ctx, plot, theme, themeName, ratio }) => {
     const { left, top, width, height } = plot.bbox;
     const x = left + width + 12 * ratio;
@@ -81,14 +93,13 @@ export function colorBar(
     ctx.textAlign = 'left';
     ctx.textBaseline = 'middle';
     const [low, high] = limits;
-    const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find((s) => ((high - low) / s) * 26 * ratio <= height) ?? 50;
-    for (let value = Math.ceil(low / step) * step; value <= high; value += step) {
+    for (const { value, text } of barTicks(limits, height / (26 * ratio))) {
       const at = top + height * (1 - (value - low) / (high - low));
       ctx.beginPath();
       ctx.moveTo(x + bar, at);
       ctx.lineTo(x + bar + 3 * ratio, at);
       ctx.stroke();
-      ctx.fillText(fixed(value, step < 1 ? 1 : 0), x + bar + 5 * ratio, Math.min(Math.max(at, top + 6 * ratio), top + height - 6 * ratio));
+      ctx.fillText(text, x + bar + 5 * ratio, Math.min(Math.max(at, top + 6 * ratio), top + height - 6 * ratio));
     }
     ctx.textAlign = 'center';
     ctx.save();
@@ -102,3 +113,40 @@ export function colorBar(
 
 /** Width a colour bar needs, CSS pixels. */
 export const COLOR_BAR_WIDTH = 74;
+
+/** Colour bar in the space under the plot's axis, where width is short; its unit stands left of it. */
+export function colorBarBelow(limits: readonly [number, number], colors: BarColors, unit: string): Layer {
+  const color = barColor(colors);
+  return ({ ctx, plot, theme, themeName, ratio }) => {
+    const { left, top, width, height } = plot.bbox;
+    const y = top + height + AXIS_HEIGHT * ratio;
+    const bar = 10 * ratio;
+    for (let column = 0; column < width; column++) {
+      ctx.fillStyle = color(column / Math.max(width - 1, 1), themeName);
+      ctx.fillRect(left + column, y, 1.5, bar);
+    }
+    ctx.strokeStyle = theme.muted;
+    ctx.lineWidth = ratio;
+    ctx.strokeRect(left + 0.5, y + 0.5, width - 1, bar);
+    ctx.fillStyle = theme.muted;
+    ctx.font = `${11 * ratio}px ${theme.font}`;
+    ctx.textBaseline = 'middle';
+    ctx.textAlign = 'right';
+    ctx.fillText(unit, left - 8 * ratio, y + bar / 2);
+    ctx.textBaseline = 'top';
+    ctx.textAlign = 'center';
+    const [low, high] = limits;
+    for (const { value, text } of barTicks(limits, width / (44 * ratio))) {
+      const at = left + (width * (value - low)) / (high - low);
+      const half = ctx.measureText(text).width / 2;
+      ctx.beginPath();
+      ctx.moveTo(at, y + bar);
+      ctx.lineTo(at, y + bar + 3 * ratio);
+      ctx.stroke();
+      ctx.fillText(text, Math.min(Math.max(at, left + half), left + width - half), y + bar + 4 * ratio);
+    }
+  };
+}
+
+/** Height it needs, CSS pixels. */
+export const COLOR_BAR_HEIGHT = 30;

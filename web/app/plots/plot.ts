@@ -20,6 +20,8 @@ export interface AxisOptions {
   steps?: number[];
   /** Space for the labels of a vertical axis, CSS pixels. */
   width?: number;
+  /** The largest value stands at the left. */
+  descending?: boolean;
   /** Lowest value with a label: what is below is no number of the axis. */
   from?: number;
 }
@@ -57,6 +59,8 @@ export interface PlotOptions {
   y: AxisOptions;
   /** Space for a colour bar, CSS pixels. */
   right?: number;
+  /** The same under the axis. */
+  bottom?: number;
   /** Smallest share of the extent a zoom may show. */
   minZoom?: number;
   /** Plots with the same key share their cursor's abscissa, those with equal scales the whole of it. */
@@ -101,7 +105,7 @@ function legendPlaces(widths: readonly number[], available: number, ratio: numbe
 }
 
 const AXIS_WIDTH = 52;
-const AXIS_HEIGHT = 40;
+export const AXIS_HEIGHT = 40;
 
 export class Plot {
   readonly host: HTMLElement;
@@ -195,10 +199,10 @@ export class Plot {
     this.setView(null, true);
   }
 
-  /** Moves a zoomed view along by shares of what it shows. */
-  panBy(x: number, y = 0): void {
-    const drawn = this.#drawn(this.u);
-    this.moveBy((drawn.x[1] - drawn.x[0]) * x, (drawn.y[1] - drawn.y[0]) * y);
+  /** Moves a zoomed view to the right and up by shares of what it shows. */
+  panBy(right: number, up = 0): void {
+    const { x, y } = this.#drawn(this.u);
+    this.moveBy((x[1] - x[0]) * (this.#options.x.descending ? -right : right), (y[1] - y[0]) * up);
   }
 
   /** Moves a zoomed view along by what its axes say. */
@@ -282,10 +286,10 @@ export class Plot {
     return {
       width: 300,
       height: 200,
-      padding: [8, options.right ?? 14, 0, 0],
+      padding: [8, options.right ?? 14, options.bottom ?? 0, 0],
       legend: { show: false },
       scales: {
-        x: { time: false, auto: false, range: (u) => [...this.#drawn(u).x] as [number, number] },
+        x: { time: false, auto: false, dir: options.x.descending ? -1 : 1, range: (u) => [...this.#drawn(u).x] as [number, number] },
         y: { auto: false, range: (u) => [...this.#drawn(u).y] as [number, number] },
       },
       axes: [axis(options.x, 2, AXIS_HEIGHT - 18), axis(options.y, 3, (options.y.width ?? AXIS_WIDTH) - 18)],
@@ -380,7 +384,8 @@ export class Plot {
     const { left, top, width, height } = u.select;
     if (width < 4 && height < 4) return;
     const whole = (size: number, full: number): boolean => size < 4 || size >= full - 1;
-    const x: Interval = whole(width, u.over.clientWidth) ? this.view.x : [u.posToVal(left, 'x'), u.posToVal(left + width, 'x')];
+    const [a, b] = [u.posToVal(left, 'x'), u.posToVal(left + width, 'x')];
+    const x: Interval = whole(width, u.over.clientWidth) ? this.view.x : [Math.min(a, b), Math.max(a, b)];
     const y: Interval = whole(height, u.over.clientHeight) ? this.view.y : [u.posToVal(top + height, 'y'), u.posToVal(top, 'y')];
     u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
     this.setView({ x, y }, true);

@@ -25,6 +25,8 @@ export function NumberField(props: FieldProps & {
   disabled?: boolean;
   name?: string;
   onChange(value: number): void;
+  /** Where a field may be empty. */
+  onEmpty?(): void;
 }) {
   const id = useId();
   const [text, setText] = useState(numberText(props.value));
@@ -39,7 +41,10 @@ export function NumberField(props: FieldProps & {
     setText(given);
     const value = Number(given);
     const range = `${props.integer ? 'A whole number' : 'A number'} from ${props.min} to ${props.max}`.replaceAll('-', '−');
-    if (given.trim() === '' || !Number.isFinite(value) || value < props.min || value > props.max
+    if (given.trim() === '' && props.onEmpty) {
+      setProblem(null);
+      props.onEmpty();
+    } else if (given.trim() === '' || !Number.isFinite(value) || value < props.min || value > props.max
       || (props.integer && !Number.isInteger(value))) {
       setProblem(range);
     } else {
@@ -97,6 +102,29 @@ export function CheckField(props: FieldProps & { value: boolean; disabled?: bool
       <input id={id} name={props.name} type="checkbox" checked={props.value} disabled={props.disabled} aria-describedby={`${id}-help`}
         onChange={(event) => props.onChange(event.currentTarget.checked)} />
       <label for={id}>{props.label}</label>
+      <Help id={`${id}-help`}>{props.help}</Help>
+    </div>
+  );
+}
+
+export function SliderField(props: FieldProps & {
+  value: number;
+  min: number;
+  max: number;
+  step: number;
+  /** The value in words. */
+  text: string;
+  disabled?: boolean;
+  name?: string;
+  onChange(value: number): void;
+}) {
+  const id = useId();
+  return (
+    <div class="field slider" title={props.help}>
+      <label for={id}>{props.label}</label>
+      <output for={id}>{props.text}</output>
+      <input id={id} name={props.name} type="range" value={props.value} min={props.min} max={props.max} step={props.step} disabled={props.disabled}
+        aria-describedby={`${id}-help`} aria-valuetext={props.text} onInput={(event) => props.onChange(Number(event.currentTarget.value))} />
       <Help id={`${id}-help`}>{props.help}</Help>
     </div>
   );

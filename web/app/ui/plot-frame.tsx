@@ -28,6 +28,7 @@ export interface PlotFrameProps {
   legend?: readonly LegendItem[];
   /** On the exported image alone, where the page says it otherwise. */
   imageLegend?: readonly LegendEntry[];
+  imageRemarks?: readonly string[];
   /** Said below the plot and on the exported image. */
   remarks?: readonly string[];
   /** Said below the plot only. */
@@ -37,7 +38,7 @@ export interface PlotFrameProps {
   csv(): string;
   fileParts?: readonly (string | number)[];
   tools?: ComponentChildren;
-  height: 'tall' | 'medium' | 'short' | 'fill';
+  height: 'tall' | 'medium' | 'short' | 'portrait' | 'fill';
   /** A zoom kept elsewhere, such as one shared with another plot. */
   view?: View | null;
   onPlot?(plot: Plot): (() => void) | undefined;
@@ -87,7 +88,7 @@ export function PlotFrame(props: PlotFrameProps) {
 
   const parts = [props.name, ...(props.fileParts ?? [])];
   const savePng = async (): Promise<void> => {
-    const image = await plot.current?.png(props.detail ? `${props.title}, ${props.detail}` : props.title, props.imageLegend ?? props.legend, props.remarks);
+    const image = await plot.current?.png(props.detail ? `${props.title}, ${props.detail}` : props.title, props.imageLegend ?? props.legend, props.imageRemarks ?? props.remarks);
     if (image) download(image, fileName(parts, 'png'));
   };
   return (
@@ -96,7 +97,7 @@ export function PlotFrame(props: PlotFrameProps) {
         <h3 id={`${id}-title`}>{props.title}</h3>{props.detail && <span class="muted detail">{props.detail}</span>}
         {props.tools}
         <div class="tools" role="group" aria-label={`${props.title}: tools`}>
-          <button type="button" aria-label="Zoom in" title="Zoom in (+). Drag across the plot to zoom to a region." onClick={() => plot.current?.zoomBy(0.5)}>+</button>
+          <button type="button" aria-label="Zoom in" title={`Zoom in (+). Drag across the plot${props.options.navigate ? ' with Shift' : ''} to zoom to a region.`} onClick={() => plot.current?.zoomBy(0.5)}>+</button>
           <button type="button" aria-label="Zoom out" title="Zoom out (−)" onClick={() => plot.current?.zoomBy(2)}>{'−'}</button>
           <button type="button" title="Show everything again (0)" onClick={() => plot.current?.resetZoom()}>Reset</button>
           <button type="button" title="Save the plot as an image" data-export="png" onClick={() => void savePng()}>PNG</button>

@@ -159,7 +159,7 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
   );
 }
 
-/** A light line with a dark one beneath shows on every colour of the map. */
+/** A light line with a dark one beneath shows on every colour of a map. */
 function outlined(ctx: CanvasRenderingContext2D, ratio: number, path: Path2D): void {
   ctx.strokeStyle = 'rgba(0, 0, 0, 0.75)';
   ctx.lineWidth = 3.5 * ratio;
