@@ -1,0 +1,75 @@
+/** What is drawn over an image: the street as it truly is, and where the radars sit and look. */
+import type { StreetScene } from 'boresight';
+import { aheadUp } from '../../plots/car.ts';
+import { clipToPlot, type Layer } from '../../plots/layers.ts';
+import type { Point, Radar } from './input.ts';
+
+/** A ray's end in the car's frame. */
+function along({ mounting: { xM, yM, yawDeg } }: Radar, angleDeg: number, rangeM: number): [x: number, y: number] {
+  const radians = ((yawDeg + angleDeg) * Math.PI) / 180;
+  return [xM + rangeM * Math.cos(radians), yM + rangeM * Math.sin(radians)];
+}
+
+/** Edges of what each radar sees, out to its last range. */
+export function fieldsOfView(radars: readonly { radar: Radar; rangeM: number }[]): Layer {
+  return (context) => {
+    const { ctx, plot, ratio } = context;
+    const at = aheadUp(context);
+    clipToPlot(ctx, plot);
+    for (const { radar, rangeM } of radars) {
+      const half = radar.fieldOfViewDeg;
+      const path = new Path2D();
+      path.moveTo(...at(radar.mounting.xM, radar.mounting.yM));
+      for (let angle = -half; angle <= half; angle += half / 24) path.lineTo(...at(...along(radar, angle, rangeM)));
+      path.closePath();
+      ctx.setLineDash([5 * ratio, 5 * ratio]);
+      stroke(ctx, path, 'rgba(255, 255, 255, 0.75)', ratio);
+      const dot = new Path2D();
+      dot.arc(...at(radar.mounting.xM, radar.mounting.yM), 2.5 * ratio, 0, 2 * Math.PI);
+      ctx.setLineDash([]);
+      stroke(ctx, dot, '#ffffff', ratio);
+    }
+  };
+}
+
+/** A thin line with a dark one beneath. */
+function stroke(ctx: CanvasRenderingContext2D, path: Path2D, color: string, ratio: number): void {
+  ctx.lineWidth = 2.2 * ratio;
+  ctx.strokeStyle = 'rgba(0, 0, 0, 0.5)';
+  ctx.stroke(path);
+  ctx.lineWidth = ratio;
+  ctx.strokeStyle = color;
+  ctx.stroke(path);
+}
+
+/** Shapes of the things beside the road, and the points of them that scatter into a radar. */
+export function truth(street: StreetScene | null, points: readonly Point[]): Layer {
+  return (context) => {
+    const { ctx, plot, ratio } = context;
+    const at = aheadUp(context);
+    clipToPlot(ctx, plot);
+    const shapes = new Path2D();
+    for (const { xM, yM } of street?.outlines ?? []) {
+      for (let i = 0; i < xM.length; i++) shapes[i ? 'lineTo' : 'moveTo'](...at(xM[i] as number, yM[i] as number));
+      if (xM.length > 2) shapes.closePath();
+    }
+    stroke(ctx, shapes, 'rgba(255, 255, 255, 0.8)', ratio);
+    // From afar they are many to a pixel; near, rings that leave the image beneath to be seen.
+    const size = Math.abs(at(0, 0.3)[0] - at(0, 0)[0]);
+    const [dots, rings] = [new Path2D(), new Path2D()];
+    for (const { xM, yM } of points) {
+      const [px, py] = at(xM, yM);
+      if (size < 3 * ratio) dots.rect(px - 0.75 * ratio, py - 0.75 * ratio, 1.5 * ratio, 1.5 * ratio);
+      else {
+        rings.moveTo(px + Math.min(size, 6 * ratio), py);
+        rings.arc(px, py, Math.min(size, 6 * ratio), 0, 2 * Math.PI);
+      }
+    }
+    ctx.fillStyle = TRUTH_COLOR;
+    ctx.fill(dots);
+    stroke(ctx, rings, TRUTH_COLOR, ratio);
+  };
+}
+
+/** Stands apart from all colours of the maps. */
+export const TRUTH_COLOR = '#ff5a4d';

@@ -1,0 +1,296 @@
+/**
+ * From samples to images, on workers: cells of each radar's frame, estimates of each method, maps,
+ * images. What was computed for the present input is kept, so that switching goes quickly; the newest
+ * state wins.
+ */
+import { batch, computed, effect, signal } from '@preact/signals';
+import type {
+  BatchEstimate, BirdsEyeView, FrameCells, Gate, ImageFrom, Method, MethodInfo, RangeAzimuthMap, SidelobeMeasure, SimulatedStreet, Warning,
+} from 'boresight';
+import type { JobOptions } from 'boresight/worker';
+import { aborted, api, describeError, pool, type Problem } from '../../data.ts';
+import { chainOptions, grid, gridProblem, input, type Input, type Point, type Radar, shownRadars } from './input.ts';
+import { birdseyeState, type BirdseyeState } from './state.ts';
+
+/** A radar's frame: what was detected, and the street's points it can see. */
+export interface RadarFrame {
+  radar: Radar;
+  cells: FrameCells;
+  visible: Point[] | null;
+}
+
+export interface MethodImage {
+  view?: BirdsEyeView;
+  /** Of the view as it is drawn, dB: column by column from the left, each from behind to ahead; not a number where no radar sees. */
+  levelsDb?: Float32Array;
+  peakDb?: number;
+  radars?: readonly Radar[];
+  measure?: SidelobeMeasure | undefined;
+  /** What the image was made of, for methods without spectra its targets. */
+  from?: ImageFrom;
+  cells?: number;
+  sources?: number;
+  unresolved?: number;
+  outside?: number;
+  warnings?: Warning[];
+  /** Of the estimates alone, all radars together. */
+  milliseconds?: number;
+  problem?: Problem;
+  /** Not of the present state: about to be replaced, unless that was cancelled. */
+  stale: boolean;
+}
+
+export const images = signal<ReadonlyMap<Method, MethodImage>>(new Map());
+export const frames = signal<readonly RadarFrame[]>([]);
+export const frameProblem = signal<Problem | null>(null);
+export const progress = signal<{ share: number; what: string } | null>(null);
+export const wasCancelled = signal(false);
+/** Whether what is shown is about to be replaced. */
+export const working = signal(false);
+
+/** Methods that cannot work on these radars' single snapshots, with the reason. */
+export const unavailable = computed<ReadonlyMap<Method, string>>(() => {
+  const reasons = new Map<Method, string>();
+  const geometries = (input.value?.radars ?? []).map(({ array }) => api.array(array));
+  for (const info of api.methods()) {
+    if (info.uniformArray && geometries.some(({ uniform }) => !uniform)) reasons.set(info.name, 'needs a uniform linear array');
+  }
+  return reasons;
+});
+
+/** Methods that may be chosen: a frame gives one snapshot a cell. */
+export const candidates = (): MethodInfo[] => api.methods().filter(({ minSnapshots }) => minSnapshots <= 1);
+
+/** What the images depend on; as text, so that effects run when it changes only. */
+const job = computed(() => {
+  const { methods, from, falseAlarm, grouping, sources, points, gate, frame } = birdseyeState.value;
+  return JSON.stringify({
+    input: input.value?.key, radars: shownRadars.value.map(({ name }) => name), grid: grid.value,
+    methods: methods.filter((method) => !unavailable.value.has(method)), from, falseAlarm, grouping, sources, points, gate, frame,
+  });
+});
+
+const attempts = signal(0);
+let running: AbortController | undefined;
+
+export function cancel(): void {
+  running?.abort();
+}
+
+export function restart(): void {
+  attempts.value += 1;
+}
+
+/** What is kept of an input, and what each part was made for. */
+let kept: { input: string; street: Map<string, SimulatedStreet>; parts: Map<string, unknown> } = { input: '', street: new Map(), parts: new Map() };
+/** Spectra of a few settings; older ones make room. */
+const MOST_PARTS = 120;
+
+async function once<T>(key: string, make: () => Promise<T>): Promise<T> {
+  const { parts } = kept;
+  const known = parts.get(key) as T | undefined;
+  const made = known ?? await make();
+  // The latest stand last.
+  parts.delete(key);
+  parts.set(key, made);
+  for (const [oldest] of parts) {
+    if (parts.size <= MOST_PARTS) break;
+    parts.delete(oldest);
+  }
+  return made;
+}
+
+export function start(): () => void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const stop = effect(() => {
+    void attempts.value;
+    void job.value;
+    const looked = input.value;
+    clearTimeout(timer);
+    running?.abort();
+    running = undefined;
+    batch(() => {
+      progress.value = null;
+      wasCancelled.value = false;
+      frameProblem.value = null;
+      working.value = false;
+      if (kept.input !== looked?.key) {
+        kept = { input: looked?.key ?? '', street: new Map(), parts: new Map() };
+        images.value = new Map();
+        frames.value = [];
+      }
+      const { methods } = birdseyeState.peek();
+      const before = shownRadars.value.length ? images.peek() : new Map<Method, MethodImage>();
+      images.value = new Map(methods.filter((method) => !unavailable.peek().has(method)).map((method) => [method, { ...before.get(method), stale: shownRadars.peek().length > 0 }]));
+    });
+    if (!looked || gridProblem.value || !shownRadars.peek().length) return;
+    working.value = true;
+    const state = birdseyeState.peek();
+    const radars = shownRadars.peek();
+    const chosen = [...images.peek().keys()];
+    // Numbers are typed digit by digit.
+    timer = setTimeout(() => void run(looked, radars, chosen, state), 100);
+  });
+  return () => {
+    clearTimeout(timer);
+    running?.abort();
+    running = undefined;
+    stop();
+  };
+}
+
+async function run(looked: Input, radars: readonly Radar[], methods: readonly Method[], state: BirdseyeState): Promise<void> {
+  const controller = new AbortController();
+  running = controller;
+  const { signal } = controller;
+  const current = (): boolean => running === controller;
+  /** A share of the work for each frame and each method's estimates of it. */
+  const total = radars.length * (1 + methods.length);
+  let done = 0;
+  let what = '';
+  const say = (part = 0): void => {
+    if (current()) progress.value = { share: Math.min((done + part) / Math.max(total, 1), 1), what };
+  };
+  try {
+    what = looked.street ? 'Simulating the street' : 'Detecting';
+    say();
+    const made = await Promise.all(radars.map(async (radar) => {
+      const frame = await frameOf(looked, radar, state, signal);
+      done += 1;
+      say();
+      return frame;
+    }));
+    if (!current()) return;
+    frames.value = made;
+    for (const method of methods) {
+      what = `Estimating by ${api.methods().find(({ name }) => name === method)?.title ?? method}`;
+      let image: MethodImage;
+      try {
+        image = await imageOf(looked, method, made, state, signal, {
+          step: () => { done += 1; },
+          report: say,
+        });
+      } catch (error) {
+        if (aborted(error)) throw error;
+        image = { problem: describeError(error), stale: false };
+      }
+      if (!current()) return;
+      images.value = new Map(images.peek()).set(method, image);
+    }
+  } catch (error) {
+    if (!current()) return;
+    if (aborted(error)) wasCancelled.value = true;
+    else frameProblem.value = describeError(error);
+  }
+  if (!current()) return;
+  running = undefined;
+  batch(() => {
+    progress.value = null;
+    working.value = false;
+  });
+}
+
+/** What a radar's cells depend on beside the input. */
+const detectionKey = (looked: Input, radar: Radar, { falseAlarm, grouping, frame }: BirdseyeState): string =>
+  `${radar.name} ${falseAlarm} ${grouping} ${looked.capture ? frame : ''}`;
+
+async function frameOf(looked: Input, radar: Radar, state: BirdseyeState, signal: AbortSignal): Promise<RadarFrame> {
+  const chain = chainOptions(radar, state);
+  const key = detectionKey(looked, radar, state);
+  if (looked.capture) {
+    const { bin, cfg, info } = looked.capture;
+    const { frameBytes } = info.config;
+    const at = Math.min(state.frame, info.frames - 1);
+    const { waveform: _, ...options } = chain;
+    const cells = await once(`cells ${key}`, () =>
+      pool().captureCells(bin.subarray(at * frameBytes, (at + 1) * frameBytes), cfg, 0, options, { signal }));
+    return { radar, cells, visible: null };
+  }
+  const { seed, egoSpeedMps } = JSON.parse(looked.key.slice(looked.key.indexOf('{')));
+  const { street } = kept;
+  const simulated = street.get(radar.name) ?? await pool().simulateStreet({ seed, egoSpeedMps, radar: radar.name }, { signal });
+  street.set(radar.name, simulated);
+  const cells = await once(`cells ${key}`, () => pool().frameCells(simulated.cube, chain, { signal }));
+  const visible = simulated.targets.map(({ target }) => looked.street?.targets[target] as Point);
+  return { radar, cells, visible };
+}
+
+interface Steps { step(): void; report(part?: number): void }
+
+async function imageOf(
+  looked: Input, method: Method, made: readonly RadarFrame[], state: BirdseyeState, signal: AbortSignal, { step, report }: Steps,
+): Promise<MethodImage> {
+  const { points, gate } = state;
+  const { spectrum: hasSpectrum = false, sourceCount = false } = api.methods().find(({ name }) => name === method) ?? {};
+  const parts: { frame: RadarFrame; estimate: BatchEstimate; milliseconds: number; map: RangeAzimuthMap; from: ImageFrom }[] = [];
+  for (const one of made) {
+    const { radar, cells } = one;
+    const key = `${method} ${points} ${sourceCount ? state.sources : ''} ${detectionKey(looked, radar, state)}`;
+    const job: JobOptions = { signal, onProgress: (done, total) => report(total > 0 ? done / total : 0) };
+    const plan = api.imagePlan({
+      waveform: radar.waveform, array: radar.array, from: hasSpectrum ? state.from : 'targets',
+      // One snapshot does not tell how many there are.
+      angle: { method, ...(sourceCount ? { sources: Number(state.sources) } : {}), gridPoints: Number(points), fieldOfViewDeg: radar.fieldOfViewDeg }, grid: { fieldOfViewDeg: radar.fieldOfViewDeg },
+    });
+    const { estimate, milliseconds } = await once(`estimates ${key}`, async () => {
+      const started = performance.now();
+      // Spectra come along for the time when they are asked for.
+      const estimate = await pool().estimateBatch({ snapshots: cells.snapshots }, { ...plan.estimator, spectra: hasSpectrum }, job);
+      return { estimate, milliseconds: performance.now() - started };
+    });
+    const { from, grid } = plan;
+    const map = await once(`map ${key} ${from}`, () => pool().rangeAzimuthMap({ cells, estimates: estimate, from, grid }, { signal }));
+    parts.push({ frame: one, estimate, milliseconds, map, from });
+    step();
+    report();
+  }
+  const { view, levelsDb, peakDb, measure } = await imageOfMaps(looked, parts, gate, signal);
+  const warnings = new Map<string, Warning>();
+  for (const { estimate } of parts) for (const warning of estimate.warnings) warnings.set(warning.code, warning);
+  const sum = (value: (part: (typeof parts)[number]) => number): number => parts.reduce((total, part) => total + value(part), 0);
+  return {
+    view, levelsDb, peakDb, measure, radars: made.map(({ radar }) => radar), from: parts[0]?.from ?? state.from,
+    cells: sum(({ estimate }) => estimate.cells),
+    sources: sum(({ estimate }) => estimate.cell.length),
+    unresolved: sum(({ estimate }) => estimate.unresolved),
+    outside: sum(({ map }) => map.outside.count),
+    warnings: [...warnings.values()],
+    milliseconds: sum((part) => part.milliseconds),
+    stale: false,
+  };
+}
+
+async function imageOfMaps(
+  looked: Input, parts: readonly { frame: RadarFrame; map: RangeAzimuthMap }[], gate: number | null, signal: AbortSignal,
+): Promise<{ view: BirdsEyeView; levelsDb: Float32Array; peakDb: number; measure: SidelobeMeasure | undefined }> {
+  const view = await pool().birdsEyeView({ radars: parts.map(({ frame, map }) => ({ map, mounting: frame.radar.mounting })), grid: grid.peek() }, { signal });
+  let peak = 0;
+  for (const power of view.power) peak = Math.max(peak, power);
+  const [ahead, across] = view.shape;
+  const levelsDb = new Float32Array(view.power.length);
+  for (let i = 0; i < ahead; i++) {
+    for (let j = 0; j < across; j++) {
+      const at = i * across + j;
+      levelsDb[(across - 1 - j) * ahead + i] = view.seen[at] ? 10 * Math.log10(view.power[at] as number) : Number.NaN;
+    }
+  }
+  const targets = uniquePoints(parts.flatMap(({ frame }) => frame.visible ?? []));
+  const measure = looked.street ? await pool().sidelobeMeasure(view, targets, gateOf(parts, gate), { signal }) : undefined;
+  return { view, levelsDb, peakDb: 10 * Math.log10(peak), measure };
+}
+
+/**
+ * What a radar cannot resolve, unless the user says: the main lobes of a Hann window and of the array, to their first
+ * nulls, and a cell of the map.
+ */
+function gateOf([part]: readonly { frame: RadarFrame; map: RangeAzimuthMap }[], gateM: number | null): Gate {
+  if (gateM !== null || !part) return { gateM: gateM ?? 1 };
+  const { waveform, array } = part.frame.radar;
+  const [first = 0, second = 0] = part.map.azimuthDeg.map((azimuth) => Math.sin((azimuth * Math.PI) / 180));
+  return { rangeM: 2 * api.waveformSummary(waveform).rangeResolutionM, sine: 2 / (api.array(array).aperture + 1) + second - first };
+}
+
+/** A point that several radars see counts once. */
+function uniquePoints(points: readonly Point[]): Point[] {
+  return [...new Set(points)];
+}
