@@ -18,6 +18,19 @@ from .tasks import Task, task
 OPSET = 16
 HALF_FROM = 256
 """Smaller weights stay in single precision."""
+SHAPING = (
+    "batch",
+    "learning_rate",
+    "steps",
+    "total_minutes",
+    "warmup_steps",
+    "weight_decay",
+    "clip",
+    "ema",
+    "seed",
+    "bfloat16",
+)
+"""Settings of training that bear on its result."""
 PARITY = 1e-4
 """Largest difference of the exported model from PyTorch, relative to the largest output or 1."""
 
@@ -116,7 +129,7 @@ def export(folder: Path, path: Path, half: bool = False, count: int = 4000) -> d
         "outputs": _ports(what.outputs),
         "parameters": sum(p.numel() for p in network.parameters()),
         **what.describe(),
-        "training": saved["settings"],
+        "training": {name: saved["settings"][name] for name in SHAPING},
         "steps": saved["step"] + before["step"],
         "samplesSeen": saved["samples"] + before["samples"],
         "hours": round((saved["seconds"] + before["seconds"]) / 3600, 3),

@@ -20,8 +20,6 @@ class SetLossConfig:
     """Per dB."""
     focal: float = 0.0
     """Exponent of the focal loss; 0 is cross-entropy."""
-    reach: float = 1e9
-    """Errors in sine cost no more than this many cells."""
 
 
 def set_loss(outputs, targets, config: SetLossConfig):
@@ -34,7 +32,7 @@ def set_loss(outputs, targets, config: SetLossConfig):
     true_u, true_db = targets.u.float(), targets.db.float()
     cell = 2 / LRR48_APERTURE
     with torch.no_grad():
-        far = (u.unsqueeze(-2) - true_u.unsqueeze(-1)).abs().div(cell).clamp_max(config.reach)
+        far = (u.unsqueeze(-2) - true_u.unsqueeze(-1)).abs().div(cell)
         cost = config.sine * far + config.magnitude * (db.unsqueeze(-2) - true_db.unsqueeze(-1)).abs()
         cost = cost + config.confidence * _gain(logit, config).unsqueeze(-2)
         rows = targets.valid.sum(1).repeat(layers)

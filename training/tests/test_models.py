@@ -1,0 +1,53 @@
+"""The models in the repository: what their cards say of them."""
+
+import hashlib
+import json
+from pathlib import Path
+
+import onnxruntime
+import pytest
+import torch
+
+from boresight_training.score import best_f1
+from boresight_training.snapshots import Scenes, snapshots
+from boresight_training.tasks import task
+
+MODELS = sorted((Path(__file__).parents[2] / "models").glob("*.onnx"))
+
+
+def card_of(path):
+    return json.loads(path.with_suffix(".json").read_text())
+
+
+def session_of(path):
+    return onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: path.stem)
+def test_a_card_describes_its_file(path):
+    card, session = card_of(path), session_of(path)
+    assert card["bytes"] == path.stat().st_size < 24e6
+    assert card["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
+    what = task(card["network"], card["form"])
+    for ports, named, given in (
+        (what.inputs, card["inputs"], session.get_inputs()),
+        (what.outputs, card["outputs"], session.get_outputs()),
+    ):
+        assert [(p.name, list(p.axes)) for p in ports] == [(p["name"], p["axes"]) for p in named]
+        assert [(p.name, list(p.axes)) for p in ports] == [(p.name, p.shape) for p in given]
+
+
+@pytest.mark.parametrize("path", [path for path in MODELS if path.stem.startswith("aaetr")], ids=lambda path: path.stem)
+def test_an_aaetr_scores_what_its_card_says(path):
+    what = task("aaetr", card_of(path)["form"])
+    for condition in card_of(path)["metrics"]:
+        number, snr_db = condition["targets"], condition["snrDb"]
+        if snr_db != 15:
+            continue
+        scenes = Scenes(targets=(number, number), snr_db=(15, 15))
+        targets, values, _ = snapshots(scenes, what.positions, 200, torch.Generator().manual_seed(number))
+        feeds = {"snapshots": torch.view_as_real(values).numpy(), "positions": what.positions.float().numpy()}
+        (answer,) = session_of(path).run(None, feeds)
+        u, db, confidence = torch.from_numpy(answer).unbind(-1)
+        # Two standard deviations of a share of 0.99 in 400 targets are 0.01; F1 is at most as noisy.
+        assert abs(best_f1(u.clamp(-1, 1).asin(), db, confidence, targets)["f1"] - condition["f1"]) < 0.02
