@@ -15,12 +15,14 @@ def along_y(ys) -> torch.Tensor:
 
 
 def array(name: str) -> torch.Tensor:
-    """Positions [elements, 3] of `lrr48` (transmitter-major) or `ulaN`."""
+    """Positions [elements, 3] of `lrr48` and `awr1642` (transmitter-major) or `ulaN`."""
     if name == "lrr48":
         return along_y([tx + rx for tx in LRR48_TX for rx in LRR48_RX])
+    if name == "awr1642":
+        return along_y([-k for k in range(8)])
     if name.startswith("ula") and name[3:].isdigit() and int(name[3:]) > 0:
         return along_y(range(int(name[3:])))
-    raise ValueError(f"array {name!r}: expected lrr48 or ulaN")
+    raise ValueError(f"array {name!r}: expected lrr48, awr1642 or ulaN")
 
 
 def steering(positions: torch.Tensor, u: torch.Tensor) -> torch.Tensor:

@@ -64,8 +64,8 @@ class Cubes:
     """Greatest shift in range by equation 10."""
 
     def elements(self) -> torch.Tensor:
-        """Positions of the 8 virtual elements, a uniform row however many transmitters make it."""
-        return array("ula8")
+        """Positions of the 8 virtual elements, transmitter-major."""
+        return array("ula8" if WAVEFORMS[self.waveform].transmitters == 1 else "awr1642")
 
 
 def draw_reflectors(cubes: Cubes, batch: int, generator: torch.Generator) -> Reflectors:

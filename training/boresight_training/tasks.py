@@ -221,7 +221,7 @@ def classifier(name: str, config: str, targets: int) -> ClassifierTask:
     if name == "dnn":
         return ClassifierTask(partial(dnn, DNN_HIDDEN[config]), cubes, -5.0, True, 256, 1e-3)
     if config == "experiment":
-        cubes = replace(cubes, waveform="3dcnn-experiment", range_m=(10.0, 10.0), shift_m=0.3)
+        cubes = replace(cubes, waveform="3dcnn-experiment", range_m=(9.7, 10.3), shift_m=0.3)
     filters = 48 if config == "small" else 256
     return ClassifierTask(partial(Cnn3d, filters), cubes, -5.0, False, 64, 5e-4)
 

@@ -62,13 +62,9 @@ def test_snapshots_are_those_of_the_command_line(boresight, tmp_path, displaced)
 
 
 @pytest.mark.parametrize("waveform", WAVEFORMS)
-def test_cubes_are_those_of_the_command_line(boresight, waveform, tmp_path):
+def test_cubes_are_those_of_the_command_line(boresight, waveform):
     w = WAVEFORMS[waveform]
-    name = "ula8"
-    if w.transmitters == 2:
-        name = tmp_path / "array.json"
-        tx, rx = [[0, 0, 0], [0, 4, 0]], [[0, y, 0] for y in range(4)]
-        name.write_text(json.dumps({"tx": tx, "rx": rx}))
+    name = "ula8" if w.transmitters == 1 else "awr1642"
     far = 80.3 if w.transmitters == 1 else 10.01
     given = boresight(
         "cube",
@@ -90,7 +86,7 @@ def test_cubes_are_those_of_the_command_line(boresight, waveform, tmp_path):
         phase=row(30, -100).deg2rad(),
         valid=torch.tensor([[True, True]]),
     )
-    ours = join(tones(w, reflectors), w, reflectors, array("ula8"))
+    ours = join(tones(w, reflectors), w, reflectors, Cubes(waveform).elements())
     assert ours.shape[1:] == given.shape[1:]
     assert (ours[0] - given[0]).abs().max() < SAME
 
