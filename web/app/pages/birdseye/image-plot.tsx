@@ -117,7 +117,7 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
       }}
       readout={({ x: yM, y: xM }) => {
         const cell = cellAt(image, xM, yM);
-        return `x ${signed(xM, 1)} m  y ${signed(yM, 1)} m  ${cell ? `${fixed(cell.levelDb, 1)}\u00a0dBFS  ${cell.radar.toLowerCase()}` : 'not seen'}${truthShown ? thingAt(points, xM, yM) : ''}`;
+        return `x ${signed(xM, 1)} m  y ${signed(yM, 1)} m  ${cell ? `${Number.isFinite(cell.levelDb) ? `${fixed(cell.levelDb, 1)}\u00a0dBFS` : 'nothing'}  ${cell.radar.toLowerCase()}` : 'not seen'}${truthShown ? thingAt(points, xM, yM) : ''}`;
       }}
       csv={() => toCsv(['x_m', 'y_m', 'power_dbfs', 'radar'], (function* rows() {
         const { view, radars } = image;

@@ -55,11 +55,11 @@ export function truth(street: StreetScene | null, points: readonly Point[]): Lay
     }
     stroke(ctx, shapes, 'rgba(255, 255, 255, 0.8)', ratio);
     // From afar they are many to a pixel; near, rings that leave the image beneath to be seen.
-    const size = Math.abs(at(0, 0.3)[0] - at(0, 0)[0]);
+    const size = Math.abs(at(0, 0.2)[0] - at(0, 0)[0]);
     const [dots, rings] = [new Path2D(), new Path2D()];
     for (const { xM, yM } of points) {
       const [px, py] = at(xM, yM);
-      if (size < 3 * ratio) dots.rect(px - 0.75 * ratio, py - 0.75 * ratio, 1.5 * ratio, 1.5 * ratio);
+      if (size < 4 * ratio) dots.rect(px - 0.75 * ratio, py - 0.75 * ratio, 1.5 * ratio, 1.5 * ratio);
       else {
         rings.moveTo(px + Math.min(size, 6 * ratio), py);
         rings.arc(px, py, Math.min(size, 6 * ratio), 0, 2 * Math.PI);
