@@ -165,3 +165,29 @@ fn no_source_is_stronger_than_the_data_allow() {
         }
     }
 }
+
+/// A long thing near by: many points within a few beams, of which three and more fitted ones cancel.
+#[test]
+fn no_group_within_half_a_beam_cancels() {
+    let array = preset("lrr48").unwrap();
+    let mut nomp = Estimator::new(Method::Nomp, &array, &Options::default()).unwrap();
+    let beam = 2.0 / 92.0;
+    for trial in 0..200 {
+        let mut random = Random::new(84, trial);
+        let at: Vec<_> = (0..12)
+            .map(|_| Direction::azimuth((0.3 + beam * random.uniform(0.0, 2.0)).asin()))
+            .collect();
+        let s = Array2::from_shape_fn((12, 1), |_| cis(random.phase()));
+        let mut y = steering_matrix(&array, &at).dot(&s);
+        y.mapv_inplace(|z| z + random.complex_normal(1e-4));
+        let sources = nomp.estimate(Data::Snapshots(y.view())).unwrap().sources;
+        let sine = |source: &boresight_aoa::Source| source.direction.azimuth_rad.sin();
+        for seed in &sources {
+            let near = sources.iter().filter(|s| (sine(s) - sine(seed)).abs() < 0.49 * beam);
+            let amplitudes: Vec<_> = near.filter_map(|source| source.amplitude).collect();
+            let sum: boresight_core::Complex64 = amplitudes.iter().sum();
+            let powers: f64 = amplitudes.iter().map(|amplitude| amplitude.norm_sqr()).sum();
+            assert!(sum.norm_sqr() > 0.01 * powers, "trial {trial}: {sources:?}");
+        }
+    }
+}

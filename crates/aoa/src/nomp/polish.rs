@@ -8,7 +8,7 @@ use crate::estimate::Source;
 use crate::gauss_newton::{Fit, Limits, refine_points, total_power};
 use crate::normalised::Normalised;
 use crate::powers::sources_at;
-use boresight_core::Direction;
+use boresight_core::{Complex64, Direction};
 
 /// Gauss-Newton steps over all sources.
 const STEPS: Limits = Limits { iterations: 10, tolerance: 1e-8 };
@@ -34,9 +34,9 @@ impl Nomp {
 
     /// The sources at `points` in the field of view, with their powers.
     ///
-    /// Two sources of one snapshot closer than half a beam that cancel by more than 20 dB are a fit
-    /// to first order of one at their centre, `a_1 v_1 + a_2 v_2` over `a_1 + a_2`: that is returned
-    /// in place of two of absurd power.
+    /// Sources of one snapshot within half a beam that cancel by more than 20 dB are a fit to first
+    /// order of one at their centre, `a_1 v_1 + a_2 v_2` over `a_1 + a_2`: that is returned in place
+    /// of several of absurd power.
     pub fn sources(&self, points: Vec<Point>, data: Data<'_>) -> Vec<Source> {
         let directions: Vec<Direction> =
             points.iter().map(|&p| self.geometry.direction(p)).collect();
@@ -45,26 +45,57 @@ impl Nomp {
         let mut apart: Vec<(Point, Point)> = Vec::new();
         let half_beam = self.geometry.half_beam();
         while let Some((i, k)) = self.closest(&points, half_beam, &apart) {
-            let (Some(a), Some(b)) = (sources[i].amplitude, sources[k].amplitude) else { break };
-            let sum = a + b;
-            if sum.norm_sqr() > CANCELLED * (a.norm_sqr() + b.norm_sqr()) {
+            if !self.amount_to_one(&[i, k], &mut points, &mut sources) {
                 apart.push((points[i], points[k]));
-                continue;
             }
-            let share = (sum.conj() * b).re / sum.norm_sqr().max(f64::MIN_POSITIVE);
-            let gaps = [0, 1].map(|axis| points[k][axis] - points[i][axis]);
-            let step = gaps.map(|gap| (share * gap).clamp(-half_beam, half_beam));
-            points[i] = self.geometry.moved(points[i], step);
-            points.remove(k);
-            sources.remove(k);
-            sources[i] = Source {
-                direction: self.geometry.direction(points[i]),
-                power: sum.norm_sqr(),
-                amplitude: Some(sum),
-            };
+        }
+        // Three and more may cancel of which no two do.
+        let mut seed = 0;
+        while seed < points.len() {
+            let near = |&k: &usize| self.geometry.distance(points[seed], points[k]) < half_beam;
+            let group: Vec<usize> = (0..points.len()).filter(near).collect();
+            if group.len() < 3 || !self.amount_to_one(&group, &mut points, &mut sources) {
+                seed += 1;
+            }
         }
         sources.retain(|source| self.sees(source.direction));
         sources
+    }
+
+    /// Puts one source in place of those of an ascending `group` if they cancel: at their centre,
+    /// with the sum of their amplitudes.
+    fn amount_to_one(
+        &self,
+        group: &[usize],
+        points: &mut Vec<Point>,
+        sources: &mut Vec<Source>,
+    ) -> bool {
+        let amplitudes: Option<Vec<_>> = group.iter().map(|&i| sources[i].amplitude).collect();
+        let (Some(amplitudes), Some(&first)) = (amplitudes, group.first()) else { return false };
+        let sum: Complex64 = amplitudes.iter().sum();
+        let powers: f64 = amplitudes.iter().map(|amplitude| amplitude.norm_sqr()).sum();
+        if sum.norm_sqr() > CANCELLED * powers {
+            return false;
+        }
+        let half_beam = self.geometry.half_beam();
+        let step = [0, 1].map(|axis| {
+            let parts = group.iter().zip(&amplitudes).map(|(&k, amplitude)| {
+                (sum.conj() * amplitude).re * (points[k][axis] - points[first][axis])
+            });
+            let centre = parts.sum::<f64>() / sum.norm_sqr().max(f64::MIN_POSITIVE);
+            centre.clamp(-half_beam, half_beam)
+        });
+        points[first] = self.geometry.moved(points[first], step);
+        sources[first] = Source {
+            direction: self.geometry.direction(points[first]),
+            power: sum.norm_sqr(),
+            amplitude: Some(sum),
+        };
+        for &k in group[1..].iter().rev() {
+            points.remove(k);
+            sources.remove(k);
+        }
+        true
     }
 
     /// Refined, merged and without noise.
