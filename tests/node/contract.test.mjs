@@ -57,6 +57,34 @@ test('simulations', () => {
   assertShape(boresight.simulateCube({ waveform, array: 'awr1642', targets: [], snrDb: 0, seed: 1 }), 'CubeResult');
 });
 
+test('images', () => {
+  const scene = boresight.streetScene();
+  assertShape(scene, 'StreetScene');
+  scene.radars.forEach((radar) => assertShape(radar, 'StreetRadar'));
+  scene.targets.forEach((target) => assertShape(target, 'StreetTarget'));
+  scene.outlines.forEach((outline) => assertShape(outline, 'StreetOutline'));
+  const capture = new boresight.Capture(bin, cfg);
+  const { waveform } = capture.info.config;
+  const cells = capture.frameCells(0);
+  capture.free();
+  assertShape(cells, 'FrameCells');
+  assertShape(cells.counts, 'FrameCounts');
+  const street = boresight.simulateStreet({ radar: 'left' });
+  assertShape(street, 'SimulatedStreet');
+  assertShape(street.cube, 'CubeResult');
+  street.targets.forEach((target) => assertShape(target, 'VisibleTarget'));
+  const { radar: { array, mounting } } = street;
+  assertShape(boresight.imagePlan({ waveform, array: 'awr1642' }), 'ImagePlan');
+  const frame = boresight.imageFrame(street.cube, { waveform: street.radar.waveform, array });
+  assertShape(frame, 'ImageFrame');
+  assertShape(frame.map, 'RangeAzimuthMap');
+  const grid = { xM: [0, 20], yM: [-10, 10], cellM: 0.5 };
+  const view = boresight.birdsEyeView({ radars: [{ map: frame.map, mounting }], grid });
+  assertShape(view, 'BirdsEyeView');
+  view.mountings.forEach((mounting) => assertShape(mounting, 'Mounting'));
+  assertShape(boresight.sidelobeMeasure(view, scene.targets, { gateM: 1 }), 'SidelobeMeasure');
+});
+
 test('captures', () => {
   const capture = new boresight.Capture(bin, cfg);
   assertShape(capture.info, 'CaptureInfo');
