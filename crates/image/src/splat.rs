@@ -247,24 +247,28 @@ impl RangeAzimuthDoppler {
         }
         check_range("level", level.unwrap_or(0.0), 0.0, MOST_POWER)?;
         let places = self.places(range_m, rate_mps)?;
-        let peak = power.iter().copied().fold(0.0_f32, f32::max);
+        // Pseudo-spectra may be as high as numbers go; sums of what is added stay finite.
+        let most = MOST_POWER as f32;
+        let peak = power.iter().copied().fold(0.0_f32, f32::max).min(most);
         let gain = match level {
             Some(level) if peak > 0.0 => level / f64::from(peak),
             _ => 1.0,
         };
         let strongest = |point: usize| {
             let elevations = power[point..].iter().step_by(points).copied();
-            f64::from(elevations.fold(0.0_f32, f32::max)) * gain
+            f64::from(elevations.fold(0.0_f32, f32::max).min(most)) * gain
         };
         let inside: f64 = places.iter().flatten().map(|place| place.share).sum();
+        let mut row = vec![0.0_f32; self.grid.sine.len()];
         for (index, point) in plan.points.iter().enumerate() {
             let power = strongest(index);
-            for Place { row: [range, rate], share } in places.iter().flatten() {
-                let row = self.power.slice_mut(s![*range, *rate, point.first..]);
-                let part = (power * share) as f32;
-                row.into_iter().zip(&point.shares).for_each(|(cell, share)| *cell += share * part);
-            }
+            let cells = row[point.first..].iter_mut().zip(&point.shares);
+            cells.for_each(|(cell, share)| *cell += share * power as f32);
             self.outside.add(power * point.sum, inside * (1.0 - point.outside / point.sum));
+        }
+        for Place { row: [range, rate], share } in places.into_iter().flatten() {
+            let cells = self.power.slice_mut(s![range, rate, ..]);
+            cells.into_iter().zip(&row).for_each(|(cell, power)| *cell += power * share as f32);
         }
         Ok(())
     }

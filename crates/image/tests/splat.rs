@@ -153,6 +153,9 @@ fn levels_and_elevations() {
     let mut map = RangeAzimuthDoppler::new(grid(), None).unwrap();
     map.add_spectrum(&plan, 9.0, 0.0, &power, Some(6.0)).unwrap();
     assert!((map.power[[4, 0, 4]] - 6.0).abs() < 1e-5, "{}", map.power[[4, 0, 4]]);
+    let mut map = RangeAzimuthDoppler::new(grid(), None).unwrap();
+    map.add_spectrum(&plan, 9.0, 0.0, &[f32::MAX; 10], None).unwrap();
+    assert!(map.power.iter().all(|power| power.is_finite()));
     assert!(map.add_spectrum(&plan, 9.0, 0.0, &power[..15], None).is_err());
     assert!(map.add_spectrum(&plan, 9.0, 0.0, &[f32::NAN; 10], None).is_err());
     assert!(map.add_spectrum(&plan, 9.0, 0.0, &[-1.0; 10], None).is_err());
