@@ -61,7 +61,7 @@ def parser() -> argparse.ArgumentParser:
     return top
 
 
-def train(arguments) -> dict:
+def train(arguments) -> list[dict]:
     """Trains as the arguments say; final scores."""
     a = arguments
     if a.threads:
@@ -93,7 +93,7 @@ def train(arguments) -> dict:
         processes.end()
 
 
-def evaluate(arguments) -> dict:
+def evaluate(arguments) -> list[dict]:
     """Scores of a training folder."""
     _, what, network = export.restore(arguments.folder)
     with torch.no_grad():

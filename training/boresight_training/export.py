@@ -3,6 +3,7 @@
 import hashlib
 import json
 import platform
+import re
 import warnings
 from pathlib import Path
 
@@ -135,14 +136,24 @@ def export(folder: Path, path: Path, half: bool = False, count: int = 4000) -> d
         "hours": round((saved["seconds"] + before["seconds"]) / 3600, 3),
         "hardware": saved["hardware"],
         "software": f"PyTorch {torch.__version__.split('+')[0]}, Python {platform.python_version()}",
-        "metrics": {name: round(value, 5) for name, value in metrics.items()},
+        "metrics": [{name: round(value, 5) for name, value in condition.items()} for condition in metrics],
         "metricsExamples": count,
         "onnx": {"opset": OPSET, "weights": "float16" if half else "float32", "parity": difference},
         "bytes": path.stat().st_size,
         "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
     }
+    card = _camel_case(card)
     path.with_suffix(".json").write_text(json.dumps(card, indent=2) + "\n")
     return card
+
+
+def _camel_case(value):
+    """The same with keys as JavaScript and Rust's files have them."""
+    if isinstance(value, list):
+        return [_camel_case(item) for item in value]
+    if not isinstance(value, dict):
+        return value
+    return {re.sub(r"_([a-z0-9])", lambda m: m[1].upper(), key): _camel_case(item) for key, item in value.items()}
 
 
 def _ports(ports) -> list[dict]:

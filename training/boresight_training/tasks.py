@@ -43,8 +43,8 @@ class Task(Protocol):
     def loss(self, model: nn.Module, data: Any) -> tuple[torch.Tensor, dict[str, torch.Tensor]]:
         """What is minimised, and parts worth a log."""
 
-    def evaluate(self, model: nn.Module, count: int, generator: torch.Generator) -> dict[str, float]:
-        """Scores, `count` examples a condition."""
+    def evaluate(self, model: nn.Module, count: int, generator: torch.Generator) -> list[dict[str, float]]:
+        """Conditions with their scores, over `count` examples each."""
 
     def export_form(self, model: nn.Module) -> nn.Module:
         """The module whose graph is exported."""
@@ -85,16 +85,15 @@ class AaetrTask:
         return set_loss(model(values, positions), targets, self.loss_config)
 
     def evaluate(self, model, count, generator):
-        scores = {}
+        scores = []
         for snr_db in (15, 25, 35):
-            for number in (2, 6, 10):
+            for number in (2, 4, 6, 8, 10):
                 scenes = replace(self.scenes, targets=(number, number), snr_db=(snr_db, snr_db))
                 targets, values, positions = snapshots(scenes, self.positions, count, generator)
                 parts = zip(values.split(250), positions.float().expand(count, -1, -1).split(250), strict=True)
                 answers = torch.cat([model(torch.view_as_real(v), p)[-1] for v, p in parts]).double()
                 best = best_f1(answers[..., 0].clamp(-1, 1).asin(), answers[..., 1], answers[..., 2], targets)
-                for name, value in best.items():
-                    scores[f"{name}_{number}_targets_{snr_db}_db"] = value
+                scores.append({"targets": number, "snr_db": snr_db, **best})
         return scores
 
     def export_form(self, model):
@@ -175,31 +174,28 @@ class ClassifierTask:
         return loss * label.shape[1], {}
 
     def evaluate(self, model, count, generator):
-        scores = {}
+        scores = []
         for snr_db in (-10, -5, 0, 5, 10, 15):
             cubes = replace(self.cubes, snr_db=(snr_db, snr_db))
             values, label = self._features(*regions(cubes, count, generator))
             answer = torch.cat([model(part) for part in values.split(250)])
             if self.counts:
                 right = (answer.argmax(1) == label.argmax(1)).float()
-                scores[f"accuracy_{snr_db}_db"] = float(right.mean())
+                scores.append({"snr_db": snr_db, "accuracy": float(right.mean())})
             else:
-                scores |= self._directions(answer, label, f"{snr_db}_db")
+                scores.append({"snr_db": snr_db, **self._directions(answer, label)})
         return scores
 
-    def _directions(self, answer, label, condition):
+    def _directions(self, answer, label):
         most = self.cubes.targets[1]
         given = answer.topk(most).indices.sort(1).values
         true = label.topk(most).indices.sort(1).values
         error = (given - true).abs()
-        scores = {
-            f"within_{allowed}_deg_{condition}": float((error <= allowed).all(1).float().mean())
-            for allowed in (0, 1, 2, 4)
-        }
-        scores[f"rmse_deg_{condition}"] = float(error.float().square().mean().sqrt())
+        scores = {f"within_{allowed}_deg": float((error <= allowed).all(1).float().mean()) for allowed in (0, 1, 2, 4)}
+        scores["rmse_deg"] = float(error.float().square().mean().sqrt())
         if most == 2:
             close = (true[:, 1] - true[:, 0]) < 4
-            scores[f"close_pairs_within_1_deg_{condition}"] = float((error[close] <= 1).all(1).float().mean())
+            scores["close_pairs_within_1_deg"] = float((error[close] <= 1).all(1).float().mean())
         return scores
 
     def export_form(self, model):

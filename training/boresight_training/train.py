@@ -87,7 +87,7 @@ class Training:
             model = torch.compile(model)
         self.model = DistributedDataParallel(model) if processes.count > 1 else model
 
-    def run(self) -> dict:
+    def run(self) -> list[dict[str, float]]:
         """Trains until the schedule ends, the time is up or a signal comes; scores of the averaged weights."""
         s = self.settings
         handlers = {number: signal.signal(number, self._request_stop) for number in (signal.SIGTERM, signal.SIGINT)}
@@ -117,7 +117,7 @@ class Training:
                     due["checkpoint"] = elapsed + s.checkpoint_seconds
                     self.save()
             self.save()
-            scores = self.evaluate() if self.processes.first else {}
+            scores = self.evaluate() if self.processes.first else []
             self._log({"scores": scores, "stopped": True})
             self.processes.wait()
         finally:
@@ -131,7 +131,7 @@ class Training:
         done = self.step / s.steps if s.steps is not None else self.seconds / (60 * s.total_minutes)
         return min(1.0, done)
 
-    def evaluate(self, count: int | None = None) -> dict[str, float]:
+    def evaluate(self, count: int | None = None) -> list[dict[str, float]]:
         """Scores of the averaged weights on fixed examples."""
         generator = torch.Generator(device=self.processes.device).manual_seed(20_000)
         self.ema.eval()
