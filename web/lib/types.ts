@@ -96,6 +96,8 @@ export interface EstimatorOptions {
     thresholdDb?: number;
     regularisation?: number;
     form?: 'auto' | 'fast' | 'dense';
+    /** Single precision while that tells angles to 0.001 deg (`auto`, the default), or double throughout. */
+    precision?: 'auto' | 'double';
   };
   nomp?: {
     falseAlarm?: number;

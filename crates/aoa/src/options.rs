@@ -39,6 +39,17 @@ pub enum IaaForm {
     Dense,
 }
 
+/// Precision of IAA's fast form.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum IaaPrecision {
+    /// On grids of a power of two single, and double from the first iteration on that needs it to tell
+    /// angles to 0.001 deg: with strong sources far above the noise. Else double.
+    #[default]
+    Auto,
+    /// Double throughout.
+    Double,
+}
+
 /// Options of IAA.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IaaOptions {
@@ -52,6 +63,8 @@ pub struct IaaOptions {
     pub regularisation: f64,
     /// Fast or dense.
     pub form: IaaForm,
+    /// Precision of the fast form.
+    pub precision: IaaPrecision,
 }
 
 /// Options of NOMP.
@@ -139,6 +152,7 @@ impl Default for Options {
                 threshold_db: 40.0,
                 regularisation: 0.0,
                 form: IaaForm::Auto,
+                precision: IaaPrecision::Auto,
             },
             nomp: NompOptions {
                 false_alarm: 1e-2,

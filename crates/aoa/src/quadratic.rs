@@ -91,8 +91,7 @@ impl QuadraticSpectrum {
             for (&index, y) in lattice.indices.iter().zip(column) {
                 placed[index] += y;
             }
-            let beams = transform.vector(&placed);
-            circle.iter_mut().zip(beams).for_each(|(sum, beam)| *sum += beam.norm_sqr());
+            transform.add_power(&placed, circle);
         }
         let inside = self.grid.first..self.grid.first + self.grid.sines.len();
         circle[inside].to_vec()

@@ -1,7 +1,7 @@
 //! IAA and sparse Bayesian learning against an independent NumPy implementation
 //! (`reference/sparse.py`).
 
-use boresight_aoa::options::IaaForm;
+use boresight_aoa::options::{IaaForm, IaaPrecision};
 use boresight_aoa::{Data, Estimator, Method, Options};
 use boresight_core::{Array, Complex64};
 use ndarray::Array2;
@@ -36,6 +36,7 @@ fn spectra_agree_with_the_reference() {
             ..Options::default()
         };
         options.iaa.iterations = case.iterations;
+        options.iaa.precision = IaaPrecision::Double;
         for form in [IaaForm::Auto, IaaForm::Dense] {
             options.iaa.form = form;
             let mut estimator = Estimator::new(method, &array, &options).unwrap();

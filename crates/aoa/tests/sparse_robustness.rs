@@ -57,6 +57,7 @@ fn options() -> impl Strategy<Value = Options> {
                 threshold_db: iaa.2,
                 regularisation: iaa.3,
                 form: iaa.4,
+                ..Options::default().iaa
             },
             nomp: NompOptions {
                 false_alarm: nomp.0,

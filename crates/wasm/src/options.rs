@@ -2,7 +2,9 @@
 
 use crate::error::Fallible;
 use crate::read::{Fields, Read, choice, wrong_type};
-use boresight_aoa::options::{EspritForm, IaaForm, IaaOptions, NompOptions, Thresholding};
+use boresight_aoa::options::{
+    EspritForm, IaaForm, IaaOptions, IaaPrecision, NompOptions, Thresholding,
+};
 use boresight_aoa::{Method, Options, SourceCount};
 use boresight_core::error::check_range;
 use wasm_bindgen::JsValue;
@@ -68,6 +70,8 @@ fn read_iaa(mut fields: Fields, iaa: &mut IaaOptions) -> Fallible<()> {
     fields.update("regularisation", &mut iaa.regularisation)?;
     let forms = [("auto", IaaForm::Auto), ("fast", IaaForm::Fast), ("dense", IaaForm::Dense)];
     fields.update_choice("form", &forms, &mut iaa.form)?;
+    let precisions = [("auto", IaaPrecision::Auto), ("double", IaaPrecision::Double)];
+    fields.update_choice("precision", &precisions, &mut iaa.precision)?;
     fields.finish()
 }
 

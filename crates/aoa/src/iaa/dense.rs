@@ -57,8 +57,8 @@ impl Kernel for DenseKernel {
         self.power.iter().sum()
     }
 
-    fn power(&self) -> Vec<f64> {
-        self.power.clone()
+    fn power_from(&self, first: usize, out: &mut [f64]) {
+        out.copy_from_slice(&self.power[first..first + out.len()]);
     }
 
     fn map_power(&mut self, change: &mut dyn FnMut(f64) -> f64) {

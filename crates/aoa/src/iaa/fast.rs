@@ -17,6 +17,8 @@ pub struct FastKernel<T: Real> {
     fourier: LatticeFourier<T>,
     span: usize,
     elements: usize,
+    /// Least `a^H R^-1 a` over the trace of `R^-1` for which an iteration counts.
+    least_share: T,
     /// Elements by rising lattice index; the indices themselves in that order.
     order: Vec<usize>,
     indices: Vec<usize>,
@@ -28,8 +30,10 @@ pub struct FastKernel<T: Real> {
     lags: Vec<Complex<T>>,
     sums: Vec<Complex<T>>,
     diagonal_sums: Vec<Complex<T>>,
-    /// Snapshots in the order of rising index, filled up to whole tiles; and `R^-1` times them.
+    /// Snapshots in the order of rising index, filled up to whole tiles, of which the first `count` are in
+    /// use; and `R^-1` times one.
     snapshots: Vec<Split<T>>,
+    count: usize,
     solved: Split<T>,
     scattered: Vec<Complex<T>>,
     power: Vec<T>,
@@ -52,8 +56,9 @@ impl<T: Real> Split<T> {
 }
 
 impl<T: Real> FastKernel<T> {
-    /// Plans for a lattice and a grid of `grid` points uniform in the sine over `[-1, 1)`.
-    pub fn new(lattice: &Lattice, grid: usize) -> Self {
+    /// Plans for a lattice and a grid of `grid` points uniform in the sine over `[-1, 1)`. An iteration in
+    /// which the smallest `a^H R^-1 a` is not above `least_share` of the trace of `R^-1` is refused.
+    pub fn new(lattice: &Lattice, grid: usize, least_share: T) -> Self {
         let elements = lattice.indices.len();
         let span = lattice.span();
         let mut order: Vec<usize> = (0..elements).collect();
@@ -85,6 +90,7 @@ impl<T: Real> FastKernel<T> {
             fourier: LatticeFourier::new(grid, lattice.spacing, span),
             span,
             elements,
+            least_share,
             order,
             indices,
             slots,
@@ -94,11 +100,39 @@ impl<T: Real> FastKernel<T> {
             sums: vec![Complex::zero(); 2 * span + 1],
             diagonal_sums: vec![Complex::zero(); 2 * span + 1],
             snapshots: Vec::new(),
+            count: 0,
             solved: Split::zero(blocks),
             scattered: vec![Complex::zero(); span],
             power: vec![T::zero(); grid],
             denominator: vec![T::zero(); grid],
             numerator: vec![T::zero(); grid],
+        }
+    }
+
+    /// Whether its FFTs are the short ones.
+    pub fn is_short(&self) -> bool {
+        self.fourier.is_short()
+    }
+
+    /// Takes the snapshots (elements x snapshots) times `scale`.
+    pub fn take_snapshots(&mut self, y: ArrayView2<Complex64>, scale: f64) {
+        let blocks = self.matrix.blocks();
+        self.count = y.ncols();
+        let kept = self.snapshots.len().max(self.count);
+        self.snapshots.resize_with(kept, || Split::zero(blocks));
+        for (column, split) in y.columns().into_iter().zip(&mut self.snapshots) {
+            for (k, &element) in self.order.iter().enumerate() {
+                let z = column[element] * scale;
+                split.re[k / TILE][k % TILE] = real(z.re);
+                split.im[k / TILE][k % TILE] = real(z.im);
+            }
+        }
+    }
+
+    /// Takes over the powers of another kernel.
+    pub fn take_power<S: Real>(&mut self, other: &FastKernel<S>) {
+        for (power, given) in self.power.iter_mut().zip(&other.power) {
+            *power = real(given.to_f64().unwrap_or(0.0));
         }
     }
 
@@ -183,19 +217,14 @@ impl<T: Real> FastKernel<T> {
             }
         }
     }
+}
 
-    /// Adds `|sum_i x_i exp(-j pi d i u_g)|^2` to the numerator for the vector in `solved`.
-    fn add_numerator(&mut self) {
-        self.scattered.fill(Complex::zero());
-        for (k, &index) in self.indices.iter().enumerate() {
-            let (block, entry) = (k / TILE, k % TILE);
-            let x = Complex::new(self.solved.re[block][entry], self.solved.im[block][entry]);
-            self.scattered[index] = self.scattered[index] + x;
-        }
-        let spectrum = self.fourier.vector(&self.scattered);
-        for (sum, x) in self.numerator.iter_mut().zip(spectrum) {
-            *sum = *sum + x.norm_sqr();
-        }
+/// Puts a vector on its lattice indices.
+fn scatter<T: Real>(indices: &[usize], vector: &Split<T>, out: &mut [Complex<T>]) {
+    out.fill(Complex::zero());
+    for (k, &index) in indices.iter().enumerate() {
+        let (block, entry) = (k / TILE, k % TILE);
+        out[index] = out[index] + Complex::new(vector.re[block][entry], vector.im[block][entry]);
     }
 }
 
@@ -215,18 +244,12 @@ fn add_tile<T: Real>(
 
 impl<T: Real> Kernel for FastKernel<T> {
     fn start(&mut self, y: ArrayView2<Complex64>, scale: f64) {
-        self.snapshots.clear();
+        self.take_snapshots(y, scale);
         self.numerator.fill(T::zero());
-        for column in y.columns() {
-            let mut split = Split::zero(self.matrix.blocks());
-            for (k, &element) in self.order.iter().enumerate() {
-                let z = column[element] * scale;
-                split.re[k / TILE][k % TILE] = real(z.re);
-                split.im[k / TILE][k % TILE] = real(z.im);
-            }
-            self.solved.clone_from(&split);
-            self.snapshots.push(split);
-            self.add_numerator();
+        for split in &self.snapshots[..self.count] {
+            self.solved.clone_from(split);
+            scatter(&self.indices, &self.solved, &mut self.scattered);
+            self.fourier.add_power(&self.scattered, &mut self.numerator);
         }
         let gain: T = real(1.0 / (self.elements * self.elements * y.ncols()) as f64);
         for (power, numerator) in self.power.iter_mut().zip(&self.numerator) {
@@ -243,12 +266,20 @@ impl<T: Real> Kernel for FastKernel<T> {
         self.matrix.negative_inverse(smallest)?;
         self.sum_lags();
         self.fourier.hermitian(&self.lags, &mut self.denominator);
-        self.numerator.fill(T::zero());
-        for snapshot in 0..self.snapshots.len() {
-            self.apply(snapshot);
-            self.add_numerator();
+        if self.least_share > T::zero() {
+            let least =
+                self.denominator.iter().fold(T::infinity(), |a, &b| if b < a { b } else { a });
+            if least.is_nan() || least <= self.least_share * self.lags[0].re {
+                return Err(Singular);
+            }
         }
-        let count: T = real(self.snapshots.len() as f64);
+        self.numerator.fill(T::zero());
+        for snapshot in 0..self.count {
+            self.apply(snapshot);
+            scatter(&self.indices, &self.solved, &mut self.scattered);
+            self.fourier.add_power(&self.scattered, &mut self.numerator);
+        }
+        let count: T = real(self.count as f64);
         for ((power, n), d) in self.power.iter_mut().zip(&self.numerator).zip(&self.denominator) {
             *power = weighted_power(*n, *d, count);
         }
@@ -259,8 +290,10 @@ impl<T: Real> Kernel for FastKernel<T> {
         self.power.iter().map(|p| p.to_f64().unwrap_or(0.0)).sum()
     }
 
-    fn power(&self) -> Vec<f64> {
-        self.power.iter().map(|p| p.to_f64().unwrap_or(0.0)).collect()
+    fn power_from(&self, first: usize, out: &mut [f64]) {
+        for (out, power) in out.iter_mut().zip(&self.power[first..]) {
+            *out = power.to_f64().unwrap_or(0.0);
+        }
     }
 
     fn map_power(&mut self, change: &mut dyn FnMut(f64) -> f64) {

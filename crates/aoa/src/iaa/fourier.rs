@@ -1,6 +1,7 @@
 //! Transforms between an angle grid uniform in the sine and the lags of a lattice.
 
 use super::inverse::Real;
+use super::residues::Residues;
 use boresight_core::fft::RealFft;
 use rustfft::Fft;
 use rustfft::num_complex::Complex;
@@ -14,6 +15,8 @@ use std::sync::Arc;
 /// Where `q d` is whole for a small `q`, lattice and grid meet in an FFT of length `q G`; other
 /// spacings take the chirp transform of Bluestein (1970).
 pub enum LatticeFourier<T: Real> {
+    /// By short FFTs side by side, for most grids that are powers of two.
+    Residues(Residues<T>),
     /// By one FFT.
     Folded(Folded<T>),
     /// By two longer ones.
@@ -30,15 +33,24 @@ impl<T: Real> LatticeFourier<T> {
             let steps = spacing * q as f64;
             (steps - steps.round()).abs() * (span as f64) < 1e-9
         });
+        let residues = || Residues::new(grid, spacing, span);
         match factor {
+            Some(1) => residues()
+                .map_or_else(|| Self::Folded(Folded::new(grid, spacing, span, 1)), Self::Residues),
             Some(q) => Self::Folded(Folded::new(grid, spacing, span, q)),
             None => Self::Chirp(Chirp::new(grid, spacing, span)),
         }
     }
 
+    /// Whether short FFTs do.
+    pub fn is_short(&self) -> bool {
+        matches!(self, Self::Residues(_))
+    }
+
     /// `lags[m] = sum_g values[g] exp(j pi d m u_g)` for `m` in `0..span`.
     pub fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]) {
         match self {
+            Self::Residues(r) => r.lags(values, lags),
             Self::Folded(f) => f.lags(values, lags),
             Self::Chirp(c) => c.lags(values, lags),
         }
@@ -48,17 +60,21 @@ impl<T: Real> LatticeFourier<T> {
     /// `lags[-m]` the conjugate of `lags[m]`: real.
     pub fn hermitian(&mut self, lags: &[Complex<T>], out: &mut [T]) {
         match self {
+            Self::Residues(r) => r.hermitian(lags, out),
             Self::Folded(f) => f.hermitian(lags, out),
             Self::Chirp(c) => c.hermitian(lags, out),
         }
     }
 
-    /// `sum_i x[i] exp(-j pi d i u_g)` over the lattice index `i`, handed out as a slice whose
-    /// first G entries are the grid.
-    pub fn vector(&mut self, x: &[Complex<T>]) -> &[Complex<T>] {
-        match self {
+    /// Adds `|sum_i x[i] exp(-j pi d i u_g)|^2`, over the lattice index `i`, to `out[g]`.
+    pub fn add_power(&mut self, x: &[Complex<T>], out: &mut [T]) {
+        let spectrum = match self {
+            Self::Residues(r) => return r.add_power(x, out),
             Self::Folded(f) => f.vector(x),
             Self::Chirp(c) => c.vector(x),
+        };
+        for (sum, x) in out.iter_mut().zip(spectrum) {
+            *sum = *sum + x.norm_sqr();
         }
     }
 }
@@ -236,7 +252,7 @@ impl<T: Real> Chirp<T> {
 }
 
 /// `exp(j phase)`, rounded to the type once.
-fn cis<T: Real>(phase: f64) -> Complex<T> {
+pub(super) fn cis<T: Real>(phase: f64) -> Complex<T> {
     let z = boresight_core::steering::cis(phase % (2.0 * PI));
     Complex::new(real(z.re), real(z.im))
 }
@@ -255,8 +271,13 @@ mod tests {
     fn transforms_equal_their_sums() {
         let mut random = Random::new(12, 0);
         for (grid, spacing, span) in [
+            (256, 1.0, 8),
+            (1024, 1.0, 93),
+            (128, 3.0, 31),
+            (64, 1.0, 2),
             (64, 1.0, 20),
             (64, 1.0, 50),
+            (24, 1.0, 50),
             (64, 1.0, 200),
             (33, 2.0, 20),
             (64, 0.5, 20),
@@ -276,13 +297,13 @@ mod tests {
                 assert!((sum - lag).norm() < 1e-10, "{grid} {spacing} {m}: {sum} {lag}");
             }
             let mut x: Vec<Complex64> = (0..span).map(|_| random.complex_normal(1.0)).collect();
-            let found = fourier.vector(&x).to_vec();
+            let mut out = vec![1.0; grid];
+            fourier.add_power(&x, &mut out);
             for g in 0..grid {
                 let sum: Complex64 = (0..span).map(|m| wave(m, g) * x[m]).sum();
-                assert!((sum - found[g]).norm() < 1e-10, "{grid} {spacing} {g}");
+                assert!((1.0 + sum.norm_sqr() - out[g]).abs() < 1e-9, "{grid} {spacing} {g}");
             }
             x[0].im = 0.0;
-            let mut out = vec![0.0; grid];
             fourier.hermitian(&x, &mut out);
             for g in 0..grid {
                 let sum: Complex64 = (0..span).map(|m| wave(m, g) * x[m]).sum();

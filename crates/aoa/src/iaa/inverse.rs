@@ -10,15 +10,68 @@ use boresight_core::Complex64;
 use boresight_core::fft::Transforms;
 use ndarray::Array2;
 use rustfft::num_traits::Float;
-
-/// The numbers the fast form is computed in: `f64` or `f32`.
-pub trait Real: Transforms + Float {}
-
-impl Real for f64 {}
-impl Real for f32 {}
+use std::ops::{Add, Mul, Sub};
+use wide::{f32x4, f64x2};
 
 /// Rows and columns of a tile.
 pub const TILE: usize = 4;
+
+/// The numbers the fast form is computed in: `f64` or `f32`.
+pub trait Real: Transforms + Float {
+    /// What a 128-bit register holds of them.
+    type Vector: Copy
+        + Add<Output = Self::Vector>
+        + Sub<Output = Self::Vector>
+        + Mul<Output = Self::Vector>;
+    /// Vectors in a row of a tile.
+    const PARTS: usize;
+    /// A number in every place.
+    fn splat(x: Self) -> Self::Vector;
+    /// A part of a row.
+    fn load(row: &[Self; TILE], part: usize) -> Self::Vector;
+    /// Replaces a part of a row.
+    fn store(vector: Self::Vector, row: &mut [Self; TILE], part: usize);
+}
+
+impl Real for f32 {
+    type Vector = f32x4;
+    const PARTS: usize = 1;
+
+    #[inline(always)]
+    fn splat(x: f32) -> f32x4 {
+        f32x4::splat(x)
+    }
+
+    #[inline(always)]
+    fn load(row: &[f32; TILE], _: usize) -> f32x4 {
+        f32x4::new(*row)
+    }
+
+    #[inline(always)]
+    fn store(vector: f32x4, row: &mut [f32; TILE], _: usize) {
+        *row = vector.to_array();
+    }
+}
+
+impl Real for f64 {
+    type Vector = f64x2;
+    const PARTS: usize = 2;
+
+    #[inline(always)]
+    fn splat(x: f64) -> f64x2 {
+        f64x2::splat(x)
+    }
+
+    #[inline(always)]
+    fn load(row: &[f64; TILE], part: usize) -> f64x2 {
+        f64x2::new([row[2 * part], row[2 * part + 1]])
+    }
+
+    #[inline(always)]
+    fn store(vector: f64x2, row: &mut [f64; TILE], part: usize) {
+        row[2 * part..2 * part + 2].copy_from_slice(&vector.to_array());
+    }
+}
 
 /// A 4 x 4 complex block, row-major.
 #[derive(Debug, Clone, Copy)]
@@ -139,17 +192,21 @@ impl<T: Real> HermitianTiles<T> {
 /// `c -= w^H b`.
 #[inline(always)]
 fn subtract_product<T: Real>(c: &mut Tile<T>, w: &Tile<T>, b: &Tile<T>) {
-    for r in 0..TILE {
-        let (mut re, mut im) = (c.re[r], c.im[r]);
+    for part in 0..T::PARTS {
+        let mut re: [_; TILE] = std::array::from_fn(|r| T::load(&c.re[r], part));
+        let mut im: [_; TILE] = std::array::from_fn(|r| T::load(&c.im[r], part));
         for k in 0..TILE {
-            let (x, y) = (w.re[k][r], w.im[k][r]);
-            for l in 0..TILE {
-                re[l] = re[l] - x * b.re[k][l] - y * b.im[k][l];
-                im[l] = im[l] - x * b.im[k][l] + y * b.re[k][l];
+            let (p, q) = (T::load(&b.re[k], part), T::load(&b.im[k], part));
+            for r in 0..TILE {
+                let (x, y) = (T::splat(w.re[k][r]), T::splat(w.im[k][r]));
+                re[r] = re[r] - (x * p + y * q);
+                im[r] = im[r] - (x * q - y * p);
             }
         }
-        c.re[r] = re;
-        c.im[r] = im;
+        for r in 0..TILE {
+            T::store(re[r], &mut c.re[r], part);
+            T::store(im[r], &mut c.im[r], part);
+        }
     }
 }
 
@@ -157,17 +214,18 @@ fn subtract_product<T: Real>(c: &mut Tile<T>, w: &Tile<T>, b: &Tile<T>) {
 #[inline(always)]
 fn product<T: Real>(a: &Tile<T>, b: &Tile<T>) -> Tile<T> {
     let mut out = Tile::zero();
-    for r in 0..TILE {
-        let (mut re, mut im) = ([T::zero(); TILE], [T::zero(); TILE]);
-        for k in 0..TILE {
-            let (x, y) = (a.re[r][k], a.im[r][k]);
-            for l in 0..TILE {
-                re[l] = re[l] + x * b.re[k][l] - y * b.im[k][l];
-                im[l] = im[l] + x * b.im[k][l] + y * b.re[k][l];
+    for part in 0..T::PARTS {
+        for r in 0..TILE {
+            let (mut re, mut im) = (T::splat(T::zero()), T::splat(T::zero()));
+            for k in 0..TILE {
+                let (p, q) = (T::load(&b.re[k], part), T::load(&b.im[k], part));
+                let (x, y) = (T::splat(a.re[r][k]), T::splat(a.im[r][k]));
+                re = re + (x * p - y * q);
+                im = im + (x * q + y * p);
             }
+            T::store(re, &mut out.re[r], part);
+            T::store(im, &mut out.im[r], part);
         }
-        out.re[r] = re;
-        out.im[r] = im;
     }
     out
 }

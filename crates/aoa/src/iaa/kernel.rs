@@ -14,14 +14,15 @@ pub trait Kernel: Send {
     /// `P = mean_n |a^H R^-1 y_n|^2 / (a^H R^-1 a)^2`.
     ///
     /// # Errors
-    /// [`Singular`] if `R` is, to rounding; the powers are then as before.
+    /// [`Singular`] if `R` is, to rounding, or if its inverse is not as accurate as it should be; the powers
+    /// are then as before.
     fn iterate(&mut self, loading: f64) -> Result<(), Singular>;
 
     /// Sum of the powers: the diagonal of `R` without loading.
     fn element_power(&self) -> f64;
 
-    /// Power of every point.
-    fn power(&self) -> Vec<f64>;
+    /// Powers of the points that begin with `first`, as many as `out` holds.
+    fn power_from(&self, first: usize, out: &mut [f64]);
 
     /// Changes every power.
     fn map_power(&mut self, change: &mut dyn FnMut(f64) -> f64);

@@ -6,11 +6,13 @@
 //! and on coherent sources. The grid covers all azimuths, also those outside the field of view,
 //! since what is there is in the data as well.
 
+mod adaptive;
 mod dense;
 mod fast;
 pub(crate) mod fourier;
 pub(crate) mod inverse;
 mod kernel;
+mod residues;
 
 use crate::checks::{ambiguity, check_array, conclude};
 use crate::data::Data;
@@ -20,8 +22,9 @@ use crate::estimator::Plan;
 use crate::grid::Grid;
 use crate::method::Method;
 use crate::normalised::{power_out, scale_of};
-use crate::options::{IaaForm, IaaOptions, Options, Thresholding};
+use crate::options::{IaaForm, IaaOptions, IaaPrecision, Options, Thresholding};
 use crate::peaks::{Peak, PeakFinder};
+use adaptive::AdaptiveKernel;
 use boresight_core::{Array, Complex64, Direction};
 use dense::DenseKernel;
 use fast::FastKernel;
@@ -47,7 +50,14 @@ impl Iaa {
         let grid = Grid::new(array, options);
         let kernel: Box<dyn Kernel> = match (options.iaa.form, array.lattice()) {
             (IaaForm::Auto | IaaForm::Fast, Some(lattice)) => {
-                Box::new(FastKernel::<f64>::new(&lattice, grid.full_points))
+                let adaptive = match options.iaa.precision {
+                    IaaPrecision::Auto => AdaptiveKernel::new(&lattice, grid.full_points),
+                    IaaPrecision::Double => None,
+                };
+                match adaptive {
+                    Some(adaptive) => Box::new(adaptive),
+                    None => Box::new(FastKernel::<f64>::new(&lattice, grid.full_points, 0.0)),
+                }
             }
             (IaaForm::Fast, None) => {
                 return Err(AoaError::Array {
@@ -156,12 +166,9 @@ impl Iaa {
     /// Powers inside the field of view, in the unit of the data.
     fn crop(&self, largest: f64, values: &mut [f64]) {
         let azimuths = self.grid.sines.len();
-        let power = self.kernel.power();
-        let rows = power.chunks_exact(self.grid.full_points);
-        for (row, out) in rows.zip(values.chunks_exact_mut(azimuths)) {
-            for (out, p) in out.iter_mut().zip(&row[self.grid.first..]) {
-                *out = power_out(*p, largest);
-            }
+        for (row, out) in values.chunks_exact_mut(azimuths).enumerate() {
+            self.kernel.power_from(row * self.grid.full_points + self.grid.first, out);
+            out.iter_mut().for_each(|p| *p = power_out(*p, largest));
         }
     }
 }

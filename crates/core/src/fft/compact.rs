@@ -1,14 +1,15 @@
 //! Plans made of few kernels, for where the size of the program counts.
 
+use super::Transforms;
 use super::power_of_two::PowerOfTwo;
 use rustfft::algorithm::butterflies::{Butterfly3, Butterfly5, Butterfly7};
 use rustfft::algorithm::{BluesteinsAlgorithm, Dft, MixedRadix};
-use rustfft::{Fft, FftDirection, FftNum};
+use rustfft::{Fft, FftDirection};
 use std::sync::Arc;
 
 /// Plans transforms of `length` numbers. Products of 2, 3, 5 and 7 are split into their factors
 /// (Cooley and Tukey 1965); all else takes Bluestein's chirp (1970), at some six times the cost.
-pub fn plan<T: FftNum>(length: usize, direction: FftDirection) -> Arc<dyn Fft<T>> {
+pub fn plan<T: Transforms>(length: usize, direction: FftDirection) -> Arc<dyn Fft<T>> {
     if length < 2 {
         return Arc::new(Dft::new(length, direction));
     }
@@ -34,7 +35,7 @@ pub fn plan<T: FftNum>(length: usize, direction: FftDirection) -> Arc<dyn Fft<T>
     }
 }
 
-fn small<T: FftNum>(direction: FftDirection) -> [(usize, Arc<dyn Fft<T>>); 3] {
+fn small<T: Transforms>(direction: FftDirection) -> [(usize, Arc<dyn Fft<T>>); 3] {
     [
         (7, Arc::new(Butterfly7::new(direction))),
         (5, Arc::new(Butterfly5::new(direction))),

@@ -10,13 +10,27 @@
 pub mod compact;
 mod power_of_two;
 mod real;
+mod side_by_side;
 
 pub use real::RealFft;
 use rustfft::{Fft, FftDirection, FftNum};
+pub use side_by_side::{Quad, SideBySide};
+use std::ops::{Add, Mul, Sub};
 use std::sync::Arc;
 
 /// A precision that transforms can be planned in: `f32` or `f64`.
 pub trait Transforms: FftNum {
+    /// Four numbers in vector registers.
+    type Four: Copy
+        + Send
+        + Sync
+        + From<[Self; 4]>
+        + Into<[Self; 4]>
+        + Add<Output = Self::Four>
+        + Sub<Output = Self::Four>
+        + Mul<Output = Self::Four>
+        + Mul<Self, Output = Self::Four>;
+
     /// `X[k] = sum x[n] exp(-2 pi j n k / length)`.
     fn plan_forward(length: usize) -> Arc<dyn Fft<Self>>;
 
@@ -25,8 +39,10 @@ pub trait Transforms: FftNum {
 }
 
 macro_rules! transforms {
-    ($real:ty) => {
+    ($real:ty, $four:ty) => {
         impl Transforms for $real {
+            type Four = $four;
+
             fn plan_forward(length: usize) -> Arc<dyn Fft<Self>> {
                 plan(length, FftDirection::Forward)
             }
@@ -38,8 +54,8 @@ macro_rules! transforms {
     };
 }
 
-transforms!(f32);
-transforms!(f64);
+transforms!(f32, wide::f32x4);
+transforms!(f64, wide::f64x4);
 
 #[cfg(target_arch = "wasm32")]
 use compact::plan;

@@ -1,14 +1,15 @@
 //! Powers of two by Stockham's self-sorting form of the FFT (Cochran et al. 1967), radix 4. Of many
-//! transforms, four run side by side: every step of theirs is one on whole vectors, which compilers make
-//! of arrays of four by themselves.
+//! transforms, four run side by side: every step of theirs is one on whole vectors.
 
+use super::Transforms;
+use super::side_by_side::Quad;
 use rustfft::num_complex::Complex;
-use rustfft::{Direction, Fft, FftDirection, FftNum, Length};
+use rustfft::{Direction, Fft, FftDirection, Length};
 use std::f64::consts::TAU;
 use std::ops::{Add, Mul, Sub};
 
 /// Transforms that run side by side.
-const LANES: usize = 4;
+pub(super) const LANES: usize = 4;
 /// Longest transform that does: twice four of them should fit into the cache.
 const LONGEST: usize = 1024;
 
@@ -30,7 +31,7 @@ struct Stage<T> {
 }
 
 /// A complex number, or one of each of the transforms that run side by side.
-trait Point<T>: Copy {
+pub(super) trait Point<T>: Copy {
     type Part: Copy
         + Add<Output = Self::Part>
         + Sub<Output = Self::Part>
@@ -39,7 +40,7 @@ trait Point<T>: Copy {
     fn of(parts: [Self::Part; 2]) -> Self;
 }
 
-impl<T: FftNum> Point<T> for Complex<T> {
+impl<T: Transforms> Point<T> for Complex<T> {
     type Part = T;
 
     #[inline(always)]
@@ -54,53 +55,38 @@ impl<T: FftNum> Point<T> for Complex<T> {
 }
 
 /// Four real parts, then four imaginary ones, in the memory of four complex numbers.
-impl<T: FftNum> Point<T> for [Complex<T>; LANES] {
-    type Part = Lanes<T>;
+impl<T: Transforms> Point<T> for [Complex<T>; LANES] {
+    type Part = T::Four;
 
     #[inline(always)]
-    fn parts(self) -> [Lanes<T>; 2] {
+    fn parts(self) -> [T::Four; 2] {
         let [a, b, c, d] = self;
-        [Lanes([a.re, a.im, b.re, b.im]), Lanes([c.re, c.im, d.re, d.im])]
+        [[a.re, a.im, b.re, b.im].into(), [c.re, c.im, d.re, d.im].into()]
     }
 
     #[inline(always)]
-    fn of([Lanes(re), Lanes(im)]: [Lanes<T>; 2]) -> Self {
+    fn of([re, im]: [T::Four; 2]) -> Self {
+        let (re, im): ([T; LANES], [T; LANES]) = (re.into(), im.into());
         [(re[0], re[1]), (re[2], re[3]), (im[0], im[1]), (im[2], im[3])]
             .map(|(re, im)| Complex { re, im })
     }
 }
 
-#[derive(Clone, Copy)]
-struct Lanes<T>([T; LANES]);
-
-impl<T: FftNum> Add for Lanes<T> {
-    type Output = Self;
+impl<T: Transforms> Point<T> for Quad<T> {
+    type Part = T::Four;
 
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    fn parts(self) -> [T::Four; 2] {
+        [self.re, self.im]
+    }
+
+    #[inline(always)]
+    fn of([re, im]: [T::Four; 2]) -> Self {
+        Self { re, im }
     }
 }
 
-impl<T: FftNum> Sub for Lanes<T> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
-    }
-}
-
-impl<T: FftNum> Mul<T> for Lanes<T> {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, by: T) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] * by))
-    }
-}
-
-impl<T: FftNum> PowerOfTwo<T> {
+impl<T: Transforms> PowerOfTwo<T> {
     /// Plans transforms of `length` numbers, a power of two.
     pub fn new(length: usize, direction: FftDirection) -> Self {
         let sign = match direction {
@@ -121,7 +107,7 @@ impl<T: FftNum> PowerOfTwo<T> {
     }
 
     /// Transforms `x`, with `y` of the same length as scratch space. Whether the result is in `y`.
-    fn run<P: Point<T>>(&self, x: &mut [P], y: &mut [P]) -> bool {
+    pub(super) fn run<P: Point<T>>(&self, x: &mut [P], y: &mut [P]) -> bool {
         let (mut from, mut to) = (x, y);
         let mut swapped = false;
         for stage in &self.stages {
@@ -161,11 +147,11 @@ impl<T: FftNum> PowerOfTwo<T> {
         let (c, d) = rest.split_at_mut(self.length);
         for ((((x, a), b), c), d) in x.iter_mut().zip(&*a).zip(&*b).zip(&*c).zip(&*d) {
             let (re, im) = ([a.re, b.re, c.re, d.re], [a.im, b.im, c.im, d.im]);
-            *x = Point::<T>::of([Lanes(re), Lanes(im)]);
+            *x = Point::<T>::of([re.into(), im.into()]);
         }
         let result = if self.run(x, y) { y } else { x };
         for ((((x, a), b), c), d) in result.iter().zip(a).zip(b).zip(c).zip(d) {
-            let [Lanes(re), Lanes(im)] = x.parts();
+            let [re, im]: [[T; LANES]; 2] = x.parts().map(Into::into);
             *a = Complex { re: re[0], im: im[0] };
             *b = Complex { re: re[1], im: im[1] };
             *c = Complex { re: re[2], im: im[2] };
@@ -174,7 +160,7 @@ impl<T: FftNum> PowerOfTwo<T> {
     }
 }
 
-impl<T: FftNum> Stage<T> {
+impl<T: Transforms> Stage<T> {
     fn run<P: Point<T>, const FORWARD: bool>(&self, x: &[P], y: &mut [P]) {
         let quarter = x.len() / 4;
         let (x0, rest) = x.split_at(quarter);
@@ -206,7 +192,7 @@ impl<T: FftNum> Stage<T> {
 
 /// Transform of four numbers, turned by the twiddle factors.
 #[inline(always)]
-fn butterfly<T: FftNum, P: Point<T>, const FORWARD: bool>(
+fn butterfly<T: Transforms, P: Point<T>, const FORWARD: bool>(
     points: [P; 4],
     [w1, w2, w3]: &[Complex<T>; 3],
 ) -> [P; 4] {
@@ -230,13 +216,13 @@ fn butterfly<T: FftNum, P: Point<T>, const FORWARD: bool>(
     ]
 }
 
-fn twiddle<T: FftNum>(phase_rad: f64) -> Complex<T> {
+fn twiddle<T: Transforms>(phase_rad: f64) -> Complex<T> {
     let z = crate::steering::cis(phase_rad);
     let part = |x: f64| T::from_f64(x).unwrap_or_else(T::zero);
     Complex::new(part(z.re), part(z.im))
 }
 
-impl<T: FftNum> Fft<T> for PowerOfTwo<T> {
+impl<T: Transforms> Fft<T> for PowerOfTwo<T> {
     fn process_with_scratch(&self, buffer: &mut [Complex<T>], scratch: &mut [Complex<T>]) {
         let fours = if self.length <= LONGEST { buffer.len() / (LANES * self.length) } else { 0 };
         let (fours, rest) = buffer.split_at_mut(fours * LANES * self.length);

@@ -1,0 +1,135 @@
+//! Transforms between an angle grid and the lags of a lattice by short FFTs side by side.
+//!
+//! The grid of `G = B M` points is split into `B` residues: point `g = B q + s` has residue `s`. With
+//! `w = exp(-2 pi j / G)` a sum over lattice indices is, for each residue, a transform of length `M` of
+//! the terms times `w^(m s)`; so neither zeros are transformed nor lags nobody asks for, and all steps
+//! are the same for four residues, which fill a vector and lie side by side in memory.
+
+use super::fourier::cis;
+use super::inverse::Real;
+use boresight_core::fft::{Quad, SideBySide};
+use rustfft::num_complex::Complex;
+use std::f64::consts::{PI, TAU};
+
+/// Numbers in a [`Quad`].
+const LANES: usize = 4;
+
+/// See [`super::fourier::LatticeFourier`].
+pub struct Residues<T: Real> {
+    /// `B`.
+    count: usize,
+    /// `M`.
+    length: usize,
+    /// Index of each lattice index in a short FFT.
+    bins: Vec<usize>,
+    /// For each four residues `s`, and each lattice index `m`, `exp(j pi d m) w^(d m s)`.
+    turns: Vec<Vec<Quad<T>>>,
+    fft: SideBySide<T>,
+}
+
+impl<T: Real> Residues<T> {
+    /// Plans for a lattice whose spacing is whole; nothing unless the grid is a power of two of at least 16.
+    pub fn new(grid: usize, spacing: f64, span: usize) -> Option<Self> {
+        if !grid.is_power_of_two() || grid < 4 * LANES {
+            return None;
+        }
+        let length = span.next_power_of_two().min(grid / (2 * LANES));
+        let count = grid / length;
+        let stride = spacing.round() as usize;
+        let turn = |m: usize, s: usize| {
+            let steps = (stride * m % grid) * s % grid;
+            cis::<T>(PI * spacing * m as f64 - TAU * steps as f64 / grid as f64)
+        };
+        let quad = |m: usize, s: usize| {
+            let turns: [_; LANES] = std::array::from_fn(|lane| turn(m, s + lane));
+            Quad { re: turns.map(|z| z.re).into(), im: turns.map(|z| z.im).into() }
+        };
+        Some(Self {
+            count,
+            length,
+            bins: (0..span).map(|m| stride * m % length).collect(),
+            turns: (0..count)
+                .step_by(LANES)
+                .map(|s| (0..span).map(|m| quad(m, s)).collect())
+                .collect(),
+            fft: SideBySide::new(length)?,
+        })
+    }
+
+    /// See [`super::fourier::LatticeFourier::lags`].
+    pub fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]) {
+        lags.fill(Complex::new(T::zero(), T::zero()));
+        let half: T = T::one() / (T::one() + T::one());
+        for (pair, turns) in self.turns.as_chunks::<2>().0.iter().enumerate() {
+            // Values are real: a residue goes along as the imaginary part of another.
+            let rows = values.chunks_exact(self.count);
+            for (z, row) in self.fft.input().iter_mut().zip(rows) {
+                let (fours, _) = row[2 * LANES * pair..2 * LANES * (pair + 1)].as_chunks();
+                *z = Quad { re: fours[0].into(), im: fours[1].into() };
+            }
+            let found = self.fft.run();
+            let [first, second] = turns;
+            let turns = first.iter().zip(second);
+            for ((lag, &bin), (t, u)) in lags.iter_mut().zip(&self.bins).zip(turns) {
+                let (x, y) = (&found[bin], &found[(self.length - bin) % self.length]);
+                let (a_re, a_im) = (x.re + y.re, x.im - y.im);
+                let (b_re, b_im) = (x.im + y.im, y.re - x.re);
+                let re = t.re * a_re - t.im * a_im + u.re * b_re - u.im * b_im;
+                let im = t.re * a_im + t.im * a_re + u.re * b_im + u.im * b_re;
+                let (re, im): ([T; LANES], [T; LANES]) = (re.into(), im.into());
+                lag.re = lag.re + half * ((re[0] + re[1]) + (re[2] + re[3]));
+                lag.im = lag.im - half * ((im[0] + im[1]) + (im[2] + im[3]));
+            }
+        }
+    }
+
+    /// See [`super::fourier::LatticeFourier::hermitian`].
+    pub fn hermitian(&mut self, lags: &[Complex<T>], out: &mut [T]) {
+        for (pair, turns) in self.turns.as_chunks::<2>().0.iter().enumerate() {
+            let input = self.fft.input();
+            input.fill(Quad::zero());
+            let [first, second] = turns;
+            let turns = first.iter().zip(second);
+            for (m, ((lag, &bin), (t, u))) in lags.iter().zip(&self.bins).zip(turns).enumerate() {
+                let (a, b) = (turned(lag, t), turned(lag, u));
+                let z = &mut input[bin];
+                if m == 0 {
+                    *z = Quad { re: z.re + a.re, im: z.im + b.re };
+                    continue;
+                }
+                *z = Quad { re: z.re + (a.re - b.im), im: z.im + (a.im + b.re) };
+                let z = &mut input[(self.length - bin) % self.length];
+                *z = Quad { re: z.re + (a.re + b.im), im: z.im + (b.re - a.im) };
+            }
+            let found = self.fft.run();
+            for (row, z) in out.chunks_exact_mut(self.count).zip(found) {
+                let (fours, _) = row[2 * LANES * pair..2 * LANES * (pair + 1)].as_chunks_mut();
+                [fours[0], fours[1]] = [z.re.into(), z.im.into()];
+            }
+        }
+    }
+
+    /// See [`super::fourier::LatticeFourier::add_power`].
+    pub fn add_power(&mut self, x: &[Complex<T>], out: &mut [T]) {
+        for (four, turns) in self.turns.iter().enumerate() {
+            let input = self.fft.input();
+            input.fill(Quad::zero());
+            for ((x, &bin), t) in x.iter().zip(&self.bins).zip(turns) {
+                let a = turned(x, t);
+                let z = &mut input[bin];
+                *z = Quad { re: z.re + a.re, im: z.im + a.im };
+            }
+            let found = self.fft.run();
+            for (row, z) in out.chunks_exact_mut(self.count).zip(found) {
+                let (fours, _) = row[LANES * four..LANES * (four + 1)].as_chunks_mut();
+                fours[0] = (T::Four::from(fours[0]) + (z.re * z.re + z.im * z.im)).into();
+            }
+        }
+    }
+}
+
+/// `x` times four numbers.
+#[inline(always)]
+fn turned<T: Real>(x: &Complex<T>, t: &Quad<T>) -> Quad<T> {
+    Quad { re: t.re * x.re - t.im * x.im, im: t.im * x.re + t.re * x.im }
+}
