@@ -6,7 +6,7 @@
 //! transform for a whole grid of `u`.
 
 use crate::grid::Grid;
-use crate::iaa::fourier::LatticeFourier;
+use crate::iaa::fourier::{LagTransforms, LatticeFourier};
 use crate::lags::LagPolynomial;
 use boresight_core::steering::{cis, steering_derivatives, steering_vector};
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};

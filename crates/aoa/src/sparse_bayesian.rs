@@ -23,7 +23,7 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Spectrum, SpectrumKind, Warning};
 use crate::estimator::Plan;
 use crate::grid::Grid;
-use crate::iaa::fourier::LatticeFourier;
+use crate::iaa::fourier::{LagTransforms, LatticeFourier};
 use crate::iaa::inverse::hermitian_inverse;
 use crate::method::Method;
 use crate::normalised::Normalised;

@@ -3,6 +3,7 @@
 use super::fast::FastKernel;
 use super::inverse::Singular;
 use super::kernel::Kernel;
+use super::residues::Residues;
 use boresight_core::{Complex64, Lattice};
 use ndarray::ArrayView2;
 
@@ -14,19 +15,20 @@ const LEAST_SHARE: f32 = 5e-4;
 /// Iterates in single precision up to the first iteration that would lose accuracy, which it makes again in
 /// double precision, with all that follow.
 pub struct AdaptiveKernel {
-    single: FastKernel<f32>,
-    double: FastKernel<f64>,
+    single: FastKernel<f32, Residues<f32>>,
+    double: FastKernel<f64, Residues<f64>>,
     in_double: bool,
 }
 
 impl AdaptiveKernel {
-    /// Plans for a lattice and a grid of `grid` points uniform in the sine over `[-1, 1)`; nothing for
-    /// grids that take longer FFTs, which single precision does not make faster.
+    /// Plans for a lattice and a grid of `grid` points uniform in the sine over `[-1, 1)`; nothing where
+    /// these do not suit [`Residues`], without which single precision is hardly faster.
     pub fn new(lattice: &Lattice, grid: usize) -> Option<Self> {
-        let single = FastKernel::<f32>::new(lattice, grid, LEAST_SHARE);
-        single.is_short().then(|| Self {
-            single,
-            double: FastKernel::new(lattice, grid, 0.0),
+        let single = Residues::of(lattice, grid)?;
+        let double = Residues::of(lattice, grid)?;
+        Some(Self {
+            single: FastKernel::new(lattice, grid, single, LEAST_SHARE),
+            double: FastKernel::new(lattice, grid, double, 0.0),
             in_double: false,
         })
     }

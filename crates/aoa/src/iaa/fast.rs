@@ -1,6 +1,6 @@
 //! IAA on a lattice: three FFTs and one small inverse an iteration.
 
-use super::fourier::{LatticeFourier, real};
+use super::fourier::{LagTransforms, real};
 use super::inverse::{HermitianTiles, Real, Singular, TILE};
 use super::kernel::{Kernel, weighted_power};
 use boresight_core::{Complex64, Lattice};
@@ -13,8 +13,8 @@ use rustfft::num_traits::Zero;
 /// The covariance depends on lags alone, `R_kl = r[p_k - p_l]`, with `r` the transform of the power
 /// spectrum; `a^H R^-1 a` is the transform of the sums of `R^-1` along equal lags, and `a^H R^-1 y`
 /// that of `R^-1 y` put on its positions.
-pub struct FastKernel<T: Real> {
-    fourier: LatticeFourier<T>,
+pub struct FastKernel<T: Real, F> {
+    fourier: F,
     span: usize,
     elements: usize,
     /// Least `a^H R^-1 a` over the trace of `R^-1` for which an iteration counts.
@@ -55,10 +55,11 @@ impl<T: Real> Split<T> {
     }
 }
 
-impl<T: Real> FastKernel<T> {
-    /// Plans for a lattice and a grid of `grid` points uniform in the sine over `[-1, 1)`. An iteration in
+impl<T: Real, F: LagTransforms<T>> FastKernel<T, F> {
+    /// Plans for a lattice and a grid of `grid` points uniform in the sine over `[-1, 1)`, with the
+    /// transforms between the two. An iteration in
     /// which the smallest `a^H R^-1 a` is not above `least_share` of the trace of `R^-1` is refused.
-    pub fn new(lattice: &Lattice, grid: usize, least_share: T) -> Self {
+    pub fn new(lattice: &Lattice, grid: usize, fourier: F, least_share: T) -> Self {
         let elements = lattice.indices.len();
         let span = lattice.span();
         let mut order: Vec<usize> = (0..elements).collect();
@@ -87,7 +88,7 @@ impl<T: Real> FastKernel<T> {
         }
         let blocks = matrix.blocks();
         Self {
-            fourier: LatticeFourier::new(grid, lattice.spacing, span),
+            fourier,
             span,
             elements,
             least_share,
@@ -109,11 +110,6 @@ impl<T: Real> FastKernel<T> {
         }
     }
 
-    /// Whether its FFTs are the short ones.
-    pub fn is_short(&self) -> bool {
-        self.fourier.is_short()
-    }
-
     /// Takes the snapshots (elements x snapshots) times `scale`.
     pub fn take_snapshots(&mut self, y: ArrayView2<Complex64>, scale: f64) {
         let blocks = self.matrix.blocks();
@@ -130,7 +126,7 @@ impl<T: Real> FastKernel<T> {
     }
 
     /// Takes over the powers of another kernel.
-    pub fn take_power<S: Real>(&mut self, other: &FastKernel<S>) {
+    pub fn take_power<S: Real, G>(&mut self, other: &FastKernel<S, G>) {
         for (power, given) in self.power.iter_mut().zip(&other.power) {
             *power = real(given.to_f64().unwrap_or(0.0));
         }
@@ -242,7 +238,7 @@ fn add_tile<T: Real>(
     }
 }
 
-impl<T: Real> Kernel for FastKernel<T> {
+impl<T: Real, F: LagTransforms<T>> Kernel for FastKernel<T, F> {
     fn start(&mut self, y: ArrayView2<Complex64>, scale: f64) {
         self.take_snapshots(y, scale);
         self.numerator.fill(T::zero());

@@ -9,6 +9,17 @@ use rustfft::num_traits::Zero;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+/// What the fast form asks of its transforms.
+pub trait LagTransforms<T: Real>: Send {
+    /// `lags[m] = sum_g values[g] exp(j pi d m u_g)` for `m` in `0..span`.
+    fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]);
+    /// `out[g] = sum_m lags[m] exp(-j pi d m u_g)` over `m` from `-(span - 1)` to `span - 1`, with
+    /// `lags[-m]` the conjugate of `lags[m]`: real.
+    fn hermitian(&mut self, lags: &[Complex<T>], out: &mut [T]);
+    /// Adds `|sum_i x[i] exp(-j pi d i u_g)|^2`, over the lattice index `i`, to `out[g]`.
+    fn add_power(&mut self, x: &[Complex<T>], out: &mut [T]);
+}
+
 /// Sums of `exp(-j pi d m u_g)` over lattice indices `m`, and its transpose over the points
 /// `u_g = -1 + 2 g / G` of the grid, for a lattice of `span` points spaced by `d` half wavelengths.
 ///
@@ -41,14 +52,10 @@ impl<T: Real> LatticeFourier<T> {
             None => Self::Chirp(Chirp::new(grid, spacing, span)),
         }
     }
+}
 
-    /// Whether short FFTs do.
-    pub fn is_short(&self) -> bool {
-        matches!(self, Self::Residues(_))
-    }
-
-    /// `lags[m] = sum_g values[g] exp(j pi d m u_g)` for `m` in `0..span`.
-    pub fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]) {
+impl<T: Real> LagTransforms<T> for LatticeFourier<T> {
+    fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]) {
         match self {
             Self::Residues(r) => r.lags(values, lags),
             Self::Folded(f) => f.lags(values, lags),
@@ -56,9 +63,7 @@ impl<T: Real> LatticeFourier<T> {
         }
     }
 
-    /// `out[g] = sum_m lags[m] exp(-j pi d m u_g)` over `m` from `-(span - 1)` to `span - 1`, with
-    /// `lags[-m]` the conjugate of `lags[m]`: real.
-    pub fn hermitian(&mut self, lags: &[Complex<T>], out: &mut [T]) {
+    fn hermitian(&mut self, lags: &[Complex<T>], out: &mut [T]) {
         match self {
             Self::Residues(r) => r.hermitian(lags, out),
             Self::Folded(f) => f.hermitian(lags, out),
@@ -66,8 +71,7 @@ impl<T: Real> LatticeFourier<T> {
         }
     }
 
-    /// Adds `|sum_i x[i] exp(-j pi d i u_g)|^2`, over the lattice index `i`, to `out[g]`.
-    pub fn add_power(&mut self, x: &[Complex<T>], out: &mut [T]) {
+    fn add_power(&mut self, x: &[Complex<T>], out: &mut [T]) {
         let spectrum = match self {
             Self::Residues(r) => return r.add_power(x, out),
             Self::Folded(f) => f.vector(x),

@@ -28,6 +28,7 @@ use adaptive::AdaptiveKernel;
 use boresight_core::{Array, Complex64, Direction};
 use dense::DenseKernel;
 use fast::FastKernel;
+use fourier::LatticeFourier;
 use kernel::Kernel;
 use ndarray::ArrayView2;
 use std::f64::consts::FRAC_PI_2;
@@ -56,7 +57,12 @@ impl Iaa {
                 };
                 match adaptive {
                     Some(adaptive) => Box::new(adaptive),
-                    None => Box::new(FastKernel::<f64>::new(&lattice, grid.full_points, 0.0)),
+                    None => {
+                        let points = grid.full_points;
+                        let fourier =
+                            LatticeFourier::<f64>::new(points, lattice.spacing, lattice.span());
+                        Box::new(FastKernel::new(&lattice, points, fourier, 0.0))
+                    }
                 }
             }
             (IaaForm::Fast, None) => {

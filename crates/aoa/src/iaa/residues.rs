@@ -5,8 +5,9 @@
 //! the terms times `w^(m s)`; so neither zeros are transformed nor lags nobody asks for, and all steps
 //! are the same for four residues, which fill a vector and lie side by side in memory.
 
-use super::fourier::cis;
+use super::fourier::{LagTransforms, cis};
 use super::inverse::Real;
+use boresight_core::Lattice;
 use boresight_core::fft::{Quad, SideBySide};
 use rustfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
@@ -14,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 /// Numbers in a [`Quad`].
 const LANES: usize = 4;
 
-/// See [`super::fourier::LatticeFourier`].
+/// The transforms of [`super::fourier::LatticeFourier`] where the spacing is whole and the grid a power of two.
 pub struct Residues<T: Real> {
     /// `B`.
     count: usize,
@@ -28,9 +29,15 @@ pub struct Residues<T: Real> {
 }
 
 impl<T: Real> Residues<T> {
-    /// Plans for a lattice whose spacing is whole; nothing unless the grid is a power of two of at least 16.
+    /// Plans for a lattice; nothing unless its spacing is whole and the grid a power of two of at least 16.
+    pub fn of(lattice: &Lattice, grid: usize) -> Option<Self> {
+        Self::new(grid, lattice.spacing, lattice.span())
+    }
+
+    /// The same for a lattice of `span` points.
     pub fn new(grid: usize, spacing: f64, span: usize) -> Option<Self> {
-        if !grid.is_power_of_two() || grid < 4 * LANES {
+        let whole = (spacing - spacing.round()).abs() * (span as f64) < 1e-9;
+        if !whole || !grid.is_power_of_two() || grid < 4 * LANES {
             return None;
         }
         let length = span.next_power_of_two().min(grid / (2 * LANES));
@@ -55,9 +62,10 @@ impl<T: Real> Residues<T> {
             fft: SideBySide::new(length)?,
         })
     }
+}
 
-    /// See [`super::fourier::LatticeFourier::lags`].
-    pub fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]) {
+impl<T: Real> LagTransforms<T> for Residues<T> {
+    fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]) {
         lags.fill(Complex::new(T::zero(), T::zero()));
         let half: T = T::one() / (T::one() + T::one());
         for (pair, turns) in self.turns.as_chunks::<2>().0.iter().enumerate() {
@@ -83,8 +91,7 @@ impl<T: Real> Residues<T> {
         }
     }
 
-    /// See [`super::fourier::LatticeFourier::hermitian`].
-    pub fn hermitian(&mut self, lags: &[Complex<T>], out: &mut [T]) {
+    fn hermitian(&mut self, lags: &[Complex<T>], out: &mut [T]) {
         for (pair, turns) in self.turns.as_chunks::<2>().0.iter().enumerate() {
             let input = self.fft.input();
             input.fill(Quad::zero());
@@ -109,8 +116,7 @@ impl<T: Real> Residues<T> {
         }
     }
 
-    /// See [`super::fourier::LatticeFourier::add_power`].
-    pub fn add_power(&mut self, x: &[Complex<T>], out: &mut [T]) {
+    fn add_power(&mut self, x: &[Complex<T>], out: &mut [T]) {
         for (four, turns) in self.turns.iter().enumerate() {
             let input = self.fft.input();
             input.fill(Quad::zero());
