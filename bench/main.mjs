@@ -4,10 +4,14 @@
 //   --quick        fewer rounds: for a look, not for figures to keep
 //   --json         prints the report as JSON in place of the table (bench.json is written always)
 //   --check        exit status 1 where a target is missed, not measured or in error
-import { writeFileSync } from 'node:fs';
+//   --against FILE exit status 1 where a ratio has fallen beyond three times the noise against that file;
+//                  targets, which are for a quiet machine, do not count, and NumPy is not needed
+//   --record FILE  writes such a file
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
+import { recorded, regressions } from './baseline.mjs';
 import { classical, cube, drive, iaa48, scenesOf } from './cases.mjs';
 import { makeCube, makeDrive } from './data.mjs';
 import { rangeDopplerPlan } from './fft-js.mjs';
@@ -24,16 +28,20 @@ const { values: options } = parseArgs({
     quick: { type: 'boolean', default: false },
     json: { type: 'boolean', default: false },
     check: { type: 'boolean', default: false },
+    against: { type: 'string' },
+    record: { type: 'string' },
   },
 });
 const pace = options.quick
   ? { rounds: 30, batchS: 0.004, warmUpS: 0.1, limitS: 1 }
   : { rounds: 400, batchS: 0.004, warmUpS: 0.4, limitS: 4 };
-const wanted = options.only?.split(',').map((name) => name.trim()).filter(Boolean);
+const baseline = options.against && JSON.parse(readFileSync(options.against, 'utf8'));
+const wanted = baseline ? Object.keys(baseline) : options.only?.split(',').map((name) => name.trim()).filter(Boolean);
 const say = (text) => process.stderr.write(`${text}\n`);
 
 const entry = pathToFileURL(join(root, 'dist', 'lib', 'node.js')).href;
 const boresight = await import(entry);
+const workerPools = await import(pathToFileURL(join(root, 'dist', 'worker', 'node.js')).href);
 await boresight.init();
 
 let numpy;
@@ -122,6 +130,14 @@ async function classicalRow({ name, scenes: what, sources, differDeg, options: g
   });
 }
 
+/** Scenes, over and over, as a batch of `cells`. */
+function batchOf(scenes, cells) {
+  const size = scenes[0].data.length;
+  const data = new Float64Array(cells * size);
+  for (let cell = 0; cell < cells; cell++) data.set(scenes[cell % scenes.length].data, cell * size);
+  return { snapshots: { data, shape: [cells, ...scenes[0].shape] } };
+}
+
 async function iaaRows() {
   const scenes = scenesOf(iaa48.scenes);
   const inputs = inputsOf(scenes);
@@ -130,19 +146,47 @@ async function iaaRows() {
   const dense = new boresight.Estimator(iaa48.dense);
   const angles = anglesOf(fast, inputs, iaa48.sources);
   const own = here((input) => fast.estimate(input), inputs);
-  await row(`${name}: beside its dense form`, { unit: 'x', otherName: 'dense', target: { least: 20 } }, async () => {
-    agree(angles, anglesOf(dense, inputs, iaa48.sources), 1e-6, 'the dense form');
+  await row(`${name}: beside its dense form`, { unit: 'x', otherName: 'dense', target: { least: 20 }, keep: true }, async () => {
+    agree(angles, anglesOf(dense, inputs, iaa48.sources), iaa48.differDeg, 'the dense form');
     const [first, second] = await compare([own, here((input) => dense.estimate(input), inputs)], pace);
     return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
   });
-  await row(`${name}: a snapshot`, { unit: 's', target: { most: 1.5e-3 } }, async () => {
+  await row(`${name}: a snapshot`, { unit: 's', target: { most: 0.7e-3 } }, async () => {
     const [{ seconds }] = await compare([own], pace);
     return { ours: seconds, value: seconds.median };
+  });
+  const double = new boresight.Estimator({ ...iaa48.fast, iaa: { ...iaa48.fast.iaa, precision: 'double' } });
+  await row(`${name}: beside double precision`, { unit: 'x', otherName: 'double', keep: true }, async () => {
+    const [first, second] = await compare([own, here((input) => double.estimate(input), inputs)], pace);
+    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+  });
+  double.free();
+  await row(`${name}: a cell of a batch of ${iaa48.batch}`, { unit: 's' }, async () => {
+    const batch = batchOf(scenes, iaa48.batch);
+    const [{ seconds: all }] = await compare([here(() => fast.estimateBatch(batch), [0])], pace);
+    const [median, low, high] = [all.median, all.low, all.high].map((time) => time / iaa48.batch);
+    return { ours: { median, low, high }, value: median };
+  });
+  await row(`${name}: ${iaa48.cells} cells over two workers, beside one`, { unit: 'x', otherName: 'one worker', target: { least: 1.7 } }, async () => {
+    if (where.cores < 2) return { missing: 'not measured: one core' };
+    const batch = batchOf(scenes, iaa48.cells);
+    const pools = [2, 1].map((workers) => workerPools.createPool({ workers }));
+    try {
+      const sides = pools.map((pool) => async (calls) => {
+        const start = process.hrtime.bigint();
+        for (let call = 0; call < calls; call++) await pool.estimateBatch(batch, iaa48.fast);
+        return Number(process.hrtime.bigint() - start) / 1e9;
+      });
+      const [first, second] = await compare(sides, { ...pace, rounds: Math.min(pace.rounds, 20) });
+      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+    } finally {
+      pools.forEach((pool) => pool.terminate());
+    }
   });
   if (numpy) {
     await row(`${name}: beside NumPy's fast form`, { unit: 'x', otherName: 'NumPy' }, async () => {
       const theirs = await numpySide('iaa48', scenes, iaa48.scenes.positions, iaa48.numpy('iaa'), iaa48.sources);
-      agree(angles, theirs.angles, 1e-6, 'NumPy');
+      agree(angles, theirs.angles, iaa48.differDeg, 'NumPy');
       const [first, second] = await compare([own, theirs.side], pace);
       return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
     });
@@ -189,7 +233,7 @@ async function cubeRows() {
       return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
     });
   }
-  await row(`${name}: beside fft.js, windows and FFTs alone`, { unit: 'x', otherName: 'fft.js' }, async () => {
+  await row(`${name}: beside fft.js, windows and FFTs alone`, { unit: 'x', otherName: 'fft.js', keep: true }, async () => {
     const transform = rangeDopplerPlan(cube);
     const power = transform(data);
     const isPeak = ([range, doppler]) => power[range * loops + doppler] > 0.2 * cube.amplitude ** 2;
@@ -232,7 +276,7 @@ async function driveRows() {
     const [{ seconds }] = await compare([own], pace);
     return { ours: seconds, value: seconds.median };
   });
-  const beside = (otherName, side, theirs) => row(`${name}: beside ${otherName}`, { unit: 'x', otherName }, async () => {
+  const beside = (otherName, side, theirs) => row(`${name}: beside ${otherName}`, { unit: 'x', otherName, keep: otherName !== 'NumPy' }, async () => {
     const differences = apart(ours, await theirs());
     const [typical, largest] = [median(differences), Math.max(...differences)];
     if (!(typical <= drive.differMps.median && largest <= drive.differMps.most)) {
@@ -274,7 +318,7 @@ async function driveRows() {
 async function boundaryRows() {
   const { options: given, scenes: what } = classical.find(({ name }) => name === 'bartlett, 1 snapshot');
   const inputs = inputsOf(scenesOf(what));
-  await row('one call of estimate() beside a kept Estimator (bartlett, 1 snapshot)', { unit: 'x', otherName: 'estimate()' }, async () => {
+  await row('one call of estimate() beside a kept Estimator (bartlett, 1 snapshot)', { unit: 'x', otherName: 'estimate()', keep: true }, async () => {
     const estimator = new boresight.Estimator(given);
     const kept = here((input) => estimator.estimate(input), inputs);
     const [first, second] = await compare([kept, here((input) => boresight.estimate(input, given), inputs)], pace);
@@ -313,5 +357,11 @@ if (options.json) {
   console.log(`load ${load.toFixed(1)} on ${cores} cores at the start${load > 0.75 * cores ? ': not quiet, times are too long; ratios hold better' : ''}\n`);
   console.log(table(rows));
   console.log(`\ntargets: ${counts.met} met, ${counts.missed} missed, ${counts.errors} in error, ${counts.notMeasured} not measured`);
+}
+if (options.record) writeFileSync(options.record, `${JSON.stringify(recorded(rows), null, 2)}\n`);
+if (baseline) {
+  const lines = regressions(rows, baseline);
+  for (const line of lines) say(`bench: slower: ${line}`);
+  if (lines.length > 0) process.exitCode = 1;
 }
 if (options.check && counts.missed + counts.errors + counts.notMeasured > 0) process.exitCode = 1;

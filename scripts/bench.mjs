@@ -29,7 +29,7 @@ async function python() {
 await main(async () => {
   await setup();
   await buildPackage();
-  const interpreter = await python();
+  const interpreter = process.argv.includes('--against') ? '' : await python();
   await run(process.execPath, [join(root, 'bench', 'main.mjs'), ...process.argv.slice(2)], {
     env: { ...environment, PYTHON: interpreter },
   });

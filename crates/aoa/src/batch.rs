@@ -92,12 +92,27 @@ impl BatchEstimate {
         }
     }
 
-    fn warn(&mut self, warning: &Warning) {
+    fn warn(&mut self, warning: &Warning, cells: usize) {
         let kind = std::mem::discriminant(warning);
         match self.warnings.iter_mut().find(|w| std::mem::discriminant(&w.first) == kind) {
-            Some(known) => known.cells += 1,
-            None => self.warnings.push(WarningCount { first: warning.clone(), cells: 1 }),
+            Some(known) => known.cells += cells,
+            None => self.warnings.push(WarningCount { first: warning.clone(), cells }),
         }
+    }
+
+    /// Adds the cells that follow, of the same method and grid.
+    pub(crate) fn append(&mut self, next: &Self) {
+        let before = self.cells as u32;
+        self.cell.extend(next.cell.iter().map(|cell| cell + before));
+        self.sources.extend_from_slice(&next.sources);
+        if let (Some(spectra), Some(next)) = (&mut self.spectra, &next.spectra) {
+            spectra.values.extend_from_slice(&next.values);
+        }
+        self.unresolved += next.unresolved;
+        for WarningCount { first, cells } in &next.warnings {
+            self.warn(first, *cells);
+        }
+        self.cells += next.cells;
     }
 
     fn add(&mut self, estimate: &Estimate, spectra: bool) {
@@ -114,7 +129,7 @@ impl BatchEstimate {
         }
         self.unresolved += usize::from(!estimate.resolved);
         for warning in &estimate.warnings {
-            self.warn(warning);
+            self.warn(warning, 1);
         }
         self.cells += 1;
     }

@@ -4,7 +4,7 @@
 
 mod support;
 
-use boresight_aoa::{BatchEstimate, Data, Estimator, Method, Options, Source};
+use boresight_aoa::{BatchEstimate, Data, Estimator, Estimators, Method, Options, Source};
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64, Diagnose, Random};
 use ndarray::{Array3, Axis, s};
@@ -79,6 +79,28 @@ fn every_method_gives_the_same_cell_by_cell() {
     for method in [Method::Bartlett, Method::Iaa] {
         assert_same_cells(method, &planar, &options, &cells(&planar, 2));
     }
+}
+
+#[test]
+fn threads_change_nothing() {
+    let array = Array::ula(12).unwrap();
+    let options = Options { grid_points: 256, ..Options::default() };
+    let few = cells(&array, 1);
+    let many = ndarray::concatenate(Axis(0), &[few.view(); 5]).unwrap();
+    let mut one = Estimator::new(Method::Capon, &array, &options).unwrap();
+    for y in [&many, &few] {
+        let expected = one.estimate_batch(y.view(), true).unwrap();
+        assert!(!expected.warnings.is_empty());
+        for threads in [1, 2, 3, 16] {
+            let mut all = Estimators::new(Method::Capon, &array, &options, threads).unwrap();
+            assert_eq!(all.estimate_batch(y.view(), true).unwrap(), expected, "{threads} threads");
+            assert_eq!(all.estimate_batch(y.view(), true).unwrap(), expected, "{threads} threads");
+            let refused = all.estimate_batch(y.slice(s![.., ..5, ..]), true);
+            assert_eq!(refused.unwrap_err().code(), "shape");
+        }
+    }
+    let refused = Estimators::new(Method::Capon, &array, &options, 0).err().unwrap();
+    assert_eq!(refused.code(), "out-of-range");
 }
 
 #[test]

@@ -4,8 +4,7 @@ use crate::beam::suited;
 use crate::error::PipelineError;
 use crate::options::{ChainOptions, usable_range_m};
 use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult, Remark};
-use crate::warnings::Warnings;
-use boresight_aoa::{Data, Estimate, Estimator, Method, Options};
+use boresight_aoa::{Data, Estimate, Estimator, Estimators, Method, Options};
 use boresight_core::{Array, Complex32, Complex64, Direction, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
@@ -25,7 +24,7 @@ pub struct Chain {
     pub(crate) transform: RangeDoppler,
     pub(crate) map: RangeDopplerMap,
     cfar: Cfar,
-    estimator: Estimator,
+    estimators: Estimators,
 }
 
 /// A cell to estimate angles in.
@@ -76,7 +75,7 @@ impl Chain {
             transform,
             map,
             cfar,
-            estimator: Estimator::new(options.method, array, &angle)?,
+            estimators: Estimators::new(options.method, array, &angle, options.threads)?,
         })
     }
 
@@ -235,21 +234,23 @@ impl Chain {
         snapshots: ArrayView3<'_, Complex64>,
     ) -> Result<FrameResult, PipelineError> {
         let Found { cells, mut counts } = found;
+        let estimates = self.estimators.estimate_batch(snapshots, false)?;
         let mut detections = vec![];
-        let mut warnings = Warnings::default();
-        for (cell, snapshots) in cells.iter().zip(snapshots.outer_iter()) {
-            let estimate = self.estimator.estimate(Data::Snapshots(snapshots))?;
-            warnings.add(&estimate.warnings);
-            counts.without_angle += usize::from(estimate.sources.is_empty());
-            detections
-                .extend(estimate.sources.iter().map(|s| detection(cell, s.direction, s.power)));
+        for (index, cell) in cells.iter().enumerate() {
+            let sources = estimates.sources_of(index);
+            counts.without_angle += usize::from(sources.is_empty());
+            detections.extend(sources.iter().map(|s| detection(cell, s.direction, s.power)));
         }
         counts.outside_region +=
             Region::retain(&mut detections, |d| self.region.contains_azimuth(d.azimuth_rad));
         detections.sort_by(|a, b| b.power.total_cmp(&a.power));
         counts.beyond_limit += detections.len().saturating_sub(self.options.max_detections);
         detections.truncate(self.options.max_detections);
-        let mut warnings = warnings.into_remarks();
+        let mut warnings: Vec<Remark> = estimates
+            .warnings
+            .iter()
+            .map(|w| Remark { code: w.first.code(), message: w.to_string() })
+            .collect();
         if counts.without_angle > 0 {
             let message = format!("{} cells have no angle", counts.without_angle);
             warnings.push(Remark { code: "cells-without-angle", message });

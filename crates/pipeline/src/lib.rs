@@ -13,7 +13,6 @@ mod error;
 mod options;
 mod result;
 mod source;
-mod warnings;
 
 pub use beam::suited;
 pub use chain::Chain;

@@ -42,6 +42,8 @@ pub struct ChainOptions {
     pub angle: Options,
     /// Most detections a frame; the strongest are kept.
     pub max_detections: usize,
+    /// Most threads that estimate angles; 1 where there are none, as in WebAssembly.
+    pub threads: usize,
 }
 
 impl Default for ChainOptions {
@@ -63,6 +65,7 @@ impl Default for ChainOptions {
             method: Method::Bartlett,
             angle: Options::default(),
             max_detections: 256,
+            threads: 1,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The fast form in single precision, and in double as soon as single is not enough.
 
 use super::fast::FastKernel;
+use super::fourier::LatticeFourier;
 use super::inverse::Singular;
 use super::kernel::Kernel;
 use super::residues::Residues;
@@ -10,13 +11,13 @@ use ndarray::ArrayView2;
 /// `a^H R^-1 a` is a sum of `K^2` terms of the size of the diagonal of `R^-1`. Toward a strong source they
 /// cancel; where they cancel to less than this share of the diagonal's sum, single precision leaves the
 /// angles less sure than 0.001 deg.
-const LEAST_SHARE: f32 = 5e-4;
+const LEAST_SHARE: f32 = 2.5e-4;
 
 /// Iterates in single precision up to the first iteration that would lose accuracy, which it makes again in
 /// double precision, with all that follow.
 pub struct AdaptiveKernel {
     single: FastKernel<f32, Residues<f32>>,
-    double: FastKernel<f64, Residues<f64>>,
+    double: FastKernel<f64, LatticeFourier<f64>>,
     in_double: bool,
 }
 
@@ -25,7 +26,7 @@ impl AdaptiveKernel {
     /// these do not suit [`Residues`], without which single precision is hardly faster.
     pub fn new(lattice: &Lattice, grid: usize) -> Option<Self> {
         let single = Residues::of(lattice, grid)?;
-        let double = Residues::of(lattice, grid)?;
+        let double = LatticeFourier::new(grid, lattice.spacing, lattice.span());
         Some(Self {
             single: FastKernel::new(lattice, grid, single, LEAST_SHARE),
             double: FastKernel::new(lattice, grid, double, 0.0),

@@ -8,8 +8,9 @@
 use super::fourier::{LagTransforms, cis};
 use super::inverse::Real;
 use boresight_core::Lattice;
-use boresight_core::fft::{Quad, SideBySide};
+use boresight_core::fft::{Quad, SideBySide, parts, quad};
 use rustfft::num_complex::Complex;
+use rustfft::num_traits::Zero;
 use std::f64::consts::{PI, TAU};
 
 /// Numbers in a [`Quad`].
@@ -47,9 +48,9 @@ impl<T: Real> Residues<T> {
             let steps = (stride * m % grid) * s % grid;
             cis::<T>(PI * spacing * m as f64 - TAU * steps as f64 / grid as f64)
         };
-        let quad = |m: usize, s: usize| {
+        let four = |m: usize, s: usize| {
             let turns: [_; LANES] = std::array::from_fn(|lane| turn(m, s + lane));
-            Quad { re: turns.map(|z| z.re).into(), im: turns.map(|z| z.im).into() }
+            quad::<T>(turns.map(|z| z.re).into(), turns.map(|z| z.im).into())
         };
         Some(Self {
             count,
@@ -57,7 +58,7 @@ impl<T: Real> Residues<T> {
             bins: (0..span).map(|m| stride * m % length).collect(),
             turns: (0..count)
                 .step_by(LANES)
-                .map(|s| (0..span).map(|m| quad(m, s)).collect())
+                .map(|s| (0..span).map(|m| four(m, s)).collect())
                 .collect(),
             fft: SideBySide::new(length)?,
         })
@@ -66,24 +67,26 @@ impl<T: Real> Residues<T> {
 
 impl<T: Real> LagTransforms<T> for Residues<T> {
     fn lags(&mut self, values: &[T], lags: &mut [Complex<T>]) {
-        lags.fill(Complex::new(T::zero(), T::zero()));
+        lags.fill(Complex::zero());
         let half: T = T::one() / (T::one() + T::one());
         for (pair, turns) in self.turns.as_chunks::<2>().0.iter().enumerate() {
             // Values are real: a residue goes along as the imaginary part of another.
             let rows = values.chunks_exact(self.count);
             for (z, row) in self.fft.input().iter_mut().zip(rows) {
                 let (fours, _) = row[2 * LANES * pair..2 * LANES * (pair + 1)].as_chunks();
-                *z = Quad { re: fours[0].into(), im: fours[1].into() };
+                *z = quad::<T>(fours[0].into(), fours[1].into());
             }
             let found = self.fft.run();
             let [first, second] = turns;
             let turns = first.iter().zip(second);
             for ((lag, &bin), (t, u)) in lags.iter_mut().zip(&self.bins).zip(turns) {
-                let (x, y) = (&found[bin], &found[(self.length - bin) % self.length]);
-                let (a_re, a_im) = (x.re + y.re, x.im - y.im);
-                let (b_re, b_im) = (x.im + y.im, y.re - x.re);
-                let re = t.re * a_re - t.im * a_im + u.re * b_re - u.im * b_im;
-                let im = t.re * a_im + t.im * a_re + u.re * b_im + u.im * b_re;
+                let [x_re, x_im] = parts::<T>(found[bin]);
+                let [y_re, y_im] = parts::<T>(found[(self.length - bin) % self.length]);
+                let (a_re, a_im) = (x_re + y_re, x_im - y_im);
+                let (b_re, b_im) = (x_im + y_im, y_re - x_re);
+                let ([t_re, t_im], [u_re, u_im]) = (parts::<T>(*t), parts::<T>(*u));
+                let re = t_re * a_re - t_im * a_im + u_re * b_re - u_im * b_im;
+                let im = t_re * a_im + t_im * a_re + u_re * b_im + u_im * b_re;
                 let (re, im): ([T; LANES], [T; LANES]) = (re.into(), im.into());
                 lag.re = lag.re + half * ((re[0] + re[1]) + (re[2] + re[3]));
                 lag.im = lag.im - half * ((im[0] + im[1]) + (im[2] + im[3]));
@@ -94,24 +97,22 @@ impl<T: Real> LagTransforms<T> for Residues<T> {
     fn hermitian(&mut self, lags: &[Complex<T>], out: &mut [T]) {
         for (pair, turns) in self.turns.as_chunks::<2>().0.iter().enumerate() {
             let input = self.fft.input();
-            input.fill(Quad::zero());
+            input.fill([Complex::zero(); LANES]);
             let [first, second] = turns;
             let turns = first.iter().zip(second);
             for (m, ((lag, &bin), (t, u))) in lags.iter().zip(&self.bins).zip(turns).enumerate() {
-                let (a, b) = (turned(lag, t), turned(lag, u));
-                let z = &mut input[bin];
+                let ([a_re, a_im], [b_re, b_im]) = (turned(lag, t), turned(lag, u));
                 if m == 0 {
-                    *z = Quad { re: z.re + a.re, im: z.im + b.re };
+                    add(&mut input[bin], a_re, b_re);
                     continue;
                 }
-                *z = Quad { re: z.re + (a.re - b.im), im: z.im + (a.im + b.re) };
-                let z = &mut input[(self.length - bin) % self.length];
-                *z = Quad { re: z.re + (a.re + b.im), im: z.im + (b.re - a.im) };
+                add(&mut input[bin], a_re - b_im, a_im + b_re);
+                add(&mut input[(self.length - bin) % self.length], a_re + b_im, b_re - a_im);
             }
             let found = self.fft.run();
             for (row, z) in out.chunks_exact_mut(self.count).zip(found) {
                 let (fours, _) = row[2 * LANES * pair..2 * LANES * (pair + 1)].as_chunks_mut();
-                [fours[0], fours[1]] = [z.re.into(), z.im.into()];
+                [fours[0], fours[1]] = parts::<T>(*z).map(Into::into);
             }
         }
     }
@@ -119,16 +120,16 @@ impl<T: Real> LagTransforms<T> for Residues<T> {
     fn add_power(&mut self, x: &[Complex<T>], out: &mut [T]) {
         for (four, turns) in self.turns.iter().enumerate() {
             let input = self.fft.input();
-            input.fill(Quad::zero());
+            input.fill([Complex::zero(); LANES]);
             for ((x, &bin), t) in x.iter().zip(&self.bins).zip(turns) {
-                let a = turned(x, t);
-                let z = &mut input[bin];
-                *z = Quad { re: z.re + a.re, im: z.im + a.im };
+                let [re, im] = turned(x, t);
+                add(&mut input[bin], re, im);
             }
             let found = self.fft.run();
             for (row, z) in out.chunks_exact_mut(self.count).zip(found) {
                 let (fours, _) = row[LANES * four..LANES * (four + 1)].as_chunks_mut();
-                fours[0] = (T::Four::from(fours[0]) + (z.re * z.re + z.im * z.im)).into();
+                let [re, im] = parts::<T>(*z);
+                fours[0] = (T::Four::from(fours[0]) + (re * re + im * im)).into();
             }
         }
     }
@@ -136,6 +137,14 @@ impl<T: Real> LagTransforms<T> for Residues<T> {
 
 /// `x` times four numbers.
 #[inline(always)]
-fn turned<T: Real>(x: &Complex<T>, t: &Quad<T>) -> Quad<T> {
-    Quad { re: t.re * x.re - t.im * x.im, im: t.im * x.re + t.re * x.im }
+fn turned<T: Real>(x: &Complex<T>, t: &Quad<T>) -> [T::Four; 2] {
+    let [re, im] = parts::<T>(*t);
+    [re * x.re - im * x.im, im * x.re + re * x.im]
+}
+
+/// Adds to four numbers.
+#[inline(always)]
+fn add<T: Real>(sum: &mut Quad<T>, re: T::Four, im: T::Four) {
+    let [sum_re, sum_im] = parts::<T>(*sum);
+    *sum = quad::<T>(sum_re + re, sum_im + im);
 }

@@ -54,6 +54,7 @@ pub fn chain_options(arguments: &EstimateArguments) -> Result<ChainOptions, CliE
         _ => CfarAxes::Range,
     };
     Ok(ChainOptions {
+        threads: std::thread::available_parallelism().map_or(1, usize::from),
         range_doppler: RangeDopplerOptions {
             range_window: Window::named(&chain.range_window)?,
             doppler_window: Window::named(&chain.doppler_window)?,

@@ -14,7 +14,7 @@ mod side_by_side;
 
 pub use real::RealFft;
 use rustfft::{Fft, FftDirection, FftNum};
-pub use side_by_side::{Quad, SideBySide};
+pub use side_by_side::{Quad, SideBySide, parts, quad};
 use std::ops::{Add, Mul, Sub};
 use std::sync::Arc;
 

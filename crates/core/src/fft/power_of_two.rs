@@ -2,7 +2,6 @@
 //! transforms, four run side by side: every step of theirs is one on whole vectors.
 
 use super::Transforms;
-use super::side_by_side::Quad;
 use rustfft::num_complex::Complex;
 use rustfft::{Direction, Fft, FftDirection, Length};
 use std::f64::consts::TAU;
@@ -69,20 +68,6 @@ impl<T: Transforms> Point<T> for [Complex<T>; LANES] {
         let (re, im): ([T; LANES], [T; LANES]) = (re.into(), im.into());
         [(re[0], re[1]), (re[2], re[3]), (im[0], im[1]), (im[2], im[3])]
             .map(|(re, im)| Complex { re, im })
-    }
-}
-
-impl<T: Transforms> Point<T> for Quad<T> {
-    type Part = T::Four;
-
-    #[inline(always)]
-    fn parts(self) -> [T::Four; 2] {
-        [self.re, self.im]
-    }
-
-    #[inline(always)]
-    fn of([re, im]: [T::Four; 2]) -> Self {
-        Self { re, im }
     }
 }
 

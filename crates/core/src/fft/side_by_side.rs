@@ -1,24 +1,24 @@
 //! Four transforms at a time, for data that is made in that order.
 
 use super::Transforms;
-use super::power_of_two::{LANES, PowerOfTwo};
+use super::power_of_two::{LANES, Point, PowerOfTwo};
 use rustfft::FftDirection;
+use rustfft::num_complex::Complex;
 
-/// A number of each of four sequences.
-#[derive(Clone, Copy)]
-pub struct Quad<T: Transforms> {
-    /// Real parts.
-    pub re: T::Four,
-    /// Imaginary parts.
-    pub im: T::Four,
+/// A number of each of four sequences: four real parts, then four imaginary ones, in the memory of four
+/// complex numbers.
+pub type Quad<T> = [Complex<T>; LANES];
+
+/// Four numbers of these real and imaginary parts.
+#[inline(always)]
+pub fn quad<T: Transforms>(re: T::Four, im: T::Four) -> Quad<T> {
+    Point::of([re, im])
 }
 
-impl<T: Transforms> Quad<T> {
-    /// All zero.
-    pub fn zero() -> Self {
-        let zero = [T::zero(); LANES].into();
-        Self { re: zero, im: zero }
-    }
+/// The real and the imaginary parts of four numbers.
+#[inline(always)]
+pub fn parts<T: Transforms>(numbers: Quad<T>) -> [T::Four; 2] {
+    numbers.parts()
 }
 
 /// Forward transforms of four sequences side by side: `X[k] = sum x[n] exp(-2 pi j n k / length)` of each.
@@ -31,9 +31,10 @@ pub struct SideBySide<T: Transforms> {
 impl<T: Transforms> SideBySide<T> {
     /// Plans for sequences of `length` numbers; nothing unless that is a power of two.
     pub fn new(length: usize) -> Option<Self> {
+        let zero = [Complex::new(T::zero(), T::zero()); LANES];
         length.is_power_of_two().then(|| Self {
             transform: PowerOfTwo::new(length, FftDirection::Forward),
-            points: [vec![Quad::zero(); length], vec![Quad::zero(); length]],
+            points: [vec![zero; length], vec![zero; length]],
         })
     }
 
@@ -64,11 +65,11 @@ mod tests {
                 std::array::from_fn(|_| (0..length).map(|_| random.complex_normal(1.0)).collect());
             let mut fft = SideBySide::<f64>::new(length).unwrap();
             for (n, x) in fft.input().iter_mut().enumerate() {
-                x.re = [0, 1, 2, 3].map(|lane: usize| rows[lane][n].re).into();
-                x.im = [0, 1, 2, 3].map(|lane: usize| rows[lane][n].im).into();
+                let row = [0, 1, 2, 3].map(|lane: usize| rows[lane][n]);
+                *x = quad::<f64>(row.map(|z| z.re).into(), row.map(|z| z.im).into());
             }
             let found: Vec<[[f64; LANES]; 2]> =
-                fft.run().iter().map(|x| [x.re.into(), x.im.into()]).collect();
+                fft.run().iter().map(|&x| parts::<f64>(x).map(Into::into)).collect();
             for (lane, mut row) in rows.into_iter().enumerate() {
                 f64::plan_forward(length).process(&mut row);
                 for (x, expected) in found.iter().zip(&row) {
