@@ -235,15 +235,18 @@ class Steer(nn.Module):
             s.parts_im = torch.cat((beam_im, s.amplitude_im.unsqueeze(-1)), -1)
             own_re = beam_re[..., MIDDLE] + s.amplitude_re
             own_im = beam_im[..., MIDDLE] + s.amplitude_im
-            s.own = (own_re**2 + own_im**2 + 1e-12).sqrt()
+            s.own = (own_re**2 + own_im**2 + 1e-6).sqrt()
             cos, sin = (own_re / s.own).unsqueeze(-1), (own_im / s.own).unsqueeze(-1)
             turned_re = s.parts_re * cos + s.parts_im * sin
             turned_im = s.parts_im * cos - s.parts_re * sin
-            size = (turned_re**2 + turned_im**2 + 1e-12).sqrt()
+            size = (turned_re**2 + turned_im**2 + 1e-6).sqrt()
             compressed = (1 + 50 * size).log() / size
             left_over = s.left_over.clamp_min(1e-8)
             contrast = s.own / left_over.clamp_min(1e-4).sqrt()
-            more = (s.own.log(), left_over.log().expand_as(s.own), contrast, s.u)
+            likely = s.own.log()
+            # Spread over the queries by arithmetic: tract 0.23 fails on a concatenation of something expanded.
+            spread = likely - (likely - left_over.log())
+            more = (likely, spread, contrast, s.u)
             features = torch.cat(
                 (turned_re, turned_im, turned_re * compressed, turned_im * compressed, torch.stack(more, -1)), -1
             )

@@ -2,6 +2,7 @@
 
 from dataclasses import asdict, dataclass, replace
 from functools import partial
+from math import log
 from typing import Any, Protocol
 
 import torch
@@ -70,7 +71,7 @@ class AaetrTask:
         self.loss_config = SetLossConfig()
         self.positions = array("lrr48")
         self.batch, self.learning_rate = (32, 2e-3) if self.config.steered else (1024, 4e-4)
-        meaning = "sine of azimuth, magnitude in dB (20 log10), confidence from 0 to 1"
+        meaning = "sine of azimuth, amplitude at one element, confidence from 0 to 1"
         self.outputs = (Port("targets", ("batch", self.config.queries, 3), meaning),)
 
     def model(self):
@@ -115,7 +116,8 @@ class _Targets(nn.Module):
 
     def forward(self, snapshots, positions):
         sine, db, logit = self.model(snapshots, positions)[-1].split(1, -1)
-        return torch.cat((sine, db, logit.sigmoid()), -1)
+        # No dB: those of empty queries magnify rounding.
+        return torch.cat((sine, (db * (log(10) / 20)).exp(), logit.sigmoid()), -1)
 
 
 REGION = Port(

@@ -48,6 +48,7 @@ def test_an_aaetr_scores_what_its_card_says(path):
         targets, values, _ = snapshots(scenes, what.positions, 200, torch.Generator().manual_seed(number))
         feeds = {"snapshots": torch.view_as_real(values).numpy(), "positions": what.positions.float().numpy()}
         (answer,) = session_of(path).run(None, feeds)
-        u, db, confidence = torch.from_numpy(answer).unbind(-1)
+        u, amplitude, confidence = torch.from_numpy(answer).unbind(-1)
+        db = 20 * amplitude.log10()
         # Two standard deviations of a share of 0.99 in 400 targets are 0.01; F1 is at most as noisy.
         assert abs(best_f1(u.clamp(-1, 1).asin(), db, confidence, targets)["f1"] - condition["f1"]) < 0.02

@@ -33,6 +33,7 @@ OPERATORS = {
     "Cos",
     "Div",
     "Equal",
+    "Exp",
     "Expand",
     "Flatten",
     "Gather",
