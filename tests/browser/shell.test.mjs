@@ -47,6 +47,9 @@ browserTest('shell: every control and button has a name, and help that can be sh
   await page.locator('nav a', { hasText: 'Mounting angle' }).click();
   await page.waitForSelector('[data-plot="trajectory"]');
   assert.deepEqual(await nameless(), []);
+  await page.locator('nav a', { hasText: 'Bird’s-eye view' }).click();
+  await page.waitForSelector('[data-plot="image-iaa"]');
+  assert.deepEqual(await nameless(), []);
 });
 
 browserTest('shell: nonsense in the address falls back to what is sensible', { path: '#/angle?array=nothing&targets=x&snr=1e9&methods=magic&seed=-4' }, async ({ page }) => {
