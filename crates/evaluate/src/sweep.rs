@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::Write;
+use std::io::{Read, Write};
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -178,17 +178,18 @@ fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, Ev
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(failed("written"))?;
     }
-    let mut text = match std::fs::read_to_string(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
-        read => read.map_err(failed("read"))?,
-    };
-    text.truncate(whole_lines(&text).len());
     let mut file = OpenOptions::new()
         .create(true)
+        .read(true)
         .write(true)
         .truncate(false)
         .open(path)
         .map_err(failed("written"))?;
+    // Two runs would overwrite each other's records. The lock goes with the file.
+    file.try_lock().map_err(|error| failed("written")(error.into()))?;
+    let mut text = String::new();
+    file.read_to_string(&mut text).map_err(failed("read"))?;
+    text.truncate(whole_lines(&text).len());
     file.set_len(text.len() as u64).map_err(failed("written"))?;
     std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0)).map_err(failed("written"))?;
     let mut lines = text.lines().enumerate();
@@ -305,6 +306,20 @@ mod tests {
         std::fs::write(&path, "{\"seed\":1}\n{\"scene\":\"x\"}\n").unwrap();
         let broken = run(&sweep(&path, 0..2), Ok, go);
         assert!(matches!(broken, Err(EvaluateError::Record { line: 2, .. })), "{broken:?}");
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_file_that_a_run_writes_to_is_not_taken_by_another() {
+        let folder = folder("locked");
+        let path = folder.join("records.jsonl");
+        let go = |_| ControlFlow::Continue(());
+        let within = |scene| match run(&sweep(&path, 0..2), Ok, go) {
+            Err(EvaluateError::File { .. }) => Ok(scene),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(run(&sweep(&path, 0..2), within, go).unwrap().len(), 2);
+        assert_eq!(run(&sweep(&path, 0..2), Ok, go).unwrap().len(), 2);
         std::fs::remove_dir_all(folder).unwrap();
     }
 
