@@ -4,12 +4,12 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use boresight_aoa::options::{IaaForm, IaaOptions};
-use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+use boresight_aoa::{Data, Estimator, Estimators, Method, Options, SourceCount};
 use boresight_core::presets::preset;
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Direction, Random};
 use criterion::{Criterion, criterion_group, criterion_main};
-use ndarray::Array2;
+use ndarray::{Array2, Array3};
 use std::hint::black_box;
 
 fn estimators(criterion: &mut Criterion) {
@@ -29,6 +29,27 @@ fn estimators(criterion: &mut Criterion) {
         };
         criterion.bench_function(method.name(), |bencher| {
             bencher.iter(|| estimator.estimate(Data::Snapshots(black_box(y.view()))).unwrap());
+        });
+    }
+}
+
+/// 64 cells of IAA on the sparse long-range array, on one thread and on two.
+fn iaa_batch(criterion: &mut Criterion) {
+    let array = preset("lrr48").unwrap();
+    let mut random = Random::new(3, 0);
+    let directions = [-20.3f64, 5.2, 24.1].map(|deg| Direction::azimuth(deg.to_radians()));
+    let steering = steering_matrix(&array, &directions);
+    let mut cells = Array3::zeros((64, 48, 1));
+    for mut cell in cells.outer_iter_mut() {
+        let signals = Array2::from_shape_fn((3, 1), |_| random.complex_normal(1.0));
+        let noise = Array2::from_shape_fn((48, 1), |_| random.complex_normal(0.01));
+        cell.assign(&(steering.dot(&signals) + noise));
+    }
+    for threads in [1, 2] {
+        let mut estimators =
+            Estimators::new(Method::Iaa, &array, &Options::default(), threads).unwrap();
+        criterion.bench_function(&format!("iaa, lrr48, 64 cells, {threads} threads"), |bencher| {
+            bencher.iter(|| estimators.estimate_batch(black_box(cells.view()), false).unwrap());
         });
     }
 }
@@ -58,6 +79,6 @@ criterion_group! {
         .sample_size(30)
         .warm_up_time(std::time::Duration::from_millis(300))
         .measurement_time(std::time::Duration::from_secs(1));
-    targets = estimators, iaa_forms
+    targets = estimators, iaa_forms, iaa_batch
 }
 criterion_main!(benches);
