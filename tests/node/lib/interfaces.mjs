@@ -1,9 +1,11 @@
 // The fields that web/lib/*types.ts declare, so that tests can hold results against them.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, readdirSync } from 'node:fs';
 
-const source = ['types.ts', 'drive-types.ts', 'image-types.ts']
-  .map((name) => readFileSync(new URL(`../../../web/lib/${name}`, import.meta.url), 'utf8'))
+const folder = new URL('../../../web/lib/', import.meta.url);
+const source = readdirSync(folder)
+  .filter((name) => /^(.+-)?types\.ts$/.test(name))
+  .map((name) => readFileSync(new URL(name, folder), 'utf8'))
   .join('\n');
 
 /** Interface -> { required, optional } field names, with those of the interfaces it extends. */

@@ -6,8 +6,9 @@ import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import './plot.css';
 import { ticks } from './format.ts';
-import { drawSwatch, type Layer, type LayerContext, SWATCH } from './layers.ts';
+import type { Layer, LayerContext } from './layers.ts';
 import { navigate } from './navigate.ts';
+import { type LegendEntry, picture } from './picture.ts';
 import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
 
 export type Interval = readonly [number, number];
@@ -79,29 +80,6 @@ export interface PlotOptions {
   onView?(view: View, zoomed: boolean): void;
   /** Return true where the key was used. */
   onKey?(event: KeyboardEvent): boolean;
-}
-
-export interface LegendEntry {
-  label: string;
-  style: SeriesStyle;
-  line: boolean;
-  hollow?: boolean;
-}
-
-/** Where the entries of a legend go, row by row, from the widths of their labels. */
-function legendPlaces(widths: readonly number[], available: number, ratio: number): { x: number; row: number }[] {
-  let x = 0;
-  let row = 0;
-  return widths.map((width) => {
-    const size = width + (SWATCH.width + 22) * ratio;
-    if (x > 0 && x + size > available) {
-      x = 0;
-      row += 1;
-    }
-    const place = { x, row };
-    x += size;
-    return place;
-  });
 }
 
 const AXIS_WIDTH = 52;
@@ -214,43 +192,7 @@ export class Plot {
 
   /** The plot as an image with a heading, a legend and remarks, at the screen's resolution. */
   png(heading: string, legend: readonly LegendEntry[] = [], remarks: readonly string[] = []): Promise<Blob> {
-    const source = this.u.ctx.canvas;
-    const ratio = uPlot.pxRatio;
-    const theme = THEMES[this.#theme];
-    const canvas = document.createElement('canvas');
-    const ctx = canvas.getContext('2d');
-    if (!ctx) return Promise.reject(new Error('This browser gives no 2-D canvas to draw the image on.'));
-    const small = `${11 * ratio}px ${theme.font}`;
-    const margin = 12 * ratio;
-    const line = 17 * ratio;
-    ctx.font = small;
-    const places = legendPlaces(legend.map(({ label }) => ctx.measureText(label).width), source.width - 2 * margin, ratio);
-    const rows = (places.at(-1)?.row ?? -1) + 1 + remarks.length;
-    const top = 30 * ratio;
-    canvas.width = source.width;
-    canvas.height = source.height + top + (rows ? rows * line + 8 * ratio : 0);
-    ctx.fillStyle = theme.background;
-    ctx.fillRect(0, 0, canvas.width, canvas.height);
-    ctx.drawImage(source, 0, top);
-    ctx.textBaseline = 'middle';
-    ctx.fillStyle = theme.text;
-    ctx.font = `600 ${13 * ratio}px ${theme.font}`;
-    ctx.fillText(heading, margin, top / 2, canvas.width - 2 * margin);
-    ctx.font = small;
-    const rowY = (row: number): number => top + source.height + (row + 0.5) * line;
-    legend.forEach((entry, i) => {
-      const { x, row } = places[i] ?? { x: 0, row: 0 };
-      drawSwatch(ctx, entry, { x: margin + x, y: rowY(row), ratio }, theme, this.#theme);
-      ctx.fillStyle = theme.text;
-      ctx.fillText(entry.label, margin + x + (SWATCH.width + 5) * ratio, rowY(row));
-    });
-    ctx.fillStyle = theme.muted;
-    remarks.forEach((remark, i) => {
-      ctx.fillText(remark, margin, rowY(rows - remarks.length + i), canvas.width - 2 * margin);
-    });
-    return new Promise((resolve, reject) => {
-      canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser could not encode the image.'))), 'image/png');
-    });
+    return picture(this.u.ctx.canvas, { heading, legend, remarks, ratio: uPlot.pxRatio, theme: this.#theme });
   }
 
   destroy(): void {

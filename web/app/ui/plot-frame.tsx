@@ -2,7 +2,8 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
-import { type CursorPosition, type LegendEntry, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
+import type { LegendEntry } from '../plots/picture.ts';
+import { type CursorPosition, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
 import { download, fileName } from '../plots/save.ts';
 import { announce } from '../state/announce.ts';
 import { theme } from '../state/theme.ts';
