@@ -173,10 +173,12 @@ impl Estimator {
             .into());
         }
         check_all_finite("snapshots", snapshots)?;
+        let mut estimate = self.scratch.take().unwrap_or_else(|| Estimate::new(self.method()));
         for cell in snapshots.outer_iter() {
-            let estimate = self.estimate(Data::Snapshots(cell))?;
+            self.estimate_into(Data::Snapshots(cell), &mut estimate)?;
             out.add(&estimate, spectra);
         }
+        self.scratch = Some(estimate);
         Ok(())
     }
 }

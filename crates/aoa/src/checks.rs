@@ -95,13 +95,27 @@ impl LatticeAngles {
 /// report what stands out.
 pub(crate) fn conclude(
     method: Method,
-    mut sources: Vec<Source>,
+    sources: Vec<Source>,
     expected: Option<usize>,
     spectrum: Option<Spectrum>,
     iterations: usize,
-    mut warnings: Vec<Warning>,
+    warnings: Vec<Warning>,
 ) -> Estimate {
-    sources.sort_by(|a, b| b.power.total_cmp(&a.power));
+    let mut estimate =
+        Estimate { method, sources, spectrum, resolved: false, iterations, warnings };
+    settle(&mut estimate, expected);
+    estimate
+}
+
+/// Puts the sources of an estimate in order, and sets `resolved` and the warnings that follow from
+/// their number.
+pub(crate) fn settle(estimate: &mut Estimate, expected: Option<usize>) {
+    let Estimate { sources, warnings, .. } = estimate;
+    // Unlike a stable sort this allocates nothing; equal powers go by angle.
+    sources.sort_unstable_by(|a, b| {
+        let angles = a.direction.azimuth_rad.total_cmp(&b.direction.azimuth_rad);
+        b.power.total_cmp(&a.power).then(angles)
+    });
     let found = sources.len();
     match expected {
         Some(expected) if found < expected => {
@@ -110,6 +124,5 @@ pub(crate) fn conclude(
         _ if found == 0 => warnings.push(Warning::NoSources),
         _ => {}
     }
-    let resolved = found > 0 && expected.is_none_or(|expected| found >= expected);
-    Estimate { method, sources, spectrum, resolved, iterations, warnings }
+    estimate.resolved = found > 0 && expected.is_none_or(|expected| found >= expected);
 }

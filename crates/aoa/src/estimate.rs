@@ -15,16 +15,17 @@ pub struct Source {
 }
 
 /// What the values of a spectrum mean.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SpectrumKind {
     /// Power at one element.
+    #[default]
     Power,
     /// A pseudo-spectrum: its peaks tell angles, its height no power.
     Pseudo,
 }
 
 /// Values over a grid of angles.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Spectrum {
     /// Azimuths, rad, ascending.
     pub azimuth_rad: Vec<f64>,
@@ -123,4 +124,18 @@ pub struct Estimate {
     pub iterations: usize,
     /// What a reader should know.
     pub warnings: Vec<Warning>,
+}
+
+impl Estimate {
+    /// Nothing found.
+    pub fn new(method: Method) -> Self {
+        Self {
+            method,
+            sources: Vec::new(),
+            spectrum: None,
+            resolved: false,
+            iterations: 0,
+            warnings: Vec::new(),
+        }
+    }
 }

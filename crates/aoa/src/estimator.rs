@@ -27,6 +27,15 @@ pub trait Plan: Send {
     /// # Errors
     /// [`AoaError`] when the data does not suit the method.
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError>;
+
+    /// The same into an estimate whose memory is used again.
+    ///
+    /// # Errors
+    /// As [`Plan::estimate`].
+    fn estimate_into(&mut self, data: Data<'_>, out: &mut Estimate) -> Result<(), AoaError> {
+        *out = self.estimate(data)?;
+        Ok(())
+    }
 }
 
 /// An estimator ready to run on many cells.
@@ -35,6 +44,8 @@ pub struct Estimator {
     array: Array,
     plan: Box<dyn Plan>,
     refinement: Option<Refinement>,
+    /// What cells of a batch are estimated into.
+    pub(crate) scratch: Option<Estimate>,
 }
 
 impl Estimator {
@@ -47,7 +58,7 @@ impl Estimator {
         options.check()?;
         let plan = plan(method, array, options)?;
         let refinement = options.refine.then(|| Refinement::new(array, options)).transpose()?;
-        Ok(Self { method, array: array.clone(), plan, refinement })
+        Ok(Self { method, array: array.clone(), plan, refinement, scratch: None })
     }
 
     /// The method.
@@ -65,12 +76,22 @@ impl Estimator {
     /// # Errors
     /// [`AoaError`] when the data is malformed or does not suit the method.
     pub fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
-        data.check(self.array.len())?;
-        let mut estimate = self.plan.estimate(data)?;
-        if let Some(refinement) = &mut self.refinement {
-            refinement.apply(&mut estimate, data)?;
-        }
+        let mut estimate = Estimate::new(self.method);
+        self.estimate_into(data, &mut estimate)?;
         Ok(estimate)
+    }
+
+    /// Like [`Estimator::estimate`], into an estimate whose memory is used again.
+    ///
+    /// # Errors
+    /// As [`Estimator::estimate`]; then `out` holds nothing of use.
+    pub fn estimate_into(&mut self, data: Data<'_>, out: &mut Estimate) -> Result<(), AoaError> {
+        data.check(self.array.len())?;
+        self.plan.estimate_into(data, out)?;
+        match &mut self.refinement {
+            Some(refinement) => refinement.apply(out, data),
+            None => Ok(()),
+        }
     }
 }
 

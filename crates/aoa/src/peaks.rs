@@ -43,25 +43,32 @@ impl PeakFinder {
 
     /// Peaks within the dynamic range of the strongest, strongest first.
     pub fn find(&self, grid: &Grid, values: &[f64]) -> Vec<Peak> {
-        let mut peaks = self.maxima(grid, values);
+        let mut peaks = Vec::new();
+        self.find_into(grid, values, &mut peaks);
+        peaks
+    }
+
+    /// The same into a vector whose memory is used again.
+    pub fn find_into(&self, grid: &Grid, values: &[f64], peaks: &mut Vec<Peak>) {
+        self.maxima(grid, values, peaks);
         let floor = peaks.first().map_or(0.0, |peak| peak.value * self.range);
         peaks.retain(|peak| peak.value >= floor);
         peaks.truncate(self.most);
-        peaks
     }
 
     /// The `count` highest peaks, whatever their height.
     pub fn highest(&self, grid: &Grid, values: &[f64], count: usize) -> Vec<Peak> {
-        let mut peaks = self.maxima(grid, values);
+        let mut peaks = Vec::new();
+        self.maxima(grid, values, &mut peaks);
         peaks.truncate(count);
         peaks
     }
 
-    fn maxima(&self, grid: &Grid, values: &[f64]) -> Vec<Peak> {
+    fn maxima(&self, grid: &Grid, values: &[f64], peaks: &mut Vec<Peak>) {
         let azimuths = grid.azimuth_rad.len();
         let elevations = grid.elevation_rad.len();
         debug_assert_eq!(values.len(), azimuths * elevations);
-        let mut peaks = Vec::new();
+        peaks.clear();
         for e in 0..elevations {
             if elevations > 1 && (e == 0 || e + 1 == elevations) {
                 continue;
@@ -77,9 +84,8 @@ impl PeakFinder {
                 }
             }
         }
-        peaks.sort_by(|p, q| q.value.total_cmp(&p.value));
-        self.within_one_period(grid, &mut peaks);
-        peaks
+        peaks.sort_unstable_by(|p, q| q.value.total_cmp(&p.value).then(p.index.cmp(&q.index)));
+        self.within_one_period(grid, peaks);
     }
 
     /// Index of the azimuth beside `a`, if there is one.

@@ -243,7 +243,8 @@ impl<T: Real, F: LagTransforms<T>> Kernel for FastKernel<T, F> {
         self.take_snapshots(y, scale);
         self.numerator.fill(T::zero());
         for split in &self.snapshots[..self.count] {
-            self.solved.clone_from(split);
+            self.solved.re.copy_from_slice(&split.re);
+            self.solved.im.copy_from_slice(&split.im);
             scatter(&self.indices, &self.solved, &mut self.scattered);
             self.fourier.add_power(&self.scattered, &mut self.numerator);
         }

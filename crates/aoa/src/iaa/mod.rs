@@ -14,10 +14,10 @@ pub(crate) mod inverse;
 mod kernel;
 mod residues;
 
-use crate::checks::{ambiguity, check_array, conclude};
+use crate::checks::{ambiguity, check_array, settle};
 use crate::data::Data;
 use crate::error::AoaError;
-use crate::estimate::{Estimate, Source, Spectrum, SpectrumKind, Warning};
+use crate::estimate::{Estimate, Source, Warning};
 use crate::estimator::Plan;
 use crate::grid::Grid;
 use crate::method::Method;
@@ -42,6 +42,7 @@ pub(crate) struct Iaa {
     kernel: Box<dyn Kernel>,
     grid: Grid,
     finder: PeakFinder,
+    peaks: Vec<Peak>,
     ambiguity: Option<Warning>,
 }
 
@@ -78,6 +79,7 @@ impl Iaa {
             options: options.iaa,
             kernel,
             finder: PeakFinder::new(array, &grid, options),
+            peaks: Vec::new(),
             grid,
             ambiguity: ambiguity(array, options),
         })
@@ -133,38 +135,43 @@ impl Iaa {
 
 impl Plan for Iaa {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
+        let mut estimate = Estimate::new(Method::Iaa);
+        self.estimate_into(data, &mut estimate)?;
+        Ok(estimate)
+    }
+
+    fn estimate_into(&mut self, data: Data<'_>, out: &mut Estimate) -> Result<(), AoaError> {
         let Data::Snapshots(y) = data else {
             return Err(AoaError::NeedsSnapshots { method: Method::Iaa.name() });
         };
-        let mut warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
-        let mut iterations = 0;
-        let mut values = vec![0.0; self.grid.len()];
+        out.method = Method::Iaa;
+        out.iterations = 0;
+        out.warnings.clear();
+        out.warnings.extend(self.ambiguity.iter().cloned());
+        let spectrum = out.spectrum.get_or_insert_default();
+        spectrum.azimuth_rad.clone_from(&self.grid.azimuth_rad);
+        spectrum.elevation_rad.clone_from(&self.grid.elevation_rad);
+        let values = &mut spectrum.values;
+        values.clear();
+        values.resize(self.grid.len(), 0.0);
         if let Some(largest) = scale_of(y) {
-            let (loaded, done) = self.iterate(y, 1.0 / largest);
-            iterations = done;
-            warnings.extend(loaded.map(|share| Warning::Loaded { share }));
-            if done < self.options.iterations {
-                warnings.push(Warning::NotConverged { iterations });
+            let (loaded, iterations) = self.iterate(y, 1.0 / largest);
+            out.iterations = iterations;
+            out.warnings.extend(loaded.map(|share| Warning::Loaded { share }));
+            if iterations < self.options.iterations {
+                out.warnings.push(Warning::NotConverged { iterations });
             }
-            self.crop(largest, &mut values);
+            self.crop(largest, values);
         }
-        let sources = self
-            .finder
-            .find(&self.grid, &values)
-            .iter()
-            .map(|peak| Source {
-                direction: peak.direction,
-                power: top_power(&self.grid, &values, peak),
-                amplitude: None,
-            })
-            .collect();
-        let spectrum = Spectrum {
-            azimuth_rad: self.grid.azimuth_rad.clone(),
-            elevation_rad: self.grid.elevation_rad.clone(),
-            values,
-            kind: SpectrumKind::Power,
-        };
-        Ok(conclude(Method::Iaa, sources, None, Some(spectrum), iterations, warnings))
+        self.finder.find_into(&self.grid, values, &mut self.peaks);
+        out.sources.clear();
+        out.sources.extend(self.peaks.iter().map(|peak| Source {
+            direction: peak.direction,
+            power: top_power(&self.grid, values, peak),
+            amplitude: None,
+        }));
+        settle(out, None);
+        Ok(())
     }
 }
 
