@@ -28,14 +28,14 @@ pub fn precision_recall(report: &Report) -> Result<String, EvaluateError> {
     draw(&panels, 2)
 }
 
-/// Figure 5: largest F1 and the errors there, against the number of targets.
+/// Figure 5: what is missing of F1 at its largest, and the errors there, against the number of targets.
 ///
 /// # Errors
 /// [`EvaluateError::Figure`].
 pub fn scores(report: &Report) -> Result<String, EvaluateError> {
     type Value = fn(&MethodResult) -> Option<f64>;
     let rows: [(&str, Value); 3] = [
-        ("largest F1", |m| m.best.map(|best| best.f1)),
+        ("1 - largest F1", |m| m.best.map(|best| 1.0 - best.f1)),
         ("mean error of angle / deg", |m| m.best.map(|best| best.angle_error_deg)),
         ("mean error of power / dB", |m| m.best.map(|best| best.power_error_db)),
     ];
@@ -46,11 +46,13 @@ pub fn scores(report: &Report) -> Result<String, EvaluateError> {
                 title: format!("{snr_db} dB"),
                 x: "targets".into(),
                 y: label.into(),
-                axes: Axes::Linear,
+                axes: Axes::LogOrdinate,
                 y_limits: None,
                 series: lines(report, |k| {
-                    let point =
-                        |&n: &usize| Some((n as f64, report.at(n, snr_db, k).and_then(value)?));
+                    let point = |&n: &usize| {
+                        let value = report.at(n, snr_db, k).and_then(value)?;
+                        (value > 0.0).then_some((n as f64, value))
+                    };
                     TARGETS.iter().filter_map(point).collect()
                 }),
             });
