@@ -2,30 +2,17 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod support;
+
 use boresight_aoa::options::{IaaOptions, IaaPrecision};
 use boresight_aoa::{BatchEstimate, Estimator, Method, Options};
 use boresight_core::presets::preset;
-use boresight_simulate::snapshots::{
-    Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator,
-};
 
 const SCENES: usize = 40;
 
 fn estimates(precision: IaaPrecision, targets: usize, snr_db: f64) -> BatchEstimate {
     let array = preset("lrr48").unwrap();
-    let sampling = SceneSampling { targets: [targets; 2], ..SceneSampling::default() };
-    let simulator = SnapshotSimulator::new(
-        &array,
-        &SnapshotOptions {
-            scene: Scene::Sampled(sampling),
-            snr_db,
-            snapshots: 1,
-            fluctuation: Fluctuation::RandomPhase,
-            imperfections: None,
-            seed: 92,
-        },
-    )
-    .unwrap();
+    let simulator = support::random_scenes(&array, targets, snr_db, 92);
     let iaa = IaaOptions { precision, ..Options::default().iaa };
     let options = Options { iaa, ..Options::default() };
     let mut estimator = Estimator::new(Method::Iaa, &array, &options).unwrap();

@@ -2,11 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod support;
+
 use boresight_aoa::{Data, Estimator, Method, Options};
 use boresight_core::presets::preset;
-use boresight_simulate::snapshots::{
-    Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator,
-};
 
 const SCENES: u64 = 200;
 const WITHIN_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
@@ -16,19 +15,7 @@ const WITHIN_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
 /// found.
 fn best_f1(targets: usize, snr_db: f64) -> f64 {
     let array = preset("lrr48").unwrap();
-    let sampling = SceneSampling { targets: [targets; 2], ..SceneSampling::default() };
-    let simulator = SnapshotSimulator::new(
-        &array,
-        &SnapshotOptions {
-            scene: Scene::Sampled(sampling),
-            snr_db,
-            snapshots: 1,
-            fluctuation: Fluctuation::RandomPhase,
-            imperfections: None,
-            seed: 91,
-        },
-    )
-    .unwrap();
+    let simulator = support::random_scenes(&array, targets, snr_db, 91);
     let options = Options {
         grid_points: 2048,
         field_of_view_rad: 60.0_f64.to_radians(),

@@ -2,7 +2,7 @@
 
 use crate::array::geometry;
 use crate::bytes::Bytes;
-use crate::chain::{read_angle, read_chain};
+use crate::chain::{read_angle, read_chain, read_cube_chain};
 use crate::complex::Cube;
 use crate::config::{config_record, read_config};
 use crate::error::{BindingError, Fallible};
@@ -13,7 +13,7 @@ use crate::report::reporter;
 use crate::write::{Record, complex64, list, remarks};
 use boresight_aoa::Method;
 use boresight_core::error::check_range;
-use boresight_core::{Array, Complex64, Waveform};
+use boresight_core::{Array, Complex64};
 use boresight_formats::{self as formats, RadarConfig};
 use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameCells, FrameSource};
 use js_sys::Function;
@@ -218,14 +218,7 @@ pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array
         let expected = "[frames, loops, transmitters, receivers, samples]";
         return Err(shape_error("cube", expected, &cube.shape));
     };
-    let mut fields = Fields::new(options, "")?;
-    let waveform: Waveform = fields.required("waveform")?;
-    let (array, options) = read_chain(&mut fields)?;
-    fields.finish()?;
-    let array = array.ok_or_else(|| BindingError::Missing {
-        what: "array".into(),
-        expected: Array::EXPECTED.into(),
-    })?;
+    let (waveform, array, options) = read_cube_chain(options)?;
     let shape = (frames, loops, transmitters, receivers, samples);
     let source = CubeFrames(
         ArrayView5::from_shape(shape, &cube.data)

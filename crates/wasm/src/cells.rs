@@ -1,16 +1,16 @@
 //! Detected cells of a frame, for estimating their angles elsewhere.
 
 use crate::capture::Capture;
-use crate::chain::{read_angle, read_chain};
+use crate::chain::{read_angle, read_cube_chain};
 use crate::complex::Cube;
-use crate::error::{BindingError, Fallible};
+use crate::error::Fallible;
 use crate::estimate::shape_error;
 use crate::frames::counts_record;
 use crate::read::{Fields, Read};
 use crate::write::{Record, complex64, finite_db, float64, list};
 use boresight_aoa::Method;
 use boresight_core::units::power_to_db;
-use boresight_core::{Array, Waveform};
+use boresight_core::Array;
 use boresight_pipeline::{Chain, DetectedCell, FrameCells, suited};
 use js_sys::Uint32Array;
 use ndarray::ArrayView4;
@@ -21,14 +21,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// without an axis of frames before.
 #[wasm_bindgen(js_name = frameCells)]
 pub fn frame_cells(cube: &JsValue, options: &JsValue) -> Fallible<JsValue> {
-    let mut fields = Fields::new(options, "")?;
-    let waveform: Waveform = fields.required("waveform")?;
-    let (array, options) = read_chain(&mut fields)?;
-    fields.finish()?;
-    let array = array.ok_or_else(|| BindingError::Missing {
-        what: "array".into(),
-        expected: Array::EXPECTED.into(),
-    })?;
+    let (waveform, array, options) = read_cube_chain(options)?;
     let cube = Cube::read(cube, "cube")?;
     let expected = "[loops, transmitters, receivers, samples], or that after one frame";
     let wrong = || shape_error("cube", expected, &cube.shape);

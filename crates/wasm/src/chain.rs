@@ -1,13 +1,26 @@
 //! Options of the chain from frames to detections.
 
-use crate::error::Fallible;
+use crate::error::{BindingError, Fallible};
 use crate::options::read_options;
 use crate::read::{Angle, Fields, Read, choice};
 use boresight_aoa::{Method, Options};
-use boresight_core::Array;
+use boresight_core::{Array, Waveform};
 use boresight_pipeline::ChainOptions;
 use boresight_signal::{CfarAxes, CfarKind, CfarOptions, Region, Window};
 use wasm_bindgen::JsValue;
+
+/// Reads the options of the chain over a cube, of which nothing else is known.
+pub fn read_cube_chain(options: &JsValue) -> Fallible<(Waveform, Array, ChainOptions)> {
+    let mut fields = Fields::new(options, "")?;
+    let waveform = fields.required("waveform")?;
+    let (array, options) = read_chain(&mut fields)?;
+    fields.finish()?;
+    let array = array.ok_or_else(|| BindingError::Missing {
+        what: "array".into(),
+        expected: Array::EXPECTED.into(),
+    })?;
+    Ok((waveform, array, options))
+}
 
 /// Reads the options of the chain, and the array where one is named.
 pub fn read_chain(fields: &mut Fields) -> Fallible<(Option<Array>, ChainOptions)> {

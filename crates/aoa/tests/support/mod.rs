@@ -5,6 +5,9 @@
 use boresight_aoa::{Estimate, Estimator, Method, Options, SourceCount};
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Direction, Random};
+use boresight_simulate::snapshots::{
+    Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator,
+};
 use ndarray::Array2;
 
 /// Directions in the horizontal plane from degrees.
@@ -27,6 +30,20 @@ pub fn scene(
     let noise =
         Array2::from_shape_fn((array.len(), snapshots), |_| random.complex_normal(noise_power));
     steering_matrix(array, directions).dot(&signals) + noise
+}
+
+/// Single snapshots of targets within 13 dB at random azimuths.
+pub fn random_scenes(array: &Array, targets: usize, snr_db: f64, seed: u64) -> SnapshotSimulator {
+    let sampling = SceneSampling { targets: [targets; 2], ..SceneSampling::default() };
+    let options = SnapshotOptions {
+        scene: Scene::Sampled(sampling),
+        snr_db,
+        snapshots: 1,
+        fluctuation: Fluctuation::RandomPhase,
+        imperfections: None,
+        seed,
+    };
+    SnapshotSimulator::new(array, &options).unwrap()
 }
 
 /// Options for a known number of sources.
