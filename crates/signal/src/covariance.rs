@@ -16,12 +16,12 @@ const ROWS: usize = 2;
 /// elements, exactly Hermitian with a real diagonal. Zero where there are no snapshots.
 pub fn sample_covariance(snapshots: ArrayView2<Complex64>) -> Array2<Complex64> {
     let (elements, count) = snapshots.dim();
-    let rows = split_rows(snapshots);
+    let rows = Rows::of(snapshots);
     let scale = 1.0 / count.max(1) as f64;
     let mut covariance = Array2::zeros((elements, elements));
-    for (i, left) in rows.chunks_exact(ROWS).enumerate() {
-        for (k, right) in rows.chunks_exact(ROWS).enumerate().take(i + 1) {
-            let products = inner_products(left, right);
+    for i in 0..elements.div_ceil(ROWS) {
+        for k in 0..=i {
+            let products = inner_products(&rows, i * ROWS, k * ROWS);
             for (row, products) in products.iter().enumerate() {
                 for (column, value) in products.iter().enumerate() {
                     let at = [i * ROWS + row, k * ROWS + column];
@@ -38,37 +38,44 @@ pub fn sample_covariance(snapshots: ArrayView2<Complex64>) -> Array2<Complex64> 
     covariance
 }
 
-/// A row of snapshots, real and imaginary parts apart.
-#[derive(Clone, Default)]
-struct Row {
+/// Rows of snapshots, real and imaginary parts apart, one after the other.
+struct Rows {
     re: Vec<f64x2>,
     im: Vec<f64x2>,
+    /// Groups of lanes in a row.
+    groups: usize,
 }
 
-/// The rows of a matrix, filled up with zeros to whole groups of lanes and of rows.
-fn split_rows(matrix: ArrayView2<Complex64>) -> Vec<Row> {
-    let groups = matrix.ncols().div_ceil(LANES);
-    let zero = Row { re: vec![f64x2::ZERO; groups], im: vec![f64x2::ZERO; groups] };
-    let mut rows = vec![zero; matrix.nrows().next_multiple_of(ROWS)];
-    for (from, to) in matrix.outer_iter().zip(&mut rows) {
-        for (g, (re, im)) in to.re.iter_mut().zip(&mut to.im).enumerate() {
-            let z = from[g * LANES];
-            let next = from.get(g * LANES + 1).copied().unwrap_or(Complex64::ZERO);
-            (*re, *im) = (f64x2::new([z.re, next.re]), f64x2::new([z.im, next.im]));
+impl Rows {
+    /// The rows of a matrix, filled up with zeros to whole groups of lanes and of rows.
+    fn of(matrix: ArrayView2<Complex64>) -> Self {
+        let groups = matrix.ncols().div_ceil(LANES);
+        let all = groups * matrix.nrows().next_multiple_of(ROWS);
+        let (mut re, mut im) = (vec![f64x2::ZERO; all], vec![f64x2::ZERO; all]);
+        for (k, from) in matrix.outer_iter().enumerate() {
+            let row = k * groups..(k + 1) * groups;
+            for (g, (re, im)) in re[row.clone()].iter_mut().zip(&mut im[row]).enumerate() {
+                let z = from[g * LANES];
+                let next = from.get(g * LANES + 1).copied().unwrap_or(Complex64::ZERO);
+                (*re, *im) = (f64x2::new([z.re, next.re]), f64x2::new([z.im, next.im]));
+            }
         }
+        Self { re, im, groups }
     }
-    rows
+
+    /// Real and imaginary parts of row `k`.
+    fn row(&self, k: usize) -> impl Iterator<Item = (&f64x2, &f64x2)> {
+        let row = k * self.groups..(k + 1) * self.groups;
+        self.re[row.clone()].iter().zip(&self.im[row])
+    }
 }
 
-/// `sum x conj(y)` for every `x` of one group of rows and `y` of another.
-fn inner_products(x: &[Row], y: &[Row]) -> [[Complex64; ROWS]; ROWS] {
-    let ([x0, x1], [y0, y1]) = (x, y) else {
-        return [[Complex64::ZERO; ROWS]; ROWS];
-    };
+/// `sum x conj(y)` for every `x` of the group of rows that begins with one and `y` of another.
+fn inner_products(rows: &Rows, x: usize, y: usize) -> [[Complex64; ROWS]; ROWS] {
     let mut re = [f64x2::ZERO; ROWS * ROWS];
     let mut im = [f64x2::ZERO; ROWS * ROWS];
-    let left = x0.re.iter().zip(&x0.im).zip(x1.re.iter().zip(&x1.im));
-    let right = y0.re.iter().zip(&y0.im).zip(y1.re.iter().zip(&y1.im));
+    let left = rows.row(x).zip(rows.row(x + 1));
+    let right = rows.row(y).zip(rows.row(y + 1));
     for (((&ar, &ai), (&br, &bi)), ((&cr, &ci), (&dr, &di))) in left.zip(right) {
         re[0] = re[0] + ar * cr + ai * ci;
         im[0] = im[0] + ai * cr - ar * ci;
