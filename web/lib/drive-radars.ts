@@ -53,7 +53,7 @@ export function jointTaskOf(view: View, options: JointCalibrationOptions | undef
 type RadarOptions = Record<'sensor' | 'xM' | 'yM' | 'nominalDeg', unknown>;
 
 /** A copy of options; undefined for null. */
-function own<T extends object>(options: T | undefined, what: string): { [K in keyof T]?: unknown } {
+export function own<T extends object>(options: T | undefined, what: string): { [K in keyof T]?: unknown } {
   if (options === undefined) return {};
   if (typeof options !== 'object' || options === null || Array.isArray(options)) throw wrong(what, 'an object', options);
   try {

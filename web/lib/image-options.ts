@@ -1,6 +1,8 @@
+import { own } from './drive-radars.js';
 import type { CubeChainOptions, ImageFrameOptions } from './types.js';
 
 /** Options of the chain alone. */
-export function chainOf({ from: _from, grid: _grid, ...options }: ImageFrameOptions): CubeChainOptions {
-  return { peakGrouping: false, maxDetections: 4096, ...options };
+export function chainOf(options: ImageFrameOptions): CubeChainOptions {
+  const { from: _from, grid: _grid, ...chain } = own(options, 'options') as unknown as ImageFrameOptions;
+  return { peakGrouping: false, maxDetections: 4096, ...chain };
 }

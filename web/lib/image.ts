@@ -1,12 +1,14 @@
 import * as glue from '../wasm/boresight.js';
 import { waveformSummary } from './config.js';
+import { own } from './drive-radars.js';
+import { wrong } from './drive-view.js';
 import { Estimator, methods } from './estimate.js';
 import { chainOf } from './image-options.js';
 import { call } from './instance.js';
 import type {
-  BirdsEyeView, BirdsEyeViewInput, ComplexData, CubeChainOptions, FrameCells, Gate, ImageFrame, ImageFrameOptions,
-  ImagePlan, RangeAzimuthMap, RangeAzimuthMapInput, SidelobeMeasure, SimulatedStreet, SimulateStreetOptions,
-  StreetOptions, StreetScene,
+  AngleOptions, BirdsEyeView, BirdsEyeViewInput, ComplexData, CubeChainOptions, FrameCells, Gate, ImageFrame, ImageFrameOptions,
+  ImagePlan, MapGrid, RangeAzimuthMap, RangeAzimuthMapInput, SidelobeMeasure, SimulatedStreet, SimulateStreetOptions,
+  StreetOptions, StreetScene, Waveform,
 } from './types.js';
 
 /** Azimuths of a map where none are asked for, and how far to each side. */
@@ -49,8 +51,13 @@ export function sidelobeMeasure(
 
 /** What options of an image mean: the estimator, what of it goes into the map, and the map's grid. */
 export function imagePlan(options: ImageFrameOptions): ImagePlan {
-  const { waveform, array, angle, from, grid } = options;
-  const method = angle?.method ?? 'bartlett';
+  const given = own(options, 'options') as unknown as ImageFrameOptions;
+  const { array, from } = given;
+  const waveform = own(given.waveform, 'waveform') as unknown as Waveform;
+  const angle = own(given.angle ?? undefined, 'angle') as AngleOptions;
+  const grid = own(given.grid ?? undefined, 'grid') as Partial<MapGrid>;
+  if (from != null && from !== 'spectra' && from !== 'targets') throw wrong('from', "'spectra' or 'targets'", from);
+  const method = angle.method ?? 'bartlett';
   const suited = call(() => glue.suitedAngle(array, angle) as { dynamicRangeDb: number; loading: number });
   const { rangeResolutionM } = waveformSummary(waveform);
   const hasSpectrum = methods().some(({ name, spectrum }) => name === method && spectrum);
