@@ -1,6 +1,6 @@
 // Which radars of a drive are calibrated, and how each sits on the car.
-import { failure } from './errors.js';
-import { type View, gapOf, positive, wrong } from './drive-view.js';
+import { type View, gapOf, positive } from './drive-view.js';
+import { failure, own, wrong } from './errors.js';
 import type { CalibrateDriveOptions, CalibrationOptions, DriveSensor, JointCalibrationOptions } from './types.js';
 
 /** A radar with its options as {@link Calibration} takes them. */
@@ -51,17 +51,6 @@ export function jointTaskOf(view: View, options: JointCalibrationOptions | undef
 }
 
 type RadarOptions = Record<'sensor' | 'xM' | 'yM' | 'nominalDeg', unknown>;
-
-/** A copy of options; undefined for null. */
-export function own<T extends object>(options: T | undefined, what: string): { [K in keyof T]?: unknown } {
-  if (options === undefined) return {};
-  if (typeof options !== 'object' || options === null || Array.isArray(options)) throw wrong(what, 'an object', options);
-  try {
-    return { ...options };
-  } catch (cause) {
-    throw failure('wrong-type', { what, expected: 'an object', given: 'one with a property that throws' }, cause);
-  }
-}
 
 function settings({ historyS, maxGapS, weights }: { historyS?: unknown; maxGapS?: unknown; weights?: unknown }): {
   historyS: number;

@@ -1,5 +1,5 @@
 // The parts of a drive, checked: drives come from anywhere.
-import { type BoresightError, failure } from './errors.js';
+import { failure, wrong } from './errors.js';
 import type { DriveData, DriveFrame, DriveSensor, MotionGap } from './types.js';
 
 export type Floats = Float32Array | Float64Array;
@@ -71,11 +71,6 @@ export class Reader {
 }
 
 export const floats: readonly (new (length: number) => Floats)[] = [Float64Array, Float32Array];
-
-export function wrong(what: string, expected: string, value: unknown): BoresightError {
-  const given = value === null ? 'null' : Array.isArray(value) ? `an array of ${value.length}` : typeof value;
-  return failure('wrong-type', { what, expected, given: typeof value === 'number' ? String(value) : given });
-}
 
 /** The parts of a drive; throws where a type or a length is wrong. */
 export function viewOf(drive: DriveData): View {

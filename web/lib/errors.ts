@@ -49,3 +49,20 @@ export function failure(code: string, details: ErrorDetails, cause?: unknown): B
   const message = `${what} is ${given}; expected ${expected}`;
   return new BoresightError(code, message, details, cause === undefined ? undefined : { cause });
 }
+
+/** For a value of another type than expected. */
+export function wrong(what: string, expected: string, value: unknown): BoresightError {
+  const given = value === null ? 'null' : Array.isArray(value) ? `an array of ${value.length}` : typeof value;
+  return failure('wrong-type', { what, expected, given: typeof value === 'number' ? String(value) : given });
+}
+
+/** A copy of options; none of them where there are no options. */
+export function own<T extends object>(options: T | undefined, what: string): { [K in keyof T]?: unknown } {
+  if (options === undefined) return {};
+  if (typeof options !== 'object' || options === null || Array.isArray(options)) throw wrong(what, 'an object', options);
+  try {
+    return { ...options };
+  } catch (cause) {
+    throw failure('wrong-type', { what, expected: 'an object', given: 'one with a property that throws' }, cause);
+  }
+}

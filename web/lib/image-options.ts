@@ -1,4 +1,4 @@
-import { own } from './drive-radars.js';
+import { own } from './errors.js';
 import type { CubeChainOptions, ImageFrameOptions } from './types.js';
 
 /** Options of the chain alone. */

@@ -1,7 +1,6 @@
 import * as glue from '../wasm/boresight.js';
 import { waveformSummary } from './config.js';
-import { own } from './drive-radars.js';
-import { wrong } from './drive-view.js';
+import { own, wrong } from './errors.js';
 import { Estimator, methods } from './estimate.js';
 import { chainOf } from './image-options.js';
 import { call } from './instance.js';

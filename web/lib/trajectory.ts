@@ -1,7 +1,7 @@
 import * as glue from '../wasm/boresight.js';
 import { frameVerdicts } from './drive-calibration.js';
-import { type Floats, Reader, ascending, floats, interpolate, positive, wrong } from './drive-view.js';
-import { failure } from './errors.js';
+import { type Floats, Reader, ascending, floats, interpolate, positive } from './drive-view.js';
+import { failure, wrong } from './errors.js';
 import { call } from './instance.js';
 import type { CalibratedFrames, Trajectory, TrajectoryOptions } from './types.js';
 

@@ -9,7 +9,8 @@
 //! and that stand out of what is left are added as NOMP does, since they would bias all others.
 //! What comes out reaches the Cramer-Rao bound where targets stand apart.
 
-use crate::cosines::{Geometry, Point};
+use crate::checks::settle;
+use crate::cosines::Point;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Warning};
@@ -20,8 +21,6 @@ use boresight_core::{Array, Direction};
 
 /// A refinement prepared for one array.
 pub struct Refinement {
-    array: Array,
-    geometry: Geometry,
     nomp: Nomp,
 }
 
@@ -32,8 +31,7 @@ impl Refinement {
     /// As [`crate::Estimator::new`] for NOMP.
     pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
         options.check()?;
-        let nomp = Nomp::new(array, options)?;
-        Ok(Self { array: array.clone(), geometry: Geometry::new(array), nomp })
+        Ok(Self { nomp: Nomp::new(array, options)? })
     }
 
     /// Refines `directions`, strongest first, on snapshots or a covariance. Returns the sources that
@@ -47,13 +45,13 @@ impl Refinement {
         directions: &[Direction],
         data: Data<'_>,
     ) -> Result<Vec<Source>, AoaError> {
-        data.check(self.array.len())?;
+        let elements = self.nomp.geometry.elements();
+        data.check(elements)?;
         for direction in directions {
             direction.check()?;
         }
-        let most = self.array.len() / 2;
-        let points: Vec<Point> =
-            directions.iter().take(most).map(|&d| self.geometry.point(d)).collect();
+        let most = directions.iter().take(elements / 2);
+        let points: Vec<Point> = most.map(|&d| self.nomp.geometry.point(d)).collect();
         let points = match data {
             Data::Snapshots(y) => match Normalised::new(y) {
                 Some(normalised) => self.nomp.complete(&normalised, points),
@@ -72,13 +70,10 @@ impl Refinement {
     ) -> Result<(), AoaError> {
         let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
         estimate.sources = self.refine(&directions, data)?;
-        estimate.sources.sort_by(|a, b| b.power.total_cmp(&a.power));
-        let nothing = estimate.sources.is_empty();
-        estimate.resolved &= !nothing;
         estimate.warnings.retain(|warning| *warning != Warning::NoSources);
-        if nothing {
-            estimate.warnings.push(Warning::NoSources);
-        }
+        let resolved = estimate.resolved;
+        settle(estimate, None);
+        estimate.resolved &= resolved;
         Ok(())
     }
 }

@@ -68,6 +68,29 @@ pub trait Report: Serialize {
     }
 }
 
+/// Trials of numbered conditions, a scene of a sweep holding some trials of one condition.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Trials {
+    /// Trials a condition.
+    pub each: u64,
+    /// Most trials a scene.
+    pub chunk: u64,
+}
+
+impl Trials {
+    /// Number of scenes of `conditions` conditions.
+    pub fn scenes(self, conditions: usize) -> u64 {
+        self.each.div_ceil(self.chunk) * conditions as u64
+    }
+
+    /// Condition, first trial and number of trials of a scene.
+    pub fn of(self, scene: u64) -> (usize, u64, u64) {
+        let scenes = self.each.div_ceil(self.chunk);
+        let first = scene % scenes * self.chunk;
+        ((scene / scenes) as usize, first, self.chunk.min(self.each - first))
+    }
+}
+
 /// How to run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct How<'a> {
@@ -131,4 +154,24 @@ pub(crate) fn setup<E: Experiment>(options: &E, plan: &E::Plan) -> Value {
         "methods": E::methods(plan),
         "options": options,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_hold_every_trial_of_every_condition_once() {
+        for (each, chunk) in [(1, 250), (250, 250), (251, 250), (1050, 21), (7, 3)] {
+            let trials = Trials { each, chunk };
+            let mut next = vec![0; 3];
+            for scene in 0..trials.scenes(3) {
+                let (condition, first, count) = trials.of(scene);
+                assert_eq!(first, next[condition]);
+                assert!((1..=chunk).contains(&count));
+                next[condition] += count;
+            }
+            assert_eq!(next, [each; 3]);
+        }
+    }
 }

@@ -47,7 +47,7 @@ const EXHAUSTED: f64 = 1e-24;
 /// NOMP prepared for one array.
 pub(crate) struct Nomp {
     array: Array,
-    geometry: Geometry,
+    pub geometry: Geometry,
     options: NompOptions,
     spectrum: QuadraticSpectrum,
     volumes: Volumes,

@@ -9,7 +9,7 @@ pub use report::Report;
 pub use score::Score;
 
 use crate::EvaluateError;
-use crate::experiment::Experiment;
+use crate::experiment::{Experiment, Trials};
 use boresight_core::Array;
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
@@ -81,13 +81,12 @@ impl Experiment for Options {
     }
 
     fn scenes(&self) -> u64 {
-        self.chunks() * (TARGETS.len() * SNRS_DB.len()) as u64
+        self.split().scenes(TARGETS.len() * SNRS_DB.len())
     }
 
     fn scene(&self, plan: &cell::Plan, number: u64) -> Result<cell::Record, EvaluateError> {
-        let chunks = self.chunks();
-        let (index, first) = ((number / chunks) as usize, number % chunks * CHUNK);
-        plan.run(index, Condition::all()[index], first, CHUNK.min(self.trials - first))
+        let (index, first, trials) = self.split().of(number);
+        plan.run(index, Condition::all()[index], first, trials)
     }
 
     fn report(&self, plan: &cell::Plan, records: impl Iterator<Item = cell::Record>) -> Report {
@@ -96,8 +95,7 @@ impl Experiment for Options {
 }
 
 impl Options {
-    /// Records a condition.
-    fn chunks(&self) -> u64 {
-        self.trials.div_ceil(CHUNK)
+    fn split(&self) -> Trials {
+        Trials { each: self.trials, chunk: CHUNK }
     }
 }

@@ -13,7 +13,7 @@ pub mod trial;
 pub use report::Report;
 
 use crate::EvaluateError;
-use crate::experiment::Experiment;
+use crate::experiment::{Experiment, Trials};
 use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Waveform};
@@ -90,8 +90,8 @@ pub struct Options {
 }
 
 impl Options {
-    fn chunks(&self) -> u64 {
-        self.trials.div_ceil(CHUNK)
+    fn split(&self) -> Trials {
+        Trials { each: self.trials, chunk: CHUNK }
     }
 }
 
@@ -111,13 +111,12 @@ impl Experiment for Options {
     }
 
     fn scenes(&self) -> u64 {
-        self.chunks() * (Targets::ALL.len() * SNRS_DB.len()) as u64
+        self.split().scenes(Targets::ALL.len() * SNRS_DB.len())
     }
 
     fn scene(&self, plan: &Plan, number: u64) -> Result<Record, EvaluateError> {
-        let chunks = self.chunks();
-        let (condition, first) = ((number / chunks) as usize, number % chunks * CHUNK);
-        plan.run(condition, first, CHUNK.min(self.trials - first))
+        let (condition, first, trials) = self.split().of(number);
+        plan.run(condition, first, trials)
     }
 
     fn report(&self, plan: &Plan, records: impl Iterator<Item = Record>) -> Report {

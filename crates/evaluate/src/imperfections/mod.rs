@@ -9,7 +9,7 @@ pub use report::Report;
 
 use crate::EvaluateError;
 use crate::aoa::{self, Condition, SNRS_DB, cell};
-use crate::experiment::Experiment;
+use crate::experiment::{Experiment, Trials};
 use boresight_core::CoreError;
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
@@ -96,8 +96,8 @@ pub struct Options {
 }
 
 impl Options {
-    fn chunks(&self) -> u64 {
-        self.trials.div_ceil(CHUNK)
+    fn split(&self) -> Trials {
+        Trials { each: self.trials, chunk: CHUNK }
     }
 }
 
@@ -138,16 +138,14 @@ impl Experiment for Options {
     }
 
     fn scenes(&self) -> u64 {
-        (settings().len() * NUMBERS.len()) as u64 * self.chunks()
+        self.split().scenes(settings().len() * NUMBERS.len())
     }
 
     /// The condition of a record counts settings, then numbers of targets.
     fn scene(&self, plan: &Self::Plan, number: u64) -> Result<cell::Record, EvaluateError> {
-        let chunks = self.chunks();
-        let (index, first) = ((number / chunks) as usize, number % chunks * CHUNK);
+        let (index, first, trials) = self.split().of(number);
         let condition = Condition { targets: NUMBERS[index % NUMBERS.len()], snr_db: self.snr_db };
         let there = Condition::all().iter().position(|c| *c == condition).unwrap_or(0);
-        let trials = CHUNK.min(self.trials - first);
         let record = plan[index / NUMBERS.len()].run(there, condition, first, trials)?;
         Ok(cell::Record { condition: index, ..record })
     }

@@ -13,7 +13,7 @@ pub mod trial;
 pub use report::Report;
 
 use crate::EvaluateError;
-use crate::experiment::Experiment;
+use crate::experiment::{Experiment, Trials};
 use boresight_core::error::check_range;
 use serde::{Deserialize, Serialize};
 use trial::{Plan, Record};
@@ -40,8 +40,8 @@ pub struct Options {
 }
 
 impl Options {
-    fn chunks(&self) -> u64 {
-        self.trials.div_ceil(CHUNK)
+    fn split(&self) -> Trials {
+        Trials { each: self.trials, chunk: CHUNK }
     }
 
     /// Numbers of conditions: snapshots, signal-to-noise ratios, separations.
@@ -85,13 +85,12 @@ impl Experiment for Options {
     }
 
     fn scenes(&self) -> u64 {
-        self.chunks() * self.conditions().count() as u64
+        self.split().scenes(self.conditions().count())
     }
 
     fn scene(&self, plan: &Plan, number: u64) -> Result<Record, EvaluateError> {
-        let chunks = self.chunks();
-        let (condition, first) = ((number / chunks) as usize, number % chunks * CHUNK);
-        plan.run(condition, first, CHUNK.min(self.trials - first))
+        let (condition, first, trials) = self.split().of(number);
+        plan.run(condition, first, trials)
     }
 
     fn report(&self, plan: &Plan, records: impl Iterator<Item = Record>) -> Report {
