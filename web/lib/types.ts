@@ -2,10 +2,13 @@
  * Options and results of the package. Angles are in degrees, all else in SI units; the unit is in
  * the name. Azimuth is positive to the left of boresight, range rate positive when receding.
  */
+import type { NetworkMethod } from './neural-types.js';
+
 export type * from './calibration-types.js';
 export type * from './capture-types.js';
 export type * from './drive-types.js';
 export type * from './image-types.js';
+export type * from './neural-types.js';
 export type * from './simulation-types.js';
 
 /** Interleaved [re, im] numbers in C order with their shape (complex numbers, not floats). */
@@ -56,7 +59,8 @@ export interface Imperfections {
 
 export type Method =
   | 'bartlett' | 'capon' | 'music' | 'single-snapshot-music' | 'root-music' | 'esprit'
-  | 'min-norm' | 'iaa' | 'nomp' | 'maximum-likelihood' | 'sparse-bayesian';
+  | 'min-norm' | 'iaa' | 'nomp' | 'maximum-likelihood' | 'sparse-bayesian'
+  | NetworkMethod;
 
 /** What a method needs and gives. */
 export interface MethodInfo {
@@ -72,6 +76,8 @@ export interface MethodInfo {
   sourceCount: boolean;
   spectrum: boolean;
   cost: string;
+  /** Whether a network estimates: `boresight/neural`, or a pool with a network loaded. */
+  network: boolean;
 }
 
 export interface EstimatorOptions {
@@ -117,6 +123,10 @@ export interface EstimatorOptions {
   refine?: boolean;
   maxIterations?: number;
   tolerance?: number;
+  /** A network that a pool has loaded, for the methods that need one. */
+  network?: string;
+  /** Least confidence of a source, of networks; default: the card's. */
+  confidence?: number;
 }
 
 /** Snapshots (elements x snapshots, or a vector of elements) or a covariance. */

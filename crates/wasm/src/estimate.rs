@@ -31,6 +31,7 @@ pub fn methods() -> js_sys::Array {
             .with("sourceCount", needs.source_count)
             .with("spectrum", needs.spectrum)
             .with("cost", needs.cost)
+            .with("network", false)
     }))
 }
 
