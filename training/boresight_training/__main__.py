@@ -58,6 +58,7 @@ def parser() -> argparse.ArgumentParser:
     write.add_argument("out", type=Path, metavar="F.onnx")
     write.add_argument("--half", action="store_true", help="store weights in half precision")
     write.add_argument("--count", type=int, default=4000, help="examples a condition for the card's metrics")
+    write.add_argument("--golden", type=Path, metavar="DIR", help="write a golden batch to a folder in there")
     return top
 
 
@@ -109,7 +110,7 @@ def main() -> int:
         elif arguments.command == "evaluate":
             result = evaluate(arguments)
         else:
-            result = export.export(arguments.folder, arguments.out, arguments.half, arguments.count)
+            result = export.export(arguments.folder, arguments.out, arguments.half, arguments.count, arguments.golden)
     except (ValueError, FileNotFoundError) as error:
         print(f"boresight_training: {error}", file=sys.stderr)
         return 2

@@ -34,6 +34,9 @@ SHAPING = (
 """Settings of training that bear on its result."""
 PARITY = 1e-4
 """Largest difference of the exported model from PyTorch, relative to the largest output or 1."""
+GOLDEN_BATCH = 4
+SEEDS = {"example": 7, "metrics": 30_000, "confidence": 40_000}
+"""Seeds of data that no training sees, each for one use."""
 
 
 def restore(folder: Path) -> tuple[dict, Task, torch.nn.Module]:
@@ -47,19 +50,24 @@ def restore(folder: Path) -> tuple[dict, Task, torch.nn.Module]:
     return saved, what, network.eval()
 
 
-def to_onnx(what: Task, network: torch.nn.Module, path: Path, half: bool = False) -> float:
-    """Writes the exported form and returns its largest difference from PyTorch.
-
-    With `half` the weights are stored in half precision and widened when the model loads; the difference then is that
-    of the same rounded weights, so that it speaks of the export alone.
-    """
+def exported_form(what: Task, network: torch.nn.Module, half: bool) -> torch.nn.Module:
+    """What is exported, in PyTorch; with `half` its weights are rounded to half precision, in place."""
     form = what.export_form(network).eval()
     if half:
         with torch.no_grad():
             for value in form.parameters():
                 if value.numel() >= HALF_FROM:
                     value.copy_(value.half())
-    generator = torch.Generator().manual_seed(7)
+    return form
+
+
+def to_onnx(what: Task, form: torch.nn.Module, path: Path, half: bool = False) -> float:
+    """Writes the exported form and returns its largest difference from PyTorch.
+
+    With `half` the weights are stored in half precision and widened when the model loads; `form` has them rounded, so
+    that the difference speaks of the export alone.
+    """
+    generator = torch.Generator().manual_seed(SEEDS["example"])
     example = what.example(3, generator)
     free = {
         port.name: {axis: name for axis, name in enumerate(port.axes) if isinstance(name, str)}
@@ -115,17 +123,38 @@ def _store_half(graph) -> None:
         graph.node.insert(0, cast)
 
 
-def export(folder: Path, path: Path, half: bool = False, count: int = 4000) -> dict:
-    """Writes the network of a training folder to `path`, its card beside it, and returns the card."""
+def golden(what: Task, form: torch.nn.Module, folder: Path) -> None:
+    """Writes a batch of inputs, and what PyTorch answers to it, as .npy files named as the ports are."""
+    folder.mkdir(parents=True, exist_ok=True)
+    example = what.example(GOLDEN_BATCH, torch.Generator().manual_seed(SEEDS["example"]))
+    with torch.no_grad():
+        answer = form(*example)
+    for port, value in zip((*what.inputs, *what.outputs), (*example, answer), strict=True):
+        np.save(folder / f"{port.name}.npy", value.numpy())
+
+
+def export(folder: Path, path: Path, half: bool = False, count: int = 4000, golden_in: Path | None = None) -> dict:
+    """Writes the network of a training folder to `path`, its card beside it, and returns the card.
+
+    With `golden_in` a golden batch is written to a folder there of the model's name.
+    """
     saved, what, network = restore(folder)
     path.parent.mkdir(parents=True, exist_ok=True)
-    difference = to_onnx(what, network, path, half)
+    form = exported_form(what, network, half)
+    difference = to_onnx(what, form, path, half)
+    if golden_in is not None:
+        golden(what, form, golden_in / path.stem)
     with torch.no_grad():
-        metrics = what.evaluate(network, count, torch.Generator().manual_seed(30_000))
+        metrics = what.evaluate(network, count, torch.Generator().manual_seed(SEEDS["metrics"]))
+        confidence = what.confidence(network, count, torch.Generator().manual_seed(SEEDS["confidence"]))
     identity, before = saved["identity"], saved["before"]
     card = {
+        "name": path.stem,
+        "title": what.title,
+        "reference": what.reference,
         "network": identity["name"],
         "form": identity["config"],
+        **({} if confidence is None else {"confidence": round(confidence, 3)}),
         "inputs": _ports(what.inputs),
         "outputs": _ports(what.outputs),
         "parameters": sum(p.numel() for p in network.parameters()),

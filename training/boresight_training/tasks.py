@@ -30,6 +30,9 @@ class Port:
 class Task(Protocol):
     """One network and all that training it takes."""
 
+    title: str
+    reference: str
+    """Where the network is published."""
     inputs: tuple[Port, ...]
     outputs: tuple[Port, ...]
     batch: int
@@ -47,6 +50,9 @@ class Task(Protocol):
     def evaluate(self, model: nn.Module, count: int, generator: torch.Generator) -> list[dict[str, float]]:
         """Conditions with their scores, over `count` examples each."""
 
+    def confidence(self, model: nn.Module, count: int, generator: torch.Generator) -> float | None:
+        """Threshold on the exported confidence with the largest F1 over all conditions; none where none is needed."""
+
     def export_form(self, model: nn.Module) -> nn.Module:
         """The module whose graph is exported."""
 
@@ -60,6 +66,8 @@ class Task(Protocol):
 class AaetrTask:
     """Angles of arrival of up to 16 targets in one snapshot of `lrr48`."""
 
+    reference = "AAETR: Angle of Arrival Estimation with Transformers"
+
     inputs = (
         Port("snapshots", ("batch", 48, 2), "real and imaginary part of each virtual element, transmitter-major"),
         Port("positions", (48, 3), "positions of the virtual elements, half wavelengths, x forward, y left, z up"),
@@ -67,6 +75,7 @@ class AaetrTask:
 
     def __init__(self, config: str, position_error: float = 0.0, targets: int = 16):
         self.config = CONFIGS[config]
+        self.title = f"AAETR, form {config}" + (", displaced elements" if position_error else "")
         self.scenes = Scenes(targets=(0, targets), position_error=position_error)
         self.loss_config = SetLossConfig()
         self.positions = array("lrr48")
@@ -90,12 +99,18 @@ class AaetrTask:
         for snr_db in (15, 25, 35):
             for number in (2, 4, 6, 8, 10):
                 scenes = replace(self.scenes, targets=(number, number), snr_db=(snr_db, snr_db))
-                targets, values, positions = snapshots(scenes, self.positions, count, generator)
-                parts = zip(values.split(250), positions.float().expand(count, -1, -1).split(250), strict=True)
-                answers = torch.cat([model(torch.view_as_real(v), p)[-1] for v, p in parts]).double()
-                best = best_f1(answers[..., 0].clamp(-1, 1).asin(), answers[..., 1], answers[..., 2], targets)
-                scores.append({"targets": number, "snr_db": snr_db, **best})
+                scores.append({"targets": number, "snr_db": snr_db, **self._score(model, scenes, count, generator)})
         return scores
+
+    def confidence(self, model, count, generator):
+        best = self._score(model, self.scenes, 4 * count, generator)
+        return torch.tensor(best["threshold"]).sigmoid().item()
+
+    def _score(self, model, scenes, count, generator):
+        targets, values, positions = snapshots(scenes, self.positions, count, generator)
+        parts = zip(values.split(250), positions.float().expand(count, -1, -1).split(250), strict=True)
+        answers = torch.cat([model(torch.view_as_real(v), p)[-1] for v, p in parts]).double()
+        return best_f1(answers[..., 0].clamp(-1, 1).asin(), answers[..., 1], answers[..., 2], targets)
 
     def export_form(self, model):
         return _Targets(model)
@@ -136,6 +151,8 @@ COVARIANCE = Port(
 class ClassifierTask:
     """A network of Sang et al.: number of targets, or directions of a known number of them."""
 
+    title: str
+    reference: str
     network: Any
     """Makes the model."""
     cubes: Cubes
@@ -179,14 +196,26 @@ class ClassifierTask:
         scores = []
         for snr_db in (-10, -5, 0, 5, 10, 15):
             cubes = replace(self.cubes, snr_db=(snr_db, snr_db))
-            values, label = self._features(*regions(cubes, count, generator))
-            answer = torch.cat([model(part) for part in values.split(250)])
+            answer, label = self._answers(model, cubes, count, generator)
             if self.counts:
                 right = (answer.argmax(1) == label.argmax(1)).float()
                 scores.append({"snr_db": snr_db, "accuracy": float(right.mean())})
             else:
                 scores.append({"snr_db": snr_db, **self._directions(answer, label)})
         return scores
+
+    def _answers(self, model, cubes, count, generator):
+        values, label = self._features(*regions(cubes, count, generator))
+        return torch.cat([model(part) for part in values.split(250)]), label
+
+    def confidence(self, model, count, generator):
+        if self.counts:
+            return None
+        answer, label = self._answers(model, replace(self.cubes, snr_db=(0, 15)), 4 * count, generator)
+        order = answer.flatten().argsort(descending=True)
+        hits = label.flatten()[order].double().cumsum(0)
+        f1 = 2 * hits / (label.sum() + torch.arange(1, len(order) + 1))
+        return answer.flatten()[order[f1.argmax()]].sigmoid().item()
 
     def _directions(self, answer, label):
         most = self.cubes.targets[1]
@@ -207,21 +236,30 @@ class ClassifierTask:
         return (self._features(*regions(self.cubes, batch, generator))[0],)
 
     def describe(self):
-        return {"data": {**asdict(self.cubes), "second_stage_lowest_snr_db": self.lowest_db}}
+        data = {**asdict(self.cubes), "second_stage_lowest_snr_db": self.lowest_db}
+        return {"data": data} if self.counts else {"targets": self.cubes.targets[1], "data": data}
+
+
+SANG = "Sang et al. (2021), DoA Estimation for FMCW Radar by 3D-CNN"
+CHEN = "Chen, Gong and Mao (2020), Deep Neural Network for Estimation of Direction of Arrival with Antenna Array"
 
 
 def classifier(name: str, config: str, targets: int) -> ClassifierTask:
     """The counting network, the 3D-CNN or the DNN, for one or two targets."""
     if name == "counting":
         hidden = {"small": 256, "paper": 1024}[config]
-        return ClassifierTask(partial(counting, hidden), Cubes(), -10.0, True, 256, 1e-3)
+        title = f"Number of targets, form {config}"
+        return ClassifierTask(title, SANG, partial(counting, hidden), Cubes(), -10.0, True, 256, 1e-3)
+    number = "one target" if targets == 1 else "two targets"
     cubes = Cubes(targets=(targets, targets))
     if name == "dnn":
-        return ClassifierTask(partial(dnn, DNN_HIDDEN[config]), cubes, -5.0, True, 256, 1e-3)
+        title = f"DNN, form {config}, {number}"
+        return ClassifierTask(title, CHEN, partial(dnn, DNN_HIDDEN[config]), cubes, -5.0, True, 256, 1e-3)
     if config == "experiment":
         cubes = replace(cubes, waveform="3dcnn-experiment", range_m=(9.7, 10.3), shift_m=0.3)
     filters = 48 if config == "small" else 256
-    return ClassifierTask(partial(Cnn3d, filters), cubes, -5.0, False, 64, 5e-4)
+    title = f"3D-CNN, form {config}, {number}"
+    return ClassifierTask(title, SANG, partial(Cnn3d, filters), cubes, -5.0, False, 64, 5e-4)
 
 
 NETWORKS = {

@@ -4,6 +4,7 @@ import hashlib
 import json
 from pathlib import Path
 
+import numpy as np
 import onnxruntime
 import pytest
 import torch
@@ -12,7 +13,9 @@ from boresight_training.score import best_f1
 from boresight_training.snapshots import Scenes, snapshots
 from boresight_training.tasks import task
 
-MODELS = sorted((Path(__file__).parents[2] / "models").glob("*.onnx"))
+ROOT = Path(__file__).parents[2]
+MODELS = sorted((ROOT / "models").glob("*.onnx"))
+GOLDEN = ROOT / "tests" / "golden" / "networks"
 
 
 def card_of(path):
@@ -28,13 +31,39 @@ def test_a_card_describes_its_file(path):
     card, session = card_of(path), session_of(path)
     assert card["bytes"] == path.stat().st_size < 24e6
     assert card["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
-    what = task(card["network"], card["form"])
+    assert card["name"] == path.stem
+    what = task(card["network"], card["form"], card.get("targets"))
+    assert (card["title"], card["reference"]) == (what.title, what.reference)
+    assert card["network"] == "counting" or 0 < card["confidence"] < 1
     for ports, named, given in (
         (what.inputs, card["inputs"], session.get_inputs()),
         (what.outputs, card["outputs"], session.get_outputs()),
     ):
         assert [(p.name, list(p.axes)) for p in ports] == [(p["name"], p["axes"]) for p in named]
         assert [(p.name, list(p.axes)) for p in ports] == [(p.name, p.shape) for p in given]
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: path.stem)
+def test_a_golden_batch_is_what_card_and_file_say(path):
+    card = card_of(path)
+
+    def read(ports):
+        values = {port["name"]: np.load(GOLDEN / path.stem / f"{port['name']}.npy") for port in ports}
+        for port in ports:
+            given = values[port["name"]]
+            assert given.dtype == np.float32
+            assert given.shape == tuple(4 if axis == "batch" else axis for axis in port["axes"])
+        return values
+
+    inputs, outputs = read(card["inputs"]), read(card["outputs"])
+    assert len(list((GOLDEN / path.stem).iterdir())) == len(inputs) + len(outputs)
+    answers = session_of(path).run(list(outputs), inputs)
+    for given, expected in zip(answers, outputs.values(), strict=True):
+        assert np.abs(given - expected).max() < 1e-4
+
+
+def test_all_weights_together_are_within_the_limit():
+    assert sum(path.stat().st_size for path in MODELS) < 64e6
 
 
 @pytest.mark.parametrize("path", [path for path in MODELS if path.stem.startswith("aaetr")], ids=lambda path: path.stem)

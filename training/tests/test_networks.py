@@ -133,7 +133,7 @@ def test_exports_equal_pytorch_with_common_operators(tmp_path, name, config, tar
     torch.manual_seed(0)
     what = task(name, config, targets)
     path = tmp_path / "model.onnx"
-    assert export.to_onnx(what, what.model().eval(), path) < 1e-4
+    assert export.to_onnx(what, export.exported_form(what, what.model().eval(), False), path) < 1e-4
     model = onnx.load(path)
     assert {node.op_type for node in model.graph.node} <= OPERATORS
     for ports, values in ((what.inputs, model.graph.input), (what.outputs, model.graph.output)):
@@ -146,8 +146,8 @@ def test_half_precision_halves_the_file(tmp_path):
     torch.manual_seed(0)
     what = task("dnn", "small", 1)
     network = what.model().eval()
-    export.to_onnx(what, network, tmp_path / "full.onnx")
-    export.to_onnx(what, network, tmp_path / "half.onnx", half=True)
+    for name, half in (("full.onnx", False), ("half.onnx", True)):
+        export.to_onnx(what, export.exported_form(what, network, half), tmp_path / name, half)
     assert (tmp_path / "half.onnx").stat().st_size < 0.52 * (tmp_path / "full.onnx").stat().st_size
 
 
@@ -156,7 +156,7 @@ def test_an_export_that_differs_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(export, "PARITY", 0.0)
     monkeypatch.setattr(export, "_difference", lambda *_: 1e-3)
     with pytest.raises(ValueError, match="differs from PyTorch"):
-        export.to_onnx(what, what.model().eval(), tmp_path / "model.onnx")
+        export.to_onnx(what, export.exported_form(what, what.model().eval(), False), tmp_path / "model.onnx")
 
 
 def test_unknown_sizes_are_refused_by_name():
