@@ -58,6 +58,7 @@ impl Plan for Bartlett {
                     direction: top.0,
                     power: top.1 / (elements * elements),
                     amplitude: beam(&self.array, top.0, data),
+                    confidence: None,
                 }
             })
             .collect();

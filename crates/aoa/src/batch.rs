@@ -1,12 +1,12 @@
 //! Many cells at once.
 
-use crate::data::{Data, check_all_finite};
+use crate::data::check_all_finite;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, SpectrumKind, Warning};
 use crate::estimator::Estimator;
 use crate::method::Method;
 use boresight_core::{Complex64, CoreError};
-use ndarray::ArrayView3;
+use ndarray::{ArrayView3, Axis};
 
 /// Results of many cells, flat.
 #[derive(Debug, Clone, PartialEq)]
@@ -173,12 +173,17 @@ impl Estimator {
             .into());
         }
         check_all_finite("snapshots", snapshots)?;
-        let mut estimate = self.scratch.take().unwrap_or_else(|| Estimate::new(self.method()));
-        for cell in snapshots.outer_iter() {
-            self.estimate_into(Data::Snapshots(cell), &mut estimate)?;
-            out.add(&estimate, spectra);
+        let at_once = self.cells_at_once();
+        let mut scratch = std::mem::take(&mut self.scratch);
+        scratch.resize_with(at_once.min(cells), || Estimate::new(self.method()));
+        for portion in snapshots.axis_chunks_iter(Axis(0), at_once) {
+            let estimates = &mut scratch[..portion.dim().0];
+            self.estimate_cells(portion, estimates)?;
+            for estimate in estimates {
+                out.add(estimate, spectra);
+            }
         }
-        self.scratch = Some(estimate);
+        self.scratch = scratch;
         Ok(())
     }
 }

@@ -90,7 +90,12 @@ impl Plan for Capon {
                 let form = inverse.view();
                 let (direction, value) =
                     self.spectrum.refine(form, peak.direction, Towards::Minimum);
-                sources.push(Source { direction, power: 1.0 / value, amplitude: None });
+                sources.push(Source {
+                    direction,
+                    power: 1.0 / value,
+                    amplitude: None,
+                    confidence: None,
+                });
             }
         }
         let grid = self.spectrum.grid();

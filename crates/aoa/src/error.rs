@@ -46,6 +46,20 @@ pub enum AoaError {
         /// Name of the method.
         method: &'static str,
     },
+    /// The method is a network and there is no model.
+    #[error("{method} is a network and needs a trained model")]
+    NeedsModel {
+        /// Name of the method.
+        method: &'static str,
+    },
+    /// A network could not be run, or answered with what is no answer.
+    #[error("{method}: {reason}")]
+    Network {
+        /// Name of the method.
+        method: &'static str,
+        /// What went wrong.
+        reason: String,
+    },
 }
 
 impl Diagnose for AoaError {
@@ -56,6 +70,8 @@ impl Diagnose for AoaError {
             Self::TooManySources { .. } => "too-many-sources",
             Self::Snapshots { .. } => "snapshot-count",
             Self::NeedsSnapshots { .. } => "needs-snapshots",
+            Self::NeedsModel { .. } => "needs-model",
+            Self::Network { .. } => "network-failed",
         }
     }
 
@@ -70,6 +86,8 @@ impl Diagnose for AoaError {
                 Details::new("snapshots", expected, given.to_string())
             }
             Self::NeedsSnapshots { .. } => Details::new("data", "snapshots", "a covariance"),
+            Self::NeedsModel { .. } => Details::new("model", "a trained network", "none"),
+            Self::Network { reason, .. } => Details::new("network", "an answer", reason),
         }
     }
 }

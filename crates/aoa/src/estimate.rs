@@ -12,6 +12,8 @@ pub struct Source {
     pub power: f64,
     /// Its complex amplitude at the origin, where a single snapshot determines it.
     pub amplitude: Option<Complex64>,
+    /// How sure a network is of it, from 0 to 1; nothing from other methods.
+    pub confidence: Option<f64>,
 }
 
 /// What the values of a spectrum mean.
@@ -70,6 +72,11 @@ pub enum Warning {
         /// Elements left out.
         unused: usize,
     },
+    /// The network was trained on something else.
+    OutsideTraining {
+        /// What it was trained on, and what it is used on.
+        difference: String,
+    },
 }
 
 impl Warning {
@@ -82,6 +89,7 @@ impl Warning {
             Self::NoSources => "no-sources",
             Self::Ambiguous { .. } => "ambiguous",
             Self::ElementsUnused { .. } => "elements-unused",
+            Self::OutsideTraining { .. } => "outside-training",
         }
     }
 }
@@ -105,6 +113,7 @@ impl std::fmt::Display for Warning {
                 unambiguous_rad.to_degrees()
             ),
             Self::ElementsUnused { unused } => write!(f, "{unused} elements were not used"),
+            Self::OutsideTraining { difference } => f.write_str(difference),
         }
     }
 }

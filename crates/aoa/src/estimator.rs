@@ -17,7 +17,8 @@ use crate::refinement::Refinement;
 use crate::root_music::RootMusic;
 use crate::single_snapshot_music::SingleSnapshotMusic;
 use crate::sparse_bayesian::SparseBayesian;
-use boresight_core::Array;
+use boresight_core::{Array, Complex64};
+use ndarray::{ArrayView3, Axis};
 
 /// What each method implements: everything that depends on array and options alone (grids, FFT
 /// plans, steering vectors, scratch space) is made once, in the method's own constructor.
@@ -36,6 +37,27 @@ pub trait Plan: Send {
         *out = self.estimate(data)?;
         Ok(())
     }
+
+    /// Number of cells it is best given at once; those of a batch come in such portions.
+    fn cells_at_once(&self) -> usize {
+        1
+    }
+
+    /// Estimates the angles in the snapshots of several cells, cells x elements x snapshots, all finite, into as
+    /// many estimates. Each is what [`Plan::estimate`] gives for it alone.
+    ///
+    /// # Errors
+    /// As [`Plan::estimate`].
+    fn estimate_cells(
+        &mut self,
+        cells: ArrayView3<'_, Complex64>,
+        out: &mut [Estimate],
+    ) -> Result<(), AoaError> {
+        for (cell, out) in cells.outer_iter().zip(out) {
+            self.estimate_into(Data::Snapshots(cell), out)?;
+        }
+        Ok(())
+    }
 }
 
 /// An estimator ready to run on many cells.
@@ -45,7 +67,7 @@ pub struct Estimator {
     plan: Box<dyn Plan>,
     refinement: Option<Refinement>,
     /// What cells of a batch are estimated into.
-    pub(crate) scratch: Option<Estimate>,
+    pub(crate) scratch: Vec<Estimate>,
 }
 
 impl Estimator {
@@ -56,9 +78,22 @@ impl Estimator {
     /// [`AoaError`] naming what does not fit.
     pub fn new(method: Method, array: &Array, options: &Options) -> Result<Self, AoaError> {
         options.check()?;
-        let plan = plan(method, array, options)?;
+        Self::with_plan(method, array, plan(method, array, options)?, options)
+    }
+
+    /// An estimator on a plan made elsewhere: that of a network.
+    ///
+    /// # Errors
+    /// [`AoaError`] for options out of range, or where a refinement is asked for and the array does not suit it.
+    pub fn with_plan(
+        method: Method,
+        array: &Array,
+        plan: Box<dyn Plan>,
+        options: &Options,
+    ) -> Result<Self, AoaError> {
+        options.check()?;
         let refinement = options.refine.then(|| Refinement::new(array, options)).transpose()?;
-        Ok(Self { method, array: array.clone(), plan, refinement, scratch: None })
+        Ok(Self { method, array: array.clone(), plan, refinement, scratch: Vec::new() })
     }
 
     /// The method.
@@ -93,6 +128,25 @@ impl Estimator {
             None => Ok(()),
         }
     }
+
+    pub(crate) fn cells_at_once(&self) -> usize {
+        self.plan.cells_at_once().max(1)
+    }
+
+    /// As [`Plan::estimate_cells`].
+    pub(crate) fn estimate_cells(
+        &mut self,
+        cells: ArrayView3<'_, Complex64>,
+        out: &mut [Estimate],
+    ) -> Result<(), AoaError> {
+        self.plan.estimate_cells(cells, out)?;
+        if let Some(refinement) = &mut self.refinement {
+            for (cell, estimate) in cells.axis_iter(Axis(0)).zip(out) {
+                refinement.apply(estimate, Data::Snapshots(cell))?;
+            }
+        }
+        Ok(())
+    }
 }
 
 fn plan(method: Method, array: &Array, options: &Options) -> Result<Box<dyn Plan>, AoaError> {
@@ -108,5 +162,8 @@ fn plan(method: Method, array: &Array, options: &Options) -> Result<Box<dyn Plan
         Method::Nomp => Box::new(Nomp::new(array, options)?),
         Method::MaximumLikelihood => Box::new(MaximumLikelihood::new(array, options)?),
         Method::SparseBayesian => Box::new(SparseBayesian::new(array, options)?),
+        Method::Aaetr | Method::Dnn | Method::Cnn3d => {
+            return Err(AoaError::NeedsModel { method: method.name() });
+        }
     })
 }

@@ -34,11 +34,21 @@ impl Estimators {
         threads: usize,
     ) -> Result<Self, AoaError> {
         check_range("threads", threads as f64, 1.0, 1024.0)?;
-        let worker = |_| {
-            let estimator = Estimator::new(method, array, options)?;
-            Ok(Worker { estimator, part: BatchEstimate::new(method) })
+        let estimator = |_| Estimator::new(method, array, options);
+        Self::of((0..threads).map(estimator).collect::<Result<_, AoaError>>()?)
+    }
+
+    /// A thread for each estimator, all of one kind.
+    ///
+    /// # Errors
+    /// [`boresight_core::CoreError::OutOfRange`] for none, or more than 1024.
+    pub fn of(estimators: Vec<Estimator>) -> Result<Self, AoaError> {
+        check_range("threads", estimators.len() as f64, 1.0, 1024.0)?;
+        let worker = |estimator: Estimator| {
+            let part = BatchEstimate::new(estimator.method());
+            Worker { estimator, part }
         };
-        Ok(Self { workers: (0..threads).map(worker).collect::<Result<_, AoaError>>()? })
+        Ok(Self { workers: estimators.into_iter().map(worker).collect() })
     }
 
     /// As [`Estimator::estimate_batch`], and the same for any number of threads.

@@ -30,6 +30,12 @@ pub enum Method {
     MaximumLikelihood,
     /// Off-grid sparse Bayesian learning (Yang, Xie and Zhang 2013).
     SparseBayesian,
+    /// A transformer that answers with a set of targets.
+    Aaetr,
+    /// A fully connected network on the covariance, of whole degrees (after Chen, Gong and Mao 2020).
+    Dnn,
+    /// A convolutional network on a region of the range spectrum, of whole degrees (Sang et al. 2021).
+    Cnn3d,
 }
 
 /// What a method needs and gives; the check and the documentation both read it.
@@ -56,12 +62,14 @@ pub struct Requirements {
     pub source_count: bool,
     /// Whether it returns a spectrum over angle.
     pub spectrum: bool,
+    /// Whether it is a trained network, which needs a model's file.
+    pub network: bool,
     /// Operation count of one estimate, in words.
     pub cost: &'static str,
 }
 
 impl Method {
-    /// All methods, in the order they are listed to users.
+    /// All methods that need no trained model, in the order they are listed to users.
     pub const ALL: [Self; 11] = [
         Self::Bartlett,
         Self::Capon,
@@ -75,6 +83,9 @@ impl Method {
         Self::MaximumLikelihood,
         Self::SparseBayesian,
     ];
+
+    /// The networks, which need one.
+    pub const NETWORKS: [Self; 3] = [Self::Aaetr, Self::Dnn, Self::Cnn3d];
 
     /// The name used in options, in JavaScript and on the command line.
     pub fn name(self) -> &'static str {
@@ -90,6 +101,9 @@ impl Method {
             Self::Nomp => "nomp",
             Self::MaximumLikelihood => "maximum-likelihood",
             Self::SparseBayesian => "sparse-bayesian",
+            Self::Aaetr => "aaetr",
+            Self::Dnn => "dnn",
+            Self::Cnn3d => "cnn3d",
         }
     }
 
@@ -98,7 +112,8 @@ impl Method {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        named("method", &Self::ALL, Self::name, name)
+        let known: Vec<Self> = Self::ALL.into_iter().chain(Self::NETWORKS).collect();
+        named("method", &known, Self::name, name)
     }
 
     /// What the method needs and gives.
@@ -114,8 +129,10 @@ impl Method {
             elevation: false,
             source_count: false,
             spectrum: true,
+            network: false,
             cost: "",
         };
+        let network = Requirements { spectrum: false, network: true, ..base };
         match self {
             Self::Bartlett => Requirements {
                 title: "Bartlett (FFT)",
@@ -210,6 +227,29 @@ impl Method {
                 takes_covariance: false,
                 cost: "(K^3 + G log G) an iteration",
                 ..base
+            },
+            Self::Aaetr => Requirements {
+                title: "AAETR (network)",
+                reference: "AAETR: Angle of Arrival Estimation with Transformer",
+                max_snapshots: Some(1),
+                takes_covariance: false,
+                cost: "that of its model",
+                ..network
+            },
+            Self::Dnn => Requirements {
+                title: "DNN (network)",
+                reference: "Chen, Gong and Mao 2020",
+                uniform_array: true,
+                cost: "that of its model",
+                ..network
+            },
+            Self::Cnn3d => Requirements {
+                title: "3D-CNN (network)",
+                reference: "Sang et al. 2021",
+                takes_covariance: false,
+                uniform_array: true,
+                cost: "that of its model",
+                ..network
             },
         }
     }

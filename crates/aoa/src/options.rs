@@ -126,6 +126,8 @@ pub struct Options {
     /// Refine the sources on the matched model (see [`crate::refinement`]), with the false-alarm
     /// probability and noise power of `nomp`.
     pub refine: bool,
+    /// Least confidence, from 0 to 1, of a network's sources; its model's own if absent.
+    pub confidence: Option<f64>,
     /// Most iterations of maximum likelihood and sparse Bayesian learning.
     pub max_iterations: usize,
     /// Change of angle (rad) or relative change of power at which iterations stop.
@@ -163,6 +165,7 @@ impl Default for Options {
                 max_sources: 16,
             },
             refine: false,
+            confidence: None,
             max_iterations: 200,
             tolerance: 1e-8,
         }
@@ -202,6 +205,9 @@ impl Options {
         check_range("nomp.single_refinements", self.nomp.single_refinements as f64, 0.0, 100.0)?;
         check_range("nomp.cyclic_refinements", self.nomp.cyclic_refinements as f64, 0.0, 100.0)?;
         check_range("nomp.max_sources", self.nomp.max_sources as f64, 1.0, 1024.0)?;
+        if let Some(confidence) = self.confidence {
+            check_range("confidence", confidence, 0.0, 1.0)?;
+        }
         check_range("max_iterations", self.max_iterations as f64, 1.0, 1e5)?;
         check_range("tolerance", self.tolerance, 1e-15, 1.0)
     }

@@ -55,6 +55,7 @@ pub(crate) fn sources_at(array: &Array, directions: &[Direction], data: Data<'_>
             direction,
             power,
             amplitude: amplitudes.as_ref().map(|s| s[i]),
+            confidence: None,
         })
         .collect()
 }

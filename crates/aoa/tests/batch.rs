@@ -4,10 +4,13 @@
 
 mod support;
 
-use boresight_aoa::{BatchEstimate, Data, Estimator, Estimators, Method, Options, Source};
+use boresight_aoa::estimator::Plan;
+use boresight_aoa::{
+    AoaError, BatchEstimate, Data, Estimate, Estimator, Estimators, Method, Options, Source,
+};
 use boresight_core::presets::preset;
-use boresight_core::{Array, Complex64, Diagnose, Random};
-use ndarray::{Array3, Axis, s};
+use boresight_core::{Array, Complex64, Diagnose, Direction, Random};
+use ndarray::{Array3, ArrayView3, Axis, s};
 use support::{azimuths, scene};
 
 const CELLS: usize = 11;
@@ -127,4 +130,61 @@ fn what_is_malformed_is_refused_whole() {
     assert!(refused.to_string().contains("index 36"), "{refused}");
     y.invert_axis(Axis(1));
     assert!(estimator.estimate_batch(y.slice(s![..2, .., ..]), false).is_ok());
+}
+
+/// A plan that looks at four cells at once and finds in each a source of its power.
+struct Portions(Vec<usize>);
+
+impl Plan for Portions {
+    fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
+        let Data::Snapshots(y) = data else { unreachable!() };
+        let mut estimate = Estimate::new(Method::Aaetr);
+        let power = y.iter().map(|z| z.norm_sqr()).sum();
+        let direction = Direction::azimuth(0.0);
+        estimate.sources.push(Source { direction, power, amplitude: None, confidence: Some(0.9) });
+        Ok(estimate)
+    }
+
+    fn cells_at_once(&self) -> usize {
+        4
+    }
+
+    fn estimate_cells(
+        &mut self,
+        cells: ArrayView3<'_, Complex64>,
+        out: &mut [Estimate],
+    ) -> Result<(), AoaError> {
+        self.0.push(cells.dim().0);
+        assert_eq!(self.0.last(), Some(&out.len()));
+        for (cell, out) in cells.outer_iter().zip(out) {
+            *out = self.estimate(Data::Snapshots(cell))?;
+        }
+        match self.0[..] {
+            [.., 4] | [.., 3] => Ok(()),
+            _ => Err(AoaError::Network { method: "aaetr", reason: format!("{:?}", self.0) }),
+        }
+    }
+}
+
+#[test]
+fn a_plan_made_elsewhere_gets_cells_in_portions() {
+    let array = Array::ula(12).unwrap();
+    let y = cells(&array, 1);
+    let options = Options::default();
+    let estimator = || {
+        let plan = Box::new(Portions(vec![]));
+        Estimator::with_plan(Method::Aaetr, &array, plan, &options).unwrap()
+    };
+    let mut single = estimator();
+    let all = single.estimate_batch(y.view(), false).unwrap();
+    for (c, cell) in y.outer_iter().enumerate() {
+        assert_eq!(all.sources_of(c), single.estimate(Data::Snapshots(cell)).unwrap().sources);
+    }
+    let mut threads = Estimators::of(vec![estimator(), estimator()]).unwrap();
+    assert_eq!(threads.estimate_batch(y.view(), false).unwrap(), all);
+    let refused = single.estimate_batch(y.slice(s![..2, .., ..]), false).unwrap_err();
+    assert_eq!(refused.code(), "network-failed");
+    assert_eq!(single.estimate_batch(y.view(), false).unwrap(), all);
+    let unplanned = Estimator::new(Method::Aaetr, &array, &options).err().unwrap();
+    assert_eq!(unplanned.code(), "needs-model");
 }

@@ -4,7 +4,7 @@ use crate::beam::suited;
 use crate::error::PipelineError;
 use crate::options::{ChainOptions, usable_range_m};
 use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult, Remark};
-use boresight_aoa::{Data, Estimate, Estimator, Estimators, Method, Options};
+use boresight_aoa::{AoaError, Data, Estimate, Estimator, Estimators, Method, Options};
 use boresight_core::{Array, Complex32, Complex64, Direction, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
@@ -56,6 +56,32 @@ impl Chain {
         array: &Array,
         options: &ChainOptions,
     ) -> Result<Self, PipelineError> {
+        let angle = suited(options.method, array, &options.angle);
+        let estimators = || Estimators::new(options.method, array, &angle, options.threads);
+        Self::plan(waveform, receivers, array, options, estimators)
+    }
+
+    /// As [`Chain::new`] with estimators made elsewhere, for that array: those of a network.
+    ///
+    /// # Errors
+    /// As [`Chain::new`].
+    pub fn with_estimators(
+        waveform: &Waveform,
+        receivers: usize,
+        array: &Array,
+        options: &ChainOptions,
+        estimators: Estimators,
+    ) -> Result<Self, PipelineError> {
+        Self::plan(waveform, receivers, array, options, || Ok(estimators))
+    }
+
+    fn plan(
+        waveform: &Waveform,
+        receivers: usize,
+        array: &Array,
+        options: &ChainOptions,
+        estimators: impl FnOnce() -> Result<Estimators, AoaError>,
+    ) -> Result<Self, PipelineError> {
         options.check()?;
         waveform.check()?;
         let channels = channels_of(array, waveform.transmitters, receivers)?;
@@ -63,7 +89,6 @@ impl Chain {
         let map = transform.output();
         let (ranges, dopplers) = map.power.dim();
         let cfar = Cfar::new(ranges, dopplers, &cfar_options(options, &transform))?;
-        let angle = suited(options.method, array, &options.angle);
         Ok(Self {
             options: *options,
             array: array.clone(),
@@ -75,7 +100,7 @@ impl Chain {
             transform,
             map,
             cfar,
-            estimators: Estimators::new(options.method, array, &angle, options.threads)?,
+            estimators: estimators()?,
         })
     }
 

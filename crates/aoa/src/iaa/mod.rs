@@ -169,6 +169,7 @@ impl Plan for Iaa {
             direction: peak.direction,
             power: top_power(&self.grid, values, peak),
             amplitude: None,
+            confidence: None,
         }));
         settle(out, None);
         Ok(())

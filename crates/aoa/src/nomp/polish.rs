@@ -90,6 +90,7 @@ impl Nomp {
             direction: self.geometry.direction(points[first]),
             power: sum.norm_sqr(),
             amplitude: Some(sum),
+            confidence: None,
         };
         for &k in group[1..].iter().rev() {
             points.remove(k);
