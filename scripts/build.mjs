@@ -61,7 +61,7 @@ export async function buildPackage() {
 }
 
 export async function buildDemo() {
-  const inputs = ['package-lock.json', 'vite.config.ts', 'web', 'recordings', 'dist/wasm', 'dist/lib', 'dist/worker'];
+  const inputs = ['package-lock.json', 'vite.config.ts', 'web', 'recordings', 'models', 'docs/experiments', 'dist/wasm', 'dist/lib', 'dist/worker'];
   const outputs = ['web/app/dist/index.html'];
   const done = await whenChanged('demo', { inputs, outputs }, async () => {
     say('web/app -> web/app/dist (vite)');

@@ -6,11 +6,12 @@ import { AnglePage } from './pages/angle/page.tsx';
 import { BirdseyePage } from './pages/birdseye/page.tsx';
 import { CapturePage } from './pages/capture/page.tsx';
 import { MountingPage } from './pages/mounting/page.tsx';
+import { NetworksPage } from './pages/networks/page.tsx';
 import { announcement } from './state/announce.ts';
 import { lastParams, type Page, pageAddress, route } from './state/route.ts';
 import { type ThemeChoice, themeChoice } from './state/theme.ts';
 
-const TITLES: Record<Page, string> = { angle: 'Angle lab', capture: 'Capture', mounting: 'Mounting angle', birdseye: 'Bird’s-eye view' };
+const TITLES: Record<Page, string> = { angle: 'Angle lab', capture: 'Capture', mounting: 'Mounting angle', birdseye: 'Bird’s-eye view', networks: 'Networks' };
 const DOCS = 'https://github.com/boresight/boresight';
 
 export function App() {
@@ -52,7 +53,7 @@ export function App() {
           <p class="alert" role="alert" data-error={problem.code}><strong>Boresight could not start.</strong> {problem.message}</p>
         ) : !ready ? (
           <p class="panel loading" role="status">Loading the signal processing</p>
-        ) : page === 'capture' ? <CapturePage /> : page === 'mounting' ? <MountingPage /> : page === 'birdseye' ? <BirdseyePage /> : <AnglePage />}
+        ) : page === 'capture' ? <CapturePage /> : page === 'mounting' ? <MountingPage /> : page === 'birdseye' ? <BirdseyePage /> : page === 'networks' ? <NetworksPage /> : <AnglePage />}
       </main>
       <footer class="site-foot">
         <p title="The page’s content security policy forbids connections to anywhere but its own server.">Computed in this tab. Your data never leaves your machine.</p>

@@ -5,7 +5,7 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import './plot.css';
-import { ticks } from './format.ts';
+import { significant, ticks } from './format.ts';
 import type { Layer, LayerContext } from './layers.ts';
 import { navigate } from './navigate.ts';
 import { type LegendEntry, picture } from './picture.ts';
@@ -25,6 +25,8 @@ export interface AxisOptions {
   descending?: boolean;
   /** Lowest value with a label: what is below is no number of the axis. */
   from?: number;
+  /** Values are logarithms to base 10 of the quantity, which the labels show. */
+  log?: boolean;
 }
 
 export interface PlotSeries {
@@ -80,6 +82,19 @@ export interface PlotOptions {
   onView?(view: View, zoomed: boolean): void;
   /** Return true where the key was used. */
   onKey?(event: KeyboardEvent): boolean;
+}
+
+/** Decades, and 2 and 5 between them where there are few; as logarithms. */
+function logSplits(low: number, high: number): number[] {
+  const parts = high - low > 3.5 ? [1] : high - low > 0.8 ? [1, 2, 5] : [1, 2, 3, 4, 5, 6, 8];
+  const all: number[] = [];
+  for (let decade = Math.floor(low); decade <= high; decade++) {
+    for (const part of parts) {
+      const value = decade + Math.log10(part);
+      if (value >= low && value <= high) all.push(value);
+    }
+  }
+  return all;
 }
 
 const AXIS_WIDTH = 52;
@@ -223,6 +238,12 @@ export class Plot {
       border: { show: true, stroke: () => theme().muted, width: 1 },
       values: (_u, splits, _axis, _space, step) => ticks(splits, step).map((text, i) => ((splits[i] as number) < (options.from ?? Number.NEGATIVE_INFINITY) ? '' : text)),
       ...(options.steps ? { incrs: options.steps } : {}),
+      ...(options.log
+        ? {
+            splits: (_u: uPlot, _axis: number, low: number, high: number) => logSplits(low, high),
+            values: (_u: uPlot, splits: number[]) => splits.map((value) => significant(10 ** value, 1)),
+          }
+        : {}),
     });
     const options = this.#options;
     return {

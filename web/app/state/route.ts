@@ -1,7 +1,7 @@
 /** Which page is shown, and its state as the address's query after the hash. */
 import { signal } from '@preact/signals';
 
-export const PAGES = ['angle', 'capture', 'mounting', 'birdseye'] as const;
+export const PAGES = ['angle', 'capture', 'mounting', 'birdseye', 'networks'] as const;
 export type Page = (typeof PAGES)[number];
 
 export interface Route { page: Page; params: URLSearchParams }

@@ -1,0 +1,80 @@
+/** The networks this site has: their cards, which are part of the page, and the addresses of their files, which load on demand. */
+import type { ArrayGeometry, ModelCard, NetworkKind } from 'boresight';
+
+/** A card with what ours say beside what every card must. */
+export type Card = ModelCard & {
+  model?: Record<string, unknown>;
+  data?: Record<string, unknown>;
+  loss?: Record<string, unknown>;
+  training?: Record<string, unknown>;
+  steps?: number;
+  samplesSeen?: number;
+  hours?: number;
+  hardware?: string;
+  software?: string;
+  metricsExamples?: number;
+  onnx?: { opset?: number; weights?: string; parity?: number };
+  bytes?: number;
+};
+
+export interface Model {
+  /** Name of its files, and in links. */
+  name: string;
+  title: string;
+  card: Card;
+  /** Absent for a user's own. */
+  address?: string;
+  cardAddress?: string;
+}
+
+const stem = (path: string): string => path.replace(/^.*\//, '').replace(/\.\w+$/, '');
+
+const cards = import.meta.glob<Card>('../../../models/*.json', { eager: true, import: 'default' });
+const cardAddresses = import.meta.glob<string>('../../../models/*.json', { eager: true, query: '?url', import: 'default' });
+const addresses = import.meta.glob<string>('../../../models/*.onnx', { eager: true, query: '?url', import: 'default' });
+
+const KINDS: readonly NetworkKind[] = ['aaetr', 'counting', 'dnn', 'cnn3d'];
+export const KIND_TITLES: Record<NetworkKind, string> = { aaetr: 'AAETR', counting: 'Counting network', dnn: 'DNN', cnn3d: '3D-CNN' };
+
+/** How many targets a classifier of directions is for; null where the network finds that out. */
+export function targetsOf({ network, targets: stated, data }: Card): number | null {
+  const targets = typeof stated === 'number' ? [stated, stated] : data?.targets;
+  return (network === 'dnn' || network === 'cnn3d') && Array.isArray(targets) && targets[0] === targets[1] ? Number(targets[1]) : null;
+}
+
+function titleOf(card: Card): string {
+  if (card.title) return card.title;
+  const targets = targetsOf(card);
+  return [KIND_TITLES[card.network], card.form, targets && (targets === 1 ? 'one target' : `${targets} targets`)].filter(Boolean).join(', ');
+}
+
+export const MODELS: readonly Model[] = Object.entries(cards)
+  .flatMap(([path, card]): Model[] => {
+    const address = addresses[path.replace(/json$/, 'onnx')];
+    const cardAddress = cardAddresses[path];
+    return address && cardAddress && KINDS.includes(card.network) ? [{ name: stem(path), title: titleOf(card), card, address, cardAddress }] : [];
+  })
+  .sort((a, b) => KINDS.indexOf(a.card.network) - KINDS.indexOf(b.card.network) || (a.card.parameters ?? 0) - (b.card.parameters ?? 0) || a.name.localeCompare(b.name));
+
+/** Virtual elements the network's input has room for. */
+export function elementsOf({ network, inputs }: Card): number {
+  const [, second, third] = inputs[0]?.axes ?? [];
+  if (network === 'aaetr') return Number(second);
+  if (network === 'cnn3d') return Number(third);
+  // M (M - 1) numbers of a Hermitian matrix.
+  return Math.round((1 + Math.sqrt(1 + 4 * Number(second))) / 2);
+}
+
+/** The array in words. */
+export function arrayOf(card: Card): string {
+  return typeof card.data?.array === 'string' ? card.data.array : `${elementsOf(card)} elements half a wavelength apart`;
+}
+
+/** Why a network cannot work on an array, or null. */
+export function arrayProblem(card: Card, { positions, uniform }: Pick<ArrayGeometry, 'positions' | 'uniform'>): string | null {
+  const elements = elementsOf(card);
+  if (positions.length !== elements || (card.network !== 'aaetr' && !uniform)) {
+    return `is for ${arrayOf(card)}${typeof card.data?.array === 'string' ? ` (${elements} elements)` : ''}`;
+  }
+  return null;
+}

@@ -1,0 +1,33 @@
+/** State of the page Networks: all of it in the address but a user's own files. */
+import { signal } from '@preact/signals';
+import { MODELS } from '../../networks/models.ts';
+import { choice, codec, flag, number, text } from '../../state/codec.ts';
+
+export const LIMITS = { targets: [0, 16], snrDb: [-30, 60], seed: [0, 4294967295] } as const;
+export const EXPERIMENT_SNRS = ['15', '25', '35'] as const;
+export const TARGETS = ['2', '3', '4', '5', '6', '7', '8', '9', '10'] as const;
+export const REGION_SNRS = ['-10', '-5', '0', '5', '10', '15'] as const;
+
+const first = MODELS[0]?.name ?? '';
+
+export const networksCodec = codec({
+  model: text(first, (name) => MODELS.some((model) => model.name === name)),
+  targets: number(6, LIMITS.targets, 'integer'),
+  snr: number(15, LIMITS.snrDb),
+  seed: number(1, LIMITS.seed, 'integer'),
+  refine: flag(false),
+  /** Whether the scene is run, and the network for it loaded. */
+  run: flag(false),
+  /** Of the experiments' plots. */
+  at: choice('15', EXPERIMENT_SNRS),
+  of: choice('6', TARGETS),
+  regionAt: choice('0', REGION_SNRS),
+  range: choice('apart', ['apart', 'together']),
+}, ['model']);
+
+export type NetworksState = typeof networksCodec.defaults;
+export const networksState = signal<NetworksState>(networksCodec.defaults);
+
+export function update(patch: Partial<NetworksState>): void {
+  networksState.value = { ...networksState.value, ...patch };
+}
