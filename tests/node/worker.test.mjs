@@ -30,7 +30,8 @@ describe('a pool of worker threads', () => {
     ]);
     assert.match(version, /^\d+\.\d+\.\d+/);
     assert.ok(presets.includes('lrr48'));
-    assert.equal(methods.length, 11);
+    assert.deepEqual(methods.filter(({ network }) => network).map(({ name }) => name), ['aaetr', 'dnn', 'cnn3d']);
+    assert.equal(methods.length, 14);
     assert.equal(geometry.positions.length, 8);
   });
 

@@ -1,7 +1,8 @@
 // What every runtime's entry offers beside its own init().
 export type * from './types.js';
 export { BoresightError, type ErrorDetails } from './errors.js';
-export { initSync, type WasmSource } from './instance.js';
+export { initSync } from './instance.js';
+export type { WasmSource } from './module.js';
 export { version } from './version.js';
 export { array, arrayPresets } from './arrays.js';
 export { Estimator, estimate, methods } from './estimate.js';

@@ -1,6 +1,6 @@
 import * as glue from '../wasm/boresight.js';
 import { Handle } from './handle.js';
-import { call } from './instance.js';
+import { call, core } from './instance.js';
 import type { BoardFrame, BoardLog, BoardLogCounts, BytesInput, TextInput } from './types.js';
 
 /**
@@ -14,7 +14,7 @@ export function parseBoardLog(bytes: BytesInput, config?: TextInput): BoardLog {
 /** Takes the bytes of a board's data port as they come. */
 export class BoardLogStream extends Handle<glue.BoardLogStream> {
   constructor(config?: TextInput) {
-    super(() => new glue.BoardLogStream(config));
+    super(core, () => new glue.BoardLogStream(config));
   }
 
   /** Takes the next bytes and gives the packets they complete. */

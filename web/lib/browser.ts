@@ -1,6 +1,7 @@
 // Entry for browsers and bundlers: the wasm is fetched from beside this file.
 import { drives } from './drive.js';
-import { core, type WasmSource } from './instance.js';
+import { core } from './instance.js';
+import type { WasmSource } from './module.js';
 
 export * from './api.js';
 

@@ -1,6 +1,6 @@
 import * as glue from '../wasm/boresight.js';
 import { Handle } from './handle.js';
-import { call } from './instance.js';
+import { call, core } from './instance.js';
 import type { CalibrationFrame, CalibrationMethodInfo, CalibrationOptions, CalibrationResult, FrameOutcome } from './types.js';
 
 /** The methods that find a mounting angle. */
@@ -11,7 +11,7 @@ export function calibrationMethods(): CalibrationMethodInfo[] {
 /** Finds the angle a radar is mounted at from its frames while the car drives. */
 export class Calibration extends Handle<glue.Calibration> {
   constructor(options: CalibrationOptions) {
-    super(() => new glue.Calibration(options));
+    super(core, () => new glue.Calibration(options));
   }
 
   /** Takes the next frame and says what became of it. A frame that is refused leaves no trace. */

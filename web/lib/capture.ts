@@ -1,6 +1,6 @@
 import * as glue from '../wasm/boresight.js';
 import { Handle } from './handle.js';
-import { call } from './instance.js';
+import { call, core } from './instance.js';
 import type { Report } from './report.js';
 import type {
   AngleOptions, BytesInput, CaptureInfo, Cell, ChainOptions, CombineOptions, ComplexData, CubeChainOptions, Estimate,
@@ -13,7 +13,7 @@ export class Capture extends Handle<glue.Capture> {
   readonly info: CaptureInfo;
 
   constructor(bytes: BytesInput, config: TextInput) {
-    super(() => new glue.Capture(bytes, config));
+    super(core, () => new glue.Capture(bytes, config));
     this.info = this.use((raw) => raw.info() as CaptureInfo);
   }
 

@@ -3,6 +3,7 @@ import { type Task, jointTaskOf, taskOf } from './drive-radars.js';
 import { type View, checkOrder, extent, interpolate, scansOf, viewOf } from './drive-view.js';
 import { failure } from './errors.js';
 import { Handle } from './handle.js';
+import { core } from './instance.js';
 import { type Report, tell } from './report.js';
 import type {
   CalibrateDriveOptions, CalibratedFrames, CalibrationOptions, CalibrationResult, DriveCalibration, DriveData,
@@ -34,7 +35,7 @@ export function jointCalibration(drive: DriveData, options?: JointCalibrationOpt
 
 class DriveCalibrator extends Handle<glue.DriveCalibrator> {
   constructor(options: CalibrationOptions | CalibrationOptions[], weights: boolean) {
-    super(() => new glue.DriveCalibrator(options, weights));
+    super(core, () => new glue.DriveCalibrator(options, weights));
   }
 
   add(...args: Parameters<glue.DriveCalibrator['addFrames']>): Float64Array {

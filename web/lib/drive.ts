@@ -1,5 +1,5 @@
 import instantiate, * as glue from '../wasm/boresight_drives.js';
-import { Instance } from './instance.js';
+import { Instance } from './module.js';
 import type { Report } from './report.js';
 import type { Drive, DriveFile, DriveScenarioInfo, ReadDriveOptions, SimulateDriveOptions, SimulatedDrive } from './types.js';
 

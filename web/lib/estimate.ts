@@ -1,6 +1,6 @@
 import * as glue from '../wasm/boresight.js';
 import { Handle } from './handle.js';
-import { call } from './instance.js';
+import { call, core } from './instance.js';
 import type {
   BatchEstimate, BatchInput, BatchOptions, Estimate, EstimateInput, EstimatorOptions, MethodInfo,
 } from './types.js';
@@ -18,7 +18,7 @@ export function estimate(input: EstimateInput, options: EstimatorOptions): Estim
 /** An estimator that keeps its grids, plans and scratch space between cells. */
 export class Estimator extends Handle<glue.Estimator> {
   constructor(options: EstimatorOptions) {
-    super(() => new glue.Estimator(options));
+    super(core, () => new glue.Estimator(options));
   }
 
   estimate(input: EstimateInput): Estimate {

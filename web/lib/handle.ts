@@ -1,16 +1,19 @@
 import { failure } from './errors.js';
-import { call, core } from './instance.js';
+import type { Instance } from './module.js';
 
 const dispose: typeof Symbol.dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 
 /** Something that lives in wasm memory until `free()`, or until it is garbage collected. */
 export class Handle<Raw extends { free(): void }> {
-  readonly #instance = core.number;
+  readonly #instance: Instance;
+  readonly #number: number;
   #raw: Raw | undefined;
   #busy = false;
 
-  protected constructor(make: () => Raw) {
-    this.#raw = call(make);
+  protected constructor(instance: Instance, make: () => Raw) {
+    this.#instance = instance;
+    this.#number = instance.number;
+    this.#raw = instance.call(make);
   }
 
   /** Runs a method of the raw handle. */
@@ -18,7 +21,7 @@ export class Handle<Raw extends { free(): void }> {
     const raw = this.#idle();
     this.#busy = true;
     try {
-      return call(() => work(raw));
+      return this.#instance.call(() => work(raw));
     } finally {
       this.#busy = false;
     }
@@ -31,7 +34,7 @@ export class Handle<Raw extends { free(): void }> {
     if (this.#busy) throw this.#misuse('busy');
     this.#raw = undefined;
     // The memory of a dead instance went with it.
-    if (core.isAlive(this.#instance)) call(() => raw.free());
+    if (this.#instance.isAlive(this.#number)) this.#instance.call(() => raw.free());
   }
 
   /** For `using`: frees the handle unless that was done already. */
@@ -41,7 +44,7 @@ export class Handle<Raw extends { free(): void }> {
 
   #idle(): Raw {
     if (this.#raw === undefined) throw this.#misuse('freed');
-    if (this.#instance !== core.number) throw this.#misuse('stale');
+    if (this.#number !== this.#instance.number) throw this.#misuse('stale');
     // A callback of a running method called another one.
     if (this.#busy) throw this.#misuse('busy');
     return this.#raw;

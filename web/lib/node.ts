@@ -1,7 +1,8 @@
 // Entry for Node: the wasm is read from beside this file.
 import { readFile } from 'node:fs/promises';
 import { drives } from './drive.js';
-import { core, type WasmSource } from './instance.js';
+import { core } from './instance.js';
+import type { WasmSource } from './module.js';
 
 export * from './api.js';
 

@@ -1,7 +1,8 @@
 // Entry for workerd and other edge runtimes that import wasm as a compiled module.
 import module from '../wasm/boresight_bg.wasm';
 import { drives } from './drive.js';
-import { core, type WasmSource } from './instance.js';
+import { core } from './instance.js';
+import type { WasmSource } from './module.js';
 
 export * from './api.js';
 

@@ -13,7 +13,7 @@ use crate::report::reporter;
 use crate::write::{Record, complex64, list, remarks};
 use boresight_aoa::Method;
 use boresight_core::error::check_range;
-use boresight_core::{Array, Complex64};
+use boresight_core::{Array, Complex64, Waveform};
 use boresight_formats::{self as formats, RadarConfig};
 use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameCells, FrameSource};
 use js_sys::Function;
@@ -21,6 +21,19 @@ use ndarray::{Array2, ArrayView5};
 use std::ops::{ControlFlow, Range};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// How a chain is planned for frames of a waveform and a number of receivers, seen by an array.
+pub type Planner<'a> = &'a dyn Fn(&Waveform, usize, &Array, &ChainOptions) -> Fallible<Chain>;
+
+/// The chain with estimators that need no network.
+fn classical(
+    waveform: &Waveform,
+    receivers: usize,
+    array: &Array,
+    options: &ChainOptions,
+) -> Fallible<Chain> {
+    Ok(Chain::new(waveform, receivers, array, options)?)
+}
 
 /// A raw capture with its configuration. The chain planned last is kept.
 #[wasm_bindgen]
@@ -76,14 +89,7 @@ impl Capture {
     #[wasm_bindgen(js_name = processFrame)]
     pub fn process_frame(&mut self, frame: &JsValue, options: &JsValue) -> Fallible<JsValue> {
         let frame = self.read_frame(frame)?;
-        let mut fields = Fields::of_optional(options)?;
-        let (array, options) = read_chain(&mut fields)?;
-        fields.finish()?;
-        let (chain, recording) = self.planned(array, &options)?;
-        let mut results = vec![];
-        let report = &mut |_| ControlFlow::Continue(());
-        chain.each(&recording, frame..frame + 1, |result| results.push(result), report)?;
-        Ok(results.first().map_or(JsValue::UNDEFINED, |result| frame_record(result).into()))
+        Ok(self.process_frames_by(&classical, frame..frame + 1, options)?.get(0))
     }
 
     /// Detections of several frames together. `report`, a function or `undefined`, is called with
@@ -94,15 +100,7 @@ impl Capture {
         options: &JsValue,
         report: Option<Function>,
     ) -> Fallible<JsValue> {
-        let mut fields = Fields::of_optional(options)?;
-        let first = fields.optional("firstFrame")?.unwrap_or(0);
-        let count = fields.optional("frameCount")?;
-        let (array, options) = read_chain(&mut fields)?;
-        fields.finish()?;
-        let frames = self.frame_range(first, count)?;
-        let (chain, recording) = self.planned(array, &options)?;
-        let mut report = reporter(report);
-        Ok(frame_record(&chain.combine(&recording, frames, &mut report)?).into())
+        self.combine_frames_by(&classical, options, report)
     }
 
     /// Snapshots of one cell, elements x frames; of all frames if `frame` is `undefined`.
@@ -137,20 +135,67 @@ impl Capture {
 }
 
 impl Capture {
+    /// Number of frames.
+    pub fn frames(&self) -> usize {
+        self.frames
+    }
+
+    /// Detections of each frame of a range, by chains planned elsewhere: always by the same planner
+    /// for one capture.
+    pub fn process_frames_by(
+        &mut self,
+        planner: Planner,
+        frames: Range<usize>,
+        options: &JsValue,
+    ) -> Fallible<js_sys::Array> {
+        let mut fields = Fields::of_optional(options)?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let (chain, recording) = self.planned(planner, array, &options)?;
+        let results = js_sys::Array::new();
+        let take = |result| {
+            results.push(&frame_record(&result).into());
+        };
+        chain.each(&recording, frames, take, &mut |_| ControlFlow::Continue(()))?;
+        Ok(results)
+    }
+
+    /// As [`Capture::combine_frames`], by a chain planned elsewhere.
+    pub fn combine_frames_by(
+        &mut self,
+        planner: Planner,
+        options: &JsValue,
+        report: Option<Function>,
+    ) -> Fallible<JsValue> {
+        let mut fields = Fields::of_optional(options)?;
+        let first = fields.optional("firstFrame")?.unwrap_or(0);
+        let count = fields.optional("frameCount")?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let frames = self.frame_range(first, count)?;
+        let (chain, recording) = self.planned(planner, array, &options)?;
+        let mut report = reporter(report);
+        Ok(frame_record(&chain.combine(&recording, frames, &mut report)?).into())
+    }
+
     /// Detected cells of one frame.
     pub(crate) fn cells_of(&mut self, frame: &JsValue, options: &JsValue) -> Fallible<FrameCells> {
         let frame = self.read_frame(frame)?;
         let mut fields = Fields::of_optional(options)?;
         let (array, options) = read_chain(&mut fields)?;
         fields.finish()?;
-        let (chain, recording) = self.planned(array, &options)?;
+        let (chain, recording) = self.planned(&classical, array, &options)?;
         let Frame { samples, clipped } = recording.frame(frame)?;
         let mut cells = chain.cells(samples.view())?;
         cells.counts.clipped_samples = clipped;
         Ok(cells)
     }
 
-    fn read_frame(&self, frame: &JsValue) -> Fallible<usize> {
+    /// A frame's number.
+    ///
+    /// # Errors
+    /// For one that is not there.
+    pub fn read_frame(&self, frame: &JsValue) -> Fallible<usize> {
         let index = usize::read(frame, "frame")?;
         check_range("frame", index as f64, 0.0, (self.frames - 1) as f64)?;
         Ok(index)
@@ -168,6 +213,7 @@ impl Capture {
     /// Plans the chain, unless the one planned last will do.
     fn planned(
         &mut self,
+        planner: Planner,
         array: Option<Array>,
         options: &ChainOptions,
     ) -> Fallible<(&mut Chain, Recording<'_>)> {
@@ -181,7 +227,7 @@ impl Capture {
             Some(chain) => chain,
             None => {
                 let receivers = self.config.receivers.len();
-                Chain::new(&self.config.waveform, receivers, &array, options)?
+                planner(&self.config.waveform, receivers, &array, options)?
             }
         };
         Ok((self.chain.insert(chain), recording))
@@ -204,7 +250,7 @@ impl Capture {
             None => 0..self.frames,
         };
         fields.finish()?;
-        let (chain, recording) = self.planned(array, options)?;
+        let (chain, recording) = self.planned(&classical, array, options)?;
         let snapshots = chain.cell_snapshots(&recording, frames, range_bin, doppler_bin)?;
         Ok((chain, snapshots))
     }
@@ -213,6 +259,15 @@ impl Capture {
 /// Detections of each frame of a cube: frames x loops x transmitters x receivers x samples.
 #[wasm_bindgen(js_name = processCube)]
 pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array> {
+    process_cube_by(&classical, cube, options)
+}
+
+/// The same by a chain planned elsewhere.
+pub fn process_cube_by(
+    planner: Planner,
+    cube: &JsValue,
+    options: &JsValue,
+) -> Fallible<js_sys::Array> {
     let cube = Cube::read(cube, "cube")?;
     let [frames, loops, transmitters, receivers, samples] = cube.shape[..] else {
         let expected = "[frames, loops, transmitters, receivers, samples]";
@@ -224,7 +279,7 @@ pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array
         ArrayView5::from_shape(shape, &cube.data)
             .map_err(|_| shape_error("cube", "five axes", &cube.shape))?,
     );
-    let mut chain = Chain::new(&waveform, receivers, &array, &options)?;
+    let mut chain = planner(&waveform, receivers, &array, &options)?;
     let results = js_sys::Array::new();
     let take = |result| {
         results.push(&frame_record(&result).into());

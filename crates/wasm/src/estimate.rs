@@ -15,7 +15,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// The estimators and what each needs and gives.
 #[wasm_bindgen]
 pub fn methods() -> js_sys::Array {
-    list(Method::ALL.map(|method| {
+    list(Method::ALL.iter().chain(&Method::NETWORKS).map(|method| {
         let needs = method.requirements();
         let max_snapshots = needs.max_snapshots.map_or(JsValue::NULL, JsValue::from);
         Record::new()
@@ -31,7 +31,7 @@ pub fn methods() -> js_sys::Array {
             .with("sourceCount", needs.source_count)
             .with("spectrum", needs.spectrum)
             .with("cost", needs.cost)
-            .with("network", false)
+            .with("network", needs.network)
     }))
 }
 
@@ -58,8 +58,7 @@ impl Estimator {
         let array: Array = fields.required("array")?;
         let options = read_options(&mut fields)?;
         fields.finish()?;
-        let inner = aoa::Estimator::new(method, &array, &options)?;
-        Ok(Self { inner, batch: aoa::BatchEstimate::new(method) })
+        Ok(aoa::Estimator::new(method, &array, &options)?.into())
     }
 
     /// Estimates the angles in `{ snapshots }` or `{ covariance, snapshotCount }`.
@@ -80,6 +79,13 @@ impl Estimator {
         fields.finish()?;
         self.inner.estimate_batch_into(cells.view()?, spectra, &mut self.batch)?;
         Ok(batch_record(&self.batch).into())
+    }
+}
+
+impl From<aoa::Estimator> for Estimator {
+    fn from(inner: aoa::Estimator) -> Self {
+        let batch = aoa::BatchEstimate::new(inner.method());
+        Self { inner, batch }
     }
 }
 

@@ -1,4 +1,4 @@
-//! JavaScript bindings: the one crate that knows `wasm_bindgen`.
+//! JavaScript bindings of everything but the networks, which build on this crate.
 //!
 //! A binding function reads its options, calls one function of the crates beneath and writes the
 //! result as a plain object with typed arrays of its own. Degrees become radians here and nowhere
@@ -6,28 +6,29 @@
 //! TypeScript around this crate turns into a `BoresightError`.
 //!
 //! Two modules come of it, by feature: `core`, and `drives` with the readers and the simulation of
-//! drives, of which HDF5 alone weighs a third of all else.
+//! drives, of which HDF5 alone weighs a third of all else. `chain` is the part of the core that
+//! the module of networks (crates/wasm-neural) holds as well: estimators, captures, their chain.
 
-// Each module leaves helpers of the other unused.
+// Each module leaves helpers of the others unused.
 #![cfg_attr(not(all(feature = "core", feature = "drives")), allow(dead_code))]
 
-#[cfg(feature = "core")]
+#[cfg(feature = "chain")]
 pub mod array;
 #[cfg(feature = "core")]
 mod board;
 #[cfg(feature = "core")]
 mod bounds;
-mod bytes;
+pub mod bytes;
 #[cfg(feature = "core")]
 mod calibrate;
-#[cfg(feature = "core")]
+#[cfg(feature = "chain")]
 pub mod capture;
-#[cfg(feature = "core")]
+#[cfg(feature = "chain")]
 mod cells;
-#[cfg(feature = "core")]
-mod chain;
-mod complex;
-#[cfg(feature = "core")]
+#[cfg(feature = "chain")]
+pub mod chain;
+pub mod complex;
+#[cfg(feature = "chain")]
 mod config;
 #[cfg(feature = "core")]
 mod count;
@@ -36,10 +37,10 @@ mod drive;
 #[cfg(feature = "core")]
 mod drive_calibrator;
 pub mod error;
-#[cfg(feature = "core")]
+#[cfg(feature = "chain")]
 pub mod estimate;
-#[cfg(feature = "core")]
-mod frames;
+#[cfg(feature = "chain")]
+pub mod frames;
 #[cfg(feature = "core")]
 mod image;
 #[cfg(feature = "core")]
@@ -47,11 +48,11 @@ mod imperfections;
 mod names;
 #[cfg(feature = "core")]
 mod npy;
-#[cfg(feature = "core")]
-mod options;
+#[cfg(feature = "chain")]
+pub mod options;
 mod panic;
-mod read;
-mod report;
+pub mod read;
+pub mod report;
 #[cfg(feature = "core")]
 pub mod simulate;
 #[cfg(feature = "core")]
@@ -60,9 +61,9 @@ mod street;
 mod tables;
 #[cfg(feature = "core")]
 mod trajectory;
-#[cfg(feature = "core")]
+#[cfg(feature = "chain")]
 mod waveform;
-mod write;
+pub mod write;
 
 #[cfg(feature = "core")]
 use wasm_bindgen::prelude::wasm_bindgen;

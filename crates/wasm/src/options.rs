@@ -13,7 +13,12 @@ impl Read for Method {
     const EXPECTED: &'static str = "the name of a method";
 
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        choice(value, path, &Self::ALL.map(|method| (method.name(), method)))
+        let known: Vec<_> = Self::ALL
+            .iter()
+            .chain(&Self::NETWORKS)
+            .map(|method| (method.name(), *method))
+            .collect();
+        choice(value, path, &known)
     }
 }
 
@@ -58,6 +63,9 @@ pub fn read_options(fields: &mut Fields) -> Fallible<Options> {
     fields.update("refine", &mut options.refine)?;
     fields.update("maxIterations", &mut options.max_iterations)?;
     fields.update("tolerance", &mut options.tolerance)?;
+    options.confidence = fields.optional("confidence")?;
+    // Networks are found by what calls this; a method that lacks its own says so.
+    fields.raw("network")?;
     Ok(options)
 }
 
