@@ -114,32 +114,58 @@ def join(tones: torch.Tensor, waveform: Waveform, reflectors: Reflectors, positi
     return torch.einsum("bmlts,bmtr->bltrs", tones, response.to(tones.dtype))
 
 
+def spectrum_of_still(waveform: Waveform, range_m: torch.Tensor, bins: torch.Tensor) -> torch.Tensor:
+    """Range spectrum of targets at rest, of amplitude 1, at an element at the origin, [..., bins].
+
+    The transform of a tone is Dirichlet's kernel around its frequency; it is the same for every chirp.
+    """
+    w = waveform
+    delay = 2 * range_m.double() / SPEED_OF_LIGHT
+    turns = delay * (w.start_frequency_hz + w.slope_hz_per_s * w.adc_start_s)
+    distance = (delay * w.slope_hz_per_s * w.samples / w.sample_rate_hz).unsqueeze(-1) - bins
+    turns = (turns - turns.floor()).unsqueeze(-1) + distance * (0.5 * (w.samples - 1) / w.samples)
+    below = w.samples * (torch.pi / w.samples * distance).sin()
+    kernel = torch.where(below.abs() < 1e-6, 1.0, (torch.pi * distance).sin() / below)
+    return torch.polar(kernel.float().abs(), (2 * torch.pi * turns + torch.pi * (kernel < 0)).float())
+
+
 def regions(cubes: Cubes, batch: int, generator: torch.Generator):
     """Random regions of interest: targets, and range bins x elements x chirps, complex64, around the strongest bin.
 
-    The range spectrum is scaled so that a tone in the middle of a bin keeps its amplitude; range bins wrap.
+    The range spectrum is scaled so that a tone in the middle of a bin keeps its amplitude. Only bins that a region
+    can hold are simulated; those without targets have the noise of the whole spectrum, and bins wrap.
     """
-    waveform = WAVEFORMS[cubes.waveform]
+    waveform, elements = WAVEFORMS[cubes.waveform], cubes.elements().to(generator.device)
     reflectors = draw_reflectors(cubes, batch, generator)
-    tone = tones(waveform, reflectors)
+    range_m = reflectors.range_m
     if cubes.shift_m > 0:
-        by = uniform((batch,), -cubes.shift_m, cubes.shift_m, generator)
-        tone = tone * shift(waveform, by)[:, None, None, None, :]
-    spectrum = torch.fft.fft(tone, norm="forward").to(torch.complex64)
-    spectrum = join(spectrum, waveform, reflectors, cubes.elements().to(generator.device)).flatten(2, 3)
+        range_m = range_m + uniform((batch, 1), -cubes.shift_m, cubes.shift_m, generator)
+    bin_m = SPEED_OF_LIGHT * waveform.sample_rate_hz / (2 * waveform.slope_hz_per_s * waveform.samples)
+    nearest, farthest = cubes.range_m[0] - cubes.shift_m, cubes.range_m[1] + cubes.shift_m
+    margin = LENGTH // 2 + 1
+    bins = torch.arange(int(nearest / bin_m) - margin, int(farthest / bin_m) + 2 + margin, device=generator.device)
     # White noise stays white in the transform, at 1 / samples of its power.
     snr_db = uniform((batch, 1, 1, 1), *cubes.snr_db, generator, torch.float32)
     noise = (10 ** (-snr_db / 10) / waveform.samples).sqrt()
-    spectrum = spectrum + noise * complex_normal(spectrum.shape, generator)
-    power = (spectrum.real**2 + spectrum.imag**2).sum((1, 2))
-    return reflectors, crop(spectrum, power.argmax(-1))
+    phase = torch.polar(reflectors.valid.float(), reflectors.phase.float()).unsqueeze(-1)
+    tone = phase * spectrum_of_still(waveform, range_m, bins)
+    response = steering(elements, reflectors.azimuth.sin()).to(tone.dtype)
+    spectrum = (tone.mT @ response).unsqueeze(-1)
+    spectrum = spectrum + noise * complex_normal((*spectrum.shape[:-1], CHIRPS), generator)
+    power = torch.view_as_real(spectrum).square().sum((2, 3, 4))
+    strongest = power[:, margin:-margin].argmax(1) + margin
+    region = crop(spectrum, strongest)
+    empty = torch.nonzero(~reflectors.valid.any(1)).flatten()
+    if len(empty) > 0:
+        spectrum = complex_normal((len(empty), waveform.samples, len(elements), CHIRPS), generator)
+        power = torch.view_as_real(spectrum).square().sum((2, 3, 4))
+        region[empty] = noise[empty] * crop(spectrum, power.argmax(1))
+    return reflectors, region
 
 
 def crop(spectrum: torch.Tensor, centre: torch.Tensor) -> torch.Tensor:
-    """LENGTH range bins around `centre` of [batch, loops, elements, bins], as [batch, LENGTH, elements, CHIRPS]."""
-    bins = spectrum.shape[-1]
-    index = (centre.unsqueeze(1) + torch.arange(LENGTH, device=centre.device) - LENGTH // 2) % bins
-    spectrum = spectrum[:, :CHIRPS].permute(0, 3, 2, 1)
+    """LENGTH range bins around `centre` of [batch, bins, elements, chirps]; bins wrap."""
+    index = (centre.unsqueeze(1) + torch.arange(LENGTH, device=centre.device) - LENGTH // 2) % spectrum.shape[1]
     return spectrum[torch.arange(len(centre), device=centre.device).unsqueeze(1), index]
 
 

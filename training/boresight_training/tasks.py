@@ -11,7 +11,7 @@ from torch.nn import functional
 
 from .aaetr import CONFIGS, Aaetr
 from .arrays import array
-from .classifiers import COVARIANCE_FEATURES, DNN_HIDDEN, Cnn3d, counting, dnn, folded
+from .classifiers import CNN3D, COVARIANCE_FEATURES, DNN_HIDDEN, Cnn3d, counting, dnn, folded
 from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
 from .score import best_f1
 from .setloss import SetLossConfig, set_loss
@@ -155,6 +155,7 @@ class ClassifierTask:
     reference: str
     network: Any
     """Makes the model."""
+    sizes: dict
     cubes: Cubes
     lowest_db: float
     """Lowest SNR of the second stage of training; that of the first is the cubes'."""
@@ -237,7 +238,8 @@ class ClassifierTask:
 
     def describe(self):
         data = {**asdict(self.cubes), "second_stage_lowest_snr_db": self.lowest_db}
-        return {"data": data} if self.counts else {"targets": self.cubes.targets[1], "data": data}
+        targets = {} if self.counts else {"targets": self.cubes.targets[1]}
+        return {**targets, "model": self.sizes, "data": data}
 
 
 SANG = "Sang et al. (2021), DoA Estimation for FMCW Radar by 3D-CNN"
@@ -248,24 +250,23 @@ def classifier(name: str, config: str, targets: int) -> ClassifierTask:
     """The counting network, the 3D-CNN or the DNN, for one or two targets."""
     if name == "counting":
         hidden = {"small": 256, "paper": 1024}[config]
-        title = f"Number of targets, form {config}"
-        return ClassifierTask(title, SANG, partial(counting, hidden), Cubes(), -10.0, True, 256, 1e-3)
+        title, network = f"Number of targets, form {config}", partial(counting, hidden)
+        return ClassifierTask(title, SANG, network, {"hidden": hidden}, Cubes(), -10.0, True, 256, 1e-3)
     number = "one target" if targets == 1 else "two targets"
     cubes = Cubes(targets=(targets, targets))
     if name == "dnn":
-        title = f"DNN, form {config}, {number}"
-        return ClassifierTask(title, CHEN, partial(dnn, DNN_HIDDEN[config]), cubes, -5.0, True, 256, 1e-3)
+        title, hidden = f"DNN, form {config}, {number}", DNN_HIDDEN[config]
+        return ClassifierTask(title, CHEN, partial(dnn, hidden), {"hidden": hidden}, cubes, -5.0, True, 256, 2e-3)
     if config == "experiment":
         cubes = replace(cubes, waveform="3dcnn-experiment", range_m=(9.7, 10.3), shift_m=0.3)
-    filters = 48 if config == "small" else 256
-    title = f"3D-CNN, form {config}, {number}"
-    return ClassifierTask(title, SANG, partial(Cnn3d, filters), cubes, -5.0, False, 64, 5e-4)
+    title, sizes = f"3D-CNN, form {config}, {number}", CNN3D[config]
+    return ClassifierTask(title, SANG, partial(Cnn3d, sizes), asdict(sizes), cubes, -5.0, False, 32, 2e-3)
 
 
 NETWORKS = {
     "aaetr": tuple(CONFIGS),
     "counting": ("small", "paper"),
-    "cnn3d": ("small", "paper", "experiment"),
+    "cnn3d": tuple(CNN3D),
     "dnn": tuple(DNN_HIDDEN),
 }
 

@@ -7,7 +7,7 @@ import torch
 from boresight_training import export
 from boresight_training.aaetr import CONFIGS, Aaetr
 from boresight_training.arrays import array
-from boresight_training.classifiers import Cnn3d, counting, folded, fully_connected
+from boresight_training.classifiers import counting, folded, fully_connected
 from boresight_training.snapshots import Scenes, snapshots
 from boresight_training.tasks import task
 
@@ -72,7 +72,7 @@ def test_the_papers_sizes():
     assert parameters(Aaetr(CONFIGS["paper"])) == 1_611_779
     linear = [m for m in counting() if isinstance(m, torch.nn.Linear)]
     assert [(m.in_features, m.out_features) for m in linear] == [(56, 1024), *3 * [(1024, 1024)], (1024, 3)]
-    features = Cnn3d().features
+    features = task("cnn3d", "paper").model().features
     x = torch.zeros(1, 3, 65, 8, 4)
     sizes = [tuple((x := layer(x)).shape[1:]) for layer in features]
     assert sizes == [*2 * [(256, 36, 4, 2)], *2 * [(256, 35, 3, 1)], (256, 18, 2, 1)]

@@ -8,6 +8,7 @@ import torch
 
 from boresight_training.arrays import array
 from boresight_training.regions import (
+    SPEED_OF_LIGHT,
     WAVEFORMS,
     Cubes,
     Reflectors,
@@ -18,6 +19,7 @@ from boresight_training.regions import (
     labels,
     regions,
     shift,
+    spectrum_of_still,
     tones,
 )
 from boresight_training.snapshots import Scenes, Targets, responses, snapshots
@@ -102,6 +104,27 @@ def test_a_shift_by_equation_10_moves_the_target():
     assert (moved - at(10.23)).abs().max() < 1e-9
 
 
+@pytest.mark.parametrize("waveform", WAVEFORMS)
+def test_spectra_of_still_targets_are_those_of_their_samples(waveform):
+    w = WAVEFORMS[waveform]
+    bin_m = SPEED_OF_LIGHT * w.sample_rate_hz / (2 * w.slope_hz_per_s * w.samples)
+    range_m = row(9.9, 10.3 * bin_m, 100 * bin_m, 200.5 * bin_m)
+    still = Reflectors(range_m, *[torch.zeros_like(range_m)] * 3, torch.ones_like(range_m, dtype=torch.bool))
+    expected = torch.fft.fft(tones(w, still)[:, :, 1, 0], norm="forward")
+    given = spectrum_of_still(w, range_m, torch.arange(w.samples))
+    assert (given - expected).abs().max() < SAME
+
+
+def test_the_strongest_bin_of_two_is_in_the_middle():
+    _, region = regions(Cubes(targets=(2, 2), snr_db=(-5, -5)), 300, torch.Generator().manual_seed(7))
+    assert (region.abs().square().sum((2, 3)).argmax(1) == 32).all()
+    _, region = regions(Cubes(targets=(0, 0)), 300, torch.Generator().manual_seed(7))
+    power = region.abs().square().mean((2, 3))
+    assert (power.argmax(1) == 32).all()
+    # The largest of 256 means of 32 exponentials: 1.55 times the mean, within 0.1 of it in each case.
+    assert abs(float((power[:, 32] / power[:, :32].mean(1)).mean()) - 1.55) < 0.05
+
+
 def test_regions_are_around_the_target_with_its_noise():
     cubes = Cubes(targets=(1, 1), snr_db=(10, 10))
     reflectors, region = regions(cubes, 400, torch.Generator().manual_seed(1))
@@ -115,7 +138,7 @@ def test_regions_are_around_the_target_with_its_noise():
 
 
 def test_a_crop_wraps():
-    spectrum = torch.arange(100.0).expand(1, 4, 8, 100).to(torch.complex64)
+    spectrum = torch.arange(100.0).view(1, 100, 1, 1).to(torch.complex64)
     assert crop(spectrum, torch.tensor([3]))[0, :, 0, 0].real.tolist() == [float(k % 100) for k in range(71, 136)]
 
 
