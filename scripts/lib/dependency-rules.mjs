@@ -7,7 +7,7 @@ const allowed = {
   image: ['core', 'signal'],
   calibrate: ['core'],
   formats: ['core'],
-  neural: ['core'],
+  neural: ['core', 'signal', 'aoa'],
   pipeline: ['core', 'signal', 'aoa'],
   evaluate: ['core', 'signal', 'aoa', 'calibrate', 'simulate', 'image', 'neural', 'pipeline'],
   cli: null,

@@ -109,7 +109,7 @@ pub(crate) fn conclude(
 
 /// Puts the sources of an estimate in order, and sets `resolved` and the warnings that follow from
 /// their number.
-pub(crate) fn settle(estimate: &mut Estimate, expected: Option<usize>) {
+pub fn settle(estimate: &mut Estimate, expected: Option<usize>) {
     let Estimate { sources, warnings, .. } = estimate;
     // Unlike a stable sort this allocates nothing; equal powers go by angle.
     sources.sort_unstable_by(|a, b| {

@@ -43,6 +43,7 @@ mod sparse_bayesian;
 mod subspace;
 
 pub use batch::{BatchEstimate, Spectra, WarningCount};
+pub use checks::settle;
 pub use data::Data;
 pub use error::AoaError;
 pub use estimate::{Estimate, Source, Spectrum, SpectrumKind, Warning};
@@ -51,3 +52,4 @@ pub use estimators::Estimators;
 pub use grid::Grid;
 pub use method::{Method, Requirements};
 pub use options::{Options, SourceCount};
+pub use powers::sources_at;

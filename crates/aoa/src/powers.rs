@@ -12,7 +12,7 @@ use ndarray::ArrayView2;
 /// `A^+ R A^+^H`. The power contains the noise that falls into the fit, about the noise power over
 /// the number of elements. Where the directions are too many or too close to tell apart, each
 /// power is that of a beam steered there, `a^H R a / K^2`, and there is no amplitude.
-pub(crate) fn sources_at(array: &Array, directions: &[Direction], data: Data<'_>) -> Vec<Source> {
+pub fn sources_at(array: &Array, directions: &[Direction], data: Data<'_>) -> Vec<Source> {
     if directions.is_empty() {
         return Vec::new();
     }

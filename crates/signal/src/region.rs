@@ -120,19 +120,25 @@ pub fn crop_region(
     }))
 }
 
-/// Covariance of what passes a band-pass filter around a region of interest, channels x channels:
-/// by Parseval's theorem the mean over chirps of the sum over its range bins, so that a target in
-/// the middle of a bin gives its power of one raw sample where the window was rectangular.
-pub fn region_covariance(region: ArrayView3<Complex32>) -> Array2<Complex64> {
+/// A region as snapshots: channels x (bins x chirps), the chirps of a bin side by side, scaled so that their covariance
+/// is [`region_covariance`].
+pub fn region_snapshots(region: ArrayView3<Complex32>) -> Array2<Complex64> {
     let (length, channels, chirps) = region.dim();
+    let scale = (length as f64).sqrt();
     let mut snapshots = Array2::zeros((channels, length * chirps));
     for (j, plane) in region.outer_iter().enumerate() {
         snapshots
             .slice_mut(s![.., j * chirps..(j + 1) * chirps])
-            .zip_mut_with(&plane, |out, z| *out = Complex64::new(z.re.into(), z.im.into()));
+            .zip_mut_with(&plane, |out, z| *out = Complex64::new(z.re.into(), z.im.into()) * scale);
     }
-    let mean = crate::covariance::sample_covariance(snapshots.view());
-    mean.mapv(|z| z * length as f64)
+    snapshots
+}
+
+/// Covariance of what passes a band-pass filter around a region of interest, channels x channels:
+/// by Parseval's theorem the mean over chirps of the sum over its range bins, so that a target in
+/// the middle of a bin gives its power of one raw sample where the window was rectangular.
+pub fn region_covariance(region: ArrayView3<Complex32>) -> Array2<Complex64> {
+    crate::covariance::sample_covariance(region_snapshots(region).view())
 }
 
 /// The three real channels in which the 3D-CNN takes a region: magnitude, real and imaginary part,

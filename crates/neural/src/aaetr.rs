@@ -1,0 +1,184 @@
+//! A set of targets from one snapshot: AAETR.
+
+use crate::engine::{Runners, filled};
+use crate::error::{NeuralError, network_failed};
+use crate::model::Model;
+use boresight_aoa::estimator::Plan;
+use boresight_aoa::{AoaError, Data, Estimate, Method, Options, Source, Warning, settle};
+use boresight_core::{Array, Complex64, Direction, presets};
+use ndarray::{Array2, ArrayView3, ArrayViewD, Axis};
+
+const METHOD: Method = Method::Aaetr;
+
+/// Least confidence of a source where neither options nor card name one.
+const CONFIDENCE: f64 = 0.5;
+
+/// The network with the positions of one array in it.
+#[derive(Clone)]
+pub(crate) struct Aaetr {
+    runners: Runners,
+    elements: usize,
+    confidence: f64,
+    /// Sine of the half width of the field of view.
+    limit: f64,
+    most: usize,
+    warning: Option<Warning>,
+    /// Magnitudes of the cells at hand, each of which is scaled to one.
+    scales: Vec<f64>,
+}
+
+impl Aaetr {
+    pub fn new(model: &Model, array: &Array, options: &Options) -> Result<Self, NeuralError> {
+        let elements = model.inputs().iter().find_map(|port| match port.axes[..] {
+            [crate::Axis::Length(elements), _] => Some(elements),
+            _ => None,
+        });
+        let elements = elements.unwrap_or_default();
+        if array.len() != elements {
+            return Err(AoaError::Array {
+                method: METHOD.name(),
+                expected: format!("an array of {elements} elements, as its model was made for"),
+                given: format!("has {}", array.len()),
+            }
+            .into());
+        }
+        let positions = array.positions().iter().flatten().map(|&p| p as f32);
+        let positions = ArrayViewD::from_shape(&[elements, 3][..], &positions.collect::<Vec<_>>())
+            .map(|positions| model.runners_with("positions", positions));
+        let runners = positions
+            .map_err(|error| NeuralError::Refused { stage: "read", reason: error.to_string() })??;
+        let card = model.card().and_then(|card| card.confidence);
+        Ok(Self {
+            runners,
+            elements,
+            confidence: options.confidence.or(card).unwrap_or(CONFIDENCE),
+            limit: options.field_of_view_rad.sin() + 1e-9,
+            most: options.max_peaks,
+            warning: outside_training(model, array, options),
+            scales: Vec::new(),
+        })
+    }
+}
+
+impl Plan for Aaetr {
+    fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
+        let mut estimate = Estimate::new(METHOD);
+        self.estimate_into(data, &mut estimate)?;
+        Ok(estimate)
+    }
+
+    fn estimate_into(&mut self, data: Data<'_>, out: &mut Estimate) -> Result<(), AoaError> {
+        let Data::Snapshots(snapshots) = data else {
+            return Err(AoaError::NeedsSnapshots { method: METHOD.name() });
+        };
+        self.estimate_cells(snapshots.insert_axis(Axis(0)), std::slice::from_mut(out))
+    }
+
+    fn cells_at_once(&self) -> usize {
+        self.runners.most()
+    }
+
+    fn estimate_cells(
+        &mut self,
+        cells: ArrayView3<'_, Complex64>,
+        out: &mut [Estimate],
+    ) -> Result<(), AoaError> {
+        let (count, elements, snapshots) = cells.dim();
+        if snapshots != 1 {
+            return Err(AoaError::Snapshots {
+                method: METHOD.name(),
+                expected: "one snapshot".into(),
+                given: snapshots,
+            });
+        }
+        debug_assert_eq!(elements, self.elements);
+        self.scales.clear();
+        self.scales.extend(
+            cells
+                .outer_iter()
+                .map(|cell| cell.iter().map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max)),
+        );
+        let Self { runners, scales, confidence, limit, most, warning, .. } = self;
+        let given = |from: usize, to: usize| {
+            let stretch = cells.slice_axis(Axis(0), (from..to).into());
+            let scales = &scales[from..to];
+            let tensor = filled(&[to - from, elements, 2], |numbers| {
+                let mut numbers = numbers.chunks_exact_mut(2);
+                for (cell, &scale) in stretch.outer_iter().zip(scales) {
+                    let gain = if scale > 0.0 { scale.recip() } else { 0.0 };
+                    for (z, pair) in cell.iter().zip(&mut numbers) {
+                        pair[0] = (z.re * gain) as f32;
+                        pair[1] = (z.im * gain) as f32;
+                    }
+                }
+            })?;
+            Ok([tensor.into()].into_iter().collect())
+        };
+        let answers = |from: usize, outputs: &[ArrayViewD<'_, f32>]| {
+            for (cell, targets) in outputs[0].outer_iter().enumerate() {
+                let scale = scales[from + cell];
+                let out = &mut out[from + cell];
+                out.sources.clear();
+                for target in targets.outer_iter().filter(|_| scale > 0.0) {
+                    let [sine, amplitude, sure] = [0, 1, 2].map(|i| f64::from(target[i]));
+                    if sure >= *confidence && sine.abs() <= limit.min(1.0) {
+                        out.sources.push(Source {
+                            direction: Direction::azimuth(sine.asin()),
+                            power: (amplitude * scale).powi(2),
+                            amplitude: None,
+                            confidence: Some(sure),
+                        });
+                    }
+                }
+            }
+        };
+        runners.run(count, given, answers).map_err(|error| network_failed(METHOD.name(), error))?;
+        for out in out {
+            out.method = METHOD;
+            out.spectrum = None;
+            out.iterations = 0;
+            out.warnings.clear();
+            out.warnings.extend(warning.clone());
+            settle(out, None);
+            out.sources.truncate(*most);
+        }
+        Ok(())
+    }
+}
+
+/// A warning where array or field of view are not what the network was trained on.
+fn outside_training(model: &Model, array: &Array, options: &Options) -> Option<Warning> {
+    let card = model.card()?;
+    let mut differences = Vec::new();
+    if let Some(name) = &card.data.array
+        && let Ok(trained) = presets::preset(name)
+        && deviation(array, &trained) > 1e-3 + 4.0 * card.data.position_error
+    {
+        differences.push(format!("trained on the array {name}, used on another"));
+    }
+    if let Some(trained) = card.data.field_of_view_deg
+        && options.field_of_view_rad.to_degrees() > trained + 1e-6
+    {
+        let asked = options.field_of_view_rad.to_degrees();
+        differences
+            .push(format!("trained within {trained} deg of boresight, asked for {asked:.0}"));
+    }
+    let difference = format!("{} is {}", card.name, differences.join(" and "));
+    (!differences.is_empty()).then_some(Warning::OutsideTraining { difference })
+}
+
+/// Largest difference of the elements' positions but for a shift of all, half wavelengths.
+fn deviation(array: &Array, other: &Array) -> f64 {
+    if array.len() != other.len() {
+        return f64::INFINITY;
+    }
+    let centred = |array: &Array| {
+        let mut positions =
+            Array2::from_shape_fn((array.len(), 3), |(k, i)| array.positions()[k][i]);
+        if let Some(mean) = positions.mean_axis(Axis(0)) {
+            positions -= &mean;
+        }
+        positions
+    };
+    (centred(array) - centred(other)).iter().fold(0.0, |most, d| d.abs().max(most))
+}

@@ -1,0 +1,188 @@
+//! What is known of a model: the JSON file beside each ONNX file.
+
+use crate::error::NeuralError;
+use boresight_aoa::Method;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// What a network does, told from the names and shapes of its inputs and outputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// A set of targets from one snapshot.
+    Aaetr,
+    /// The number of targets, 0 to 2, from a covariance.
+    Counting,
+    /// Whole degrees from a covariance.
+    Dnn,
+    /// Whole degrees from a region of the range spectrum.
+    Cnn3d,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 4] = [Self::Aaetr, Self::Counting, Self::Dnn, Self::Cnn3d];
+
+    /// Its name on cards.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Aaetr => "aaetr",
+            Self::Counting => "counting",
+            Self::Dnn => "dnn",
+            Self::Cnn3d => "cnn3d",
+        }
+    }
+
+    /// The method of angle estimation; none for the counting network.
+    pub fn method(self) -> Option<Method> {
+        match self {
+            Self::Aaetr => Some(Method::Aaetr),
+            Self::Counting => None,
+            Self::Dnn => Some(Method::Dnn),
+            Self::Cnn3d => Some(Method::Cnn3d),
+        }
+    }
+
+    /// Its inputs, then its outputs. Where an axis has a name other than `batch`, any length will do, the same
+    /// everywhere.
+    pub fn ports(self) -> (Vec<Port>, Vec<Port>) {
+        let batch = || Axis::Named("batch".into());
+        let named = |name: &str| Axis::Named(name.into());
+        let port = |name: &str, axes: Vec<Axis>| Port { name: name.into(), axes };
+        let fixed = |name: &str, lengths: &[usize]| {
+            port(
+                name,
+                std::iter::once(batch()).chain(lengths.iter().map(|&n| Axis::Length(n))).collect(),
+            )
+        };
+        match self {
+            Self::Aaetr => (
+                vec![
+                    port("snapshots", vec![batch(), named("elements"), Axis::Length(2)]),
+                    port("positions", vec![named("elements"), Axis::Length(3)]),
+                ],
+                vec![port("targets", vec![batch(), named("queries"), Axis::Length(3)])],
+            ),
+            Self::Counting => (vec![fixed("covariance", &[56])], vec![fixed("probability", &[3])]),
+            Self::Dnn => (vec![fixed("covariance", &[56])], vec![fixed("probability", &[21])]),
+            Self::Cnn3d => {
+                (vec![fixed("region", &[65, 8, 4, 3])], vec![fixed("probability", &[21])])
+            }
+        }
+    }
+}
+
+/// Length of an axis, or a name where any goes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Axis {
+    /// A fixed length.
+    Length(usize),
+    /// Any length; axes of one name have the same.
+    Named(String),
+}
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Length(length) => write!(f, "{length}"),
+            Self::Named(name) => f.write_str(name),
+        }
+    }
+}
+
+/// An input or output, of 32-bit floating-point numbers.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Port {
+    /// Its name.
+    pub name: String,
+    /// Its shape.
+    pub axes: Vec<Axis>,
+}
+
+impl Port {
+    /// Whether its first axis counts the examples of a batch.
+    pub fn batched(&self) -> bool {
+        matches!(self.axes.first(), Some(Axis::Named(_)))
+    }
+}
+
+impl fmt::Display for Port {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let axes: Vec<String> = self.axes.iter().map(Axis::to_string).collect();
+        write!(f, "{} [{}]", self.name, axes.join(", "))
+    }
+}
+
+/// What a network was trained on.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", default)]
+pub struct TrainingData {
+    /// Name of the array.
+    pub array: Option<String>,
+    /// Name of the waveform of simulated data cubes.
+    pub waveform: Option<String>,
+    /// Half width of the field of view, deg.
+    pub field_of_view_deg: Option<f64>,
+    /// Standard deviation of the elements' positions, half wavelengths.
+    pub position_error: f64,
+}
+
+/// What is known of a model. Only what is needed to run and name it; a card holds more.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Card {
+    /// Name, that of the file.
+    pub name: String,
+    /// Name for people.
+    #[serde(default)]
+    pub title: String,
+    /// Where it was published.
+    #[serde(default)]
+    pub reference: String,
+    /// What it does.
+    #[serde(rename = "network")]
+    pub kind: Kind,
+    /// Its size.
+    #[serde(default)]
+    pub form: String,
+    /// Inputs, in order.
+    pub inputs: Vec<Port>,
+    /// Outputs, in order.
+    pub outputs: Vec<Port>,
+    /// Number of parameters.
+    #[serde(default)]
+    pub parameters: usize,
+    /// Least confidence of a source, unless asked otherwise.
+    #[serde(default)]
+    pub confidence: Option<f64>,
+    /// Number of targets a classifier was trained for.
+    #[serde(default)]
+    pub targets: Option<usize>,
+    /// What it was trained on.
+    #[serde(default)]
+    pub data: TrainingData,
+    /// SHA-256 of the ONNX file, hexadecimal.
+    #[serde(default)]
+    pub sha256: Option<String>,
+}
+
+impl Card {
+    /// Reads a card.
+    ///
+    /// # Errors
+    /// [`NeuralError::Card`] where it is no JSON, a field is missing or of the wrong type, or the confidence is not
+    /// between 0 and 1.
+    pub fn from_json(text: &[u8]) -> Result<Self, NeuralError> {
+        let card: Self = serde_json::from_slice(text)
+            .map_err(|error| NeuralError::Card { reason: error.to_string() })?;
+        if let Some(confidence) = card.confidence
+            && !(0.0..=1.0).contains(&confidence)
+        {
+            return Err(NeuralError::Card {
+                reason: format!("confidence is {confidence}, not between 0 and 1"),
+            });
+        }
+        Ok(card)
+    }
+}

@@ -1,0 +1,275 @@
+//! A graph, and the plans by which tract runs it.
+
+use crate::card::{Axis, Port};
+use crate::error::NeuralError;
+use ndarray::{ArrayD, ArrayViewD};
+use std::sync::{Arc, Mutex, PoisonError};
+use tract_onnx::pb::{ModelProto, ValueInfoProto, tensor_proto, tensor_shape_proto, type_proto};
+use tract_onnx::prelude::*;
+use tract_onnx::tract_core::ops::konst::Const;
+use tract_onnx::tract_core::plan::SimpleState;
+use tract_onnx::tract_hir::infer::InferenceOp;
+use tract_onnx::tract_hir::internal::DimLike;
+
+/// Most numbers between two operators.
+const MAX_NUMBERS: usize = 1 << 26;
+
+type Runnable = Arc<TypedRunnableModel>;
+
+/// A graph with its plans, a plan for each size of batch.
+pub(crate) struct Engine {
+    graph: InferenceModel,
+    inputs: Vec<Port>,
+    /// For each input whether its first axis counts the examples of a batch.
+    batched: Vec<bool>,
+    plans: Mutex<Vec<(usize, Runnable)>>,
+}
+
+impl Engine {
+    /// Reads the graph, whose inputs are `inputs`; `batched` tells for each whether its first axis counts examples.
+    pub fn new(
+        proto: &ModelProto,
+        inputs: Vec<Port>,
+        batched: Vec<bool>,
+    ) -> Result<Self, NeuralError> {
+        let onnx = tract_onnx::onnx().with_ignore_value_info(true);
+        let graph = onnx.model_for_proto_model(proto).map_err(|error| refused("read", &error))?;
+        Ok(Self { graph, inputs, batched, plans: Mutex::default() })
+    }
+
+    /// Inputs with, for each, whether its first axis counts the examples of a batch.
+    pub fn inputs(&self) -> impl Iterator<Item = (&Port, bool)> {
+        self.inputs.iter().zip(self.batched.iter().copied())
+    }
+
+    /// Shapes of the outputs for one example, those of other than 32-bit floating-point numbers being empty.
+    pub fn output_shapes(&self) -> Result<Vec<Vec<usize>>, NeuralError> {
+        let plan = self.plan(1)?;
+        let shape = |at| {
+            let fact = plan.model().output_fact(at)?;
+            let shape = fact.shape.as_concrete().filter(|_| fact.datum_type == f32::datum_type());
+            Ok(shape.unwrap_or_default().to_vec())
+        };
+        let outputs = 0..plan.model().outputs.len();
+        outputs.map(shape).collect::<TractResult<_>>().map_err(|error| refused("analysed", &error))
+    }
+
+    /// The same with an input that never changes, so that what follows from it is computed once.
+    pub fn with_constant(
+        &self,
+        name: &str,
+        value: ArrayViewD<'_, f32>,
+    ) -> Result<Self, NeuralError> {
+        let mut engine = Self {
+            graph: self.graph.clone(),
+            inputs: self.inputs.clone(),
+            batched: self.batched.clone(),
+            plans: Mutex::default(),
+        };
+        if let Some(at) = self.inputs.iter().position(|port| port.name == name) {
+            let tensor = tensor(value)?;
+            let outlet = engine.graph.inputs.remove(at);
+            let node = &mut engine.graph.nodes[outlet.node];
+            let constant = Const::new(tensor.clone().into_arc_tensor())
+                .map_err(|error| refused("read", &error))?;
+            node.op = Box::new(constant) as Box<dyn InferenceOp>;
+            node.outputs[0].fact = tensor.into();
+            engine.inputs.remove(at);
+            engine.batched.remove(at);
+        }
+        Ok(engine)
+    }
+
+    /// The plan for batches of `batch` examples, made when it is first asked for.
+    pub fn plan(&self, batch: usize) -> Result<Runnable, NeuralError> {
+        let mut plans = self.plans.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, plan)) = plans.iter().find(|(size, _)| *size == batch) {
+            return Ok(plan.clone());
+        }
+        let plan = self.prepare(batch)?;
+        plans.push((batch, plan.clone()));
+        Ok(plan)
+    }
+
+    fn prepare(&self, batch: usize) -> Result<Runnable, NeuralError> {
+        let mut graph = self.graph.clone();
+        for (at, (port, &batched)) in self.inputs.iter().zip(&self.batched).enumerate() {
+            let shape = shape(port, batched.then_some(batch));
+            graph
+                .set_input_fact(at, f32::fact(shape).into())
+                .map_err(|error| refused("analysed", &error))?;
+        }
+        let typed = graph.into_typed().map_err(|error| refused("analysed", &error))?;
+        for node in typed.nodes() {
+            let held = |fact: &TypedFact| {
+                fact.shape.volume().to_usize().is_ok_and(|count| count <= MAX_NUMBERS)
+            };
+            if !node.outputs.iter().all(|outlet| held(&outlet.fact)) {
+                return Err(NeuralError::Malformed {
+                    what: format!("output of {:?}", node.name),
+                    expected: format!("at most {MAX_NUMBERS} numbers"),
+                    given: "more, or no fixed number".into(),
+                });
+            }
+        }
+        let plan = typed
+            .into_optimized()
+            .and_then(TypedModel::into_runnable)
+            .map_err(|error| refused("optimised", &error))?;
+        Ok(plan)
+    }
+}
+
+/// Sizes of batches plans are made for; others are made up of these, the largest first.
+pub(crate) const BATCHES: [usize; 2] = [32, 1];
+
+/// What runs a graph on batches of any size, with the state of its plans.
+#[derive(Clone)]
+pub(crate) struct Runners {
+    engine: Arc<Engine>,
+    sizes: Vec<usize>,
+    ready: Vec<(usize, Runner)>,
+}
+
+impl Runners {
+    /// `single` for a graph that takes one example at a time.
+    pub fn new(engine: Arc<Engine>, single: bool) -> Self {
+        let sizes = BATCHES.into_iter().filter(|&size| size == 1 || !single).collect();
+        Self { engine, sizes, ready: Vec::new() }
+    }
+
+    /// The largest batch that is run at once.
+    pub fn most(&self) -> usize {
+        self.sizes.iter().copied().max().unwrap_or(1)
+    }
+
+    /// Runs `count` examples: `given(from, to)` makes the inputs of a stretch, `take(from, outputs)` takes its outputs.
+    pub fn run(
+        &mut self,
+        count: usize,
+        mut given: impl FnMut(usize, usize) -> Result<TVec<TValue>, NeuralError>,
+        mut take: impl FnMut(usize, &[ArrayViewD<'_, f32>]),
+    ) -> Result<(), NeuralError> {
+        let mut from = 0;
+        for at in 0..self.sizes.len() {
+            let size = self.sizes[at];
+            while count - from >= size {
+                let inputs = given(from, from + size)?;
+                self.runner(size)?.run(inputs, |outputs| take(from, outputs))?;
+                from += size;
+            }
+        }
+        Ok(())
+    }
+
+    fn runner(&mut self, size: usize) -> Result<&mut Runner, NeuralError> {
+        let at = match self.ready.iter().position(|(ready, _)| *ready == size) {
+            Some(at) => at,
+            None => {
+                let state = self.engine.plan(size)?.spawn();
+                let state = state.map_err(|error| refused("run", &error))?;
+                self.ready.push((size, Runner { state }));
+                self.ready.len() - 1
+            }
+        };
+        Ok(&mut self.ready[at].1)
+    }
+}
+
+/// A plan with its state.
+#[derive(Clone)]
+struct Runner {
+    state: SimpleState<TypedFact, Box<dyn TypedOp>>,
+}
+
+impl Runner {
+    fn run(
+        &mut self,
+        inputs: TVec<TValue>,
+        take: impl FnOnce(&[ArrayViewD<'_, f32>]),
+    ) -> Result<(), NeuralError> {
+        let failed = |error: TractError| refused("run", &error);
+        let outputs = self.state.run(inputs).map_err(failed)?;
+        let views: Vec<ArrayViewD<'_, f32>> = outputs
+            .iter()
+            .map(|output| output.to_plain_array_view::<f32>())
+            .collect::<TractResult<_>>()
+            .map_err(failed)?;
+        for view in &views {
+            if let Some(&given) = view.iter().find(|x| !x.is_finite()) {
+                return Err(NeuralError::NotFinite { what: "the network's output".into(), given });
+            }
+        }
+        take(&views);
+        Ok(())
+    }
+}
+
+/// A tensor of the same numbers.
+pub(crate) fn tensor(array: ArrayViewD<'_, f32>) -> Result<Tensor, NeuralError> {
+    let tensor = match array.as_slice() {
+        Some(numbers) => Tensor::from_shape(array.shape(), numbers),
+        None => Ok(Tensor::from(array.to_owned())),
+    };
+    tensor.map_err(|error| refused("run", &error))
+}
+
+/// A tensor that `fill` writes the numbers of.
+pub(crate) fn filled(
+    shape: &[usize],
+    fill: impl FnOnce(&mut [f32]),
+) -> Result<Tensor, NeuralError> {
+    let mut numbers: ArrayD<f32> = ArrayD::zeros(shape);
+    if let Some(numbers) = numbers.as_slice_mut() {
+        fill(numbers);
+    }
+    Ok(Tensor::from(numbers))
+}
+
+fn shape(port: &Port, batch: Option<usize>) -> TVec<usize> {
+    let length = |axis: &Axis| match axis {
+        Axis::Length(length) => *length,
+        Axis::Named(_) => 1,
+    };
+    port.axes
+        .iter()
+        .enumerate()
+        .map(|(at, axis)| batch.filter(|_| at == 0).unwrap_or_else(|| length(axis)))
+        .collect()
+}
+
+/// Inputs that are no constants, and outputs, as the file states them.
+pub(crate) fn ports(proto: &ModelProto) -> (Vec<Port>, Vec<Port>) {
+    let Some(graph) = &proto.graph else {
+        return (Vec::new(), Vec::new());
+    };
+    let constant = |name: &str| graph.initializer.iter().any(|tensor| tensor.name == name);
+    let inputs = graph.input.iter().filter(|input| !constant(&input.name));
+    (inputs.map(port).collect(), graph.output.iter().map(port).collect())
+}
+
+fn port(value: &ValueInfoProto) -> Port {
+    let tensor = value.r#type.as_ref().and_then(|kind| kind.value.as_ref());
+    let float =
+        |tensor: &&type_proto::Tensor| tensor.elem_type == tensor_proto::DataType::Float as i32;
+    let shape = tensor
+        .map(|type_proto::Value::TensorType(tensor)| tensor)
+        .filter(float)
+        .and_then(|tensor| tensor.shape.as_ref());
+    let axis = |dimension: &tensor_shape_proto::Dimension| match &dimension.value {
+        Some(tensor_shape_proto::dimension::Value::DimValue(length)) => {
+            usize::try_from(*length).map_or_else(|_| Axis::Named("?".into()), Axis::Length)
+        }
+        Some(tensor_shape_proto::dimension::Value::DimParam(name)) => Axis::Named(name.clone()),
+        None => Axis::Named("?".into()),
+    };
+    let axes = shape.map(|shape| shape.dim.iter().map(axis).collect()).unwrap_or_default();
+    Port { name: value.name.clone(), axes }
+}
+
+fn refused(stage: &'static str, error: &TractError) -> NeuralError {
+    // The innermost cause says what is wrong, the outermost where.
+    let (outer, root) = (error.to_string(), error.root_cause().to_string());
+    let reason = if outer == root { root } else { format!("{outer}: {root}") };
+    NeuralError::Refused { stage, reason: reason.chars().take(400).collect() }
+}

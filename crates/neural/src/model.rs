@@ -1,0 +1,411 @@
+//! Models: loaded, checked, run.
+
+use crate::aaetr::Aaetr;
+use crate::card::{Axis, Card, Kind, Port};
+use crate::classifier::Classifier;
+use crate::engine::{Engine, Runners, ports, tensor};
+use crate::error::NeuralError;
+use crate::features::{ELEMENTS, covariance_features};
+use crate::onnx;
+use boresight_aoa::estimator::Plan;
+use boresight_aoa::{Data, Estimate, Estimator, Estimators, Method, Options};
+use boresight_core::error::{check_finite, check_range};
+use boresight_core::{Array, Complex32, CoreError};
+use boresight_signal::region::{region_covariance, region_snapshots};
+use ndarray::{ArrayD, ArrayView3, ArrayViewD, Axis as NdAxis, Slice};
+use sha2::{Digest, Sha256};
+use std::sync::Arc;
+
+/// Most examples run at once.
+const MAX_BATCH: usize = 1 << 20;
+
+/// A network ready to run; clones share it.
+#[derive(Clone)]
+pub struct Model {
+    pub(crate) engine: Arc<Engine>,
+    kind: Kind,
+    card: Option<Arc<Card>>,
+    inputs: Vec<Port>,
+    outputs: Vec<Port>,
+    /// Whether the file takes one example at a time.
+    single: bool,
+}
+
+/// How probable each number of sources is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SourceProbabilities {
+    /// The most probable number.
+    pub sources: usize,
+    /// Probability of 0, 1 and 2 sources, each for itself.
+    pub probability: [f64; 3],
+}
+
+impl Model {
+    /// Reads a model and checks it: that it is ONNX, whole, and sound; that it uses supported operators only; that
+    /// inputs and outputs are those of a known kind of network and, where there is a card, those the card states; that
+    /// the bytes have the card's digest; that types and shapes fit throughout.
+    ///
+    /// # Errors
+    /// [`NeuralError`] telling what is wrong.
+    pub fn load(onnx: &[u8], card: Option<&Card>) -> Result<Self, NeuralError> {
+        let proto = onnx::read(onnx)?;
+        let (inputs, outputs) = ports(&proto);
+        let kinds: Vec<Kind> = card.map_or(Kind::ALL.to_vec(), |card| vec![card.kind]);
+        let kinds = kinds_of(&inputs, &outputs, &kinds)?;
+        let (wanted, _) = kinds[0].ports();
+        let batched = wanted.iter().map(Port::batched).collect();
+        let single =
+            inputs.iter().zip(&wanted).any(|(port, wanted)| wanted.batched() && !port.batched());
+        let engine = Engine::new(&proto, inputs.clone(), batched)?;
+        let (kind, outputs) = checked_outputs(&engine, &kinds, &outputs, single)?;
+        if let Some(card) = card {
+            check_ports("inputs", &card.inputs, &inputs)?;
+            check_ports("outputs", &card.outputs, &outputs)?;
+            check_digest(card, onnx)?;
+        }
+        let card = card.cloned().map(Arc::new);
+        Ok(Self { engine: Arc::new(engine), kind, card, inputs, outputs, single })
+    }
+
+    /// What the network does.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Its card, if it was loaded with one.
+    pub fn card(&self) -> Option<&Card> {
+        self.card.as_deref()
+    }
+
+    /// Its inputs.
+    pub fn inputs(&self) -> &[Port] {
+        &self.inputs
+    }
+
+    /// Its outputs.
+    pub fn outputs(&self) -> &[Port] {
+        &self.outputs
+    }
+
+    /// Runs the network on inputs by name, any number of examples, and returns its outputs.
+    ///
+    /// # Errors
+    /// [`NeuralError::Mismatch`] for other names, [`CoreError::Shape`] for other shapes or inputs with different
+    /// numbers of examples, [`CoreError::NotFinite`] for NaN and infinities, [`NeuralError::NotFinite`] where an output
+    /// is not finite.
+    pub fn run(
+        &self,
+        inputs: &[(&str, ArrayViewD<'_, f32>)],
+    ) -> Result<Vec<(String, ArrayD<f32>)>, NeuralError> {
+        let ordered = self.ordered(inputs)?;
+        let counted = ordered.iter().find(|(_, batched)| *batched);
+        let batch = counted.map_or(1, |(array, _)| array.shape()[0]);
+        check_range("number of examples", batch as f64, 1.0, MAX_BATCH as f64)?;
+        let mut parts: Vec<Vec<ArrayD<f32>>> = vec![Vec::new(); self.outputs.len()];
+        self.runners().run(
+            batch,
+            |from, to| {
+                let part = |(array, batched): &(ArrayViewD<'_, f32>, bool)| {
+                    let mut array = array.view();
+                    if *batched {
+                        array.slice_axis_inplace(NdAxis(0), Slice::from(from..to));
+                    }
+                    Ok(tensor(array)?.into())
+                };
+                ordered.iter().map(part).collect()
+            },
+            |_, outputs| {
+                for (parts, output) in parts.iter_mut().zip(outputs) {
+                    parts.push(output.to_owned());
+                }
+            },
+        )?;
+        let join = |parts: &Vec<ArrayD<f32>>| {
+            let views: Vec<_> = parts.iter().map(|part| part.view()).collect();
+            ndarray::concatenate(NdAxis(0), &views)
+                .map_err(|error| NeuralError::Refused { stage: "run", reason: error.to_string() })
+        };
+        let named = |(port, parts): (&Port, _)| Ok((port.name.clone(), join(parts)?));
+        self.outputs.iter().zip(&parts).map(named).collect()
+    }
+
+    /// The inputs in the network's order, each with whether its first axis counts examples.
+    fn ordered<'a>(
+        &self,
+        inputs: &'a [(&str, ArrayViewD<'_, f32>)],
+    ) -> Result<Vec<(ArrayViewD<'a, f32>, bool)>, NeuralError> {
+        let given = |name: &str| inputs.iter().find(|(given, _)| *given == name);
+        if inputs.len() != self.inputs.len() || self.inputs.iter().any(|p| given(&p.name).is_none())
+        {
+            return Err(NeuralError::Mismatch {
+                what: "names of the inputs given".into(),
+                expected: list(inputs.iter().map(|(name, _)| *name)),
+                given: list(self.inputs.iter().map(|port| port.name.as_str())),
+            });
+        }
+        let mut batch = None;
+        let mut ordered = Vec::with_capacity(inputs.len());
+        for (port, batched) in self.engine.inputs() {
+            let Some((_, array)) = given(&port.name) else { continue };
+            let fits = array.ndim() == port.axes.len()
+                && port.axes.iter().zip(array.shape()).enumerate().all(|(at, (axis, length))| {
+                    (at == 0 && batched) || *axis == Axis::Length(*length)
+                });
+            let count = array.shape().first().copied();
+            if !fits || (batched && *batch.get_or_insert(count) != count) {
+                return Err(NeuralError::Argument(CoreError::Shape {
+                    what: format!("input {:?}", port.name),
+                    expected: port.to_string(),
+                    given: array.shape().to_vec(),
+                }));
+            }
+            check_finite(&port.name, array.iter().map(|&x| f64::from(x)))?;
+            ordered.push((array.view(), batched));
+        }
+        Ok(ordered)
+    }
+
+    pub(crate) fn runners(&self) -> Runners {
+        Runners::new(self.engine.clone(), self.single)
+    }
+
+    /// The same on an engine with an input that never changes.
+    pub(crate) fn runners_with(
+        &self,
+        name: &str,
+        value: ArrayViewD<'_, f32>,
+    ) -> Result<Runners, NeuralError> {
+        Ok(Runners::new(Arc::new(self.engine.with_constant(name, value)?), self.single))
+    }
+
+    /// An estimator for an array.
+    ///
+    /// # Errors
+    /// [`NeuralError::WrongKind`] for the counting network; [`NeuralError::Angle`] where the array does not suit the
+    /// network or options are out of range.
+    pub fn estimator(&self, array: &Array, options: &Options) -> Result<Estimator, NeuralError> {
+        let (method, plan) = self.plan(array, options)?;
+        Ok(Estimator::with_plan(method, array, plan.boxed(), options)?)
+    }
+
+    /// Estimators for batches over up to `threads` threads.
+    ///
+    /// # Errors
+    /// As [`Model::estimator`]; [`CoreError::OutOfRange`] for no threads, or more than 1024.
+    pub fn estimators(
+        &self,
+        array: &Array,
+        options: &Options,
+        threads: usize,
+    ) -> Result<Estimators, NeuralError> {
+        check_range("threads", threads as f64, 1.0, 1024.0)?;
+        let (method, plan) = self.plan(array, options)?;
+        let one = |_| Estimator::with_plan(method, array, plan.clone().boxed(), options);
+        Ok(Estimators::of((0..threads).map(one).collect::<Result<_, _>>()?)?)
+    }
+
+    fn plan(&self, array: &Array, options: &Options) -> Result<(Method, Network), NeuralError> {
+        options.check()?;
+        let Some(method) = self.kind.method() else {
+            return Err(self.wrong_kind("aaetr, dnn or cnn3d"));
+        };
+        let network = match self.kind {
+            Kind::Aaetr => Network::Aaetr(Aaetr::new(self, array, options)?),
+            _ => Network::Classifier(Classifier::new(self, method, array, options)?),
+        };
+        Ok((method, network))
+    }
+
+    /// Estimates angles in a region of the range spectrum, 65 bins x 8 elements x 4 chirps
+    /// ([`boresight_signal::region::crop_region`]): the 3D-CNN from the region itself, the DNN from its covariance.
+    ///
+    /// # Errors
+    /// As [`Model::estimator`] and [`Estimator::estimate`].
+    pub fn estimate_region(
+        &self,
+        region: ArrayView3<'_, Complex32>,
+        array: &Array,
+        options: &Options,
+    ) -> Result<Estimate, NeuralError> {
+        let mut estimator = self.estimator(array, options)?;
+        Ok(match self.kind {
+            Kind::Dnn => {
+                let (length, _, chirps) = region.dim();
+                let matrix = region_covariance(region);
+                let snapshots = length * chirps;
+                estimator.estimate(Data::Covariance { matrix: matrix.view(), snapshots })?
+            }
+            _ => estimator.estimate(Data::Snapshots(region_snapshots(region).view()))?,
+        })
+    }
+
+    /// Counts the sources in the data of an array of 8 elements: 0, 1 or 2.
+    ///
+    /// # Errors
+    /// [`NeuralError::WrongKind`] for any but the counting network, [`NeuralError::Angle`] for malformed data.
+    pub fn count(&self, data: Data<'_>) -> Result<SourceProbabilities, NeuralError> {
+        if self.kind != Kind::Counting {
+            return Err(self.wrong_kind("counting"));
+        }
+        data.check(ELEMENTS)?;
+        let features = covariance_features(data);
+        let mut probability = [0.0; 3];
+        self.runners().run(
+            1,
+            |_, _| {
+                let shape = [1, features.len()];
+                let view = ArrayViewD::from_shape(&shape[..], &features).map_err(|error| {
+                    NeuralError::Refused { stage: "run", reason: error.to_string() }
+                })?;
+                Ok([tensor(view)?.into()].into_iter().collect())
+            },
+            |_, outputs| {
+                for (out, &given) in probability.iter_mut().zip(outputs[0].iter()) {
+                    *out = f64::from(given);
+                }
+            },
+        )?;
+        let sources = (0..3).max_by(|&i, &k| probability[i].total_cmp(&probability[k]));
+        Ok(SourceProbabilities { sources: sources.unwrap_or_default(), probability })
+    }
+
+    fn wrong_kind(&self, expected: &'static str) -> NeuralError {
+        NeuralError::WrongKind { expected, given: self.kind.name() }
+    }
+}
+
+#[derive(Clone)]
+enum Network {
+    Aaetr(Aaetr),
+    Classifier(Classifier),
+}
+
+impl Network {
+    fn boxed(self) -> Box<dyn Plan> {
+        match self {
+            Self::Aaetr(plan) => Box::new(plan),
+            Self::Classifier(plan) => Box::new(plan),
+        }
+    }
+}
+
+fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.collect::<Vec<_>>().join(", ")
+}
+
+fn shapes(ports: &[Port]) -> String {
+    ports.iter().map(Port::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// The kinds, one at least, with these inputs and names of outputs: counting network and DNN differ in the shape of their
+/// output alone.
+fn kinds_of(inputs: &[Port], outputs: &[Port], kinds: &[Kind]) -> Result<Vec<Kind>, NeuralError> {
+    let fits = |kind: &Kind| {
+        let (wanted, given) = kind.ports();
+        outputs.iter().map(|p| &p.name).eq(given.iter().map(|p| &p.name))
+            && axes_fit(inputs, &wanted)
+    };
+    let found: Vec<Kind> = kinds.iter().copied().filter(fits).collect();
+    if !found.is_empty() {
+        return Ok(found);
+    }
+    let one = |kind: &Kind| {
+        let (inputs, outputs) = kind.ports();
+        format!("{} -> {}", shapes(&inputs), shapes(&outputs))
+    };
+    Err(NeuralError::Mismatch {
+        what: "inputs and outputs, of 32-bit floating-point numbers".into(),
+        expected: kinds.iter().map(one).collect::<Vec<_>>().join(", or "),
+        given: format!("{} -> {}", shapes(inputs), shapes(outputs)),
+    })
+}
+
+/// Whether ports have these names and shapes; an axis named otherwise than `batch` has some fixed length, the same
+/// everywhere.
+fn axes_fit(ports: &[Port], wanted: &[Port]) -> bool {
+    let mut named: Vec<(String, usize)> = Vec::new();
+    let mut fits = |axis: &Axis, wanted: &Axis| match (axis, wanted) {
+        (Axis::Length(length), Axis::Length(wanted)) => length == wanted,
+        (Axis::Named(_) | Axis::Length(1), Axis::Named(name)) if name == "batch" => true,
+        (Axis::Length(length), Axis::Named(name)) if name != "batch" && *length > 0 => {
+            match named.iter().find(|(known, _)| known == name) {
+                Some((_, known)) => known == length,
+                None => {
+                    named.push((name.clone(), *length));
+                    true
+                }
+            }
+        }
+        _ => false,
+    };
+    ports.len() == wanted.len()
+        && ports.iter().zip(wanted).all(|(port, wanted)| {
+            port.name == wanted.name
+                && port.axes.len() == wanted.axes.len()
+                && port.axes.iter().zip(&wanted.axes).all(|(axis, wanted)| fits(axis, wanted))
+        })
+}
+
+/// The kind whose outputs come out, and these with their shapes.
+fn checked_outputs(
+    engine: &Engine,
+    kinds: &[Kind],
+    stated: &[Port],
+    single: bool,
+) -> Result<(Kind, Vec<Port>), NeuralError> {
+    let shapes_found = engine.output_shapes()?;
+    let found: Vec<Port> = stated
+        .iter()
+        .zip(&shapes_found)
+        .map(|(port, shape)| {
+            let axes = shape.iter().enumerate().map(|(at, &length)| match at {
+                0 if !single => Axis::Named("batch".into()),
+                _ => Axis::Length(length),
+            });
+            Port { name: port.name.clone(), axes: axes.collect() }
+        })
+        .collect();
+    let examples = shapes_found.iter().all(|shape| shape.first() == Some(&1));
+    if let Some(kind) = kinds.iter().find(|kind| examples && axes_fit(&found, &kind.ports().1)) {
+        return Ok((*kind, found));
+    }
+    let wanted: Vec<String> = kinds.iter().map(|kind| shapes(&kind.ports().1)).collect();
+    Err(NeuralError::Mismatch {
+        what: "outputs, of 32-bit floating-point numbers".into(),
+        expected: wanted.join(", or "),
+        given: shapes(&found),
+    })
+}
+
+/// Checks names and shapes against a card, on which an axis may have any name.
+fn check_ports(what: &str, card: &[Port], found: &[Port]) -> Result<(), NeuralError> {
+    let same = |(axis, found): (&Axis, &Axis)| match (axis, found) {
+        (Axis::Named(_), Axis::Named(_)) => true,
+        (axis, found) => axis == found,
+    };
+    let fits = card.len() == found.len()
+        && card.iter().zip(found).all(|(card, found)| {
+            card.name == found.name
+                && card.axes.len() == found.axes.len()
+                && card.axes.iter().zip(&found.axes).all(same)
+        });
+    if fits {
+        return Ok(());
+    }
+    Err(NeuralError::Mismatch {
+        what: format!("{what} on the card"),
+        expected: shapes(card),
+        given: shapes(found),
+    })
+}
+
+fn check_digest(card: &Card, onnx: &[u8]) -> Result<(), NeuralError> {
+    let Some(expected) = &card.sha256 else {
+        return Ok(());
+    };
+    let given: String = Sha256::digest(onnx).iter().map(|byte| format!("{byte:02x}")).collect();
+    if given.eq_ignore_ascii_case(expected) {
+        return Ok(());
+    }
+    Err(NeuralError::Digest { expected: expected.clone(), given })
+}
