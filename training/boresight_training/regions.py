@@ -32,6 +32,11 @@ class Waveform:
     adc_start_s: float = 0.0
     loops: int = CHIRPS
 
+    @property
+    def bin_m(self) -> float:
+        """Width of a range bin."""
+        return SPEED_OF_LIGHT * self.sample_rate_hz / (2 * self.slope_hz_per_s * self.samples)
+
 
 WAVEFORMS = {
     "3dcnn-simulated": Waveform(77e9, 3.476e12, 256 * 3.476e12 / 0.15e9, 256, 50e-6, 1),
@@ -62,6 +67,8 @@ class Cubes:
     """Power of a target over the noise power, both of one raw sample."""
     shift_m: float = 0.0
     """Greatest shift in range by equation 10."""
+    near: float = 0.0
+    """Share of cubes whose targets all lie within a range bin of the first, in training alone: these are the hard ones."""
 
     def elements(self) -> torch.Tensor:
         """Positions of the 8 virtual elements, transmitter-major."""
@@ -74,8 +81,14 @@ def draw_reflectors(cubes: Cubes, batch: int, generator: torch.Generator) -> Ref
     device = generator.device
     count = torch.randint(fewest, most + 1, (batch, 1), generator=generator, device=device)
     degrees = torch.rand((batch, CLASSES), generator=generator, device=device).topk(most).indices - CLASSES // 2
+    range_m = uniform((batch, most), *cubes.range_m, generator)
+    if cubes.near > 0:
+        bin_m = WAVEFORMS[cubes.waveform].bin_m
+        beside = (range_m[:, :1] + uniform((batch, most - 1), -bin_m, bin_m, generator)).clamp(*cubes.range_m)
+        near = uniform((batch, 1), 0.0, 1.0, generator) < cubes.near
+        range_m[:, 1:] = torch.where(near, beside, range_m[:, 1:])
     return Reflectors(
-        range_m=uniform((batch, most), *cubes.range_m, generator),
+        range_m=range_m,
         rate_mps=torch.zeros(batch, most, dtype=torch.float64, device=device),
         azimuth=degrees.double() * radians(1),
         phase=uniform((batch, most), 0.0, 2 * torch.pi, generator),
@@ -140,7 +153,7 @@ def regions(cubes: Cubes, batch: int, generator: torch.Generator):
     range_m = reflectors.range_m
     if cubes.shift_m > 0:
         range_m = range_m + uniform((batch, 1), -cubes.shift_m, cubes.shift_m, generator)
-    bin_m = SPEED_OF_LIGHT * waveform.sample_rate_hz / (2 * waveform.slope_hz_per_s * waveform.samples)
+    bin_m = waveform.bin_m
     nearest, farthest = cubes.range_m[0] - cubes.shift_m, cubes.range_m[1] + cubes.shift_m
     margin = LENGTH // 2 + 1
     bins = torch.arange(int(nearest / bin_m) - margin, int(farthest / bin_m) + 2 + margin, device=generator.device)

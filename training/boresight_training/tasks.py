@@ -196,7 +196,7 @@ class ClassifierTask:
     def evaluate(self, model, count, generator):
         scores = []
         for snr_db in (-10, -5, 0, 5, 10, 15):
-            cubes = replace(self.cubes, snr_db=(snr_db, snr_db))
+            cubes = replace(self.cubes, snr_db=(snr_db, snr_db), near=0.0)
             answer, label = self._answers(model, cubes, count, generator)
             if self.counts:
                 right = (answer.argmax(1) == label.argmax(1)).float()
@@ -212,7 +212,7 @@ class ClassifierTask:
     def confidence(self, model, count, generator):
         if self.counts:
             return None
-        answer, label = self._answers(model, replace(self.cubes, snr_db=(0, 15)), 4 * count, generator)
+        answer, label = self._answers(model, replace(self.cubes, snr_db=(0, 15), near=0.0), 4 * count, generator)
         order = answer.flatten().argsort(descending=True)
         hits = label.flatten()[order].double().cumsum(0)
         f1 = 2 * hits / (label.sum() + torch.arange(1, len(order) + 1))
@@ -259,6 +259,8 @@ def classifier(name: str, config: str, targets: int) -> ClassifierTask:
         return ClassifierTask(title, CHEN, partial(dnn, hidden), {"hidden": hidden}, cubes, -5.0, True, 256, 2e-3)
     if config == "experiment":
         cubes = replace(cubes, waveform="3dcnn-experiment", range_m=(9.7, 10.3), shift_m=0.3)
+    if targets == 2:
+        cubes = replace(cubes, near=0.5)
     title, sizes = f"3D-CNN, form {config}, {number}", CNN3D[config]
     return ClassifierTask(title, SANG, partial(Cnn3d, sizes), asdict(sizes), cubes, -5.0, False, 32, 2e-3)
 

@@ -70,7 +70,7 @@ class Training:
             _groups(self.network, settings.weight_decay),
             lr=0.0,
             betas=(0.9, 0.98),
-            fused=processes.device.type == "cuda",
+            fused=True,
         )
         self.generator = torch.Generator(device=processes.device)
         self.step, self.samples, self.seconds = 0, 0, 0.0
