@@ -7,7 +7,8 @@
 //   --against FILE exit status 1 where a ratio has fallen beyond three times the noise against that file;
 //                  targets, which are for a quiet machine, do not count, and NumPy is not needed
 //   --record FILE  writes such a file
-import { readFileSync, writeFileSync } from 'node:fs';
+//   --model FILES  networks beside the shipped ones, ONNX files, comma-separated
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
@@ -17,6 +18,7 @@ import { makeCube, makeDrive } from './data.mjs';
 import { rangeDopplerPlan } from './fft-js.mjs';
 import { initSeconds, machine, wasmModule } from './machine.mjs';
 import { compare, here, median } from './measure.mjs';
+import { networkRows } from './networks.mjs';
 import { NumPy } from './numpy.mjs';
 import { ransac } from './ransac-js.mjs';
 import { table, tally, verdict } from './report.mjs';
@@ -30,6 +32,7 @@ const { values: options } = parseArgs({
     check: { type: 'boolean', default: false },
     against: { type: 'string' },
     record: { type: 'string' },
+    model: { type: 'string' },
   },
 });
 const pace = options.quick
@@ -42,7 +45,11 @@ const say = (text) => process.stderr.write(`${text}\n`);
 const entry = pathToFileURL(join(root, 'dist', 'lib', 'node.js')).href;
 const boresight = await import(entry);
 const workerPools = await import(pathToFileURL(join(root, 'dist', 'worker', 'node.js')).href);
+const neural = await import(pathToFileURL(join(root, 'dist', 'lib', 'neural-node.js')).href);
 await boresight.init();
+await neural.initNeural();
+const shipped = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.onnx')).sort();
+const networks = [...shipped.map((name) => join(root, 'models', name)), ...(options.model?.split(',') ?? [])];
 
 let numpy;
 let withoutNumPy;
@@ -335,14 +342,18 @@ async function boundaryRows() {
 }
 
 const wasm = wasmModule(join(root, 'dist', 'wasm', 'boresight_bg.wasm'));
+const neuralModule = () => wasmModule(join(root, 'dist', 'wasm', 'boresight_neural_bg.wasm'));
 await iaaRows();
 for (const one of classical) await classicalRow(one);
 await cubeRows();
 await driveRows();
 await boundaryRows();
+await networkRows(networks, { row, pace, neural, positions: boresight.array('lrr48').positions });
 await row('init() in a fresh process', { unit: 's' }, () => ({ value: initSeconds(entry, options.quick ? 3 : 15) }));
 await row('core .wasm, raw', { unit: 'bytes' }, () => ({ value: wasm.bytes }));
 await row('core .wasm, Brotli', { unit: 'bytes', target: { most: 400_000 } }, () => ({ value: wasm.brotliBytes }));
+await row('neural .wasm, raw', { unit: 'bytes' }, () => ({ value: neuralModule().bytes }));
+await row('neural .wasm, Brotli', { unit: 'bytes', target: { most: 3_000_000 } }, () => ({ value: neuralModule().brotliBytes }));
 
 const report = { date: new Date().toISOString(), quick: options.quick, machine: where, numpy: numpy?.versions ?? null, wasm, rows };
 numpy?.stop();

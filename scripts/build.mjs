@@ -1,7 +1,7 @@
-// The package: crates/wasm -> dist/wasm, web/lib and web/worker -> dist. The demo: web/app/dist.
+// The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist. The demo: web/app/dist.
 import { existsSync, readFileSync, rmSync } from 'node:fs';
-import { join } from 'node:path';
-import { coreWasm, dist, drivesWasm, root, wasmTarget } from './lib/paths.mjs';
+import { join, relative } from 'node:path';
+import { coreWasm, dist, drivesWasm, neuralWasm, root, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, run } from './lib/run.mjs';
 import { describeSize, sizes } from './lib/sizes.mjs';
 import { whenChanged } from './lib/stamp.mjs';
@@ -14,36 +14,43 @@ const wasmFeatures = [
   'simd', 'bulk-memory', 'mutable-globals', 'multivalue', 'nontrapping-float-to-int', 'reference-types', 'sign-ext',
 ].map((name) => `--enable-${name}`);
 
-/** The modules: the feature of crates/wasm that each is made of, and its name in dist/wasm. */
-const modules = { core: 'boresight', drives: 'boresight_drives' };
+/** Crates that a module of them only depends on: their changes do not touch the others. */
+const crates = (...names) => names.map((name) => `crates/${name}`);
+const shared = crates('aoa', 'calibrate', 'core', 'formats', 'image', 'pipeline', 'signal', 'simulate', 'wasm');
 
-async function wasm() {
-  const inputs = ['Cargo.toml', 'Cargo.lock', '.cargo/config.toml', 'crates', 'scripts/build.mjs'];
-  const outputs = Object.values(modules).flatMap((name) => ['.js', '.d.ts', '_bg.wasm'].map((end) => `dist/wasm/${name}${end}`));
-  const done = await whenChanged('wasm', { inputs, outputs }, async () => {
-    for (const [feature, name] of Object.entries(modules)) {
-      say(`crates/wasm -> dist/wasm/${name}_bg.wasm (a first build takes minutes)`);
-      const file = join(dist, 'wasm', `${name}_bg.wasm`);
-      await run('cargo', [
-        'build', '-p', 'boresight-wasm', '--no-default-features', '--features', feature, '--release',
-        '--target', wasmTarget, '--target-dir', join(root, 'target'),
-      ]);
-      // wasm-pack cannot pass on the last flag, which makes the instance replaceable after a trap.
-      await run('wasm-bindgen', [
-        join(root, 'target', wasmTarget, 'release', 'boresight_wasm.wasm'), '--target', 'web', '--out-dir', join(dist, 'wasm'),
-        '--out-name', name, '--omit-default-module-path', '--experimental-reset-state-function',
-      ]);
-      say('wasm-opt -O3');
-      await run(process.execPath, [
-        join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt'), '-O3', ...wasmFeatures, file, '-o', file,
-      ]);
-    }
+/** The modules: name in dist/wasm, crate, feature, profile, the crates it is made of. */
+const modules = [
+  { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'release', made: shared },
+  { name: 'boresight_drives', crate: 'wasm', feature: 'drives', profile: 'release', made: shared },
+  { name: 'boresight_neural', crate: 'wasm-neural', profile: 'neural', made: [...shared, ...crates('neural', 'wasm-neural')] },
+];
+
+async function wasmModule({ name, crate, feature, profile, made }) {
+  const inputs = ['Cargo.toml', 'Cargo.lock', '.cargo/config.toml', ...made, 'scripts/build.mjs'];
+  const outputs = ['.js', '.d.ts', '_bg.wasm'].map((end) => `dist/wasm/${name}${end}`);
+  const done = await whenChanged(name, { inputs, outputs }, async () => {
+    say(`crates/${crate} -> dist/wasm/${name}_bg.wasm (a first build takes minutes)`);
+    const file = join(dist, 'wasm', `${name}_bg.wasm`);
+    const features = feature ? ['--no-default-features', '--features', feature] : [];
+    await run('cargo', [
+      'build', '-p', `boresight-${crate}`, ...features, '--profile', profile, '--target', wasmTarget, '--target-dir', join(root, 'target'),
+    ]);
+    // wasm-pack cannot pass on the last flag, which makes the instance replaceable after a trap.
+    await run('wasm-bindgen', [
+      join(root, 'target', wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`), '--target', 'web',
+      '--out-dir', join(dist, 'wasm'), '--out-name', name, '--omit-default-module-path', '--experimental-reset-state-function',
+    ]);
+    say('wasm-opt -O3');
+    await run(process.execPath, [
+      join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt'), '-O3', ...wasmFeatures, file, '-o', file,
+    ]);
   });
-  if (!done) say('dist/wasm is up to date');
+  if (!done) say(`dist/wasm/${name}_bg.wasm is up to date`);
 }
 
 async function library() {
-  const inputs = ['package-lock.json', 'tsconfig.base.json', 'tsconfig.lib.json', 'web/lib', 'web/worker', 'dist/wasm/boresight.d.ts', 'dist/wasm/boresight_drives.d.ts'];
+  const glue = modules.map(({ name }) => `dist/wasm/${name}.d.ts`);
+  const inputs = ['package-lock.json', 'tsconfig.base.json', 'tsconfig.lib.json', 'web/lib', 'web/worker', ...glue];
   const outputs = ['dist/lib/index.js', 'dist/lib/index.d.ts'];
   const done = await whenChanged('library', { inputs, outputs }, async () => {
     say('web/lib, web/worker -> dist (tsc)');
@@ -54,10 +61,9 @@ async function library() {
 }
 
 export async function buildPackage() {
-  await wasm();
+  for (const one of modules) await wasmModule(one);
   await library();
-  say(describeSize('dist/wasm/boresight_bg.wasm', sizes(readFileSync(coreWasm))));
-  say(describeSize('dist/wasm/boresight_drives_bg.wasm', sizes(readFileSync(drivesWasm))));
+  for (const file of [coreWasm, drivesWasm, neuralWasm]) say(describeSize(relative(root, file), sizes(readFileSync(file))));
 }
 
 export async function buildDemo() {

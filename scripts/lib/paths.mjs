@@ -9,6 +9,7 @@ export const wasmTarget = 'wasm32-unknown-unknown';
 export const dist = join(root, 'dist');
 export const coreWasm = join(dist, 'wasm', 'boresight_bg.wasm');
 export const drivesWasm = join(dist, 'wasm', 'boresight_drives_bg.wasm');
+export const neuralWasm = join(dist, 'wasm', 'boresight_neural_bg.wasm');
 
 const exe = process.platform === 'win32' ? '.exe' : '';
 export const tool = (name) => join(toolsBin, name + exe);

@@ -20,6 +20,7 @@ export const describeSize = (name, { raw, gzip, brotli }) =>
   `${name}: ${kilobytes(raw)} raw, ${kilobytes(gzip)} gzip, ${kilobytes(brotli)} brotli`;
 
 export const brotliLimit = 400_000;
+export const neuralBrotliLimit = 3_000_000;
 
 /** What is wrong with a size, or null. */
 export const overLimit = ({ brotli }, limit = brotliLimit) =>

@@ -16,7 +16,7 @@ after(() => rmSync(folder, { recursive: true, force: true }));
 const targets = (value) => (typeof value === 'string' ? [value] : Object.values(value).flatMap(targets));
 
 test('every file that the export map names is in the package', () => {
-  for (const target of targets(manifest.exports)) {
+  for (const target of targets(manifest.exports).filter((target) => !target.includes('*'))) {
     assert.ok(files.includes(target.replace('./', '')), `${target} is missing`);
   }
 });
@@ -31,13 +31,14 @@ test('each script has its types, and nothing else is in the package', () => {
   const scripts = files.filter((name) => /^dist\/(lib|worker)\/.*\.js$/.test(name));
   assert.ok(scripts.length > 0);
   for (const name of scripts) assert.ok(files.includes(name.replace(/\.js$/, '.d.ts')), `${name} has no types`);
-  const belongs = /^(dist\/.*\.(js|d\.ts|wasm)|package\.json|LICENSE(-APACHE)?|NOTICE|README\.md|CHANGELOG\.md)$/;
+  const belongs = /^(dist\/.*\.(js|d\.ts|wasm)|models\/[a-z0-9-]+\.(onnx|json)|package\.json|LICENSE(-APACHE)?|NOTICE|README\.md|CHANGELOG\.md)$/;
   assert.deepEqual(files.filter((name) => !belongs.test(name)), []);
 });
 
 test('the package is small: one core wasm and little besides', () => {
   assert.equal(files.filter((name) => name === 'dist/wasm/boresight_bg.wasm').length, 1);
-  assert.ok(size < 1_500_000, `${size} bytes packed`);
+  // Of these, the module of networks has some 4 MB, the networks 1.5 MB; neither is loaded unless asked for.
+  assert.ok(size < 8_000_000, `${size} bytes packed`);
 });
 
 test('installing the package runs nothing and brings nothing', () => {

@@ -35,6 +35,18 @@ before(async () => {
         import { planeWaveAzimuth } from './program.mjs';
         console.log(await planeWaveAzimuth(createPool({ workers: 2 }), 50));
       `,
+      'neural.mjs': `
+        import { readFileSync } from 'node:fs';
+        import { fileURLToPath } from 'node:url';
+        import { Network, initNeuralSync } from 'boresight/neural';
+        import { createPool } from 'boresight/worker';
+        const file = (name) => readFileSync(fileURLToPath(import.meta.resolve('boresight/' + name)));
+        initNeuralSync(file('boresight_neural.wasm'));
+        const model = { onnx: file('models/aaetr-small.onnx'), card: String(file('models/aaetr-small.json')) };
+        const network = new Network(model.onnx, { card: model.card });
+        const pool = createPool({ workers: 1 });
+        console.log(network.kind, (await pool.loadNetwork(model)).name);
+      `,
       'uninitialised.mjs': `
         import { BoresightError, estimate } from 'boresight';
         try {
@@ -66,6 +78,10 @@ test('the wasm can be had by name and given to initSync', async () => {
 
 test('the module of drives can be had by name, and a pool loads it by itself', async () => {
   assert.equal(await printed('drives.mjs'), 'true');
+});
+
+test('networks are a subpath of their own, and a pool loads their module by itself', async () => {
+  assert.equal(await printed('neural.mjs'), 'aaetr aaetr-small');
 });
 
 test('using the package before init() is a typed error', async () => {

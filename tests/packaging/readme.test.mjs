@@ -31,7 +31,7 @@ after(() => project?.remove());
 const printed = async (script) => (await project.run(process.execPath, [script])).stdout.trim().split('\n');
 
 test('the first snippet finds both targets with the methods that resolve them', async () => {
-  assert.equal(snippets.length, 5);
+  assert.equal(snippets.length, 6);
   assert.ok(snippets[0].trim().split('\n').length <= 15, 'fifteen lines');
   const lines = await printed('snippet-0.mjs');
   assert.deepEqual(lines.map((line) => line.split(' ')[0]), ['bartlett', 'iaa', 'nomp']);
@@ -67,6 +67,16 @@ test('the fifth snippet finds a misaligned radar', async () => {
   assert.ok(Math.abs(Number(angle) - 30.5) < 0.1, line);
 });
 
+test('the sixth snippet finds the targets with a network', async () => {
+  const lines = await printed('snippet-5.mjs');
+  assert.equal(lines.length, 3);
+  for (const line of lines) {
+    const [, angle, truth] = /^(-?[\d.]+) deg, (-?[\d.]+) in truth$/.exec(line) ?? assert.fail(line);
+    // Refined: a tenth of a beamwidth of 1.2 deg is some ten deviations at 25 dB and 48 elements.
+    assert.ok(Math.abs(angle - truth) < 0.12, line);
+  }
+});
+
 test('the table of methods of mounting angles says what calibrationMethods() says', async () => {
   const [, json] = await printed('methods.mjs');
   const expected = JSON.parse(json).map(({ name, title, reference }) => `| \`${name}\` | ${title} | ${reference} |`);
@@ -85,6 +95,7 @@ test('the table of estimators says what methods() says', async () => {
       m.uniformArray && 'uniform array',
       m.lattice && 'elements on a grid',
       m.sourceCount && 'number of sources, given or counted',
+      m.network && 'a model',
     ].filter(Boolean);
     const cells = [
       m.title, `\`${m.name}\``, m.reference, needs.join('; ') || 'nothing more', yes(m.takesCovariance),

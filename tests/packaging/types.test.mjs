@@ -5,6 +5,7 @@ import { consumer } from './consumer.mjs';
 const program = `
   import { BoresightError, Estimator, array, calibrateDrive, estimate, init } from 'boresight';
   import { createPool, type Pool } from 'boresight/worker';
+  import { Network, initNeural, type NetworkOptions, type SourceProbabilities } from 'boresight/neural';
   import type { Drive, DriveCalibration, DriveData, Estimate, EstimatorOptions, Source } from 'boresight';
 
   await init();
@@ -34,6 +35,13 @@ const program = `
   const drive: Drive = await pool.simulateDrive({ scenario: 'city', seed: 1n }, { onProgress: (done) => console.log(done) });
   const there: DriveCalibration[] = await pool.jointCalibration(drive, { sensors: [1, { sensor: 2, xM: 3 }] });
   console.log(here.history.angleDeg, there[0]?.frames.verdict);
+  await initNeural();
+  const given: NetworkOptions = { array: 'lrr48', refine: true, confidence: 0.5 };
+  const network = new Network(new Uint8Array(8), given);
+  const counted: SourceProbabilities = network.count({ snapshots: { data, shape: [8, 1] } });
+  const { id } = await pool.loadNetwork({ onnx: new Uint8Array(8), card: network.card ?? '{}' });
+  const found: Estimate = await pool.estimate({ snapshots: { data, shape: [8, 1] } }, { ...options, method: 'dnn', network: id });
+  console.log(counted.probability[0], found.warnings, network.run({ x: { data: new Float32Array(1), shape: [1] } })['y']?.shape);
   pool.terminate();
 `;
 const wrong = `

@@ -18,6 +18,7 @@ before(async () => {
       'page.js': `
         import * as boresight from 'boresight';
         import { createPool } from 'boresight/worker';
+        import address from 'boresight/models/aaetr-small.onnx?url';
         import { planeWaveAzimuth, simulatedScans } from './program.mjs';
         await boresight.init();
         const here = await planeWaveAzimuth(boresight, 20);
@@ -25,7 +26,11 @@ before(async () => {
         const inWorker = await planeWaveAzimuth(pool, -35);
         await boresight.initDrives();
         const scans = [await simulatedScans(boresight), await simulatedScans(pool)];
-        document.querySelector('main').textContent = JSON.stringify([here, inWorker, scans]);
+        const { Network, initNeural } = await import('boresight/neural');
+        await initNeural();
+        const onnx = new Uint8Array(await (await fetch(address)).arrayBuffer());
+        const networks = [new Network(onnx).kind, (await pool.loadNetwork({ onnx })).kind];
+        document.querySelector('main').textContent = JSON.stringify([here, inWorker, scans, networks]);
       `,
     },
   });
@@ -43,9 +48,10 @@ async function checkPage(url) {
   const text = await opened.page.textContent('main');
   await opened.close();
   assert.deepEqual(opened.problems, []);
-  const [here, inWorker, scans] = JSON.parse(text);
+  const [here, inWorker, scans, networks] = JSON.parse(text);
   assert.ok(Math.abs(here - 20) < 0.1, `the page found ${here} deg, expected 20`);
   assert.ok(Math.abs(inWorker + 35) < 0.1, `the worker found ${inWorker} deg, expected -35`);
+  assert.deepEqual(networks, ['aaetr', 'aaetr']);
   assert.ok(scans[0] > 40 && scans[1] === scans[0], `scans of a simulated second: ${scans}`);
 }
 

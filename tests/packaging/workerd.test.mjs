@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { readdirSync, writeFileSync } from 'node:fs';
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
@@ -8,13 +8,18 @@ import { consumer } from './consumer.mjs';
 
 const main = `
   import * as boresight from 'boresight';
+  import * as neural from 'boresight/neural';
   import { planeWaveAzimuth, simulatedScans } from './program.mjs';
+  import onnx from './network.mjs';
   export default {
     async fetch(request) {
       await boresight.init();
       const azimuthDeg = Number(new URL(request.url).searchParams.get('azimuthDeg'));
-      await boresight.initDrives();
-      return Response.json({ azimuthDeg: await planeWaveAzimuth(boresight, azimuthDeg), scans: await simulatedScans(boresight) });
+      await Promise.all([boresight.initDrives(), neural.initNeural()]);
+      const network = new neural.Network(Uint8Array.from(atob(onnx), (c) => c.charCodeAt(0)));
+      return Response.json({
+        azimuthDeg: await planeWaveAzimuth(boresight, azimuthDeg), scans: await simulatedScans(boresight), network: network.kind,
+      });
     },
   };
 `;
@@ -23,7 +28,9 @@ let project;
 let server;
 let url;
 before(async () => {
-  project = await consumer({ tools: ['vite'], fixtures: ['program.mjs'], files: { 'main.js': main } });
+  const onnx = readFileSync(join(root, 'models', 'aaetr-small.onnx')).toString('base64');
+  const files = { 'main.js': main, 'network.mjs': `export default '${onnx}';` };
+  project = await consumer({ tools: ['vite'], fixtures: ['program.mjs'], files });
   // workerd resolves no package names, so a deployment bundles first: with the export map's
   // workerd condition, leaving the wasm as a module of its own, as edge platforms do.
   await project.run(process.execPath, ['--input-type=module', '--eval', `
@@ -78,12 +85,13 @@ function start(config) {
   });
 }
 
-test('workerd takes the wasm as modules, estimates an angle and simulates a drive', async () => {
+test('workerd takes the wasm as modules, estimates an angle, simulates a drive and loads a network', async () => {
   for (const expected of [20, -35]) {
     const response = await fetch(`${url}?azimuthDeg=${expected}`);
     const text = await response.text();
     assert.equal(response.status, 200, text);
-    const { azimuthDeg, scans } = JSON.parse(text);
+    const { azimuthDeg, scans, network } = JSON.parse(text);
+    assert.equal(network, 'aaetr');
     assert.ok(scans > 40, `${scans} scans of a simulated second`);
     assert.ok(Math.abs(azimuthDeg - expected) < 0.1, `${azimuthDeg} deg should be within 0.1 of ${expected}`);
   }

@@ -40,7 +40,7 @@ test('each dependency rule fails when broken', () => {
     'signal names js-sys': { signal: [['js-sys', 'dev']] },
     'aoa names tract-onnx': { aoa: [['tract-onnx']] },
     'cli depends on the binding crate wasm': { cli: [['boresight-wasm']] },
-    'wasm-neural depends on the binding crate wasm': { 'wasm-neural': [['boresight-wasm']] },
+    'wasm depends on the binding crate wasm-neural': { wasm: [['boresight-wasm-neural']] },
     'extra: no rule': { extra: [] },
   };
   for (const [expected, crates] of Object.entries(breaches)) {

@@ -20,7 +20,7 @@ export interface ModelCard {
   network: NetworkKind;
   /** Size, such as `small`. */
   form?: string;
-  name?: string;
+  name: string;
   title?: string;
   /** The publication. */
   reference?: string;

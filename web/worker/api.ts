@@ -7,6 +7,7 @@ import { Crew, type JobOptions, type Piece, type Runtime } from './pool.js';
 import type { OperationName, Operations } from './protocol.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { split } from './split.js';
+import { packed } from './transfer.js';
 
 /** Options of {@link createPool}. */
 export interface PoolOptions {
@@ -48,8 +49,47 @@ export class Pool {
     return this.#one('array', [input], job);
   }
 
+  /**
+   * Loads a network from its ONNX file: once to see that it is one, then in each worker that comes to need it. Its id
+   * is what `network` in options names it by, for the methods `aaetr`, `dnn` and `cnn3d`.
+   */
+  async loadNetwork(file: lib.NetworkFile, job?: JobOptions): Promise<lib.NetworkInfo> {
+    const { value } = packed({ onnx: file.onnx, ...(file.card !== undefined && { card: file.card }) }, false);
+    const id = this.#crew.addNetwork(value);
+    try {
+      return await this.#one('loadNetwork', [id], job, id);
+    } catch (thrown) {
+      this.#crew.removeNetwork(id);
+      throw thrown;
+    }
+  }
+
+  /** Forgets a network and gives its memory back; whether there was one. */
+  unloadNetwork(id: string): boolean {
+    return this.#crew.removeNetwork(id);
+  }
+
+  /** Counts sources with a counting network. */
+  countWithNetwork(id: string, input: lib.EstimateInput, job?: JobOptions): Promise<lib.SourceProbabilities> {
+    return this.#one('countWithNetwork', [id, input], job, id);
+  }
+
+  /** Runs the graph of a network as it is: named inputs to named outputs. */
+  runNetwork(id: string, inputs: Readonly<Record<string, lib.Tensor>>, job?: JobOptions): Promise<Record<string, lib.Tensor>> {
+    return this.#one('runNetwork', [id, inputs], job, id);
+  }
+
+  /** Estimates from the range bins around a peak, [65 bins, 8 elements, 4 chirps], with a network. */
+  estimateRegion(
+    region: lib.ComplexData,
+    options: lib.EstimatorOptions & { network: string },
+    job?: JobOptions,
+  ): Promise<lib.Estimate> {
+    return this.#one('estimateRegion', [region, options], job, options.network);
+  }
+
   estimate(input: lib.EstimateInput, options: lib.EstimatorOptions, job?: JobOptions): Promise<lib.Estimate> {
-    return this.#one('estimate', [input, options], job);
+    return this.#one('estimate', [input, options], job, options?.network);
   }
 
   countSources(input: lib.EstimateInput, options?: lib.CountOptions, job?: JobOptions): Promise<lib.CountResult> {
@@ -77,7 +117,7 @@ export class Pool {
   }
 
   processCube(cube: lib.ComplexData, options: lib.CubeChainOptions, job?: JobOptions): Promise<lib.FrameResult[]> {
-    return this.#one('processCube', [cube, options], job);
+    return this.#one('processCube', [cube, options], job, options?.angle?.network);
   }
 
   /** What is known of a capture before any processing. */
@@ -93,7 +133,7 @@ export class Pool {
     options?: lib.ChainOptions,
     job?: JobOptions,
   ): Promise<lib.FrameResult> {
-    return this.#one('processFrame', [bytes, config, frame, options], job);
+    return this.#one('processFrame', [bytes, config, frame, options], job, options?.angle?.network);
   }
 
   /** Detections of every frame, each by itself, split over the workers; progress counts frames. */
@@ -112,6 +152,7 @@ export class Pool {
       name: 'processStretch',
       args: [all.subarray(first * frameBytes, (first + count) * frameBytes), config, first, options],
       units: count,
+      network: options?.angle?.network,
     }));
     return (await this.#crew.run(pieces, { ...job, transfer: false })).flat();
   }
@@ -123,7 +164,7 @@ export class Pool {
     options?: lib.CombineOptions,
     job?: JobOptions,
   ): Promise<lib.FrameResult> {
-    return this.#one('combineFrames', [bytes, config, options], job);
+    return this.#one('combineFrames', [bytes, config, options], job, options?.angle?.network);
   }
 
   /** Snapshots of a cell (elements x frames). */
@@ -146,7 +187,7 @@ export class Pool {
     options?: lib.ChainOptions,
     job?: JobOptions,
   ): Promise<lib.Estimate> {
-    return this.#one('cellSpectrum', [bytes, config, cell, angle, options], job);
+    return this.#one('cellSpectrum', [bytes, config, cell, angle, options], job, angle?.network);
   }
 
   /** A drive from its files; progress is told at the end alone. */
@@ -258,6 +299,7 @@ export class Pool {
       name: 'estimateMany',
       args: [inputs.slice(first, first + count), options],
       units: count,
+      network: options?.network,
     }));
     return (await this.#crew.run(pieces, job)).flat();
   }
@@ -272,6 +314,7 @@ export class Pool {
       name: 'estimateBatch',
       args: [input, options],
       units: cells,
+      network: options?.network,
     }));
     const [first, ...rest] = await this.#crew.run(pieces, job);
     return joinedBatches([first as lib.BatchEstimate, ...rest]);
@@ -354,8 +397,9 @@ export class Pool {
     name: N,
     args: Parameters<Operations[N]>,
     job?: JobOptions,
+    network?: string,
   ): Promise<ReturnType<Operations[N]>> {
-    const [result] = await this.#crew.run([{ name, args, units: 1 }], job);
+    const [result] = await this.#crew.run([{ name, args, units: 1, network }], job);
     return result as ReturnType<Operations[N]>;
   }
 }

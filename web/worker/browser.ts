@@ -21,6 +21,7 @@ const runtime: Runtime = {
 
   compile: () => compile(new URL('../wasm/boresight_bg.wasm', import.meta.url)),
   compileDrives: () => compile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)),
+  compileNeural: () => compile(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url)),
 
   spawn(events) {
     const worker = new Worker(new URL('./browser-worker.js', import.meta.url), { type: 'module' });

@@ -15,6 +15,7 @@ const runtime: Runtime = {
 
   compile: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_bg.wasm', import.meta.url))),
   compileDrives: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url))),
+  compileNeural: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url))),
 
   spawn(events) {
     const worker = new Worker(new URL('./node-worker.js', import.meta.url));

@@ -2,10 +2,12 @@
 import * as api from '../lib/api.js';
 import type {
   AngleOptions, BatchEstimate, BatchInput, BatchOptions, BytesInput, CalibrateDriveOptions, CaptureInfo, Cell,
-  ChainOptions, CombineOptions, ComplexData, DriveCalibration, DriveData, Estimate, EstimateInput, EstimatorOptions,
-  FrameCells, FrameResult, JointCalibrationOptions, SimulateDriveOptions, SimulatedDrive, TextInput,
+  ChainOptions, CombineOptions, ComplexData, CubeChainOptions, DriveCalibration, DriveData, Estimate, EstimateInput,
+  EstimatorOptions, FrameCells, FrameResult, JointCalibrationOptions, NetworkInfo, SimulateDriveOptions, SimulatedDrive,
+  SourceProbabilities, Tensor, TextInput,
 } from '../lib/api.js';
 import { core } from '../lib/instance.js';
+import { keyOf, networkWith } from './networks.js';
 
 /** What an operation is called on. */
 export interface Context {
@@ -22,8 +24,48 @@ function freeing<H extends { free(): void }, T>(handle: H, work: (handle: H) => 
   }
 }
 
+/** The network that options of an estimator name, if they do. */
+function networkOf(options: { network?: string } | undefined): string | undefined {
+  return options?.network ?? undefined;
+}
+
+/** Options of a chain of which the cells are wanted, not their angles. */
+function withoutNetwork<O extends ChainOptions | undefined>(options: O): O {
+  if (networkOf(options?.angle) === undefined) return options;
+  const { angle: _, ...rest } = options as ChainOptions;
+  return rest as O;
+}
+
+function loadNetwork(id: string): NetworkInfo {
+  const started = performance.now();
+  const { kind, method, name, card, inputs, outputs } = networkWith(id);
+  return { id, kind, method, name, card, inputs, outputs, readyMs: performance.now() - started };
+}
+
+function countWithNetwork(id: string, input: EstimateInput): SourceProbabilities {
+  return networkWith(id).count(input);
+}
+
+function runNetwork(id: string, inputs: Readonly<Record<string, Tensor>>): Record<string, Tensor> {
+  return networkWith(id).run(inputs);
+}
+
+function estimateRegion(region: ComplexData, options: EstimatorOptions & { network: string }): Estimate {
+  return networkWith(options.network, options).estimateRegion(region);
+}
+
+function estimate(input: EstimateInput, options: EstimatorOptions): Estimate {
+  const id = networkOf(options);
+  return id === undefined ? api.estimate(input, options) : networkWith(id, options).estimate(input);
+}
+
 /** Estimates of many inputs with one estimator. */
 function estimateMany(inputs: readonly EstimateInput[], options: EstimatorOptions): Estimate[] {
+  const id = networkOf(options);
+  if (id !== undefined) {
+    const network = networkWith(id, options);
+    return inputs.map((input) => network.estimate(input));
+  }
   return freeing(new api.Estimator(options), (estimator) => inputs.map((input) => estimator.estimate(input)));
 }
 
@@ -32,45 +74,62 @@ let kept: { key: string; estimator: api.Estimator } | undefined;
 
 function estimateBatch(input: BatchInput, options: EstimatorOptions & BatchOptions): BatchEstimate {
   const { spectra, ...own } = { ...options };
+  const kind = { ...(spectra !== undefined && { spectra }) };
+  const id = networkOf(own);
+  if (id !== undefined) return networkWith(id, own).estimateBatch(input, kind);
   // An instance that is gone took its estimators along.
-  const key = `${core.number} ${JSON.stringify(own, (_, value: unknown) => (typeof value === 'bigint' ? `${value}n` : value))}`;
+  const key = `${core.number} ${keyOf(own)}`;
   if (kept?.key !== key) {
     kept?.estimator.free();
     kept = undefined;
     kept = { key, estimator: new api.Estimator(own) };
   }
-  return kept.estimator.estimateBatch(input, { ...(spectra !== undefined && { spectra }) });
+  return kept.estimator.estimateBatch(input, kind);
 }
 
 function captureInfo(bytes: BytesInput, config: TextInput): CaptureInfo {
   return freeing(new api.Capture(bytes, config), ({ info }) => info);
 }
 
+function processCube(cube: ComplexData, options: CubeChainOptions): FrameResult[] {
+  const id = networkOf(options?.angle);
+  return id === undefined ? api.processCube(cube, options) : networkWith(id).processCube(cube, options);
+}
+
+function frameCells(cube: ComplexData, options: CubeChainOptions): FrameCells {
+  return api.frameCells(cube, withoutNetwork(options));
+}
+
 function processFrame(bytes: BytesInput, config: TextInput, frame: number, options?: ChainOptions): FrameResult {
+  const id = networkOf(options?.angle);
+  if (id !== undefined) return networkWith(id).processFrames(bytes, config, options, frame)[0] as FrameResult;
   return freeing(new api.Capture(bytes, config), (capture) => capture.processFrame(frame, options));
 }
 
 /** Every frame of a stretch of a capture that begins with frame `first`. */
 function processStretch(bytes: BytesInput, config: TextInput, first: number, options?: ChainOptions): FrameResult[] {
-  return freeing(new api.Capture(bytes, config), (capture) =>
-    Array.from({ length: capture.info.frames }, (_, index) => {
-      const result = capture.processFrame(index, options);
-      for (const part of [result, ...result.detections]) part.frame += first;
-      return result;
-    }));
+  const id = networkOf(options?.angle);
+  const results = id !== undefined
+    ? networkWith(id).processFrames(bytes, config, options)
+    : freeing(new api.Capture(bytes, config), (capture) =>
+        Array.from({ length: capture.info.frames }, (_, index) => capture.processFrame(index, options)));
+  for (const result of results) for (const part of [result, ...result.detections]) part.frame += first;
+  return results;
 }
 
 function combineFrames(this: Context, bytes: BytesInput, config: TextInput, options?: CombineOptions): FrameResult {
-  return freeing(new api.Capture(bytes, config), (capture) =>
-    capture.combineFrames(options, (done, total) => this.report(done, total)));
+  const report = (done: number, total: number): void => this.report(done, total);
+  const id = networkOf(options?.angle);
+  if (id !== undefined) return networkWith(id).combineFrames(bytes, config, options, report);
+  return freeing(new api.Capture(bytes, config), (capture) => capture.combineFrames(options, report));
 }
 
 function cellSnapshots(bytes: BytesInput, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
-  return freeing(new api.Capture(bytes, config), (capture) => capture.cellSnapshots(cell, options));
+  return freeing(new api.Capture(bytes, config), (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
 
 function captureCells(bytes: BytesInput, config: TextInput, frame: number, options?: ChainOptions): FrameCells {
-  return freeing(new api.Capture(bytes, config), (capture) => capture.frameCells(frame, options));
+  return freeing(new api.Capture(bytes, config), (capture) => capture.frameCells(frame, withoutNetwork(options)));
 }
 
 function cellSpectrum(
@@ -80,7 +139,14 @@ function cellSpectrum(
   angle?: AngleOptions,
   options?: ChainOptions,
 ): Estimate {
-  return freeing(new api.Capture(bytes, config), (capture) => capture.cellSpectrum(cell, angle, options));
+  const id = networkOf(angle);
+  return freeing(new api.Capture(bytes, config), (capture) => {
+    if (id === undefined) return capture.cellSpectrum(cell, angle, withoutNetwork(options));
+    const snapshots = capture.cellSnapshots(cell, withoutNetwork(options));
+    // Without an array the snapshots could not be had.
+    const array = options?.array ?? { positions: capture.info.array?.positions ?? [] };
+    return networkWith(id, { ...angle, array }).estimate({ snapshots });
+  });
 }
 
 function simulateDrive(this: Context, options?: SimulateDriveOptions): SimulatedDrive {
@@ -100,14 +166,18 @@ export const operations = {
   methods: api.methods,
   arrayPresets: api.arrayPresets,
   array: api.array,
-  estimate: api.estimate,
+  loadNetwork,
+  countWithNetwork,
+  runNetwork,
+  estimateRegion,
+  estimate,
   estimateMany,
   estimateBatch,
   countSources: api.countSources,
   cramerRaoBound: api.cramerRaoBound,
   simulateSnapshots: api.simulateSnapshots,
   simulateCube: api.simulateCube,
-  processCube: api.processCube,
+  processCube,
   calibrationMethods: api.calibrationMethods,
   readDrive: api.readDrive,
   simulateDrive,
@@ -127,7 +197,7 @@ export const operations = {
   captureCells,
   streetScene: api.streetScene,
   simulateStreet: api.simulateStreet,
-  frameCells: api.frameCells,
+  frameCells,
   imagePlan: api.imagePlan,
   rangeAzimuthMap: api.rangeAzimuthMap,
   birdsEyeView: api.birdsEyeView,

@@ -1,5 +1,6 @@
 // A pool of single-thread workers: queue, progress, cancelling, replacement of what died.
 import { BoresightError, failure } from '../lib/errors.js';
+import type { NetworkFile } from '../lib/types.js';
 import type { OperationName, Operations, Reply, WorkerEvents, WorkerLike } from './protocol.js';
 import { packed } from './transfer.js';
 
@@ -19,6 +20,8 @@ export interface Piece<N extends OperationName> {
   args: Parameters<Operations[N]>;
   /** Its share of the progress. */
   units: number;
+  /** The network it needs. */
+  network?: string | undefined;
 }
 
 /** How a runtime makes workers. */
@@ -28,6 +31,8 @@ export interface Runtime {
   compile(): Promise<WebAssembly.Module>;
   /** The module that reads and simulates drives. */
   compileDrives(): Promise<WebAssembly.Module>;
+  /** The module of networks. */
+  compileNeural(): Promise<WebAssembly.Module>;
   spawn(events: WorkerEvents): WorkerLike;
 }
 
@@ -65,6 +70,9 @@ interface Member {
   worker: WorkerLike;
   task: Task | undefined;
   hasDrives: boolean;
+  hasNeural: boolean;
+  /** Networks whose files it has. */
+  networks: Set<string>;
 }
 
 /** Compiles a module once; after a failure the next call tries again. */
@@ -100,8 +108,11 @@ export class Crew {
   #queue: Task[] = [];
   readonly #core: Loader;
   readonly #drives: Loader;
+  readonly #neural: Loader;
+  readonly #networks = new Map<string, NetworkFile>();
   #terminated = false;
   #lastId = 0;
+  #lastNetwork = 0;
 
   constructor(runtime: Runtime, workers: number | undefined) {
     const size = workers ?? runtime.workers();
@@ -111,15 +122,32 @@ export class Crew {
     this.#runtime = runtime;
     this.#core = new Loader(() => runtime.compile(), 'boresight_bg.wasm');
     this.#drives = new Loader(() => runtime.compileDrives(), 'boresight_drives_bg.wasm');
+    this.#neural = new Loader(() => runtime.compileNeural(), 'boresight_neural_bg.wasm');
     this.size = size;
+  }
+
+  /** Takes a network, whose file each worker gets when it first needs it. */
+  addNetwork(file: NetworkFile): string {
+    const id = `network-${++this.#lastNetwork}`;
+    this.#networks.set(id, file);
+    return id;
+  }
+
+  /** Forgets a network, and makes the workers do so; whether there was one. */
+  removeNetwork(id: string): boolean {
+    for (const member of this.#members) if (member.networks.delete(id)) member.worker.post({ network: id }, []);
+    return this.#networks.delete(id);
   }
 
   /** Runs the pieces on the workers; their results in the order of the pieces. */
   async run<N extends OperationName>(pieces: Piece<N>[], options: JobOptions = {}): Promise<ReturnType<Operations[N]>[]> {
     options.signal?.throwIfAborted();
     if (this.#terminated) throw terminated();
+    const network = pieces.find((piece) => piece.network !== undefined)?.network;
+    if (network !== undefined) this.#fileOf(network);
     await this.#core.load();
     if (pieces.some(({ name }) => ofDrives.includes(name))) await this.#drives.load();
+    if (network !== undefined) await this.#neural.load();
     if (this.#terminated) throw terminated();
     options.signal?.throwIfAborted();
     return new Promise((resolve, reject) => {
@@ -205,11 +233,30 @@ export class Crew {
         member.worker.post({ drives: this.#drives.module }, []);
         member.hasDrives = true;
       }
+      if (piece.network !== undefined) this.#giveNetwork(member, piece.network);
       member.worker.post({ id: ++this.#lastId, name: piece.name, args: value }, buffers);
     } catch (cause) {
       this.#release(member);
-      job.reject(failure('wrong-type', { what: 'arguments', expected: 'what can be sent to a worker', given: String(cause) }, cause));
+      if (cause instanceof BoresightError) job.reject(cause);
+      else job.reject(failure('wrong-type', { what: 'arguments', expected: 'what can be sent to a worker', given: String(cause) }, cause));
     }
+  }
+
+  #giveNetwork(member: Member, id: string): void {
+    if (this.#neural.module && !member.hasNeural) {
+      member.worker.post({ neural: this.#neural.module }, []);
+      member.hasNeural = true;
+    }
+    if (member.networks.has(id)) return;
+    const { value, buffers } = packed(this.#fileOf(id), false);
+    member.worker.post({ network: id, file: value }, buffers);
+    member.networks.add(id);
+  }
+
+  #fileOf(id: string): NetworkFile {
+    const file = this.#networks.get(id);
+    if (file) return file;
+    throw failure('unknown-network', { what: 'network', expected: 'the id of a network that this pool has loaded', given: String(id) });
   }
 
   #hire(): Member | undefined {
@@ -218,7 +265,7 @@ export class Crew {
       reply: (reply) => this.#finish(member, reply),
       lost: (reason) => this.#lose(member, reason),
     };
-    const member: Member = { worker: this.#runtime.spawn(events), task: undefined, hasDrives: false };
+    const member: Member = { worker: this.#runtime.spawn(events), task: undefined, hasDrives: false, hasNeural: false, networks: new Set() };
     this.#members.add(member);
     member.worker.post({ module: this.#core.module }, []);
     return member;

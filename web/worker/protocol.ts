@@ -1,12 +1,20 @@
 // What travels between the pool and a worker.
 import type { PlainError } from '../lib/errors.js';
+import type { NetworkFile } from '../lib/types.js';
 import type { operations } from './operations.js';
 
 export type Operations = typeof operations;
 export type OperationName = keyof Operations;
 
-/** A compiled module that a worker instantiates: the core first, that of drives before it is needed. */
-export type Setup = { module: WebAssembly.Module } | { drives: WebAssembly.Module };
+/**
+ * What a worker is given before it needs it: compiled modules, the core's first, and networks to keep (or, without a
+ * file, to forget).
+ */
+export type Setup =
+  | { module: WebAssembly.Module }
+  | { drives: WebAssembly.Module }
+  | { neural: WebAssembly.Module }
+  | { network: string; file?: NetworkFile };
 
 /** One piece of work. */
 export interface Request {

@@ -2,6 +2,8 @@
 import { BoresightError, failure } from '../lib/errors.js';
 import { initDrivesSync } from '../lib/drive.js';
 import { initSync } from '../lib/instance.js';
+import { initNeuralSync } from '../lib/neural.js';
+import { forgetNetwork, keepNetwork } from './networks.js';
 import { type Context, operations } from './operations.js';
 import type { Reply, Request, Setup } from './protocol.js';
 import { buffersOf } from './transfer.js';
@@ -10,6 +12,7 @@ import { buffersOf } from './transfer.js';
 export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (message: Setup | Request) => void {
   let module: WebAssembly.Module | undefined;
   let drives: WebAssembly.Module | undefined;
+  let neural: WebAssembly.Module | undefined;
   return (message) => {
     if ('module' in message) {
       module = message.module;
@@ -19,11 +22,21 @@ export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (
       drives = message.drives;
       return;
     }
+    if ('neural' in message) {
+      neural = message.neural;
+      return;
+    }
+    if ('network' in message) {
+      if (message.file) keepNetwork(message.network, message.file);
+      else forgetNetwork(message.network);
+      return;
+    }
     const { id, name, args } = message;
     try {
       if (module === undefined) throw failure('not-initialised', { what: 'worker', expected: 'a module', given: 'none' });
       initSync(module); // makes a fresh instance where the last one stopped
       if (drives !== undefined) initDrivesSync(drives);
+      if (neural !== undefined) initNeuralSync(neural);
       const operation = operations[name] as (this: Context, ...args: readonly unknown[]) => unknown;
       const report = (done: number, total: number): void => post({ id, done, total }, []);
       const result = operation.apply({ report }, args as unknown[]);

@@ -53,9 +53,10 @@ impl Model {
         let kinds: Vec<Kind> = card.map_or(Kind::ALL.to_vec(), |card| vec![card.kind]);
         let kinds = kinds_of(&inputs, &outputs, &kinds)?;
         let (wanted, _) = kinds[0].ports();
-        let batched = wanted.iter().map(Port::batched).collect();
-        let single =
-            inputs.iter().zip(&wanted).any(|(port, wanted)| wanted.batched() && !port.batched());
+        // Positions too have an axis of any length, which counts elements.
+        let counts = |port: &Port| port.axes.first() == Some(&Axis::Named("batch".into()));
+        let batched: Vec<bool> = wanted.iter().map(counts).collect();
+        let single = inputs.iter().zip(&batched).any(|(port, &batched)| batched && !port.batched());
         let engine = Engine::new(&proto, inputs.clone(), batched)?;
         let (kind, outputs) = checked_outputs(&engine, &kinds, &outputs, single)?;
         if let Some(card) = card {
@@ -290,7 +291,8 @@ impl Network {
 }
 
 fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    names.collect::<Vec<_>>().join(", ")
+    let all = names.collect::<Vec<_>>().join(", ");
+    if all.is_empty() { "none".into() } else { all }
 }
 
 fn shapes(ports: &[Port]) -> String {

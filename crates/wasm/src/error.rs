@@ -34,6 +34,10 @@ pub enum BindingError {
     /// An image cannot be made.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// A network cannot be loaded, or refused.
+    #[cfg(feature = "neural")]
+    #[error(transparent)]
+    Neural(#[from] boresight_neural::NeuralError),
     /// The chain from frames to detections refused.
     #[error(transparent)]
     Pipeline(#[from] PipelineError),
@@ -87,6 +91,8 @@ impl Diagnose for BindingError {
             Self::Calibrate(error) => error.code(),
             Self::Format(error) => error.code(),
             Self::Image(error) => error.code(),
+            #[cfg(feature = "neural")]
+            Self::Neural(error) => error.code(),
             Self::Pipeline(error) => error.code(),
             Self::Signal(error) => error.code(),
             Self::Simulate(error) => error.code(),
@@ -104,6 +110,8 @@ impl Diagnose for BindingError {
             Self::Calibrate(error) => error.details(),
             Self::Format(error) => error.details(),
             Self::Image(error) => error.details(),
+            #[cfg(feature = "neural")]
+            Self::Neural(error) => error.details(),
             Self::Pipeline(error) => error.details(),
             Self::Signal(error) => error.details(),
             Self::Simulate(error) => error.details(),

@@ -1,0 +1,300 @@
+// Networks in wasm: PyTorch's numbers, batches, bad input, the module's life, the pool.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, describe, test } from 'node:test';
+import { array, estimate, frameCells, init, processCube, simulateCube, simulateSnapshots } from 'boresight';
+import { BoresightError, Network, initNeural, initNeuralSync } from 'boresight/neural';
+import { createPool } from 'boresight/worker';
+import glue from '../../dist/wasm/boresight_neural.js';
+import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
+import { assertShape } from './lib/interfaces.mjs';
+import { difference, model, names, tensor } from './lib/networks.mjs';
+
+const aaetr = 'aaetr-small';
+/** Snapshots of `lrr48` with three targets each, as one batch. */
+const scenes = (count) => {
+  const { data, shape } = simulateSnapshots({
+    array: 'lrr48', targets: { count: [3, 3], fieldOfViewDeg: 50 }, snrDb: 25, scenes: count, seed: 5,
+  });
+  return { data, shape: shape.slice(0, 2) };
+};
+const cell = ({ data, shape }, index) => ({ snapshots: { data: data.slice(2 * index * shape[1], 2 * (index + 1) * shape[1]), shape: [shape[1], 1] } });
+
+test('before initNeural() every call says so; loading can be tried again', async () => {
+  throwsTyped(() => new Network(new Uint8Array(8)), 'not-initialised');
+  throwsTyped(() => initNeuralSync(new Uint8Array([0, 97, 115, 109, 9])), 'not-loaded');
+  await rejectsTyped(initNeural(Promise.reject(new Error('offline'))), 'not-loaded');
+  await Promise.all([init(), initNeural(), initNeural()]);
+});
+
+describe('every shipped network', () => {
+  assert.ok(names.length > 0);
+  for (const name of names) {
+    test(`${name} gives what PyTorch gives, with its card and without`, () => {
+      const { onnx, card } = model(name);
+      for (const options of [{ card }, { card: JSON.parse(card) }, {}]) {
+        const network = new Network(onnx, options);
+        const inputs = Object.fromEntries(network.inputs.map((port) => [port.name, tensor(name, port.name)]));
+        const outputs = network.run(inputs);
+        assert.deepEqual(Object.keys(outputs), network.outputs.map((port) => port.name));
+        for (const [port, given] of Object.entries(outputs)) {
+          const expected = tensor(name, port);
+          assert.deepEqual(given.shape, expected.shape);
+          const apart = difference(given.data, expected.data);
+          assert.ok(apart <= 1e-4, `${port} differs by ${apart}`);
+        }
+        assert.equal(network.kind, JSON.parse(card).network);
+        assert.equal(network.card?.name ?? null, options.card ? name : null);
+        network.free();
+      }
+    });
+  }
+});
+
+describe('a network', () => {
+  let network;
+  before(() => (network = new Network(model(aaetr).onnx, { card: model(aaetr).card, array: 'lrr48' })));
+  after(() => network.free());
+
+  test('finds the targets of clean snapshots', () => {
+    const { positions } = array('lrr48');
+    assert.deepEqual(network.inputs.find(({ name }) => name === 'positions').axes, [48, 3]);
+    for (const truth of [[-20, 15], [-41, 0, 33]]) {
+      const data = new Float64Array(96);
+      truth.forEach((angle, source) => positions.forEach(([, y], k) => {
+        const phase = Math.PI * y * Math.sin((angle * Math.PI) / 180) + 2 * source;
+        data[2 * k] += Math.cos(phase);
+        data[2 * k + 1] += Math.sin(phase);
+      }));
+      const result = network.estimate({ snapshots: { data, shape: [48, 1] } });
+      assertShape(result, 'Estimate');
+      assert.equal(result.method, 'aaetr');
+      const found = result.sources.map(({ azimuthDeg }) => azimuthDeg);
+      truth.forEach((angle) => assert.ok(found.some((near) => Math.abs(near - angle) < 0.5), `${found} for ${truth}`));
+    }
+  });
+
+  test('gives for a batch what it gives for each cell', () => {
+    const batch = scenes(70);
+    const all = network.estimateBatch({ snapshots: batch });
+    assertShape(all, 'BatchEstimate');
+    assert.equal(all.cells, 70);
+    for (const index of [0, 31, 32, 69]) {
+      const { sources } = network.estimate(cell(batch, index));
+      const found = [...all.azimuthDeg].filter((_, i) => all.cell[i] === index);
+      assert.equal(found.length, sources.length);
+      // Products of a batch are added up in another order.
+      sources.forEach(({ azimuthDeg }, i) => assert.ok(Math.abs(found[i] - azimuthDeg) < 1e-3, `${found[i]} for ${azimuthDeg}`));
+    }
+  });
+
+  test('is refined to the best fit when asked, and keeps sources by their confidence', () => {
+    const input = cell(scenes(1), 0);
+    const plain = network.estimate(input);
+    network.setOptions({ refine: true });
+    const refined = network.estimate(input);
+    network.setOptions({ confidence: 1 });
+    assert.equal(network.estimate(input).sources.length, 0);
+    network.setOptions({});
+    assert.deepEqual(network.estimate(input), plain);
+    assert.notDeepEqual(refined.sources[0].azimuthDeg, plain.sources[0].azimuthDeg);
+  });
+
+  test('refuses bad input with a typed error and goes on', () => {
+    const { onnx, card } = model(aaetr);
+    const input = cell(scenes(1), 0);
+    const good = network.estimate(input);
+    const values = tensor(aaetr, 'snapshots');
+    const positions = tensor(aaetr, 'positions');
+    const spoilt = { data: values.data.map((x, i) => (i === 7 ? NaN : x)), shape: values.shape };
+    const other = (change) => JSON.stringify({ ...JSON.parse(card), ...change });
+    const unknown = renamed(onnx, 'Gemm', 'Gomm') ?? renamed(onnx, 'MatMul', 'MatMal');
+    const bad = [
+      () => new Network(new Uint8Array(0)),
+      () => new Network(new Uint8Array(1000).fill(7)),
+      () => new Network(new TextEncoder().encode('not a network')),
+      () => new Network(onnx.subarray(0, 100)),
+      () => new Network(onnx.subarray(0, onnx.length >> 1)),
+      () => new Network(onnx.subarray(0, onnx.length - 10)),
+      () => new Network(unknown),
+      () => new Network(onnx, { card: '{' }),
+      () => new Network(onnx, { card: other({ sha256: '0'.repeat(64) }) }),
+      () => new Network(onnx, { card: other({ network: 'counting' }) }),
+      () => new Network(onnx, { card: other({ inputs: [{ name: 'snapshot', axes: ['batch', 48, 2] }] }) }),
+      () => new Network(onnx, { card, gridPoint: 3 }),
+      () => new Network(onnx, { card, confidence: 2 }),
+      () => new Network('models/aaetr-small.onnx'),
+      () => new Network(onnx, 7),
+      () => network.run({}),
+      () => network.run({ snapshots: values }),
+      () => network.run({ snapshots: values, position: positions }),
+      () => network.run({ snapshots: values, positions, more: positions }),
+      () => network.run({ snapshots: positions, positions }),
+      () => network.run({ snapshots: { ...values, shape: [4, 48, 3] }, positions }),
+      () => network.run({ snapshots: { data: [1, 2], shape: [2] }, positions }),
+      () => network.run({ snapshots: spoilt, positions }),
+      () => network.run(null),
+      () => network.estimate({ snapshots: planeWaves(8, 1, [3]) }),
+      () => network.estimate({}),
+      () => network.estimate({ snapshots: { data: new Float64Array(96).fill(NaN), shape: [48, 1] } }),
+      () => network.count(input),
+      () => network.estimateRegion({ data: new Float32Array(2 * 65 * 8 * 4), shape: [65, 8, 4] }),
+      () => network.setOptions({ refined: true }),
+    ];
+    for (const work of bad) {
+      throwsTyped(work);
+      assert.deepEqual(network.estimate(input), good);
+    }
+  });
+
+  test('counts, and estimates from regions, where it can', () => {
+    const covariance = planeWaves(8, 40, [4]);
+    for (const name of names) {
+      const { onnx, card } = model(name);
+      const one = new Network(onnx, { card });
+      if (one.kind === 'counting') {
+        const counted = one.count({ snapshots: covariance });
+        assertShape(counted, 'SourceProbabilities');
+        assert.equal(counted.probability.length, 3);
+        assert.equal(counted.sources, counted.probability.indexOf(Math.max(...counted.probability)));
+        throwsTyped(() => one.estimate({ snapshots: covariance }));
+      }
+      if (one.kind === 'dnn') assert.equal(one.estimate({ snapshots: covariance }).method, 'dnn');
+      if (one.kind === 'cnn3d' || one.kind === 'dnn') {
+        const region = new Float32Array(2 * 65 * 8 * 4);
+        region.set(planeWaves(8, 4, [-5]).data, 2 * 32 * 8 * 4);
+        one.setOptions({ sources: 2 });
+        const result = one.estimateRegion({ data: region, shape: [65, 8, 4] });
+        assertShape(result, 'Estimate');
+        assert.deepEqual([result.method, result.sources.length], [one.kind, 2]);
+      }
+      one.free();
+    }
+  });
+
+  test('is freed once', () => {
+    const { onnx, card } = model(aaetr);
+    const one = new Network(onnx, { card });
+    one.free();
+    throwsTyped(() => one.free(), 'handle-freed', 'Network');
+    throwsTyped(() => one.estimate({}), 'handle-freed', 'Network');
+  });
+});
+
+test('after a trap calls say so, and initNeural() gives a fresh instance', async () => {
+  const { onnx, card } = model(aaetr);
+  const stale = new Network(onnx, { card });
+  const { memory } = await glue();
+  // Nothing a caller may pass traps, so the memory under the module has to be spoilt.
+  new Uint8Array(memory.buffer).fill(0xff);
+  throwsTyped(() => new Network(onnx, { card }), 'trap');
+  throwsTyped(() => stale.run({}), 'trap');
+  // The core lives on.
+  assert.ok(estimate({ snapshots: planeWaves(4, 1, [10]) }, { method: 'bartlett', array: 'ula4' }).sources.length > 0);
+  await initNeural();
+  throwsTyped(() => stale.run({}), 'handle-stale', 'Network');
+  const fresh = new Network(onnx, { card });
+  assert.equal(fresh.kind, 'aaetr');
+  fresh.free();
+});
+
+describe('a pool', () => {
+  let pool;
+  let info;
+  let network;
+  before(async () => {
+    pool = createPool({ workers: 2 });
+    info = await pool.loadNetwork(model(aaetr));
+    network = new Network(model(aaetr).onnx, { card: model(aaetr).card });
+  });
+  after(() => {
+    pool.terminate();
+    network.free();
+  });
+  const options = (more) => ({ method: 'aaetr', array: 'lrr48', network: info.id, ...more });
+
+  test('says what it has loaded', () => {
+    assertShape(info, 'NetworkInfo');
+    assertShape(info.inputs[0], 'NetworkPort');
+    assert.deepEqual([info.kind, info.method, info.name], ['aaetr', 'aaetr', aaetr]);
+    assert.ok(info.readyMs > 0);
+  });
+
+  test('estimates as the network itself does, one cell and many, with progress', async () => {
+    const batch = scenes(40);
+    network.setOptions({ array: 'lrr48', refine: true });
+    assert.deepEqual(await pool.estimate(cell(batch, 3), options({ refine: true })), network.estimate(cell(batch, 3)));
+    network.setOptions({ array: 'lrr48' });
+    const progress = [];
+    const many = await pool.estimateBatch({ snapshots: batch }, options(), { onProgress: (done) => progress.push(done) });
+    const here = network.estimateBatch({ snapshots: batch });
+    assert.deepEqual(many.cell, here.cell);
+    assert.ok(difference(many.azimuthDeg, here.azimuthDeg) < 1e-5);
+    assert.equal(progress.at(-1), 40);
+    assert.ok(progress.length > 1);
+    const inputs = [0, 1, 2].map((index) => cell(batch, index));
+    assert.deepEqual(await pool.estimateMany(inputs, options()), inputs.map((input) => network.estimate(input)));
+    // The same workers run both kinds.
+    assert.deepEqual(await pool.estimate(inputs[0], { method: 'iaa', array: 'lrr48' }), estimate(inputs[0], { method: 'iaa', array: 'lrr48' }));
+  });
+
+  test('processes cubes and makes images with a network', async () => {
+    const waveform = {
+      startFrequencyHz: 76e9, slopeHzPerS: 30e12, sampleRateHz: 10e6, samples: 64, adcStartS: 0, chirpIntervalS: 30e-6,
+      transmitters: 6, loops: 16, frameIntervalS: 0.05,
+    };
+    const targets = [{ rangeM: 8, rateMps: 1, azimuthDeg: 20 }, { rangeM: 15, rateMps: -2, azimuthDeg: -31 }];
+    const cube = simulateCube({ waveform, array: 'lrr48', targets, snrDb: 20, seed: 3 });
+    const chain = { waveform, array: 'lrr48', angle: { method: 'aaetr', network: info.id } };
+    const frames = await pool.processCube(cube, chain);
+    assert.deepEqual(frames, network.processCube(cube, chain));
+    assertShape(frames[0], 'FrameResult');
+    for (const { rangeM, azimuthDeg } of targets) {
+      const near = frames[0].detections.some((d) => Math.abs(d.rangeM - rangeM) < 0.5 && Math.abs(d.azimuthDeg - azimuthDeg) < 0.5);
+      assert.ok(near, `a target at ${azimuthDeg} deg among ${frames[0].detections.map((d) => d.azimuthDeg)}`);
+    }
+    const image = await pool.imageFrame(cube, chain);
+    assertShape(image, 'ImageFrame');
+    assert.equal(image.estimates.method, 'aaetr');
+    const { angle: _, ...plain } = chain;
+    assert.deepEqual((await pool.frameCells(cube, chain)).rangeBin, frameCells(cube, plain).rangeBin);
+    throwsTyped(() => processCube(cube, chain), 'needs-model');
+  });
+
+  test('refuses what is no network, ids it does not know, and methods without one', async () => {
+    const input = cell(scenes(1), 0);
+    await rejectsTyped(pool.loadNetwork({ onnx: new Uint8Array(10) }));
+    await rejectsTyped(pool.loadNetwork({}), 'wrong-type');
+    await rejectsTyped(pool.estimate(input, options({ network: 'network-99' })), 'unknown-network', 'network');
+    await rejectsTyped(pool.estimate(input, options({ network: undefined })), 'needs-model');
+    await rejectsTyped(pool.estimate(input, options({ method: 'dnn' })));
+    await rejectsTyped(pool.estimate({}, options()), 'wrong-type');
+    assert.equal((await pool.estimate(input, options())).method, 'aaetr');
+  });
+
+  test('goes on after a job is cancelled, and forgets a network when told to', async () => {
+    const controller = new AbortController();
+    const job = pool.estimateBatch({ snapshots: scenes(400) }, options(), {
+      signal: controller.signal, onProgress: () => controller.abort(),
+    });
+    await assert.rejects(job, { name: 'AbortError' });
+    const other = await pool.loadNetwork(model(aaetr));
+    const input = cell(scenes(1), 0);
+    assert.notEqual(other.id, info.id);
+    assert.deepEqual(await pool.estimate(input, options({ network: other.id })), await pool.estimate(input, options()));
+    assert.equal(pool.unloadNetwork(other.id), true);
+    assert.equal(pool.unloadNetwork(other.id), false);
+    await rejectsTyped(pool.estimate(input, options({ network: other.id })), 'unknown-network');
+  });
+});
+
+/** A copy of a file in which a text is another of the same length; null where it does not occur. */
+function renamed(bytes, from, to) {
+  const at = Buffer.from(bytes).indexOf(from);
+  if (at < 0) return null;
+  const copy = Buffer.from(bytes);
+  for (let next = at; next >= 0; next = copy.indexOf(from, next)) copy.write(to, next);
+  return new Uint8Array(copy);
+}
+
+test('errors are those of the package', () => assert.equal(new BoresightError('a', 'b', {}).name, 'BoresightError'));

@@ -1,0 +1,6 @@
+// What every runtime's entry of the networks offers beside its own initNeural().
+export type * from './types.js';
+export type { Report } from './report.js';
+export type { WasmSource } from './module.js';
+export { BoresightError, type ErrorDetails } from './errors.js';
+export { initNeuralSync, Network } from './neural.js';

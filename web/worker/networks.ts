@@ -1,0 +1,50 @@
+// The networks of a worker: their files as the pool sent them, and in wasm memory those in use.
+import { failure } from '../lib/errors.js';
+import { Network, neural } from '../lib/neural.js';
+import type { NetworkFile, NetworkOptions } from '../lib/types.js';
+
+interface Loaded {
+  network: Network;
+  /** Number of the instance it lives in. */
+  instance: number;
+  /** Its options as text. */
+  options: string;
+}
+
+const files = new Map<string, NetworkFile>();
+const loaded = new Map<string, Loaded>();
+
+export function keepNetwork(id: string, file: NetworkFile): void {
+  files.set(id, file);
+}
+
+export function forgetNetwork(id: string): void {
+  files.delete(id);
+  // The memory of an instance that is gone went with it.
+  loaded.get(id)?.network[Symbol.dispose]();
+  loaded.delete(id);
+}
+
+/** A network with the options of its estimates; parsed once, and once more after a trap. */
+export function networkWith(id: string, given: object = {}): Network {
+  const { network: _, ...options } = given as NetworkOptions & { network?: string };
+  const text = keyOf(options);
+  let one = loaded.get(id);
+  if (one?.instance !== neural.number) {
+    const file = files.get(id);
+    if (!file) throw failure('unknown-network', { what: 'network', expected: 'one that the pool has loaded', given: id });
+    const { onnx, card } = file;
+    one = { network: new Network(onnx, { ...(card !== undefined && { card }) }), instance: neural.number, options: '{}' };
+    loaded.set(id, one);
+  }
+  if (one.options !== text) {
+    one.network.setOptions(options);
+    one.options = text;
+  }
+  return one.network;
+}
+
+/** Options as text, equal where they are. */
+export function keyOf(options: object): string {
+  return JSON.stringify(options, (_, value: unknown) => (typeof value === 'bigint' ? `${value}n` : value));
+}
