@@ -212,11 +212,14 @@ class ClassifierTask:
     def confidence(self, model, count, generator):
         if self.counts:
             return None
-        answer, label = self._answers(model, replace(self.cubes, snr_db=(0, 15), near=0.0), 4 * count, generator)
-        order = answer.flatten().argsort(descending=True)
+        cubes = replace(self.cubes, snr_db=(self.lowest_db, self.cubes.snr_db[1]), near=0.0)
+        answer, label = self._answers(model, cubes, 4 * count, generator)
+        logit, order = answer.flatten().sort(descending=True)
         hits = label.flatten()[order].double().cumsum(0)
         f1 = 2 * hits / (label.sum() + torch.arange(1, len(order) + 1))
-        return answer.flatten()[order[f1.argmax()]].sigmoid().item()
+        at = f1.argmax()
+        # Between the last answer above the threshold and the first below.
+        return logit[at : at + 2].mean().sigmoid().item()
 
     def _directions(self, answer, label):
         most = self.cubes.targets[1]
