@@ -20,6 +20,8 @@ export class FileProblem extends Error {
 }
 
 export function describeError(error: unknown): Problem {
+  if (aborted(error)) return { code: 'cancelled', message: 'It was cancelled.' };
+  if (error instanceof FileProblem) return { code: error.code, message: `${error.file}: ${error.message}` };
   if (error instanceof boresight.BoresightError) return { code: error.code, message: error.message };
   return { code: 'unexpected', message: error instanceof Error ? error.message : String(error) };
 }

@@ -22,6 +22,8 @@ export interface Model {
   name: string;
   title: string;
   card: Card;
+  /** Whether the card came with it; else it was told from the file alone. */
+  hasCard: boolean;
   /** Absent for a user's own. */
   address?: string;
   cardAddress?: string;
@@ -52,7 +54,7 @@ export const MODELS: readonly Model[] = Object.entries(cards)
   .flatMap(([path, card]): Model[] => {
     const address = addresses[path.replace(/json$/, 'onnx')];
     const cardAddress = cardAddresses[path];
-    return address && cardAddress && KINDS.includes(card.network) ? [{ name: stem(path), title: titleOf(card), card, address, cardAddress }] : [];
+    return address && cardAddress && KINDS.includes(card.network) ? [{ name: stem(path), title: titleOf(card), card, hasCard: true, address, cardAddress }] : [];
   })
   .sort((a, b) => KINDS.indexOf(a.card.network) - KINDS.indexOf(b.card.network) || (a.card.parameters ?? 0) - (b.card.parameters ?? 0) || a.name.localeCompare(b.name));
 
@@ -70,10 +72,13 @@ export function arrayOf(card: Card): string {
   return typeof card.data?.array === 'string' ? card.data.array : `${elementsOf(card)} elements half a wavelength apart`;
 }
 
+export type Geometry = Pick<ArrayGeometry, 'positions' | 'uniform' | 'aperture'>;
+
 /** Why a network cannot work on an array, or null. */
-export function arrayProblem(card: Card, { positions, uniform }: Pick<ArrayGeometry, 'positions' | 'uniform'>): string | null {
+export function arrayProblem(card: Card, { positions, uniform, aperture }: Geometry): string | null {
   const elements = elementsOf(card);
-  if (positions.length !== elements || (card.network !== 'aaetr' && !uniform)) {
+  const evenly = uniform && Math.abs(aperture - (elements - 1)) < 1e-6;
+  if (positions.length !== elements || (card.network !== 'aaetr' && !evenly)) {
     return `is for ${arrayOf(card)}${typeof card.data?.array === 'string' ? ` (${elements} elements)` : ''}`;
   }
   return null;

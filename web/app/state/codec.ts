@@ -19,9 +19,12 @@ export function number(fallback: number, [low, high]: readonly [number, number],
   };
 }
 
-export function choice<const T extends string>(fallback: T, values: readonly T[]): Field<T> {
-  return { fallback, read: (text) => values.find((value) => value === text), write: (value) => value };
+/** One of some values; a function gives those that are known only later. */
+export function choice<const T extends string>(fallback: T, values: readonly T[] | (() => readonly T[])): Field<T> {
+  return { fallback, read: (text) => given(values).find((value) => value === text), write: (value) => value };
 }
+
+const given = <T>(values: readonly T[] | (() => readonly T[])): readonly T[] => (typeof values === 'function' ? values() : values);
 
 export function flag(fallback: boolean): Field<boolean> {
   return {
@@ -41,12 +44,13 @@ export function optional<T>(field: Field<T>): Field<T | null> {
 }
 
 /** Names from a known set, in the set's order; a dash for none. */
-export function names<T extends string>(fallback: readonly T[], known: readonly T[]): Field<readonly T[]> {
+export function names<T extends string>(fallback: readonly T[], values: readonly T[] | (() => readonly T[])): Field<readonly T[]> {
   return {
     fallback,
     read: (value) => {
-      const given = value === '-' ? [] : value.split(',');
-      return given.every((name) => known.includes(name as T)) ? known.filter((name) => given.includes(name)) : undefined;
+      const known = given(values);
+      const wanted = value === '-' ? [] : value.split(',');
+      return wanted.every((name) => known.includes(name as T)) ? known.filter((name) => wanted.includes(name)) : undefined;
     },
     write: (value) => value.join(',') || '-',
   };

@@ -15,6 +15,8 @@ export interface MethodItem<T extends string> {
   /** What went wrong with it. */
   note?: string | undefined;
   extra?: ComponentChildren;
+  /** Below it, where it can run. */
+  detail?: ComponentChildren;
 }
 
 export function MethodList<T extends string>(props: {
@@ -30,7 +32,7 @@ export function MethodList<T extends string>(props: {
     props.onChange(items.map((item) => item.name).filter((other) => (other === name ? on : chosen.includes(other))));
   return (
     <fieldset class="methods" aria-label={props.label}>
-      {items.map(({ name, title, about, line, off, note, extra }) => {
+      {items.map(({ name, title, about, line, off, note, extra, detail }) => {
         const id = `${props.prefix}-${name}`;
         const checked = chosen.includes(name);
         return (
@@ -40,6 +42,7 @@ export function MethodList<T extends string>(props: {
             <Swatch style={methodStyle(name)} line={line} />
             <label for={id}>{title}</label>
             {extra}
+            {!off && detail}
             <p id={`${id}-note`} class="note" hidden={!off && !note}>{off ?? note}</p>
           </div>
         );

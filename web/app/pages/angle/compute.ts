@@ -6,6 +6,9 @@ import { batch, effect, signal } from '@preact/signals';
 import type { ArrayGeometry, ArrayInput, Estimate, EstimatorOptions, Method, MethodInfo, SnapshotResult } from 'boresight';
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { cut, highest } from '../../estimates.ts';
+import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
+import { load, readyNetworks } from '../../networks/load.ts';
+import type { Model } from '../../networks/models.ts';
 import { arrayInput, type AngleState, angleState } from './state.ts';
 
 export interface MethodResult {
@@ -48,6 +51,7 @@ export function start(): () => void {
   let frame = 0;
   const stop = effect(() => {
     void angleState.value;
+    void readyNetworks.value;
     cancelAnimationFrame(frame);
     frame = requestAnimationFrame(() => recompute(angleState.peek()));
   });
@@ -60,6 +64,8 @@ export function start(): () => void {
 /** Why a method cannot run here, in words; null where it can. */
 export function whyNot(info: MethodInfo, geometry: ArrayGeometry, state: AngleState): string | null {
   const { snapshots } = state;
+  const problem = info.network ? whyNoNetwork(info.name, [geometry]) : null;
+  if (problem) return problem;
   if (snapshots < info.minSnapshots) return `needs at least ${info.minSnapshots} snapshots`;
   if (info.maxSnapshots !== null && snapshots > info.maxSnapshots) {
     return info.maxSnapshots === 1 ? 'takes a single snapshot only' : `takes at most ${info.maxSnapshots} snapshots`;
@@ -77,6 +83,14 @@ function onLattice({ positions }: ArrayGeometry): boolean {
   const step = Math.min(...gaps);
   const flat = positions.every(([x, , z]) => x === positions[0]?.[0] && z === positions[0]?.[2]);
   return flat && gaps.every((gap) => Math.abs(gap / step - Math.round(gap / step)) < 1e-6);
+}
+
+/** The number of sources that methods are told, or null where they count. */
+const known = (state: AngleState): number | null => (state.sources === 'known' ? state.targets.length : null);
+
+/** The network that a method of the present state would use. */
+export function networkFor(method: Method, geometry: ArrayGeometry, state: AngleState): Model | undefined {
+  return modelFor(method, [geometry], known(state), state.networks);
 }
 
 export function estimatorOptions(method: Method, state: AngleState): EstimatorOptions {
@@ -171,7 +185,7 @@ function recompute(state: AngleState): void {
     if (reason) reasons.set(info.name, reason);
     if (reason || !state.methods.includes(info.name)) continue;
     const before = results.peek().get(info.name);
-    if (typicalMs(info.name) > FRAME_BUDGET_MS) {
+    if (info.network || typicalMs(info.name) > FRAME_BUDGET_MS) {
       next.set(info.name, before?.estimate ? { ...before, stale: true } : { stale: true });
       waiting.set(info.name, made);
     } else {
@@ -211,20 +225,24 @@ function runHere(method: Method, made: Scene): MethodResult {
 /** Calls under way on the workers; more would wait there, and their times would say nothing. */
 let busy = 0;
 const queue: (() => void)[] = [];
-const warmThere = new Set<Method>();
+const warmThere = new Set<string>();
 
 async function onWorker(method: Method, made: Scene): Promise<MethodResult> {
+  const model = networkFor(method, made.geometry, made.state);
+  const network = model && await load(model.name).then(({ id }) => id, (error: unknown) => ({ problem: describeError(error) }));
+  if (typeof network === 'object') return { problem: network.problem, stale: false };
   if (busy >= pool().workers) await new Promise<void>((free) => queue.push(free));
   busy += 1;
   try {
     const run = async (): Promise<MethodResult> => {
       const started = performance.now();
-      const estimate = await pool().estimate(input(made), estimatorOptions(method, made.state));
+      const options = estimatorOptions(method, made.state);
+      const estimate = await pool().estimate(input(made), network ? { ...options, network } : options);
       return { estimate, milliseconds: performance.now() - started, where: 'worker', stale: false };
     };
     // The first call starts a worker and compiles the method.
-    if (!warmThere.has(method)) await run();
-    warmThere.add(method);
+    if (!warmThere.has(network ?? method)) await run();
+    warmThere.add(network ?? method);
     const result = await run();
     learn(method, (result.milliseconds ?? 0) * TRAVEL_SHARE);
     return result;

@@ -5,7 +5,10 @@ import { showHelp } from '../../state/settings.ts';
 import { CheckField, Group, NumberField, SelectField, TextField } from '../../ui/field.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { results, unavailable } from './compute.ts';
+import { choosing, fitting } from '../../networks/choose.ts';
+import { stopped } from '../../networks/load.ts';
+import { NetworkNote } from '../../ui/network-note.tsx';
+import { networkFor, results, scene, unavailable } from './compute.ts';
 import {
   addTarget, angleCodec, angleState, freeAzimuth, LIMITS, positionsProblem, removeTarget, setTarget, update,
 } from './state.ts';
@@ -155,8 +158,14 @@ function Methods() {
         const off = unavailable.value.get(info.name);
         const result = results.value.get(info.name);
         const shown = !off && angleState.value.methods.includes(info.name);
+        const geometry = scene.value?.geometry;
+        const model = info.network && geometry ? networkFor(info.name, geometry, angleState.value) : undefined;
         return {
-          name: info.name, title: info.title, about: `${info.reference}. Cost: ${info.cost}.`, line: info.spectrum, off, note: result?.problem?.message,
+          name: info.name, title: info.title, about: `${info.reference}. Cost: ${info.cost}.`, line: info.spectrum, off, note: stopped(model?.name) ? undefined : result?.problem?.message,
+          detail: model && geometry && (
+            <NetworkNote model={model} choices={fitting(info.name, [geometry], null)} chosen={shown}
+              onChange={(next) => update({ networks: choosing(angleState.value.networks, next) })} />
+          ),
           extra: (
             <span class="time" data-time={info.name}>
               {shown && result?.milliseconds !== undefined

@@ -25,7 +25,7 @@ function curves(): Curve[] {
 const TRUTH_RING = { ...TRUTH_STYLE, marker: 'circle' } as const;
 
 /** Targets as crosshairs: a stem up to their power, a ring, and their number. */
-function truthLayer(targets: readonly { azimuthDeg: number; powerDb: number }[]): Layer {
+export function truthLayer(targets: readonly { azimuthDeg: number; powerDb: number }[]): Layer {
   return ({ ctx, plot, theme, ratio, x, y }) => {
     const { left, top, width, height } = plot.bbox;
     ctx.strokeStyle = theme.truth;

@@ -1,6 +1,7 @@
 /** State of the angle lab: all of it in the address. */
 import { signal } from '@preact/signals';
 import type { ArrayInput, Method, Position } from 'boresight';
+import { methodNames, networkNames } from '../../methods.ts';
 import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
 
 export interface Target { azimuthDeg: number; powerDb: number }
@@ -9,11 +10,6 @@ export const LIMITS = {
   azimuthDeg: [-89.9, 89.9], powerDb: [-40, 10], snrDb: [-30, 60], snapshots: [1, 2000], seed: [0, 4294967295],
   elements: [2, 128], targets: 12, gridPoints: [64, 8192],
 } as const;
-
-export const METHODS: readonly Method[] = [
-  'bartlett', 'capon', 'music', 'single-snapshot-music', 'root-music', 'esprit', 'min-norm', 'iaa', 'nomp',
-  'maximum-likelihood', 'sparse-bayesian',
-];
 
 export const PRESETS = ['awr1642', 'awr1843', 'cascade86', 'lrr48'] as const;
 
@@ -52,10 +48,11 @@ export const angleCodec = codec({
   position: number(0, [0, 0.5]),
   coupling: text('off', (value) => value === 'off' || (Number(value) >= -60 && Number(value) <= -5)),
   sources: choice('known', ['known', 'aic', 'mdl']),
-  methods: names<Method>(['bartlett', 'capon', 'music', 'root-music'], METHODS),
+  methods: names<Method>(['bartlett', 'capon', 'music', 'root-music'], methodNames),
   grid: number(1024, LIMITS.gridPoints, 'integer'),
   average: flag(false),
   refine: flag(false),
+  networks: networkNames,
   smoothing: number(0, [0, LIMITS.elements[1]], 'integer'),
 }, ['array', 'targets', 'snr', 'snapshots', 'seed', 'methods']);
 

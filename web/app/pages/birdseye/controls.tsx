@@ -1,11 +1,16 @@
 /** Scene, radars, methods and how the images are shown. */
+import type { Method } from 'boresight';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
 import { showHelp } from '../../state/settings.ts';
 import { CheckField, Group, NumberField, SelectField, SliderField } from '../../ui/field.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { cellM, input, reachM } from './input.ts';
-import { candidates, images, unavailable } from './process.ts';
+import { singleSnapshotMethods } from '../../methods.ts';
+import { choosing, fitting } from '../../networks/choose.ts';
+import { stopped } from '../../networks/load.ts';
+import { NetworkNote } from '../../ui/network-note.tsx';
+import { geometriesOf, images, networkFor, unavailable } from './process.ts';
 import { birdseyeState, CELLS, FALSE_ALARMS, LIMITS, RADARS, restoreDefaults, SPANS, update } from './state.ts';
 
 export function Controls() {
@@ -35,9 +40,10 @@ export function Controls() {
       )}
       <Group title="Methods">
         <MethodList label="Methods" prefix="method" chosen={state.methods} onChange={(methods) => update({ methods })}
-          items={candidates().map((info) => ({
+          items={singleSnapshotMethods().map((info) => ({
             name: info.name, title: info.title, about: `${info.reference}. Cost: ${info.cost}.`, line: info.spectrum,
-            off: unavailable.value.get(info.name), note: images.value.get(info.name)?.problem?.message,
+            off: unavailable.value.get(info.name), note: info.network && stopped(networkFor(info.name)?.name) ? undefined : images.value.get(info.name)?.problem?.message,
+            detail: info.network && <Network method={info.name} />,
           }))} />
         <SelectField label="Images of" name="from" value={state.from} options={[['spectra', 'spectra'], ['targets', 'targets']]}
           help="What each cell adds to the image: its whole spectrum over azimuth, or the directions found in it. Methods without a spectrum give targets."
@@ -47,6 +53,9 @@ export function Controls() {
         <SelectField label="Sources a cell" name="sources" value={state.sources} options={(['1', '2', '3', '4'] as const).map((sources) => [sources, sources] as const)}
           help="Directions that maximum likelihood and MUSIC look for in each cell: one snapshot does not tell how many there are. The others need not know."
           onChange={(sources) => update({ sources })} />
+        <CheckField label="Refine by Gauss-Newton" name="refine" value={state.refine}
+          help="Fits all angles of a method together to each cell: drops those that noise explains, adds what was missed. Of images of targets."
+          onChange={(refine) => update({ refine })} />
         <SelectField label="False-alarm rate" name="falseAlarm" value={state.falseAlarm}
           options={FALSE_ALARMS.map((rate) => [rate, `10${rate.slice(2).replace('-', '⁻').replace(/\d/, (digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(digit)] ?? '')}`] as const)}
           help="Of the detector: probability that noise alone passes in one cell of range and Doppler. A higher one detects more cells."
@@ -80,6 +89,16 @@ export function Controls() {
         <CheckField label="Fields of view" name="fields" value={state.fields} help="Draws where each radar sits and what it sees." onChange={(fields) => update({ fields })} />
       </Group>
     </Sidebar>
+  );
+}
+
+function Network({ method }: { method: Method }) {
+  const model = networkFor(method);
+  if (!model) return null;
+  const { methods, networks } = birdseyeState.value;
+  return (
+    <NetworkNote model={model} choices={fitting(method, geometriesOf(input.value?.radars ?? []), null)} chosen={methods.includes(method)}
+      onChange={(next) => update({ networks: choosing(networks, next) })} />
   );
 }
 

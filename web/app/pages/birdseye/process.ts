@@ -5,11 +5,14 @@
  */
 import { batch, computed, effect, signal } from '@preact/signals';
 import type {
-  BatchEstimate, BirdsEyeView, FrameCells, Gate, ImageFrom, Method, MethodInfo, RangeAzimuthMap, SidelobeMeasure, SimulatedStreet, Warning,
+  ArrayGeometry, BatchEstimate, BirdsEyeView, FrameCells, Gate, ImageFrom, Method, RangeAzimuthMap, SidelobeMeasure, SimulatedStreet, Warning,
 } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import { aborted, api, describeError, pool, type Problem } from '../../data.ts';
 import { chainOptions, grid, gridProblem, input, type Input, type Point, type Radar, shownRadars } from './input.ts';
+import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
+import { load, readyNetworks } from '../../networks/load.ts';
+import type { Model } from '../../networks/models.ts';
 import { birdseyeState, type BirdseyeState } from './state.ts';
 
 /** A radar's frame: what was detected, and the street's points it can see. */
@@ -51,22 +54,28 @@ export const working = signal(false);
 /** Methods that cannot work on these radars' single snapshots, with the reason. */
 export const unavailable = computed<ReadonlyMap<Method, string>>(() => {
   const reasons = new Map<Method, string>();
-  const geometries = (input.value?.radars ?? []).map(({ array }) => api.array(array));
+  const geometries = geometriesOf(input.value?.radars ?? []);
   for (const info of api.methods()) {
-    if (info.uniformArray && geometries.some(({ uniform }) => !uniform)) reasons.set(info.name, 'needs a uniform linear array');
+    const problem = info.network ? whyNoNetwork(info.name, geometries) : null;
+    if (problem) reasons.set(info.name, problem);
+    else if (info.uniformArray && geometries.some(({ uniform }) => !uniform)) reasons.set(info.name, 'needs a uniform linear array');
   }
   return reasons;
 });
 
-/** Methods that may be chosen: a frame gives one snapshot a cell. */
-export const candidates = (): MethodInfo[] => api.methods().filter(({ minSnapshots }) => minSnapshots <= 1);
+export const geometriesOf = (radars: readonly Radar[]): ArrayGeometry[] => radars.map(({ array }) => api.array(array));
+
+/** The network that a method would use on all radars. */
+export function networkFor(method: Method): Model | undefined {
+  return modelFor(method, geometriesOf(input.value?.radars ?? []), null, birdseyeState.value.networks);
+}
 
 /** What the images depend on; as text, so that effects run when it changes only. */
 const job = computed(() => {
-  const { methods, from, falseAlarm, grouping, sources, points, gate, frame } = birdseyeState.value;
+  const { methods, networks, refine, from, falseAlarm, grouping, sources, points, gate, frame } = birdseyeState.value;
   return JSON.stringify({
     input: input.value?.key, radars: shownRadars.value.map(({ name }) => name), grid: grid.value,
-    methods: methods.filter((method) => !unavailable.value.has(method)), from, falseAlarm, grouping, sources, points, gate, frame,
+    methods: methods.filter((method) => !unavailable.value.has(method)), networks, refine, from, falseAlarm, grouping, sources, points, gate, frame,
   });
 });
 
@@ -105,6 +114,7 @@ export function start(): () => void {
   const stop = effect(() => {
     void attempts.value;
     void job.value;
+    void readyNetworks.value;
     const looked = input.value;
     clearTimeout(timer);
     running?.abort();
@@ -171,7 +181,7 @@ async function run(looked: Input, radars: readonly Radar[], methods: readonly Me
           report: say,
         });
       } catch (error) {
-        if (aborted(error)) throw error;
+        if (signal.aborted) throw error;
         image = { problem: describeError(error), stale: false };
       }
       if (!current()) return;
@@ -220,22 +230,25 @@ interface Steps { step(): void; report(part?: number): void }
 async function imageOf(
   looked: Input, method: Method, made: readonly RadarFrame[], state: BirdseyeState, signal: AbortSignal, { step, report }: Steps,
 ): Promise<MethodImage> {
-  const { points, gate } = state;
-  const { spectrum: hasSpectrum = false, sourceCount = false } = api.methods().find(({ name }) => name === method) ?? {};
+  const { points, gate, refine } = state;
+  const { spectrum: hasSpectrum = false, sourceCount = false, network: isNetwork = false } = api.methods().find(({ name }) => name === method) ?? {};
+  const model = isNetwork ? networkFor(method) : undefined;
+  const network = model && (await load(model.name)).id;
+  signal.throwIfAborted();
   const parts: { frame: RadarFrame; estimate: BatchEstimate; milliseconds: number; map: RangeAzimuthMap; from: ImageFrom }[] = [];
   for (const one of made) {
     const { radar, cells } = one;
-    const key = `${method} ${points} ${sourceCount ? state.sources : ''} ${detectionKey(looked, radar, state)}`;
+    const key = `${method} ${network ?? ''} ${refine} ${points} ${sourceCount ? state.sources : ''} ${detectionKey(looked, radar, state)}`;
     const job: JobOptions = { signal, onProgress: (done, total) => report(total > 0 ? done / total : 0) };
     const plan = api.imagePlan({
       waveform: radar.waveform, array: radar.array, from: hasSpectrum ? state.from : 'targets',
       // One snapshot does not tell how many there are.
-      angle: { method, ...(sourceCount ? { sources: Number(state.sources) } : {}), gridPoints: Number(points), fieldOfViewDeg: radar.fieldOfViewDeg }, grid: { fieldOfViewDeg: radar.fieldOfViewDeg },
+      angle: { method, ...(sourceCount ? { sources: Number(state.sources) } : {}), gridPoints: Number(points), ...(refine ? { refine } : {}), fieldOfViewDeg: radar.fieldOfViewDeg }, grid: { fieldOfViewDeg: radar.fieldOfViewDeg },
     });
     const { estimate, milliseconds } = await once(`estimates ${key}`, async () => {
       const started = performance.now();
       // Spectra come along for the time when they are asked for.
-      const estimate = await pool().estimateBatch({ snapshots: cells.snapshots }, { ...plan.estimator, spectra: hasSpectrum }, job);
+      const estimate = await pool().estimateBatch({ snapshots: cells.snapshots }, { ...plan.estimator, ...(network === undefined ? {} : { network }), spectra: hasSpectrum }, job);
       return { estimate, milliseconds: performance.now() - started };
     });
     const { from, grid } = plan;

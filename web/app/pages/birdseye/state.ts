@@ -3,16 +3,13 @@ import { signal } from '@preact/signals';
 import type { Method } from 'boresight';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
 import type { View } from '../../plots/plot.ts';
+import { networkNames, singleSnapshotMethods } from '../../methods.ts';
 import { choice, codec, type Field, flag, names, number, optional } from '../../state/codec.ts';
 
 export const SOURCES = ['street', 'capture'] as const;
 /** Names of the street's radars. */
 export const RADARS = ['left', 'front-left', 'front-right', 'right'] as const;
 export type RadarName = (typeof RADARS)[number];
-/** Those that can work on one snapshot; what a radar's array lacks for them is said beside them. */
-export const METHODS: readonly Method[] = [
-  'bartlett', 'capon', 'iaa', 'nomp', 'maximum-likelihood', 'sparse-bayesian', 'single-snapshot-music',
-];
 export const CELLS = ['0.05', '0.1', '0.2', '0.25', '0.5', '1'] as const;
 export const SPANS = ['20', '30', '40', '50', '60', '80'] as const;
 export const FALSE_ALARMS = ['1e-3', '1e-4', '1e-5', '1e-6', '1e-8'] as const;
@@ -39,7 +36,9 @@ export const birdseyeCodec = codec({
   speed: number(6, LIMITS.speedMps),
   radars: names<RadarName>(RADARS, RADARS),
   frame: number(0, LIMITS.frame, 'integer'),
-  methods: names<Method>(['bartlett', 'iaa', 'nomp'], METHODS),
+  methods: names<Method>(['bartlett', 'iaa', 'nomp'], () => singleSnapshotMethods().map(({ name }) => name)),
+  networks: networkNames,
+  refine: flag(false),
   from: choice('spectra', ['spectra', 'targets']),
   falseAlarm: choice('1e-6', FALSE_ALARMS),
   grouping: flag(false),

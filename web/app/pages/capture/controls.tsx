@@ -12,7 +12,9 @@ import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { fileProblem, loaded, openBundled, openFiles } from './files.ts';
 import { captureCodec, captureState, CFARS, FALSE_ALARMS, update, WINDOWS } from './state.ts';
-import { cellUnavailable } from './process.ts';
+import { choosing, fitting } from '../../networks/choose.ts';
+import { NetworkNote } from '../../ui/network-note.tsx';
+import { cellUnavailable, networkFor, usedArray } from './process.ts';
 
 const WINDOW_NAMES: Record<string, string> = {
   rectangular: 'rectangular', hann: 'Hann', hamming: 'Hamming', blackman: 'Blackman', 'blackman-harris': 'Blackman–Harris',
@@ -39,11 +41,15 @@ export function Controls() {
         <MethodList label="Methods for the chosen cell" prefix="cell" chosen={state.methods} onChange={(chosen) => update({ methods: chosen })}
           items={methods.map((info) => ({
             name: info.name, title: info.title, about: `${info.reference}. Cost: ${info.cost}.`, line: info.spectrum, off: cellUnavailable.value.get(info.name),
+            detail: info.network && <Network method={info.name} />,
           }))} />
         <SelectField label="Sources in the cell" name="sources" value={state.sources}
           options={[['mdl', 'counted, MDL'], ['aic', 'counted, AIC'], ['1', '1'], ['2', '2'], ['3', '3'], ['4', '4']]}
           help="How many directions the subspace methods look for in one cell."
           onChange={(sources) => update({ sources })} />
+        <CheckField label="Refine by Gauss-Newton" name="refine" value={state.refine}
+          help="Fits all angles of a method together to the data: drops those that noise explains, adds what was missed."
+          onChange={(refine) => update({ refine })} />
       </Group>
       <Group title="Detection">
         <SelectField label="Virtual array" name="array" value={state.array}
@@ -104,6 +110,17 @@ export function Controls() {
           help="All three are perceptually uniform; cividis is made for colour-blind readers." onChange={(colors) => update({ colors })} />
       </Group>
     </Sidebar>
+  );
+}
+
+function Network({ method }: { method: Method }) {
+  const geometry = usedArray.value;
+  const model = networkFor(method);
+  if (!geometry || !model) return null;
+  const { methods, angle, networks } = captureState.value;
+  return (
+    <NetworkNote model={model} choices={fitting(method, [geometry], null)} chosen={methods.includes(method) || angle === method}
+      onChange={(next) => update({ networks: choosing(networks, next) })} />
   );
 }
 

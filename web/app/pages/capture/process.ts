@@ -1,7 +1,10 @@
 /** Processing of the open capture on workers: all frames when files or options change, the chosen cell when it moves. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { Cell, ChainOptions, Estimate, FrameResult, Method } from 'boresight';
+import type { AngleOptions, Cell, ChainOptions, Estimate, FrameResult, Method } from 'boresight';
 import { aborted, api, describeError, type Problem } from '../../data.ts';
+import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
+import { load, readyNetworks } from '../../networks/load.ts';
+import type { Model } from '../../networks/models.ts';
 import { type Loaded, loaded } from './files.ts';
 import { captureState, chainOptions, sourceOption } from './state.ts';
 import { estimateCell, runChain } from './source.ts';
@@ -24,7 +27,25 @@ export const cellResults = signal<ReadonlyMap<Method, CellResult>>(new Map());
 
 /** Options as text: effects that depend on them run when they change, not with every cell. */
 const options = computed(() => JSON.stringify(chainOptions(captureState.value)));
+/** The same of what the cell's angles depend on beside it. */
+const cellOptions = computed(() => {
+  const { refine } = captureState.value;
+  return JSON.stringify({ sources: sourceOption(captureState.value), ...(refine ? { refine } : {}) });
+});
 const attempts = signal(0);
+
+/** The same with the network its method needs, which is loaded first. */
+async function withNetwork(angle: AngleOptions): Promise<AngleOptions> {
+  const model = angle.method && networkFor(angle.method);
+  return model ? { ...angle, network: (await load(model.name)).id } : angle;
+}
+
+/** The network that a method would use on this capture. */
+export function networkFor(method: Method): Model | undefined {
+  const geometry = usedArray.value;
+  const sources = sourceOption(captureState.value);
+  return geometry ? modelFor(method, [geometry], typeof sources === 'number' ? sources : null, captureState.value.networks) : undefined;
+}
 
 /** The configuration's array, or the one chosen; null where the platform is not known. */
 export const usedArray = computed(() => {
@@ -39,7 +60,9 @@ export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
   const snapshots = cellSnapshots.value;
   if (!geometry) return reasons;
   for (const info of api.methods()) {
-    if (info.uniformArray && !geometry.uniform) reasons.set(info.name, 'needs a uniform linear array');
+    const problem = info.network ? whyNoNetwork(info.name, [geometry]) : null;
+    if (problem) reasons.set(info.name, problem);
+    else if (info.uniformArray && !geometry.uniform) reasons.set(info.name, 'needs a uniform linear array');
     else if (snapshots < info.minSnapshots) reasons.set(info.name, `needs ${info.minSnapshots} snapshots: combine frames`);
     else if (info.maxSnapshots !== null && snapshots > info.maxSnapshots) reasons.set(info.name, 'takes a single snapshot: choose one frame');
   }
@@ -91,8 +114,10 @@ export function start(): () => void {
       const capture = loaded.value;
       const shown = result.value;
       const { cell, methods } = captureState.value;
-      const sources = sourceOption(captureState.value);
-      if (capture && shown) scheduleCell(capture, options.peek(), frame.peek(), shownCell(shown, cell), methods, sources);
+      void cellOptions.value;
+      void captureState.value.networks;
+      void readyNetworks.value;
+      if (capture && shown) scheduleCell(capture, options.peek(), frame.peek(), shownCell(shown, cell), methods);
     }),
   ];
   return () => {
@@ -131,7 +156,10 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
     if (running === controller && progress.peek()) progress.value = last;
   };
   try {
-    const made = await runChain(capture, JSON.parse(chain) as ChainOptions, frame, { signal: controller.signal, onProgress });
+    const options = JSON.parse(chain) as ChainOptions;
+    const angle = await withNetwork(options.angle ?? {});
+    if (running !== controller) return;
+    const made = await runChain(capture, { ...options, angle }, frame, { signal: controller.signal, onProgress });
     if (running !== controller) return;
     known.set(frame, made);
     batch(() => {
@@ -157,7 +185,7 @@ let cellJob: AbortController | undefined;
 
 /** Cells come quickly while arrows are held down; estimates follow when they settle. */
 function scheduleCell(
-  capture: Loaded, chain: string, frame: number | 'all', cell: Cell, methods: readonly Method[], sources: number | 'aic' | 'mdl',
+  capture: Loaded, chain: string, frame: number | 'all', cell: Cell, methods: readonly Method[],
 ): void {
   clearTimeout(cellTimer);
   cellJob?.abort();
@@ -167,21 +195,21 @@ function scheduleCell(
   const before = cellResults.peek();
   cellResults.value = new Map(wanted.map((method) => [method, { ...before.get(method), stale: true }]));
   cellTimer = setTimeout(() => {
-    for (const method of wanted) void estimateOne(capture, chain, frame, cell, method, sources, controller);
+    for (const method of wanted) void estimateOne(capture, chain, frame, cell, method, controller);
   }, 40);
 }
 
 async function estimateOne(
-  capture: Loaded, chain: string, frame: number | 'all', cell: Cell, method: Method, sources: number | 'aic' | 'mdl', controller: AbortController,
+  capture: Loaded, chain: string, frame: number | 'all', cell: Cell, method: Method, controller: AbortController,
 ): Promise<void> {
   let made: CellResult;
   try {
-    const estimate = await estimateCell(
-      capture, JSON.parse(chain) as ChainOptions, frame, cell, { method, sources }, { signal: controller.signal },
-    );
+    const angle = await withNetwork({ ...JSON.parse(cellOptions.peek()) as AngleOptions, method });
+    if (cellJob !== controller) return;
+    const estimate = await estimateCell(capture, JSON.parse(chain) as ChainOptions, frame, cell, angle, { signal: controller.signal });
     made = { estimate, stale: false };
   } catch (error) {
-    if (aborted(error)) return;
+    if (controller.signal.aborted) return;
     made = { problem: describeError(error), stale: false };
   }
   if (cellJob === controller) cellResults.value = new Map(cellResults.peek()).set(method, made);

@@ -2,8 +2,9 @@
 import { signal } from '@preact/signals';
 import type { Cell, CfarKind, ChainOptions, Method, WindowName } from 'boresight';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
+import { methodNames, networkNames } from '../../methods.ts';
 import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
-import { METHODS, PRESETS } from '../angle/state.ts';
+import { PRESETS } from '../angle/state.ts';
 
 export const WINDOWS: readonly WindowName[] = ['rectangular', 'hann', 'hamming', 'blackman', 'blackman-harris', 'chebyshev', 'taylor'];
 export const CFARS: readonly CfarKind[] = ['cell-averaging', 'greatest-of', 'smallest-of', 'ordered-statistic'];
@@ -51,9 +52,11 @@ export const captureCodec = codec({
   nearest: number(0, [0, 10_000]),
   farthest: number(0, [0, 10_000]),
   sector: number(90, [1, 90]),
-  angle: choice<Method>('bartlett', METHODS),
-  methods: names<Method>(['bartlett', 'capon', 'iaa'], METHODS),
+  angle: choice<Method>('bartlett', methodNames),
+  methods: names<Method>(['bartlett', 'capon', 'iaa'], methodNames),
   sources: choice('mdl', ['mdl', 'aic', '1', '2', '3', '4']),
+  networks: networkNames,
+  refine: flag(false),
   span: choice('60', ['30', '40', '50', '60', '80']),
   colors: choice('viridis', COLOR_MAPS),
   board: text('last', (value) => value === 'last' || /^\d{1,7}$/.test(value)),

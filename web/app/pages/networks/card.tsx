@@ -133,7 +133,7 @@ export function MetricsPanel({ model }: { model: Model }) {
       }))}
       readout={({ index }) => `SNR ${fixed(plot.snrs[index ?? -1] ?? Number.NaN, 0)} dB`} csv={csv} fileParts={[name]}
       overlay={
-        <details class="table-details">
+        <details class="table-details" open>
           <summary>As a table</summary>
           <div class="table-scroll capped" tabIndex={0} role="region" aria-label="Metrics, scrollable">
             <table class="data compact" data-table="metrics">

@@ -125,7 +125,7 @@ function Losses({ figures }: { figures: readonly Figure[] }) {
           return (
             <li key={figure.name + network.method} data-figure={figure.name} data-network={network.method} data-loses={loss ? loss.against : undefined}>
               <Swatch style={styleOf(network.method)} line />
-              <p><b>{titleOf(network.method)}</b>, {figure.title.charAt(0).toLowerCase() + figure.title.slice(1)}: <span class={loss ? 'loses' : ''}>{outcome(figure, network.method, loss)}</span></p>
+              <p><b>{titleOf(network.method)}</b> ({figure.title}): <span class={loss ? 'loses' : ''}>{outcome(figure, network.method, loss)}</span></p>
             </li>
           );
         })}

@@ -1,6 +1,6 @@
 /** The papers' figures from the experiments' results: a line a method over a condition, and how sure each value is. */
 import { count, fixed } from '../../plots/format.ts';
-import type { AoaReport, DoaReport, Operating } from './results.ts';
+import type { AoaReport, DoaReport, DoaResult, Operating } from './results.ts';
 
 export interface Line {
   /** As the experiment names it. */
@@ -118,6 +118,14 @@ export function doaFigures(report: DoaReport, range: 'apart' | 'together', regio
     const right = conditions.map((condition, targets) => condition?.counted[rule]?.[targets] ?? Number.NaN);
     return [sum(right) / 3, sum(conditions.map((condition) => condition?.trials ?? 0))];
   };
+  const errors = (value: (of: DoaResult) => number | null | undefined, floor: number): Line[] =>
+    report.methods.map((method, i) => ({
+      method, values: one.map(({ methods }) => present(methods[i] && value(methods[i]))),
+      sigma: one.map(({ methods, trials: n }) => {
+        const error = present(methods[i] && value(methods[i]));
+        return error === null ? null : Math.max(error / Math.sqrt(2 * Math.max((methods[i]?.found ?? 0) * n, 1)), floor);
+      }),
+    }));
   const at = two.find(({ snrDb }) => snrDb === regionSnrDb);
   const deviation = (name: string, title: string, values: (i: number) => readonly (number | null)[] | undefined, number: number): Figure => ({
     name, title, detail: `${where}, ${fixed(regionSnrDb, 0)} dB`, xLabel: 'Allowed deviation (°)', xSteps: [1, 2], x: [0, 2, 4], at: (x) => `${x}° allowed`,
@@ -125,7 +133,7 @@ export function doaFigures(report: DoaReport, range: 'apart' | 'together', regio
     lines: report.methods.map((method, i) => ({ method, ...share([...(values(i) ?? [])], [number, number, number]) })),
     remark: `Both angles, rounded to whole degrees. ${count(number)} regions.`,
   });
-  return [
+  const figures: Figure[] = [
     {
       ...overSnr, name: 'counting', title: 'Counting targets', detail: `none, one, or ${where}`, yLabel: 'Counted rightly (%)', y: [60, 101], lowerIsBetter: false,
       lines: rules.map((method, rule) => {
@@ -136,18 +144,18 @@ export function doaFigures(report: DoaReport, range: 'apart' | 'together', regio
     },
     {
       ...overSnr, name: 'rmse', title: 'One target: error of its angle', detail: '', yLabel: 'RMSE (°)', log: true, y: [0.008, 1], lowerIsBetter: true,
-      lines: report.methods.map((method, i) => ({
-        method, values: one.map(({ methods }) => present(methods[i]?.rmseDeg)),
-        sigma: one.map(({ methods, trials: n }) => {
-          const { rmseDeg, found } = methods[i] ?? {};
-          return rmseDeg ? rmseDeg / Math.sqrt(2 * Math.max((found ?? 0) * n, 1)) : null;
-        }),
-      })),
+      lines: errors(({ rmseDeg }) => rmseDeg, 0),
       bounds: [
         { name: 'Cramér–Rao bound', values: report.boundsDeg.map(([frame]) => frame) },
         { name: 'MUSIC in theory', values: report.boundsDeg.map(([, region]) => region) },
       ],
-      show: (value) => `${fixed(value, 4)}°`, unit: 'rmse_deg', remark: `Where as many angles as targets were found. Networks choose among whole degrees, and targets lie on them. ${trials}`,
+      show: (value) => `${fixed(value, 4)}°`, unit: 'rmse_deg',
+      remark: `Where as many angles as targets were found. Networks choose among whole degrees, which all targets stand at: their error can be nothing, and is then off the plot. ${trials}`,
+    },
+    {
+      ...overSnr, name: 'rounded', title: 'One target: error after rounding', detail: '', yLabel: 'RMSE (°)', y: [0, 1], lowerIsBetter: true,
+      lines: errors(({ roundedRmseDeg }) => roundedRmseDeg, 1 / report.trials), show: (value) => `${fixed(value, 4)}°`, unit: 'rounded_rmse_deg',
+      remark: `The same of angles rounded to whole degrees, so that all methods know as much as the networks. ${trials}`,
     },
     {
       ...overSnr, name: 'success', title: 'Two targets within 1°', detail: where, yLabel: 'Regions right (%)', y: [0, 103], lowerIsBetter: false,
@@ -157,4 +165,5 @@ export function doaFigures(report: DoaReport, range: 'apart' | 'together', regio
     deviation('deviation', 'Two targets by allowed deviation', (i) => at?.methods[i]?.within, at?.trials ?? 0),
     deviation('close', 'Close pairs by allowed deviation', (i) => at?.methods[i]?.closeWithin, at?.close ?? 0),
   ];
+  return figures.filter(({ lines }) => lines.some(({ values }) => values.some((value) => value !== null)));
 }

@@ -1,7 +1,12 @@
 /** All networks at a glance; choosing one shows its card. */
-import { MODELS, type Model } from '../../networks/models.ts';
+import { useMemo } from 'preact/hooks';
+import { models } from '../../networks/load.ts';
+import type { Model } from '../../networks/models.ts';
 import { count, fixed } from '../../plots/format.ts';
+import { titleOf } from './methods.ts';
+import { results } from './results.ts';
 import { networksState, update } from './state.ts';
+import { type Summary, summary } from './verdict.ts';
 import { inputOf, sizeOf, taskOf } from './words.ts';
 
 export function Overview() {
@@ -19,9 +24,10 @@ export function Overview() {
               <th scope="col" title="Bytes that are fetched when it is first used">File</th>
               <th scope="col" title="Simulated samples it was trained on">Samples seen</th>
               <th scope="col" title="Time of training">Hours</th>
+              <th scope="col" class="text" title="Counted from the experiments below">Against classical methods</th>
             </tr>
           </thead>
-          <tbody>{MODELS.map((model) => <Row key={model.name} model={model} />)}</tbody>
+          <tbody>{models.value.map((model) => <Row key={model.name} model={model} />)}</tbody>
         </table>
       </div>
     </section>
@@ -30,6 +36,8 @@ export function Overview() {
 
 function Row({ model: { name, title, card } }: { model: Model }) {
   const selected = networksState.value.model === name;
+  const all = results.value;
+  const found = useMemo(() => all && summary(all, name), [all]);
   return (
     <tr class="pick" aria-selected={selected} data-network={name} onClick={() => update({ model: name })}>
       <th scope="row" class="text">
@@ -41,6 +49,13 @@ function Row({ model: { name, title, card } }: { model: Model }) {
       <td>{sizeOf(card)}</td>
       <td>{card.samplesSeen === undefined ? '–' : count(card.samplesSeen)}</td>
       <td>{card.hours === undefined ? '–' : fixed(card.hours, 2)}</td>
+      <td class="text wrap" data-field="summary">{found ? <Against summary={found} /> : '–'}</td>
     </tr>
   );
+}
+
+function Against({ summary: { figure, against, behind, conditions } }: { summary: Summary }) {
+  return against
+    ? <><span class="loses">Loses to {titleOf(against)}</span> in {behind} of {conditions} conditions ({figure.split(':')[0]})</>
+    : <>Beaten by none in {conditions} conditions ({figure.split(':')[0]})</>;
 }

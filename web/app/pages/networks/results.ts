@@ -22,6 +22,17 @@ export interface AoaReport {
   }[];
 }
 
+export interface DoaResult {
+  found: number;
+  rmseDeg: number | null;
+  /** Of angles rounded to whole degrees, which all targets stand at. */
+  roundedRmseDeg?: number | null;
+  success: number;
+  within: [number, number, number];
+  closeSuccess: number | null;
+  closeWithin: [number | null, number | null, number | null];
+}
+
 /** Of `evaluate doa`: regions of interest with up to two targets. */
 export interface DoaReport {
   trials: number;
@@ -37,10 +48,8 @@ export interface DoaReport {
     trials: number;
     close: number;
     counted: [number, number, number, number][];
-    methods: {
-      found: number; rmseDeg: number | null; success: number; within: [number, number, number];
-      closeSuccess: number | null; closeWithin: [number | null, number | null, number | null];
-    }[];
+    /** Nothing of networks for another number of targets. */
+    methods: (DoaResult | null)[];
   }[];
 }
 
@@ -65,7 +74,7 @@ export async function loadResults(): Promise<void> {
     resultsProblem.value = null;
   } catch (error) {
     loading = false;
-    resultsProblem.value = error instanceof FileProblem ? { code: error.code, message: `${error.file} ${error.message}` } : describeError(error);
+    resultsProblem.value = describeError(error);
   }
 }
 

@@ -1,6 +1,7 @@
 /** Where a network is ahead of, level with or behind the classical methods, counted from a figure's values. */
-import type { Figure, Line } from './figures.ts';
+import { aoaFigures, doaFigures, type Figure, type Line } from './figures.ts';
 import { kindOf } from './methods.ts';
+import type { Results } from './results.ts';
 
 export interface Verdict {
   network: string;
@@ -49,4 +50,32 @@ export function hardest(figure: Figure, network: Line): Verdict | null {
   const all = classical.map((other) => compare(figure, network, other)).filter(({ behind }) => behind > 0);
   const gap = ({ worst }: Verdict): number => (worst ? Math.abs(worst.value - worst.other) : 0);
   return all.sort((a, b) => b.behind - a.behind || gap(b) - gap(a))[0] ?? null;
+}
+
+/** What a network is judged by at a glance: one figure of its paper, over all its conditions. */
+export interface Summary { figure: string; against: string; behind: number; conditions: number }
+
+/** The classical method that beats a network in most conditions of its main figure; `against` is empty where none does. */
+export function summary({ aoa, doa }: Results, network: string): Summary | null {
+  const figures: (Figure | undefined)[] = [
+    ...(aoa ? [...new Set(aoa.conditions.map(({ snrDb }) => snrDb))].map((snr) => aoaFigures(aoa, snr).find(({ name }) => name === 'f1')) : []),
+    ...(doa ? (['apart', 'together'] as const).flatMap((range) => doaFigures(doa, range, 0).filter(({ name }) => name === 'success' || name === 'counting')) : []),
+    ...(doa ? doaFigures(doa, 'apart', 0).filter(({ name }) => name === 'rounded') : []),
+  ];
+  const mine = figures.flatMap((figure) => {
+    const line = figure?.lines.find(({ method, values }) => method === network && values.some((value) => value !== null));
+    return figure && line ? [{ figure, line }] : [];
+  });
+  const [first] = mine;
+  if (!first) return null;
+  // A network for one target is in no figure of two.
+  const same = mine.filter(({ figure }) => figure.name === first.figure.name);
+  const behind = new Map<string, number>();
+  let conditions = 0;
+  for (const { figure, line } of same) {
+    conditions += line.values.filter((value) => value !== null).length;
+    for (const other of verdicts(figure).classical) behind.set(other.method, (behind.get(other.method) ?? 0) + compare(figure, line, other).behind);
+  }
+  const [against, most] = [...behind].sort((a, b) => b[1] - a[1])[0] ?? ['', 0];
+  return { figure: first.figure.title, against: most ? against : '', behind: most, conditions };
 }
