@@ -159,6 +159,13 @@ def test_an_export_that_differs_is_refused(tmp_path, monkeypatch):
         export.to_onnx(what, export.exported_form(what, what.model().eval(), False), tmp_path / "model.onnx")
 
 
+def test_a_threshold_lies_between_right_and_wrong(monkeypatch):
+    what = task("dnn", "small", 1)
+    answer = torch.tensor([[3.0, -1.0, -2.0], [-4.0, -2.0, 2.0]])
+    monkeypatch.setattr(what, "_answers", lambda *_: (answer, (answer > 0).float()))
+    assert what.confidence(None, 1, None) == pytest.approx(torch.tensor(0.5).sigmoid().item())
+
+
 def test_unknown_sizes_are_refused_by_name():
     with pytest.raises(ValueError, match="'huge' of dnn: expected small, large"):
         task("dnn", "huge")
