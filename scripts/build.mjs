@@ -40,6 +40,8 @@ async function wasmModule({ name, crate, feature, profile, made }) {
       join(root, 'target', wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`), '--target', 'web',
       '--out-dir', join(dist, 'wasm'), '--out-name', name, '--omit-default-module-path', '--experimental-reset-state-function',
     ]);
+    // Of the module of networks it would take minutes.
+    if (profile !== 'release') return;
     say('wasm-opt -O3');
     await run(process.execPath, [
       join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt'), '-O3', ...wasmFeatures, file, '-o', file,

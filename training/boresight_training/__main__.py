@@ -23,7 +23,6 @@ def parser() -> argparse.ArgumentParser:
     train.add_argument("--config", default="small", help=f"size: {sizes}")
     train.add_argument("--targets", type=int, help="most targets of aaetr (16); targets cnn3d and dnn see (1), 1 or 2")
     train.add_argument("--position-error", type=float, default=0.0, help="aaetr: perturb positions, half wavelengths")
-    train.add_argument("--near", type=float, default=0.0, help="cnn3d, dnn: share of targets within a range bin")
     train.add_argument(
         "--resume",
         "--folder",
@@ -69,8 +68,6 @@ def train(arguments) -> list[dict]:
     if a.threads:
         torch.set_num_threads(a.threads)
     identity = {"name": a.network, "config": a.config, "targets": a.targets, "position_error": a.position_error}
-    if a.near:
-        identity["near"] = a.near
     what = task(**identity)
     group = processes.start(a.device)
     on_gpu = group.device.type == "cuda"

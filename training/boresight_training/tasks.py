@@ -249,19 +249,21 @@ SANG = "Sang et al. (2021), DoA Estimation for FMCW Radar by 3D-CNN"
 CHEN = "Chen, Gong and Mao (2020), Deep Neural Network for Estimation of Direction of Arrival with Antenna Array"
 
 
-def classifier(name: str, config: str, targets: int, near: float) -> ClassifierTask:
+def classifier(name: str, config: str, targets: int) -> ClassifierTask:
     """The counting network, the 3D-CNN or the DNN, for one or two targets."""
     if name == "counting":
         hidden = {"small": 256, "paper": 1024}[config]
         title, network = f"Number of targets, form {config}", partial(counting, hidden)
         return ClassifierTask(title, SANG, network, {"hidden": hidden}, Cubes(), -10.0, True, 256, 1e-3)
     number = "one target" if targets == 1 else "two targets"
-    cubes = Cubes(targets=(targets, targets), near=near)
+    cubes = Cubes(targets=(targets, targets))
     if name == "dnn":
         title, hidden = f"DNN, form {config}, {number}", DNN_HIDDEN[config]
         return ClassifierTask(title, CHEN, partial(dnn, hidden), {"hidden": hidden}, cubes, -5.0, True, 256, 2e-3)
     if config == "experiment":
         cubes = replace(cubes, waveform="3dcnn-experiment", range_m=(9.7, 10.3), shift_m=0.3)
+    if targets == 2:
+        cubes = replace(cubes, near=0.5)
     title, sizes = f"3D-CNN, form {config}, {number}", CNN3D[config]
     return ClassifierTask(title, SANG, partial(Cnn3d, sizes), asdict(sizes), cubes, -5.0, False, 32, 2e-3)
 
@@ -274,12 +276,10 @@ NETWORKS = {
 }
 
 
-def task(
-    name: str, config: str, targets: int | None = None, position_error: float = 0.0, near: float = 0.0
-) -> Task:
+def task(name: str, config: str, targets: int | None = None, position_error: float = 0.0) -> Task:
     """A network by name and size; `targets` is the most of AAETR (16), or how many a classifier sees (1)."""
     if config not in NETWORKS[name]:
         raise ValueError(f"config {config!r} of {name}: expected {', '.join(NETWORKS[name])}")
     if name == "aaetr":
         return AaetrTask(config, position_error, 16 if targets is None else targets)
-    return classifier(name, config, 1 if targets is None else targets, near)
+    return classifier(name, config, 1 if targets is None else targets)

@@ -1,7 +1,9 @@
 //! A graph, and the plans by which tract runs it.
 
 use crate::card::{Axis, Port};
+use crate::dense::densify;
 use crate::error::NeuralError;
+use crate::fused::fuse;
 use ndarray::{ArrayD, ArrayViewD};
 use std::sync::{Arc, Mutex, PoisonError};
 use tract_onnx::pb::{ModelProto, ValueInfoProto, tensor_proto, tensor_shape_proto, type_proto};
@@ -112,11 +114,19 @@ impl Engine {
                 });
             }
         }
-        let plan = typed
-            .into_optimized()
-            .and_then(TypedModel::into_runnable)
-            .map_err(|error| refused("optimised", &error))?;
-        Ok(plan)
+        let optimised = typed.into_decluttered().and_then(|mut graph| {
+            // Natively tract has kernels for the processor at hand, which are faster than ours.
+            let ours = cfg!(target_family = "wasm");
+            if ours {
+                densify(&mut graph)?;
+            }
+            graph.optimize()?;
+            if ours {
+                fuse(&mut graph)?;
+            }
+            graph.into_runnable()
+        });
+        optimised.map_err(|error| refused("optimised", &error))
     }
 }
 
@@ -272,4 +282,35 @@ fn refused(stage: &'static str, error: &TractError) -> NeuralError {
     let (outer, root) = (error.to_string(), error.root_cause().to_string());
     let reason = if outer == root { root } else { format!("{outer}: {root}") };
     NeuralError::Refused { stage, reason: reason.chars().take(400).collect() }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use tract_onnx::tract_core::internal::*;
+
+    /// Runs a model before and after a change, which is to leave so many operators of a name.
+    pub fn same_after(
+        mut model: TypedModel,
+        given: &Tensor,
+        change: impl Fn(&mut TypedModel) -> TractResult<()>,
+        name: &str,
+        count: usize,
+    ) {
+        let run = |model: &TypedModel| {
+            let plan = model.clone().into_runnable().expect("a plan");
+            plan.run(tvec!(given.clone().into())).expect("outputs")
+        };
+        let before = run(&model);
+        change(&mut model).expect("a change");
+        assert_eq!(
+            model.nodes().iter().filter(|node| node.op.name() == name).count(),
+            count,
+            "{model}"
+        );
+        let after = run(&model);
+        assert_eq!(before.len(), after.len());
+        for (before, after) in before.iter().zip(&after) {
+            before.close_enough(after, Approximation::Approximate).expect("the same numbers");
+        }
+    }
 }

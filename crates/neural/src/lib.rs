@@ -7,9 +7,11 @@
 mod aaetr;
 pub mod card;
 mod classifier;
+mod dense;
 mod engine;
 pub mod error;
 mod features;
+mod fused;
 mod model;
 mod onnx;
 
