@@ -35,8 +35,20 @@ function say(name: string, loading: Loading): void {
   loadings.value = new Map(loadings.peek()).set(name, loading);
 }
 
-/** The network of a model, loaded once; what failed or was cancelled is tried again. */
-export function load(name: string): Promise<NetworkInfo> {
+/**
+ * The network of a model, loaded once; what failed or was cancelled is tried again. A signal ends the waiting, not the
+ * loading, for others may wait too.
+ */
+export function load(name: string, signal?: AbortSignal): Promise<NetworkInfo> {
+  const loaded = loadOnce(name);
+  if (!signal) return loaded;
+  return new Promise((resolve, reject) => {
+    signal.addEventListener('abort', () => reject(signal.reason), { once: true });
+    loaded.then(resolve, reject);
+  });
+}
+
+function loadOnce(name: string): Promise<NetworkInfo> {
   const before = pending.get(name);
   if (before) return before.promise;
   const controller = new AbortController();

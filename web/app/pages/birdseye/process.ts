@@ -233,8 +233,7 @@ async function imageOf(
   const { points, gate, refine } = state;
   const { spectrum: hasSpectrum = false, sourceCount = false, network: isNetwork = false } = api.methods().find(({ name }) => name === method) ?? {};
   const model = isNetwork ? networkFor(method) : undefined;
-  const network = model && (await load(model.name)).id;
-  signal.throwIfAborted();
+  const network = model && (await load(model.name, signal)).id;
   const parts: { frame: RadarFrame; estimate: BatchEstimate; milliseconds: number; map: RangeAzimuthMap; from: ImageFrom }[] = [];
   for (const one of made) {
     const { radar, cells } = one;

@@ -89,7 +89,7 @@ function Found({ shown }: { shown: Attempt }) {
   const crb = bound?.length ? rms([...bound]) : Number.NaN;
   const onSnapshot = shown.snapshot;
   const csv = (): string => toCsv(['method', 'found', 'missed', 'false', 'rmse_deg', 'power_error_db', 'time_ms'],
-    scored.map(({ row, found, extra, rmse, power }) => [row.title, found, truth.length - found, extra, rmse, onSnapshot ? power : Number.NaN, row.milliseconds]));
+    scored.map(({ row, found, extra, rmse, power }) => [row.method, found, truth.length - found, extra, rmse, onSnapshot ? power : Number.NaN, row.milliseconds]));
   return (
     <section class="panel" aria-labelledby="found-title" data-table="attempt">
       <div class="panel-head">

@@ -86,8 +86,7 @@ type Scene = Pick<NetworksState, 'targets' | 'snr' | 'seed' | 'refine' | 'range'
 async function attemptOn(model: Model, scene: Scene, controller: AbortController): Promise<void> {
   trying.value = true;
   try {
-    const info = await load(model.name);
-    controller.signal.throwIfAborted();
+    const info = await load(model.name, controller.signal);
     const made = await (model.card.network === 'aaetr' ? onSnapshot : onRegion)(model, info, scene, controller.signal);
     if (running !== controller) return;
     batch(() => {

@@ -17,8 +17,8 @@ export function TimingPanel() {
   const problem = timingProblem.value?.model === model.name ? timingProblem.value.problem : null;
   const made = timings.value.get(model.name);
   const csv = (): string => toCsv(['subject', 'batch', 'median_ms', 'lower_quartile_ms', 'upper_quartile_ms', 'calls', 'samples_per_s'],
-    (made?.rows ?? []).flatMap(({ title, batches }) => [...batches].map(([batch, spread]) =>
-      [title, batch, spread.median, spread.low, spread.high, spread.calls, perSecond(spread, batch)])));
+    (made?.rows ?? []).flatMap(({ subject, method, network, batches }) => [...batches].map(([batch, spread]) =>
+      [network ? method : subject, batch, spread.median, spread.low, spread.high, spread.calls, perSecond(spread, batch)])));
   const against = made?.rows.find(({ network }) => network)?.batches;
   return (
     <section class="panel" aria-labelledby="time-title" aria-busy={mine !== null} data-table="timing">

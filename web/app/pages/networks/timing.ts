@@ -53,8 +53,7 @@ export async function timeModel(model: Model): Promise<void> {
   timingProblem.value = null;
   try {
     say(0, 'Loading');
-    const info = await load(model.name);
-    signal.throwIfAborted();
+    const info = await load(model.name, signal);
     const subjects = (model.card.network === 'aaetr' ? ofSnapshots : ofRegions)(model, info);
     const travelMs = (await measure(() => pool().version({ signal }), signal, () => {}, 200)).median;
     const rows: Timed[] = [];
