@@ -114,6 +114,8 @@ export async function addModel(name: string, onnx: Uint8Array, card: string | un
     name: `own:${name}`, title: info.card?.title ?? name, hasCard: card !== undefined,
     card: { name, network, inputs, outputs, bytes: onnx.byteLength, ...info.card },
   };
+  const before = loadings.peek().get(model.name)?.info;
+  if (before) pool().unloadNetwork(before.id);
   bytes.set(model.name, onnx);
   pending.set(model.name, { promise: Promise.resolve(info), controller: new AbortController() });
   say(model.name, { status: 'ready', done: onnx.byteLength, total: onnx.byteLength, info });

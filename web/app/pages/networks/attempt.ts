@@ -58,17 +58,15 @@ export function stop(): void {
   running?.abort();
 }
 
-const READY_AT = computed(() => {
-  const name = selected.value?.name ?? '';
-  return loadings.value.get(name)?.status === 'ready';
-});
+/** What was cancelled or failed may be loaded since. */
+const loaded = computed(() => loadings.value.get(selected.value?.name ?? '')?.status === 'ready');
 
 /** Runs the scene of the state while it is wanted; the newest wins. */
 export function start(): () => void {
   const finish = effect(() => {
     const { targets, snr, seed, refine, run, range } = networksState.value;
     const model = selected.value;
-    void READY_AT.value;
+    void loaded.value;
     running?.abort();
     if (!run || !model) return;
     const controller = new AbortController();

@@ -7,7 +7,7 @@ import { titleOf } from './methods.ts';
 import { results } from './results.ts';
 import { networksState, update } from './state.ts';
 import { type Summary, summary } from './verdict.ts';
-import { inputOf, sizeOf, taskOf } from './words.ts';
+import { briefly, sizeOf } from './words.ts';
 
 export function Overview() {
   return (
@@ -36,6 +36,7 @@ export function Overview() {
 
 function Row({ model: { name, title, card } }: { model: Model }) {
   const selected = networksState.value.model === name;
+  const [task, input] = briefly(card);
   const all = results.value;
   const found = useMemo(() => all && summary(all, name), [all]);
   return (
@@ -43,8 +44,8 @@ function Row({ model: { name, title, card } }: { model: Model }) {
       <th scope="row" class="text">
         <button type="button" class="cell-button" aria-pressed={selected} title="Show its card" onClick={() => update({ model: name })}>{title}</button>
       </th>
-      <td class="text wrap">{taskOf(card)}</td>
-      <td class="text wrap">{inputOf(card)}</td>
+      <td class="text wrap">{task}</td>
+      <td class="text wrap">{input}</td>
       <td>{card.parameters === undefined ? '–' : count(card.parameters)}</td>
       <td>{sizeOf(card)}</td>
       <td>{card.samplesSeen === undefined ? '–' : count(card.samplesSeen)}</td>

@@ -12,22 +12,21 @@ export function taskOf(card: Card): string {
   }
 }
 
+/** The same and its input in a few words, for a table. */
+export function briefly(card: Card): [task: string, input: string] {
+  const targets = targetsOf(card);
+  const elements = elementsOf(card);
+  switch (card.network) {
+    case 'aaetr': return [`Angles and amplitudes of ${most(card)} targets`, `1 snapshot, ${elements} elements`];
+    case 'counting': return ['Number of targets: 0, 1 or 2', `covariance, ${elements} elements`];
+    case 'dnn': return [`Whole degrees of ${targets ?? 'the'} ${targets === 1 ? 'target' : 'targets'}`, `covariance, ${elements} elements`];
+    default: return [`Whole degrees of ${targets ?? 'the'} ${targets === 1 ? 'target' : 'targets'}`, `${card.inputs[0]?.axes.slice(1, 4).join(' × ')} bins, elements, chirps`];
+  }
+}
+
 function most({ data }: Card): string {
   const targets = data?.targets;
   return Array.isArray(targets) ? `up to ${targets[1]}` : 'several';
-}
-
-/** What it must be given. */
-export function inputOf(card: Card): string {
-  const elements = elementsOf(card);
-  switch (card.network) {
-    case 'aaetr': return `One snapshot of ${elements} virtual elements, and where they are`;
-    case 'cnn3d': {
-      const [, bins, , chirps] = card.inputs[0]?.axes ?? [];
-      return `${bins} range bins × ${elements} elements × ${chirps} chirps`;
-    }
-    default: return `Covariance of the region at ${elements} elements`;
-  }
 }
 
 type Range = readonly [number, number];
