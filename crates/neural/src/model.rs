@@ -25,6 +25,7 @@ pub struct Model {
     pub(crate) engine: Arc<Engine>,
     kind: Kind,
     card: Option<Arc<Card>>,
+    sha256: String,
     inputs: Vec<Port>,
     outputs: Vec<Port>,
     /// Whether the file takes one example at a time.
@@ -49,6 +50,8 @@ impl Model {
     /// [`NeuralError`] telling what is wrong.
     pub fn load(onnx: &[u8], card: Option<&Card>) -> Result<Self, NeuralError> {
         let proto = onnx::read(onnx)?;
+        let sha256: String =
+            Sha256::digest(onnx).iter().map(|byte| format!("{byte:02x}")).collect();
         let (inputs, outputs) = ports(&proto);
         let kinds: Vec<Kind> = card.map_or(Kind::ALL.to_vec(), |card| vec![card.kind]);
         let kinds = kinds_of(&inputs, &outputs, &kinds)?;
@@ -62,10 +65,10 @@ impl Model {
         if let Some(card) = card {
             check_ports("inputs", &card.inputs, &inputs)?;
             check_ports("outputs", &card.outputs, &outputs)?;
-            check_digest(card, onnx)?;
+            check_digest(card, &sha256)?;
         }
         let card = card.cloned().map(Arc::new);
-        Ok(Self { engine: Arc::new(engine), kind, card, inputs, outputs, single })
+        Ok(Self { engine: Arc::new(engine), kind, card, sha256, inputs, outputs, single })
     }
 
     /// What the network does.
@@ -76,6 +79,11 @@ impl Model {
     /// Its card, if it was loaded with one.
     pub fn card(&self) -> Option<&Card> {
         self.card.as_deref()
+    }
+
+    /// SHA-256 of its file, hexadecimal.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
     }
 
     /// Its inputs.
@@ -401,13 +409,11 @@ fn check_ports(what: &str, card: &[Port], found: &[Port]) -> Result<(), NeuralEr
     })
 }
 
-fn check_digest(card: &Card, onnx: &[u8]) -> Result<(), NeuralError> {
-    let Some(expected) = &card.sha256 else {
-        return Ok(());
-    };
-    let given: String = Sha256::digest(onnx).iter().map(|byte| format!("{byte:02x}")).collect();
-    if given.eq_ignore_ascii_case(expected) {
-        return Ok(());
+fn check_digest(card: &Card, given: &str) -> Result<(), NeuralError> {
+    match &card.sha256 {
+        Some(expected) if !given.eq_ignore_ascii_case(expected) => {
+            Err(NeuralError::Digest { expected: expected.clone(), given: given.into() })
+        }
+        _ => Ok(()),
     }
-    Err(NeuralError::Digest { expected: expected.clone(), given })
 }
