@@ -6,6 +6,7 @@ use boresight_core::{CoreError, Details, Diagnose};
 use boresight_evaluate::EvaluateError;
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
+use boresight_neural::NeuralError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
@@ -47,6 +48,14 @@ pub enum CliError {
     /// An experiment refused, or was stopped.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
+    /// A model cannot be loaded, or not for this use.
+    #[error("{}: {error}", path.display())]
+    Model {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        error: Box<NeuralError>,
+    },
     /// The system refused a file.
     #[error("cannot {action} {}: {error}", path.display())]
     File {
@@ -118,6 +127,7 @@ impl CliError {
             Self::Pipeline(error) => error,
             Self::Simulate(error) => error,
             Self::Evaluate(error) => error,
+            Self::Model { error, .. } => error.as_ref(),
             _ => return None,
         })
     }

@@ -4,6 +4,7 @@ use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_image::ImageError;
+use boresight_neural::NeuralError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
@@ -26,6 +27,15 @@ pub enum EvaluateError {
     /// An estimator of angles refused.
     #[error(transparent)]
     Angle(#[from] AoaError),
+    /// A network refused.
+    #[error(transparent)]
+    Network(#[from] NeuralError),
+    /// A network that is to run is known by its name only.
+    #[error("there is no model of the network {name}")]
+    NoModel {
+        /// Its name.
+        name: String,
+    },
     /// A calibration refused.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
@@ -115,6 +125,8 @@ impl Diagnose for EvaluateError {
             Self::Simulate(error) => error.code(),
             Self::Signal(error) => error.code(),
             Self::Angle(error) => error.code(),
+            Self::Network(error) => error.code(),
+            Self::NoModel { .. } => "needs-model",
             Self::Calibrate(error) => error.code(),
             Self::Pipeline(error) => error.code(),
             Self::Image(error) => error.code(),
@@ -134,6 +146,8 @@ impl Diagnose for EvaluateError {
             Self::Simulate(error) => error.details(),
             Self::Signal(error) => error.details(),
             Self::Angle(error) => error.details(),
+            Self::Network(error) => error.details(),
+            Self::NoModel { name } => Details::new(name, "a network's model", "its name only"),
             Self::Calibrate(error) => error.details(),
             Self::Pipeline(error) => error.details(),
             Self::Image(error) => error.details(),

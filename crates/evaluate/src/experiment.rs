@@ -2,6 +2,7 @@
 //! function of the scenes' records.
 
 use crate::EvaluateError;
+use crate::entrants::Entrants;
 use crate::sweep::{self, Part, Sweep};
 use boresight_pipeline::Progress;
 use serde::Serialize;
@@ -12,7 +13,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 /// The options of an experiment, which say all that its records depend on.
-pub trait Experiment: Serialize + DeserializeOwned + Sync {
+pub trait Experiment: Serialize + DeserializeOwned + Clone + PartialEq + Sync {
     /// Name on the command line and of its files.
     const NAME: &'static str;
     /// What scenes share.
@@ -30,6 +31,14 @@ pub trait Experiment: Serialize + DeserializeOwned + Sync {
 
     /// Names of the methods compared.
     fn methods(plan: &Self::Plan) -> Vec<String>;
+
+    /// What is compared, in experiments that take networks: methods and each network are run and recorded apart.
+    fn entrants(&mut self) -> Option<&mut Entrants> {
+        None
+    }
+
+    /// Puts beside a record what other entrants did in the same scene.
+    fn join(_record: &mut Self::Record, _other: Self::Record) {}
 
     /// Number of scenes.
     fn scenes(&self) -> u64;
@@ -65,6 +74,38 @@ pub trait Report: Serialize {
     /// As indented JSON; what is no number is `null`.
     fn json(&self) -> String {
         format!("{:#}\n", json!(self))
+    }
+
+    /// The numbers that figures show in few bytes, for a page to load.
+    fn brief(&self) -> String {
+        brief(json!(self))
+    }
+}
+
+/// JSON with a line a condition and numbers of five digits.
+pub(crate) fn brief(mut all: Value) -> String {
+    shorten(&mut all);
+    let Some(fields) = all.as_object() else { return format!("{all}\n") };
+    let lines = fields.iter().map(|(name, value)| match value.as_array() {
+        Some(items) if items.iter().any(Value::is_object) => {
+            let items: Vec<String> = items.iter().map(Value::to_string).collect();
+            format!("\"{name}\":[\n{}\n]", items.join(",\n"))
+        }
+        _ => format!("\"{name}\":{value}"),
+    });
+    format!("{{\n{}\n}}\n", lines.collect::<Vec<_>>().join(",\n"))
+}
+
+/// Rounds all numbers to five significant digits.
+fn shorten(value: &mut Value) {
+    match value {
+        Value::Array(items) => items.iter_mut().for_each(shorten),
+        Value::Object(fields) => fields.values_mut().for_each(shorten),
+        Value::Number(number) if number.is_f64() => {
+            let short = number.as_f64().and_then(|x| format!("{x:.4e}").parse::<f64>().ok());
+            *value = json!(short);
+        }
+        _ => {}
     }
 }
 
@@ -109,9 +150,11 @@ pub fn run<E: Experiment>(
     how: How,
     progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<E::Report, EvaluateError> {
+    // Whether everything goes together, before anything is run.
     let plan = options.plan()?;
-    let done = records(options, &plan, how, Part::WHOLE, progress)?;
-    Ok(options.report(&plan, done.into_values()))
+    let legs = records(options, how, Part::WHOLE, progress)?;
+    let scenes = side_by_side::<E>(legs);
+    Ok(options.report(&plan, scenes.into_values()))
 }
 
 /// Runs one part of the scenes, whose records [`crate::merge`] puts together with the others', and returns
@@ -125,25 +168,84 @@ pub fn run_part<E: Experiment>(
     part: Part,
     progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<usize, EvaluateError> {
-    Ok(records(options, &options.plan()?, how, part, progress)?.len())
+    options.plan()?;
+    Ok(records(options, how, part, progress)?.iter().map(BTreeMap::len).sum())
 }
 
+/// The records of a run, or part of one, of some of its entrants.
+pub(crate) type Records<E> = BTreeMap<u64, <E as Experiment>::Record>;
+
+/// The records of each leg.
 fn records<E: Experiment>(
     options: &E,
-    plan: &E::Plan,
     how: How,
     part: Part,
-    progress: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<BTreeMap<u64, E::Record>, EvaluateError> {
-    let file = how.folder.map(|folder| folder.join(part.file_name(E::NAME)));
-    let sweep = Sweep {
-        setup: setup(options, plan),
-        scenes: 0..options.scenes(),
-        part,
-        threads: how.threads,
-        records: file.as_deref(),
+    mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Vec<Records<E>>, EvaluateError> {
+    let legs = legs(options);
+    let count = legs.len();
+    let mut all: Vec<Records<E>> = vec![];
+    for leg in legs {
+        let plan = leg.plan()?;
+        let file = how.folder.map(|folder| folder.join(file_name(&leg, part)));
+        let sweep = Sweep {
+            setup: setup(&leg, &plan),
+            scenes: 0..leg.scenes(),
+            part,
+            threads: how.threads,
+            records: file.as_deref(),
+        };
+        let before: usize = all.iter().map(BTreeMap::len).sum();
+        let of_all = |p: Progress| Progress { done: before + p.done, total: count * p.total };
+        all.push(sweep::run(&sweep, |number| leg.scene(&plan, number), |p| progress(of_all(p)))?);
+    }
+    Ok(all)
+}
+
+/// The run split by what is compared: all methods, and each network.
+pub(crate) fn legs<E: Experiment>(options: &E) -> Vec<E> {
+    let mut options = options.clone();
+    let Some(entrants) = options.entrants().cloned() else { return vec![options] };
+    let leg = |entrants: &Entrants| {
+        let mut leg = options.clone();
+        leg.entrants().into_iter().for_each(|of_leg| *of_leg = entrants.clone());
+        leg
     };
-    sweep::run(&sweep, |number| options.scene(plan, number), progress)
+    entrants.apart().iter().map(leg).collect()
+}
+
+/// The run that [`legs`] are of; `None` where they differ in more than what they compare.
+pub(crate) fn whole<E: Experiment>(legs: &[E]) -> Option<E> {
+    let mut legs = legs.to_vec();
+    let entrants: Vec<Entrants> =
+        legs.iter_mut().filter_map(|leg| leg.entrants().map(std::mem::take)).collect();
+    let (first, rest) = legs.split_first()?;
+    if rest.iter().any(|leg| leg != first) || (!rest.is_empty() && entrants.is_empty()) {
+        return None;
+    }
+    let (mut whole, together) = (first.clone(), Entrants::together(entrants)?);
+    whole.entrants().into_iter().for_each(|of_whole| *of_whole = together.clone());
+    Some(whole)
+}
+
+/// Puts the records of legs together, scene by scene.
+pub(crate) fn side_by_side<E: Experiment>(legs: Vec<Records<E>>) -> Records<E> {
+    let mut legs = legs.into_iter();
+    let mut all = legs.next().unwrap_or_default();
+    for leg in legs {
+        for (scene, record) in leg {
+            if let Some(beside) = all.get_mut(&scene) {
+                E::join(beside, record);
+            }
+        }
+    }
+    all
+}
+
+/// Name of the file of a leg's records.
+pub(crate) fn file_name<E: Experiment>(leg: &E, part: Part) -> String {
+    let network = leg.clone().entrants().map_or(String::new(), |entrants| entrants.suffix());
+    part.file_name(&format!("{}{network}", E::NAME))
 }
 
 /// What heads the records: experiment, version, methods and options.
@@ -158,7 +260,39 @@ pub(crate) fn setup<E: Experiment>(options: &E, plan: &E::Plan) -> Value {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn a_brief_report_says_the_same_in_five_digits() {
+        #[derive(Serialize)]
+        struct Two {
+            name: &'static str,
+            numbers: [f64; 4],
+            conditions: [Value; 2],
+        }
+        impl Report for Two {
+            fn tables(&self) -> String {
+                String::new()
+            }
+            fn csv(&self) -> String {
+                String::new()
+            }
+            fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
+                Ok(vec![])
+            }
+        }
+        let numbers = [1.0 / 3.0, 123_456.0, f64::NAN, 1e-9 / 3.0];
+        let conditions = [json!({ "n": 2, "of": [0.1 + 0.2] }), json!(null)];
+        let brief = Two { name: "a", numbers, conditions }.brief();
+        let expected = json!({
+            "name": "a",
+            "numbers": [0.33333, 123_460.0, null, 3.3333e-10],
+            "conditions": [{ "n": 2, "of": [0.3] }, null],
+        });
+        assert_eq!(serde_json::from_str::<Value>(&brief).unwrap(), expected);
+        assert_eq!(brief.lines().count(), 8, "{brief}");
+    }
 
     #[test]
     fn scenes_hold_every_trial_of_every_condition_once() {

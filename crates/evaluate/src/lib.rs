@@ -6,6 +6,7 @@
 pub mod aoa;
 pub mod calibration;
 pub mod doa;
+pub mod entrants;
 pub mod error;
 pub mod experiment;
 pub mod images;
@@ -18,5 +19,6 @@ pub mod sweep;
 mod table;
 mod told;
 
+pub use entrants::{Entrants, Network};
 pub use error::EvaluateError;
 pub use merge::{Outcome, merge};

@@ -4,7 +4,7 @@ use crate::EvaluateError;
 use crate::aoa;
 use crate::calibration;
 use crate::doa;
-use crate::experiment::{Experiment, Report, setup};
+use crate::experiment::{Experiment, Records, Report, file_name, legs, setup, side_by_side, whole};
 use crate::imperfections;
 use crate::resolution;
 use crate::sweep::{self, Line, Part};
@@ -22,6 +22,8 @@ pub struct Outcome {
     pub tables: String,
     /// All numbers, as JSON.
     pub json: String,
+    /// The numbers that figures show, as JSON in few bytes.
+    pub brief: String,
     /// All numbers, as comma-separated values.
     pub csv: String,
     /// Figures, as SVG, by name.
@@ -38,13 +40,14 @@ impl Outcome {
             name: E::NAME,
             tables: report.tables(),
             json: report.json(),
+            brief: report.brief(),
             csv: report.csv(),
             figures: report.figures()?,
         })
     }
 }
 
-/// The records of one run, from several files.
+/// The records of one run by some of its entrants, from several files.
 struct Gathered {
     setup: Value,
     first: PathBuf,
@@ -52,7 +55,8 @@ struct Gathered {
 }
 
 /// Puts together the records in `sources`, files of records or folders of them, and writes them as those of one
-/// run into `folder`. The outcome is the one of a run that was never split.
+/// run into `folder`. The outcome is the one of a run that was never split. Records of methods and of networks in the
+/// same scenes come side by side.
 ///
 /// # Errors
 /// [`EvaluateError::OtherRun`] where setups differ, or are not what this version would run;
@@ -60,7 +64,8 @@ struct Gathered {
 /// where scenes are missing; [`CoreError::Empty`] where there are no records; those of the files.
 pub fn merge(sources: &[PathBuf], folder: &Path) -> Result<Outcome, EvaluateError> {
     let gathered = gather(sources)?;
-    let name = gathered.setup["experiment"].as_str().unwrap_or_default();
+    let first = &gathered[0];
+    let name = first.setup["experiment"].as_str().unwrap_or_default();
     match name {
         aoa::Options::NAME => merge_as::<aoa::Options>(gathered, folder),
         calibration::Options::NAME => merge_as::<calibration::Options>(gathered, folder),
@@ -68,7 +73,7 @@ pub fn merge(sources: &[PathBuf], folder: &Path) -> Result<Outcome, EvaluateErro
         imperfections::Options::NAME => merge_as::<imperfections::Options>(gathered, folder),
         resolution::Options::NAME => merge_as::<resolution::Options>(gathered, folder),
         _ => Err(CoreError::Unknown {
-            what: format!("experiment of {}", gathered.first.display()),
+            what: format!("experiment of {}", first.first.display()),
             expected: "aoa, calibration, doa, imperfections, resolution".into(),
             given: name.into(),
         }
@@ -76,8 +81,9 @@ pub fn merge(sources: &[PathBuf], folder: &Path) -> Result<Outcome, EvaluateErro
     }
 }
 
-fn gather(sources: &[PathBuf]) -> Result<Gathered, EvaluateError> {
-    let mut gathered: Option<Gathered> = None;
+/// At least one.
+fn gather(sources: &[PathBuf]) -> Result<Vec<Gathered>, EvaluateError> {
+    let mut gathered: Vec<Gathered> = vec![];
     for path in files(sources)? {
         let failed = |error| EvaluateError::File { action: "read", path: path.clone(), error };
         let text = std::fs::read_to_string(&path).map_err(failed)?;
@@ -87,18 +93,15 @@ fn gather(sources: &[PathBuf]) -> Result<Gathered, EvaluateError> {
         let Some((line, head)) = lines.next() else { continue };
         let mut head: Value = serde_json::from_str(head).map_err(|e| malformed(line, e))?;
         Part::take_from(&mut head);
-        let all = gathered.get_or_insert_with(|| Gathered {
-            setup: head.clone(),
-            first: path.clone(),
-            records: BTreeMap::new(),
-        });
-        if head != all.setup {
-            return Err(EvaluateError::OtherRun {
-                path,
-                expected: all.setup.to_string(),
-                given: head.to_string(),
-            });
+        if let Some(other) = gathered.iter().find(|g| g.setup["experiment"] != head["experiment"]) {
+            return Err(other_run(&path, &other.setup, &head));
         }
+        let known = gathered.iter().position(|known| known.setup == head).unwrap_or_else(|| {
+            let (setup, first) = (head, path.clone());
+            gathered.push(Gathered { setup, first, records: BTreeMap::new() });
+            gathered.len() - 1
+        });
+        let all = &mut gathered[known];
         for (line, text) in lines {
             let found: Line<Value> = serde_json::from_str(text).map_err(|e| malformed(line, e))?;
             if let Some((record, other)) = all.records.get(&found.scene) {
@@ -114,13 +117,17 @@ fn gather(sources: &[PathBuf]) -> Result<Gathered, EvaluateError> {
             }
         }
     }
-    gathered.ok_or_else(|| {
-        CoreError::Empty {
-            what: "records".into(),
-            expected: "files ending in .jsonl, or folders with such files".into(),
-        }
-        .into()
-    })
+    if gathered.is_empty() { Err(nothing()) } else { Ok(gathered) }
+}
+
+fn nothing() -> EvaluateError {
+    let expected = "files ending in .jsonl, or folders with such files".into();
+    CoreError::Empty { what: "records".into(), expected }.into()
+}
+
+fn other_run(path: &Path, expected: &Value, given: &Value) -> EvaluateError {
+    let (expected, given) = (expected.to_string(), given.to_string());
+    EvaluateError::OtherRun { path: path.to_owned(), expected, given }
 }
 
 /// The files named and those in the folders named, in order of their names.
@@ -145,32 +152,47 @@ fn files(sources: &[PathBuf]) -> Result<Vec<PathBuf>, EvaluateError> {
     Ok(files)
 }
 
-fn merge_as<E: Experiment>(gathered: Gathered, folder: &Path) -> Result<Outcome, EvaluateError> {
-    let Gathered { setup: found, first, records } = gathered;
-    let malformed = |error| EvaluateError::Record { path: first.clone(), line: 1, error };
-    let options = E::deserialize(&found["options"]).map_err(malformed)?;
-    let plan = options.plan()?;
-    let expected = setup(&options, &plan);
-    if found != expected {
-        return Err(EvaluateError::OtherRun {
-            path: first,
-            expected: expected.to_string(),
-            given: found.to_string(),
-        });
-    }
-    let scenes = 0..options.scenes();
-    let missing = scenes.clone().filter(|scene| !records.contains_key(scene));
-    if let Some(first) = missing.clone().next() {
-        let missing = missing.count();
-        return Err(EvaluateError::Incomplete { missing, first, total: scenes.end });
-    }
-    let mut typed: BTreeMap<u64, E::Record> = BTreeMap::new();
-    for (scene, (record, path)) in records {
-        if scenes.contains(&scene) {
-            let malformed = |error| EvaluateError::Scene { path, scene, error };
-            typed.insert(scene, serde_json::from_value(record).map_err(malformed)?);
+fn merge_as<E: Experiment>(
+    gathered: Vec<Gathered>,
+    folder: &Path,
+) -> Result<Outcome, EvaluateError> {
+    let mut found = vec![];
+    for Gathered { setup: head, first, .. } in &gathered {
+        let malformed = |error| EvaluateError::Record { path: first.clone(), line: 1, error };
+        let options = E::deserialize(&head["options"]).map_err(malformed)?;
+        let expected = setup(&options, &options.plan()?);
+        if *head != expected {
+            return Err(other_run(first, &expected, head));
+        }
+        found.push(options);
+        if whole(&found).is_none() {
+            return Err(other_run(first, &gathered[0].setup, head));
         }
     }
-    sweep::write(&folder.join(Part::WHOLE.file_name(E::NAME)), &expected, &typed)?;
-    Outcome::new::<E>(&options.report(&plan, typed.into_values()))
+    let Some(options) = whole(&found) else { return Err(nothing()) };
+    let scenes = 0..options.scenes();
+    // In the order of a run that was never split.
+    let (mut typed, mut gathered): (Vec<Records<E>>, Vec<_>) =
+        (vec![], found.into_iter().zip(gathered).collect());
+    for leg in legs(&options) {
+        let Some(at) = gathered.iter().position(|(options, _)| *options == leg) else { continue };
+        let records = gathered.swap_remove(at).1.records;
+        let missing = scenes.clone().filter(|scene| !records.contains_key(scene));
+        if let Some(first) = missing.clone().next() {
+            let missing = missing.count();
+            return Err(EvaluateError::Incomplete { missing, first, total: scenes.end });
+        }
+        let mut of_leg = Records::<E>::new();
+        for (scene, (record, path)) in records {
+            if scenes.contains(&scene) {
+                let malformed = |error| EvaluateError::Scene { path, scene, error };
+                of_leg.insert(scene, serde_json::from_value(record).map_err(malformed)?);
+            }
+        }
+        let setup = setup(&leg, &leg.plan()?);
+        sweep::write(&folder.join(file_name(&leg, Part::WHOLE)), &setup, &of_leg)?;
+        typed.push(of_leg);
+    }
+    let plan = options.plan()?;
+    Outcome::new::<E>(&options.report(&plan, side_by_side::<E>(typed).into_values()))
 }

@@ -1,7 +1,7 @@
 //! Methods that are told the number of targets.
 
 use boresight_aoa::options::NompOptions;
-use boresight_aoa::{AoaError, Data, Estimator, Method, Options, SourceCount};
+use boresight_aoa::{AoaError, Data, Estimator, Method, Options, Source, SourceCount};
 use boresight_core::Array;
 
 /// A method with its options.
@@ -93,12 +93,13 @@ pub fn azimuths(
     data: Data,
     sources: usize,
 ) -> Result<Option<Vec<f64>>, AoaError> {
-    let estimate = estimator.estimate(data)?;
-    if estimate.sources.len() < sources {
-        return Ok(None);
-    }
-    let strongest = estimate.sources.iter().take(sources);
+    Ok(strongest(&estimator.estimate(data)?.sources, sources))
+}
+
+/// Azimuths of the first, the strongest, of some sources, rad, ascending; nothing if there are fewer.
+pub fn strongest(found: &[Source], sources: usize) -> Option<Vec<f64>> {
+    let strongest = found.get(..sources)?.iter();
     let mut azimuths: Vec<f64> = strongest.map(|s| s.direction.azimuth_rad).collect();
     azimuths.sort_by(f64::total_cmp);
-    Ok(Some(azimuths))
+    Some(azimuths)
 }

@@ -4,9 +4,9 @@
 
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
-use boresight_evaluate::EvaluateError;
 use boresight_evaluate::aoa::{Options, Report, SNRS_DB, TARGETS, default_methods};
 use boresight_evaluate::experiment::{self, How, Report as _};
+use boresight_evaluate::{Entrants, EvaluateError};
 use std::ops::ControlFlow;
 
 fn run(options: &Options, threads: usize) -> Result<Report, EvaluateError> {
@@ -19,7 +19,7 @@ fn options(array: &str) -> Options {
         trials: 8,
         seed: 1,
         imperfections: ImperfectionSpread::default(),
-        methods: default_methods(&preset(array).unwrap()),
+        entrants: Entrants::new(default_methods(&preset(array).unwrap()), vec![]),
     }
 }
 
@@ -67,8 +67,8 @@ fn uniform_arrays_add_what_needs_one_and_unknown_ones_are_refused() {
     let report = run(&options("ula16"), 2).unwrap();
     assert!(report.methods.iter().any(|name| name == "single-snapshot-music"));
     let named = |array: &str, methods: &[&str]| {
-        let methods = methods.iter().map(|&name| name.into()).collect();
-        run(&Options { array: array.into(), methods, ..options("lrr48") }, 1)
+        let entrants = Entrants::new(methods.iter().map(|&name| name.into()).collect(), vec![]);
+        run(&Options { array: array.into(), entrants, ..options("lrr48") }, 1)
     };
     assert!(named("nothing", &["iaa"]).is_err());
     assert!(named("lrr48", &[]).is_err());

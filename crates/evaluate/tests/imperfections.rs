@@ -3,22 +3,22 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::imperfections::ImperfectionSpread;
-use boresight_evaluate::aoa;
 use boresight_evaluate::experiment::{How, Report as _, run};
 use boresight_evaluate::imperfections::{Kind, NUMBERS, Options};
+use boresight_evaluate::{Entrants, aoa};
 use std::ops::ControlFlow;
 
 const HOW: How = How { threads: 2, folder: None };
 
 #[test]
 fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them() {
-    let methods: Vec<String> = ["bartlett", "iaa", "nomp"].map(String::from).to_vec();
+    let entrants = Entrants::new(["bartlett", "iaa", "nomp"].map(String::from).to_vec(), vec![]);
     let options = Options {
         array: "lrr48".into(),
         snr_db: 25.0,
         trials: 10,
         seed: 3,
-        methods: methods.clone(),
+        entrants: entrants.clone(),
     };
     let report = run(&options, HOW, |_| ControlFlow::Continue(())).unwrap();
     let plain = aoa::Options {
@@ -26,7 +26,7 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
         trials: 10,
         seed: 3,
         imperfections: ImperfectionSpread::default(),
-        methods,
+        entrants,
     };
     let plain = run(&plain, HOW, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(report.methods, plain.methods);

@@ -6,7 +6,7 @@ use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::experiment::{Experiment, How, run, run_part};
 use boresight_evaluate::sweep::Part;
 use boresight_evaluate::{
-    EvaluateError, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
+    Entrants, EvaluateError, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -49,19 +49,21 @@ fn check<E: Experiment>(options: &E) {
 
 fn aoa_options(seed: u64) -> aoa::Options {
     let imperfections = ImperfectionSpread { phase_rad: 0.1, ..ImperfectionSpread::default() };
-    let methods = vec!["iaa".into(), "nomp+refined".into()];
-    aoa::Options { array: "ula8".into(), trials: 3, seed, imperfections, methods }
+    let entrants = Entrants::new(vec!["iaa".into(), "nomp+refined".into()], vec![]);
+    aoa::Options { array: "ula8".into(), trials: 3, seed, imperfections, entrants }
 }
 
 #[test]
 fn parts_make_the_whole() {
     check(&aoa_options(1));
     check(&calibration::Options { scenes: 2, seed: 3, duration_s: 12.0 });
-    check(&doa::Options { setup: doa::Setup::Simulation, trials: 1, seed: 1 });
+    let setup = doa::Setup::Simulation;
+    let entrants = Entrants::new(doa::default_methods(setup).unwrap(), vec![]);
+    check(&doa::Options { setup, trials: 1, seed: 1, entrants });
     let (array, snapshots) = ("ula4".into(), vec![1, 3]);
     check(&resolution::Options { array, snapshots, trials: 1, seed: 1 });
-    let (array, methods) = ("ula8".into(), vec!["iaa".into()]);
-    check(&imperfections::Options { array, snr_db: 15.0, trials: 1, seed: 1, methods });
+    let (array, entrants) = ("ula8".into(), Entrants::new(vec!["iaa".into()], vec![]));
+    check(&imperfections::Options { array, snr_db: 15.0, trials: 1, seed: 1, entrants });
 }
 
 #[test]

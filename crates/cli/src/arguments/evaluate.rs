@@ -68,6 +68,15 @@ pub struct EvaluateMergeArguments {
     pub format: EvaluateFormat,
 }
 
+/// Trained networks of an experiment.
+#[derive(Debug, Args)]
+pub struct NetworkArguments {
+    /// Trained network, an ONNX file with its card beside it (NAME.onnx, NAME.json); repeatable. Its records are a
+    /// file of their own, so that methods are not run again with another network.
+    #[arg(long = "model", value_name = "FILE")]
+    pub models: Vec<PathBuf>,
+}
+
 /// Arguments of `evaluate aoa`.
 #[derive(Debug, Args)]
 pub struct EvaluateAoaArguments {
@@ -85,6 +94,12 @@ pub struct EvaluateAoaArguments {
     /// evenly spaced arrays, single-snapshot-music.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub methods: Vec<String>,
+    /// Networks, each run plain and refined.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
+    /// Print the time of a snapshot by method, on one thread, in place of the experiment.
+    #[arg(long, conflicts_with_all = ["out", "part", "json", "csv"])]
+    pub times: bool,
     /// What is wrong with the array.
     #[command(flatten)]
     pub imperfections: ImperfectionArguments,
@@ -102,6 +117,9 @@ pub struct EvaluateDoaArguments {
     /// The paper's simulated radar (Table 3) or that of its experiments (Table 4), simulated.
     #[arg(long, value_enum, default_value_t = DoaSetup::Simulation)]
     pub setup: DoaSetup,
+    /// Networks: such that count, and such of a region or its covariance.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
 }
 
 /// Radar of `evaluate doa`.
@@ -145,6 +163,9 @@ pub struct EvaluateImperfectionsArguments {
     /// Methods, separated by commas, as for `evaluate aoa`.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub methods: Vec<String>,
+    /// Networks, as for `evaluate aoa`.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
     /// Signal-to-noise ratio, dB: 15, 20, 25, 30 or 35.
     #[arg(long, value_name = "DB", default_value_t = 25.0)]
     pub snr: f64,

@@ -8,7 +8,9 @@ mod simulate;
 
 pub use drives::{CalibrateArguments, LogArguments};
 pub use estimate::{AngleArguments, ChainArguments, EstimateArguments};
-pub use evaluate::{DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
+pub use evaluate::{
+    DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
+};
 pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 pub use simulate::{
     CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,

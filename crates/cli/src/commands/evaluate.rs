@@ -1,15 +1,20 @@
 //! `boresight evaluate`.
 
-use crate::arguments::{DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments};
+use crate::arguments::{
+    DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
+};
 use crate::error::CliError;
 use crate::files;
+use crate::network;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_core::CoreError;
 use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Experiment, How};
-use boresight_evaluate::{Outcome, aoa, calibration, doa, imperfections, merge, resolution};
-use std::path::Path;
+use boresight_evaluate::{
+    Entrants, Network, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
+};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Runs the experiment and returns what it prints.
@@ -18,11 +23,14 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
         EvaluateCommand::Aoa(arguments) => {
             let options = aoa::Options {
                 array: arguments.array.clone(),
-                methods: methods(&arguments.methods, &arguments.array)?,
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
                 imperfections: arguments.imperfections.spread(),
+                entrants: entrants(&arguments.methods, &arguments.array, &arguments.networks)?,
             };
+            if arguments.times {
+                return times(&options);
+            }
             evaluate(&options, &arguments.shared)
         }
         EvaluateCommand::Calibration(arguments) => {
@@ -39,7 +47,9 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
                 DoaSetup::Experiment => doa::Setup::Experiment,
             };
             let seed = arguments.shared.seed;
-            let options = doa::Options { setup, trials: arguments.trials, seed };
+            let networks = networks(&arguments.networks)?;
+            let entrants = Entrants::new(doa::default_methods(setup)?, networks);
+            let options = doa::Options { setup, trials: arguments.trials, seed, entrants };
             evaluate(&options, &arguments.shared)
         }
         EvaluateCommand::Resolution(arguments) => {
@@ -54,10 +64,10 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
         EvaluateCommand::Imperfections(arguments) => {
             let options = imperfections::Options {
                 array: arguments.array.clone(),
-                methods: methods(&arguments.methods, &arguments.array)?,
                 snr_db: arguments.snr,
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
+                entrants: entrants(&arguments.methods, &arguments.array, &arguments.networks)?,
             };
             evaluate(&options, &arguments.shared)
         }
@@ -65,12 +75,34 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
     }
 }
 
-/// The methods named, or the usual ones.
-fn methods(named: &[String], array: &str) -> Result<Vec<String>, CliError> {
-    Ok(match named {
+/// The methods named, or the usual ones, and the networks.
+fn entrants(
+    named: &[String],
+    array: &str,
+    models: &NetworkArguments,
+) -> Result<Entrants, CliError> {
+    let methods = match named {
         [] => aoa::default_methods(&preset(array)?),
         _ => named.to_vec(),
-    })
+    };
+    Ok(Entrants::new(methods, networks(models)?))
+}
+
+fn networks(arguments: &NetworkArguments) -> Result<Vec<Network>, CliError> {
+    let network = |path: &PathBuf| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        Ok(Network::new(network::load(path, None)?, &name))
+    };
+    arguments.models.iter().map(network).collect()
+}
+
+/// Times of a snapshot, as a table.
+fn times(options: &aoa::Options) -> Result<String, CliError> {
+    let mut text = "| method | us a snapshot |\n|---|---|\n".to_owned();
+    for (name, seconds) in aoa::times(options)? {
+        text += &format!("| {name} | {:.0} |\n", 1e6 * seconds);
+    }
+    Ok(text)
 }
 
 fn evaluate<E: Experiment>(options: &E, shared: &EvaluateArguments) -> Result<String, CliError> {
@@ -79,13 +111,15 @@ fn evaluate<E: Experiment>(options: &E, shared: &EvaluateArguments) -> Result<St
     let how = How { threads: shared.threads.unwrap_or_else(cores), folder };
     let run = Run::start("records")?;
     let started = Instant::now();
-    let mut before = None;
+    let (mut done, mut new) = (0, 0);
     let progress = |progress: boresight_pipeline::Progress| {
-        before.get_or_insert(progress.done);
+        // Those recorded before come all at once.
+        new += usize::from(progress.done == done + 1);
+        done = progress.done;
         run.report(progress)
     };
-    let took = |done: usize, before: Option<usize>| {
-        let (new, s) = (done - before.unwrap_or(0), started.elapsed().as_secs_f64());
+    let took = |new: usize| {
+        let s = started.elapsed().as_secs_f64();
         remark([format!("{new} records in {s:.1} s on {} threads", how.threads)]);
     };
     if let Some(part) = shared.part {
@@ -98,13 +132,13 @@ fn evaluate<E: Experiment>(options: &E, shared: &EvaluateArguments) -> Result<St
         };
         let records = experiment::run_part(options, how, part, progress)?;
         run.finish();
-        took(records, before);
+        took(new);
         let file = folder.join(part.file_name(E::NAME));
         return Ok(format!("Part {part}: {records} records in {}\n", file.display()));
     }
     let report = experiment::run(options, how, progress)?;
     run.finish();
-    took(options.scenes() as usize, before);
+    took(new);
     let outcome = Outcome::new::<E>(&report)?;
     if let Some(folder) = folder {
         keep(&outcome, folder)?;
@@ -124,6 +158,7 @@ fn keep(outcome: &Outcome, folder: &Path) -> Result<(), CliError> {
     let write = |file: &str, text: &str| files::write(&folder.join(file), text.as_bytes());
     write(&format!("{name}.md"), &outcome.tables)?;
     write(&format!("{name}.json"), &outcome.json)?;
+    write(&format!("{name}.brief.json"), &outcome.brief)?;
     write(&format!("{name}.csv"), &outcome.csv)?;
     outcome.figures.iter().try_for_each(|(file, svg)| write(file, svg))
 }

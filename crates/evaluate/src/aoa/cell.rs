@@ -1,58 +1,127 @@
 //! The snapshots of one condition through every method.
 
-use super::score::{Point, Score};
+use super::score::{Point, Prediction, Score, Threshold, odds_db};
 use super::{Condition, Options, TARGETS};
 use crate::EvaluateError;
+use crate::entrants::{Entrants, Network, REFINED};
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{
-    AoaError, Data, Estimate, Estimator, Method, Options as AngleOptions, SourceCount,
+    AoaError, BatchEstimate, Data, Estimator, Method, Options as AngleOptions, Source, SourceCount,
 };
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
 use boresight_core::steering::cis;
 use boresight_core::units::{db_to_amplitude, db_to_power};
-use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections};
+use boresight_core::{Array, Complex64, Direction, Imperfections};
 use boresight_simulate::snapshots::{
     Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Target,
 };
-use ndarray::Array2;
+use ndarray::{Array2, Array3, ArrayView3, Axis};
 use serde::{Deserialize, Serialize};
+use std::sync::{Mutex, PoisonError};
 
 /// Half width of the sector of targets, rad (60 deg).
 const FIELD_OF_VIEW_RAD: f64 = 1.047_197_551_196_597_6;
 /// Targets with at least this many beamwidths to the next are separated.
 const SEPARATED_BEAMS: f64 = 2.0;
-/// Most predictions of a snapshot.
+/// Most predictions of a snapshot, and of networks, which say of each how sure they are.
 const MOST: usize = 64;
-/// What follows the name of a method whose sources are refined.
-const REFINED: &str = "+refined";
+const MOST_OF_NETWORKS: usize = 512;
+/// What finds targets in a snapshot.
+#[derive(Debug, Clone, PartialEq)]
+enum Finder {
+    Method(Method),
+    Network(Network),
+}
 
-/// A method, and whether its directions are refined on the snapshot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+impl Finder {
+    fn name(&self) -> &str {
+        match self {
+            Self::Method(method) => method.name(),
+            Self::Network(network) => &network.name,
+        }
+    }
+
+    /// What its predictions are swept over.
+    fn threshold(&self) -> Threshold {
+        match self {
+            Self::Method(_) => Threshold::Power,
+            Self::Network(_) => Threshold::Confidence,
+        }
+    }
+
+    /// Whether it is more than a name.
+    fn can_run(&self) -> bool {
+        !matches!(self, Self::Network(Network { model: None, .. }))
+    }
+
+    /// Directions that count where there is no sweep: of a network those it is sure enough of.
+    fn sure(&self, sources: &[Source]) -> Vec<Direction> {
+        let least = match self {
+            Self::Network(network) => network.confidence(),
+            Self::Method(_) => 0.0,
+        };
+        let sure = sources.iter().filter(|s| s.confidence.is_none_or(|of| of >= least));
+        sure.map(|s| s.direction).collect()
+    }
+
+    /// For `targets` targets, or as many as the method can find. A network says what it finds by itself.
+    fn estimator(&self, array: &Array, targets: usize) -> Result<Estimator, EvaluateError> {
+        Ok(match self {
+            Self::Network(network) => {
+                let sources = AngleOptions::default().sources;
+                let options = AngleOptions {
+                    sources,
+                    confidence: Some(0.0),
+                    max_peaks: MOST_OF_NETWORKS,
+                    ..angle_options(targets)
+                };
+                network.model()?.estimator(array, &options)?
+            }
+            Self::Method(method) => match Estimator::new(*method, array, &angle_options(targets)) {
+                Err(AoaError::TooManySources { most, .. }) => {
+                    Estimator::new(*method, array, &angle_options(most))?
+                }
+                result => result?,
+            },
+        })
+    }
+}
+
+/// What is compared: a finder, and whether its directions are refined on the snapshot.
+#[derive(Debug, Clone, PartialEq)]
 struct Candidate {
-    method: Method,
+    finder: Finder,
     refined: bool,
 }
 
 impl Candidate {
-    fn from_name(name: &str) -> Result<Self, EvaluateError> {
-        let method = name.strip_suffix(REFINED);
-        Ok(Self { method: Method::from_name(method.unwrap_or(name))?, refined: method.is_some() })
+    /// Methods as they are named, each network plain and refined.
+    fn all(entrants: &Entrants) -> Result<Vec<Self>, EvaluateError> {
+        let mut all = vec![];
+        for name in &entrants.methods {
+            let plain = name.strip_suffix(REFINED);
+            let finder = Finder::Method(Method::from_name(plain.unwrap_or(name))?);
+            let candidate = Self { finder, refined: plain.is_some() };
+            if !all.contains(&candidate) {
+                all.push(candidate);
+            }
+        }
+        for network in &entrants.networks {
+            let finder = Finder::Network(network.clone());
+            all.extend([false, true].map(|refined| Self { finder: finder.clone(), refined }));
+        }
+        Ok(all)
     }
 
     fn name(&self) -> String {
-        format!("{}{}", self.method.name(), if self.refined { REFINED } else { "" })
+        format!("{}{}", self.finder.name(), if self.refined { REFINED } else { "" })
     }
 
-    /// For `targets` targets, or as many as the method can find.
-    fn estimator(&self, array: &Array, targets: usize) -> Result<Estimator, AoaError> {
-        match Estimator::new(self.method, array, &angle_options(targets)) {
-            Err(AoaError::TooManySources { most, .. }) => {
-                Estimator::new(self.method, array, &angle_options(most))
-            }
-            result => result,
-        }
+    /// What it is swept over.
+    fn threshold(&self) -> Threshold {
+        if self.refined { Threshold::Power } else { self.finder.threshold() }
     }
 }
 
@@ -69,7 +138,7 @@ fn angle_options(targets: usize) -> AngleOptions {
 }
 
 /// What of a condition is kept for one method.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MethodRecord {
     /// Detections against targets.
     pub score: Score,
@@ -77,6 +146,22 @@ pub struct MethodRecord {
     pub separated: (f64, f64, u32),
     /// Separated targets in all.
     pub separated_targets: u32,
+}
+
+impl MethodRecord {
+    fn new(threshold: Threshold) -> Self {
+        Self { score: Score::new(threshold), separated: (0.0, 0.0, 0), separated_targets: 0 }
+    }
+}
+
+fn prediction(source: &Source, threshold: Threshold) -> Prediction {
+    let power_db = 10.0 * source.power.log10();
+    let point = Point { azimuth_rad: source.direction.azimuth_rad, power_db };
+    let level_db = match threshold {
+        Threshold::Power => power_db,
+        Threshold::Confidence => odds_db(source.confidence.unwrap_or(1.0)),
+    };
+    Prediction { point, level_db }
 }
 
 /// Some snapshots of one condition.
@@ -88,6 +173,9 @@ pub struct Record {
     pub methods: Vec<MethodRecord>,
 }
 
+/// What a candidate does with snapshots.
+pub(super) type Task = Box<dyn FnMut(ArrayView3<Complex64>) -> Result<(), EvaluateError>>;
+
 /// All that snapshots share.
 pub struct Plan {
     array: Array,
@@ -95,6 +183,37 @@ pub struct Plan {
     imperfections: ImperfectionSpread,
     candidates: Vec<Candidate>,
     beam: f64,
+    idle: Idle,
+}
+
+/// Networks that no thread works with at the moment, by name: they take long to prepare and are for any number of
+/// targets.
+#[derive(Default)]
+struct Idle(Mutex<Vec<(String, Estimator)>>);
+
+impl Idle {
+    fn take(
+        &self,
+        finder: &Finder,
+        array: &Array,
+        targets: usize,
+    ) -> Result<Estimator, EvaluateError> {
+        let mut idle = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let (Finder::Network(_), Some(at)) =
+            (finder, idle.iter().position(|(name, _)| name == finder.name()))
+        {
+            return Ok(idle.swap_remove(at).1);
+        }
+        drop(idle);
+        finder.estimator(array, targets)
+    }
+
+    fn give(&self, finder: &Finder, estimator: Estimator) {
+        if let Finder::Network(network) = finder {
+            let mut idle = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            idle.push((network.name.clone(), estimator));
+        }
+    }
 }
 
 impl Plan {
@@ -104,24 +223,15 @@ impl Plan {
     /// An array that is not known.
     pub fn new(options: &Options) -> Result<Self, EvaluateError> {
         let array = preset(&options.array)?;
-        let mut candidates = vec![];
-        for name in &options.methods {
-            let candidate = Candidate::from_name(name)?;
-            // Whether it takes the array, one snapshot and the most targets, before anything is run.
-            let silence = Array2::zeros((array.len(), 1));
+        options.entrants.check()?;
+        let candidates = Candidate::all(&options.entrants)?;
+        // Whether they take the array, one snapshot and the most targets, before anything is run.
+        let silence = Array2::zeros((array.len(), 1));
+        for candidate in candidates.iter().filter(|c| c.finder.can_run()) {
             candidate
+                .finder
                 .estimator(&array, TARGETS[TARGETS.len() - 1])?
                 .estimate(Data::Snapshots(silence.view()))?;
-            if !candidates.contains(&candidate) {
-                candidates.push(candidate);
-            }
-        }
-        if candidates.is_empty() {
-            return Err(CoreError::Empty {
-                what: "methods".into(),
-                expected: "at least one".into(),
-            }
-            .into());
         }
         let across: Vec<f64> = array.positions().iter().map(|position| position[1]).collect();
         let aperture = across.iter().copied().fold(f64::NEG_INFINITY, f64::max)
@@ -129,7 +239,7 @@ impl Plan {
         // Between the first zeros of a line of that length, in half wavelengths, half of it.
         let beam = 2.0 / aperture.max(1.0);
         let (seed, imperfections) = (options.seed, options.imperfections);
-        Ok(Self { array, seed, imperfections, candidates, beam })
+        Ok(Self { array, seed, imperfections, candidates, beam, idle: Idle::default() })
     }
 
     /// Names of the methods in order.
@@ -149,51 +259,82 @@ impl Plan {
         trials: u64,
     ) -> Result<Record, EvaluateError> {
         let noise_power = db_to_power(-condition.snr_db);
-        let mut estimators: Vec<Estimator> = vec![];
-        for candidate in &self.candidates {
-            if !estimators.iter().any(|known| known.method() == candidate.method) {
-                estimators.push(candidate.estimator(&self.array, condition.targets)?);
+        let (scenes, truths) = self.scenes(index, condition, first, trials)?;
+        let mut found: Vec<(&Finder, BatchEstimate)> = vec![];
+        for Candidate { finder, .. } in &self.candidates {
+            if !found.iter().any(|(known, _)| *known == finder) {
+                let mut estimator = self.idle.take(finder, &self.array, condition.targets)?;
+                found.push((finder, estimator.estimate_batch(scenes.view(), false)?));
+                self.idle.give(finder, estimator);
             }
         }
         let mut refinement = Refinement::new(&self.array, &angle_options(condition.targets))?;
-        let mut methods = vec![MethodRecord::default(); self.candidates.len()];
-        for trial in first..first + trials {
-            let (y, truth) = self.scene(index, condition, trial)?;
+        let mut methods: Vec<MethodRecord> =
+            self.candidates.iter().map(|c| MethodRecord::new(c.threshold())).collect();
+        for (trial, truth) in truths.iter().enumerate() {
+            let y = Data::Snapshots(scenes.index_axis(Axis(0), trial));
             let points: Vec<Point> = truth
                 .iter()
                 .map(|t| Point { azimuth_rad: t.direction.azimuth_rad, power_db: t.power_db })
                 .collect();
-            let bound = self.bound(&truth, noise_power);
-            let mut estimates: Vec<(Method, Estimate)> = vec![];
-            for estimator in &mut estimators {
-                let estimate = estimator.estimate(Data::Snapshots(y.view()))?;
-                estimates.push((estimator.method(), estimate));
-            }
+            let bound = self.bound(truth, noise_power);
             for (candidate, record) in self.candidates.iter().zip(&mut methods) {
-                let Some((_, estimate)) = estimates.iter().find(|e| e.0 == candidate.method) else {
+                let finder = &candidate.finder;
+                let Some((_, batch)) = found.iter().find(|(known, _)| *known == finder) else {
                     continue;
                 };
+                let all = batch.sources_of(trial);
                 let refined;
-                let sources = if candidate.refined {
-                    let directions: Vec<Direction> =
-                        estimate.sources.iter().map(|s| s.direction).collect();
-                    refined = refinement.refine(&directions, Data::Snapshots(y.view()))?;
-                    &refined
+                let (sources, sure) = if candidate.refined {
+                    refined = refinement.refine(&finder.sure(all), y)?;
+                    (&*refined, refined.iter().map(|s| s.direction).collect())
                 } else {
-                    &estimate.sources
+                    (all, finder.sure(all))
                 };
-                let found: Vec<Point> = sources
-                    .iter()
-                    .map(|s| Point {
-                        azimuth_rad: s.direction.azimuth_rad,
-                        power_db: 10.0 * s.power.log10(),
-                    })
-                    .collect();
-                record.score.add(&points, &found);
-                self.separated(record, &points, &found, &bound);
+                let predictions: Vec<Prediction> =
+                    sources.iter().map(|s| prediction(s, candidate.threshold())).collect();
+                record.score.add(&points, &predictions);
+                self.separated(record, &points, &sure, &bound);
             }
         }
         Ok(Record { condition: index, methods })
+    }
+
+    /// Snapshots `first` to `first + trials - 1` of a condition, each with its targets.
+    pub(super) fn scenes(
+        &self,
+        index: usize,
+        condition: Condition,
+        first: u64,
+        trials: u64,
+    ) -> Result<(Array3<Complex64>, Vec<Vec<Target>>), EvaluateError> {
+        let mut scenes = Array3::zeros((trials as usize, self.array.len(), 1));
+        let mut truths = vec![];
+        for (trial, mut scene) in (first..).zip(scenes.outer_iter_mut()) {
+            let (y, truth) = self.scene(index, condition, trial)?;
+            scene.assign(&y);
+            truths.push(truth);
+        }
+        Ok((scenes, truths))
+    }
+
+    /// What each candidate does with snapshots.
+    pub(super) fn tasks(&self, targets: usize) -> Result<Vec<(String, Task)>, EvaluateError> {
+        let task = |candidate: &Candidate| {
+            let mut estimator = candidate.finder.estimator(&self.array, targets)?;
+            let mut refinement = Refinement::new(&self.array, &angle_options(targets))?;
+            let Candidate { finder, refined } = candidate.clone();
+            let task: Task = Box::new(move |scenes| {
+                let batch = estimator.estimate_batch(scenes, false)?;
+                for (trial, y) in scenes.outer_iter().enumerate().filter(|_| refined) {
+                    let directions = finder.sure(batch.sources_of(trial));
+                    refinement.refine(&directions, Data::Snapshots(y))?;
+                }
+                Ok(())
+            });
+            Ok((candidate.name(), task))
+        };
+        self.candidates.iter().map(task).collect()
     }
 
     fn scene(
@@ -247,7 +388,7 @@ impl Plan {
         &self,
         record: &mut MethodRecord,
         truth: &[Point],
-        found: &[Point],
+        found: &[Direction],
         bound_deg: &[f64],
     ) {
         for (index, target) in truth.iter().enumerate() {
@@ -259,7 +400,7 @@ impl Plan {
                 continue;
             }
             record.separated_targets += 1;
-            let near = found.iter().map(|p| (p.azimuth_rad - target.azimuth_rad).abs());
+            let near = found.iter().map(|d| (d.azimuth_rad - target.azimuth_rad).abs());
             let error = near.fold(f64::INFINITY, f64::min);
             if error <= super::score::WITHIN_RAD {
                 record.separated.0 += error.to_degrees().powi(2);

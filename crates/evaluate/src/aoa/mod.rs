@@ -4,11 +4,14 @@ pub mod cell;
 pub mod figures;
 pub mod report;
 pub mod score;
+pub mod times;
 
 pub use report::Report;
 pub use score::Score;
+pub use times::times;
 
 use crate::EvaluateError;
+use crate::entrants::Entrants;
 use crate::experiment::{Experiment, Trials};
 use boresight_core::Array;
 use boresight_core::error::check_range;
@@ -34,9 +37,10 @@ pub struct Options {
     pub seed: u64,
     /// Errors of the array that no method knows of.
     pub imperfections: ImperfectionSpread,
-    /// Methods by name, with `+refined` for those whose sources are refined on the snapshot. Methods
-    /// that need the number of sources are told it.
-    pub methods: Vec<String>,
+    /// Methods by name, with `+refined` for those whose sources are refined on the snapshot, and networks, which are
+    /// run plain and refined. Methods that need the number of sources are told it.
+    #[serde(flatten)]
+    pub entrants: Entrants,
 }
 
 /// Methods that are run if none are named: those quick enough for many snapshots.
@@ -78,6 +82,14 @@ impl Experiment for Options {
 
     fn methods(plan: &cell::Plan) -> Vec<String> {
         plan.names()
+    }
+
+    fn entrants(&mut self) -> Option<&mut Entrants> {
+        Some(&mut self.entrants)
+    }
+
+    fn join(record: &mut cell::Record, other: cell::Record) {
+        record.methods.extend(other.methods);
     }
 
     fn scenes(&self) -> u64 {

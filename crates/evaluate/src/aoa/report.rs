@@ -4,8 +4,14 @@ use super::cell::{MethodRecord, Record};
 use super::score::Operating;
 use super::{Condition, Options, SNRS_DB, TARGETS, figures};
 use crate::EvaluateError;
+use crate::entrants::Network;
+use crate::experiment::brief;
 use crate::table::table;
 use serde::Serialize;
+use serde_json::{Value, json};
+
+/// Signal-to-noise ratios of tables and drawn curves, dB.
+const DRAWN_DB: [f64; 3] = [SNRS_DB[0], SNRS_DB[2], SNRS_DB[4]];
 
 /// The experiment's result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -17,8 +23,10 @@ pub struct Report {
     pub trials: u64,
     /// Seed.
     pub seed: u64,
-    /// Methods.
+    /// Methods, then each network plain and refined.
     pub methods: Vec<String>,
+    /// Which networks these are.
+    pub networks: Vec<Network>,
     /// Results by condition.
     pub conditions: Vec<ConditionResult>,
 }
@@ -72,10 +80,14 @@ impl Report {
         records: impl Iterator<Item = Record>,
     ) -> Self {
         let conditions = Condition::all();
-        let mut sums = vec![vec![MethodRecord::default(); methods.len()]; conditions.len()];
-        for record in records {
-            let Some(sum) = sums.get_mut(record.condition) else { continue };
-            for (to, from) in sum.iter_mut().zip(&record.methods) {
+        let mut sums: Vec<Vec<MethodRecord>> = vec![vec![]; conditions.len()];
+        for Record { condition, methods } in records {
+            let Some(sum) = sums.get_mut(condition) else { continue };
+            if sum.is_empty() {
+                *sum = methods;
+                continue;
+            }
+            for (to, from) in sum.iter_mut().zip(&methods) {
                 to.merge(from);
             }
         }
@@ -84,6 +96,7 @@ impl Report {
             trials: options.trials,
             seed: options.seed,
             methods: methods.to_vec(),
+            networks: options.entrants.networks.clone(),
             conditions: conditions
                 .iter()
                 .zip(&sums)
@@ -126,7 +139,7 @@ impl crate::experiment::Report for Report {
         let heads: Vec<String> = TARGETS.iter().map(|n| format!("{n} targets")).collect();
         let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
         for (title, digits, value) in kinds {
-            for snr_db in [SNRS_DB[0], SNRS_DB[2], SNRS_DB[4]] {
+            for snr_db in DRAWN_DB {
                 text += &format!("\n{title}, {snr_db} dB\n\n");
                 let rows: Vec<(&str, Vec<String>)> = self
                     .methods
@@ -177,12 +190,45 @@ impl crate::experiment::Report for Report {
         text
     }
 
+    /// Of the curves some, with fewer points.
+    fn brief(&self) -> String {
+        let mut all = json!(self);
+        for (condition, result) in self.conditions.iter().zip(items(&mut all["conditions"])) {
+            let drawn = DRAWN_DB.contains(&condition.snr_db);
+            for (method, result) in condition.methods.iter().zip(items(&mut result["methods"])) {
+                let points = if drawn { thinned(&method.curve) } else { vec![] };
+                let point = |p: &Operating| json!({ "precision": p.precision, "recall": p.recall, "f1": p.f1 });
+                result["curve"] = points.into_iter().map(point).collect();
+            }
+        }
+        brief(all)
+    }
+
     fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
         Ok(vec![
             ("precision-recall.svg", figures::precision_recall(self)?),
             ("scores.svg", figures::scores(self)?),
         ])
     }
+}
+
+fn items(value: &mut Value) -> impl Iterator<Item = &mut Value> {
+    value.as_array_mut().into_iter().flatten()
+}
+
+/// Some points of a curve: both ends, that of the largest F1, and those two hundredths or more from the one before.
+fn thinned(curve: &[Operating]) -> Vec<&Operating> {
+    let best = curve.iter().map(|p| p.f1).fold(0.0, f64::max);
+    let mut points: Vec<&Operating> = vec![];
+    for (k, point) in curve.iter().enumerate() {
+        let far = points.last().is_none_or(|last| {
+            (last.precision - point.precision).hypot(last.recall - point.recall) >= 0.02
+        });
+        if far || k + 1 == curve.len() || point.f1 == best {
+            points.push(point);
+        }
+    }
+    points
 }
 
 impl MethodRecord {

@@ -1,19 +1,49 @@
-//! Scores of detections against true targets, at every threshold on power at once.
+//! Scores of detections against true targets, at every threshold at once: on power, or on the confidence of a
+//! network, as its authors do.
 //!
 //! A prediction within half a degree of a true target is right, else it is false; a target with such a
 //! prediction is found. Precision is right over all predictions, recall found over all targets. The strict
 //! score matches one to one: of two predictions on one target one is false. Whether a prediction is
 //! right does not depend on the threshold, and neither does the matching where predictions are taken in
-//! order of power; so histograms over power are enough.
+//! order of what the threshold is on; so histograms over that are enough.
 
 use serde::{Deserialize, Serialize};
 
 /// Half width of a hit, rad (0.5 deg).
 pub const WITHIN_RAD: f64 = 0.008_726_646_259_971_648;
-/// Highest threshold, dB, width of a bin, dB, and number of bins downwards.
-const TOP_DB: f64 = 10.0;
+/// Width of a bin, dB, and number of bins downwards from the highest threshold.
 const STEP_DB: f64 = 0.25;
 const BINS: usize = 280;
+
+/// What the threshold is on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Threshold {
+    /// Power, dB.
+    #[default]
+    Power,
+    /// The odds of a confidence, dB.
+    Confidence,
+}
+
+impl Threshold {
+    /// The highest, dB.
+    fn top_db(self) -> f64 {
+        match self {
+            Self::Power => 10.0,
+            Self::Confidence => 35.0,
+        }
+    }
+
+    fn is_power(&self) -> bool {
+        *self == Self::Power
+    }
+}
+
+/// Odds of a confidence, dB.
+pub fn odds_db(confidence: f64) -> f64 {
+    10.0 * (confidence / (1.0 - confidence)).log10()
+}
 
 /// A direction with its power.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,9 +54,21 @@ pub struct Point {
     pub power_db: f64,
 }
 
-/// Histograms over power of what became of predictions and targets; bin 0 holds the strongest.
+/// A target that is claimed to be there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prediction {
+    /// The target.
+    pub point: Point,
+    /// What the threshold is on, dB.
+    pub level_db: f64,
+}
+
+/// Histograms over levels of what became of predictions and targets; bin 0 holds the highest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
+    /// What the levels are.
+    #[serde(default, skip_serializing_if = "Threshold::is_power")]
+    pub threshold: Threshold,
     /// True targets.
     pub targets: u32,
     right: Vec<u32>,
@@ -42,7 +84,7 @@ pub struct Score {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Operating {
-    /// Threshold on power, dB.
+    /// Threshold on power, or on the odds of the confidence, dB.
     pub threshold_db: f64,
     /// Right over all predictions.
     pub precision: f64,
@@ -58,10 +100,12 @@ pub struct Operating {
     pub power_error_db: f64,
 }
 
-impl Default for Score {
-    fn default() -> Self {
+impl Score {
+    /// Of nothing yet.
+    pub fn new(threshold: Threshold) -> Self {
         let zeros = vec![0; BINS];
         Self {
+            threshold,
             targets: 0,
             right: zeros.clone(),
             wrong: zeros.clone(),
@@ -71,18 +115,17 @@ impl Default for Score {
             power_db: vec![0.0; BINS],
         }
     }
-}
 
-impl Score {
     /// Adds a scene. Predictions that are no numbers are false at every threshold.
-    pub fn add(&mut self, truth: &[Point], predictions: &[Point]) {
+    pub fn add(&mut self, truth: &[Point], predictions: &[Prediction]) {
         self.targets += truth.len() as u32;
-        let mut order: Vec<&Point> = predictions.iter().collect();
-        order.sort_by(|a, b| b.power_db.total_cmp(&a.power_db));
+        let mut order: Vec<&Prediction> = predictions.iter().collect();
+        order.sort_by(|a, b| b.level_db.total_cmp(&a.level_db));
         let mut taken = vec![false; truth.len()];
         let mut found = vec![false; truth.len()];
-        for prediction in order {
-            let bin = bin(prediction.power_db);
+        let top_db = self.threshold.top_db();
+        for Prediction { point: prediction, level_db } in order {
+            let bin = bin(top_db - level_db);
             let near = |target: &Point| (target.azimuth_rad - prediction.azimuth_rad).abs();
             let mut nearest: Option<(f64, &Point)> = None;
             let mut free: Option<(f64, usize)> = None;
@@ -116,7 +159,7 @@ impl Score {
         }
     }
 
-    /// Adds the scenes of another score.
+    /// Adds the scenes of another score with its threshold on the same.
     pub fn merge(&mut self, other: &Self) {
         fn add<T: Copy + std::ops::AddAssign>(to: &mut [T], from: &[T]) {
             for (to, from) in to.iter_mut().zip(from) {
@@ -155,7 +198,7 @@ impl Score {
                 let strict =
                     if matched > 0.0 { mean(strict_precision, strict_recall) } else { 0.0 };
                 curve.push(Operating {
-                    threshold_db: TOP_DB - STEP_DB * (bin as f64 + 1.0),
+                    threshold_db: self.threshold.top_db() - STEP_DB * (bin as f64 + 1.0),
                     precision,
                     recall,
                     f1,
@@ -174,9 +217,9 @@ impl Score {
     }
 }
 
-/// Bin of a power; what is no number counts as the strongest.
-fn bin(power_db: f64) -> usize {
-    (((TOP_DB - power_db) / STEP_DB).floor().max(0.0) as usize).min(BINS - 1)
+/// Bin of a level that far below the highest; what is no number counts as the highest.
+fn bin(below_db: f64) -> usize {
+    ((below_db / STEP_DB).floor().max(0.0) as usize).min(BINS - 1)
 }
 
 #[cfg(test)]
@@ -188,11 +231,16 @@ mod tests {
         Point { azimuth_rad: azimuth_deg.to_radians(), power_db }
     }
 
+    /// With the threshold on power.
+    fn claimed(points: &[Point]) -> Vec<Prediction> {
+        points.iter().map(|&point| Prediction { point, level_db: point.power_db }).collect()
+    }
+
     #[test]
     fn two_predictions_on_one_target_are_right_twice_and_strictly_once() {
-        let mut score = Score::default();
+        let mut score = Score::new(Threshold::Power);
         let truth = [at(10.0, 0.0), at(20.0, -5.0)];
-        score.add(&truth, &[at(10.3, -0.1), at(9.8, -3.1), at(-40.0, -8.1)]);
+        score.add(&truth, &claimed(&[at(10.3, -0.1), at(9.8, -3.1), at(-40.0, -8.1)]));
         let curve = score.curve();
         assert_eq!(curve.len(), 3);
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-6, "{a} {b}");
@@ -211,15 +259,29 @@ mod tests {
 
     #[test]
     fn merging_is_adding_and_nothing_makes_no_curve() {
-        let (mut a, mut b, mut both) = (Score::default(), Score::default(), Score::default());
+        let empty = || Score::new(Threshold::Power);
+        let (mut a, mut b, mut both) = (empty(), empty(), empty());
         for (k, score) in [&mut a, &mut b].into_iter().enumerate() {
             let truth = [at(5.0 * k as f64, -1.0)];
             let found = [at(5.1 * k as f64, -1.2), at(30.0, f64::NAN), at(1.0, -300.0)];
-            score.add(&truth, &found);
-            both.add(&truth, &found);
+            score.add(&truth, &claimed(&found));
+            both.add(&truth, &claimed(&found));
         }
         a.merge(&b);
         assert_eq!(a, both);
-        assert!(Score::default().best().is_none());
+        assert!(empty().best().is_none());
+    }
+    #[test]
+    fn confidence_decides_where_the_threshold_is_on_it() {
+        let mut score = Score::new(Threshold::Confidence);
+        // The stronger prediction is the less confident one, and wrong.
+        let of = |point, confidence| Prediction { point, level_db: odds_db(confidence) };
+        score.add(&[at(10.0, -5.0)], &[of(at(-30.0, 0.0), 0.2), of(at(10.1, -5.0), 0.9)]);
+        let curve = score.curve();
+        assert_eq!((curve[0].precision, curve[1].precision), (1.0, 0.5));
+        assert!((curve[0].threshold_db - odds_db(0.9)).abs() <= STEP_DB);
+        // Certainty is within the range.
+        score.add(&[], &[of(at(0.0, 0.0), 1.0), of(at(0.0, 0.0), 0.0)]);
+        assert_eq!(score.curve().last().unwrap().precision, 0.25);
     }
 }

@@ -1,7 +1,7 @@
 //! Figures 6 to 9 of the 3D-CNN paper, as SVG.
 
 use super::report::{BOUNDS, PAIRS, Report};
-use super::trial::{COUNTERS, DEVIATIONS_DEG};
+use super::trial::DEVIATIONS_DEG;
 use super::{SNRS_DB, Targets};
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
@@ -17,6 +17,28 @@ pub(super) fn all(report: &Report) -> Result<Vec<(&'static str, String)>, Evalua
     ])
 }
 
+/// Methods that are drawn beside the networks; the tables have all.
+const SHOWN: [&str; 7] = [
+    "bartlett",
+    "music",
+    "music, smoothed",
+    "root-music",
+    "root-music, smoothed",
+    "esprit",
+    "maximum-likelihood",
+];
+
+/// A line for each of those drawn, the same ones in the same colours in every figure; without points where there are
+/// none.
+fn lines(report: &Report, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<Series> {
+    let network = |name: &str| report.networks.iter().any(|network| network.name == *name);
+    let drawn = report.methods.iter().enumerate();
+    drawn
+        .filter(|(_, name)| network(name) || SHOWN.contains(&name.as_str()))
+        .map(|(k, name)| Series { dashed: !network(name), ..line(name, points(k)) })
+        .collect()
+}
+
 /// Figure 6: scenes counted rightly.
 fn counting(report: &Report) -> Result<String, EvaluateError> {
     let panels = PAIRS.map(|(two, which)| Panel {
@@ -25,48 +47,44 @@ fn counting(report: &Report) -> Result<String, EvaluateError> {
         ..panel(
             SNR,
             "share counted rightly",
-            (0..COUNTERS.len()).map(|k| {
+            report.counters.iter().enumerate().map(|(k, name)| {
                 let points = SNRS_DB.map(|snr_db| (snr_db, report.counted_rightly(k, two, snr_db)));
-                line(COUNTERS[k].0, points.to_vec(), k)
+                line(name, points.to_vec())
             }),
         )
     });
     draw(&panels, 2)
 }
 
-/// Figure 7: error of one target's angle.
+/// Figure 7: error of one target's angle. Where an angle in whole degrees is never wrong there is no point.
 fn rmse(report: &Report) -> Result<String, EvaluateError> {
-    let methods =
-        report.methods.iter().enumerate().map(|(k, name)| {
-            line(name, report.over_snr(Targets::One, k, |m| m.rmse_deg).collect(), k)
-        });
+    let methods = lines(report, |k| {
+        report.over_snr(Targets::One, k, |m| m.rmse_deg).filter(|(_, rmse)| *rmse > 0.0).collect()
+    });
     let bounds = BOUNDS.into_iter().enumerate().map(|(k, name)| {
         let bounds = SNRS_DB.iter().zip(&report.bounds_deg);
         let points = bounds.map(|(snr_db, bounds)| (*snr_db, bounds[k])).collect();
-        Series { dashed: true, marked: false, ..line(name, points, k) }
+        Series { dashed: true, marked: false, ..line(name, points) }
     });
     let panel = Panel {
         title: "one target".into(),
         axes: Axes::LogOrdinate,
-        ..panel(SNR, "root mean square error / deg", methods.chain(bounds))
+        ..panel(SNR, "root mean square error / deg", methods.into_iter().chain(bounds))
     };
     draw(&[panel], 1)
 }
 
 /// Figure 8: both angles within 1 deg.
 fn success(report: &Report) -> Result<String, EvaluateError> {
-    let panels =
-        PAIRS.map(|(two, which)| Panel {
-            title: format!("two targets {which}"),
-            y_limits: Some([0.0, 1.02]),
-            ..panel(
-                SNR,
-                "share within 1 deg",
-                report.methods.iter().enumerate().map(|(k, name)| {
-                    line(name, report.over_snr(two, k, |m| m.success).collect(), k)
-                }),
-            )
-        });
+    let panels = PAIRS.map(|(two, which)| Panel {
+        title: format!("two targets {which}"),
+        y_limits: Some([0.0, 1.02]),
+        ..panel(
+            SNR,
+            "share within 1 deg",
+            lines(report, |k| report.over_snr(two, k, |m| m.success).collect()).into_iter(),
+        )
+    });
     draw(&panels, 2)
 }
 
@@ -78,18 +96,15 @@ fn deviation(report: &Report) -> Result<String, EvaluateError> {
         for (two, which) in PAIRS {
             let kind = if close { "close pairs" } else { "all pairs" };
             let condition = report.at(two, snr_db);
-            let lines = report.methods.iter().enumerate().map(|(k, name)| {
-                let shares = condition.and_then(|c| c.methods.get(k)).map(|m| match close {
-                    true => m.close_within,
-                    false => m.within,
-                });
-                let points = DEVIATIONS_DEG.into_iter().zip(shares.into_iter().flatten());
-                line(name, points.collect(), k)
+            let lines = lines(report, |k| {
+                let result = condition.and_then(|c| c.methods.get(k)).and_then(Option::as_ref);
+                let shares = result.map(|m| if close { m.close_within } else { m.within });
+                DEVIATIONS_DEG.into_iter().zip(shares.into_iter().flatten()).collect()
             });
             panels.push(Panel {
                 title: format!("{kind} {which}, {snr_db} dB"),
                 y_limits: Some([0.0, 1.02]),
-                ..panel("allowed deviation / deg", "share within", lines)
+                ..panel("allowed deviation / deg", "share within", lines.into_iter())
             });
         }
     }
@@ -107,7 +122,6 @@ fn panel(x: &str, y: &str, series: impl Iterator<Item = Series>) -> Panel {
     }
 }
 
-/// A line; beyond as many as there are colours they are dashed.
-fn line(name: &str, points: Vec<(f64, f64)>, index: usize) -> Series {
-    Series { name: name.into(), points, dashed: index >= 12, marked: true }
+fn line(name: &str, points: Vec<(f64, f64)>) -> Series {
+    Series { name: name.into(), points, dashed: false, marked: true }
 }

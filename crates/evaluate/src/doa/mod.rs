@@ -4,7 +4,8 @@
 //! Every trial simulates the cube of one frame, takes its range spectrum with a rectangular window, centres the
 //! region of 65 range bins and 4 chirps on the strongest bin, as detection would, and gives each method the
 //! covariance of what passes a band-pass filter around that region (the paper's equation 7), from 260 vectors over
-//! the 8 channels. Methods that take snapshots only get eight that have this covariance.
+//! the 8 channels. Methods that take snapshots only get eight that have this covariance. The 3D-CNN gets the region
+//! itself.
 
 pub mod figures;
 pub mod report;
@@ -13,13 +14,14 @@ pub mod trial;
 pub use report::Report;
 
 use crate::EvaluateError;
+use crate::entrants::Entrants;
 use crate::experiment::{Experiment, Trials};
 use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Waveform};
 use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated};
 use serde::{Deserialize, Serialize};
-use trial::{Plan, Record};
+use trial::{COUNTERS, Plan, Record};
 
 /// Signal-to-noise ratios, dB: power of one target over noise power, of one sample of one chirp at one element,
 /// before any transform.
@@ -87,6 +89,20 @@ pub struct Options {
     pub trials: u64,
     /// Everything random comes from it.
     pub seed: u64,
+    /// Rules that count and methods that estimate, by name, and networks that do either.
+    #[serde(flatten)]
+    pub entrants: Entrants,
+}
+
+/// Names of all rules that count, and of all methods that run on the radar's array.
+///
+/// # Errors
+/// None with the arrays used.
+pub fn default_methods(setup: Setup) -> Result<Vec<String>, EvaluateError> {
+    let (_, array, _) = setup.radar()?;
+    let counters = COUNTERS.iter().map(|counter| counter.0.to_owned());
+    let methods = trial::candidates(&array, 1).into_iter().map(|candidate| candidate.name);
+    Ok(counters.chain(methods).collect())
 }
 
 impl Options {
@@ -107,7 +123,16 @@ impl Experiment for Options {
     }
 
     fn methods(plan: &Plan) -> Vec<String> {
-        plan.names()
+        [plan.counters(), plan.names()].concat()
+    }
+
+    fn entrants(&mut self) -> Option<&mut Entrants> {
+        Some(&mut self.entrants)
+    }
+
+    fn join(record: &mut Record, other: Record) {
+        record.counted.extend(other.counted);
+        record.methods.extend(other.methods);
     }
 
     fn scenes(&self) -> u64 {

@@ -1,8 +1,9 @@
 //! From records to tables.
 
-use super::trial::{CLOSE_DEG, COUNTERS, DEVIATIONS_DEG, Plan, Record, Tally, conditions};
+use super::trial::{CLOSE_DEG, DEVIATIONS_DEG, Plan, Record, Tally, conditions};
 use super::{Options, SNRS_DB, Setup, Targets, figures};
 use crate::EvaluateError;
+use crate::entrants::Network;
 use crate::table::table;
 use serde::Serialize;
 
@@ -16,8 +17,12 @@ pub struct Report {
     pub trials: u64,
     /// Seed.
     pub seed: u64,
-    /// Methods.
+    /// What counts: rules, then networks.
+    pub counters: Vec<String>,
+    /// What estimates angles: methods, then networks.
     pub methods: Vec<String>,
+    /// Which networks these are.
+    pub networks: Vec<Network>,
     /// Bounds of the error of one target's angle by signal-to-noise ratio, deg: of the frame, and of MUSIC on the
     /// region.
     pub bounds_deg: Vec<[f64; 2]>,
@@ -37,10 +42,10 @@ pub struct ConditionResult {
     pub trials: u32,
     /// Trials with a close pair.
     pub close: u32,
-    /// Share of trials in which each rule counted 0, 1, 2 and more targets.
+    /// Share of trials in which each of `counters` counted 0, 1, 2 and more targets.
     pub counted: Vec<[f64; 4]>,
-    /// Methods in order; none where there is no target.
-    pub methods: Vec<MethodResult>,
+    /// Methods in order, nothing of networks for another number of targets; none where there is no target.
+    pub methods: Vec<Option<MethodResult>>,
 }
 
 /// What a method reached in a condition; shares are of all trials, those without as many angles as targets
@@ -52,6 +57,8 @@ pub struct MethodResult {
     pub found: f64,
     /// Root mean square error over these, deg.
     pub rmse_deg: f64,
+    /// The same of angles rounded to whole degrees, which all targets stand at.
+    pub rounded_rmse_deg: f64,
     /// Share with every angle within 1 deg.
     pub success: f64,
     /// Share with every angle, rounded to a whole degree, within 0, 2 and 4 deg.
@@ -75,17 +82,18 @@ impl Report {
             sum.trials += record.trials;
             sum.close += record.close;
             sum.counted.resize(record.counted.len(), [0; 4]);
-            sum.methods.resize(record.methods.len(), Tally::default());
+            sum.methods.resize(record.methods.len(), None);
             for (to, from) in sum.counted.iter_mut().zip(&record.counted) {
                 for (to, from) in to.iter_mut().zip(from) {
                     *to += from;
                 }
             }
             for (to, from) in sum.methods.iter_mut().zip(&record.methods) {
-                to.add(from);
+                if let Some(from) = from {
+                    to.get_or_insert_default().add(from);
+                }
             }
         }
-        let share = |count: u32, of: u32| f64::from(count) / f64::from(of);
         let conditions = conditions()
             .zip(&sums)
             .map(|((_, targets, snr_db), sum)| ConditionResult {
@@ -97,15 +105,7 @@ impl Report {
                 methods: sum
                     .methods
                     .iter()
-                    .map(|m| MethodResult {
-                        found: share(m.found, sum.trials),
-                        rmse_deg: (m.squared_deg2 / (targets.count() as f64 * f64::from(m.found)))
-                            .sqrt(),
-                        success: share(m.success, sum.trials),
-                        within: m.within.map(|count| share(count, sum.trials)),
-                        close_success: share(m.close_success, sum.close),
-                        close_within: m.close_within.map(|count| share(count, sum.close)),
-                    })
+                    .map(|m| m.as_ref().map(|m| MethodResult::new(m, targets, sum)))
                     .collect(),
             })
             .collect();
@@ -114,7 +114,9 @@ impl Report {
             setup: options.setup,
             trials: options.trials,
             seed: options.seed,
+            counters: plan.counters(),
             methods: plan.names(),
+            networks: options.entrants.networks.clone(),
             bounds_deg: SNRS_DB.map(|snr_db| plan.bounds_deg(snr_db).unwrap_or(none)).to_vec(),
             conditions,
         }
@@ -125,12 +127,27 @@ impl Report {
         self.conditions.iter().find(|c| c.targets == targets && c.snr_db == snr_db)
     }
 
-    /// Share of scenes, a third each of no, one and two targets, that a rule counted rightly.
+    /// Share of scenes, a third each of no, one and two targets, that one of `counters` counted rightly.
     pub fn counted_rightly(&self, counter: usize, two: Targets, snr_db: f64) -> f64 {
         let share = |targets: Targets| {
-            self.at(targets, snr_db).map_or(f64::NAN, |c| c.counted[counter][targets.count()])
+            let counted = self.at(targets, snr_db).and_then(|c| c.counted.get(counter));
+            counted.map_or(f64::NAN, |counted| counted[targets.count()])
         };
         (share(Targets::None) + share(Targets::One) + share(two)) / 3.0
+    }
+
+    /// Rows of a table over the signal-to-noise ratio, of the methods that have been run on such targets.
+    fn rows(
+        &self,
+        targets: Targets,
+        value: fn(&MethodResult) -> f64,
+        shown: impl Fn(Vec<f64>) -> Vec<String>,
+    ) -> Vec<(&str, Vec<String>)> {
+        let rows = self.methods.iter().enumerate().map(|(k, name)| {
+            let values: Vec<f64> = self.over_snr(targets, k, value).map(|(_, v)| v).collect();
+            (name.as_str(), shown(values))
+        });
+        rows.filter(|(_, cells)| !cells.is_empty()).collect()
     }
 
     /// A method's figure against the signal-to-noise ratio.
@@ -141,8 +158,27 @@ impl Report {
         value: fn(&MethodResult) -> f64,
     ) -> impl Iterator<Item = (f64, f64)> {
         SNRS_DB.into_iter().filter_map(move |snr_db| {
-            Some((snr_db, value(self.at(targets, snr_db)?.methods.get(method)?)))
+            Some((snr_db, value(self.at(targets, snr_db)?.methods.get(method)?.as_ref()?)))
         })
+    }
+}
+
+fn share(count: u32, of: u32) -> f64 {
+    f64::from(count) / f64::from(of)
+}
+
+impl MethodResult {
+    fn new(tally: &Tally, targets: Targets, of: &Record) -> Self {
+        let angles = targets.count() as f64 * f64::from(tally.found);
+        Self {
+            found: share(tally.found, of.trials),
+            rmse_deg: (tally.squared_deg2 / angles).sqrt(),
+            rounded_rmse_deg: (tally.rounded_deg2 / angles).sqrt(),
+            success: share(tally.success, of.trials),
+            within: tally.within.map(|count| share(count, of.trials)),
+            close_success: share(tally.close_success, of.close),
+            close_within: tally.close_within.map(|count| share(count, of.close)),
+        }
     }
 }
 
@@ -156,37 +192,32 @@ impl crate::experiment::Report for Report {
             text += &format!(
                 "\nScenes counted rightly, %, a third each of 0, 1 and 2 targets, the two {which} (Figure 6).\n\n"
             );
-            let rows: Vec<(&str, Vec<String>)> = COUNTERS
+            let rows: Vec<(&str, Vec<String>)> = self
+                .counters
                 .iter()
                 .enumerate()
-                .map(|(k, (name, ..))| {
+                .map(|(k, name)| {
                     let share = |snr_db| percent(self.counted_rightly(k, two, snr_db));
-                    (*name, SNRS_DB.map(share).to_vec())
+                    (name.as_str(), SNRS_DB.map(share).to_vec())
                 })
                 .collect();
             text += &table("rule", &heads, &rows);
         }
         text += "\nRoot mean square error of one target's angle, deg (Figure 7).\n\n";
-        let mut rows: Vec<(&str, Vec<String>)> = vec![];
-        for (k, name) in self.methods.iter().enumerate() {
-            let errors = self.over_snr(Targets::One, k, |m| m.rmse_deg);
-            rows.push((name, errors.map(|(_, rmse)| format!("{rmse:.4}")).collect()));
-        }
+        let digits = |errors: Vec<f64>| errors.iter().map(|e| format!("{e:.4}")).collect();
+        let mut rows = self.rows(Targets::One, |m| m.rmse_deg, digits);
         for (k, name) in BOUNDS.into_iter().enumerate() {
-            let bounds = self.bounds_deg.iter().map(|bounds| format!("{:.4}", bounds[k]));
-            rows.push((name, bounds.collect()));
+            rows.push((name, digits(self.bounds_deg.iter().map(|bounds| bounds[k]).collect())));
         }
+        text += &table("method", &heads, &rows);
+        text += "\nThe same of angles rounded to whole degrees, which all targets stand at.\n\n";
+        let rows = self.rows(Targets::One, |m| m.rounded_rmse_deg, digits);
         text += &table("method", &heads, &rows);
         for (two, which) in PAIRS {
             text +=
                 &format!("\nBoth angles of two targets {which} within 1 deg, % (Figure 8).\n\n");
-            let shares = |k| {
-                let shares = self.over_snr(two, k, |m| m.success);
-                shares.map(|(_, share)| percent(share)).collect()
-            };
-            let rows: Vec<(&str, Vec<String>)> =
-                self.methods.iter().enumerate().map(|(k, m)| (m.as_str(), shares(k))).collect();
-            text += &table("method", &heads, &rows);
+            let percents = |shares: Vec<f64>| shares.into_iter().map(percent).collect();
+            text += &table("method", &heads, &self.rows(two, |m| m.success, percents));
         }
         for (two, which) in PAIRS {
             for snr_db in [SNRS_DB[2], SNRS_DB[5]] {
@@ -202,9 +233,10 @@ impl crate::experiment::Report for Report {
                     .methods
                     .iter()
                     .zip(&condition.methods)
-                    .map(|(name, m)| {
+                    .filter_map(|(name, m)| {
+                        let m = m.as_ref()?;
                         let shares = m.within.iter().chain(&m.close_within);
-                        (name.as_str(), shares.map(|share| percent(*share)).collect())
+                        Some((name.as_str(), shares.map(|share| percent(*share)).collect()))
                     })
                     .collect();
                 text += &table("method", &heads, &rows);
@@ -214,23 +246,31 @@ impl crate::experiment::Report for Report {
     }
 
     fn csv(&self) -> String {
-        let mut text = "targets,snr_db,method,trials,found,rmse_deg,within_1_deg,rounded_0_deg,rounded_2_deg,\
+        let mut text = "targets,snr_db,method,trials,found,rmse_deg,rounded_rmse_deg,within_1_deg,rounded_0_deg,rounded_2_deg,\
                         rounded_4_deg,close,close_within_1_deg,close_rounded_0_deg,close_rounded_2_deg,\
                         close_rounded_4_deg,counted_0,counted_1,counted_2,counted_more\n"
             .to_owned();
         for c in &self.conditions {
             let targets = c.targets.name();
-            for (name, m) in self.methods.iter().zip(&c.methods) {
+            let named = self.methods.iter().zip(&c.methods);
+            for (name, m) in named.filter_map(|(name, m)| Some((name, m.as_ref()?))) {
                 let ([a, b, d], [e, f, g]) = (m.within, m.close_within);
                 text += &format!(
-                    "{targets},{},\"{name}\",{},{},{},{},{a},{b},{d},{},{},{e},{f},{g},,,,\n",
-                    c.snr_db, c.trials, m.found, m.rmse_deg, m.success, c.close, m.close_success,
+                    "{targets},{},\"{name}\",{},{},{},{},{},{a},{b},{d},{},{},{e},{f},{g},,,,\n",
+                    c.snr_db,
+                    c.trials,
+                    m.found,
+                    m.rmse_deg,
+                    m.rounded_rmse_deg,
+                    m.success,
+                    c.close,
+                    m.close_success,
                 );
             }
-            for ((name, ..), [none, one, two, more]) in COUNTERS.iter().zip(&c.counted) {
+            for (name, [none, one, two, more]) in self.counters.iter().zip(&c.counted) {
                 let (snr_db, trials) = (c.snr_db, c.trials);
                 text += &format!(
-                    "{targets},{snr_db},\"{name}\",{trials},,,,,,,,,,,,{none},{one},{two},{more}\n"
+                    "{targets},{snr_db},\"{name}\",{trials},,,,,,,,,,,,,{none},{one},{two},{more}\n"
                 );
             }
         }

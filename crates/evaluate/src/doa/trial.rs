@@ -1,18 +1,20 @@
 //! Trials of one condition.
 
-use super::{Options, REGION, SNRS_DB, Targets, condition};
+use super::{REGION, SNRS_DB, Targets, condition};
 use crate::EvaluateError;
+use crate::entrants::{Entrants, Network};
 use crate::told::{self, Candidate};
 use boresight_aoa::bounds::{Signals, deterministic_bound, stochastic_bound, uncorrelated};
 use boresight_aoa::counting::{Criterion, count_sources_in};
-use boresight_aoa::{Data, Estimator};
+use boresight_aoa::{Data, Estimator, Options, SourceCount};
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::units::db_to_power;
-use boresight_core::{Array, Complex64, Direction, Random, Waveform};
-use boresight_signal::Window;
-use boresight_signal::region::{crop_region, range_spectrum, region_covariance};
+use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Random, Waveform};
+use boresight_neural::{Kind, Model};
+use boresight_signal::region::{crop_region, range_spectrum, region_snapshots};
+use boresight_signal::{Window, sample_covariance};
 use boresight_simulate::cube::{CubeOptions, CubeTarget, simulate_cube};
-use ndarray::{Array2, Axis};
+use ndarray::{Array2, Array3, Axis};
 use serde::{Deserialize, Serialize};
 
 /// Angles are the whole degrees up to this on either side.
@@ -24,8 +26,11 @@ pub const CLOSE_DEG: i32 = 4;
 /// Methods are told that targets are within this of boresight, rad (15 deg).
 const FIELD_OF_VIEW_RAD: f64 = 0.261_799_387_799_149_4;
 
+/// A rule that counts: name, criterion, whether the covariance is averaged with its reversal.
+pub type Counter = (&'static str, Criterion, bool);
+
 /// Rules that count targets.
-pub const COUNTERS: [(&str, Criterion, bool); 4] = [
+pub const COUNTERS: [Counter; 4] = [
     ("AIC", Criterion::Aic, false),
     ("MDL", Criterion::Mdl, false),
     ("AIC, forward-backward", Criterion::Aic, true),
@@ -41,10 +46,11 @@ pub struct Record {
     pub trials: u32,
     /// Of which pairs closer than [`CLOSE_DEG`].
     pub close: u32,
-    /// For each of [`COUNTERS`], how often it counted 0, 1, 2 and more targets.
+    /// For each rule and counting network, how often it counted 0, 1, 2 and more targets.
     pub counted: Vec<[u32; 4]>,
-    /// Methods in order; none where there is no target.
-    pub methods: Vec<Tally>,
+    /// Methods and networks in order; none where there is no target, and nothing of networks that are for another
+    /// number of targets.
+    pub methods: Vec<Option<Tally>>,
 }
 
 /// What a method did.
@@ -54,6 +60,8 @@ pub struct Tally {
     pub found: u32,
     /// Sum over these of the squared errors, deg^2.
     pub squared_deg2: f64,
+    /// The same of angles rounded to whole degrees.
+    pub rounded_deg2: f64,
     /// Trials in which every angle was within 1 deg.
     pub success: u32,
     /// Trials in which every angle, rounded to a whole degree, was within [`DEVIATIONS_DEG`].
@@ -68,6 +76,7 @@ impl Tally {
     pub(super) fn add(&mut self, other: &Self) {
         self.found += other.found;
         self.squared_deg2 += other.squared_deg2;
+        self.rounded_deg2 += other.rounded_deg2;
         self.success += other.success;
         self.close_success += other.close_success;
         for k in 0..DEVIATIONS_DEG.len() {
@@ -77,19 +86,24 @@ impl Tally {
     }
 
     /// Counts a trial; both in ascending order.
-    fn count(&mut self, truth_deg: &[f64], found_deg: &[f64], close: bool) {
-        let largest = |found: &dyn Fn(f64) -> f64| {
-            let errors = truth_deg.iter().zip(found_deg).map(|(t, f)| (found(*f) - t).abs());
-            errors.fold(0.0, f64::max)
+    fn count(&mut self, truth_deg: &[f64], found_rad: &[f64], close: bool) {
+        let found_deg: Vec<f64> = found_rad.iter().map(|azimuth| azimuth.to_degrees()).collect();
+        let end = f64::from(LARGEST_DEG);
+        let rounded_deg: Vec<f64> =
+            found_deg.iter().map(|angle| angle.round().clamp(-end, end)).collect();
+        let errors = |found: &[f64]| -> Vec<f64> {
+            truth_deg.iter().zip(found).map(|(t, f)| (f - t).abs()).collect()
         };
-        let squares = truth_deg.iter().zip(found_deg).map(|(t, f)| (f - t).powi(2));
+        let largest = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);
+        let squares = |errors: &[f64]| errors.iter().map(|error| error.powi(2)).sum::<f64>();
+        let (exact, rounded) = (errors(&found_deg), errors(&rounded_deg));
         self.found += 1;
-        self.squared_deg2 += squares.sum::<f64>();
-        let success = u32::from(largest(&|angle| angle) <= 1.0);
+        self.squared_deg2 += squares(&exact);
+        self.rounded_deg2 += squares(&rounded);
+        let success = u32::from(largest(&exact) <= 1.0);
         self.success += success;
         self.close_success += success * u32::from(close);
-        let end = f64::from(LARGEST_DEG);
-        let rounded = largest(&|angle| angle.round().clamp(-end, end));
+        let rounded = largest(&rounded);
         for (k, &deviation) in DEVIATIONS_DEG.iter().enumerate() {
             let within = u32::from(rounded <= deviation);
             self.within[k] += within;
@@ -104,22 +118,66 @@ pub struct Plan {
     array: Array,
     range_m: [f64; 2],
     seed: u64,
+    counters: Vec<Counter>,
     /// For one and for two targets.
     candidates: [Vec<Candidate>; 2],
+    networks: Vec<Network>,
+}
+
+/// Every method that runs on a radar's array, for that many targets.
+pub(super) fn candidates(array: &Array, targets: usize) -> Vec<Candidate> {
+    told::candidates(array, REGION[0] * REGION[1], targets, FIELD_OF_VIEW_RAD, true)
 }
 
 impl Plan {
-    pub(super) fn new(options: &Options) -> Result<Self, EvaluateError> {
+    pub(super) fn new(options: &super::Options) -> Result<Self, EvaluateError> {
         let (waveform, array, range_m) = options.setup.radar()?;
-        let vectors = REGION[0] * REGION[1];
-        let of = |sources| told::candidates(&array, vectors, sources, FIELD_OF_VIEW_RAD, true);
-        let candidates = [of(1), of(2)];
-        Ok(Self { waveform, array, range_m, seed: options.seed, candidates })
+        options.entrants.check()?;
+        let Entrants { methods, networks } = &options.entrants;
+        let all = candidates(&array, 1);
+        let known = COUNTERS.iter().map(|counter| counter.0).chain(all.iter().map(|c| &*c.name));
+        let known: Vec<&str> = known.collect();
+        if let Some(name) = methods.iter().find(|name| !known.contains(&name.as_str())) {
+            return Err(CoreError::Unknown {
+                what: "method".into(),
+                expected: known.join("; "),
+                given: name.clone(),
+            }
+            .into());
+        }
+        let named = |name: &str| methods.iter().any(|method| method == name);
+        for network in networks {
+            if network.kind == Kind::Aaetr {
+                return Err(CoreError::Unknown {
+                    what: format!("use of the network {}", network.name),
+                    expected: "a network that counts, or one of a region or its covariance".into(),
+                    given: "aaetr".into(),
+                }
+                .into());
+            }
+        }
+        let mut candidates = [all, candidates(&array, 2)];
+        candidates.iter_mut().for_each(|all| all.retain(|candidate| named(&candidate.name)));
+        let counters = COUNTERS.into_iter().filter(|counter| named(counter.0)).collect();
+        let networks = networks.clone();
+        Ok(Self { waveform, array, range_m, seed: options.seed, counters, candidates, networks })
     }
 
-    /// Names of the methods, which are the same for one and two targets.
+    /// Names of what counts: rules, then networks.
+    pub fn counters(&self) -> Vec<String> {
+        let rules = self.counters.iter().map(|counter| counter.0.to_owned());
+        rules.chain(self.networks_that(true).map(|network| network.name.clone())).collect()
+    }
+
+    /// Names of what estimates angles: methods, which are the same for one and two targets, then networks.
     pub fn names(&self) -> Vec<String> {
-        self.candidates[0].iter().map(|candidate| candidate.name.clone()).collect()
+        let methods = self.candidates[0].iter().map(|candidate| candidate.name.clone());
+        methods.chain(self.networks_that(false).map(|network| network.name.clone())).collect()
+    }
+
+    /// Networks that count, or that estimate angles.
+    fn networks_that(&self, count: bool) -> impl Iterator<Item = &Network> {
+        self.networks.iter().filter(move |network| (network.kind == Kind::Counting) == count)
     }
 
     /// Runs trials `first` to `first + trials - 1` of a condition.
@@ -134,46 +192,80 @@ impl Plan {
         for candidate in candidates {
             estimators.push((candidate.estimator(&self.array)?, candidate.takes_covariance()));
         }
+        let mut counting: Vec<&Model> = vec![];
+        for network in self.networks_that(true) {
+            counting.push(network.model()?);
+        }
+        // Where there are no targets none is of use.
+        let mut networks: Vec<Option<Estimator>> = vec![];
+        for network in self.networks_that(false).filter(|_| count > 0) {
+            let model = network.model()?;
+            let suits = model.card().and_then(|card| card.targets).is_none_or(|of| of == count);
+            let estimator = || model.estimator(&self.array, &known(count));
+            networks.push(suits.then(estimator).transpose()?);
+        }
+        let tallies = networks.iter().map(|network| network.as_ref().map(|_| Tally::default()));
         let mut record = Record {
             condition: index,
             trials: trials as u32,
             close: 0,
-            counted: vec![[0; 4]; COUNTERS.len()],
-            methods: vec![Tally::default(); candidates.len()],
+            counted: vec![[0; 4]; self.counters.len() + counting.len()],
+            methods: candidates.iter().map(|_| Some(Tally::default())).chain(tallies).collect(),
         };
-        for trial in first..first + trials {
+        let vectors = REGION[0] * REGION[1];
+        let mut cells = Array3::zeros((trials as usize, self.array.len(), vectors));
+        let mut truths: Vec<(Vec<f64>, bool)> = vec![];
+        for (trial, mut cell) in (first..).zip(cells.outer_iter_mut()) {
             let truth_deg = angles(targets, trial);
             let close = count == 2 && truth_deg[1] - truth_deg[0] < CLOSE_DEG;
             record.close += u32::from(close);
             let truth_deg: Vec<f64> = truth_deg.into_iter().map(f64::from).collect();
             let stream = ((index as u64) << 40) + trial;
-            let covariance = self.covariance(targets, &truth_deg, snr_db, stream)?;
+            let region = self.region(targets, &truth_deg, snr_db, stream)?;
+            cell.assign(&region_snapshots(region.view()));
+            truths.push((truth_deg, close));
+        }
+        for (cell, (truth_deg, close)) in cells.outer_iter().zip(&truths) {
+            let covariance = sample_covariance(cell);
             let snapshots = root(&covariance)?;
-            let vectors = REGION[0] * REGION[1];
             let data = Data::Covariance { matrix: covariance.view(), snapshots: vectors };
-            for (counts, (_, criterion, reversed)) in record.counted.iter_mut().zip(COUNTERS) {
-                let (_, counted) = count_sources_in(data, reversed, criterion)?;
+            let mut counts = record.counted.iter_mut();
+            for ((_, criterion, reversed), counts) in self.counters.iter().zip(&mut counts) {
+                let (_, counted) = count_sources_in(data, *reversed, *criterion)?;
                 counts[counted.sources.min(3)] += 1;
             }
-            for (tally, (estimator, covariance)) in record.methods.iter_mut().zip(&mut estimators) {
+            for (model, counts) in counting.iter().zip(counts) {
+                counts[model.count(data)?.sources.min(3)] += 1;
+            }
+            for ((estimator, covariance), tally) in estimators.iter_mut().zip(&mut record.methods) {
                 let data = if *covariance { data } else { Data::Snapshots(snapshots.view()) };
-                if let Some(found) = told::azimuths(estimator, data, count)? {
-                    let found: Vec<f64> = found.into_iter().map(f64::to_degrees).collect();
-                    tally.count(&truth_deg, &found, close);
+                let found = told::azimuths(estimator, data, count)?;
+                if let (Some(tally), Some(found)) = (tally, found) {
+                    tally.count(truth_deg, &found, *close);
+                }
+            }
+        }
+        let tallies = record.methods.iter_mut().skip(estimators.len());
+        for (network, tally) in networks.iter_mut().zip(tallies) {
+            let (Some(network), Some(tally)) = (network, tally) else { continue };
+            let batch = network.estimate_batch(cells.view(), false)?;
+            for (cell, (truth_deg, close)) in truths.iter().enumerate() {
+                if let Some(found) = told::strongest(batch.sources_of(cell), count) {
+                    tally.count(truth_deg, &found, *close);
                 }
             }
         }
         Ok(record)
     }
 
-    /// Simulates a frame and returns the covariance of its region of interest.
-    fn covariance(
+    /// Simulates a frame and returns its region of interest: range bins x elements x chirps.
+    fn region(
         &self,
         targets: Targets,
         truth_deg: &[f64],
         snr_db: f64,
         stream: u64,
-    ) -> Result<Array2<Complex64>, EvaluateError> {
+    ) -> Result<Array3<Complex32>, EvaluateError> {
         let mut random = Random::new(self.seed, stream);
         let [near, far] = self.range_m;
         let mut range_m = random.uniform(near, far);
@@ -195,8 +287,7 @@ impl Plan {
         let strongest = (0..spectrum.len_of(Axis(2)))
             .max_by(|&a, &b| power(a).total_cmp(&power(b)))
             .unwrap_or(0);
-        let region = crop_region(spectrum.view(), strongest, REGION[0], REGION[1])?;
-        Ok(region_covariance(region.view()))
+        Ok(crop_region(spectrum.view(), strongest, REGION[0], REGION[1])?)
     }
 
     /// Bounds of the error of one target's angle, root of the mean square over its angles, deg: of all samples of
@@ -227,6 +318,12 @@ impl Plan {
         }
         Ok(squares.map(|sum| (sum / f64::from(2 * LARGEST_DEG + 1)).sqrt().to_degrees()))
     }
+}
+
+/// A network answers with the most probable directions.
+fn known(targets: usize) -> Options {
+    let (sources, field_of_view_rad) = (SourceCount::Known(targets), FIELD_OF_VIEW_RAD);
+    Options { sources, field_of_view_rad, ..Options::default() }
 }
 
 /// Angles of a trial, deg, ascending: all single ones, or all pairs, in turn.
@@ -283,14 +380,22 @@ mod tests {
     #[test]
     fn errors_are_counted_exactly_and_rounded() {
         let mut tally = Tally::default();
+        let mut count = |truth_deg: &[f64], found_deg: &[f64], close| {
+            let found_rad: Vec<f64> =
+                found_deg.iter().map(|degrees| degrees.to_radians()).collect();
+            tally.count(truth_deg, &found_rad, close);
+            tally
+        };
         // Off by 0.4 and 0.1 deg; rounded they are right.
-        tally.count(&[-2.0, 1.0], &[-2.4, 1.1], true);
+        let tally = count(&[-2.0, 1.0], &[-2.4, 1.1], true);
         assert_eq!((tally.success, tally.within, tally.close_within), (1, [1; 3], [1; 3]));
         assert!((tally.squared_deg2 - 0.17).abs() < 1e-12);
+        assert!(tally.rounded_deg2 < 1e-12);
         // Beyond 10 deg there is no class: 12.4 counts as 10.
-        tally.count(&[-2.0, 9.0], &[-2.0, 12.4], false);
+        let tally = count(&[-2.0, 9.0], &[-2.0, 12.4], false);
         assert_eq!((tally.success, tally.within), (1, [1, 2, 2]));
-        tally.count(&[5.0], &[5.0 + 3.4], false);
+        assert!((tally.rounded_deg2 - 1.0).abs() < 1e-12);
+        let tally = count(&[5.0], &[5.0 + 3.4], false);
         assert_eq!((tally.found, tally.within, tally.close_success), (3, [1, 2, 3], 1));
         let mut sum = Tally::default();
         sum.add(&tally);

@@ -9,6 +9,7 @@ pub use report::Report;
 
 use crate::EvaluateError;
 use crate::aoa::{self, Condition, SNRS_DB, cell};
+use crate::entrants::Entrants;
 use crate::experiment::{Experiment, Trials};
 use boresight_core::CoreError;
 use boresight_core::error::check_range;
@@ -91,8 +92,9 @@ pub struct Options {
     pub trials: u64,
     /// Everything random comes from it.
     pub seed: u64,
-    /// Methods, as in [`aoa::Options`].
-    pub methods: Vec<String>,
+    /// Methods and networks, as in [`aoa::Options`].
+    #[serde(flatten)]
+    pub entrants: Entrants,
 }
 
 impl Options {
@@ -125,7 +127,7 @@ impl Experiment for Options {
                     array: self.array.clone(),
                     trials: self.trials,
                     seed: self.seed,
-                    methods: self.methods.clone(),
+                    entrants: self.entrants.clone(),
                     imperfections: setting
                         .map_or(ImperfectionSpread::default(), |(kind, s)| kind.spread(s)),
                 })
@@ -135,6 +137,14 @@ impl Experiment for Options {
 
     fn methods(plan: &Self::Plan) -> Vec<String> {
         plan.first().map_or(vec![], cell::Plan::names)
+    }
+
+    fn entrants(&mut self) -> Option<&mut Entrants> {
+        Some(&mut self.entrants)
+    }
+
+    fn join(record: &mut cell::Record, other: cell::Record) {
+        record.methods.extend(other.methods);
     }
 
     fn scenes(&self) -> u64 {

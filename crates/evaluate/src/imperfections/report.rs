@@ -74,11 +74,14 @@ impl Report {
         records: impl Iterator<Item = Record>,
     ) -> Self {
         let all = settings();
-        let empty = vec![Score::default(); methods.len()];
-        let mut sums = vec![empty; all.len() * NUMBERS.len()];
-        for record in records {
-            let Some(sum) = sums.get_mut(record.condition) else { continue };
-            sum.iter_mut().zip(&record.methods).for_each(|(to, from)| to.merge(&from.score));
+        let mut sums: Vec<Vec<Score>> = vec![vec![]; all.len() * NUMBERS.len()];
+        for Record { condition, methods } in records {
+            let Some(sum) = sums.get_mut(condition) else { continue };
+            if sum.is_empty() {
+                *sum = methods.into_iter().map(|m| m.score).collect();
+                continue;
+            }
+            sum.iter_mut().zip(&methods).for_each(|(to, from)| to.merge(&from.score));
         }
         let result = |sums: &[Vec<Score>], method: usize| {
             let best: Vec<_> = sums.iter().map(|scores| scores[method].best()).collect();
