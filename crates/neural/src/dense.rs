@@ -155,10 +155,10 @@ impl EvalOp for Dense {
     fn eval(&self, _: &EvalContext, inputs: TVec<TValue>) -> TractResult<TVec<TValue>> {
         let view = inputs[0].to_plain_array_view::<f32>()?;
         let given = view.as_slice().context("rows in C order")?;
-        let mut output = vec![0.0; self.shape.iter().product()];
-        self.multiply(given, &mut output);
-        let array = tract_ndarray::ArrayD::from_shape_vec(&*self.shape, output)?;
-        Ok(tvec!(Tensor::from(array).into()))
+        let mut tensor = Tensor::zero::<f32>(&self.shape)?;
+        let mut output = tensor.to_plain_array_view_mut::<f32>()?;
+        self.multiply(given, output.as_slice_mut().context("an output in C order")?);
+        Ok(tvec!(tensor.into()))
     }
 }
 
@@ -267,15 +267,36 @@ fn four_rows(panel: &[[f32; COLUMNS]], rows: &[f32], inner: usize) -> [[f32; COL
 
 #[inline(never)]
 fn one_row(panel: &[[f32; COLUMNS]], row: &[f32]) -> [f32; COLUMNS] {
-    let panel = &panel[..row.len()];
-    let [mut sum0, mut sum1] = [f32x4::ZERO; 2];
-    for k in 0..row.len() {
-        let [low, high] = halves(&panel[k]);
-        let a = f32x4::splat(row[k]);
-        sum0 += a * low;
-        sum1 += a * high;
+    // Four sums at a time, since each has to wait for its last addition.
+    let [mut a0, mut a1, mut b0, mut b1] = [f32x4::ZERO; 4];
+    let [mut c0, mut c1, mut d0, mut d1] = [f32x4::ZERO; 4];
+    let (fours, rest) = row.as_chunks::<4>();
+    let (panels, last) = panel.as_chunks::<4>();
+    for (numbers, panel) in fours.iter().zip(panels) {
+        let [low, high] = halves(&panel[0]);
+        let a = f32x4::splat(numbers[0]);
+        a0 += a * low;
+        a1 += a * high;
+        let [low, high] = halves(&panel[1]);
+        let b = f32x4::splat(numbers[1]);
+        b0 += b * low;
+        b1 += b * high;
+        let [low, high] = halves(&panel[2]);
+        let c = f32x4::splat(numbers[2]);
+        c0 += c * low;
+        c1 += c * high;
+        let [low, high] = halves(&panel[3]);
+        let d = f32x4::splat(numbers[3]);
+        d0 += d * low;
+        d1 += d * high;
     }
-    numbers([sum0, sum1])
+    for (&number, panel) in rest.iter().zip(last) {
+        let [low, high] = halves(panel);
+        let a = f32x4::splat(number);
+        a0 += a * low;
+        a1 += a * high;
+    }
+    numbers([(a0 + b0) + (c0 + d0), (a1 + b1) + (c1 + d1)])
 }
 
 #[cfg(test)]

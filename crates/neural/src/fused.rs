@@ -283,7 +283,9 @@ impl EvalOp for Fused {
             .iter()
             .map(|view| view.as_slice().context("an input in C order"))
             .collect::<TractResult<_>>()?;
-        let mut output = vec![0.0; self.shape.iter().product()];
+        let mut tensor = Tensor::zero::<f32>(&self.shape)?;
+        let mut view = tensor.to_plain_array_view_mut::<f32>()?;
+        let output = view.as_slice_mut().context("an output in C order")?;
         let inner = self.axes.len() - 1;
         let length = self.axes[inner];
         let mut registers: Vec<Vec<f32>> = vec![vec![0.0; TILE.min(length)]; self.steps.len()];
@@ -315,8 +317,7 @@ impl EvalOp for Fused {
             }
             Ok(())
         })?;
-        let array = tract_ndarray::ArrayD::from_shape_vec(&*self.shape, output)?;
-        Ok(tvec!(Tensor::from(array).into()))
+        Ok(tvec!(tensor.into()))
     }
 }
 
