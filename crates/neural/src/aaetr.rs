@@ -42,14 +42,9 @@ impl Aaetr {
             }
             .into());
         }
-        let positions = array.positions().iter().flatten().map(|&p| p as f32);
-        let positions = ArrayViewD::from_shape(&[elements, 3][..], &positions.collect::<Vec<_>>())
-            .map(|positions| model.runners_with("positions", positions));
-        let runners = positions
-            .map_err(|error| NeuralError::Refused { stage: "read", reason: error.to_string() })??;
         let card = model.card().and_then(|card| card.confidence);
         Ok(Self {
-            runners,
+            runners: model.runners_for(array)?,
             elements,
             confidence: options.confidence.or(card).unwrap_or(CONFIDENCE),
             limit: options.field_of_view_rad.sin() + 1e-9,

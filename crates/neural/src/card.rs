@@ -100,13 +100,6 @@ pub struct Port {
     pub axes: Vec<Axis>,
 }
 
-impl Port {
-    /// Whether its first axis counts the examples of a batch.
-    pub fn batched(&self) -> bool {
-        matches!(self.axes.first(), Some(Axis::Named(_)))
-    }
-}
-
 impl fmt::Display for Port {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let axes: Vec<String> = self.axes.iter().map(Axis::to_string).collect();

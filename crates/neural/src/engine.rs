@@ -46,22 +46,18 @@ impl Engine {
 
     /// Shapes of the outputs for one example, those of other than 32-bit floating-point numbers being empty.
     pub fn output_shapes(&self) -> Result<Vec<Vec<usize>>, NeuralError> {
-        let plan = self.plan(1)?;
+        let typed = self.typed(1)?;
         let shape = |at| {
-            let fact = plan.model().output_fact(at)?;
+            let fact = typed.output_fact(at)?;
             let shape = fact.shape.as_concrete().filter(|_| fact.datum_type == f32::datum_type());
             Ok(shape.unwrap_or_default().to_vec())
         };
-        let outputs = 0..plan.model().outputs.len();
+        let outputs = 0..typed.outputs.len();
         outputs.map(shape).collect::<TractResult<_>>().map_err(|error| refused("analysed", &error))
     }
 
     /// The same with an input that never changes, so that what follows from it is computed once.
-    pub fn with_constant(
-        &self,
-        name: &str,
-        value: ArrayViewD<'_, f32>,
-    ) -> Result<Self, NeuralError> {
+    pub fn with_constant(&self, name: &str, tensor: Tensor) -> Result<Self, NeuralError> {
         let mut engine = Self {
             graph: self.graph.clone(),
             inputs: self.inputs.clone(),
@@ -69,7 +65,6 @@ impl Engine {
             plans: Mutex::default(),
         };
         if let Some(at) = self.inputs.iter().position(|port| port.name == name) {
-            let tensor = tensor(value)?;
             let outlet = engine.graph.inputs.remove(at);
             let node = &mut engine.graph.nodes[outlet.node];
             let constant = Const::new(tensor.clone().into_arc_tensor())
@@ -94,6 +89,23 @@ impl Engine {
     }
 
     fn prepare(&self, batch: usize) -> Result<Runnable, NeuralError> {
+        let optimised = self.typed(batch)?.into_decluttered().and_then(|mut graph| {
+            // Natively tract has kernels for the processor at hand, which are faster than ours.
+            let ours = cfg!(target_family = "wasm");
+            if ours {
+                densify(&mut graph)?;
+            }
+            graph.optimize()?;
+            if ours {
+                fuse(&mut graph)?;
+            }
+            graph.into_runnable()
+        });
+        optimised.map_err(|error| refused("optimised", &error))
+    }
+
+    /// The graph with all types and shapes.
+    fn typed(&self, batch: usize) -> Result<TypedModel, NeuralError> {
         let mut graph = self.graph.clone();
         for (at, (port, &batched)) in self.inputs.iter().zip(&self.batched).enumerate() {
             let shape = shape(port, batched.then_some(batch));
@@ -114,19 +126,7 @@ impl Engine {
                 });
             }
         }
-        let optimised = typed.into_decluttered().and_then(|mut graph| {
-            // Natively tract has kernels for the processor at hand, which are faster than ours.
-            let ours = cfg!(target_family = "wasm");
-            if ours {
-                densify(&mut graph)?;
-            }
-            graph.optimize()?;
-            if ours {
-                fuse(&mut graph)?;
-            }
-            graph.into_runnable()
-        });
-        optimised.map_err(|error| refused("optimised", &error))
+        Ok(typed)
     }
 }
 
@@ -217,11 +217,15 @@ impl Runner {
 
 /// A tensor of the same numbers.
 pub(crate) fn tensor(array: ArrayViewD<'_, f32>) -> Result<Tensor, NeuralError> {
-    let tensor = match array.as_slice() {
-        Some(numbers) => Tensor::from_shape(array.shape(), numbers),
+    match array.as_slice() {
+        Some(numbers) => tensor_of(array.shape(), numbers),
         None => Ok(Tensor::from(array.to_owned())),
-    };
-    tensor.map_err(|error| refused("run", &error))
+    }
+}
+
+/// A tensor of some shape.
+pub(crate) fn tensor_of(shape: &[usize], numbers: &[f32]) -> Result<Tensor, NeuralError> {
+    Tensor::from_shape(shape, numbers).map_err(|error| refused("run", &error))
 }
 
 /// A tensor that `fill` writes the numbers of.

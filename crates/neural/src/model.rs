@@ -3,7 +3,7 @@
 use crate::aaetr::Aaetr;
 use crate::card::{Axis, Card, Kind, Port};
 use crate::classifier::Classifier;
-use crate::engine::{Engine, Runners, ports, tensor};
+use crate::engine::{Engine, Runners, ports, tensor, tensor_of};
 use crate::error::NeuralError;
 use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
@@ -14,7 +14,7 @@ use boresight_core::{Array, Complex32, CoreError};
 use boresight_signal::region::{region_covariance, region_snapshots};
 use ndarray::{ArrayD, ArrayView3, ArrayViewD, Axis as NdAxis, Slice};
 use sha2::{Digest, Sha256};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Most examples run at once.
 const MAX_BATCH: usize = 1 << 20;
@@ -30,6 +30,8 @@ pub struct Model {
     outputs: Vec<Port>,
     /// Whether the file takes one example at a time.
     single: bool,
+    /// The engine with the array of the last estimator in it, and the positions of its elements.
+    placed: Arc<Mutex<Option<(Vec<f32>, Arc<Engine>)>>>,
 }
 
 /// How probable each number of sources is.
@@ -59,7 +61,8 @@ impl Model {
         // Positions too have an axis of any length, which counts elements.
         let counts = |port: &Port| port.axes.first() == Some(&Axis::Named("batch".into()));
         let batched: Vec<bool> = wanted.iter().map(counts).collect();
-        let single = inputs.iter().zip(&batched).any(|(port, &batched)| batched && !port.batched());
+        let fixed = |port: &Port| matches!(port.axes.first(), Some(Axis::Length(_)));
+        let single = inputs.iter().zip(&batched).any(|(port, &batched)| batched && fixed(port));
         let engine = Engine::new(&proto, inputs.clone(), batched)?;
         let (kind, outputs) = checked_outputs(&engine, &kinds, &outputs, single)?;
         if let Some(card) = card {
@@ -68,7 +71,8 @@ impl Model {
             check_digest(card, &sha256)?;
         }
         let card = card.cloned().map(Arc::new);
-        Ok(Self { engine: Arc::new(engine), kind, card, sha256, inputs, outputs, single })
+        let (engine, placed) = (Arc::new(engine), Arc::default());
+        Ok(Self { engine, kind, card, sha256, inputs, outputs, single, placed })
     }
 
     /// What the network does.
@@ -178,13 +182,22 @@ impl Model {
         Runners::new(self.engine.clone(), self.single)
     }
 
-    /// The same on an engine with an input that never changes.
-    pub(crate) fn runners_with(
-        &self,
-        name: &str,
-        value: ArrayViewD<'_, f32>,
-    ) -> Result<Runners, NeuralError> {
-        Ok(Runners::new(Arc::new(self.engine.with_constant(name, value)?), self.single))
+    /// The same with the positions of an array in place of that input.
+    pub(crate) fn runners_for(&self, array: &Array) -> Result<Runners, NeuralError> {
+        let positions: Vec<f32> = array.positions().iter().flatten().map(|&p| p as f32).collect();
+        let mut placed = self.placed.lock().unwrap_or_else(PoisonError::into_inner);
+        let engine = match &*placed {
+            Some((known, engine)) if *known == positions => engine.clone(),
+            _ => {
+                let shape = [array.len(), 3];
+                let engine =
+                    self.engine.with_constant("positions", tensor_of(&shape, &positions)?)?;
+                let engine = Arc::new(engine);
+                *placed = Some((positions, engine.clone()));
+                engine
+            }
+        };
+        Ok(Runners::new(engine, self.single))
     }
 
     /// An estimator for an array.
@@ -261,13 +274,7 @@ impl Model {
         let mut probability = [0.0; 3];
         self.runners().run(
             1,
-            |_, _| {
-                let shape = [1, features.len()];
-                let view = ArrayViewD::from_shape(&shape[..], &features).map_err(|error| {
-                    NeuralError::Refused { stage: "run", reason: error.to_string() }
-                })?;
-                Ok([tensor(view)?.into()].into_iter().collect())
-            },
+            |_, _| Ok([tensor_of(&[1, features.len()], &features)?.into()].into_iter().collect()),
             |_, outputs| {
                 for (out, &given) in probability.iter_mut().zip(outputs[0].iter()) {
                     *out = f64::from(given);

@@ -12,7 +12,7 @@ use tract_onnx::pb::{AttributeProto, GraphProto, ModelProto, NodeProto, TensorPr
 const OPSETS: std::ops::RangeInclusive<i64> = 9..=21;
 
 /// Most axes of a tensor.
-const MAX_AXES: usize = 8;
+const MAX_AXES: i64 = 8;
 
 /// Checks all that tract takes on trust.
 pub(super) fn check(model: &ModelProto) -> Result<(), NeuralError> {
@@ -118,7 +118,7 @@ impl<'a> Checked<'a> {
             return Ok(());
         };
         let lengths = shape.iter().map(|&length| length.checked_abs().unwrap_or(i64::MAX).max(1));
-        if numbers(lengths).is_none() || shape.len() > 2 * MAX_AXES {
+        if numbers(lengths).is_none() || shape.len() > 2 * MAX_AXES as usize {
             let what = format!("size of the output of {:?} ({})", node.name, node.op_type);
             return Err(malformed(what, format!("at most {MAX_NUMBERS} numbers"), "more"));
         }
@@ -164,6 +164,16 @@ fn check_attribute(node: &NodeProto, attribute: &AttributeProto) -> Result<(), N
     let kind = AttributeType::try_from(attribute.r#type);
     if (kind == Ok(AttributeType::Tensor)) != attribute.t.is_some() {
         return Err(malformed(what(), "a tensor where its type says so", "none, or one too many"));
+    }
+    let axes = match (node.op_type.as_str(), attribute.name.as_str()) {
+        // Counted from the end they mean nothing on a batch of vectors or more.
+        ("Flatten", "axis") => Some(0..=1),
+        (_, "axis" | "axes" | "perm" | "batch_dims") => Some(-MAX_AXES..=MAX_AXES),
+        _ => None,
+    };
+    let axis = |i: &&i64| axes.as_ref().is_some_and(|axes| !axes.contains(i));
+    if let Some(given) = attribute.ints.iter().chain([&attribute.i]).find(axis) {
+        return Err(malformed(what(), "an axis a tensor can have", given.to_string()));
     }
     if attribute.f.is_nan() || attribute.floats.iter().any(|x| x.is_nan()) {
         return Err(NeuralError::NotFinite { what: what(), given: f32::NAN });
