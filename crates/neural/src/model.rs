@@ -31,8 +31,11 @@ pub struct Model {
     /// Whether the file takes one example at a time.
     single: bool,
     /// The engine with the array of the last estimator in it, and the positions of its elements.
-    placed: Arc<Mutex<Option<(Vec<f32>, Arc<Engine>)>>>,
+    placed: Arc<Mutex<Option<Placed>>>,
 }
+
+/// Positions of elements, and the engine with these in it.
+type Placed = (Vec<f32>, Arc<Engine>);
 
 /// How probable each number of sources is.
 #[derive(Debug, Clone, Copy, PartialEq)]

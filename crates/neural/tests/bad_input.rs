@@ -9,8 +9,8 @@ use boresight_core::{Array, Complex64, CoreError, Diagnose, Random};
 use boresight_neural::{Card, Kind, Model, NeuralError};
 use ndarray::{Array2, ArrayD};
 use support::{
-    Graph, bytes, card, floats, integer_attribute, integers, model, names, node, port,
-    tensor_attribute,
+    Field, Graph, bytes, card, floats, integer_attribute, integers, message, model, names, node,
+    port, tensor_attribute, text,
 };
 
 fn error(bytes: &[u8]) -> NeuralError {
@@ -100,27 +100,70 @@ fn graphs_that_contradict_themselves_are_told() {
     }
 }
 
+/// What made tract panic is an error, or has a meaning.
 #[test]
 fn attributes_out_of_range_are_no_panic() {
-    for axis in [-100, -3, 5, i64::MAX, i64::MIN] {
-        for operator in
-            ["Softmax", "Flatten", "Concat", "ReduceSum", "Gather", "Transpose", "Split"]
-        {
-            let mut graph = Graph::dnn();
-            let name = match operator {
-                "ReduceSum" => "axes",
-                "Transpose" => "perm",
-                _ => "axis",
-            };
-            let inputs: &[&str] =
-                if operator == "Gather" { &["layer", "which"] } else { &["layer"] };
-            graph.constants.push(integers("which", &[axis]));
-            graph.nodes[1] =
-                node(operator, inputs, "probability", &[integer_attribute(name, axis)]);
-            // Some of these mean something; none may panic.
-            let _ = Model::load(&graph.file(11), None);
+    let lists = |name: &str, value: i64| {
+        let mut fields = vec![text(1, name), Field::Number(20, 7)];
+        fields.extend([Field::Number(8, value), Field::Number(8, value)]);
+        message(&fields)
+    };
+    let operators = [
+        "Conv",
+        "ConvTranspose",
+        "MaxPool",
+        "AveragePool",
+        "Softmax",
+        "Flatten",
+        "Concat",
+        "ReduceSum",
+        "Gather",
+        "Transpose",
+        "Split",
+        "Squeeze",
+        "Unsqueeze",
+        "ConstantOfShape",
+        "Expand",
+        "MatMul",
+        "Slice",
+        "Trilu",
+        "ArgMax",
+        "TopK",
+    ];
+    let inputs: [&[&str]; 10] = [
+        &["layer"],
+        &["layer", "c"],
+        &["layer", "layer"],
+        &["layer", "c", "c", "c", "c"],
+        &["c"],
+        &["scalar"],
+        &["scalar", "c"],
+        &["layer", "scalar"],
+        &["image", "kernel"],
+        &["image"],
+    ];
+    let names = ["axis", "axes", "perm", "split", "kernel_shape", "strides", "pads", "group"];
+    for operator in operators {
+        for (inputs, name) in inputs.iter().flat_map(|i| names.iter().map(move |n| (*i, *n))) {
+            for value in [-3, 0, 5, i64::MAX, i64::MIN] {
+                let mut graph = Graph::dnn();
+                graph.constants.push(integers("c", &[value]));
+                graph.constants.push(floats("scalar", &[], &[0.5]));
+                graph.constants.push(floats("image", &[1, 2, 3, 3], &[0.5; 18]));
+                graph.constants.push(floats("kernel", &[2, 2, 3, 3], &[0.5; 36]));
+                let attribute = match name {
+                    "axis" | "group" => integer_attribute(name, value),
+                    _ => lists(name, value),
+                };
+                graph.nodes[1] = node(operator, inputs, "odd", &[attribute]);
+                graph.nodes.push(node("Sigmoid", &["odd"], "probability", &[]));
+                let _ = Model::load(&graph.file(13), None);
+            }
         }
     }
+    let mut graph = Graph::dnn();
+    graph.nodes[1] = node("Flatten", &["layer"], "probability", &[integer_attribute("axis", -3)]);
+    assert!(matches!(error(&graph.file(13)), NeuralError::Malformed { .. }));
     let mut graph = Graph::dnn();
     let value = tensor_attribute("value", floats("value", &[2, 3], &[1.0]));
     graph.nodes.insert(0, node("Constant", &[], "unused", &[value]));

@@ -117,7 +117,7 @@ fn two_targets_are_found_to_a_degree_and_mirrored_by_a_mirrored_array() {
             // A fifth less than on the card: 20 scatter by two.
             let stated = metric(&name, "within1Deg");
             println!("{name}: {good} of 20, {stated} on its card");
-            assert!(f64::from(good) >= 20.0 * (stated - 0.2), "{name}: {good}");
+            assert!(good as f64 >= 20.0 * (stated - 0.2), "{name}: {good}");
         }
     }
 }

@@ -1,18 +1,18 @@
 //! A graph's nodes: supported, each after what it needs, with sound constants.
 
+use super::axes::{Axes, MAX_AXES};
 use super::malformed;
 use super::operators::{arity, size_input};
 use super::tensor::{MAX_NUMBERS, check as check_tensor, integers, numbers};
 use crate::error::NeuralError;
 use std::collections::{HashMap, HashSet};
 use tract_onnx::pb::attribute_proto::AttributeType;
-use tract_onnx::pb::{AttributeProto, GraphProto, ModelProto, NodeProto, TensorProto};
+use tract_onnx::pb::{
+    AttributeProto, GraphProto, ModelProto, NodeProto, TensorProto, ValueInfoProto, type_proto,
+};
 
 /// Versions of the operators.
 const OPSETS: std::ops::RangeInclusive<i64> = 9..=21;
-
-/// Most axes of a tensor.
-const MAX_AXES: i64 = 8;
 
 /// Checks all that tract takes on trust.
 pub(super) fn check(model: &ModelProto) -> Result<(), NeuralError> {
@@ -48,6 +48,7 @@ pub(super) fn check(model: &ModelProto) -> Result<(), NeuralError> {
 struct Checked<'a> {
     defined: HashSet<&'a str>,
     constants: HashMap<&'a str, &'a TensorProto>,
+    axes: Axes<'a>,
 }
 
 impl<'a> Checked<'a> {
@@ -59,10 +60,14 @@ impl<'a> Checked<'a> {
             check_tensor(tensor, &tensor.name)?;
             self.define(&tensor.name)?;
             self.constants.insert(&tensor.name, tensor);
+            self.axes.insert(&tensor.name, tensor.dims.len());
         }
         for input in &graph.input {
             if !self.constants.contains_key(input.name.as_str()) {
                 self.define(&input.name)?;
+                if let Some(axes) = axes_of(input) {
+                    self.axes.insert(&input.name, axes);
+                }
             }
         }
         for node in &graph.node {
@@ -100,13 +105,14 @@ impl<'a> Checked<'a> {
             check_attribute(node, attribute)?;
         }
         self.size(node)?;
+        self.parts(node)?;
         for name in &node.output {
             self.define(name)?;
         }
         if let ("Constant", Some(tensor)) = (node.op_type.as_str(), value(node)) {
             self.constants.insert(&node.output[0], tensor);
         }
-        Ok(())
+        self.axes.node(node, &self.constants)
     }
 
     /// Where a constant sets the size of an output, checks that it can be held.
@@ -117,10 +123,40 @@ impl<'a> Checked<'a> {
         let Some(shape) = constant.map(|tensor| integers(tensor)) else {
             return Ok(());
         };
+        let negative = shape.iter().any(|&length| length < 0);
+        if negative && matches!(node.op_type.as_str(), "ConstantOfShape" | "Expand" | "Tile") {
+            let what = format!("size of the output of {:?} ({})", node.name, node.op_type);
+            return Err(malformed(what, "lengths of axes", format!("{shape:?}")));
+        }
         let lengths = shape.iter().map(|&length| length.checked_abs().unwrap_or(i64::MAX).max(1));
-        if numbers(lengths).is_none() || shape.len() > 2 * MAX_AXES as usize {
+        if numbers(lengths).is_none() || shape.len() > 2 * MAX_AXES {
             let what = format!("size of the output of {:?} ({})", node.name, node.op_type);
             return Err(malformed(what, format!("at most {MAX_NUMBERS} numbers"), "more"));
+        }
+        Ok(())
+    }
+
+    /// Checks sizes of parts and steps: none may be zero.
+    fn parts(&self, node: &NodeProto) -> Result<(), NeuralError> {
+        let given = match node.op_type.as_str() {
+            "Split" => node.input.get(1),
+            "Slice" => node.input.get(4),
+            _ => return Ok(()),
+        };
+        let listed =
+            node.attribute.iter().filter(|a| a.name == "split").flat_map(|a| a.ints.clone());
+        let constant = given.and_then(|name| self.constants.get(name.as_str()));
+        let mut numbers = constant.map(|tensor| integers(tensor)).unwrap_or_default();
+        let missing = given.is_some_and(|name| !name.is_empty()) && numbers.is_empty();
+        numbers.extend(listed);
+        let splits = node.op_type == "Split";
+        if missing || numbers.iter().any(|&n| n == 0 || (splits && n < 0)) {
+            let what = format!("sizes or steps of {:?} ({})", node.name, node.op_type);
+            return Err(malformed(
+                what,
+                "constant integers other than zero",
+                format!("{numbers:?}"),
+            ));
         }
         Ok(())
     }
@@ -139,6 +175,12 @@ impl<'a> Checked<'a> {
         }
         Ok(())
     }
+}
+
+/// The number of axes an input is stated to have.
+fn axes_of(input: &ValueInfoProto) -> Option<usize> {
+    let type_proto::Value::TensorType(tensor) = input.r#type.as_ref()?.value.as_ref()?;
+    Some(tensor.shape.as_ref()?.dim.len())
 }
 
 /// The tensor of a constant.
@@ -164,16 +206,6 @@ fn check_attribute(node: &NodeProto, attribute: &AttributeProto) -> Result<(), N
     let kind = AttributeType::try_from(attribute.r#type);
     if (kind == Ok(AttributeType::Tensor)) != attribute.t.is_some() {
         return Err(malformed(what(), "a tensor where its type says so", "none, or one too many"));
-    }
-    let axes = match (node.op_type.as_str(), attribute.name.as_str()) {
-        // Counted from the end they mean nothing on a batch of vectors or more.
-        ("Flatten", "axis") => Some(0..=1),
-        (_, "axis" | "axes" | "perm" | "batch_dims") => Some(-MAX_AXES..=MAX_AXES),
-        _ => None,
-    };
-    let axis = |i: &&i64| axes.as_ref().is_some_and(|axes| !axes.contains(i));
-    if let Some(given) = attribute.ints.iter().chain([&attribute.i]).find(axis) {
-        return Err(malformed(what(), "an axis a tensor can have", given.to_string()));
     }
     if attribute.f.is_nan() || attribute.floats.iter().any(|x| x.is_nan()) {
         return Err(NeuralError::NotFinite { what: what(), given: f32::NAN });

@@ -3,6 +3,7 @@
 //! What tract takes on trust from a file (lengths, names, arities) is checked here, so that a bad file gives an error
 //! that says what is wrong with it, and never a panic.
 
+mod axes;
 mod graph;
 mod operators;
 mod outline;

@@ -23,7 +23,7 @@ pub(super) fn arity(operator: &str) -> Option<Arity> {
         "MaxPool" => ([1, 1], 1),
         "Add" | "And" | "Div" | "Equal" | "Greater" | "GreaterOrEqual" | "Less" | "LessOrEqual"
         | "MatMul" | "Mod" | "Mul" | "Or" | "PRelu" | "Pow" | "Sub" | "Xor" | "Expand"
-        | "Reshape" | "Tile" | "Gather" | "GatherElements" | "GatherND" | "CumSum" => ([2, 2], 1),
+        | "Reshape" | "Tile" | "Gather" | "CumSum" => ([2, 2], 1),
         "TopK" => ([2, 2], 2),
         "Where" | "InstanceNormalization" | "ScatterElements" | "ScatterND" => ([3, 3], 1),
         "Conv" | "ConvTranspose" | "Gemm" | "LayerNormalization" => ([2, 3], 1),
@@ -48,5 +48,15 @@ pub(super) fn size_input(operator: &str) -> Option<usize> {
         "ConstantOfShape" => Some(0),
         "Expand" | "Tile" | "Pad" | "Reshape" => Some(1),
         _ => None,
+    }
+}
+
+/// Fewest axes of an operator's first input.
+pub(super) fn fewest_axes(operator: &str) -> usize {
+    match operator {
+        "Conv" | "ConvTranspose" | "MaxPool" | "AveragePool" => 3,
+        "Trilu" => 2,
+        "Flatten" | "Split" | "MatMul" => 1,
+        _ => 0,
     }
 }
