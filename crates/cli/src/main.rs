@@ -29,6 +29,7 @@ fn main() -> ExitCode {
         Command::Image { what } => commands::image::run(&what),
         Command::Log(arguments) => commands::log::run(&arguments),
         Command::Methods(format) => commands::lists::methods(format.json),
+        Command::Network(arguments) => commands::network::run(&arguments),
         Command::Arrays(format) => commands::lists::arrays(format.json),
     };
     match result.and_then(|text| print(&text)) {

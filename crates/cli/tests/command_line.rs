@@ -170,7 +170,8 @@ fn a_moving_target_in_a_simulated_cube_is_found() {
 #[test]
 fn lists_are_complete() {
     let methods = json(&["methods", "--json"]);
-    assert_eq!(methods.len(), boresight_aoa::Method::ALL.len());
+    let known = boresight_aoa::Method::ALL.len() + boresight_aoa::Method::NETWORKS.len();
+    assert_eq!(methods.len(), known);
     assert!(methods.iter().all(|m| m["name"].is_string() && m["reference"].is_string()));
     assert!(stdout(&["methods"]).contains("root-music"));
     let arrays = json(&["arrays", "--json"]);

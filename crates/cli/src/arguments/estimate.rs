@@ -52,14 +52,35 @@ pub struct EstimateArguments {
     pub chain: ChainArguments,
 }
 
+/// Names of all methods, networks too.
+pub fn methods() -> Vec<&'static str> {
+    Method::ALL.into_iter().chain(Method::NETWORKS).map(Method::name).collect()
+}
+
+/// The model that methods aaetr, dnn and cnn3d run.
+#[derive(Debug, Args)]
+pub struct ModelArguments {
+    /// Model of a network, an ONNX file.
+    #[arg(long, value_name = "FILE")]
+    pub model: Option<PathBuf>,
+    /// Its card; without it the .json file of its name, if there is one.
+    #[arg(long, value_name = "FILE", requires = "model")]
+    pub card: Option<PathBuf>,
+}
+
 /// Options of angle estimation.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Angle estimation")]
 pub struct AngleArguments {
     /// Method.
-    #[arg(long, default_value = "bartlett",
-          value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
+    #[arg(long, default_value = "bartlett", value_parser = PossibleValuesParser::new(methods()))]
     pub method: String,
+    /// Model.
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Least confidence of a network's sources, from 0 to 1; without it that of the model's card.
+    #[arg(long, value_name = "P")]
+    pub confidence: Option<f64>,
     /// Number of sources in a cell, or aic or mdl to count them (methods that need it).
     #[arg(long, value_name = "N|aic|mdl", default_value = "mdl")]
     pub sources: String,

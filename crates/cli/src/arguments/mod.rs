@@ -7,7 +7,7 @@ mod image;
 mod simulate;
 
 pub use drives::{CalibrateArguments, LogArguments};
-pub use estimate::{AngleArguments, ChainArguments, EstimateArguments};
+pub use estimate::{AngleArguments, ChainArguments, EstimateArguments, ModelArguments};
 pub use evaluate::{
     DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
 };
@@ -18,6 +18,7 @@ pub use simulate::{
 
 use boresight_core::imperfections::ImperfectionSpread;
 use clap::{ArgGroup, Args, Parser, Subcommand};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -31,6 +32,8 @@ Examples:
     boresight simulate snapshots --array ula8 --target azimuth=-5 --target azimuth=20,power=-3 \\
       --snapshots 50 --seed 1 --out two.npy
     boresight estimate two.npy --array ula8 --method music --sources 2
+  The same of a long-range array by a trained network:
+    boresight estimate cell.npy --array lrr48 --method aaetr --model models/aaetr-small.onnx
 
 Angles are in degrees, positive to the left; range rates are positive when receding.";
 
@@ -72,8 +75,20 @@ pub enum Command {
     },
     /// List the methods of angle estimation, and what each needs.
     Methods(ListFormat),
+    /// Tell what a trained network is: inputs, outputs, what its card says of it.
+    Network(TellArguments),
     /// List the arrays known by name.
     Arrays(ListFormat),
+}
+
+/// Arguments of `network`.
+#[derive(Debug, Args)]
+pub struct TellArguments {
+    /// The model (.onnx).
+    pub model: PathBuf,
+    /// Its card; without it the .json file of its name, if there is one.
+    #[arg(long, value_name = "FILE")]
+    pub card: Option<PathBuf>,
 }
 
 /// How lists are printed.

@@ -4,10 +4,10 @@ use super::chain::{chain_options, detections};
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
 use crate::output::remark;
-use crate::{array, files};
+use crate::{array, files, network};
 use boresight_core::Array;
 use boresight_formats::{Capture, RadarConfig};
-use boresight_pipeline::{Chain, Frame, FrameSource};
+use boresight_pipeline::{Frame, FrameSource};
 
 /// The frames of a capture.
 pub struct CaptureFrames<'a>(pub Capture<'a>);
@@ -36,8 +36,9 @@ pub fn run(arguments: &EstimateArguments, bytes: &[u8]) -> Result<String, CliErr
     let capture = Capture::new(bytes, &config)?;
     remark(config.remarks.iter().chain(capture.remarks()).map(|remark| remark.message.clone()));
     let array = array_of(arguments, &config)?;
-    let receivers = config.receivers.len();
-    let mut chain = Chain::new(&config.waveform, receivers, &array, &chain_options(arguments)?)?;
+    let (options, receivers) = (chain_options(arguments)?, config.receivers.len());
+    let model = &arguments.angle.model;
+    let mut chain = network::chain(&config.waveform, receivers, &array, &options, model)?;
     detections(arguments, &mut chain, &CaptureFrames(capture))
 }
 

@@ -33,6 +33,7 @@ pub fn angle_options(arguments: &AngleArguments) -> Result<(Method, Options), Cl
         dynamic_range_db: arguments.dynamic_range,
         max_peaks: arguments.max_peaks,
         refine: arguments.refine,
+        confidence: arguments.confidence,
         ..Options::default()
     };
     Ok((Method::from_name(&arguments.method)?, options))

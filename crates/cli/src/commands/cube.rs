@@ -4,10 +4,10 @@ use super::capture::array_of;
 use super::chain::{chain_options, detections};
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
-use crate::{array, files};
+use crate::{array, files, network};
 use boresight_core::CoreError;
 use boresight_formats::{NpyArray, RadarConfig};
-use boresight_pipeline::{Chain, CubeFrames};
+use boresight_pipeline::CubeFrames;
 use ndarray::Array5;
 
 /// Detections in a data cube of frames x loops x transmitters x receivers x samples; a cube of one
@@ -45,6 +45,7 @@ pub fn run(arguments: &EstimateArguments, file: &NpyArray) -> Result<String, Cli
             });
         }
     };
-    let mut chain = Chain::new(&waveform, shape[3], &array, &chain_options(arguments)?)?;
+    let (options, model) = (chain_options(arguments)?, &arguments.angle.model);
+    let mut chain = network::chain(&waveform, shape[3], &array, &options, model)?;
     detections(arguments, &mut chain, &CubeFrames(cube.view()))
 }

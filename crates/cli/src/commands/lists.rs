@@ -11,7 +11,8 @@ use serde_json::{Value, json};
 pub fn methods(as_json: bool) -> Result<String, CliError> {
     if as_json {
         let list: Vec<Value> = Method::ALL
-            .iter()
+            .into_iter()
+            .chain(Method::NETWORKS)
             .map(|method| {
                 let mut entry = json!(method.requirements());
                 entry["name"] = method.name().into();
@@ -24,7 +25,7 @@ pub fn methods(as_json: bool) -> Result<String, CliError> {
         "{:<22} {:<10} {:<12} {:<10} {:<8} {}\n",
         "method", "snapshots", "array", "elevation", "sources", "reference"
     );
-    for method in Method::ALL {
+    for method in Method::ALL.into_iter().chain(Method::NETWORKS) {
         let needs = method.requirements();
         let snapshots = match needs.max_snapshots {
             Some(most) if most == needs.min_snapshots => most.to_string(),
@@ -45,7 +46,8 @@ pub fn methods(as_json: bool) -> Result<String, CliError> {
         );
     }
     text += "\nsnapshots: of one cell; averaging and smoothing make more of one.\n\
-             sources: whether their number must be given or counted (--sources) beforehand.\n";
+             sources: whether their number must be given or counted (--sources) beforehand.\n\
+             aaetr, dnn and cnn3d are networks and need a trained model (--model).\n";
     Ok(text)
 }
 

@@ -10,6 +10,7 @@ pub mod evaluate;
 pub mod image;
 pub mod lists;
 pub mod log;
+pub mod network;
 pub mod simulate;
 mod simulated_drive;
 mod snapshots;

@@ -3,10 +3,10 @@
 use super::chain::angle_options;
 use super::estimate::frame_within;
 use crate::arguments::EstimateArguments;
-use crate::array;
 use crate::error::CliError;
 use crate::output::{Column, Table, remark};
-use boresight_aoa::{Data, Estimator};
+use crate::{array, network};
+use boresight_aoa::{Data, Method};
 use boresight_core::units::power_to_db;
 use boresight_core::{Complex64, CoreError};
 use boresight_formats::NpyArray;
@@ -38,7 +38,8 @@ pub fn run(arguments: &EstimateArguments, scenes: &Array3<Complex64>) -> Result<
         given: "nothing".into(),
     })?;
     let (method, options) = angle_options(&arguments.angle)?;
-    let mut estimator = Estimator::new(method, &array::array(name)?, &options)?;
+    let model = &arguments.angle.model;
+    let mut estimator = network::estimator(method, &array::array(name)?, &options, model)?;
     let count = scenes.len_of(Axis(0));
     let chosen = match arguments.frame {
         Some(frame) => {
@@ -63,20 +64,23 @@ pub fn run(arguments: &EstimateArguments, scenes: &Array3<Complex64>) -> Result<
                 source.direction.azimuth_rad.to_degrees(),
                 source.direction.elevation_rad.to_degrees(),
                 power_to_db(source.power),
+                source.confidence.unwrap_or(f64::NAN),
             ]
         }));
     }
     remark(notes);
     let column = |json, csv, digits| Column { json, csv, digits };
-    let table = Table {
-        columns: vec![
-            column("scene", "scene", 0),
-            column("azimuthDeg", "azimuth_deg", 3),
-            column("elevationDeg", "elevation_deg", 3),
-            column("powerDb", "power_db", 2),
-        ],
-        rows,
-        empty: "no sources",
-    };
+    let mut columns = vec![
+        column("scene", "scene", 0),
+        column("azimuthDeg", "azimuth_deg", 3),
+        column("elevationDeg", "elevation_deg", 3),
+        column("powerDb", "power_db", 2),
+    ];
+    if Method::NETWORKS.contains(&method) {
+        columns.push(column("confidence", "confidence", 3));
+    } else {
+        rows.iter_mut().for_each(|row: &mut Vec<f64>| row.truncate(columns.len()));
+    }
+    let table = Table { columns, rows, empty: "no sources" };
     table.render(&arguments.output)
 }

@@ -1,0 +1,93 @@
+//! Trained networks on the command line.
+
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{boresight, folder, stdout};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+fn model(name: &str) -> String {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
+    folder.join(format!("{name}.onnx")).to_str().unwrap().into()
+}
+
+/// Two targets at 30 dB in one snapshot of the long-range array.
+fn snapshot(folder: &Path) -> PathBuf {
+    let out = folder.join("two.npy");
+    stdout(&[
+        "simulate",
+        "snapshots",
+        "--array",
+        "lrr48",
+        "--target",
+        "azimuth=-5",
+        "--target",
+        "azimuth=20,power=-3",
+        "--snr",
+        "30",
+        "--seed",
+        "1",
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    out
+}
+
+#[test]
+fn a_network_estimates_like_any_method() {
+    let folder = folder("network-estimates");
+    let file = snapshot(&folder);
+    let base = ["estimate", file.to_str().unwrap(), "--array", "lrr48", "--method", "aaetr"];
+    let run = |extra: &[&str]| {
+        let text = stdout(&[&base[..], extra].concat());
+        serde_json::from_str::<Vec<Value>>(&text).unwrap()
+    };
+    let path = model("aaetr-small");
+    for extra in [&[][..], &["--refine"]] {
+        let sources =
+            run(&[&["--model", &path, "--field-of-view", "60", "--json"][..], extra].concat());
+        assert_eq!(sources.len(), 2, "{sources:?}");
+        for (source, (azimuth, power)) in sources.iter().zip([(-5.0, 0.0), (20.0, -3.0)]) {
+            assert!((source["azimuthDeg"].as_f64().unwrap() - azimuth).abs() < 0.1, "{source}");
+            assert!((source["powerDb"].as_f64().unwrap() - power).abs() < 1.0, "{source}");
+        }
+    }
+}
+
+#[test]
+fn a_model_tells_what_it_is() {
+    let text = stdout(&["network", &model("aaetr-small")]);
+    for part in ["aaetr", "snapshots [batch, 48, 2]", "targets [batch, 96, 3]", "lrr48", "SHA-256"]
+    {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn errors_name_the_file() {
+    let folder = folder("network-errors");
+    let file = snapshot(&folder);
+    let refused = |extra: &[&str]| {
+        let base = ["estimate", file.to_str().unwrap(), "--array", "lrr48", "--method", "aaetr"];
+        let output = boresight(&[&base[..], extra].concat());
+        assert!(!output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert!(refused(&[]).contains("--model"));
+    let other = refused(&["--model", &model("counting")]);
+    assert!(other.contains("counting.onnx") && other.contains("wrong-network"), "{other}");
+    let whole = std::fs::read(model("aaetr-small")).unwrap();
+    let cut = folder.join("cut.onnx");
+    std::fs::write(&cut, &whole[..whole.len() / 2]).unwrap();
+    let truncated = refused(&["--model", cut.to_str().unwrap()]);
+    assert!(truncated.contains("cut.onnx") && truncated.contains("truncated-file"), "{truncated}");
+    let text = folder.join("text.onnx");
+    std::fs::write(&text, "no network").unwrap();
+    assert!(refused(&["--model", text.to_str().unwrap()]).contains("not-onnx"));
+    let card = folder.join("card.json");
+    std::fs::write(&card, "{}").unwrap();
+    let bad = refused(&["--model", &model("aaetr-small"), "--card", card.to_str().unwrap()]);
+    assert!(bad.contains("card.json") && bad.contains("malformed-card"), "{bad}");
+}
