@@ -27,7 +27,7 @@ fn wrong(path: &Path, error: NeuralError) -> CliError {
 }
 
 /// The model for a method, if that is a network, and its file.
-fn model_for(
+pub fn model_for(
     method: Method,
     arguments: &ModelArguments,
 ) -> Result<Option<(Model, PathBuf)>, CliError> {

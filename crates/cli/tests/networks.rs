@@ -91,3 +91,24 @@ fn errors_name_the_file() {
     let bad = refused(&["--model", &model("aaetr-small"), "--card", card.to_str().unwrap()]);
     assert!(bad.contains("card.json") && bad.contains("malformed-card"), "{bad}");
 }
+
+#[test]
+fn an_image_of_a_street_is_made_by_a_network() {
+    let path = model("aaetr-small");
+    let base = [
+        "image",
+        "street",
+        "--radars",
+        "front-right",
+        "--cell",
+        "1",
+        "--json",
+        "--method",
+        "iaa,aaetr",
+    ];
+    let text = stdout(&[&base[..], &["--from", "targets", "--model", &path]].concat());
+    let rows: Vec<Value> = serde_json::from_str(&text).unwrap();
+    let lit = |row: &Value| row["litTargets"].as_f64().unwrap();
+    assert_eq!(rows[1]["method"], "aaetr");
+    assert!(lit(&rows[1]) > 0.7 * lit(&rows[0]), "{rows:?}");
+}

@@ -9,6 +9,7 @@ use boresight_image::{
     BirdsEyeView, Gate, Grid, Outside, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target,
     ViewGrid, birds_eye_view,
 };
+use boresight_neural::Model;
 use boresight_pipeline::{Chain, ChainOptions, FrameCells, suited};
 use boresight_simulate::{Street, VisibleTarget};
 use ndarray::Axis;
@@ -71,7 +72,7 @@ pub fn map_grid(waveform: &Waveform, field_of_view_rad: f64) -> Result<Grid, Eva
     Ok(Grid::new([0.0, last_m], waveform.samples, field_of_view_rad, AZIMUTHS)?)
 }
 
-/// Estimates the angles in the cells of a frame and adds them up to a map.
+/// Estimates the angles in the cells of a frame and adds them up to a map; `model` is that of a network.
 ///
 /// # Errors
 /// What the method says of array, options and snapshots; [`CoreError::Unknown`] for spectra of a
@@ -80,10 +81,14 @@ pub fn frame_map(
     cells: &FrameCells,
     array: &Array,
     angles: &Angles,
+    model: Option<&Model>,
     grid: Grid,
 ) -> Result<FrameMap, EvaluateError> {
     let Angles { method, options, content } = angles;
-    let mut estimator = Estimator::new(*method, array, &suited(*method, array, options))?;
+    let mut estimator = match model {
+        Some(model) => model.estimator(array, options)?,
+        None => Estimator::new(*method, array, &suited(*method, array, options))?,
+    };
     let wants_spectra = *content == Content::Spectra;
     let estimates = estimator.estimate_batch(cells.snapshots.view(), wants_spectra)?;
     let mut image = RangeAzimuthDoppler::new(grid, None)?;
@@ -106,7 +111,7 @@ fn add_sources(
             rate_mps: cell.rate_mps,
             azimuth_rad: source.direction.azimuth_rad,
             power: source.power,
-            confidence: 1.0,
+            confidence: source.confidence.unwrap_or(1.0),
         })?;
     }
     Ok(())
@@ -199,12 +204,17 @@ impl StreetFrames {
     ///
     /// # Errors
     /// As [`frame_map`] and [`birds_eye_view`].
-    pub fn image(&self, angles: &Angles, grid: ViewGrid) -> Result<StreetImage, EvaluateError> {
+    pub fn image(
+        &self,
+        angles: &Angles,
+        model: Option<&Model>,
+        grid: ViewGrid,
+    ) -> Result<StreetImage, EvaluateError> {
         let (mut maps, mut warnings, mut outside) = (vec![], vec![], Outside::default());
         for frame in &self.frames {
             let radar = &self.street.radars[frame.radar];
             let map_grid = map_grid(&radar.waveform, radar.field_of_view_rad)?;
-            let made = frame_map(&frame.cells, &preset(radar.array)?, angles, map_grid)?;
+            let made = frame_map(&frame.cells, &preset(radar.array)?, angles, model, map_grid)?;
             outside.count += made.map.outside.count;
             outside.power += made.map.outside.power;
             warnings.extend(made.warnings);

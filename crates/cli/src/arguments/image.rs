@@ -1,7 +1,7 @@
 //! What `image` takes.
 
+use super::estimate::{ModelArguments, methods};
 use super::pair;
-use boresight_aoa::Method;
 use boresight_simulate::street::STREET_RADARS;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Subcommand};
@@ -21,8 +21,11 @@ pub enum ImageCommand {
 pub struct ImageArguments {
     /// Method of angle estimation; several, with commas between, make an image each.
     #[arg(long, default_value = "iaa", value_delimiter = ',',
-          value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
+          value_parser = PossibleValuesParser::new(methods()))]
     pub method: Vec<String>,
+    /// Model.
+    #[command(flatten)]
+    pub model: ModelArguments,
     /// What goes into the image: the angles found in each cell, or the spectrum of each cell;
     /// without it spectra where the method has them.
     #[arg(long, value_name = "WHAT", value_parser = ["targets", "spectra"])]

@@ -6,7 +6,7 @@ use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, Imag
 use crate::error::CliError;
 use crate::output::remark;
 use crate::run::Run;
-use crate::{files, picture};
+use crate::{files, network, picture};
 use boresight_aoa::Method;
 use boresight_core::drive::Mounting;
 use boresight_evaluate::images::{
@@ -48,7 +48,9 @@ fn street(arguments: &ImageStreetArguments) -> Result<String, CliError> {
     );
     let mut rows = vec![];
     for name in &shared.method {
-        let image = frames.image(&angles(shared, name)?, grid)?;
+        let angles = angles(shared, name)?;
+        let model = network::model_for(angles.method, &shared.model)?;
+        let image = frames.image(&angles, model.as_ref().map(|(model, _)| model), grid)?;
         remark(image.warnings.iter().map(|warning| format!("{name}: {warning}")));
         let measure = sidelobe_measure(&image.view, &targets, gate)?;
         let (outside_db, peak_db) = (measure.outside_db(), measure.peak_outside_db());
@@ -100,7 +102,10 @@ fn capture(arguments: &ImageCaptureArguments) -> Result<String, CliError> {
     let mut rows = vec![];
     for name in &shared.method {
         let map_grid = map_grid(&waveform, FRAC_PI_3)?;
-        let made = frame_map(&cells, &array, &angles(shared, name)?, map_grid)?;
+        let angles = angles(shared, name)?;
+        let model = network::model_for(angles.method, &shared.model)?;
+        let model = model.as_ref().map(|(model, _)| model);
+        let made = frame_map(&cells, &array, &angles, model, map_grid)?;
         remark(made.warnings.iter().map(|warning| format!("{name}: {warning}")));
         let here = Mounting { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0 };
         let view = birds_eye_view(&[(&made.map, here)], grid)?;
