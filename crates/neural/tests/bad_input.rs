@@ -70,7 +70,8 @@ fn graphs_that_contradict_themselves_are_told() {
     let operator = changed(|g| g.nodes[1] = node("NoSuchOperator", &["layer"], "probability", &[]));
     assert_eq!(operator, NeuralError::UnsupportedOperator { name: "NoSuchOperator".into() });
     assert_eq!(operator.code(), "unsupported-operator");
-    let malformed: [(&str, fn(&mut Graph)); 8] = [
+    type Change = fn(&mut Graph);
+    let malformed: [(&str, Change); 8] = [
         ("used before it is there", |g| g.nodes.swap(0, 1)),
         ("a cycle", |g| g.nodes[0] = node("MatMul", &["probability", "weights"], "layer", &[])),
         ("a missing input", |g| g.nodes[0] = node("MatMul", &["covariance"], "layer", &[])),
