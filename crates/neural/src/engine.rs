@@ -8,6 +8,8 @@ use ndarray::{ArrayD, ArrayViewD};
 use std::sync::{Arc, Mutex, PoisonError};
 use tract_onnx::pb::{ModelProto, ValueInfoProto, tensor_proto, tensor_shape_proto, type_proto};
 use tract_onnx::prelude::*;
+use tract_onnx::tract_core::model::TypedModelPatch;
+use tract_onnx::tract_core::ops::cast::Cast;
 use tract_onnx::tract_core::ops::konst::Const;
 use tract_onnx::tract_core::plan::SimpleState;
 use tract_onnx::tract_hir::infer::InferenceOp;
@@ -89,7 +91,8 @@ impl Engine {
     }
 
     fn prepare(&self, batch: usize) -> Result<Runnable, NeuralError> {
-        let optimised = self.typed(batch)?.into_decluttered().and_then(|mut graph| {
+        let wide = widen(self.typed(batch)?).and_then(TypedModel::into_decluttered);
+        let optimised = wide.and_then(|mut graph| {
             // Natively tract has kernels for the processor at hand, which are faster than ours.
             let ours = cfg!(target_family = "wasm");
             if ours {
@@ -128,6 +131,25 @@ impl Engine {
         }
         Ok(typed)
     }
+}
+
+/// Casts constants once and for all: tract leaves that of a large one stored in half precision for each run.
+fn widen(mut graph: TypedModel) -> TractResult<TypedModel> {
+    for id in graph.eval_order()? {
+        let node = graph.node(id);
+        let (Some(cast), &[input]) = (node.op_as::<Cast>(), &*node.inputs) else { continue };
+        let Some(value) = graph.outlet_fact(input)?.konst.clone() else { continue };
+        if cast.to != f32::datum_type() {
+            continue;
+        }
+        let mut patch = TypedModelPatch::default();
+        let wide = value.cast_to::<f32>()?.into_owned().into_arc_tensor();
+        let outlet = patch.add_const(format!("{}.wide", node.name), wide)?;
+        patch.shunt_outside(&graph, OutletId::new(id, 0), outlet)?;
+        patch.apply(&mut graph)?;
+    }
+    graph.compact()?;
+    Ok(graph)
 }
 
 /// Sizes of batches plans are made for; others are made up of these, the largest first.

@@ -3,6 +3,7 @@
 //! It holds what `boresight-wasm` calls the chain as well, so that captures are processed here by
 //! the same code, with a network for an estimator.
 
+mod constructors;
 mod network;
 mod tensors;
 

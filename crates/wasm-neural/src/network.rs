@@ -1,5 +1,6 @@
 //! A network as an estimator.
 
+use crate::constructors::construct;
 use crate::tensors::{read_tensors, tensors_object};
 use boresight_aoa::{Estimators, Method, Options};
 use boresight_core::presets::preset;
@@ -35,6 +36,7 @@ impl Network {
     /// estimates.
     #[wasm_bindgen(constructor)]
     pub fn new(onnx: &JsValue, card: &JsValue, options: &JsValue) -> Fallible<Self> {
+        construct();
         let onnx = Bytes::read(onnx, "onnx")?.0;
         let card = match card.is_undefined() {
             true => None,
