@@ -86,7 +86,7 @@ test('the table of methods of mounting angles says what calibrationMethods() say
 
 test('the table of estimators says what methods() says', async () => {
   const [json] = await printed('methods.mjs');
-  const [, ...rows] = readme.split('\n').filter((line) => /^\| .* \| `[a-z-]+` \|/.test(line)); // without the heading
+  const [, ...rows] = readme.split('\n').filter((line) => /^\| .* \| `[a-z0-9-]+` \|/.test(line)); // without the heading
   const yes = (flag) => (flag ? 'yes' : 'no');
   const expected = JSON.parse(json).map((m) => {
     const needs = [
