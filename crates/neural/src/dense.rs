@@ -14,7 +14,7 @@ const COLUMNS: usize = 8;
 
 /// Rows times a constant matrix. An axis of the product may be any axis, or several, of its operands.
 #[derive(Debug, Clone, PartialEq)]
-struct Dense {
+pub(crate) struct Dense {
     /// Columns by eights, the last filled up with zeros: panels x inner numbers.
     panels: Vec<[f32; COLUMNS]>,
     /// Where in a row each inner number is.
@@ -43,9 +43,9 @@ pub(crate) fn densify(model: &mut TypedModel) -> TractResult<()> {
 }
 
 /// Length of an axis, and its steps in up to two tensors.
-struct Run {
-    length: usize,
-    steps: [usize; 2],
+pub(crate) struct Run {
+    pub length: usize,
+    pub steps: [usize; 2],
 }
 
 /// Places in two tensors of all combinations of axes, the last fastest.
@@ -62,7 +62,8 @@ fn places(axes: &[Run]) -> Vec<[usize; 2]> {
     all
 }
 
-fn steps(shape: &[usize]) -> Vec<usize> {
+/// Steps of the axes of a tensor in C order.
+pub(crate) fn steps(shape: &[usize]) -> Vec<usize> {
     (0..shape.len()).map(|at| shape[at + 1..].iter().product()).collect()
 }
 
@@ -119,26 +120,8 @@ fn dense(model: &TypedModel, node: usize) -> TractResult<Option<(Dense, OutletId
             _ => return Ok(None),
         }
     }
-    let (inner, columns, kept) = (places(&inner), places(&columns), places(&kept));
-    if inner.len() < 2 || columns.len() < 2 {
-        return Ok(None);
-    }
-    let view = weights.to_plain_array_view::<f32>()?;
-    let numbers = view.as_slice().context("weights in C order")?;
-    let mut panels = vec![[0.0; COLUMNS]; columns.len().div_ceil(COLUMNS) * inner.len()];
-    for (at, column) in columns.iter().enumerate() {
-        for (row, place) in inner.iter().enumerate() {
-            panels[at / COLUMNS * inner.len() + row][at % COLUMNS] = numbers[place[1] + column[1]];
-        }
-    }
-    let dense = Dense {
-        panels,
-        inner: inner.iter().map(|place| place[0]).collect(),
-        columns: columns.iter().map(|place| place[0]).collect(),
-        rows: kept.iter().map(|place| (place[0], place[1])).collect(),
-        shape: shape.into(),
-    };
-    Ok(Some((dense, node.inputs[rows_at])))
+    let dense = Dense::new(weights, [&inner, &columns, &kept], shape)?;
+    Ok(dense.map(|dense| (dense, node.inputs[rows_at])))
 }
 
 impl Op for Dense {
@@ -174,6 +157,35 @@ impl TypedOp for Dense {
 const BLOCK: usize = 4096;
 
 impl Dense {
+    /// The product over the axes `inner` (steps in a row and in the weights) for all of `columns` (in the output and in
+    /// the weights) and `rows` (in the input and in the output); nothing where it is too small to gain by it.
+    pub fn new(
+        weights: &Tensor,
+        [inner, columns, rows]: [&[Run]; 3],
+        shape: &[usize],
+    ) -> TractResult<Option<Self>> {
+        let (inner, columns, rows) = (places(inner), places(columns), places(rows));
+        if inner.len() < 2 || columns.len() < 2 {
+            return Ok(None);
+        }
+        let view = weights.to_plain_array_view::<f32>()?;
+        let numbers = view.as_slice().context("weights in C order")?;
+        let mut panels = vec![[0.0; COLUMNS]; columns.len().div_ceil(COLUMNS) * inner.len()];
+        for (at, column) in columns.iter().enumerate() {
+            for (row, place) in inner.iter().enumerate() {
+                panels[at / COLUMNS * inner.len() + row][at % COLUMNS] =
+                    numbers[place[1] + column[1]];
+            }
+        }
+        Ok(Some(Self {
+            panels,
+            inner: inner.iter().map(|place| place[0]).collect(),
+            columns: columns.iter().map(|place| place[0]).collect(),
+            rows: rows.iter().map(|place| (place[0], place[1])).collect(),
+            shape: shape.into(),
+        }))
+    }
+
     fn multiply(&self, given: &[f32], output: &mut [f32]) {
         let inner = self.inner.len();
         let block = (BLOCK / inner).max(1) * 4;
@@ -300,12 +312,12 @@ fn one_row(panel: &[[f32; COLUMNS]], row: &[f32]) -> [f32; COLUMNS] {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::engine::tests::same_after;
 
     /// Numbers without a pattern.
-    fn numbers(shape: &[usize]) -> Tensor {
+    pub(crate) fn numbers(shape: &[usize]) -> Tensor {
         let count: usize = shape.iter().product();
         let numbers: Vec<f32> = (0..count).map(|i| ((i * i) as f32 * 0.37).sin()).collect();
         Tensor::from_shape(shape, &numbers).expect("as many numbers as the shape has")

@@ -1,6 +1,7 @@
 //! A graph, and the plans by which tract runs it.
 
 use crate::card::{Axis, Port};
+use crate::convolution::unroll;
 use crate::dense::densify;
 use crate::error::NeuralError;
 use crate::fused::fuse;
@@ -96,6 +97,7 @@ impl Engine {
             // Natively tract has kernels for the processor at hand, which are faster than ours.
             let ours = cfg!(target_family = "wasm");
             if ours {
+                unroll(&mut graph)?;
                 densify(&mut graph)?;
             }
             graph.optimize()?;

@@ -7,6 +7,7 @@
 mod aaetr;
 pub mod card;
 mod classifier;
+mod convolution;
 mod dense;
 mod engine;
 pub mod error;
