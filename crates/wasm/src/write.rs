@@ -9,6 +9,12 @@ use wasm_bindgen::JsValue;
 /// A plain object under construction.
 pub struct Record(Object);
 
+impl Default for Record {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Record {
     /// An object without fields.
     pub fn new() -> Self {
