@@ -174,7 +174,7 @@ browserTest('networks: the page is used from the keyboard', { path: '#/networks'
     [...document.querySelectorAll('button, input:not([hidden]), select, [role="application"]')].filter((node) =>
       !(node.getAttribute('aria-label') ?? node.labels?.[0]?.textContent ?? node.textContent).trim()).map((node) => node.outerHTML));
   assert.deepEqual(nameless, []);
-  assert.equal(parameters(page).get('model'), models.at(-1));
+  await parametersWith(page, (params) => params.get('model') === models.at(-1));
 });
 
 for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) {
