@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
-import { assertCsv, assertPng, drop, parameters, parametersWith, saved, values } from './demo.mjs';
+import { assertCsv, assertPng, drop, parametersWith, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const path = '#/networks?model=aaetr-small';
