@@ -1,4 +1,5 @@
-import { join, resolve } from 'node:path';
+import { join } from 'node:path';
+import { commandLine } from './command-line.mjs';
 import { environment, root } from './paths.mjs';
 import { output, run } from './run.mjs';
 import { whenChanged } from './stamp.mjs';
@@ -22,8 +23,7 @@ export async function pytest(name, requirements, tests, variables = {}) {
     await run(python, ['-m', 'venv', '--clear', venv]);
     await run(join(root, venvPython), ['-m', 'pip', 'install', '--quiet', '--no-deps', '-r', requirements]);
   });
-  await run('cargo', ['build', '--quiet', '--package', 'boresight-cli']);
-  const boresight = resolve(root, process.env.CARGO_TARGET_DIR ?? 'target', 'debug', windows ? 'boresight.exe' : 'boresight');
+  const boresight = await commandLine();
   await run(join(root, venvPython), ['-m', 'pytest', '-q', '-p', 'no:cacheprovider', tests, ...process.argv.slice(2)], {
     env: { ...environment, BORESIGHT: boresight, PYTHONDONTWRITEBYTECODE: '1', ...variables },
   });

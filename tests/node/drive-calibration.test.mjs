@@ -10,6 +10,7 @@ import {
 import { createPool } from 'boresight/worker';
 import { selected } from '../../dist/lib/drive-view.js';
 import glue from '../../dist/wasm/boresight.js';
+import { commandLine } from '../../scripts/lib/command-line.mjs';
 import { environment, root } from '../../scripts/lib/paths.mjs';
 import { rejectsTyped, throwsTyped } from './lib/assert.mjs';
 import { delphi } from './lib/drives.mjs';
@@ -95,9 +96,10 @@ describe('calibrateDrive', () => {
   });
 
   test('gives what the command line gives', async () => {
-    const command = ['run', '--quiet', '--profile', 'test', '-p', 'boresight-cli', '--', 'calibrate', 'recordings/delphi', '--json', '--min-speed', '3'];
+    const boresight = await commandLine();
+    const command = ['calibrate', 'recordings/delphi', '--json', '--min-speed', '3'];
     for (const { name: method } of calibrationMethods()) {
-      const { stdout } = await promisify(execFile)('cargo', [...command, '--method', method], { cwd: root, env: environment });
+      const { stdout } = await promisify(execFile)(boresight, [...command, '--method', method], { cwd: root, env: environment });
       const [theirs, { result }] = [JSON.parse(stdout), calibrateDrive(front, { method, minSpeedMps: 3 })];
       // RANSAC takes sines in single precision, whose last bit differs natively: here a draw of one of 12,003
       // frames ends otherwise.
