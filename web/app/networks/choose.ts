@@ -3,12 +3,12 @@ import type { Method } from 'boresight';
 import { models } from './load.ts';
 import { arrayProblem, type Geometry, type Model, targetsOf } from './models.ts';
 
-/** Networks of a method that fit all arrays, best first: for the number of targets, then by size. */
+/** Networks of a method that fit all arrays, best first: for the number of targets, then the quickest to load. */
 export function fitting(method: Method, geometries: readonly Geometry[], sources: number | null): Model[] {
   const off = (model: Model): number => Math.abs((targetsOf(model.card) ?? sources ?? 2) - (sources ?? 2));
   return models.value
     .filter(({ card }) => card.network === method && geometries.every((geometry) => !arrayProblem(card, geometry)))
-    .sort((a, b) => off(a) - off(b) || (b.card.parameters ?? 0) - (a.card.parameters ?? 0));
+    .sort((a, b) => off(a) - off(b) || (a.card.parameters ?? 0) - (b.card.parameters ?? 0));
 }
 
 /** The one used: one that the link names, else the best. */

@@ -1,6 +1,5 @@
-import { useEffect, useRef, useState } from 'preact/hooks';
 import { announce } from '../../state/announce.ts';
-import { lastParams, route, writeParams } from '../../state/route.ts';
+import { useAddress } from '../../state/address.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { ArrayPanel } from './array-panel.tsx';
 import { results, scene, sceneProblem, start } from './compute.ts';
@@ -12,20 +11,13 @@ import { About } from '../../ui/about.tsx';
 import { useSignalEffect } from '@preact/signals';
 
 export function AnglePage() {
-  const ready = useRef(false);
-  useState(() => {
-    const { page, params } = route.peek();
-    if (page === 'angle') angleState.value = angleCodec.read(params.size ? params : (lastParams('angle') ?? params));
+  useAddress('angle', {
+    restore: (params) => {
+      angleState.value = angleCodec.read(params);
+    },
+    start,
+    write: () => angleCodec.write(angleState.value),
   });
-  useEffect(() => {
-    ready.current = true;
-    return start();
-  }, []);
-  useSignalEffect(() => {
-    const { page, params } = route.value;
-    if (page === 'angle' && ready.current) angleState.value = angleCodec.read(params.size ? params : (lastParams('angle') ?? params));
-  });
-  useSignalEffect(() => writeParams('angle', angleCodec.write(angleState.value)));
   useSignalEffect(() => {
     const lines = [...results.value].filter(([, result]) => result.estimate).map(([method, { estimate }]) =>
       `${method}: ${estimate?.sources.map((source) => `${signed(source.azimuthDeg, 1)} degrees`).join(', ') || 'none'}`);

@@ -1,9 +1,8 @@
 import { useSignalEffect } from '@preact/signals';
-import { useEffect, useRef, useState } from 'preact/hooks';
 import { api } from '../../data.ts';
 import { count, fixed } from '../../plots/format.ts';
 import { announce } from '../../state/announce.ts';
-import { lastParams, route, writeParams } from '../../state/route.ts';
+import { useAddress } from '../../state/address.ts';
 import { About } from '../../ui/about.tsx';
 import { fileProblem, loaded, openBundled } from '../capture/files.ts';
 import { Controls } from './controls.tsx';
@@ -14,25 +13,18 @@ import { cancel, frameProblem, frames, images, progress, restart, start, wasCanc
 import { ResultsTable } from './results-table.tsx';
 import { birdseyeCodec, birdseyeState, zoom } from './state.ts';
 
-function restore({ page, params }: typeof route.value): void {
-  if (page !== 'birdseye') return;
-  const { view, ...state } = birdseyeCodec.read(params.size ? params : (lastParams('birdseye') ?? params));
+function restore(params: URLSearchParams): void {
+  const { view, ...state } = birdseyeCodec.read(params);
   birdseyeState.value = state;
   zoom.value = view;
 }
 
 export function BirdseyePage() {
-  const ready = useRef(false);
-  useState(() => restore(route.peek()));
-  useEffect(() => {
-    ready.current = true;
-    return start();
-  }, []);
-  useSignalEffect(() => {
-    const now = route.value;
-    if (ready.current) restore(now);
+  useAddress('birdseye', {
+    restore,
+    start,
+    write: () => birdseyeCodec.write({ ...birdseyeState.value, view: zoom.value }),
   });
-  useSignalEffect(() => writeParams('birdseye', birdseyeCodec.write({ ...birdseyeState.value, view: zoom.value })));
   useSignalEffect(() => {
     if (birdseyeState.value.source === 'capture' && !loaded.peek()) void openBundled();
   });

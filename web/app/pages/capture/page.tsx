@@ -1,8 +1,7 @@
 import { useSignalEffect } from '@preact/signals';
-import { useEffect, useRef, useState } from 'preact/hooks';
 import { count, fixed, signed } from '../../plots/format.ts';
 import { announce } from '../../state/announce.ts';
-import { lastParams, route, writeParams } from '../../state/route.ts';
+import { useAddress } from '../../state/address.ts';
 import { About } from '../../ui/about.tsx';
 import { CellPanel } from './cell-panel.tsx';
 import { Controls } from './controls.tsx';
@@ -18,21 +17,16 @@ import { Summary } from './summary.tsx';
 import { shownCell } from './view.ts';
 
 export function CapturePage() {
-  const ready = useRef(false);
-  const restore = ({ page, params }: typeof route.value): void => {
-    if (page === 'capture') captureState.value = captureCodec.read(params.size ? params : (lastParams('capture') ?? params));
-  };
-  useState(() => restore(route.peek()));
-  useEffect(() => {
-    ready.current = true;
-    if (!loaded.peek()) void openBundled();
-    return start();
-  }, []);
-  useSignalEffect(() => {
-    const now = route.value;
-    if (ready.current) restore(now);
+  useAddress('capture', {
+    restore: (params) => {
+      captureState.value = captureCodec.read(params);
+    },
+    start: () => {
+      if (!loaded.peek()) void openBundled();
+      return start();
+    },
+    write: () => captureCodec.write(captureState.value),
   });
-  useSignalEffect(() => writeParams('capture', captureCodec.write(captureState.value)));
 
   const capture = loaded.value;
   useSignalEffect(() => {

@@ -1,8 +1,7 @@
 import { effect, useSignalEffect } from '@preact/signals';
-import { useEffect, useRef, useState } from 'preact/hooks';
 import { count, fixed, signed } from '../../plots/format.ts';
 import { announce } from '../../state/announce.ts';
-import { lastParams, route, writeParams } from '../../state/route.ts';
+import { useAddress } from '../../state/address.ts';
 import { About } from '../../ui/about.tsx';
 import { AnglePlot } from './angle-plot.tsx';
 import { BirdPlot } from './bird-plot.tsx';
@@ -22,9 +21,8 @@ import { TrajectoryPlot } from './trajectory-plot.tsx';
 /** The time a link asks for, until its drive is there. */
 let wantedTime: number | null = null;
 
-function restore({ page, params }: typeof route.value): void {
-  if (page !== 'mounting') return;
-  const { t, ...state } = mountingCodec.read(params.size ? params : (lastParams('mounting') ?? params));
+function restore(params: URLSearchParams): void {
+  const { t, ...state } = mountingCodec.read(params);
   mountingState.value = state;
   wantedTime = t;
   if (t !== null && loaded.peek()) time.value = t;
@@ -45,32 +43,31 @@ function followDrive(): () => void {
   });
 }
 
+/** What runs while the page is there; returns what ends it. */
+function startPage(): () => void {
+  const stops = [startDrive(), startProcess(), startClock(), followDrive()];
+  const key = (event: KeyboardEvent): void => {
+    const on = event.target as HTMLElement;
+    if (event.ctrlKey || event.metaKey || event.altKey || on.closest('button, input, select, summary, a, [role="application"], [tabindex="0"]')) return;
+    if (frameKey(event)) event.preventDefault();
+  };
+  addEventListener('keydown', key);
+  return () => {
+    removeEventListener('keydown', key);
+    for (const stop of stops) stop();
+  };
+}
+
 export function MountingPage() {
-  const ready = useRef(false);
-  useState(() => restore(route.peek()));
-  useEffect(() => {
-    ready.current = true;
-    const stops = [startDrive(), startProcess(), startClock(), followDrive()];
-    const key = (event: KeyboardEvent): void => {
-      const on = event.target as HTMLElement;
-      if (event.ctrlKey || event.metaKey || event.altKey || on.closest('button, input, select, summary, a, [role="application"], [tabindex="0"]')) return;
-      if (frameKey(event)) event.preventDefault();
-    };
-    addEventListener('keydown', key);
-    return () => {
-      removeEventListener('keydown', key);
-      for (const stop of stops) stop();
-    };
-  }, []);
-  useSignalEffect(() => {
-    const now = route.value;
-    if (ready.current) restore(now);
-  });
-  useSignalEffect(() => {
-    // While playing the address keeps the time from before.
-    const at = scans.value.timeS[playing.value ? frame.peek() : frame.value];
-    const t = loaded.value && at !== undefined ? Number(at.toFixed(3)) : wantedTime;
-    writeParams('mounting', mountingCodec.write({ ...mountingState.value, t }));
+  useAddress('mounting', {
+    restore,
+    start: startPage,
+    write: () => {
+      // While playing the address keeps the time from before.
+      const at = scans.value.timeS[playing.value ? frame.peek() : frame.value];
+      const t = loaded.value && at !== undefined ? Number(at.toFixed(3)) : wantedTime;
+      return mountingCodec.write({ ...mountingState.value, t });
+    },
   });
   useSignalEffect(() => {
     if (working.value || !loaded.value) return;

@@ -1,7 +1,6 @@
 import { useSignalEffect } from '@preact/signals';
-import { useEffect, useRef, useState } from 'preact/hooks';
 import { announce } from '../../state/announce.ts';
-import { lastParams, route, writeParams } from '../../state/route.ts';
+import { useAddress } from '../../state/address.ts';
 import { AboutNetworks } from './about.tsx';
 import { attempt, selected, start } from './attempt.ts';
 import { AttemptPanel } from './attempt-panel.tsx';
@@ -13,22 +12,14 @@ import { ownProblem } from './own.tsx';
 import { networksCodec, networksState } from './state.ts';
 import { TimingPanel } from './timing-panel.tsx';
 
-function restore({ page, params }: typeof route.value): void {
-  if (page === 'networks') networksState.value = networksCodec.read(params.size ? params : (lastParams('networks') ?? params));
-}
-
 export function NetworksPage() {
-  const ready = useRef(false);
-  useState(() => restore(route.peek()));
-  useEffect(() => {
-    ready.current = true;
-    return start();
-  }, []);
-  useSignalEffect(() => {
-    const now = route.value;
-    if (ready.current) restore(now);
+  useAddress('networks', {
+    restore: (params) => {
+      networksState.value = networksCodec.read(params);
+    },
+    start,
+    write: () => networksCodec.write(networksState.value),
   });
-  useSignalEffect(() => writeParams('networks', networksCodec.write(networksState.value)));
   useSignalEffect(() => {
     const made = attempt.value;
     const row = made?.rows[0];

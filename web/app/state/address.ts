@@ -1,0 +1,31 @@
+/** Binds a page's state to the address. */
+import { useSignalEffect } from '@preact/signals';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { type Page, type Route, lastParams, route, writeParams } from './route.ts';
+
+export interface Binding {
+  /** Takes the state from parameters: those of the address, or where it has none those the page was left with. */
+  restore(params: URLSearchParams): void;
+  /** What runs while the page is there; returns what ends it. */
+  start(): () => void;
+  /** The state as parameters; runs again when signals it reads change. */
+  write(): URLSearchParams;
+}
+
+/** Restores a page's state before its first drawing and when the address changes, and writes it back. */
+export function useAddress(page: Page, { restore, start, write }: Binding): void {
+  const ready = useRef(false);
+  const read = (now: Route): void => {
+    if (now.page === page) restore(now.params.size ? now.params : (lastParams(page) ?? now.params));
+  };
+  useState(() => read(route.peek()));
+  useEffect(() => {
+    ready.current = true;
+    return start();
+  }, []);
+  useSignalEffect(() => {
+    const now = route.value;
+    if (ready.current) read(now);
+  });
+  useSignalEffect(() => writeParams(page, write()));
+}
