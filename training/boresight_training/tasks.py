@@ -66,7 +66,7 @@ class Task(Protocol):
 class AaetrTask:
     """Angles of arrival of up to 16 targets in one snapshot of `lrr48`."""
 
-    reference = "AAETR: Angle of Arrival Estimation with Transformers"
+    reference = "AAETR: Angle of Arrival Estimation with Transformer"
 
     inputs = (
         Port("snapshots", ("batch", 48, 2), "real and imaginary part of each virtual element, transmitter-major"),

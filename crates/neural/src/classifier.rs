@@ -102,13 +102,6 @@ impl Classifier {
         }
     }
 
-    fn shape(&self, count: usize, features: usize) -> Vec<usize> {
-        match self.method {
-            Method::Cnn3d => vec![count, REGION[0], ELEMENTS, REGION[1], 3],
-            _ => vec![count, features],
-        }
-    }
-
     fn estimates<'a>(
         &mut self,
         data: impl Fn(usize) -> Data<'a>,
@@ -117,9 +110,13 @@ impl Classifier {
         let features: Vec<Vec<f32>> =
             (0..out.len()).map(|cell| self.features(data(cell))).collect::<Result<_, _>>()?;
         let mut probabilities: Vec<Vec<f64>> = Vec::with_capacity(out.len());
-        let mut runners = self.runners.clone();
+        let method = self.method;
         let given = |from: usize, to: usize| {
-            let shape = self.shape(to - from, features[from].len());
+            let count = to - from;
+            let shape = match method {
+                Method::Cnn3d => vec![count, REGION[0], ELEMENTS, REGION[1], 3],
+                _ => vec![count, features[from].len()],
+            };
             let tensor = filled(&shape, |numbers| {
                 let cells = numbers.chunks_exact_mut(features[from].len());
                 for (cell, features) in cells.zip(&features[from..to]) {
@@ -132,9 +129,8 @@ impl Classifier {
             let rows = outputs[0].outer_iter();
             probabilities.extend(rows.map(|row| row.iter().map(|&p| f64::from(p)).collect()));
         };
-        let failed = |error| network_failed(self.method.name(), error);
-        runners.run(out.len(), given, answers).map_err(failed)?;
-        self.runners = runners;
+        let failed = |error| network_failed(method.name(), error);
+        self.runners.run(out.len(), given, answers).map_err(failed)?;
         for (cell, (out, probability)) in out.iter_mut().zip(&probabilities).enumerate() {
             self.answer(probability, data(cell), out);
         }

@@ -1,8 +1,8 @@
-//! Products with constant matrices.
+//! Products of rows with a matrix.
 //!
 //! tract multiplies tiles of 8 x 8, more than the 16 vector registers of WebAssembly's engines on x86 hold, and puts
-//! rows into panels before and out of them after. Here tiles are 4 x 8, rows are used as they are, and the matrix of
-//! weights is put into panels of 8 columns once.
+//! rows into panels before and out of them after. Here tiles are 4 x 8, rows are used as they are, and the matrix is put
+//! into panels of 8 columns, once if it is constant.
 
 use tract_onnx::prelude::*;
 use tract_onnx::tract_core::internal::*;
@@ -12,49 +12,74 @@ use wide::f32x4;
 /// Columns of a panel.
 const COLUMNS: usize = 8;
 
-/// Rows times a constant matrix. An axis of the product may be any axis, or several, of its operands.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Dense {
-    /// Columns by eights, the last filled up with zeros: panels x inner numbers.
-    panels: Vec<[f32; COLUMNS]>,
+/// Rows times a matrix. An axis of the product may be any axis, or several, of its operands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Layout {
     /// Where in a row each inner number is.
     inner: Vec<usize>,
     /// Where in the output each column goes.
     columns: Vec<usize>,
     /// Where each row begins, and its part of the output.
-    rows: Vec<(usize, usize)>,
+    rows: Vec<[usize; 2]>,
+    /// Whether rows are one after the other, their numbers too.
+    in_order: bool,
+}
+
+/// Rows times a constant matrix.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Dense {
+    /// Columns by eights, the last filled up with zeros: panels x inner numbers.
+    panels: Vec<Columns>,
+    layout: Layout,
     shape: TVec<usize>,
 }
 
 impl Eq for Dense {}
 
-/// Replaces products with constant matrices.
+/// Rows times a matrix that both depend on what is given, for each combination of axes that both have.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Product {
+    /// Which operand is the matrix.
+    matrix_at: usize,
+    /// Where in the matrix each inner number and each column is.
+    inner: Vec<usize>,
+    columns: Vec<usize>,
+    layout: Layout,
+    /// Where each product's rows, matrix and output begin.
+    products: Vec<[usize; 3]>,
+    shape: TVec<usize>,
+}
+
+type Columns = [f32; COLUMNS];
+
+/// Replaces products of two tensors.
 pub(crate) fn densify(model: &mut TypedModel) -> TractResult<()> {
     for node in model.eval_order()? {
-        let Some((dense, input)) = dense(model, node)? else { continue };
-        let name = model.node(node).name.clone();
+        let name = format!("{}.dense", model.node(node).name);
+        let Some((op, inputs)) = replacement(model, node)? else { continue };
         let mut patch = TypedModelPatch::default();
-        let taps = patch.taps(model, &[input])?;
-        let outlet = patch.wire_node(format!("{name}.dense"), dense, &taps)?[0];
+        let taps = patch.taps(model, &inputs)?;
+        let outlet = patch.wire_node(name, op, &taps)?[0];
         patch.shunt_outside(model, OutletId::new(node, 0), outlet)?;
         patch.apply(model)?;
     }
     model.compact()
 }
 
-/// Length of an axis, and its steps in up to two tensors.
-pub(crate) struct Run {
+/// Length of an axis, and its steps in some tensors.
+pub(crate) struct Run<const N: usize = 2> {
     pub length: usize,
-    pub steps: [usize; 2],
+    pub steps: [usize; N],
 }
 
-/// Places in two tensors of all combinations of axes, the last fastest.
-fn places(axes: &[Run]) -> Vec<[usize; 2]> {
-    let mut all = vec![[0, 0]];
+/// Places in tensors of all combinations of axes, the last fastest.
+fn places<const N: usize>(axes: &[Run<N>]) -> Vec<[usize; N]> {
+    let mut all = vec![[0; N]];
     for axis in axes {
-        let along = |&[a, b]: &[usize; 2]| {
+        let along = |from: &[usize; N]| {
+            let from = *from;
             (0..axis.length)
-                .map(move |at| [a + at * axis.steps[0], b + at * axis.steps[1]])
+                .map(move |at| std::array::from_fn(|of| from[of] + at * axis.steps[of]))
                 .collect::<Vec<_>>()
         };
         all = all.iter().flat_map(along).collect();
@@ -67,8 +92,21 @@ pub(crate) fn steps(shape: &[usize]) -> Vec<usize> {
     (0..shape.len()).map(|at| shape[at + 1..].iter().product()).collect()
 }
 
-/// The product of a node and the outlet of its rows, if it is one with a constant matrix.
-fn dense(model: &TypedModel, node: usize) -> TractResult<Option<(Dense, OutletId)>> {
+/// The axes of a product, each with its steps: inner ones in a row and in the matrix, columns in the output and in the
+/// matrix, rows in the input and in the output, and those of all three.
+#[derive(Default)]
+struct Axes {
+    inner: Vec<Run>,
+    columns: Vec<Run>,
+    rows: Vec<Run>,
+    products: Vec<Run<3>>,
+}
+
+/// The operator in place of a node, with its inputs, if it is a product.
+fn replacement(
+    model: &TypedModel,
+    node: usize,
+) -> TractResult<Option<(Box<dyn TypedOp>, TVec<OutletId>)>> {
     let node = model.node(node);
     let Some(op) = node.op_as::<EinSum>() else { return Ok(None) };
     let output = &node.outputs[0].fact;
@@ -81,47 +119,66 @@ fn dense(model: &TypedModel, node: usize) -> TractResult<Option<(Dense, OutletId
     {
         return Ok(None);
     }
-    let Some(weights_at) = (0..2).rev().find(|&at| inputs[at].konst.is_some()) else {
-        return Ok(None);
-    };
-    let rows_at = 1 - weights_at;
-    let (Some(weights), Some(rows), Some(shape)) = (
-        &inputs[weights_at].konst,
-        inputs[rows_at].shape.as_concrete(),
+    let constant = (0..2).rev().find(|&at| inputs[at].konst.is_some());
+    let matrix_at = constant.unwrap_or(1);
+    let (Some(rows), Some(matrix), Some(shape)) = (
+        inputs[1 - matrix_at].shape.as_concrete(),
+        inputs[matrix_at].shape.as_concrete(),
         output.shape.as_concrete(),
     ) else {
         return Ok(None);
     };
-    let of_weights = steps(weights.shape());
-    let (of_rows, of_output) = (steps(rows), steps(shape));
-    let (mut inner, mut columns, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-    let mut ordered: Vec<_> = op.axes.iter_all_axes().collect();
-    // Rows in the order of the output, inner numbers and columns in that of the weights.
-    ordered.sort_by_key(|axis| (axis.outputs[0].first(), axis.inputs[weights_at].first()));
-    for axis in ordered {
-        if axis.inputs.iter().chain(&axis.outputs).any(|places| places.len() > 1) {
+    let Some(axes) = axes(op, matrix_at, [rows, matrix, shape]) else { return Ok(None) };
+    if let Some(weights) = &inputs[matrix_at].konst {
+        if !axes.products.is_empty() {
             return Ok(None);
         }
-        let [row, weight] = [rows_at, weights_at].map(|at| axis.inputs[at].first().copied());
-        let long = weight.filter(|&at| weights.shape()[at] > 1);
+        let dense = Dense::new(weights, [&axes.inner, &axes.columns, &axes.rows], shape)?;
+        return Ok(dense.map(|dense| (dense.into(), tvec!(node.inputs[1 - matrix_at]))));
+    }
+    let product = Product::new(matrix_at, &axes, shape);
+    Ok(product.map(|product| (product.into(), node.inputs.as_slice().into())))
+}
+
+/// `shapes` are those of rows, matrix and output.
+fn axes(op: &EinSum, matrix_at: usize, shapes: [&[usize]; 3]) -> Option<Axes> {
+    let [of_rows, of_matrix, of_output] = shapes.map(steps);
+    let [rows, matrix, shape] = shapes;
+    let mut axes = Axes::default();
+    let mut ordered: Vec<_> = op.axes.iter_all_axes().collect();
+    // Rows in the order of the output, inner numbers and columns in that of the matrix.
+    ordered.sort_by_key(|axis| (axis.outputs[0].first(), axis.inputs[matrix_at].first()));
+    for axis in ordered {
+        if axis.inputs.iter().chain(&axis.outputs).any(|places| places.len() > 1) {
+            return None;
+        }
+        let place = |at: usize| axis.inputs[at].first().copied();
+        let row = place(1 - matrix_at);
+        let long = place(matrix_at).filter(|&at| matrix[at] > 1);
         match (row, long, axis.outputs[0].first().copied()) {
-            (Some(row), Some(weight), None) => {
-                inner.push(Run { length: rows[row], steps: [of_rows[row], of_weights[weight]] });
+            (Some(row), Some(own), None) if rows[row] == matrix[own] => {
+                let steps = [of_rows[row], of_matrix[own]];
+                axes.inner.push(Run { length: rows[row], steps });
             }
-            (None, Some(weight), Some(out)) => {
-                columns
-                    .push(Run { length: shape[out], steps: [of_output[out], of_weights[weight]] });
+            (None, Some(own), Some(out)) => {
+                let steps = [of_output[out], of_matrix[own]];
+                axes.columns.push(Run { length: shape[out], steps });
             }
             (Some(row), None, Some(out)) => {
-                kept.push(Run { length: rows[row], steps: [of_rows[row], of_output[out]] });
+                let steps = [of_rows[row], of_output[out]];
+                axes.rows.push(Run { length: rows[row], steps });
+            }
+            (Some(row), Some(own), Some(out)) => {
+                let along = if rows[row] == 1 { 0 } else { of_rows[row] };
+                let steps = [along, of_matrix[own], of_output[out]];
+                axes.products.push(Run { length: shape[out], steps });
             }
             (Some(row), None, None) if rows[row] == 1 => {}
             (None, None, _) => {}
-            _ => return Ok(None),
+            _ => return None,
         }
     }
-    let dense = Dense::new(weights, [&inner, &columns, &kept], shape)?;
-    Ok(dense.map(|dense| (dense, node.inputs[rows_at])))
+    Some(axes)
 }
 
 impl Op for Dense {
@@ -140,7 +197,8 @@ impl EvalOp for Dense {
         let given = view.as_slice().context("rows in C order")?;
         let mut tensor = Tensor::zero::<f32>(&self.shape)?;
         let mut output = tensor.to_plain_array_view_mut::<f32>()?;
-        self.multiply(given, output.as_slice_mut().context("an output in C order")?);
+        let output = output.as_slice_mut().context("an output in C order")?;
+        self.layout.multiply(given, &self.panels, output);
         Ok(tvec!(tensor.into()))
     }
 }
@@ -153,8 +211,49 @@ impl TypedOp for Dense {
     as_op!();
 }
 
-/// Numbers of rows that are worked on while all panels pass by.
-const BLOCK: usize = 4096;
+impl Op for Product {
+    fn name(&self) -> StaticName {
+        "Product".into()
+    }
+
+    op_as_typed_op!();
+}
+
+impl EvalOp for Product {
+    op_out_of_plan!();
+
+    fn eval(&self, _: &EvalContext, inputs: TVec<TValue>) -> TractResult<TVec<TValue>> {
+        let view = inputs[1 - self.matrix_at].to_plain_array_view::<f32>()?;
+        let given = view.as_slice().context("rows in C order")?;
+        let view = inputs[self.matrix_at].to_plain_array_view::<f32>()?;
+        let matrix = view.as_slice().context("a matrix in C order")?;
+        let mut tensor = Tensor::zero::<f32>(&self.shape)?;
+        let mut output = tensor.to_plain_array_view_mut::<f32>()?;
+        let output = output.as_slice_mut().context("an output in C order")?;
+        let mut panels = panels(&self.inner, &self.columns);
+        for &[rows, own, to] in &self.products {
+            fill(&mut panels, &matrix[own..], &self.inner, &self.columns);
+            self.layout.multiply(&given[rows..], &panels, &mut output[to..]);
+        }
+        Ok(tvec!(tensor.into()))
+    }
+}
+
+impl TypedOp for Product {
+    fn output_facts(&self, _: &[&TypedFact]) -> TractResult<TVec<TypedFact>> {
+        Ok(tvec!(f32::fact(&self.shape)))
+    }
+
+    as_op!();
+}
+
+fn firsts<const N: usize>(places: &[[usize; N]]) -> Vec<usize> {
+    places.iter().map(|place| place[0]).collect()
+}
+
+fn seconds(places: &[[usize; 2]]) -> Vec<usize> {
+    places.iter().map(|place| place[1]).collect()
+}
 
 impl Dense {
     /// The product over the axes `inner` (steps in a row and in the weights) for all of `columns` (in the output and in
@@ -164,73 +263,120 @@ impl Dense {
         [inner, columns, rows]: [&[Run]; 3],
         shape: &[usize],
     ) -> TractResult<Option<Self>> {
-        let (inner, columns, rows) = (places(inner), places(columns), places(rows));
-        if inner.len() < 2 || columns.len() < 2 {
-            return Ok(None);
-        }
+        let (inner, columns) = (places(inner), places(columns));
+        let Some(layout) = Layout::new(&inner, &columns, places(rows)) else { return Ok(None) };
         let view = weights.to_plain_array_view::<f32>()?;
         let numbers = view.as_slice().context("weights in C order")?;
-        let mut panels = vec![[0.0; COLUMNS]; columns.len().div_ceil(COLUMNS) * inner.len()];
-        for (at, column) in columns.iter().enumerate() {
-            for (row, place) in inner.iter().enumerate() {
-                panels[at / COLUMNS * inner.len() + row][at % COLUMNS] =
-                    numbers[place[1] + column[1]];
+        let (inner, columns) = (seconds(&inner), seconds(&columns));
+        let mut panels = panels(&inner, &columns);
+        fill(&mut panels, numbers, &inner, &columns);
+        Ok(Some(Self { panels, layout, shape: shape.into() }))
+    }
+}
+
+impl Product {
+    fn new(matrix_at: usize, axes: &Axes, shape: &[usize]) -> Option<Self> {
+        let (inner, columns) = (places(&axes.inner), places(&axes.columns));
+        Some(Self {
+            matrix_at,
+            layout: Layout::new(&inner, &columns, places(&axes.rows))?,
+            inner: seconds(&inner),
+            columns: seconds(&columns),
+            products: places(&axes.products),
+            shape: shape.into(),
+        })
+    }
+}
+
+/// Room for a matrix by columns in eights.
+fn panels(inner: &[usize], columns: &[usize]) -> Vec<Columns> {
+    vec![[0.0; COLUMNS]; columns.len().div_ceil(COLUMNS) * inner.len()]
+}
+
+/// Puts a matrix into panels: `inner` and `columns` are where its rows and columns are.
+fn fill(panels: &mut [Columns], matrix: &[f32], inner: &[usize], columns: &[usize]) {
+    for (panel, columns) in panels.chunks_exact_mut(inner.len()).zip(columns.chunks(COLUMNS)) {
+        let together = together(columns) && columns.len() == COLUMNS;
+        for (row, &from) in panel.iter_mut().zip(inner) {
+            let side_by_side =
+                matrix[from + columns[0]..].first_chunk::<COLUMNS>().filter(|_| together);
+            match side_by_side {
+                Some(eight) => *row = *eight,
+                None => {
+                    for (own, &column) in row.iter_mut().zip(columns) {
+                        *own = matrix[from + column];
+                    }
+                }
             }
         }
-        Ok(Some(Self {
-            panels,
-            inner: inner.iter().map(|place| place[0]).collect(),
-            columns: columns.iter().map(|place| place[0]).collect(),
-            rows: rows.iter().map(|place| (place[0], place[1])).collect(),
-            shape: shape.into(),
-        }))
+    }
+}
+
+/// Whether columns lie side by side.
+fn together(columns: &[usize]) -> bool {
+    columns.iter().enumerate().all(|(at, &column)| column == columns[0] + at)
+}
+
+/// Numbers of rows that are worked on while all panels pass by.
+const BLOCK: usize = 4096;
+
+impl Layout {
+    /// Nothing for a product too small to gain by it.
+    fn new(
+        inner: &[[usize; 2]],
+        columns: &[[usize; 2]],
+        rows: Vec<[usize; 2]>,
+    ) -> Option<Self> {
+        if inner.len() < 2 || columns.len() < 2 {
+            return None;
+        }
+        let (inner, columns) = (firsts(inner), firsts(columns));
+        let in_order = inner.iter().enumerate().all(|(at, &place)| at == place)
+            && rows.iter().enumerate().all(|(at, row)| row[0] == at * inner.len());
+        Some(Self { inner, columns, rows, in_order })
     }
 
-    fn multiply(&self, given: &[f32], output: &mut [f32]) {
+    /// The product of `given` rows with the matrix in panels.
+    fn multiply(&self, given: &[f32], panels: &[Columns], output: &mut [f32]) {
         let inner = self.inner.len();
         let block = (BLOCK / inner).max(1) * 4;
-        let mut gathered = vec![0.0; block.min(self.rows.len()) * inner];
-        // Whether eight columns lie side by side in the output.
-        let together: Vec<bool> = self
-            .columns
-            .chunks(COLUMNS)
-            .map(|columns| {
-                columns.iter().enumerate().all(|(at, &column)| column == columns[0] + at)
-            })
-            .collect();
-        let in_order = self.inner.iter().enumerate().all(|(at, &place)| at == place);
-        for rows in self.rows.chunks(block) {
-            for (&(from, _), row) in rows.iter().zip(gathered.chunks_exact_mut(inner)) {
-                if in_order {
-                    row.copy_from_slice(&given[from..from + inner]);
-                } else {
+        let room = if self.in_order { 0 } else { block.min(self.rows.len()) * inner };
+        let mut gathered = vec![0.0; room];
+        let together: Vec<bool> = self.columns.chunks(COLUMNS).map(together).collect();
+        for (at, rows) in self.rows.chunks(block).enumerate() {
+            let numbers = if self.in_order {
+                &given[at * block * inner..][..rows.len() * inner]
+            } else {
+                for (&[from, _], row) in rows.iter().zip(gathered.chunks_exact_mut(inner)) {
                     for (own, &place) in row.iter_mut().zip(&self.inner) {
                         *own = given[from + place];
                     }
                 }
-            }
-            let panels = self.panels.chunks_exact(inner).zip(self.columns.chunks(COLUMNS));
+                &gathered[..rows.len() * inner]
+            };
+            let panels = panels.chunks_exact(inner).zip(self.columns.chunks(COLUMNS));
             for ((panel, columns), &together) in panels.zip(&together) {
-                let mut put = |(_, to): (usize, usize), numbers: &[f32; COLUMNS]| {
-                    if together {
-                        let first = to + columns[0];
-                        output[first..first + columns.len()]
-                            .copy_from_slice(&numbers[..columns.len()]);
-                    } else {
-                        for (&column, &number) in columns.iter().zip(numbers) {
-                            output[to + column] = number;
+                let mut put = |[_, to]: [usize; 2], numbers: &Columns| {
+                    let first = to + columns[0];
+                    let eight = output[first..].first_chunk_mut::<COLUMNS>();
+                    match eight.filter(|_| together && columns.len() == COLUMNS) {
+                        Some(eight) => *eight = *numbers,
+                        None => {
+                            for (&column, &number) in columns.iter().zip(numbers) {
+                                output[to + column] = number;
+                            }
                         }
                     }
                 };
-                for (fours, gathered) in rows.chunks(4).zip(gathered.chunks(4 * inner)) {
+                for (fours, numbers) in rows.chunks(4).zip(numbers.chunks(4 * inner)) {
                     if let [a, b, c, d] = *fours {
-                        let tile = four_rows(panel, gathered, inner);
+                        let tile = four_rows(panel, numbers, inner);
                         put(a, &tile[0]);
                         put(b, &tile[1]);
                         put(c, &tile[2]);
                         put(d, &tile[3]);
                     } else {
-                        for (&row, numbers) in fours.iter().zip(gathered.chunks_exact(inner)) {
+                        for (&row, numbers) in fours.iter().zip(numbers.chunks_exact(inner)) {
                             put(row, &one_row(panel, numbers));
                         }
                     }
@@ -315,12 +461,42 @@ fn one_row(panel: &[[f32; COLUMNS]], row: &[f32]) -> [f32; COLUMNS] {
 pub(crate) mod tests {
     use super::*;
     use crate::engine::tests::same_after;
+    use tract_onnx::tract_core::ops::array::Slice;
 
     /// Numbers without a pattern.
     pub(crate) fn numbers(shape: &[usize]) -> Tensor {
         let count: usize = shape.iter().product();
         let numbers: Vec<f32> = (0..count).map(|i| ((i * i) as f32 * 0.37).sin()).collect();
         Tensor::from_shape(shape, &numbers).expect("as many numbers as the shape has")
+    }
+
+    #[test]
+    fn products_of_two_inputs_stay_the_same() {
+        let cases: [(&str, &[usize], &[usize]); 6] = [
+            ("bmk,bkn->bmn", &[3, 1, 12], &[3, 12, 16]),
+            ("bmk,kn->bmn", &[2, 6, 9], &[9, 5]),
+            ("bhqc,bhkc->bhqk", &[2, 3, 5, 4], &[2, 3, 7, 4]),
+            ("bqhc,bkhc->bhqk", &[2, 5, 3, 4], &[2, 7, 3, 4]),
+            ("bhqk,bkhc->bqhc", &[2, 3, 5, 7], &[2, 7, 3, 8]),
+            ("amk,bkn->bmn", &[1, 6, 9], &[4, 9, 10]),
+        ];
+        for (expression, rows, matrix) in cases {
+            let mut model = TypedModel::default();
+            let source = model.add_source("numbers", f32::fact([600])).expect("a source");
+            let mut part = |name: &str, from: usize, shape: &[usize]| {
+                let length: usize = shape.iter().product();
+                let own = Slice::new(0, from, from + length);
+                let own = model.wire_node(format!("{name}.own"), own, &[source]).expect("a part");
+                let to: TVec<TDim> = shape.iter().map(|&length| length.into()).collect();
+                let shaped = AxisOp::Reshape(0, tvec!(length.into()), to);
+                model.wire_node(name, shaped, &own).expect("a shape")[0]
+            };
+            let (rows, matrix) = (part("rows", 0, rows), part("matrix", 7, matrix));
+            let op = EinSum::new(expression.parse().expect("an expression"), f32::datum_type());
+            let product = model.wire_node("product", op, &[rows, matrix]).expect("a product");
+            model.select_output_outlets(&product).expect("an output");
+            same_after(model, &numbers(&[600]), densify, "Product", 1);
+        }
     }
 
     #[test]

@@ -94,16 +94,13 @@ impl Engine {
     fn prepare(&self, batch: usize) -> Result<Runnable, NeuralError> {
         let wide = widen(self.typed(batch)?).and_then(TypedModel::into_decluttered);
         let optimised = wide.and_then(|mut graph| {
-            // Natively tract has kernels for the processor at hand, which are faster than ours.
-            let ours = cfg!(target_family = "wasm");
-            if ours {
+            // Natively tract has kernels for products on the processor at hand, which are faster than ours.
+            if cfg!(target_family = "wasm") {
                 unroll(&mut graph)?;
                 densify(&mut graph)?;
             }
             graph.optimize()?;
-            if ours {
-                fuse(&mut graph)?;
-            }
+            fuse(&mut graph)?;
             graph.into_runnable()
         });
         optimised.map_err(|error| refused("optimised", &error))

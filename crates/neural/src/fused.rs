@@ -4,36 +4,18 @@
 //! broadcast. Here a tree of them, each used by the next alone, becomes one operator that goes through its output once,
 //! tile by tile, so that all between stays in the first cache.
 
+use crate::function::{Function, Operand};
 use std::mem::take;
 use tract_onnx::prelude::*;
 use tract_onnx::tract_core::internal::*;
-use tract_onnx::tract_core::ops::binary::{BinMiniOp, OptBinByScalar, OptBinUnicast, TypedBinOp};
+use tract_onnx::tract_core::ops::binary::{OptBinByScalar, OptBinUnicast, TypedBinOp};
 use tract_onnx::tract_core::ops::element_wise::ElementWiseOp;
-use tract_onnx::tract_core::ops::math;
 
 /// Numbers worked on at a time.
 const TILE: usize = 256;
 
 /// Most operators in a tree.
 const MOST: usize = 64;
-
-/// What a step does with one number or two.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Function {
-    Add,
-    Sub,
-    SubFrom,
-    Mul,
-    Div,
-    Min,
-    Max,
-    Sqrt,
-    InverseSqrt,
-    Inverse,
-    Square,
-    Negate,
-    Abs,
-}
 
 /// Where a step finds a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -152,7 +134,7 @@ fn function(model: &TypedModel, node: usize) -> Option<Function> {
         return None;
     }
     if let Some(op) = node.op_as::<ElementWiseOp>() {
-        return unary(&*op.0);
+        return Function::of_one(&*op.0);
     }
     let op = match (
         node.op_as::<TypedBinOp>(),
@@ -164,32 +146,7 @@ fn function(model: &TypedModel, node: usize) -> Option<Function> {
         (_, _, Some(op)) => &op.binop,
         _ => return None,
     };
-    binary(&**op)
-}
-
-fn unary(op: &dyn ElementWiseMiniOp) -> Option<Function> {
-    Some(match () {
-        () if op.is::<math::Sqrt>() => Function::Sqrt,
-        () if op.is::<math::Rsqrt>() => Function::InverseSqrt,
-        () if op.is::<math::Recip>() => Function::Inverse,
-        () if op.is::<math::Square>() => Function::Square,
-        () if op.is::<math::Neg>() => Function::Negate,
-        () if op.is::<math::Abs>() => Function::Abs,
-        () => return None,
-    })
-}
-
-fn binary(op: &dyn BinMiniOp) -> Option<Function> {
-    Some(match () {
-        () if op.is::<math::Add>() => Function::Add,
-        () if op.is::<math::Sub>() => Function::Sub,
-        () if op.is::<math::SubF>() => Function::SubFrom,
-        () if op.is::<math::Mul>() => Function::Mul,
-        () if op.is::<math::Div>() => Function::Div,
-        () if op.is::<math::Min>() => Function::Min,
-        () if op.is::<math::Max>() => Function::Max,
-        () => return None,
-    })
+    Function::of_two(&**op)
 }
 
 impl Fused {
@@ -329,70 +286,10 @@ impl TypedOp for Fused {
     as_op!();
 }
 
-/// The numbers a step takes: one for each of its own, or one for all.
-#[derive(Clone, Copy)]
-enum Operand<'a> {
-    One(f32),
-    Many(&'a [f32]),
-}
-
-impl Function {
-    // A function of its own: engines of WebAssembly optimise by function, and this one is called often.
-    #[inline(never)]
-    fn run(self, a: Operand, b: Operand, out: &mut [f32]) {
-        match self {
-            Self::Add => two(a, b, out, |a, b| a + b),
-            Self::Sub => two(a, b, out, |a, b| a - b),
-            Self::SubFrom => two(a, b, out, |a, b| b - a),
-            Self::Mul => two(a, b, out, |a, b| a * b),
-            Self::Div => two(a, b, out, |a, b| a / b),
-            Self::Min => two(a, b, out, |a, b| if a < b { a } else { b }),
-            Self::Max => two(a, b, out, |a, b| if a > b { a } else { b }),
-            Self::Sqrt => one(a, out, f32::sqrt),
-            Self::InverseSqrt => one(a, out, |a| a.sqrt().recip()),
-            Self::Inverse => one(a, out, f32::recip),
-            Self::Square => one(a, out, |a| a * a),
-            Self::Negate => one(a, out, |a| -a),
-            Self::Abs => one(a, out, f32::abs),
-        }
-    }
-}
-
-fn one(a: Operand, out: &mut [f32], function: impl Fn(f32) -> f32) {
-    match a {
-        Operand::One(a) => out.fill(function(a)),
-        Operand::Many(a) => {
-            for (out, &a) in out.iter_mut().zip(a) {
-                *out = function(a);
-            }
-        }
-    }
-}
-
-fn two(a: Operand, b: Operand, out: &mut [f32], function: impl Fn(f32, f32) -> f32) {
-    match (a, b) {
-        (Operand::Many(a), Operand::Many(b)) => {
-            for ((out, &a), &b) in out.iter_mut().zip(a).zip(b) {
-                *out = function(a, b);
-            }
-        }
-        (Operand::Many(a), Operand::One(b)) => {
-            for (out, &a) in out.iter_mut().zip(a) {
-                *out = function(a, b);
-            }
-        }
-        (Operand::One(a), Operand::Many(b)) => {
-            for (out, &b) in out.iter_mut().zip(b) {
-                *out = function(a, b);
-            }
-        }
-        (Operand::One(a), Operand::One(b)) => out.fill(function(a, b)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tract_onnx::tract_core::ops::math;
     use crate::engine::tests::same_after;
 
     fn numbers(shape: &[usize]) -> Tensor {

@@ -12,6 +12,7 @@ mod dense;
 mod engine;
 pub mod error;
 mod features;
+mod function;
 mod fused;
 mod model;
 mod onnx;

@@ -15,6 +15,7 @@ use boresight_signal::region::{region_covariance, region_snapshots};
 use ndarray::{ArrayD, ArrayView3, ArrayViewD, Axis as NdAxis, Slice};
 use sha2::{Digest, Sha256};
 use std::sync::{Arc, Mutex, PoisonError};
+use tract_onnx::prelude::{TVec, TValue};
 
 /// Most examples run at once.
 const MAX_BATCH: usize = 1 << 20;
@@ -32,6 +33,8 @@ pub struct Model {
     single: bool,
     /// The engine with the array of the last estimator in it, and the positions of its elements.
     placed: Arc<Mutex<Option<Placed>>>,
+    /// What ran the graph last, ready to do so again.
+    idle: Arc<Mutex<Option<Runners>>>,
 }
 
 /// Positions of elements, and the engine with these in it.
@@ -74,8 +77,8 @@ impl Model {
             check_digest(card, &sha256)?;
         }
         let card = card.cloned().map(Arc::new);
-        let (engine, placed) = (Arc::new(engine), Arc::default());
-        Ok(Self { engine, kind, card, sha256, inputs, outputs, single, placed })
+        let (engine, placed, idle) = (Arc::new(engine), Arc::default(), Arc::default());
+        Ok(Self { engine, kind, card, sha256, inputs, outputs, single, placed, idle })
     }
 
     /// What the network does.
@@ -118,7 +121,7 @@ impl Model {
         let batch = counted.map_or(1, |(array, _)| array.shape()[0]);
         check_range("number of examples", batch as f64, 1.0, MAX_BATCH as f64)?;
         let mut parts: Vec<Vec<ArrayD<f32>>> = vec![Vec::new(); self.outputs.len()];
-        self.runners().run(
+        self.run_graph(
             batch,
             |from, to| {
                 let part = |(array, batched): &(ArrayViewD<'_, f32>, bool)| {
@@ -155,8 +158,8 @@ impl Model {
         {
             return Err(NeuralError::Mismatch {
                 what: "names of the inputs given".into(),
-                expected: list(inputs.iter().map(|(name, _)| *name)),
-                given: list(self.inputs.iter().map(|port| port.name.as_str())),
+                expected: list(self.inputs.iter().map(|port| port.name.as_str())),
+                given: list(inputs.iter().map(|(name, _)| *name)),
             });
         }
         let mut batch = None;
@@ -183,6 +186,20 @@ impl Model {
 
     pub(crate) fn runners(&self) -> Runners {
         Runners::new(self.engine.clone(), self.single)
+    }
+
+    fn run_graph(
+        &self,
+        count: usize,
+        given: impl FnMut(usize, usize) -> Result<TVec<TValue>, NeuralError>,
+        take: impl FnMut(usize, &[ArrayViewD<'_, f32>]),
+    ) -> Result<(), NeuralError> {
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut runners = idle().take().unwrap_or_else(|| self.runners());
+        // Not kept where it failed.
+        runners.run(count, given, take)?;
+        *idle() = Some(runners);
+        Ok(())
     }
 
     /// The same with the positions of an array in place of that input.
@@ -275,7 +292,7 @@ impl Model {
         data.check(ELEMENTS)?;
         let features = covariance_features(data);
         let mut probability = [0.0; 3];
-        self.runners().run(
+        self.run_graph(
             1,
             |_, _| Ok([tensor_of(&[1, features.len()], &features)?.into()].into_iter().collect()),
             |_, outputs| {

@@ -275,7 +275,8 @@ fn inputs_of_a_run_and_arrays_are_checked() {
     assert!(matches!(shape, NeuralError::Argument(CoreError::Shape { .. })));
     assert!(matches!(refused(&[("snapshots", &snapshots)]), NeuralError::Mismatch { .. }));
     let names = refused(&[("snapshots", &snapshots), ("place", &positions)]);
-    assert!(matches!(names, NeuralError::Mismatch { .. }));
+    let NeuralError::Mismatch { expected, given, .. } = names else { panic!("{names:?}") };
+    assert_eq!([&*expected, &*given], ["snapshots, positions", "snapshots, place"]);
     assert_eq!(refused(&[("snapshots", &none), ("positions", &positions)]).code(), "out-of-range");
 
     let lrr48 = preset("lrr48").unwrap();
