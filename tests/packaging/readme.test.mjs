@@ -90,8 +90,8 @@ test('the table of estimators says what methods() says', async () => {
   const yes = (flag) => (flag ? 'yes' : 'no');
   const expected = JSON.parse(json).map((m) => {
     const needs = [
-      m.minSnapshots > 1 && `${m.minSnapshots} or more snapshots`,
-      m.maxSnapshots === 1 && 'exactly 1 snapshot',
+      m.minSnapshots > 1 && m.maxSnapshots === null && `${m.minSnapshots} or more snapshots`,
+      m.maxSnapshots === m.minSnapshots && `exactly ${m.maxSnapshots} snapshot${m.maxSnapshots === 1 ? '' : 's'}`,
       m.uniformArray && 'uniform array',
       m.lattice && 'elements on a grid',
       m.sourceCount && 'number of sources, given or counted',

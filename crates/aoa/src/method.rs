@@ -246,6 +246,9 @@ impl Method {
             Self::Cnn3d => Requirements {
                 title: "3D-CNN (network)",
                 reference: "Sang et al. 2021",
+                // 65 range bins x 4 chirps.
+                min_snapshots: 260,
+                max_snapshots: Some(260),
                 takes_covariance: false,
                 uniform_array: true,
                 cost: "that of its model",

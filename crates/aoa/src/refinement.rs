@@ -62,18 +62,43 @@ impl Refinement {
         Ok(self.nomp.sources(points, data))
     }
 
-    /// Puts the refined sources in place of those of an estimate; its spectrum stays as it is.
+    /// Puts the refined sources in place of those of an estimate; its spectrum stays as it is. A source keeps the
+    /// confidence of the one it was before: of those within half a beam each other's nearest.
     pub(crate) fn apply(
         &mut self,
         estimate: &mut Estimate,
         data: Data<'_>,
     ) -> Result<(), AoaError> {
         let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
-        estimate.sources = self.refine(&directions, data)?;
+        let mut refined = self.refine(&directions, data)?;
+        self.keep_confidences(&estimate.sources, &mut refined);
+        estimate.sources = refined;
         estimate.warnings.retain(|warning| *warning != Warning::NoSources);
         let resolved = estimate.resolved;
         settle(estimate, None);
         estimate.resolved &= resolved;
         Ok(())
+    }
+
+    fn keep_confidences(&self, before: &[Source], after: &mut [Source]) {
+        if before.iter().all(|source| source.confidence.is_none()) {
+            return;
+        }
+        let geometry = &self.nomp.geometry;
+        let points = |sources: &[Source]| -> Vec<Point> {
+            sources.iter().map(|source| geometry.point(source.direction)).collect()
+        };
+        let (old, new) = (points(before), points(after));
+        let nearest = |to: Point, among: &[Point]| {
+            let distances = among.iter().map(|&point| geometry.distance(to, point)).enumerate();
+            distances.min_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        for (at, source) in after.iter_mut().enumerate() {
+            let Some((of, distance)) = nearest(new[at], &old) else { continue };
+            let mutual = nearest(old[of], &new).is_some_and(|(back, _)| back == at);
+            if mutual && distance <= geometry.half_beam() {
+                source.confidence = before[of].confidence;
+            }
+        }
     }
 }
