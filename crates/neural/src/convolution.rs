@@ -3,7 +3,8 @@
 //! A row is what the kernel covers at one place; all rows are read where they lie in the input. tract copies those of
 //! kernels over three axes number by number.
 
-use crate::dense::{Dense, Run, steps};
+use crate::dense::{Dense, steps};
+use crate::product::Run;
 use tract_onnx::prelude::*;
 use tract_onnx::tract_core::ops::array::{Pad, PadMode};
 use tract_onnx::tract_core::ops::cnn::{Conv, KernelFormat};

@@ -1,29 +1,9 @@
-//! Products of rows with a matrix.
-//!
-//! tract multiplies tiles of 8 x 8, more than the 16 vector registers of WebAssembly's engines on x86 hold, and puts
-//! rows into panels before and out of them after. Here tiles are 4 x 8, rows are used as they are, and the matrix is put
-//! into panels of 8 columns, once if it is constant.
+//! Products of two tensors, run by [`crate::product`].
 
+use crate::product::{Columns, Layout, Run, fill, panels, places};
 use tract_onnx::prelude::*;
 use tract_onnx::tract_core::internal::*;
 use tract_onnx::tract_core::ops::einsum::EinSum;
-use wide::f32x4;
-
-/// Columns of a panel.
-const COLUMNS: usize = 8;
-
-/// Rows times a matrix. An axis of the product may be any axis, or several, of its operands.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Layout {
-    /// Where in a row each inner number is.
-    inner: Vec<usize>,
-    /// Where in the output each column goes.
-    columns: Vec<usize>,
-    /// Where each row begins, and its part of the output.
-    rows: Vec<[usize; 2]>,
-    /// Whether rows are one after the other, their numbers too.
-    in_order: bool,
-}
 
 /// Rows times a constant matrix.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +30,6 @@ struct Product {
     shape: TVec<usize>,
 }
 
-type Columns = [f32; COLUMNS];
-
 /// Replaces products of two tensors.
 pub(crate) fn densify(model: &mut TypedModel) -> TractResult<()> {
     for node in model.eval_order()? {
@@ -64,27 +42,6 @@ pub(crate) fn densify(model: &mut TypedModel) -> TractResult<()> {
         patch.apply(model)?;
     }
     model.compact()
-}
-
-/// Length of an axis, and its steps in some tensors.
-pub(crate) struct Run<const N: usize = 2> {
-    pub length: usize,
-    pub steps: [usize; N],
-}
-
-/// Places in tensors of all combinations of axes, the last fastest.
-fn places<const N: usize>(axes: &[Run<N>]) -> Vec<[usize; N]> {
-    let mut all = vec![[0; N]];
-    for axis in axes {
-        let along = |from: &[usize; N]| {
-            let from = *from;
-            (0..axis.length)
-                .map(move |at| std::array::from_fn(|of| from[of] + at * axis.steps[of]))
-                .collect::<Vec<_>>()
-        };
-        all = all.iter().flat_map(along).collect();
-    }
-    all
 }
 
 /// Steps of the axes of a tensor in C order.
@@ -102,11 +59,11 @@ struct Axes {
     products: Vec<Run<3>>,
 }
 
-/// The operator in place of a node, with its inputs, if it is a product.
-fn replacement(
-    model: &TypedModel,
-    node: usize,
-) -> TractResult<Option<(Box<dyn TypedOp>, TVec<OutletId>)>> {
+/// An operator and its inputs.
+type Replacement = (Box<dyn TypedOp>, TVec<OutletId>);
+
+/// What stands for a node, if it is a product.
+fn replacement(model: &TypedModel, node: usize) -> TractResult<Option<Replacement>> {
     let node = model.node(node);
     let Some(op) = node.op_as::<EinSum>() else { return Ok(None) };
     let output = &node.outputs[0].fact;
@@ -247,10 +204,6 @@ impl TypedOp for Product {
     as_op!();
 }
 
-fn firsts<const N: usize>(places: &[[usize; N]]) -> Vec<usize> {
-    places.iter().map(|place| place[0]).collect()
-}
-
 fn seconds(places: &[[usize; 2]]) -> Vec<usize> {
     places.iter().map(|place| place[1]).collect()
 }
@@ -286,175 +239,6 @@ impl Product {
             shape: shape.into(),
         })
     }
-}
-
-/// Room for a matrix by columns in eights.
-fn panels(inner: &[usize], columns: &[usize]) -> Vec<Columns> {
-    vec![[0.0; COLUMNS]; columns.len().div_ceil(COLUMNS) * inner.len()]
-}
-
-/// Puts a matrix into panels: `inner` and `columns` are where its rows and columns are.
-fn fill(panels: &mut [Columns], matrix: &[f32], inner: &[usize], columns: &[usize]) {
-    for (panel, columns) in panels.chunks_exact_mut(inner.len()).zip(columns.chunks(COLUMNS)) {
-        let together = together(columns) && columns.len() == COLUMNS;
-        for (row, &from) in panel.iter_mut().zip(inner) {
-            let side_by_side =
-                matrix[from + columns[0]..].first_chunk::<COLUMNS>().filter(|_| together);
-            match side_by_side {
-                Some(eight) => *row = *eight,
-                None => {
-                    for (own, &column) in row.iter_mut().zip(columns) {
-                        *own = matrix[from + column];
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Whether columns lie side by side.
-fn together(columns: &[usize]) -> bool {
-    columns.iter().enumerate().all(|(at, &column)| column == columns[0] + at)
-}
-
-/// Numbers of rows that are worked on while all panels pass by.
-const BLOCK: usize = 4096;
-
-impl Layout {
-    /// Nothing for a product too small to gain by it.
-    fn new(
-        inner: &[[usize; 2]],
-        columns: &[[usize; 2]],
-        rows: Vec<[usize; 2]>,
-    ) -> Option<Self> {
-        if inner.len() < 2 || columns.len() < 2 {
-            return None;
-        }
-        let (inner, columns) = (firsts(inner), firsts(columns));
-        let in_order = inner.iter().enumerate().all(|(at, &place)| at == place)
-            && rows.iter().enumerate().all(|(at, row)| row[0] == at * inner.len());
-        Some(Self { inner, columns, rows, in_order })
-    }
-
-    /// The product of `given` rows with the matrix in panels.
-    fn multiply(&self, given: &[f32], panels: &[Columns], output: &mut [f32]) {
-        let inner = self.inner.len();
-        let block = (BLOCK / inner).max(1) * 4;
-        let room = if self.in_order { 0 } else { block.min(self.rows.len()) * inner };
-        let mut gathered = vec![0.0; room];
-        let together: Vec<bool> = self.columns.chunks(COLUMNS).map(together).collect();
-        for (at, rows) in self.rows.chunks(block).enumerate() {
-            let numbers = if self.in_order {
-                &given[at * block * inner..][..rows.len() * inner]
-            } else {
-                for (&[from, _], row) in rows.iter().zip(gathered.chunks_exact_mut(inner)) {
-                    for (own, &place) in row.iter_mut().zip(&self.inner) {
-                        *own = given[from + place];
-                    }
-                }
-                &gathered[..rows.len() * inner]
-            };
-            let panels = panels.chunks_exact(inner).zip(self.columns.chunks(COLUMNS));
-            for ((panel, columns), &together) in panels.zip(&together) {
-                let mut put = |[_, to]: [usize; 2], numbers: &Columns| {
-                    let first = to + columns[0];
-                    let eight = output[first..].first_chunk_mut::<COLUMNS>();
-                    match eight.filter(|_| together && columns.len() == COLUMNS) {
-                        Some(eight) => *eight = *numbers,
-                        None => {
-                            for (&column, &number) in columns.iter().zip(numbers) {
-                                output[to + column] = number;
-                            }
-                        }
-                    }
-                };
-                for (fours, numbers) in rows.chunks(4).zip(numbers.chunks(4 * inner)) {
-                    if let [a, b, c, d] = *fours {
-                        let tile = four_rows(panel, numbers, inner);
-                        put(a, &tile[0]);
-                        put(b, &tile[1]);
-                        put(c, &tile[2]);
-                        put(d, &tile[3]);
-                    } else {
-                        for (&row, numbers) in fours.iter().zip(numbers.chunks_exact(inner)) {
-                            put(row, &one_row(panel, numbers));
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn halves(numbers: &[f32; COLUMNS]) -> [f32x4; 2] {
-    let [a, b, c, d, e, f, g, h] = *numbers;
-    [f32x4::new([a, b, c, d]), f32x4::new([e, f, g, h])]
-}
-
-fn numbers([low, high]: [f32x4; 2]) -> [f32; COLUMNS] {
-    let ([a, b, c, d], [e, f, g, h]) = (low.to_array(), high.to_array());
-    [a, b, c, d, e, f, g, h]
-}
-
-// Functions of their own: engines of WebAssembly optimise by function, and these are called often.
-#[inline(never)]
-fn four_rows(panel: &[[f32; COLUMNS]], rows: &[f32], inner: usize) -> [[f32; COLUMNS]; 4] {
-    let (r0, rest) = rows.split_at(inner);
-    let (r1, rest) = rest.split_at(inner);
-    let (r2, rest) = rest.split_at(inner);
-    let (panel, r3) = (&panel[..inner], &rest[..inner]);
-    let [mut a0, mut a1, mut b0, mut b1] = [f32x4::ZERO; 4];
-    let [mut c0, mut c1, mut d0, mut d1] = [f32x4::ZERO; 4];
-    for k in 0..inner {
-        let [low, high] = halves(&panel[k]);
-        let a = f32x4::splat(r0[k]);
-        a0 += a * low;
-        a1 += a * high;
-        let b = f32x4::splat(r1[k]);
-        b0 += b * low;
-        b1 += b * high;
-        let c = f32x4::splat(r2[k]);
-        c0 += c * low;
-        c1 += c * high;
-        let d = f32x4::splat(r3[k]);
-        d0 += d * low;
-        d1 += d * high;
-    }
-    [numbers([a0, a1]), numbers([b0, b1]), numbers([c0, c1]), numbers([d0, d1])]
-}
-
-#[inline(never)]
-fn one_row(panel: &[[f32; COLUMNS]], row: &[f32]) -> [f32; COLUMNS] {
-    // Four sums at a time, since each has to wait for its last addition.
-    let [mut a0, mut a1, mut b0, mut b1] = [f32x4::ZERO; 4];
-    let [mut c0, mut c1, mut d0, mut d1] = [f32x4::ZERO; 4];
-    let (fours, rest) = row.as_chunks::<4>();
-    let (panels, last) = panel.as_chunks::<4>();
-    for (numbers, panel) in fours.iter().zip(panels) {
-        let [low, high] = halves(&panel[0]);
-        let a = f32x4::splat(numbers[0]);
-        a0 += a * low;
-        a1 += a * high;
-        let [low, high] = halves(&panel[1]);
-        let b = f32x4::splat(numbers[1]);
-        b0 += b * low;
-        b1 += b * high;
-        let [low, high] = halves(&panel[2]);
-        let c = f32x4::splat(numbers[2]);
-        c0 += c * low;
-        c1 += c * high;
-        let [low, high] = halves(&panel[3]);
-        let d = f32x4::splat(numbers[3]);
-        d0 += d * low;
-        d1 += d * high;
-    }
-    for (&number, panel) in rest.iter().zip(last) {
-        let [low, high] = halves(panel);
-        let a = f32x4::splat(number);
-        a0 += a * low;
-        a1 += a * high;
-    }
-    numbers([(a0 + b0) + (c0 + d0), (a1 + b1) + (c1 + d1)])
 }
 
 #[cfg(test)]

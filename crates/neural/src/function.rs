@@ -107,8 +107,8 @@ fn sine(angle: f32, ahead: u32) -> f32 {
     let x = angle - turns * 1.570_312_5 - turns * 4.837_513e-4 - turns * 7.549_79e-8;
     let x2 = x * x;
     let odd = x + x * x2 * (-1.666_665_5e-1 + x2 * (8.332_161e-3 + x2 * -1.951_529_6e-4));
-    let even = 1.0 - 0.5 * x2
-        + x2 * x2 * (4.166_664_6e-2 + x2 * (-1.388_731_6e-3 + x2 * 2.443_315_7e-5));
+    let even =
+        1.0 - 0.5 * x2 + x2 * x2 * (4.166_664_6e-2 + x2 * (-1.388_731_6e-3 + x2 * 2.443_315_7e-5));
     let one = if quarters & 1 == 0 { odd } else { even };
     f32::from_bits(one.to_bits() ^ ((quarters & 2) << 30))
 }
@@ -181,7 +181,8 @@ mod tests {
         let angles: Vec<f32> =
             (-40_000..40_001).map(|k| k as f32 * 0.25).chain([1e7, -3e9, 0.0, -0.0]).collect();
         let positive: Vec<f32> = (-300..300).map(|k| (k as f32 * 0.28).exp()).collect();
-        let cases: [(Function, &[f32], fn(f64) -> f64); 3] = [
+        type Case<'a> = (Function, &'a [f32], fn(f64) -> f64);
+        let cases: [Case; 3] = [
             (Function::Sin, &angles, f64::sin),
             (Function::Cos, &angles, f64::cos),
             (Function::Ln, &positive, f64::ln),
@@ -195,7 +196,10 @@ mod tests {
                 let right = exact(f64::from(x));
                 // Rounding, and what reducing an angle of 8192 costs.
                 let most = 4e-7 * right.abs().max(1.0);
-                assert!((f64::from(y) - right).abs() <= most, "{function:?} of {x}: {y}, not {right}");
+                assert!(
+                    (f64::from(y) - right).abs() <= most,
+                    "{function:?} of {x}: {y}, not {right}"
+                );
             }
         }
         let mut out = [0.0; 5];

@@ -289,8 +289,8 @@ impl TypedOp for Fused {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tract_onnx::tract_core::ops::math;
     use crate::engine::tests::same_after;
+    use tract_onnx::tract_core::ops::math;
 
     fn numbers(shape: &[usize]) -> Tensor {
         let count: usize = shape.iter().product();

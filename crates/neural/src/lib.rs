@@ -16,6 +16,7 @@ mod function;
 mod fused;
 mod model;
 mod onnx;
+mod product;
 
 pub use card::{Axis, Card, Kind, Port};
 pub use error::NeuralError;

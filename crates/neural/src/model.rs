@@ -15,7 +15,7 @@ use boresight_signal::region::{region_covariance, region_snapshots};
 use ndarray::{ArrayD, ArrayView3, ArrayViewD, Axis as NdAxis, Slice};
 use sha2::{Digest, Sha256};
 use std::sync::{Arc, Mutex, PoisonError};
-use tract_onnx::prelude::{TVec, TValue};
+use tract_onnx::prelude::{TValue, TVec};
 
 /// Most examples run at once.
 const MAX_BATCH: usize = 1 << 20;
@@ -139,13 +139,16 @@ impl Model {
                 }
             },
         )?;
-        let join = |parts: &Vec<ArrayD<f32>>| {
+        let join = |mut parts: Vec<ArrayD<f32>>| {
+            if parts.len() == 1 {
+                return Ok(parts.swap_remove(0));
+            }
             let views: Vec<_> = parts.iter().map(|part| part.view()).collect();
             ndarray::concatenate(NdAxis(0), &views)
                 .map_err(|error| NeuralError::Refused { stage: "run", reason: error.to_string() })
         };
         let named = |(port, parts): (&Port, _)| Ok((port.name.clone(), join(parts)?));
-        self.outputs.iter().zip(&parts).map(named).collect()
+        self.outputs.iter().zip(parts).map(named).collect()
     }
 
     /// The inputs in the network's order, each with whether its first axis counts examples.

@@ -19,17 +19,15 @@ impl Read for Tensor {
         let data = fields.raw("data")?.unwrap_or(JsValue::UNDEFINED);
         let data = data
             .dyn_ref::<Float32Array>()
-            .ok_or_else(|| wrong_type(&fields.path_of("data"), "a Float32Array", &data))?
+            .ok_or_else(|| wrong_type(&format!("{path}.data"), "a Float32Array", &data))?
             .to_vec();
         let shape: Vec<usize> = fields.required("shape")?;
-        let given = vec![data.len()];
-        let what = fields.path_of("data");
         fields.finish()?;
-        let expected = format!("1 number for each entry of shape {shape:?}");
-        let array = ArrayD::from_shape_vec(shape, data).map_err(|_| CoreError::Shape {
-            what,
-            expected,
-            given,
+        let given = data.len();
+        let array = ArrayD::from_shape_vec(&*shape, data).map_err(|_| CoreError::Shape {
+            what: format!("{path}.data"),
+            expected: format!("1 number for each entry of shape {shape:?}"),
+            given: vec![given],
         })?;
         Ok(Self(array))
     }
@@ -57,9 +55,9 @@ pub fn read_tensors(value: &JsValue) -> Fallible<Vec<(String, ArrayD<f32>)>> {
 pub fn tensors_object(tensors: &[(String, ArrayD<f32>)]) -> JsValue {
     let object = Object::new();
     for (name, array) in tensors {
-        let numbers: Vec<f32> = array.iter().copied().collect();
+        let array = array.as_standard_layout();
         let record = Record::new()
-            .with("data", float32(&numbers))
+            .with("data", float32(array.as_slice().unwrap_or_default()))
             .with("shape", list(array.shape().iter().copied()));
         // Setting a property of a fresh plain object cannot fail.
         let _ = Reflect::set(&object, &name.into(), &record.into());
