@@ -112,3 +112,32 @@ fn an_image_of_a_street_is_made_by_a_network() {
     assert_eq!(rows[1]["method"], "aaetr");
     assert!(lit(&rows[1]) > 0.7 * lit(&rows[0]), "{rows:?}");
 }
+
+#[test]
+fn an_experiment_takes_networks_and_keeps_their_records_apart() {
+    let folder = folder("network-evaluates");
+    let out = folder.join("run");
+    let path = model("aaetr-small");
+    let run = ["evaluate", "aoa", "--trials", "2", "--seed", "3", "--methods", "iaa"];
+    let at = ["--out", out.to_str().unwrap()];
+    let text = stdout(&[&run[..], &["--model", &path], &at].concat());
+    for row in ["| iaa |", "| aaetr-small |", "| aaetr-small+refined |"] {
+        assert!(text.contains(row), "{row} in {text}");
+    }
+    let records = std::fs::read_to_string(out.join("aoa-aaetr-small.jsonl")).unwrap();
+    let card: Value =
+        serde_json::from_slice(&std::fs::read(path.replace(".onnx", ".json")).unwrap()).unwrap();
+    assert!(records.lines().next().unwrap().contains(card["sha256"].as_str().unwrap()));
+    // Nothing is run again, with another network added neither.
+    let methods = std::fs::read(out.join("aoa.jsonl")).unwrap();
+    let other = model("aaetr-small-perturbed");
+    let both = stdout(&[&run[..], &["--model", &path, "--model", &other], &at].concat());
+    assert!(both.contains("| aaetr-small-perturbed+refined |"), "{both}");
+    assert_eq!(std::fs::read(out.join("aoa.jsonl")).unwrap(), methods);
+    assert_eq!(std::fs::read_to_string(out.join("aoa-aaetr-small.jsonl")).unwrap(), records);
+
+    let wrong = boresight(&[&run[..], &["--model", &model("counting")], &at].concat());
+    assert!(!wrong.status.success());
+    let error = String::from_utf8(wrong.stderr).unwrap();
+    assert!(error.contains("counting") && !error.contains("panicked"), "{error}");
+}
