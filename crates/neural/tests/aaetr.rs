@@ -196,7 +196,8 @@ fn on_displaced_arrays(name: &str, deviation: f64) -> (usize, usize, f64) {
             let estimate = estimator.estimate(Data::Snapshots(scene.snapshot.view())).unwrap();
             given += estimate.sources.len();
             for target in &scene.truth {
-                let error = nearest(&estimate, target).map_or(90.0, |(error, _)| error.to_degrees());
+                let error =
+                    nearest(&estimate, target).map_or(90.0, |(error, _)| error.to_degrees());
                 found += usize::from(error < 0.5);
                 error_deg += if error < 0.5 { error } else { 0.0 };
             }
