@@ -8,7 +8,7 @@ import { main, run } from './lib/run.mjs';
 
 const EXPERIMENTS = [
   { name: 'aoa', kinds: ['aaetr'], settings: ['--trials', '1000', '--seed', '1'], prefix: 'aoa-' },
-  { name: 'doa', kinds: ['counting', 'cnn3d', 'dnn'], settings: ['--trials', '420', '--seed', '0'], prefix: '' },
+  { name: 'doa', kinds: ['counting', 'cnn3d', 'dnn'], settings: ['--trials', '2100', '--seed', '0'], prefix: '' },
 ];
 
 const models = join(root, 'models');
