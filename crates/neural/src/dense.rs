@@ -1,6 +1,6 @@
 //! Products of two tensors, run by [`crate::product`].
 
-use crate::product::{Columns, Layout, Run, fill, panels, places};
+use crate::product::{Columns, Layout, Run, fill, listable, panels, places};
 use tract_onnx::prelude::*;
 use tract_onnx::tract_core::internal::*;
 use tract_onnx::tract_core::ops::einsum::EinSum;
@@ -210,12 +210,16 @@ fn seconds(places: &[[usize; 2]]) -> Vec<usize> {
 
 impl Dense {
     /// The product over the axes `inner` (steps in a row and in the weights) for all of `columns` (in the output and in
-    /// the weights) and `rows` (in the input and in the output); nothing where it is too small to gain by it.
+    /// the weights) and `rows` (in the input and in the output); nothing where it is too small to gain by it, or too
+    /// large to list.
     pub fn new(
         weights: &Tensor,
         [inner, columns, rows]: [&[Run]; 3],
         shape: &[usize],
     ) -> TractResult<Option<Self>> {
+        if ![inner, columns, rows].into_iter().all(listable) {
+            return Ok(None);
+        }
         let (inner, columns) = (places(inner), places(columns));
         let Some(layout) = Layout::new(&inner, &columns, places(rows)) else { return Ok(None) };
         let view = weights.to_plain_array_view::<f32>()?;
@@ -229,13 +233,17 @@ impl Dense {
 
 impl Product {
     fn new(matrix_at: usize, axes: &Axes, shape: &[usize]) -> Option<Self> {
-        let (inner, columns) = (places(&axes.inner), places(&axes.columns));
+        let Axes { inner, columns, rows, products } = axes;
+        if ![inner, columns, rows].into_iter().all(|axes| listable(axes)) || !listable(products) {
+            return None;
+        }
+        let (inner, columns) = (places(inner), places(columns));
         Some(Self {
             matrix_at,
-            layout: Layout::new(&inner, &columns, places(&axes.rows))?,
+            layout: Layout::new(&inner, &columns, places(rows))?,
             inner: seconds(&inner),
             columns: seconds(&columns),
-            products: places(&axes.products),
+            products: places(products),
             shape: shape.into(),
         })
     }
@@ -281,6 +289,18 @@ pub(crate) mod tests {
             model.select_output_outlets(&product).expect("an output");
             same_after(model, &numbers(&[600]), densify, "Product", 1);
         }
+    }
+
+    #[test]
+    fn what_is_too_large_to_list_is_left_alone() {
+        let mut model = TypedModel::default();
+        let source = model.add_source("rows", f32::fact([1 << 23, 2])).expect("a source");
+        let matrix = model.add_const("weights", numbers(&[2, 2])).expect("a constant");
+        let op = EinSum::new("mk,kn->mn".parse().expect("an expression"), f32::datum_type());
+        let product = model.wire_node("product", op, &[source, matrix]).expect("a product");
+        model.select_output_outlets(&product).expect("an output");
+        densify(&mut model).expect("a change");
+        assert!(model.nodes().iter().all(|node| node.op.name() != "Dense"), "{model}");
     }
 
     #[test]

@@ -33,6 +33,15 @@ pub(crate) struct Run<const N: usize = 2> {
     pub steps: [usize; N],
 }
 
+/// Most places of a product's rows, columns or inner numbers that are listed; tract multiplies what has more.
+const MOST_PLACES: usize = 1 << 22;
+
+/// Whether all combinations of axes can be listed.
+pub(crate) fn listable<const N: usize>(axes: &[Run<N>]) -> bool {
+    let count = axes.iter().try_fold(1usize, |count, axis| count.checked_mul(axis.length));
+    count.is_some_and(|count| count <= MOST_PLACES)
+}
+
 /// Places in tensors of all combinations of axes, the last fastest.
 pub(crate) fn places<const N: usize>(axes: &[Run<N>]) -> Vec<[usize; N]> {
     let mut all = vec![[0; N]];
