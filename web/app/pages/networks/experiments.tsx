@@ -33,7 +33,8 @@ export function Experiments() {
 const HIDDEN = ['capon', 'bartlett', 'iaa', 'min-norm', 'min-norm, smoothed', 'esprit', 'music, smoothed', 'root-music', 'esprit, smoothed', 'nomp', 'sparse-bayesian', 'AIC', 'AIC, forward-backward'];
 
 function useChosen(methods: readonly string[], all: boolean) {
-  const hidden = useSignal<ReadonlySet<string>>(new Set(all ? ['capon', 'nomp, refined', 'nomp+refined'] : HIDDEN));
+  const first = all ? ['capon', 'nomp, refined', 'nomp+refined', ...methods.filter((method) => method.includes('-perturbed'))] : HIDDEN;
+  const hidden = useSignal<ReadonlySet<string>>(new Set(first));
   const chosen = (method: string): boolean => !hidden.value.has(method);
   const list = (
     <details class="panel method-choice">

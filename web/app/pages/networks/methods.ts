@@ -36,5 +36,6 @@ export function styleOf(name: string): SeriesStyle {
   const kind = kindOf(name);
   const style = COUNTERS[base] ?? methodStyle(kind ?? base);
   if (kind && base.includes('large')) return { ...style, dash: [], marker: 'up', width: 2.4 };
+  if (base.endsWith('-perturbed')) return { ...style, marker: 'square', dash: variant ? [8, 3, 2, 3] : [8, 3] };
   return variant ? { ...style, dash: [4, 3] } : style;
 }
