@@ -32,7 +32,7 @@ def test_a_card_describes_its_file(path):
     assert card["bytes"] == path.stat().st_size < 24e6
     assert card["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
     assert card["name"] == path.stem
-    what = task(card["network"], card["form"], card.get("targets"))
+    what = task(card["network"], card["form"], card.get("targets"), card["data"].get("positionError", 0.0))
     assert (card["title"], card["reference"]) == (what.title, what.reference)
     assert card["network"] == "counting" or 0 < card["confidence"] < 1
     for ports, named, given in (
