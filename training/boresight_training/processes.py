@@ -1,5 +1,6 @@
 """One process, or several under torchrun."""
 
+import gc
 import os
 from dataclasses import dataclass
 
@@ -49,4 +50,6 @@ def start(device: str) -> Processes:
 def end() -> None:
     """Leaves the other processes."""
     if distributed.is_initialized():
+        # What DistributedDataParallel leaves in cycles still holds the group, whose threads must end before the interpreter.
+        gc.collect()
         distributed.destroy_process_group()
