@@ -16,7 +16,12 @@ const single = { ...threeSources, positions: range(32), snapshots: 1, seed: 2 };
 const shared = { gridPoints: 1024, dynamicRangeDb: 10, maxPeaks: 16 };
 const known = { sources: 3 };
 const nomp = {
-  falseAlarm: 1e-2, noisePower: 0.01, oversampling: 4, singleRefinements: 3, cyclicRefinements: 3, maxSources: 16,
+  falseAlarm: 1e-2,
+  noisePower: 0.01,
+  oversampling: 4,
+  singleRefinements: 3,
+  cyclicRefinements: 3,
+  maxSources: 16,
 };
 const learning = { gridPoints: 256, maxIterations: 100, tolerance: 1e-15 };
 
@@ -37,7 +42,12 @@ export const classical = [
   { method: 'min-norm', scenes: many, options: known, differDeg: 1e-6 },
   { method: 'iaa', scenes: single, options: { iaa: { iterations: 15 } }, differDeg: 1e-3 },
   { method: 'nomp', scenes: single, options: { nomp }, differDeg: 1e-3 },
-  { method: 'maximum-likelihood', scenes: many, options: { ...known, maxIterations: 200, tolerance: 1e-8 }, differDeg: 1e-4 },
+  {
+    method: 'maximum-likelihood',
+    scenes: many,
+    options: { ...known, maxIterations: 200, tolerance: 1e-8 },
+    differDeg: 1e-4,
+  },
   { method: 'sparse-bayesian', scenes: single, options: learning, differDeg: 0.05 },
 ].map(({ method, scenes, options, differDeg }) => ({
   name: `${method}, ${scenes.snapshots === 1 ? '1 snapshot' : `${scenes.snapshots} snapshots`}`,
@@ -50,7 +60,13 @@ export const classical = [
 }));
 
 const iaaScenes = {
-  positions: lrr48, u: [-0.52, -0.2, 0.04, 0.31, 0.6], jitter: 0.05, snrDb: 25, snapshots: 1, scenes: 8, seed: 3,
+  positions: lrr48,
+  u: [-0.52, -0.2, 0.04, 0.31, 0.6],
+  jitter: 0.05,
+  snrDb: 25,
+  snapshots: 1,
+  scenes: 8,
+  seed: 3,
 };
 const iaaOptions = (form) => ({ method: 'iaa', array: 'lrr48', ...shared, iaa: { iterations: 15, form } });
 
@@ -75,15 +91,33 @@ export const cube = {
   samples: 256,
   amplitude: 0.05,
   seed: 4,
-  cells: [[17, 3], [40, 100], [58, 64], [58, 20], [97, 64], [120, 45], [151, 90], [199, 12], [222, 71], [210, 33]],
+  cells: [
+    [17, 3],
+    [40, 100],
+    [58, 64],
+    [58, 20],
+    [97, 64],
+    [120, 45],
+    [151, 90],
+    [199, 12],
+    [222, 71],
+    [210, 33],
+  ],
   options: {
     array: 'awr1642',
     rangeWindow: 'hann',
     dopplerWindow: 'hann',
     cfar: { kind: 'cell-averaging', axes: 'both', falseAlarm: 1e-6, guardCells: [2, 2], trainingCells: [8, 4] },
     waveform: {
-      startFrequencyHz: 77e9, slopeHzPerS: 60e12, sampleRateHz: 10e6, samples: 256, adcStartS: 6e-6,
-      chirpIntervalS: 45e-6, transmitters: 2, loops: 128, frameIntervalS: 40e-3,
+      startFrequencyHz: 77e9,
+      slopeHzPerS: 60e12,
+      sampleRateHz: 10e6,
+      samples: 256,
+      adcStartS: 6e-6,
+      chirpIntervalS: 45e-6,
+      transmitters: 2,
+      loops: 128,
+      frameIntervalS: 40e-3,
     },
   },
 };

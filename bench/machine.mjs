@@ -1,6 +1,7 @@
 // What the figures were measured on, and the module they are about.
-import { createHash } from 'node:crypto';
+
 import { execFileSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { arch, cpus, loadavg, platform, release } from 'node:os';
 import { brotliCompressSync, constants } from 'node:zlib';
@@ -33,6 +34,7 @@ export function initSeconds(entry, runs) {
     const start = process.hrtime.bigint();
     await init();
     console.log(Number(process.hrtime.bigint() - start) / 1e9);`;
-  const once = () => Number(execFileSync(process.execPath, ['--input-type=module', '-e', script], { encoding: 'utf8' }));
+  const once = () =>
+    Number(execFileSync(process.execPath, ['--input-type=module', '-e', script], { encoding: 'utf8' }));
   return median(Array.from({ length: runs }, once));
 }

@@ -8,7 +8,7 @@
 //                  targets, which are for a quiet machine, do not count, and NumPy is not needed
 //   --record FILE  writes such a file
 //   --model FILES  networks beside the shipped ones, ONNX files, comma-separated
-import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
@@ -39,7 +39,12 @@ const pace = options.quick
   ? { rounds: 30, batchS: 0.004, warmUpS: 0.1, limitS: 1 }
   : { rounds: 400, batchS: 0.004, warmUpS: 0.4, limitS: 4 };
 const baseline = options.against && JSON.parse(readFileSync(options.against, 'utf8'));
-const wanted = baseline ? Object.keys(baseline) : options.only?.split(',').map((name) => name.trim()).filter(Boolean);
+const wanted = baseline
+  ? Object.keys(baseline)
+  : options.only
+      ?.split(',')
+      .map((name) => name.trim())
+      .filter(Boolean);
 const say = (text) => process.stderr.write(`${text}\n`);
 
 const entry = pathToFileURL(join(root, 'dist', 'lib', 'node.js')).href;
@@ -48,7 +53,9 @@ const workerPools = await import(pathToFileURL(join(root, 'dist', 'worker', 'nod
 const neural = await import(pathToFileURL(join(root, 'dist', 'lib', 'neural-node.js')).href);
 await boresight.init();
 await neural.initNeural();
-const shipped = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.onnx')).sort();
+const shipped = readdirSync(join(root, 'models'))
+  .filter((name) => name.endsWith('.onnx'))
+  .sort();
 const networks = [...shipped.map((name) => join(root, 'models', name)), ...(options.model?.split(',') ?? [])];
 
 let numpy;
@@ -101,12 +108,22 @@ function agree(ours, theirs, limit, what) {
 
 const inputsOf = (scenes) => scenes.map(({ data, shape }) => ({ snapshots: { data, shape } }));
 const anglesOf = (estimator, inputs, sources) =>
-  inputs.map((input) => strongest(estimator.estimate(input).sources.map((source) => source.azimuthDeg), sources));
+  inputs.map((input) =>
+    strongest(
+      estimator.estimate(input).sources.map((source) => source.azimuthDeg),
+      sources,
+    ),
+  );
 
 /** Plans a method in NumPy for scenes and returns its angles and a side to time. */
 async function numpySide(id, scenes, positions, { method, options: given }, sources) {
   const shape = [scenes.length, ...scenes[0].shape];
-  await numpy.prepare('prepare', id, scenes.map((scene) => scene.data), { method, options: given, positions, shape });
+  await numpy.prepare(
+    'prepare',
+    id,
+    scenes.map((scene) => scene.data),
+    { method, options: given, positions, shape },
+  );
   const { azimuthDeg } = await numpy.ask({ do: 'estimate', id });
   return {
     angles: azimuthDeg.map((angles) => strongest(angles, sources)),
@@ -121,7 +138,11 @@ async function classicalRow({ name, scenes: what, sources, differDeg, options: g
     const estimator = new boresight.Estimator(given);
     try {
       const ours = anglesOf(estimator, inputs, sources);
-      const errorDeg = largestDifference(ours, scenes.map((scene) => scene.truthDeg), 'the truth');
+      const errorDeg = largestDifference(
+        ours,
+        scenes.map((scene) => scene.truthDeg),
+        'the truth',
+      );
       const own = here((input) => estimator.estimate(input), inputs);
       if (!numpy) {
         const [{ seconds }] = await compare([own], pace);
@@ -130,7 +151,14 @@ async function classicalRow({ name, scenes: what, sources, differDeg, options: g
       const { angles, side } = await numpySide(name, scenes, what.positions, theirs, sources);
       const differenceDeg = agree(ours, angles, differDeg, 'NumPy');
       const [first, second] = await compare([own, side], pace);
-      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median, differenceDeg, errorDeg };
+      return {
+        ours: first.seconds,
+        other: second.seconds,
+        ratio: second.ratio,
+        value: second.ratio.median,
+        differenceDeg,
+        errorDeg,
+      };
     } finally {
       estimator.free();
     }
@@ -153,11 +181,15 @@ async function iaaRows() {
   const dense = new boresight.Estimator(iaa48.dense);
   const angles = anglesOf(fast, inputs, iaa48.sources);
   const own = here((input) => fast.estimate(input), inputs);
-  await row(`${name}: beside its dense form`, { unit: 'x', otherName: 'dense', target: { least: 20 }, keep: true }, async () => {
-    agree(angles, anglesOf(dense, inputs, iaa48.sources), iaa48.differDeg, 'the dense form');
-    const [first, second] = await compare([own, here((input) => dense.estimate(input), inputs)], pace);
-    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
-  });
+  await row(
+    `${name}: beside its dense form`,
+    { unit: 'x', otherName: 'dense', target: { least: 20 }, keep: true },
+    async () => {
+      agree(angles, anglesOf(dense, inputs, iaa48.sources), iaa48.differDeg, 'the dense form');
+      const [first, second] = await compare([own, here((input) => dense.estimate(input), inputs)], pace);
+      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+    },
+  );
   await row(`${name}: a snapshot`, { unit: 's', target: { most: 0.7e-3 } }, async () => {
     const [{ seconds }] = await compare([own], pace);
     return { ours: seconds, value: seconds.median };
@@ -174,22 +206,26 @@ async function iaaRows() {
     const [median, low, high] = [all.median, all.low, all.high].map((time) => time / iaa48.batch);
     return { ours: { median, low, high }, value: median };
   });
-  await row(`${name}: ${iaa48.cells} cells over two workers, beside one`, { unit: 'x', otherName: 'one worker', target: { least: 1.7 } }, async () => {
-    if (where.cores < 2) return { missing: 'not measured: one core' };
-    const batch = batchOf(scenes, iaa48.cells);
-    const pools = [2, 1].map((workers) => workerPools.createPool({ workers }));
-    try {
-      const sides = pools.map((pool) => async (calls) => {
-        const start = process.hrtime.bigint();
-        for (let call = 0; call < calls; call++) await pool.estimateBatch(batch, iaa48.fast);
-        return Number(process.hrtime.bigint() - start) / 1e9;
-      });
-      const [first, second] = await compare(sides, { ...pace, rounds: Math.min(pace.rounds, 20) });
-      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
-    } finally {
-      pools.forEach((pool) => pool.terminate());
-    }
-  });
+  await row(
+    `${name}: ${iaa48.cells} cells over two workers, beside one`,
+    { unit: 'x', otherName: 'one worker', target: { least: 1.7 } },
+    async () => {
+      if (where.cores < 2) return { missing: 'not measured: one core' };
+      const batch = batchOf(scenes, iaa48.cells);
+      const pools = [2, 1].map((workers) => workerPools.createPool({ workers }));
+      try {
+        const sides = pools.map((pool) => async (calls) => {
+          const start = process.hrtime.bigint();
+          for (let call = 0; call < calls; call++) await pool.estimateBatch(batch, iaa48.fast);
+          return Number(process.hrtime.bigint() - start) / 1e9;
+        });
+        const [first, second] = await compare(sides, { ...pace, rounds: Math.min(pace.rounds, 20) });
+        return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+      } finally {
+        pools.forEach((pool) => pool.terminate());
+      }
+    },
+  );
   if (numpy) {
     await row(`${name}: beside NumPy's fast form`, { unit: 'x', otherName: 'NumPy' }, async () => {
       const theirs = await numpySide('iaa48', scenes, iaa48.scenes.positions, iaa48.numpy('iaa'), iaa48.sources);
@@ -214,15 +250,20 @@ async function cubeRows() {
   };
   const [one, four] = [planned(1), planned(4)];
   const expected = cells.map(([range, doppler]) => [range, (doppler + loops / 2) % loops]);
-  const missingIn = (found) => expected.filter((cell) => !found.some((other) => other[0] === cell[0] && other[1] === cell[1]));
+  const missingIn = (found) =>
+    expected.filter((cell) => !found.some((other) => other[0] === cell[0] && other[1] === cell[1]));
   const own = here(one, [0]);
-  await row(`${name}: windows, FFTs, CFAR and the rest of the chain`, { unit: 's', target: { most: 50e-3 } }, async () => {
-    const [frame] = one();
-    const missing = missingIn(frame.detections.map((d) => [d.rangeBin, d.dopplerBin]));
-    if (missing.length > 0) throw new Error(`targets not detected: ${JSON.stringify(missing)}`);
-    const [{ seconds }] = await compare([own], pace);
-    return { ours: seconds, value: seconds.median };
-  });
+  await row(
+    `${name}: windows, FFTs, CFAR and the rest of the chain`,
+    { unit: 's', target: { most: 50e-3 } },
+    async () => {
+      const [frame] = one();
+      const missing = missingIn(frame.detections.map((d) => [d.rangeBin, d.dopplerBin]));
+      if (missing.length > 0) throw new Error(`targets not detected: ${JSON.stringify(missing)}`);
+      const [{ seconds }] = await compare([own], pace);
+      return { ours: seconds, value: seconds.median };
+    },
+  );
   await row(`${name}: the same, four frames in one call, a frame`, { unit: 's' }, async () => {
     const [{ seconds: all }] = await compare([here(four, [0])], pace);
     const seconds = { median: all.median / 4, low: all.low / 4, high: all.high / 4 };
@@ -232,7 +273,8 @@ async function cubeRows() {
     await row(`${name}: beside NumPy's windows, FFTs and CFAR`, { unit: 'x', otherName: 'NumPy' }, async () => {
       const { guardCells, trainingCells, falseAlarm } = cube.options.cfar;
       await numpy.prepare('prepare-chain', 'cube', [data], {
-        shape: [loops, channels, samples], options: { guardCells, trainingCells, falseAlarm },
+        shape: [loops, channels, samples],
+        options: { guardCells, trainingCells, falseAlarm },
       });
       const { detections } = await numpy.ask({ do: 'chain', id: 'cube' });
       if (missingIn(detections).length > 0) throw new Error('NumPy misses targets');
@@ -240,14 +282,18 @@ async function cubeRows() {
       return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
     });
   }
-  await row(`${name}: beside fft.js, windows and FFTs alone`, { unit: 'x', otherName: 'fft.js', keep: true }, async () => {
-    const transform = rangeDopplerPlan(cube);
-    const power = transform(data);
-    const isPeak = ([range, doppler]) => power[range * loops + doppler] > 0.2 * cube.amplitude ** 2;
-    if (!expected.every(isPeak)) throw new Error('fft.js misses targets');
-    const [first, second] = await compare([own, here(() => transform(data), [0])], pace);
-    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
-  });
+  await row(
+    `${name}: beside fft.js, windows and FFTs alone`,
+    { unit: 'x', otherName: 'fft.js', keep: true },
+    async () => {
+      const transform = rangeDopplerPlan(cube);
+      const power = transform(data);
+      const isPeak = ([range, doppler]) => power[range * loops + doppler] > 0.2 * cube.amplitude ** 2;
+      if (!expected.every(isPeak)) throw new Error('fft.js misses targets');
+      const [first, second] = await compare([own, here(() => transform(data), [0])], pace);
+      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+    },
+  );
 }
 
 /** Frames of a drive as `Calibration` takes them. */
@@ -269,7 +315,11 @@ async function driveRows() {
   const { drive: made, velocities } = makeDrive({ ...drive.make, scans: drive.frames });
   const frames = framesOf(made);
   const calibration = new boresight.Calibration({
-    method: 'weighted-mean', motion: 'ransac', xM: mounting.xM, yM: mounting.yM, ...drive.ransac,
+    method: 'weighted-mean',
+    motion: 'ransac',
+    xM: mounting.xM,
+    yM: mounting.yM,
+    ...drive.ransac,
   });
   let timeS = 0;
   const take = (frame) => calibration.addFrame({ ...frame, timeS: (timeS += 1 / 13.5) });
@@ -283,55 +333,75 @@ async function driveRows() {
     const [{ seconds }] = await compare([own], pace);
     return { ours: seconds, value: seconds.median };
   });
-  const beside = (otherName, side, theirs) => row(`${name}: beside ${otherName}`, { unit: 'x', otherName, keep: otherName !== 'NumPy' }, async () => {
-    const differences = apart(ours, await theirs());
-    const [typical, largest] = [median(differences), Math.max(...differences)];
-    if (!(typical <= drive.differMps.median && largest <= drive.differMps.most)) {
-      throw new Error(`${otherName} differs by ${typical.toPrecision(2)}, at most ${largest.toPrecision(2)} m/s`);
-    }
-    const [first, second] = await compare([own, side], pace);
-    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
-  });
+  const beside = (otherName, side, theirs) =>
+    row(`${name}: beside ${otherName}`, { unit: 'x', otherName, keep: otherName !== 'NumPy' }, async () => {
+      const differences = apart(ours, await theirs());
+      const [typical, largest] = [median(differences), Math.max(...differences)];
+      if (!(typical <= drive.differMps.median && largest <= drive.differMps.most)) {
+        throw new Error(`${otherName} differs by ${typical.toPrecision(2)}, at most ${largest.toPrecision(2)} m/s`);
+      }
+      const [first, second] = await compare([own, side], pace);
+      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+    });
   if (numpy) {
     const values = new Float64Array(2 * detections * frames.length);
     frames.forEach((frame, index) => {
-      values.set(Float64Array.from(frame.azimuthDeg, (deg) => (deg * Math.PI) / 180), 2 * detections * index);
+      values.set(
+        Float64Array.from(frame.azimuthDeg, (deg) => (deg * Math.PI) / 180),
+        2 * detections * index,
+      );
       values.set(frame.rangeRateMps, 2 * detections * index + detections);
     });
-    await beside('NumPy', (calls) => numpy.seconds('motion', calls), async () => {
-      await numpy.prepare('prepare-motion', 'motion', [values], { shape: [frames.length, 2, detections], options: drive.ransac });
-      return (await numpy.ask({ do: 'motion', id: 'motion' })).velocityMps;
-    });
+    await beside(
+      'NumPy',
+      (calls) => numpy.seconds('motion', calls),
+      async () => {
+        await numpy.prepare('prepare-motion', 'motion', [values], {
+          shape: [frames.length, 2, detections],
+          options: drive.ransac,
+        });
+        return (await numpy.ask({ do: 'motion', id: 'motion' })).velocityMps;
+      },
+    );
   }
   const plain = ransac(drive.ransac, detections);
   const run = ({ azimuthDeg, rangeRateMps }) => plain(azimuthDeg, rangeRateMps);
   await beside('plain JavaScript', here(run, frames), () => frames.map((frame) => run(frame).velocity));
   calibration.free();
   for (const { name: method } of boresight.calibrationMethods()) {
-    await row(`an hour of one radar, ${drive.hour} frames of ${detections}: ${method}`, { unit: 's', target: { most: 10 } }, () => {
-      const { drive: hour } = makeDrive({ ...drive.make, scans: drive.hour });
-      // Too long to be repeated: processor time, which other processes hardly change.
-      const start = process.cpuUsage();
-      const { result } = boresight.calibrateDrive(hour, { method });
-      const { user, system } = process.cpuUsage(start);
-      const value = (user + system) / 1e6;
-      const error = Math.abs(result.angleDeg - mounting.trueYawDeg);
-      if (!(error < Math.max(4 * result.sigmaDeg, 0.01))) throw new Error(`off by ${error.toPrecision(2)} +- ${result.sigmaDeg.toPrecision(2)} deg`);
-      return { value };
-    });
+    await row(
+      `an hour of one radar, ${drive.hour} frames of ${detections}: ${method}`,
+      { unit: 's', target: { most: 10 } },
+      () => {
+        const { drive: hour } = makeDrive({ ...drive.make, scans: drive.hour });
+        // Too long to be repeated: processor time, which other processes hardly change.
+        const start = process.cpuUsage();
+        const { result } = boresight.calibrateDrive(hour, { method });
+        const { user, system } = process.cpuUsage(start);
+        const value = (user + system) / 1e6;
+        const error = Math.abs(result.angleDeg - mounting.trueYawDeg);
+        if (!(error < Math.max(4 * result.sigmaDeg, 0.01)))
+          throw new Error(`off by ${error.toPrecision(2)} +- ${result.sigmaDeg.toPrecision(2)} deg`);
+        return { value };
+      },
+    );
   }
 }
 
 async function boundaryRows() {
   const { options: given, scenes: what } = classical.find(({ name }) => name === 'bartlett, 1 snapshot');
   const inputs = inputsOf(scenesOf(what));
-  await row('one call of estimate() beside a kept Estimator (bartlett, 1 snapshot)', { unit: 'x', otherName: 'estimate()', keep: true }, async () => {
-    const estimator = new boresight.Estimator(given);
-    const kept = here((input) => estimator.estimate(input), inputs);
-    const [first, second] = await compare([kept, here((input) => boresight.estimate(input, given), inputs)], pace);
-    estimator.free();
-    return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
-  });
+  await row(
+    'one call of estimate() beside a kept Estimator (bartlett, 1 snapshot)',
+    { unit: 'x', otherName: 'estimate()', keep: true },
+    async () => {
+      const estimator = new boresight.Estimator(given);
+      const kept = here((input) => estimator.estimate(input), inputs);
+      const [first, second] = await compare([kept, here((input) => boresight.estimate(input, given), inputs)], pace);
+      estimator.free();
+      return { ours: first.seconds, other: second.seconds, ratio: second.ratio, value: second.ratio.median };
+    },
+  );
   await row('crossing the boundary and back (bartlett, 4 elements, 16 angles)', { unit: 's' }, async () => {
     const estimator = new boresight.Estimator({ method: 'bartlett', array: 'ula4', gridPoints: 16 });
     const input = { snapshots: { data: new Float64Array([1, 0, 1, 0, 1, 0, 1, 0]), shape: [4] } };
@@ -353,9 +423,18 @@ await row('init() in a fresh process', { unit: 's' }, () => ({ value: initSecond
 await row('core .wasm, raw', { unit: 'bytes' }, () => ({ value: wasm.bytes }));
 await row('core .wasm, Brotli', { unit: 'bytes', target: { most: 400_000 } }, () => ({ value: wasm.brotliBytes }));
 await row('neural .wasm, raw', { unit: 'bytes' }, () => ({ value: neuralModule().bytes }));
-await row('neural .wasm, Brotli', { unit: 'bytes', target: { most: 3_000_000 } }, () => ({ value: neuralModule().brotliBytes }));
+await row('neural .wasm, Brotli', { unit: 'bytes', target: { most: 3_000_000 } }, () => ({
+  value: neuralModule().brotliBytes,
+}));
 
-const report = { date: new Date().toISOString(), quick: options.quick, machine: where, numpy: numpy?.versions ?? null, wasm, rows };
+const report = {
+  date: new Date().toISOString(),
+  quick: options.quick,
+  machine: where,
+  numpy: numpy?.versions ?? null,
+  wasm,
+  rows,
+};
 numpy?.stop();
 writeFileSync(join(root, 'bench.json'), `${JSON.stringify(report, null, 2)}\n`);
 const counts = tally(rows);
@@ -365,9 +444,13 @@ if (options.json) {
   const { cpu, node, load, cores } = where;
   const beside = report.numpy ? `NumPy ${report.numpy.numpy} (${report.numpy.blas})` : 'no NumPy';
   console.log(`\n${cpu}, Node ${node}, ${beside}, one thread; wasm ${wasm.sha256.slice(0, 12)}`);
-  console.log(`load ${load.toFixed(1)} on ${cores} cores at the start${load > 0.75 * cores ? ': not quiet, times are too long; ratios hold better' : ''}\n`);
+  console.log(
+    `load ${load.toFixed(1)} on ${cores} cores at the start${load > 0.75 * cores ? ': not quiet, times are too long; ratios hold better' : ''}\n`,
+  );
   console.log(table(rows));
-  console.log(`\ntargets: ${counts.met} met, ${counts.missed} missed, ${counts.errors} in error, ${counts.notMeasured} not measured`);
+  console.log(
+    `\ntargets: ${counts.met} met, ${counts.missed} missed, ${counts.errors} in error, ${counts.notMeasured} not measured`,
+  );
 }
 if (options.record) writeFileSync(options.record, `${JSON.stringify(recorded(rows), null, 2)}\n`);
 if (baseline) {

@@ -19,12 +19,15 @@ function numbers(seed) {
 /** Inputs of a network for a batch: positions are those of `lrr48`, all else is drawn. */
 function inputsOf(ports, batch, positions) {
   const draw = numbers(7);
-  return Object.fromEntries(ports.map(({ name, axes }) => {
-    const shape = axes.map((axis) => (typeof axis === 'number' ? axis : batch));
-    const data = new Float32Array(shape.reduce((product, length) => product * length, 1));
-    for (let i = 0; i < data.length; i++) data[i] = name === 'positions' ? positions[Math.trunc(i / 3)][i % 3] : draw();
-    return [name, { data, shape }];
-  }));
+  return Object.fromEntries(
+    ports.map(({ name, axes }) => {
+      const shape = axes.map((axis) => (typeof axis === 'number' ? axis : batch));
+      const data = new Float32Array(shape.reduce((product, length) => product * length, 1));
+      for (let i = 0; i < data.length; i++)
+        data[i] = name === 'positions' ? positions[Math.trunc(i / 3)][i % 3] : draw();
+      return [name, { data, shape }];
+    }),
+  );
 }
 
 function agree(ours, theirs) {
@@ -36,7 +39,8 @@ function agree(ours, theirs) {
       largest = apart <= largest ? largest : apart;
       scale = Math.max(scale, Math.abs(other[i]));
     });
-    if (!(largest <= DIFFER * scale)) throw new Error(`${name} differs from onnxruntime-web's by ${(largest / scale).toPrecision(2)}`);
+    if (!(largest <= DIFFER * scale))
+      throw new Error(`${name} differs from onnxruntime-web's by ${(largest / scale).toPrecision(2)}`);
   }
 }
 
@@ -69,27 +73,42 @@ export async function networkRows(files, { row, pace, neural, positions }) {
       return { value: times[0], again: median(times) };
     });
     for (const batch of BATCHES) {
-      await row(`${name}: batch of ${batch}`, { unit: 'x', otherName: 'onnxruntime-web', target: { least: 1 }, keep: true }, async () => {
-        const { InferenceSession, Tensor } = await runtime();
-        const network = new neural.Network(bytes);
-        const session = await InferenceSession.create(bytes, { executionProviders: ['wasm'], graphOptimizationLevel: 'all' });
-        try {
-          const inputs = inputsOf(network.inputs, batch, positions);
-          const feeds = Object.fromEntries(Object.entries(inputs).map(([port, { data, shape }]) => [port, new Tensor('float32', data, shape)]));
-          agree(network.run(inputs), await session.run(feeds));
-          const theirs = async (calls) => (await timed(async () => {
-            for (let call = 0; call < calls; call++) await session.run(feeds);
-          }))[0];
-          const [first, second] = await compare([here(() => network.run(inputs), [0]), theirs], pace);
-          const each = ({ seconds: { best, median: middle, low, high } }) => ({
-            best: best / batch, median: middle / batch, low: low / batch, high: high / batch,
+      await row(
+        `${name}: batch of ${batch}`,
+        { unit: 'x', otherName: 'onnxruntime-web', target: { least: 1 }, keep: true },
+        async () => {
+          const { InferenceSession, Tensor } = await runtime();
+          const network = new neural.Network(bytes);
+          const session = await InferenceSession.create(bytes, {
+            executionProviders: ['wasm'],
+            graphOptimizationLevel: 'all',
           });
-          return { ours: each(first), other: each(second), ratio: second.ratio, value: second.ratio.median };
-        } finally {
-          network.free();
-          await session.release();
-        }
-      });
+          try {
+            const inputs = inputsOf(network.inputs, batch, positions);
+            const feeds = Object.fromEntries(
+              Object.entries(inputs).map(([port, { data, shape }]) => [port, new Tensor('float32', data, shape)]),
+            );
+            agree(network.run(inputs), await session.run(feeds));
+            const theirs = async (calls) =>
+              (
+                await timed(async () => {
+                  for (let call = 0; call < calls; call++) await session.run(feeds);
+                })
+              )[0];
+            const [first, second] = await compare([here(() => network.run(inputs), [0]), theirs], pace);
+            const each = ({ seconds: { best, median: middle, low, high } }) => ({
+              best: best / batch,
+              median: middle / batch,
+              low: low / batch,
+              high: high / batch,
+            });
+            return { ours: each(first), other: each(second), ratio: second.ratio, value: second.ratio.median };
+          } finally {
+            network.free();
+            await session.release();
+          }
+        },
+      );
     }
   }
 }

@@ -34,7 +34,14 @@ export function ransac({ inlierResidualMps, confidence, inlierRatioThreshold }, 
     const determinant = xx * yy - xy * xy;
     const velocity = [(yy * dx - xy * dy) / determinant, (xx * dy - xy * dx) / determinant];
     const variance = (dd - velocity[0] * dx - velocity[1] * dy) / (used - 2) / determinant;
-    return { velocity, covariance: [[yy * variance, -xy * variance], [-xy * variance, xx * variance]], inliers: used };
+    return {
+      velocity,
+      covariance: [
+        [yy * variance, -xy * variance],
+        [-xy * variance, xx * variance],
+      ],
+      inliers: used,
+    };
   }
 
   return (azimuthDeg, rangeRateMps) => {
@@ -69,7 +76,8 @@ export function ransac({ inlierResidualMps, confidence, inlierRatioThreshold }, 
     }
     const weights = new Float32Array(total);
     const [vx, vy] = found.velocity;
-    for (let k = 0; k < total; k++) weights[k] = Math.abs(closing[k] - vx * cos[k] - vy * sin[k]) < inlierResidualMps ? 1 : 0;
+    for (let k = 0; k < total; k++)
+      weights[k] = Math.abs(closing[k] - vx * cos[k] - vy * sin[k]) < inlierResidualMps ? 1 : 0;
     return { ...found, weights };
   };
 }

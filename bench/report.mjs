@@ -26,7 +26,8 @@ const formatSpread = ({ median, low, high }) =>
   `${median.toPrecision(3)} x (${low.toPrecision(3)} to ${high.toPrecision(3)})`;
 
 function cells(row) {
-  const figure = row.unit === 'bytes' ? `${(row.value / 1000).toFixed(1)} KB` : formatTime(row.ours?.median ?? row.value);
+  const figure =
+    row.unit === 'bytes' ? `${(row.value / 1000).toFixed(1)} KB` : formatTime(row.ours?.median ?? row.value);
   return [
     row.name,
     row.error ? `error: ${row.error}` : figure,
@@ -40,7 +41,12 @@ function cells(row) {
 export function table(rows) {
   const lines = [['', 'Boresight', 'beside it', 'ratio (10 to 90 %)', 'target', 'verdict'], ...rows.map(cells)];
   const widths = lines[0].map((_, column) => Math.max(...lines.map((line) => line[column].length)));
-  const text = lines.map((line) => line.map((cell, column) => cell.padEnd(widths[column])).join('  ').trimEnd());
+  const text = lines.map((line) =>
+    line
+      .map((cell, column) => cell.padEnd(widths[column]))
+      .join('  ')
+      .trimEnd(),
+  );
   return [text[0], '-'.repeat(Math.max(...text.map((line) => line.length))), ...text.slice(1)].join('\n');
 }
 

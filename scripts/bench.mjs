@@ -21,7 +21,15 @@ async function python() {
     }
     console.log('bench: NumPy and SciPy into .tools/python');
     await run(system, ['-m', 'venv', folder]);
-    await run(program, ['-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '-r', join(root, 'bench', 'requirements.txt')]);
+    await run(program, [
+      '-m',
+      'pip',
+      'install',
+      '--quiet',
+      '--disable-pip-version-check',
+      '-r',
+      join(root, 'bench', 'requirements.txt'),
+    ]);
   }
   return program;
 }

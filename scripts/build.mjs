@@ -11,7 +11,13 @@ const say = (text) => console.log(`build: ${text}`);
 
 // What rustc's wasm32 target turns on by itself, and SIMD (see .cargo/config.toml).
 const wasmFeatures = [
-  'simd', 'bulk-memory', 'mutable-globals', 'multivalue', 'nontrapping-float-to-int', 'reference-types', 'sign-ext',
+  'simd',
+  'bulk-memory',
+  'mutable-globals',
+  'multivalue',
+  'nontrapping-float-to-int',
+  'reference-types',
+  'sign-ext',
 ].map((name) => `--enable-${name}`);
 
 /** Crates that a module of them only depends on: their changes do not touch the others. */
@@ -22,7 +28,12 @@ const shared = crates('aoa', 'calibrate', 'core', 'formats', 'image', 'pipeline'
 const modules = [
   { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'release', made: shared },
   { name: 'boresight_drives', crate: 'wasm', feature: 'drives', profile: 'release', made: shared },
-  { name: 'boresight_neural', crate: 'wasm-neural', profile: 'neural', made: [...shared, ...crates('neural', 'wasm-neural')] },
+  {
+    name: 'boresight_neural',
+    crate: 'wasm-neural',
+    profile: 'neural',
+    made: [...shared, ...crates('neural', 'wasm-neural')],
+  },
 ];
 
 async function wasmModule({ name, crate, feature, profile, made }) {
@@ -33,18 +44,39 @@ async function wasmModule({ name, crate, feature, profile, made }) {
     const file = join(dist, 'wasm', `${name}_bg.wasm`);
     const features = feature ? ['--no-default-features', '--features', feature] : [];
     await run('cargo', [
-      'build', '-p', `boresight-${crate}`, ...features, '--profile', profile, '--target', wasmTarget, '--target-dir', join(root, 'target'),
+      'build',
+      '-p',
+      `boresight-${crate}`,
+      ...features,
+      '--profile',
+      profile,
+      '--target',
+      wasmTarget,
+      '--target-dir',
+      join(root, 'target'),
     ]);
     // wasm-pack cannot pass on the last flag, which makes the instance replaceable after a trap.
     await run('wasm-bindgen', [
-      join(root, 'target', wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`), '--target', 'web',
-      '--out-dir', join(dist, 'wasm'), '--out-name', name, '--omit-default-module-path', '--experimental-reset-state-function',
+      join(root, 'target', wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`),
+      '--target',
+      'web',
+      '--out-dir',
+      join(dist, 'wasm'),
+      '--out-name',
+      name,
+      '--omit-default-module-path',
+      '--experimental-reset-state-function',
     ]);
     // Of the module of networks it would take minutes.
     if (profile !== 'release') return;
     say('wasm-opt -O3');
     await run(process.execPath, [
-      join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt'), '-O3', ...wasmFeatures, file, '-o', file,
+      join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt'),
+      '-O3',
+      ...wasmFeatures,
+      file,
+      '-o',
+      file,
     ]);
   });
   if (!done) say(`dist/wasm/${name}_bg.wasm is up to date`);
@@ -65,11 +97,22 @@ async function library() {
 export async function buildPackage() {
   for (const one of modules) await wasmModule(one);
   await library();
-  for (const file of [coreWasm, drivesWasm, neuralWasm]) say(describeSize(relative(root, file), sizes(readFileSync(file))));
+  for (const file of [coreWasm, drivesWasm, neuralWasm])
+    say(describeSize(relative(root, file), sizes(readFileSync(file))));
 }
 
 export async function buildDemo() {
-  const inputs = ['package-lock.json', 'vite.config.ts', 'web', 'recordings', 'models', 'docs/experiments', 'dist/wasm', 'dist/lib', 'dist/worker'];
+  const inputs = [
+    'package-lock.json',
+    'vite.config.ts',
+    'web',
+    'recordings',
+    'models',
+    'docs/experiments',
+    'dist/wasm',
+    'dist/lib',
+    'dist/worker',
+  ];
   const outputs = ['web/app/dist/index.html'];
   const done = await whenChanged('demo', { inputs, outputs }, async () => {
     say('web/app -> web/app/dist (vite)');

@@ -1,6 +1,7 @@
 // Dependencies between the crates point one way; bindings and tract stay where they belong.
-import { main, output } from './lib/run.mjs';
+
 import { problems, workspaceGraph } from './lib/dependency-rules.mjs';
+import { main, output } from './lib/run.mjs';
 
 await main(async () => {
   const text = output('cargo', ['metadata', '--format-version', '1', '--no-deps']);

@@ -13,5 +13,6 @@ await main(async () => {
   const all = [...crateLicences(JSON.parse(metadata)), ...npmLicences(lock)];
   const bad = all.filter(({ licence }) => !licenceAllowed(licence));
   console.log(`${all.length} packages, ${bad.length} with a licence outside the list`);
-  if (bad.length > 0) throw new Error(bad.map(({ name, licence }) => `${name}: ${licence ?? 'no licence named'}`).join('\n'));
+  if (bad.length > 0)
+    throw new Error(bad.map(({ name, licence }) => `${name}: ${licence ?? 'no licence named'}`).join('\n'));
 });

@@ -9,7 +9,12 @@ await main(async () => {
   const rows = [...counts].sort(([, a], [, b]) => b - a);
   const total = rows.reduce((sum, [, count]) => sum + count, 0);
   const arithmetic = rows.filter(([name]) => /^f(32x4|64x2)\.(add|sub|mul)$/.test(name));
-  console.log(`${total} SIMD instructions, ${rows.length} kinds; most: ${rows.slice(0, 6).map((row) => row.join(' ')).join(', ')}`);
+  console.log(
+    `${total} SIMD instructions, ${rows.length} kinds; most: ${rows
+      .slice(0, 6)
+      .map((row) => row.join(' '))
+      .join(', ')}`,
+  );
   if (arithmetic.length === 0) {
     throw new Error('no floating-point SIMD arithmetic in the module: is +simd128 set in .cargo/config.toml?');
   }

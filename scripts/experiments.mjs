@@ -12,10 +12,12 @@ const EXPERIMENTS = [
 ];
 
 const models = join(root, 'models');
-const cards = readdirSync(models).filter((file) => file.endsWith('.json')).map((file) => ({
-  ...JSON.parse(readFileSync(join(models, file), 'utf8')),
-  onnx: join('models', file.replace(/json$/, 'onnx')),
-}));
+const cards = readdirSync(models)
+  .filter((file) => file.endsWith('.json'))
+  .map((file) => ({
+    ...JSON.parse(readFileSync(join(models, file), 'utf8')),
+    onnx: join('models', file.replace(/json$/, 'onnx')),
+  }));
 
 /** Removes records of networks that are no longer those shipped. */
 function forgetOld(folder, name) {
@@ -29,7 +31,8 @@ function forgetOld(folder, name) {
 
 await main(async () => {
   const at = process.argv.indexOf('--binary');
-  const [command, ...before] = at > 0 ? [process.argv[at + 1]] : ['cargo', 'run', '--release', '-p', 'boresight-cli', '--'];
+  const [command, ...before] =
+    at > 0 ? [process.argv[at + 1]] : ['cargo', 'run', '--release', '-p', 'boresight-cli', '--'];
   mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
   for (const { name, kinds, settings, prefix } of EXPERIMENTS) {
     const folder = join(root, 'target', 'experiments', name);
@@ -37,6 +40,7 @@ await main(async () => {
     const networks = cards.filter(({ network }) => kinds.includes(network)).flatMap(({ onnx }) => ['--model', onnx]);
     await run(command, [...before, 'evaluate', name, ...settings, ...networks, '--out', folder]);
     cpSync(join(folder, `${name}.brief.json`), join(root, 'docs', 'experiments', `${name}.json`));
-    for (const file of readdirSync(folder).filter((entry) => entry.endsWith('.svg'))) cpSync(join(folder, file), join(root, 'docs', 'images', prefix + file));
+    for (const file of readdirSync(folder).filter((entry) => entry.endsWith('.svg')))
+      cpSync(join(folder, file), join(root, 'docs', 'images', prefix + file));
   }
 });

@@ -31,7 +31,11 @@ function checkRust() {
 async function javascriptPackages() {
   const done = await whenChanged(
     'packages',
-    { inputs: ['package-lock.json', '.npmrc'], extra: [process.versions.modules], outputs: ['node_modules/vite', 'node_modules/typescript'] },
+    {
+      inputs: ['package-lock.json', '.npmrc'],
+      extra: [process.versions.modules],
+      outputs: ['node_modules/vite', 'node_modules/typescript'],
+    },
     () => {
       say('JavaScript packages (npm ci)');
       return run(npm, ['ci', '--no-audit', '--no-fund'], { shell: process.platform === 'win32' });

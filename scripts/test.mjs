@@ -53,10 +53,13 @@ async function runStep({ command, work, counts }) {
   const started = performance.now();
   let result;
   if (work) {
-    result = await work().then(() => ({ ok: true, text: '' }), ({ message }) => {
-      console.error(message);
-      return { ok: false, text: '' };
-    });
+    result = await work().then(
+      () => ({ ok: true, text: '' }),
+      ({ message }) => {
+        console.error(message);
+        return { ok: false, text: '' };
+      },
+    );
   } else {
     const [program, ...args] = typeof command === 'function' ? command() : command;
     result = await runTee(program, args, { timeout: longestStepMs });

@@ -2,7 +2,10 @@ import { accessSync, constants } from 'node:fs';
 import { delimiter, join } from 'node:path';
 
 const names = ['chromium', 'chromium-browser', 'google-chrome-stable', 'google-chrome', 'chrome.exe', 'msedge.exe'];
-const places = ['/Applications/Google Chrome.app/Contents/MacOS/Google Chrome', '/Applications/Chromium.app/Contents/MacOS/Chromium'];
+const places = [
+  '/Applications/Google Chrome.app/Contents/MacOS/Google Chrome',
+  '/Applications/Chromium.app/Contents/MacOS/Chromium',
+];
 
 const executable = (path) => {
   try {
@@ -17,7 +20,12 @@ const executable = (path) => {
 export function findBrowser(environment = process.env) {
   if (environment.CHROMIUM) return executable(environment.CHROMIUM) ? environment.CHROMIUM : null;
   const folders = (environment.PATH ?? '').split(delimiter).filter(Boolean);
-  return names.flatMap((name) => folders.map((folder) => join(folder, name))).concat(places).find(executable) ?? null;
+  return (
+    names
+      .flatMap((name) => folders.map((folder) => join(folder, name)))
+      .concat(places)
+      .find(executable) ?? null
+  );
 }
 
 export const browserMissing =
@@ -25,6 +33,11 @@ export const browserMissing =
 
 /** No network chatter, no first-run pages; works as root in a container. */
 export const browserArguments = [
-  '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-  '--disable-component-update', '--disable-sync',
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
 ];

@@ -56,7 +56,8 @@ export function problems(graph) {
           .map(({ to }) => `${crate} names ${name}, which only ${to.join(' and ')} may`);
       }
       const target = short(name);
-      if (bindings.includes(target) && buildsOn[crate] !== target) return [`${crate} depends on the binding crate ${target}`];
+      if (bindings.includes(target) && buildsOn[crate] !== target)
+        return [`${crate} depends on the binding crate ${target}`];
       const list = allowed[crate];
       if (kind === 'dev' || list === null || list.includes(target)) return [];
       return [`${crate} depends on ${target}; it may depend on ${list.join(', ') || 'no other crate'}`];

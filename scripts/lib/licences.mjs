@@ -1,6 +1,19 @@
 const permitted = new Set([
-  'MIT', 'MIT-0', 'Apache-2.0', 'Apache-2.0 WITH LLVM-exception', 'BSD-2-Clause', 'BSD-3-Clause', 'ISC', 'MPL-2.0',
-  'Zlib', 'Unicode-3.0', 'Unicode-DFS-2016', '0BSD', 'CC0-1.0', 'BSL-1.0', 'Unlicense',
+  'MIT',
+  'MIT-0',
+  'Apache-2.0',
+  'Apache-2.0 WITH LLVM-exception',
+  'BSD-2-Clause',
+  'BSD-3-Clause',
+  'ISC',
+  'MPL-2.0',
+  'Zlib',
+  'Unicode-3.0',
+  'Unicode-DFS-2016',
+  '0BSD',
+  'CC0-1.0',
+  'BSL-1.0',
+  'Unlicense',
 ]);
 
 /** Whether an SPDX expression can be met with permitted licences only: OR needs one side, AND both. */

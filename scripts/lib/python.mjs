@@ -21,7 +21,16 @@ export async function pytest(name, requirements, tests, variables = {}) {
   const venvPython = join(venv, ...(windows ? ['Scripts', 'python.exe'] : ['bin', 'python']));
   await whenChanged(name, { inputs: [requirements], extra: [found], outputs: [venvPython] }, async () => {
     await run(python, ['-m', 'venv', '--clear', venv]);
-    await run(join(root, venvPython), ['-m', 'pip', 'install', '--quiet', '--no-cache-dir', '--no-deps', '-r', requirements]);
+    await run(join(root, venvPython), [
+      '-m',
+      'pip',
+      'install',
+      '--quiet',
+      '--no-cache-dir',
+      '--no-deps',
+      '-r',
+      requirements,
+    ]);
   });
   const boresight = await commandLine();
   await run(join(root, venvPython), ['-m', 'pytest', '-q', '-p', 'no:cacheprovider', tests, ...process.argv.slice(2)], {

@@ -40,9 +40,7 @@ export async function whenChanged(name, { inputs, extra, outputs }, work) {
   const now = digest(inputs, extra);
   const stamp = join(folder, `${name}.stamp`);
   const upToDate =
-    existsSync(stamp) &&
-    readFileSync(stamp, 'utf8') === now &&
-    outputs.every((path) => existsSync(join(root, path)));
+    existsSync(stamp) && readFileSync(stamp, 'utf8') === now && outputs.every((path) => existsSync(join(root, path)));
   if (upToDate) return false;
   await work();
   const missing = outputs.filter((path) => !existsSync(join(root, path)));

@@ -2,9 +2,12 @@ import assert from 'node:assert/strict';
 import { assertCsv, assertPng, parameters, parametersWith, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
-const path = '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=7&methods=bartlett,capon,music,root-music';
-const estimates = (page, method) => values(page, `[data-table="results"] [data-row="${method}"]:not(.stale) [data-field="azimuth"]`);
-const shown = (page, method) => page.waitForSelector(`[data-row="${method}"]:not(.stale) [data-field="azimuth"][data-value]`);
+const path =
+  '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=7&methods=bartlett,capon,music,root-music';
+const estimates = (page, method) =>
+  values(page, `[data-table="results"] [data-row="${method}"]:not(.stale) [data-field="azimuth"]`);
+const shown = (page, method) =>
+  page.waitForSelector(`[data-row="${method}"]:not(.stale) [data-field="azimuth"][data-value]`);
 
 browserTest('angle lab: estimates lie within five bounds of the targets', { path }, async ({ page }) => {
   await shown(page, 'root-music');
@@ -15,7 +18,9 @@ browserTest('angle lab: estimates lie within five bounds of the targets', { path
   for (const method of ['music', 'root-music']) {
     const errors = await values(page, `[data-row="${method}"] [data-field="error"]`);
     assert.equal(errors.length, 2, method);
-    errors.forEach((error, i) => assert.ok(Math.abs(error) < 5 * bounds[i], `${method}: error ${error}, bound ${bounds[i]}`));
+    errors.forEach((error, i) =>
+      assert.ok(Math.abs(error) < 5 * bounds[i], `${method}: error ${error}, bound ${bounds[i]}`),
+    );
   }
 });
 
@@ -32,7 +37,11 @@ browserTest('angle lab: dragging a target moves its estimates and the address', 
   const truth = '[data-field="truth"][data-target="1"]';
   await page.waitForFunction((cell) => Number(document.querySelector(cell).dataset.value) > 30, truth);
   await page.waitForFunction((cell) => {
-    const [azimuth, power] = new URLSearchParams(location.hash.split('?')[1]).get('targets').split(',')[1].split(':').map(Number);
+    const [azimuth, power] = new URLSearchParams(location.hash.split('?')[1])
+      .get('targets')
+      .split(',')[1]
+      .split(':')
+      .map(Number);
     return azimuth === Number(document.querySelector(cell).dataset.value) && power < 0;
   }, truth);
   const [azimuth] = await values(page, truth);
@@ -50,7 +59,11 @@ browserTest('angle lab: the address reproduces the numbers', { path }, async ({ 
   await page.locator('input[name="snr"]').fill('13');
   await page.locator('input[name="elements"]').fill('16');
   await page.locator('input[name="azimuth-0"]').fill('-21.5');
-  await parametersWith(page, (params) => params.get('snr') === '13' && params.get('array') === 'ula16' && params.get('targets').startsWith('-21.5:'));
+  await parametersWith(
+    page,
+    (params) =>
+      params.get('snr') === '13' && params.get('array') === 'ula16' && params.get('targets').startsWith('-21.5:'),
+  );
   await page.waitForFunction(() => document.querySelector('[data-field="truth"]').dataset.value === '-21.5');
   await shown(page, 'root-music');
   const first = await estimates(page, 'root-music');
@@ -76,7 +89,10 @@ browserTest('angle lab: a target can be moved, added and removed from the keyboa
   await page.keyboard.press('Delete');
   await parametersWith(page, (params) => params.get('targets') === '12:0');
   assert.equal(await page.locator('.plot-handle').count(), 1);
-  assert.ok(await page.locator('.plot-handle[data-target="0"]').evaluate((node) => node === document.activeElement), 'the focus stays on a target');
+  assert.ok(
+    await page.locator('.plot-handle[data-target="0"]').evaluate((node) => node === document.activeElement),
+    'the focus stays on a target',
+  );
   await page.locator('[data-action="add-target"]').focus();
   await page.keyboard.press('Enter');
   await parametersWith(page, (params) => params.get('targets').split(',').length === 2);
@@ -108,20 +124,31 @@ browserTest('angle lab: what a method cannot do is said, and a bad position too'
   assert.match(await page.locator('#method-esprit-note').innerText(), /uniform/);
 });
 
-browserTest('angle lab: slow methods answer from a worker', { path: path.replace('root-music', 'iaa,nomp,maximum-likelihood,sparse-bayesian') }, async ({ page }) => {
-  for (const method of ['iaa', 'nomp', 'maximum-likelihood', 'sparse-bayesian']) {
-    await shown(page, method);
-    const errors = await values(page, `[data-row="${method}"] [data-field="error"]`);
-    assert.ok(errors.length > 0 && errors.every((error) => Math.abs(error) < 1), `${method}: ${errors}`);
-  }
-});
+browserTest(
+  'angle lab: slow methods answer from a worker',
+  { path: path.replace('root-music', 'iaa,nomp,maximum-likelihood,sparse-bayesian') },
+  async ({ page }) => {
+    for (const method of ['iaa', 'nomp', 'maximum-likelihood', 'sparse-bayesian']) {
+      await shown(page, method);
+      const errors = await values(page, `[data-row="${method}"] [data-field="error"]`);
+      assert.ok(errors.length > 0 && errors.every((error) => Math.abs(error) < 1), `${method}: ${errors}`);
+    }
+  },
+);
 
 browserTest('angle lab: plots and tables are saved as PNG and CSV', { path }, async ({ page }) => {
   await shown(page, 'music');
-  for (const plot of ['spectrum', 'elements', 'pattern']) assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
-  const rows = assertCsv(await saved(page, '[data-plot="spectrum"] [data-export="csv"]'), 'azimuth_deg,bartlett_db,capon_db,music_db');
+  for (const plot of ['spectrum', 'elements', 'pattern'])
+    assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
+  const rows = assertCsv(
+    await saved(page, '[data-plot="spectrum"] [data-export="csv"]'),
+    'azimuth_deg,bartlett_db,capon_db,music_db',
+  );
   assert.equal(rows.length, 1024);
-  assertCsv(await saved(page, '[data-plot="elements"] [data-export="csv"]'), 'element,x_half_wavelengths,y_half_wavelengths,z_half_wavelengths,tx,rx');
+  assertCsv(
+    await saved(page, '[data-plot="elements"] [data-export="csv"]'),
+    'element,x_half_wavelengths,y_half_wavelengths,z_half_wavelengths,tx,rx',
+  );
   assertCsv(await saved(page, '[data-plot="pattern"] [data-export="csv"]'), 'azimuth_deg,response_db');
   assertCsv(
     await saved(page, '[data-table="results"] [data-export="csv"]'),

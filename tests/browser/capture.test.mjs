@@ -1,36 +1,65 @@
 import assert from 'node:assert/strict';
-import { assertCsv, assertPng, clickWhenThere, drop, parameters, parametersWith, recording, saved, values } from './demo.mjs';
+import {
+  assertCsv,
+  assertPng,
+  clickWhenThere,
+  drop,
+  parameters,
+  parametersWith,
+  recording,
+  saved,
+  values,
+} from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const path = '#/capture';
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
 const cfg = recording('profile.cfg');
-const ready = (page) => page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]');
-const cellReady = (page) => page.waitForSelector('[data-row="bartlett"]:not(.stale) [data-field="azimuth"][data-value]');
+const ready = (page) =>
+  page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]');
+const cellReady = (page) =>
+  page.waitForSelector('[data-row="bartlett"]:not(.stale) [data-field="azimuth"][data-value]');
 
 /** Rows of the table of detections as objects. */
 const detections = (page) =>
-  page.locator('[data-table="detections"] tbody tr').evaluateAll((rows) =>
-    rows.map((row) => Object.fromEntries([...row.querySelectorAll('[data-field][data-value]')].map(({ dataset }) => [dataset.field, Number(dataset.value)]))));
+  page
+    .locator('[data-table="detections"] tbody tr')
+    .evaluateAll((rows) =>
+      rows.map((row) =>
+        Object.fromEntries(
+          [...row.querySelectorAll('[data-field][data-value]')].map(({ dataset }) => [
+            dataset.field,
+            Number(dataset.value),
+          ]),
+        ),
+      ),
+    );
 
 /** The strongest detection within 5 cm of a range. */
 const at = (rows, rangeM) =>
   rows.filter((row) => Math.abs(row.rangeM - rangeM) <= 0.05).sort((a, b) => b.powerDb - a.powerDb)[0];
 
-browserTest('capture: the bundled recording shows both targets where the board saw them', { path }, async ({ page }) => {
-  await ready(page);
-  const rows = await detections(page);
-  const [near, far] = [at(rows, 2.95), at(rows, 4.94)];
-  assert.ok(near, `a target at 2.95 m among ${JSON.stringify(rows)}`);
-  assert.ok(far, `a target at 4.94 m among ${JSON.stringify(rows)}`);
-  assert.ok(Math.abs(near.azimuthDeg + 10.8) <= 1, `near target at ${near.azimuthDeg} degrees`);
-  assert.ok(Math.abs(far.azimuthDeg - 1.8) <= 3, `far target at ${far.azimuthDeg} degrees`);
-  assert.ok(Math.abs(near.boardRangeM - 2.95) <= 0.02 && Math.abs(near.boardAzimuthDeg + 10.8) <= 0.1, 'the board’s own beside it');
-  assert.ok(Math.abs(near.azimuthDifferenceDeg) <= 1);
-  assert.match(await page.locator('[data-fact="rangeResolution"]').innerText(), /5\.08.cm/);
-  assert.match(await page.locator('[data-fact="frame"]').innerText(), /16 × 2 chirps, 40\.0.ms/);
-  assert.match(await page.locator('.files').innerText(), /xwr16xx_crw_dca_module_2018_1015v2\.bin/);
-});
+browserTest(
+  'capture: the bundled recording shows both targets where the board saw them',
+  { path },
+  async ({ page }) => {
+    await ready(page);
+    const rows = await detections(page);
+    const [near, far] = [at(rows, 2.95), at(rows, 4.94)];
+    assert.ok(near, `a target at 2.95 m among ${JSON.stringify(rows)}`);
+    assert.ok(far, `a target at 4.94 m among ${JSON.stringify(rows)}`);
+    assert.ok(Math.abs(near.azimuthDeg + 10.8) <= 1, `near target at ${near.azimuthDeg} degrees`);
+    assert.ok(Math.abs(far.azimuthDeg - 1.8) <= 3, `far target at ${far.azimuthDeg} degrees`);
+    assert.ok(
+      Math.abs(near.boardRangeM - 2.95) <= 0.02 && Math.abs(near.boardAzimuthDeg + 10.8) <= 0.1,
+      'the board’s own beside it',
+    );
+    assert.ok(Math.abs(near.azimuthDifferenceDeg) <= 1);
+    assert.match(await page.locator('[data-fact="rangeResolution"]').innerText(), /5\.08.cm/);
+    assert.match(await page.locator('[data-fact="frame"]').innerText(), /16 × 2 chirps, 40\.0.ms/);
+    assert.match(await page.locator('.files').innerText(), /xwr16xx_crw_dca_module_2018_1015v2\.bin/);
+  },
+);
 
 browserTest('capture: every frame alone shows the near target too', { path: '#/capture?frame=3' }, async ({ page }) => {
   await ready(page);
@@ -42,24 +71,31 @@ browserTest('capture: every frame alone shows the near target too', { path: '#/c
   await page.waitForFunction(() => /frame 5 of 8/.test(document.querySelector('output').textContent));
 });
 
-browserTest('capture: a cell chosen from the keyboard changes the spectrum and the address', { path }, async ({ page }) => {
-  await ready(page);
-  await cellReady(page);
-  const title = () => page.locator('[data-plot="cell-spectrum"] .detail').innerText();
-  assert.match(await title(), /2\.95 m/);
-  const map = page.locator('[data-plot="range-doppler"] .plot-host');
-  await map.focus();
-  await page.keyboard.press('n');
-  await parametersWith(page, (params) => params.has('cell'));
-  const chosen = parameters(page).get('cell');
-  await page.keyboard.press('ArrowRight');
-  await page.waitForFunction((before) => new URLSearchParams(location.hash.split('?')[1]).get('cell') !== before, chosen);
-  const [range, doppler] = chosen.split(':').map(Number);
-  assert.equal(parameters(page).get('cell'), `${range + 1}:${doppler}`);
-  await page.keyboard.press('Home');
-  await parametersWith(page, (params) => !params.has('cell'));
-  assert.match(await title(), /2\.95 m/);
-});
+browserTest(
+  'capture: a cell chosen from the keyboard changes the spectrum and the address',
+  { path },
+  async ({ page }) => {
+    await ready(page);
+    await cellReady(page);
+    const title = () => page.locator('[data-plot="cell-spectrum"] .detail').innerText();
+    assert.match(await title(), /2\.95 m/);
+    const map = page.locator('[data-plot="range-doppler"] .plot-host');
+    await map.focus();
+    await page.keyboard.press('n');
+    await parametersWith(page, (params) => params.has('cell'));
+    const chosen = parameters(page).get('cell');
+    await page.keyboard.press('ArrowRight');
+    await page.waitForFunction(
+      (before) => new URLSearchParams(location.hash.split('?')[1]).get('cell') !== before,
+      chosen,
+    );
+    const [range, doppler] = chosen.split(':').map(Number);
+    assert.equal(parameters(page).get('cell'), `${range + 1}:${doppler}`);
+    await page.keyboard.press('Home');
+    await parametersWith(page, (params) => !params.has('cell'));
+    assert.match(await title(), /2\.95 m/);
+  },
+);
 
 browserTest('capture: the address reproduces cell, frame and options', { path }, async ({ page, context }) => {
   await ready(page);
@@ -67,7 +103,10 @@ browserTest('capture: the address reproduces cell, frame and options', { path },
   await page.locator('select[name="window"]').selectOption('blackman');
   await ready(page);
   await page.locator('[data-detection]:not([data-detection="board"]) .cell-button').nth(1).click();
-  await parametersWith(page, (params) => params.get('cfar') === 'ordered-statistic' && params.get('window') === 'blackman' && params.has('cell'));
+  await parametersWith(
+    page,
+    (params) => params.get('cfar') === 'ordered-statistic' && params.get('window') === 'blackman' && params.has('cell'),
+  );
   await ready(page);
   const first = await detections(page);
   const other = await context.newPage();
@@ -78,67 +117,114 @@ browserTest('capture: the address reproduces cell, frame and options', { path },
   assert.equal(await other.locator('tr[aria-selected="true"]').count(), 1);
 });
 
-browserTest('capture: files that do not go together are refused by name, and the page goes on', { path }, async ({ page }) => {
-  await ready(page);
-  const before = await detections(page);
-  const alert = page.locator('[role="alert"][data-error]');
-  for (const files of [
-    [{ name: 'cut.bin', bytes: bin.subarray(0, 100_000) }],
-    [{ name: 'empty.bin', bytes: Buffer.alloc(0) }, { name: 'profile.cfg', bytes: cfg }],
-    [{ name: 'nonsense.cfg', bytes: Buffer.from('hello\n') }],
-    [{ name: 'photo.jpg', bytes: Buffer.from([1, 2, 3]) }],
-  ]) {
-    await drop(page, files);
-    await page.waitForFunction((name) => document.querySelector('[role="alert"][data-error]')?.textContent.includes(name), files[0].name);
-    assert.match(await alert.getAttribute('data-error'), /^[a-z][a-z-]+$/);
-    assert.match(await alert.innerText(), /expect|has no/);
-    assert.deepEqual(await detections(page), before, 'the capture opened before is still shown');
-  }
-  await drop(page, [{ name: 'mine.bin', bytes: bin }, { name: 'mine.cfg', bytes: cfg }]);
-  await page.waitForFunction(() => document.querySelector('.files').textContent.includes('mine.bin'));
-  await ready(page);
-  assert.equal(await alert.count(), 0);
-  assert.equal(await page.locator('[data-field="boardRangeM"]').count(), 0, 'another capture has no log of the board');
-  await page.locator('select[name="cfar"]').selectOption('greatest-of');
-  await ready(page);
-});
+browserTest(
+  'capture: files that do not go together are refused by name, and the page goes on',
+  { path },
+  async ({ page }) => {
+    await ready(page);
+    const before = await detections(page);
+    const alert = page.locator('[role="alert"][data-error]');
+    for (const files of [
+      [{ name: 'cut.bin', bytes: bin.subarray(0, 100_000) }],
+      [
+        { name: 'empty.bin', bytes: Buffer.alloc(0) },
+        { name: 'profile.cfg', bytes: cfg },
+      ],
+      [{ name: 'nonsense.cfg', bytes: Buffer.from('hello\n') }],
+      [{ name: 'photo.jpg', bytes: Buffer.from([1, 2, 3]) }],
+    ]) {
+      await drop(page, files);
+      await page.waitForFunction(
+        (name) => document.querySelector('[role="alert"][data-error]')?.textContent.includes(name),
+        files[0].name,
+      );
+      assert.match(await alert.getAttribute('data-error'), /^[a-z][a-z-]+$/);
+      assert.match(await alert.innerText(), /expect|has no/);
+      assert.deepEqual(await detections(page), before, 'the capture opened before is still shown');
+    }
+    await drop(page, [
+      { name: 'mine.bin', bytes: bin },
+      { name: 'mine.cfg', bytes: cfg },
+    ]);
+    await page.waitForFunction(() => document.querySelector('.files').textContent.includes('mine.bin'));
+    await ready(page);
+    assert.equal(await alert.count(), 0);
+    assert.equal(
+      await page.locator('[data-field="boardRangeM"]').count(),
+      0,
+      'another capture has no log of the board',
+    );
+    await page.locator('select[name="cfar"]').selectOption('greatest-of');
+    await ready(page);
+  },
+);
 
 browserTest('capture: bytes after the last whole frame are counted', { path }, async ({ page }) => {
   await ready(page);
-  await drop(page, [{ name: 'longer.bin', bytes: bin.subarray(0, 3 * 131_072 + 1000) }, { name: 'profile.cfg', bytes: cfg }]);
-  await page.waitForFunction(() => /All 3 frames/.test(document.querySelector('[data-action="all-frames"]').textContent));
-  await page.waitForFunction(() => /Trailing bytes\s*1.?000/.test(document.querySelector('[data-facts="counts"]').innerText));
+  await drop(page, [
+    { name: 'longer.bin', bytes: bin.subarray(0, 3 * 131_072 + 1000) },
+    { name: 'profile.cfg', bytes: cfg },
+  ]);
+  await page.waitForFunction(() =>
+    /All 3 frames/.test(document.querySelector('[data-action="all-frames"]').textContent),
+  );
+  await page.waitForFunction(() =>
+    /Trailing bytes\s*1.?000/.test(document.querySelector('[data-facts="counts"]').innerText),
+  );
 });
 
-browserTest('capture: long work shows how far it is and can be cancelled', { path: '#/capture?dopplerPadding=8' }, async ({ page }) => {
-  await ready(page);
-  const bar = clickWhenThere(page, '[data-progress] [data-action="cancel"]');
-  await drop(page, [{ name: 'long.bin', bytes: bin, times: 60 }, { name: 'profile.cfg', bytes: cfg }]);
-  const { value, max } = await bar;
-  assert.ok(value >= 0 && value < max, `${value} of ${max}`);
-  await page.waitForSelector('[data-cancelled]');
-  assert.equal(await page.locator('[data-progress]').count(), 0);
-  await page.locator('input[name="frame"]').press('ArrowRight');
-  await page.waitForFunction(() => /frame 2 of 480/.test(document.querySelector('output').textContent));
-  await page.waitForFunction(() => document.querySelector('[data-plot="range-doppler"] figcaption').textContent.includes('Frame 2 of 480'));
-});
+browserTest(
+  'capture: long work shows how far it is and can be cancelled',
+  { path: '#/capture?dopplerPadding=8' },
+  async ({ page }) => {
+    await ready(page);
+    const bar = clickWhenThere(page, '[data-progress] [data-action="cancel"]');
+    await drop(page, [
+      { name: 'long.bin', bytes: bin, times: 60 },
+      { name: 'profile.cfg', bytes: cfg },
+    ]);
+    const { value, max } = await bar;
+    assert.ok(value >= 0 && value < max, `${value} of ${max}`);
+    await page.waitForSelector('[data-cancelled]');
+    assert.equal(await page.locator('[data-progress]').count(), 0);
+    await page.locator('input[name="frame"]').press('ArrowRight');
+    await page.waitForFunction(() => /frame 2 of 480/.test(document.querySelector('output').textContent));
+    await page.waitForFunction(() =>
+      document.querySelector('[data-plot="range-doppler"] figcaption').textContent.includes('Frame 2 of 480'),
+    );
+  },
+);
 
 browserTest('capture: the table sorts', { path }, async ({ page }) => {
   await ready(page);
   await page.locator('[data-table="detections"] button.sort', { hasText: 'Range' }).first().click();
-  const ranges = (await values(page, '[data-table="detections"] [data-field="rangeM"]'));
-  assert.deepEqual(ranges, [...ranges].sort((a, b) => a - b));
+  const ranges = await values(page, '[data-table="detections"] [data-field="rangeM"]');
+  assert.deepEqual(
+    ranges,
+    [...ranges].sort((a, b) => a - b),
+  );
   assert.equal(await page.locator('th[aria-sort="ascending"]').count(), 1);
 });
 
 browserTest('capture: plots and tables are saved as PNG and CSV', { path }, async ({ page }) => {
   await ready(page);
   await cellReady(page);
-  for (const plot of ['range-profile', 'range-doppler', 'cell-spectrum']) assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
-  assert.equal(assertCsv(await saved(page, '[data-plot="range-profile"] [data-export="csv"]'), 'range_m,power_dbfs').length, 256);
-  assert.equal(assertCsv(await saved(page, '[data-plot="range-doppler"] [data-export="csv"]'), 'range_m,rate_mps,power_dbfs').length, 256 * 16);
+  for (const plot of ['range-profile', 'range-doppler', 'cell-spectrum'])
+    assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
+  assert.equal(
+    assertCsv(await saved(page, '[data-plot="range-profile"] [data-export="csv"]'), 'range_m,power_dbfs').length,
+    256,
+  );
+  assert.equal(
+    assertCsv(await saved(page, '[data-plot="range-doppler"] [data-export="csv"]'), 'range_m,rate_mps,power_dbfs')
+      .length,
+    256 * 16,
+  );
   const spectrum = await saved(page, '[data-plot="cell-spectrum"] [data-export="csv"]');
   assertCsv(spectrum, 'azimuth_deg,bartlett_dbfs,capon_dbfs,iaa_dbfs');
   const table = await saved(page, '[data-table="detections"] [data-export="csv"]');
-  assert.match(table.bytes.toString().split('\r\n')[0], /^range_bin,doppler_bin,range_m,rate_mps,azimuth_deg,.*board_azimuth_deg,range_difference_m,azimuth_difference_deg$/);
+  assert.match(
+    table.bytes.toString().split('\r\n')[0],
+    /^range_bin,doppler_bin,range_m,rate_mps,azimuth_deg,.*board_azimuth_deg,range_difference_m,azimuth_difference_deg$/,
+  );
 });

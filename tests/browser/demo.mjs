@@ -10,7 +10,11 @@ export const recording = (name) => readFileSync(join(recordings('awr1642'), name
 
 /** Numbers of the cells a selector finds; what is empty is left out. */
 export const values = (page, selector) =>
-  page.locator(selector).evaluateAll((cells) => cells.flatMap(({ dataset }) => (dataset.value === undefined ? [] : [Number(dataset.value)])));
+  page
+    .locator(selector)
+    .evaluateAll((cells) =>
+      cells.flatMap(({ dataset }) => (dataset.value === undefined ? [] : [Number(dataset.value)])),
+    );
 
 /** The state in the address. */
 export const parameters = (page) => new URLSearchParams(new URL(page.url()).hash.split('?')[1]);
@@ -47,19 +51,23 @@ export function assertJson({ name, bytes }) {
 
 /** Clicks the first button that shows up under a selector, at once: how long the work behind it takes is the machine's affair. */
 export const clickWhenThere = (page, selector) =>
-  page.evaluate((wanted) => new Promise((resolve) => {
-    const look = () => {
-      const button = document.querySelector(wanted);
-      if (!button) return;
-      observer.disconnect();
-      const { value, max } = button.parentElement.querySelector('progress');
-      button.click();
-      resolve({ value, max });
-    };
-    const observer = new MutationObserver(look);
-    observer.observe(document.body, { childList: true, subtree: true });
-    look();
-  }), selector);
+  page.evaluate(
+    (wanted) =>
+      new Promise((resolve) => {
+        const look = () => {
+          const button = document.querySelector(wanted);
+          if (!button) return;
+          observer.disconnect();
+          const { value, max } = button.parentElement.querySelector('progress');
+          button.click();
+          resolve({ value, max });
+        };
+        const observer = new MutationObserver(look);
+        observer.observe(document.body, { childList: true, subtree: true });
+        look();
+      }),
+    selector,
+  );
 
 export function assertPng({ name, bytes }) {
   assert.match(name, /^boresight-.*\.png$/);
@@ -69,13 +77,16 @@ export function assertPng({ name, bytes }) {
 
 /** Drops files on the page as from a file manager; `times` repeats the bytes. */
 export const drop = (page, files) =>
-  page.evaluate((list) => {
-    const transfer = new DataTransfer();
-    for (const { name, base64, times = 1 } of list) {
-      const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-      transfer.items.add(new File(new Array(times).fill(bytes), name));
-    }
-    for (const type of ['dragover', 'drop']) {
-      window.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));
-    }
-  }, files.map(({ bytes, ...rest }) => ({ ...rest, base64: Buffer.from(bytes).toString('base64') })));
+  page.evaluate(
+    (list) => {
+      const transfer = new DataTransfer();
+      for (const { name, base64, times = 1 } of list) {
+        const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+        transfer.items.add(new File(new Array(times).fill(bytes), name));
+      }
+      for (const type of ['dragover', 'drop']) {
+        window.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));
+      }
+    },
+    files.map(({ bytes, ...rest }) => ({ ...rest, base64: Buffer.from(bytes).toString('base64') })),
+  );

@@ -39,7 +39,10 @@ export function browserTest(name, options, body) {
       assert.deepEqual(view.problems, [], 'the page reported no problem');
     } catch (error) {
       const file = await view.screenshot(`failed-${name.replaceAll(/\W+/g, '-')}`).catch(() => null);
-      const reports = [view.problems.length > 0 && `The page reported: ${view.problems.join('; ')}`, file && `Picture: ${file}`];
+      const reports = [
+        view.problems.length > 0 && `The page reported: ${view.problems.join('; ')}`,
+        file && `Picture: ${file}`,
+      ];
       console.error(reports.filter(Boolean).join('\n'));
       throw error;
     } finally {

@@ -6,7 +6,9 @@ import { assertCsv, assertPng, drop, parametersWith, saved, values } from './dem
 import { browserTest } from './harness.mjs';
 
 const path = '#/networks?model=aaetr-small';
-const models = readdirSync(join(root, 'models')).filter((name) => name.endsWith('.json')).map((name) => name.replace('.json', ''));
+const models = readdirSync(join(root, 'models'))
+  .filter((name) => name.endsWith('.json'))
+  .map((name) => name.replace('.json', ''));
 const file = (name) => readFileSync(join(root, 'models', name));
 const card = (name) => JSON.parse(file(`${name}.json`));
 const experiment = (name) => join(root, 'docs', 'experiments', `${name}.json`);
@@ -16,151 +18,212 @@ const patient = { timeout: 60_000 };
 const tried = (page) => page.waitForSelector('[data-attempt] [data-table="attempt"]', patient);
 const cell = (page, row, field) => values(page, `[data-table="attempt"] [data-row="${row}"] [data-field="${field}"]`);
 
-browserTest('networks: no page fetches a network or their module before one is used', { path: '#/angle' }, async ({ page }) => {
-  const fetched = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
-  page.on('request', (request) => fetched.push(request.url()));
-  await page.waitForSelector('.plot-host canvas');
-  for (const name of ['capture', 'networks', 'birdseye']) {
-    await page.locator(`nav a[href^="#/${name}"]`).click();
+browserTest(
+  'networks: no page fetches a network or their module before one is used',
+  { path: '#/angle' },
+  async ({ page }) => {
+    const fetched = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
+    page.on('request', (request) => fetched.push(request.url()));
     await page.waitForSelector('.plot-host canvas');
-    await page.waitForTimeout(300);
-  }
-  assert.deepEqual(fetched.filter((address) => /neural|\.onnx/.test(address)), []);
-});
+    for (const name of ['capture', 'networks', 'birdseye']) {
+      await page.locator(`nav a[href^="#/${name}"]`).click();
+      await page.waitForSelector('.plot-host canvas');
+      await page.waitForTimeout(300);
+    }
+    assert.deepEqual(
+      fetched.filter((address) => /neural|\.onnx/.test(address)),
+      [],
+    );
+  },
+);
 
-browserTest('networks: each has a card whose digest is that of the file it links to', { path: '#/networks' }, async ({ page }) => {
-  for (const name of models) {
-    await page.locator('select[name="model"]').selectOption(name);
-    await page.waitForSelector(`[data-card="${name}"]`);
-    const address = await page.locator(`[data-card="${name}"] a[download="${name}.onnx"]`).getAttribute('href');
-    const digest = await page.evaluate(async (from) => {
-      const hash = await crypto.subtle.digest('SHA-256', await (await fetch(from)).arrayBuffer());
-      return [...new Uint8Array(hash)].map((byte) => byte.toString(16).padStart(2, '0')).join('');
-    }, address);
-    assert.equal(await page.locator('.digest code').innerText(), digest);
-    assert.equal(digest, card(name).sha256);
-    assert.equal(await page.locator('[data-table="metrics"] tbody tr').count(), card(name).metrics.length);
-  }
-  assertPng(await saved(page, '[data-plot="metrics"] [data-export="png"]'));
-  assertCsv(await saved(page, '[data-plot="metrics"] [data-export="csv"]'), await header(page));
-  await parametersWith(page, (params) => params.get('model') === models.at(-1));
-});
+browserTest(
+  'networks: each has a card whose digest is that of the file it links to',
+  { path: '#/networks' },
+  async ({ page }) => {
+    for (const name of models) {
+      await page.locator('select[name="model"]').selectOption(name);
+      await page.waitForSelector(`[data-card="${name}"]`);
+      const address = await page.locator(`[data-card="${name}"] a[download="${name}.onnx"]`).getAttribute('href');
+      const digest = await page.evaluate(async (from) => {
+        const hash = await crypto.subtle.digest('SHA-256', await (await fetch(from)).arrayBuffer());
+        return [...new Uint8Array(hash)].map((byte) => byte.toString(16).padStart(2, '0')).join('');
+      }, address);
+      assert.equal(await page.locator('.digest code').innerText(), digest);
+      assert.equal(digest, card(name).sha256);
+      assert.equal(await page.locator('[data-table="metrics"] tbody tr').count(), card(name).metrics.length);
+    }
+    assertPng(await saved(page, '[data-plot="metrics"] [data-export="png"]'));
+    assertCsv(await saved(page, '[data-plot="metrics"] [data-export="csv"]'), await header(page));
+    await parametersWith(page, (params) => params.get('model') === models.at(-1));
+  },
+);
 
 /** The header that the table's columns give. */
-const header = (page) => page.locator('[data-table="metrics"] tbody tr').first().locator('td').evaluateAll((cells) => cells.map(({ dataset }) => dataset.field).join(','));
+const header = (page) =>
+  page
+    .locator('[data-table="metrics"] tbody tr')
+    .first()
+    .locator('td')
+    .evaluateAll((cells) => cells.map(({ dataset }) => dataset.field).join(','));
 
-browserTest('networks: AAETR runs on a scene beside IAA and the truth, and the link shows it again', { path: `${path}&targets=4&snr=25&seed=3` }, async ({ page }) => {
-  await page.locator('[data-card] ~ *').first().waitFor();
-  await page.locator('[data-attempt], [data-action="run"]').first().waitFor();
-  await page.locator('[data-action="run"]').click();
-  await tried(page);
-  const before = {};
-  for (const method of ['aaetr', 'iaa', 'nomp']) {
-    const [found] = await cell(page, method, 'found');
-    assert.ok(found >= 3, `${method} found ${found} of 4`);
-    before[method] = await cell(page, method, 'rmse');
-    assert.ok(before[method][0] < 0.3, `${method}: ${before[method]} deg`);
-  }
-  await parametersWith(page, (params) => params.get('run') === '1');
-  await page.reload();
-  await tried(page);
-  for (const method of ['aaetr', 'iaa', 'nomp']) assert.deepEqual(await cell(page, method, 'rmse'), before[method]);
-  await page.locator('input[name="refine"]').check();
-  await page.waitForSelector('[data-attempt$="refined"]', patient);
-  const [refined] = await cell(page, 'aaetr', 'rmse');
-  assert.ok(refined <= before.aaetr[0], `refined ${refined}, ${before.aaetr} before`);
-  await page.locator('[data-action="toggle"]').focus();
-  await page.keyboard.press('Enter');
-  await parametersWith(page, (params) => !params.has('run'));
-  assertPng(await saved(page, '[data-plot="attempt"] [data-export="png"]'));
-  assertCsv(await saved(page, '[data-table="attempt"] [data-export="csv"]'), 'method,found,missed,false,rmse_deg,power_error_db,time_ms');
-});
-
-browserTest('networks: the networks of regions run on a simulated region', { path: '#/networks?model=counting&targets=2&snr=15&run=1' }, async ({ page }) => {
-  await tried(page);
-  assert.deepEqual(await cell(page, 'network', 'sources'), [2]);
-  for (const name of models.filter((model) => /^(dnn|cnn3d)/.test(model))) {
-    const { network, targets } = card(name);
-    await page.locator('select[name="model"]').selectOption(name);
-    await page.waitForSelector(`[data-attempt] [data-table="attempt"] [data-row="${network}"] [data-field="found"]`, patient);
-    const [found] = await cell(page, network, 'found');
-    const [missed] = await cell(page, network, 'missed');
-    assert.equal(found + missed, targets, name);
-  }
-});
-
-browserTest('networks: a download shows its bytes, is cancelled, and goes on when asked', { path }, async ({ page }) => {
-  // The file comes in halves, the second never unless it is asked for again.
-  await page.evaluate(() => {
-    const { fetch } = window;
-    let first = true;
-    window.fetch = async (address, options) => {
-      const response = await fetch(address, options);
-      if (!String(address).endsWith('.onnx') || !first) return response;
-      first = false;
-      const bytes = new Uint8Array(await response.arrayBuffer());
-      const body = new ReadableStream({
-        start(controller) {
-          controller.enqueue(bytes.subarray(0, bytes.length / 2));
-          options.signal.addEventListener('abort', () => controller.error(options.signal.reason));
-        },
-      });
-      return new Response(body);
-    };
-  });
-  await page.locator('[data-action="run"]').click();
-  await page.waitForFunction((half) => document.querySelector('[data-loading="aaetr-small"] progress')?.value === half, Math.floor(file('aaetr-small.onnx').length / 2));
-  await page.locator('[data-action="cancel-loading"]').first().click();
-  await page.waitForSelector('[data-stopped="aaetr-small"]');
-  await page.locator('[data-action="load"]').first().click();
-  await tried(page);
-  assert.match(await page.locator('[data-ready="aaetr-small"]').first().innerText(), /ready/);
-});
-
-browserTest('networks: times at batches of 1 and 32 beside IAA and NOMP; timing is cancelled', { path }, async ({ page }) => {
-  await page.locator('[data-action="time"]').click();
-  await page.locator('[data-action="cancel-timing"]').click({ timeout: 30_000 });
-  await page.waitForSelector('[data-table="timing"][aria-busy="false"]');
-  await page.locator('[data-action="time"]').click();
-  for (const row of ['network', 'iaa', 'nomp']) {
-    for (const batch of [1, 32]) {
-      const field = `[data-table="timing"] [data-row="${row}"] [data-field="batch${batch}"]`;
-      await page.waitForSelector(`${field}[data-value]`, patient);
-      const [median] = await values(page, field);
-      assert.ok(median > 0 && median < 60_000, `${row}, ${batch}: ${median} ms`);
+browserTest(
+  'networks: AAETR runs on a scene beside IAA and the truth, and the link shows it again',
+  { path: `${path}&targets=4&snr=25&seed=3` },
+  async ({ page }) => {
+    await page.locator('[data-card] ~ *').first().waitFor();
+    await page.locator('[data-attempt], [data-action="run"]').first().waitFor();
+    await page.locator('[data-action="run"]').click();
+    await tried(page);
+    const before = {};
+    for (const method of ['aaetr', 'iaa', 'nomp']) {
+      const [found] = await cell(page, method, 'found');
+      assert.ok(found >= 3, `${method} found ${found} of 4`);
+      before[method] = await cell(page, method, 'rmse');
+      assert.ok(before[method][0] < 0.3, `${method}: ${before[method]} deg`);
     }
-  }
-  await page.waitForSelector('[data-table="timing"][aria-busy="false"]');
-  assertCsv(await saved(page, '[data-table="timing"] [data-export="csv"]'), 'subject,batch,median_ms,lower_quartile_ms,upper_quartile_ms,calls,samples_per_s');
-});
+    await parametersWith(page, (params) => params.get('run') === '1');
+    await page.reload();
+    await tried(page);
+    for (const method of ['aaetr', 'iaa', 'nomp']) assert.deepEqual(await cell(page, method, 'rmse'), before[method]);
+    await page.locator('input[name="refine"]').check();
+    await page.waitForSelector('[data-attempt$="refined"]', patient);
+    const [refined] = await cell(page, 'aaetr', 'rmse');
+    assert.ok(refined <= before.aaetr[0], `refined ${refined}, ${before.aaetr} before`);
+    await page.locator('[data-action="toggle"]').focus();
+    await page.keyboard.press('Enter');
+    await parametersWith(page, (params) => !params.has('run'));
+    assertPng(await saved(page, '[data-plot="attempt"] [data-export="png"]'));
+    assertCsv(
+      await saved(page, '[data-table="attempt"] [data-export="csv"]'),
+      'method,found,missed,false,rmse_deg,power_error_db,time_ms',
+    );
+  },
+);
 
-browserTest('networks: a bad file is refused with its error, and what was there goes on', { path }, async ({ page }) => {
-  await page.waitForSelector('[data-card]');
-  const onnx = file('aaetr-small.onnx');
-  const alert = async (files, code) => {
-    await drop(page, files);
-    await page.waitForSelector(`[data-error="${code}"]`, patient);
-    assert.ok((await page.locator('[role="alert"]').innerText()).includes(files[0].name));
-  };
-  await alert([{ name: 'noise.onnx', bytes: Buffer.from('this is no network at all') }], 'not-onnx');
-  await alert([{ name: 'cut.onnx', bytes: onnx.subarray(0, onnx.length / 2) }], 'truncated-file');
-  await alert([{ name: 'card.json', bytes: file('aaetr-small.json') }], 'missing');
-  const other = JSON.stringify({ ...card('aaetr-small'), sha256: '0'.repeat(64) });
-  await alert([{ name: 'other.onnx', bytes: onnx }, { name: 'other.json', bytes: Buffer.from(other) }], 'digest');
-  assert.equal(await page.locator('[data-card]').getAttribute('data-card'), 'aaetr-small');
-  await drop(page, [{ name: 'mine.onnx', bytes: onnx }, { name: 'mine.json', bytes: file('aaetr-small.json') }]);
-  await page.waitForSelector('[data-card="own:mine.onnx"]', patient);
-  assert.equal(await page.locator('[role="alert"]').count(), 0, 'the error is gone');
-});
+browserTest(
+  'networks: the networks of regions run on a simulated region',
+  { path: '#/networks?model=counting&targets=2&snr=15&run=1' },
+  async ({ page }) => {
+    await tried(page);
+    assert.deepEqual(await cell(page, 'network', 'sources'), [2]);
+    for (const name of models.filter((model) => /^(dnn|cnn3d)/.test(model))) {
+      const { network, targets } = card(name);
+      await page.locator('select[name="model"]').selectOption(name);
+      await page.waitForSelector(
+        `[data-attempt] [data-table="attempt"] [data-row="${network}"] [data-field="found"]`,
+        patient,
+      );
+      const [found] = await cell(page, network, 'found');
+      const [missed] = await cell(page, network, 'missed');
+      assert.equal(found + missed, targets, name);
+    }
+  },
+);
 
-browserTest('networks: a file of one’s own runs without a card', { path: `${path}&targets=4&snr=25&seed=3` }, async ({ page }) => {
-  await page.waitForSelector('[data-card]');
-  await drop(page, [{ name: 'mine.onnx', bytes: file('aaetr-small.onnx') }]);
-  await page.waitForSelector('[data-card="own:mine.onnx"]', patient);
-  await page.locator('[data-action="run"]').click();
-  await tried(page);
-  assert.ok((await cell(page, 'aaetr', 'found'))[0] >= 3);
-});
+browserTest(
+  'networks: a download shows its bytes, is cancelled, and goes on when asked',
+  { path },
+  async ({ page }) => {
+    // The file comes in halves, the second never unless it is asked for again.
+    await page.evaluate(() => {
+      const { fetch } = window;
+      let first = true;
+      window.fetch = async (address, options) => {
+        const response = await fetch(address, options);
+        if (!String(address).endsWith('.onnx') || !first) return response;
+        first = false;
+        const bytes = new Uint8Array(await response.arrayBuffer());
+        const body = new ReadableStream({
+          start(controller) {
+            controller.enqueue(bytes.subarray(0, bytes.length / 2));
+            options.signal.addEventListener('abort', () => controller.error(options.signal.reason));
+          },
+        });
+        return new Response(body);
+      };
+    });
+    await page.locator('[data-action="run"]').click();
+    await page.waitForFunction(
+      (half) => document.querySelector('[data-loading="aaetr-small"] progress')?.value === half,
+      Math.floor(file('aaetr-small.onnx').length / 2),
+    );
+    await page.locator('[data-action="cancel-loading"]').first().click();
+    await page.waitForSelector('[data-stopped="aaetr-small"]');
+    await page.locator('[data-action="load"]').first().click();
+    await tried(page);
+    assert.match(await page.locator('[data-ready="aaetr-small"]').first().innerText(), /ready/);
+  },
+);
+
+browserTest(
+  'networks: times at batches of 1 and 32 beside IAA and NOMP; timing is cancelled',
+  { path },
+  async ({ page }) => {
+    await page.locator('[data-action="time"]').click();
+    await page.locator('[data-action="cancel-timing"]').click({ timeout: 30_000 });
+    await page.waitForSelector('[data-table="timing"][aria-busy="false"]');
+    await page.locator('[data-action="time"]').click();
+    for (const row of ['network', 'iaa', 'nomp']) {
+      for (const batch of [1, 32]) {
+        const field = `[data-table="timing"] [data-row="${row}"] [data-field="batch${batch}"]`;
+        await page.waitForSelector(`${field}[data-value]`, patient);
+        const [median] = await values(page, field);
+        assert.ok(median > 0 && median < 60_000, `${row}, ${batch}: ${median} ms`);
+      }
+    }
+    await page.waitForSelector('[data-table="timing"][aria-busy="false"]');
+    assertCsv(
+      await saved(page, '[data-table="timing"] [data-export="csv"]'),
+      'subject,batch,median_ms,lower_quartile_ms,upper_quartile_ms,calls,samples_per_s',
+    );
+  },
+);
+
+browserTest(
+  'networks: a bad file is refused with its error, and what was there goes on',
+  { path },
+  async ({ page }) => {
+    await page.waitForSelector('[data-card]');
+    const onnx = file('aaetr-small.onnx');
+    const alert = async (files, code) => {
+      await drop(page, files);
+      await page.waitForSelector(`[data-error="${code}"]`, patient);
+      assert.ok((await page.locator('[role="alert"]').innerText()).includes(files[0].name));
+    };
+    await alert([{ name: 'noise.onnx', bytes: Buffer.from('this is no network at all') }], 'not-onnx');
+    await alert([{ name: 'cut.onnx', bytes: onnx.subarray(0, onnx.length / 2) }], 'truncated-file');
+    await alert([{ name: 'card.json', bytes: file('aaetr-small.json') }], 'missing');
+    const other = JSON.stringify({ ...card('aaetr-small'), sha256: '0'.repeat(64) });
+    await alert(
+      [
+        { name: 'other.onnx', bytes: onnx },
+        { name: 'other.json', bytes: Buffer.from(other) },
+      ],
+      'digest',
+    );
+    assert.equal(await page.locator('[data-card]').getAttribute('data-card'), 'aaetr-small');
+    await drop(page, [
+      { name: 'mine.onnx', bytes: onnx },
+      { name: 'mine.json', bytes: file('aaetr-small.json') },
+    ]);
+    await page.waitForSelector('[data-card="own:mine.onnx"]', patient);
+    assert.equal(await page.locator('[role="alert"]').count(), 0, 'the error is gone');
+  },
+);
+
+browserTest(
+  'networks: a file of one’s own runs without a card',
+  { path: `${path}&targets=4&snr=25&seed=3` },
+  async ({ page }) => {
+    await page.waitForSelector('[data-card]');
+    await drop(page, [{ name: 'mine.onnx', bytes: file('aaetr-small.onnx') }]);
+    await page.waitForSelector('[data-card="own:mine.onnx"]', patient);
+    await page.locator('[data-action="run"]').click();
+    await tried(page);
+    assert.ok((await cell(page, 'aaetr', 'found'))[0] >= 3);
+  },
+);
 
 browserTest('networks: the page is used from the keyboard', { path: '#/networks' }, async ({ page }) => {
   await page.waitForSelector('[data-card]');
@@ -171,76 +234,109 @@ browserTest('networks: the page is used from the keyboard', { path: '#/networks'
   await page.keyboard.press('ArrowRight');
   assert.match(await page.locator('[data-plot="metrics"] [data-readout]').innerText(), /SNR −?\d+ dB/);
   const nameless = await page.evaluate(() =>
-    [...document.querySelectorAll('button, input:not([hidden]), select, [role="application"]')].filter((node) =>
-      !(node.getAttribute('aria-label') ?? node.labels?.[0]?.textContent ?? node.textContent).trim()).map((node) => node.outerHTML));
+    [...document.querySelectorAll('button, input:not([hidden]), select, [role="application"]')]
+      .filter((node) => !(node.getAttribute('aria-label') ?? node.labels?.[0]?.textContent ?? node.textContent).trim())
+      .map((node) => node.outerHTML),
+  );
   assert.deepEqual(nameless, []);
   await parametersWith(page, (params) => params.get('model') === models.at(-1));
 });
 
 for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) {
-  browserTest(`networks: the figures of ${name} are drawn, and a network that loses is said to`, { path: '#/networks' }, async ({ page }) => {
-    await page.waitForSelector(`[data-experiment="${name}"] .plot-host canvas`);
-    const report = JSON.parse(readFileSync(experiment(name)));
-    const isNetwork = (method) => /^(aaetr|dnn|cnn3d|counting)/.test(method);
-    if (!report.methods.some(isNetwork)) {
-      await page.waitForSelector(`[data-experiment="${name}"] [data-verdict="none"]`);
-      return;
-    }
-    await page.waitForSelector(`[data-experiment="${name}"] [data-verdict="counted"]`);
-    if (name === 'aoa') {
-      // Counted here anew for the F1 at 15 dB: who is more than four standard deviations below any classical method must be named.
-      const conditions = report.conditions.filter(({ snrDb }) => snrDb === 15);
-      report.methods.forEach((method, i) => {
-        if (!isNetwork(method)) return;
-        const behind = conditions.some(({ targets, methods }) => methods.some(({ best }, k) => {
-          const f1 = methods[i].best?.f1 ?? 0;
-          return !isNetwork(report.methods[k]) && best && best.f1 - f1 > 4 * Math.sqrt((f1 * (1 - f1) * 2) / (report.trials * targets));
-        }));
-        if (behind) conditions.losers = [...(conditions.losers ?? []), method];
-      });
-      for (const loser of conditions.losers ?? []) {
-        assert.match(await page.locator(`[data-figure="f1"][data-network="${loser}"]`).innerText(), /Loses to/, loser);
+  browserTest(
+    `networks: the figures of ${name} are drawn, and a network that loses is said to`,
+    { path: '#/networks' },
+    async ({ page }) => {
+      await page.waitForSelector(`[data-experiment="${name}"] .plot-host canvas`);
+      const report = JSON.parse(readFileSync(experiment(name)));
+      const isNetwork = (method) => /^(aaetr|dnn|cnn3d|counting)/.test(method);
+      if (!report.methods.some(isNetwork)) {
+        await page.waitForSelector(`[data-experiment="${name}"] [data-verdict="none"]`);
+        return;
       }
-    }
-    for (const plot of await page.locator(`[data-experiment="${name}"] [data-plot]`).evaluateAll((all) => all.map(({ dataset }) => dataset.plot))) {
-      assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
-    }
-    await page.locator(`[data-experiment="${name}"] select`).first().selectOption({ index: 1 });
-    await parametersWith(page, (params) => params.has(name === 'aoa' ? 'at' : 'range'));
-  });
+      await page.waitForSelector(`[data-experiment="${name}"] [data-verdict="counted"]`);
+      if (name === 'aoa') {
+        // Counted here anew for the F1 at 15 dB: who is more than four standard deviations below any classical method must be named.
+        const conditions = report.conditions.filter(({ snrDb }) => snrDb === 15);
+        report.methods.forEach((method, i) => {
+          if (!isNetwork(method)) return;
+          const behind = conditions.some(({ targets, methods }) =>
+            methods.some(({ best }, k) => {
+              const f1 = methods[i].best?.f1 ?? 0;
+              return (
+                !isNetwork(report.methods[k]) &&
+                best &&
+                best.f1 - f1 > 4 * Math.sqrt((f1 * (1 - f1) * 2) / (report.trials * targets))
+              );
+            }),
+          );
+          if (behind) conditions.losers = [...(conditions.losers ?? []), method];
+        });
+        for (const loser of conditions.losers ?? []) {
+          assert.match(
+            await page.locator(`[data-figure="f1"][data-network="${loser}"]`).innerText(),
+            /Loses to/,
+            loser,
+          );
+        }
+      }
+      for (const plot of await page
+        .locator(`[data-experiment="${name}"] [data-plot]`)
+        .evaluateAll((all) => all.map(({ dataset }) => dataset.plot))) {
+        assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
+      }
+      await page.locator(`[data-experiment="${name}"] select`).first().selectOption({ index: 1 });
+      await parametersWith(page, (params) => params.has(name === 'aoa' ? 'at' : 'range'));
+    },
+  );
 }
 
-browserTest('networks in the angle lab: one that fits loads and estimates, others say which array they are for', { path: '#/angle?array=lrr48&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,aaetr' }, async ({ page }) => {
-  await page.waitForSelector('[data-row="aaetr"]:not(.stale) [data-field="error"][data-value]', patient);
-  const errors = await values(page, '[data-row="aaetr"] [data-field="error"]');
-  assert.equal(errors.length, 3);
-  for (const error of errors) assert.ok(Math.abs(error) < 0.3, `${error} deg`);
-  assert.ok(await page.locator('#method-dnn').isDisabled());
-  assert.match(await page.locator('#method-dnn-note').innerText(), /8 elements|uniform/);
-  assert.match(await page.locator('#method-cnn3d-note').innerText(), /region/);
-  await page.locator('input[name="refine"]').check();
-  await page.waitForSelector('[data-row="aaetr"]:not(.stale) [data-field="error"][data-value]', patient);
-  await page.locator('select[name="array"]').selectOption('ula');
-  await page.waitForSelector('#method-aaetr-note:not([hidden])');
-  assert.match(await page.locator('#method-aaetr-note').innerText(), /lrr48/);
-  await page.locator('input[name="elements"]').fill('8');
-  await page.locator('#method-dnn').check();
-  await page.waitForSelector('[data-row="dnn"]:not(.stale)', patient);
-  await parametersWith(page, (params) => params.get('methods').split(',').includes('dnn'));
-});
+browserTest(
+  'networks in the angle lab: one that fits loads and estimates, others say which array they are for',
+  { path: '#/angle?array=lrr48&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,aaetr' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-row="aaetr"]:not(.stale) [data-field="error"][data-value]', patient);
+    const errors = await values(page, '[data-row="aaetr"] [data-field="error"]');
+    assert.equal(errors.length, 3);
+    for (const error of errors) assert.ok(Math.abs(error) < 0.3, `${error} deg`);
+    assert.ok(await page.locator('#method-dnn').isDisabled());
+    assert.match(await page.locator('#method-dnn-note').innerText(), /8 elements|uniform/);
+    assert.match(await page.locator('#method-cnn3d-note').innerText(), /region/);
+    await page.locator('input[name="refine"]').check();
+    await page.waitForSelector('[data-row="aaetr"]:not(.stale) [data-field="error"][data-value]', patient);
+    await page.locator('select[name="array"]').selectOption('ula');
+    await page.waitForSelector('#method-aaetr-note:not([hidden])');
+    assert.match(await page.locator('#method-aaetr-note').innerText(), /lrr48/);
+    await page.locator('input[name="elements"]').fill('8');
+    await page.locator('#method-dnn').check();
+    await page.waitForSelector('[data-row="dnn"]:not(.stale)', patient);
+    await parametersWith(page, (params) => params.get('methods').split(',').includes('dnn'));
+  },
+);
 
-browserTest('networks in Capture: the DNN works on a cell of the recording, AAETR says why not', { path: '#/capture?methods=bartlett,dnn&sources=1' }, async ({ page }) => {
-  await page.waitForSelector('[data-row="dnn"]:not(.stale) [data-field="azimuth"][data-value]', patient);
-  const [azimuth] = await values(page, '[data-row="dnn"] [data-field="azimuth"]');
-  // The recording's near target lies at -10.8 deg, just outside the network's classes.
-  assert.ok(Math.abs(azimuth + 10) <= 2, `${azimuth} deg`);
-  assert.ok(await page.locator('#cell-aaetr').isDisabled());
-  assert.match(await page.locator('#cell-aaetr-note').innerText(), /lrr48/);
-});
+browserTest(
+  'networks in Capture: the DNN works on a cell of the recording, AAETR says why not',
+  { path: '#/capture?methods=bartlett,dnn&sources=1' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-row="dnn"]:not(.stale) [data-field="azimuth"][data-value]', patient);
+    const [azimuth] = await values(page, '[data-row="dnn"] [data-field="azimuth"]');
+    // The recording's near target lies at -10.8 deg, just outside the network's classes.
+    assert.ok(Math.abs(azimuth + 10) <= 2, `${azimuth} deg`);
+    assert.ok(await page.locator('#cell-aaetr').isDisabled());
+    assert.match(await page.locator('#cell-aaetr-note').innerText(), /lrr48/);
+  },
+);
 
-browserTest('networks in Bird’s-eye view: an image by AAETR', { path: '#/birdseye?methods=bartlett,aaetr&radars=front-left&cell=0.5' }, async ({ page }) => {
-  await page.waitForSelector('[aria-busy="false"] [data-row="aaetr"]:not(.stale) [data-field="outsideDb"][data-value]', { timeout: 80_000 });
-  const [network] = await values(page, '[data-row="aaetr"] [data-field="outsideDb"]');
-  const [fft] = await values(page, '[data-row="bartlett"] [data-field="outsideDb"]');
-  assert.ok(network < fft - 3, `AAETR ${network} dB, FFT ${fft} dB`);
-});
+browserTest(
+  'networks in Bird’s-eye view: an image by AAETR',
+  { path: '#/birdseye?methods=bartlett,aaetr&radars=front-left&cell=0.5' },
+  async ({ page }) => {
+    await page.waitForSelector(
+      '[aria-busy="false"] [data-row="aaetr"]:not(.stale) [data-field="outsideDb"][data-value]',
+      { timeout: 80_000 },
+    );
+    const [network] = await values(page, '[data-row="aaetr"] [data-field="outsideDb"]');
+    const [fft] = await values(page, '[data-row="bartlett"] [data-field="outsideDb"]');
+    assert.ok(network < fft - 3, `AAETR ${network} dB, FFT ${fft} dB`);
+  },
+);

@@ -59,7 +59,10 @@ const expected = {
 for (const [path, pattern] of Object.entries(expected)) {
   test(`${path} is reported`, options, async () => {
     const problems = await problemsOf(path);
-    assert.ok(problems.some((problem) => pattern.test(problem)), `${JSON.stringify(problems)} should hold ${pattern}`);
+    assert.ok(
+      problems.some((problem) => pattern.test(problem)),
+      `${JSON.stringify(problems)} should hold ${pattern}`,
+    );
   });
 }
 

@@ -16,13 +16,17 @@ async function freePort() {
 
 test('npm start says what it does and serves the demo', { timeout: 120_000 }, async () => {
   const port = await freePort();
-  const started = spawn(process.execPath, ['scripts/start.mjs', '--host', '127.0.0.1', '--port', `${port}`, '--strictPort'], {
-    cwd: root,
-    // Vite colours the address where CI is set, which parts the colon from the port.
-    env: { ...process.env, NO_COLOR: '1' },
-    detached: process.platform !== 'win32',
-    stdio: ['ignore', 'pipe', 'inherit'],
-  });
+  const started = spawn(
+    process.execPath,
+    ['scripts/start.mjs', '--host', '127.0.0.1', '--port', `${port}`, '--strictPort'],
+    {
+      cwd: root,
+      // Vite colours the address where CI is set, which parts the colon from the port.
+      env: { ...process.env, NO_COLOR: '1' },
+      detached: process.platform !== 'win32',
+      stdio: ['ignore', 'pipe', 'inherit'],
+    },
+  );
   let said = '';
   try {
     for await (const piece of started.stdout.setEncoding('utf8')) {

@@ -33,8 +33,9 @@ function frame(index, angleDeg, { scale = 1, detections = 40 } = {}) {
   // Errors uniform to 0.1 m/s, standard deviation 0.058.
   const noise = () => 0.2 * (next() - 0.5);
   const azimuthDeg = Float64Array.from({ length: detections }, () => 120 * (next() - 0.5));
-  const rangeRateMps = azimuthDeg.map((a, i) =>
-    -(vx * Math.cos(a * rad) + vy * Math.sin(a * rad)) + noise() + (i % 5 === 0 ? 3 + 5 * next() : 0));
+  const rangeRateMps = azimuthDeg.map(
+    (a, i) => -(vx * Math.cos(a * rad) + vy * Math.sin(a * rad)) + noise() + (i % 5 === 0 ? 3 + 5 * next() : 0),
+  );
   const rangeM = azimuthDeg.map(() => 5 + 60 * next());
   return { timeS, azimuthDeg, rangeRateMps, rangeM, yawRateDegps: (scale * yawRate) / rad, speedMps };
 }
@@ -57,7 +58,10 @@ describe('a calibration', () => {
       assertShape(result.frames, 'CalibrationCounts');
       const { given, ...rest } = result.frames;
       assert.equal(given, 400);
-      assert.equal(Object.values(rest).reduce((a, b) => a + b), 400);
+      assert.equal(
+        Object.values(rest).reduce((a, b) => a + b),
+        400,
+      );
       assert.ok(rest.used > 350, `${rest.used}`);
       calibration.free();
       throwsTyped(() => calibration.estimate(), 'handle-freed', 'Calibration');
@@ -97,7 +101,10 @@ describe('a calibration', () => {
       const result = drive(calibration, angleDeg, 400);
       calibration.free();
       result.warnings.forEach((warning) => assertShape(warning, 'Warning'));
-      assert.equal(result.warnings.some(({ code }) => code === 'misaligned'), result.misaligned === true);
+      assert.equal(
+        result.warnings.some(({ code }) => code === 'misaligned'),
+        result.misaligned === true,
+      );
       return result.misaligned;
     };
     assert.equal(misaligned(28, { nominalDeg: 25 }), true);
@@ -135,7 +142,10 @@ describe('a calibration', () => {
     assert.equal(used.weights.length, 40);
     assert.ok(Math.abs(Math.hypot(...used.motion.velocityMps) - 10) < 0.5, `${used.motion.velocityMps}`);
     const none = new Float32Array(0);
-    assert.equal(calibration.addFrame({ timeS: 1, azimuthDeg: none, rangeRateMps: none, yawRateDegps: 0 }).verdict, 'sparse');
+    assert.equal(
+      calibration.addFrame({ timeS: 1, azimuthDeg: none, rangeRateMps: none, yawRateDegps: 0 }).verdict,
+      'sparse',
+    );
     assert.equal(calibration.addFrame({ ...good, timeS: 2, yawRateDegps: null }).verdict, 'without-motion');
     assert.equal(calibration.addFrame({ ...good, timeS: 3, yawRateDegps: 300 }).verdict, 'turning');
     assert.equal(calibration.estimate().frames.given, 4);
@@ -147,7 +157,10 @@ describe('a calibration', () => {
     const result = calibration.estimate();
     assert.equal(result.sigmaDeg, Infinity);
     assert.equal(result.converged, false);
-    assert.ok(result.warnings.some(({ code }) => code === 'no-frames'), JSON.stringify(result.warnings));
+    assert.ok(
+      result.warnings.some(({ code }) => code === 'no-frames'),
+      JSON.stringify(result.warnings),
+    );
     calibration.free();
   });
 });
@@ -164,7 +177,8 @@ describe('bad input', () => {
     bad({ ...radar, motion: 'magic' }, 'unknown-name', 'motion');
     bad({ ...radar, x: 1 }, 'unknown-option', 'x');
     bad({ ...radar, xM: Number.NaN }, 'out-of-range', 'xM');
-    for (const option of ['rangeRateSigmaMps', 'azimuthSigmaDeg', 'inlierResidualMps']) bad({ ...radar, [option]: -1 }, 'out-of-range', option);
+    for (const option of ['rangeRateSigmaMps', 'azimuthSigmaDeg', 'inlierResidualMps'])
+      bad({ ...radar, [option]: -1 }, 'out-of-range', option);
     bad({ ...radar, confidence: 2 }, 'out-of-range');
   });
 

@@ -9,7 +9,9 @@ before(() => init());
 
 describe('a recorded capture', () => {
   let capture;
-  before(() => { capture = new Capture(bin, cfg); });
+  before(() => {
+    capture = new Capture(bin, cfg);
+  });
   after(() => capture.free());
 
   test('says what it is', () => {
@@ -28,7 +30,10 @@ describe('a recorded capture', () => {
       assert.equal(result.frame, frame);
       assert.ok(result.detections.every((d) => d.frame === frame));
       const [ranges, rates] = result.shape;
-      assert.deepEqual([result.rangeM.length, result.rateMps.length, result.rangeProfileDb.length], [ranges, rates, ranges]);
+      assert.deepEqual(
+        [result.rangeM.length, result.rateMps.length, result.rangeProfileDb.length],
+        [ranges, rates, ranges],
+      );
       assert.equal(result.rangeDopplerDb.length, ranges * rates);
     }
   });
@@ -46,7 +51,14 @@ describe('a recorded capture', () => {
     capture.combineFrames({ firstFrame: 2, frameCount: 4 }, (...step) => void steps.push(step));
     assert.deepEqual(steps.at(-1), [8, 8]);
     throwsTyped(() => capture.combineFrames({}, (done) => done < 2), 'cancelled', 'steps');
-    throwsTyped(() => capture.combineFrames({}, () => { throw new Error('mine'); }), 'cancelled', 'steps');
+    throwsTyped(
+      () =>
+        capture.combineFrames({}, () => {
+          throw new Error('mine');
+        }),
+      'cancelled',
+      'steps',
+    );
     assertTargets(capture.combineFrames().detections);
   });
 
@@ -111,7 +123,8 @@ describe('a recorded capture', () => {
     bad({ maxDetections: 0 }, 'out-of-range', 'maxDetections');
     bad({ windows: 'hann' }, 'unknown-option', 'windows');
     bad(null, 'wrong-type', 'options');
-    for (const frame of [8, -1, 0.5, Number.NaN, 4e9]) throwsTyped(() => capture.processFrame(frame), 'out-of-range', 'frame');
+    for (const frame of [8, -1, 0.5, Number.NaN, 4e9])
+      throwsTyped(() => capture.processFrame(frame), 'out-of-range', 'frame');
     throwsTyped(() => capture.processFrame('0'), 'wrong-type', 'frame');
     throwsTyped(() => capture.combineFrames({ firstFrame: 8 }), 'out-of-range', 'firstFrame');
     throwsTyped(() => capture.combineFrames({ frameCount: 9 }), 'out-of-range', 'frameCount');
@@ -148,13 +161,18 @@ describe('a capture that does not match its configuration', () => {
 
 describe('a pool with a capture', () => {
   let pool;
-  before(() => { pool = createPool({ workers: 2 }); });
+  before(() => {
+    pool = createPool({ workers: 2 });
+  });
   after(() => pool.terminate());
 
   test('processes every frame, in order and with its number', async () => {
     const progress = [];
     const results = await pool.processFrames(bin, cfg, {}, { onProgress: (...step) => progress.push(step) });
-    assert.deepEqual(results.map(({ frame }) => frame), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert.deepEqual(
+      results.map(({ frame }) => frame),
+      [0, 1, 2, 3, 4, 5, 6, 7],
+    );
     assert.deepEqual(progress.at(-1), [8, 8]);
     const capture = new Capture(bin, cfg);
     results.forEach((result, frame) => assert.deepEqual(result, capture.processFrame(frame)));

@@ -73,7 +73,9 @@ test('images', () => {
   assertShape(street, 'SimulatedStreet');
   assertShape(street.cube, 'CubeResult');
   street.targets.forEach((target) => assertShape(target, 'VisibleTarget'));
-  const { radar: { array, mounting } } = street;
+  const {
+    radar: { array, mounting },
+  } = street;
   assertShape(boresight.imagePlan({ waveform, array: 'awr1642' }), 'ImagePlan');
   const frame = boresight.imageFrame(street.cube, { waveform: street.radar.waveform, array });
   assertShape(frame, 'ImageFrame');
@@ -95,7 +97,10 @@ test('captures', () => {
   assertShape(frame, 'FrameResult');
   assertShape(frame.counts, 'FrameCounts');
   frame.detections.forEach((detection) => assertShape(detection, 'Detection'));
-  assert.deepEqual(boresight.readDetectionsCsv(boresight.writeDetectionsCsv(frame.detections)).map(Object.keys), frame.detections.map(Object.keys));
+  assert.deepEqual(
+    boresight.readDetectionsCsv(boresight.writeDetectionsCsv(frame.detections)).map(Object.keys),
+    frame.detections.map(Object.keys),
+  );
   assertShape(capture.cellSnapshots({ rangeBin: 58, dopplerBin: 8 }), 'ComplexData');
   capture.free();
 });

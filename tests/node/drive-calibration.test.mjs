@@ -4,8 +4,18 @@ import { execFile } from 'node:child_process';
 import { after, before, describe, test } from 'node:test';
 import { promisify } from 'node:util';
 import {
-  Calibration, calibrateDrive, calibrationMethods, driveFrame, frameVerdicts, init, initDrives, jointCalibration, readDrive,
-  relativeTrajectoryError, simulateDrive, trajectory,
+  Calibration,
+  calibrateDrive,
+  calibrationMethods,
+  driveFrame,
+  frameVerdicts,
+  init,
+  initDrives,
+  jointCalibration,
+  readDrive,
+  relativeTrajectoryError,
+  simulateDrive,
+  trajectory,
 } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { selected } from '../../dist/lib/drive-view.js';
@@ -31,12 +41,18 @@ after(() => pool.terminate());
 function beginning(drive, untilS) {
   const scans = drive.scans.timeS.findIndex((time) => time > untilS);
   const { timeS, sensor, offsets } = drive.scans;
-  return { ...drive, scans: { timeS: timeS.slice(0, scans), sensor: sensor.slice(0, scans), offsets: offsets.slice(0, scans + 1) } };
+  return {
+    ...drive,
+    scans: { timeS: timeS.slice(0, scans), sensor: sensor.slice(0, scans), offsets: offsets.slice(0, scans + 1) },
+  };
 }
 
 /** A drive over and over, each time later. */
 function repeated(drive, times) {
-  const lengthS = Math.max(drive.motion.timeS.at(-1), drive.scans.timeS.at(-1)) - Math.min(drive.motion.timeS[0], drive.scans.timeS[0]) + 0.1;
+  const lengthS =
+    Math.max(drive.motion.timeS.at(-1), drive.scans.timeS.at(-1)) -
+    Math.min(drive.motion.timeS[0], drive.scans.timeS[0]) +
+    0.1;
   const count = drive.scans.offsets.at(-1);
   const all = (part, shift) => {
     const joined = new part.constructor(times * part.length);
@@ -55,7 +71,11 @@ function repeated(drive, times) {
       azimuthDeg: all(detections.azimuthDeg.subarray(0, count)),
       rangeRateMps: all(detections.rangeRateMps.subarray(0, count)),
     },
-    motion: { timeS: all(motion.timeS, lengthS), yawRateDegps: all(motion.yawRateDegps), speedMps: all(motion.speedMps) },
+    motion: {
+      timeS: all(motion.timeS, lengthS),
+      yawRateDegps: all(motion.yawRateDegps),
+      speedMps: all(motion.speedMps),
+    },
   };
 }
 
@@ -66,7 +86,10 @@ describe('calibrateDrive', () => {
       const calibration = new Calibration({ method, xM: 3.4, yM: 0, nominalDeg: 0, minSpeedMps: 3 });
       const found = calibrateDrive(drive, { method, minSpeedMps: 3, weights: true });
       for (const name of ['DriveCalibration', 'AngleHistory', 'CalibratedFrames']) {
-        assertShape({ DriveCalibration: found, AngleHistory: found.history, CalibratedFrames: found.frames }[name], name);
+        assertShape(
+          { DriveCalibration: found, AngleHistory: found.history, CalibratedFrames: found.frames }[name],
+          name,
+        );
       }
       const { frames, history } = found;
       const next = { history: 0 };
@@ -77,7 +100,10 @@ describe('calibrateDrive', () => {
         assert.equal(frames.timeS[index], drive.scans.timeS[scan]);
         const [vx, vy] = outcome.motion?.velocityMps ?? [NaN, NaN];
         const row = [vx, vy, outcome.angleDeg ?? NaN, outcome.angleSigmaDeg ?? NaN, outcome.weight].map(Math.fround);
-        assert.deepEqual(['vxMps', 'vyMps', 'angleDeg', 'angleSigmaDeg', 'weight'].map((name) => frames[name][index]), row);
+        assert.deepEqual(
+          ['vxMps', 'vyMps', 'angleDeg', 'angleSigmaDeg', 'weight'].map((name) => frames[name][index]),
+          row,
+        );
         assert.equal(frames.inliers[index], outcome.motion?.inliers ?? 0);
         const { offsets, values } = frames.weights;
         assert.deepEqual(values.slice(offsets[index], offsets[index + 1]), outcome.weights);
@@ -99,7 +125,10 @@ describe('calibrateDrive', () => {
     const boresight = await commandLine();
     const command = ['calibrate', 'recordings/delphi', '--json', '--min-speed', '3'];
     for (const { name: method } of calibrationMethods()) {
-      const { stdout } = await promisify(execFile)(boresight, [...command, '--method', method], { cwd: root, env: environment });
+      const { stdout } = await promisify(execFile)(boresight, [...command, '--method', method], {
+        cwd: root,
+        env: environment,
+      });
       const [theirs, { result }] = [JSON.parse(stdout), calibrateDrive(front, { method, minSpeedMps: 3 })];
       // RANSAC takes sines in single precision, whose last bit differs natively: here a draw of one of 12,003
       // frames ends otherwise.
@@ -108,7 +137,10 @@ describe('calibrateDrive', () => {
         assert.ok(Math.abs(theirs[name] - result[name]) < limit, `${method} ${name}: ${theirs[name]}, ${result[name]}`);
       }
       assert.deepEqual(theirs.frames, result.frames);
-      assert.deepEqual(theirs.warnings.map(({ code }) => code), result.warnings.map(({ code }) => code));
+      assert.deepEqual(
+        theirs.warnings.map(({ code }) => code),
+        result.warnings.map(({ code }) => code),
+      );
     }
   });
 
@@ -131,14 +163,20 @@ describe('calibrateDrive', () => {
     assert.ok(total < four.detections.azimuthDeg.length / 2);
     const frame = driveFrame(drive, 7);
     const { azimuthDeg, rangeRateMps, yawRateDegps, speedMps } = driveFrame(four, scans[7]);
-    assert.deepEqual([frame.azimuthDeg, frame.rangeRateMps, frame.yawRateDegps, frame.speedMps], [azimuthDeg, rangeRateMps, yawRateDegps, speedMps]);
+    assert.deepEqual(
+      [frame.azimuthDeg, frame.rangeRateMps, frame.yawRateDegps, frame.speedMps],
+      [azimuthDeg, rangeRateMps, yawRateDegps, speedMps],
+    );
   });
 
   test('finds a misaligned radar, and takes its place from the drive unless told otherwise', () => {
     const { result, mounting, sensor, method } = calibrateDrive(four, { sensor: 3 });
     const truth = four.truth.sensors.find(({ id }) => id === 3);
     assert.deepEqual([sensor, method, mounting.xM, mounting.yM], [3, 'recursive', 3.86, 0.7]);
-    assert.ok(Math.abs(result.angleDeg - truth.yawDeg) < 5 * result.sigmaDeg, `${result.angleDeg} +- ${result.sigmaDeg}, ${truth.yawDeg}`);
+    assert.ok(
+      Math.abs(result.angleDeg - truth.yawDeg) < 5 * result.sigmaDeg,
+      `${result.angleDeg} +- ${result.sigmaDeg}, ${truth.yawDeg}`,
+    );
     assert.equal(result.misaligned, true);
     assert.equal(calibrateDrive(four, { sensor: 3, nominalDeg: truth.yawDeg }).result.misaligned, false);
     assert.equal(calibrateDrive(four, { sensor: 3, xM: 1 }).mounting.xM, 1);
@@ -161,12 +199,22 @@ describe('calibrateDrive', () => {
     assert.deepEqual(told.at(-1), [total, total]);
     assert.ok(told.every(([done], i) => i === 0 || done > told[i - 1][0]));
     throwsTyped(() => calibrateDrive(front, {}, (done) => done < 1000), 'cancelled', 'steps');
-    throwsTyped(() => calibrateDrive(front, {}, () => { throw new Error('mine'); }), 'cancelled');
+    throwsTyped(
+      () =>
+        calibrateDrive(front, {}, () => {
+          throw new Error('mine');
+        }),
+      'cancelled',
+    );
     const progress = [];
     await pool.calibrateDrive(front, {}, { onProgress: (...steps) => progress.push(steps) });
     assert.deepEqual(progress, told);
     const controller = new AbortController();
-    const job = pool.calibrateDrive(repeated(front, 30), {}, { signal: controller.signal, onProgress: () => controller.abort() });
+    const job = pool.calibrateDrive(
+      repeated(front, 30),
+      {},
+      { signal: controller.signal, onProgress: () => controller.abort() },
+    );
     await assert.rejects(job, { name: 'AbortError' });
     await assert.rejects(pool.calibrateDrive(front, {}, { signal: AbortSignal.abort() }), { name: 'AbortError' });
     assert.equal((await pool.calibrateDrive(beginning(front, 10))).sensor, 1);
@@ -176,11 +224,20 @@ describe('calibrateDrive', () => {
 describe('jointCalibration', () => {
   test('gives the radars one scale and bias, in a worker too', async () => {
     const radars = jointCalibration(four, { weights: true });
-    assert.deepEqual(radars.map(({ sensor }) => sensor), [1, 2, 3, 4]);
+    assert.deepEqual(
+      radars.map(({ sensor }) => sensor),
+      [1, 2, 3, 4],
+    );
     for (const { sensor, result, frames, method } of radars) {
       const truth = four.truth.sensors.find(({ id }) => id === sensor);
-      assert.ok(Math.abs(result.angleDeg - truth.yawDeg) < 5 * result.sigmaDeg, `${result.angleDeg} +- ${result.sigmaDeg}, ${truth.yawDeg}`);
-      assert.deepEqual([result.scale, result.biasDegps, method], [radars[0].result.scale, radars[0].result.biasDegps, 'recursive']);
+      assert.ok(
+        Math.abs(result.angleDeg - truth.yawDeg) < 5 * result.sigmaDeg,
+        `${result.angleDeg} +- ${result.sigmaDeg}, ${truth.yawDeg}`,
+      );
+      assert.deepEqual(
+        [result.scale, result.biasDegps, method],
+        [radars[0].result.scale, radars[0].result.biasDegps, 'recursive'],
+      );
       assert.equal(result.frames.given, frames.scan.length);
       assert.ok(frames.scan.every((scan) => four.scans.sensor[scan] === sensor));
     }
@@ -228,13 +285,19 @@ describe('trajectories', () => {
   test('turn by a yaw rate where one is given', async () => {
     const { frames, mounting, result } = calibrateDrive(four, { sensor: 2 });
     const truth = { timeS: four.motion.timeS, ...four.motion.pose };
-    const yawRateDegps = Float64Array.from(frames.scan, (scan) => (driveFrame(four, scan).yawRateDegps ?? NaN) - result.biasDegps);
+    const yawRateDegps = Float64Array.from(
+      frames.scan,
+      (scan) => (driveFrame(four, scan).yawRateDegps ?? NaN) - result.biasDegps,
+    );
     const path = (angleDeg, options) => trajectory(frames, { ...mounting, angleDeg }, options);
     const error = (angleDeg, options) => relativeTrajectoryError(path(angleDeg, options), truth);
     // A wrong angle then moves the car sideways, 3 deg of 50 m being 2.6 m, where it bent the way before.
     const off = error(result.angleDeg + 3, { yawRateDegps });
     assert.ok(error(result.angleDeg, { yawRateDegps }) < 0.5 && off > 2 && off < 3.2, `${off}`);
-    assert.deepEqual(await pool.trajectory(frames, { ...mounting, angleDeg: 1 }, { yawRateDegps }), path(1, { yawRateDegps }));
+    assert.deepEqual(
+      await pool.trajectory(frames, { ...mounting, angleDeg: 1 }, { yawRateDegps }),
+      path(1, { yawRateDegps }),
+    );
     // What is not known follows from the radar's motion.
     assert.deepEqual(path(1, { yawRateDegps: yawRateDegps.map(() => NaN) }), path(1));
     assert.ok(trajectory(frames, { angleDeg: 0, xM: 0 }, { yawRateDegps: yawRateDegps.fill(0) }));
@@ -249,7 +312,11 @@ describe('trajectories', () => {
     assert.equal(relativeTrajectoryError(path, path, 1e6), null);
     throwsTyped(() => relativeTrajectoryError(path, path, 0), 'wrong-type', 'segmentM');
     throwsTyped(() => relativeTrajectoryError(path, { ...path, xM: new Float64Array(1) }), 'shape', 'truth.xM');
-    throwsTyped(() => relativeTrajectoryError(path, { ...path, timeS: path.timeS.slice().reverse() }), 'time-backwards', 'truth.timeS');
+    throwsTyped(
+      () => relativeTrajectoryError(path, { ...path, timeS: path.timeS.slice().reverse() }),
+      'time-backwards',
+      'truth.timeS',
+    );
     throwsTyped(() => trajectory(frames, { angleDeg: NaN, xM: 1 }), 'wrong-type', 'mounting.angleDeg');
     throwsTyped(() => trajectory({ ...frames, vxMps: [] }, mounting), 'wrong-type', 'frames.vxMps');
     throwsTyped(() => trajectory(undefined, mounting), 'wrong-type', 'frames');
@@ -264,28 +331,120 @@ describe('bad drives', () => {
     ['no scans', ({ scans, ...rest }) => rest, 'wrong-type', 'drive.scans'],
     ['times as a list', part('scans', ({ timeS }) => ({ timeS: [...timeS] })), 'wrong-type', 'drive.scans.timeS'],
     ['too few radars', part('scans', ({ sensor }) => ({ sensor: sensor.subarray(1) })), 'shape', 'drive.scans.sensor'],
-    ['too few offsets', part('scans', ({ offsets }) => ({ offsets: offsets.subarray(1) })), 'shape', 'drive.scans.offsets'],
-    ['offsets that fall', part('scans', ({ offsets }) => ({ offsets: spoilt(offsets, 5, 0) })), 'out-of-range', 'drive.scans.offsets'],
-    ['offsets beyond the end', part('scans', ({ offsets }) => ({ offsets: spoilt(offsets, offsets.length - 1, 2 ** 32 - 1) })), 'out-of-range', 'drive.scans.offsets'],
-    ['a scan of all detections', (drive) => ({ ...drive, scans: { timeS: new Float64Array(1), sensor: new Uint8Array([1]), offsets: new Uint32Array([0, drive.detections.azimuthDeg.length]) } }), 'out-of-range', 'drive.scans.offsets'],
-    ['time that runs backwards', part('scans', ({ timeS }) => ({ timeS: spoilt(timeS, 7, -1) })), 'time-backwards', 'drive.scans.timeS'],
-    ['a time that is none', part('scans', ({ timeS }) => ({ timeS: spoilt(timeS, 7, NaN) })), 'not-finite', 'drive.scans.timeS'],
-    ['motion that runs backwards', part('motion', ({ timeS }) => ({ timeS: timeS.slice().reverse() })), 'time-backwards', 'drive.motion.timeS'],
-    ['motion without yaw rates', part('motion', () => ({ yawRateDegps: undefined })), 'missing', 'drive.motion.yawRateDegps'],
-    ['an azimuth that is none', part('detections', ({ azimuthDeg }) => ({ azimuthDeg: spoilt(azimuthDeg, 900, NaN) })), 'not-finite', 'drive.detections.azimuthDeg'],
-    ['a range rate beyond all', part('detections', ({ rangeRateMps }) => ({ rangeRateMps: Float64Array.from(rangeRateMps).fill(1e300, 900) })), 'not-finite', 'drive.detections.rangeRateMps'],
-    ['detections of two lengths', part('detections', ({ rangeRateMps }) => ({ rangeRateMps: rangeRateMps.slice(1) })), 'shape', 'drive.detections.rangeRateMps'],
-    ['arrays given away', (drive) => {
-      const azimuthDeg = drive.detections.azimuthDeg.slice();
-      structuredClone(azimuthDeg, { transfer: [azimuthDeg.buffer] });
-      return { ...drive, detections: { ...drive.detections, azimuthDeg } };
-    }, 'shape', 'drive.detections.rangeRateMps'],
-    ['a getter that throws', (drive) => ({ ...drive, get motion() { throw new Error('mine'); } }), 'wrong-type', 'drive.motion'],
+    [
+      'too few offsets',
+      part('scans', ({ offsets }) => ({ offsets: offsets.subarray(1) })),
+      'shape',
+      'drive.scans.offsets',
+    ],
+    [
+      'offsets that fall',
+      part('scans', ({ offsets }) => ({ offsets: spoilt(offsets, 5, 0) })),
+      'out-of-range',
+      'drive.scans.offsets',
+    ],
+    [
+      'offsets beyond the end',
+      part('scans', ({ offsets }) => ({ offsets: spoilt(offsets, offsets.length - 1, 2 ** 32 - 1) })),
+      'out-of-range',
+      'drive.scans.offsets',
+    ],
+    [
+      'a scan of all detections',
+      (drive) => ({
+        ...drive,
+        scans: {
+          timeS: new Float64Array(1),
+          sensor: new Uint8Array([1]),
+          offsets: new Uint32Array([0, drive.detections.azimuthDeg.length]),
+        },
+      }),
+      'out-of-range',
+      'drive.scans.offsets',
+    ],
+    [
+      'time that runs backwards',
+      part('scans', ({ timeS }) => ({ timeS: spoilt(timeS, 7, -1) })),
+      'time-backwards',
+      'drive.scans.timeS',
+    ],
+    [
+      'a time that is none',
+      part('scans', ({ timeS }) => ({ timeS: spoilt(timeS, 7, NaN) })),
+      'not-finite',
+      'drive.scans.timeS',
+    ],
+    [
+      'motion that runs backwards',
+      part('motion', ({ timeS }) => ({ timeS: timeS.slice().reverse() })),
+      'time-backwards',
+      'drive.motion.timeS',
+    ],
+    [
+      'motion without yaw rates',
+      part('motion', () => ({ yawRateDegps: undefined })),
+      'missing',
+      'drive.motion.yawRateDegps',
+    ],
+    [
+      'an azimuth that is none',
+      part('detections', ({ azimuthDeg }) => ({ azimuthDeg: spoilt(azimuthDeg, 900, NaN) })),
+      'not-finite',
+      'drive.detections.azimuthDeg',
+    ],
+    [
+      'a range rate beyond all',
+      part('detections', ({ rangeRateMps }) => ({ rangeRateMps: Float64Array.from(rangeRateMps).fill(1e300, 900) })),
+      'not-finite',
+      'drive.detections.rangeRateMps',
+    ],
+    [
+      'detections of two lengths',
+      part('detections', ({ rangeRateMps }) => ({ rangeRateMps: rangeRateMps.slice(1) })),
+      'shape',
+      'drive.detections.rangeRateMps',
+    ],
+    [
+      'arrays given away',
+      (drive) => {
+        const azimuthDeg = drive.detections.azimuthDeg.slice();
+        structuredClone(azimuthDeg, { transfer: [azimuthDeg.buffer] });
+        return { ...drive, detections: { ...drive.detections, azimuthDeg } };
+      },
+      'shape',
+      'drive.detections.rangeRateMps',
+    ],
+    [
+      'a getter that throws',
+      (drive) => ({
+        ...drive,
+        get motion() {
+          throw new Error('mine');
+        },
+      }),
+      'wrong-type',
+      'drive.motion',
+    ],
     ['endless radars', (drive) => ({ ...drive, sensors: new Array(2 ** 32 - 1) }), 'wrong-type', 'drive.sensors'],
     ['a radar without number', (drive) => ({ ...drive, sensors: [{ xM: 1 }] }), 'wrong-type', 'drive.sensors[0].id'],
-    ['a radar twice', (drive) => ({ ...drive, sensors: [...drive.sensors, ...drive.sensors] }), 'out-of-range', 'drive.sensors'],
-    ['a place that is no number', (drive) => ({ ...drive, sensors: [{ id: 1, xM: NaN }] }), 'wrong-type', 'drive.sensors[0].xM'],
-    ['a place that is not known', (drive) => ({ ...drive, sensors: [{ id: 1, xM: null, yM: null, yawDeg: null }] }), 'missing', 'xM'],
+    [
+      'a radar twice',
+      (drive) => ({ ...drive, sensors: [...drive.sensors, ...drive.sensors] }),
+      'out-of-range',
+      'drive.sensors',
+    ],
+    [
+      'a place that is no number',
+      (drive) => ({ ...drive, sensors: [{ id: 1, xM: NaN }] }),
+      'wrong-type',
+      'drive.sensors[0].xM',
+    ],
+    [
+      'a place that is not known',
+      (drive) => ({ ...drive, sensors: [{ id: 1, xM: null, yM: null, yawDeg: null }] }),
+      'missing',
+      'xM',
+    ],
   ];
   for (const [name, change, code, what] of cases) {
     test(`${name}: refused, here and in a worker, and the next is calibrated`, async () => {
@@ -302,7 +461,9 @@ describe('bad drives', () => {
     for (const take of ['timeS', 'offsets', 'azimuthDeg', 'rangeRateMps']) {
       const drive = structuredClone(beginning(front, 60));
       const buffer = (drive.scans[take] ?? drive.detections[take]).buffer;
-      const report = (done) => { if (done < 200) structuredClone(buffer, { transfer: [buffer] }); };
+      const report = (done) => {
+        if (done < 200) structuredClone(buffer, { transfer: [buffer] });
+      };
       throwsTyped(() => calibrateDrive(drive, {}, report));
     }
     assert.equal(calibrateDrive(beginning(front, 20)).sensor, 1);
@@ -323,20 +484,36 @@ describe('bad drives', () => {
     await bad(front, { alarmDeg: -1 }, 'out-of-range', 'alarmDeg');
     await bad(front, { colour: 1 }, 'unknown-option', 'colour');
     await bad(front, 5, 'wrong-type', 'options');
-    await bad(front, { get sensor() { throw new Error('mine'); } }, 'wrong-type', 'options');
+    await bad(
+      front,
+      {
+        get sensor() {
+          throw new Error('mine');
+        },
+      },
+      'wrong-type',
+      'options',
+    );
   });
 
   test('that say nothing are flagged', () => {
     const drive = beginning(front, 20);
-    const none = calibrateDrive({ ...drive, motion: { timeS: new Float64Array(0), yawRateDegps: new Float64Array(0) } });
+    const none = calibrateDrive({
+      ...drive,
+      motion: { timeS: new Float64Array(0), yawRateDegps: new Float64Array(0) },
+    });
     assert.equal(none.result.frames.withoutMotion + none.result.frames.sparse, drive.scans.timeS.length);
     assert.ok(none.result.warnings.some(({ code }) => code === 'no-frames'));
     assert.ok(none.frames.angleDeg.every(Number.isNaN));
     const empty = calibrateDrive({
-      ...drive, scans: { timeS: new Float64Array(0), sensor: new Uint8Array(0), offsets: new Uint32Array(1) },
+      ...drive,
+      scans: { timeS: new Float64Array(0), sensor: new Uint8Array(0), offsets: new Uint32Array(1) },
     });
     assert.deepEqual([empty.history.timeS.length, empty.result.sigmaDeg], [0, Infinity]);
-    const far = calibrateDrive({ ...drive, scans: { ...drive.scans, timeS: drive.scans.timeS.map((time, i) => (i < 5 ? -1e308 : 1e308)) } }, { historyS: 1e-300 });
+    const far = calibrateDrive(
+      { ...drive, scans: { ...drive.scans, timeS: drive.scans.timeS.map((time, i) => (i < 5 ? -1e308 : 1e308)) } },
+      { historyS: 1e-300 },
+    );
     assert.equal(far.result.frames.given, drive.scans.timeS.length);
   });
 });

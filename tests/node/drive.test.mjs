@@ -23,15 +23,24 @@ const csv = () => [table('radar.csv', detections), table('car.csv', motion)];
 
 /** A drive's parts fit together. */
 function assertWhole(drive) {
-  for (const [part, name] of [[drive.scans, 'DriveScans'], [drive.counts, 'DriveCounts']]) assertShape(part, name);
+  for (const [part, name] of [
+    [drive.scans, 'DriveScans'],
+    [drive.counts, 'DriveCounts'],
+  ])
+    assertShape(part, name);
   drive.sensors.forEach((sensor) => assertShape(sensor, 'DriveSensor'));
   const { timeS, sensor, offsets } = drive.scans;
   const count = drive.detections.azimuthDeg.length;
-  assert.deepEqual([sensor.length, offsets.length, offsets[0], offsets.at(-1)], [timeS.length, timeS.length + 1, 0, count]);
+  assert.deepEqual(
+    [sensor.length, offsets.length, offsets[0], offsets.at(-1)],
+    [timeS.length, timeS.length + 1, 0, count],
+  );
   assert.ok(timeS.every((time, i) => i === 0 || time >= timeS[i - 1]));
   assert.ok(sensor.every((id) => drive.sensors.some((known) => known.id === id)));
-  for (const column of ['rangeRateMps', 'rangeM', 'rcsDbsm']) assert.equal(drive.detections[column].length, count, column);
-  for (const column of ['yawRateDegps', 'speedMps']) assert.equal(drive.motion[column].length, drive.motion.timeS.length, column);
+  for (const column of ['rangeRateMps', 'rangeM', 'rcsDbsm'])
+    assert.equal(drive.detections[column].length, count, column);
+  for (const column of ['yawRateDegps', 'speedMps'])
+    assert.equal(drive.motion[column].length, drive.motion.timeS.length, column);
 }
 
 describe('readDrive', () => {
@@ -45,7 +54,10 @@ describe('readDrive', () => {
     assert.equal(drive.detections.label, null);
     assert.ok(drive.motion.pose.xM.every(Number.isFinite));
     assert.deepEqual(await pool.readDrive(delphi()), drive);
-    const plain = delphi().map(({ name, bytes }) => ({ name: name.replace('.gz', ''), bytes: new Uint8Array(gunzipSync(bytes)).buffer }));
+    const plain = delphi().map(({ name, bytes }) => ({
+      name: name.replace('.gz', ''),
+      bytes: new Uint8Array(gunzipSync(bytes)).buffer,
+    }));
     assert.deepEqual(readDrive(plain), drive);
   });
 
@@ -53,17 +65,25 @@ describe('readDrive', () => {
     const drive = readDrive([table('notes.txt', 'hello'), ...csv().reverse()]);
     assertWhole(drive);
     assert.equal(drive.format, 'csv');
-    assert.deepEqual(drive.sensors, [1, 2].map((id) => ({ id, xM: null, yM: null, yawDeg: null })));
+    assert.deepEqual(
+      drive.sensors,
+      [1, 2].map((id) => ({ id, xM: null, yM: null, yawDeg: null })),
+    );
     assert.deepEqual([...drive.scans.sensor], [2, 1]);
     // Azimuths pass through single precision in radians.
     [10, -20, 5].forEach((deg, i) => assert.ok(Math.abs(drive.detections.azimuthDeg[i] - deg) < 2e-6));
     assert.ok(drive.detections.rangeM.every(Number.isNaN) && drive.motion.speedMps.every(Number.isNaN));
     assert.equal(drive.motion.pose, null);
-    assert.deepEqual(drive.warnings.map(({ code }) => code), ['ignored-file']);
+    assert.deepEqual(
+      drive.warnings.map(({ code }) => code),
+      ['ignored-file'],
+    );
   });
 
   test('reads RadarScenes, whichever way its datasets are stored', () => {
-    const [drive, ...others] = ['contiguous', 'deflated', 'latest_filtered'].map((name) => readDrive([golden(`${name}.h5`)]));
+    const [drive, ...others] = ['contiguous', 'deflated', 'latest_filtered'].map((name) =>
+      readDrive([golden(`${name}.h5`)]),
+    );
     assertWhole(drive);
     assert.equal(drive.format, 'radarscenes');
     assert.ok(drive.detections.label instanceof Uint8Array && drive.motion.pose !== null);
@@ -74,7 +94,10 @@ describe('readDrive', () => {
     const sensors = table('set/sensors.json', '{"radar_2": {"x": 1, "y": 2, "yaw": 0.5}}');
     const stated = readDrive([sensors, golden('contiguous.h5')]);
     assert.equal(stated.mountings, 'sensors-json');
-    assert.deepEqual(stated.sensors.map(({ xM }) => xM), [null, 1]);
+    assert.deepEqual(
+      stated.sensors.map(({ xM }) => xM),
+      [null, 1],
+    );
     assert.throws(() => readDrive([table('sensors.json', '{'), golden('contiguous.h5')]), { code: 'malformed-json' });
   });
 
@@ -91,14 +114,26 @@ describe('readDrive', () => {
     bad([golden('no_vr.h5')], 'malformed-hdf5');
     bad([golden('no_odometry.h5')], 'malformed-hdf5');
     const whole = golden('deflated.h5');
-    for (const length of [0, 7, 500, 2000, 4000]) bad([{ ...whole, bytes: whole.bytes.subarray(0, length) }], 'malformed-hdf5');
+    for (const length of [0, 7, 500, 2000, 4000])
+      bad([{ ...whole, bytes: whole.bytes.subarray(0, length) }], 'malformed-hdf5');
     const [radar] = delphi();
     bad([{ ...radar, bytes: radar.bytes.subarray(0, 1000) }], 'malformed-gzip');
     bad(undefined, 'wrong-type', 'files');
     bad([{ name: 'a.csv' }], 'missing', 'files[0].bytes');
     bad([{ name: 1, bytes: text('') }], 'wrong-type', 'files[0].name');
     bad([{ name: 'a.csv', bytes: [1] }], 'wrong-type', 'files[0].bytes');
-    bad([{ get name() { throw new Error('mine'); }, bytes: text('') }], 'wrong-type', 'files[0].name');
+    bad(
+      [
+        {
+          get name() {
+            throw new Error('mine');
+          },
+          bytes: text(''),
+        },
+      ],
+      'wrong-type',
+      'files[0].name',
+    );
     bad(new Array(2 ** 32 - 1), 'wrong-type', 'files');
     await rejectsTyped(pool.readDrive([]), 'no-drive-log');
     assert.equal(readDrive(csv()).scans.timeS.length, 2);
@@ -107,7 +142,14 @@ describe('readDrive', () => {
 });
 
 describe('simulateDrive', () => {
-  const options = { scenario: 'dense-traffic', seed: 5n, durationS: 4, misalignmentDeg: { 2: 1.5 }, movingShare: 0.4, noise: { clutter: 2 } };
+  const options = {
+    scenario: 'dense-traffic',
+    seed: 5n,
+    durationS: 4,
+    misalignmentDeg: { 2: 1.5 },
+    movingShare: 0.4,
+    noise: { clutter: 2 },
+  };
 
   test('gives the same drive every time, with its truth', async () => {
     const drive = simulateDrive(options);
@@ -115,7 +157,10 @@ describe('simulateDrive', () => {
     assertShape(drive.truth, 'DriveTruth');
     assertWhole(drive);
     const count = drive.detections.azimuthDeg.length;
-    assert.deepEqual([drive.truth.moving.length, drive.truth.track.length, drive.counts.detections], [count, count, count]);
+    assert.deepEqual(
+      [drive.truth.moving.length, drive.truth.track.length, drive.counts.detections],
+      [count, count, count],
+    );
     drive.sensors.forEach((sensor, i) => {
       const misalignment = drive.truth.sensors[i].yawDeg - sensor.yawDeg;
       assert.ok(Math.abs(misalignment - (sensor.id === 2 ? 1.5 : 0)) < 1e-9);
@@ -137,14 +182,24 @@ describe('simulateDrive', () => {
 
   test('tells how far it is and stops when asked to', async () => {
     const told = [];
-    throwsTyped(() => simulateDrive({ durationS: 20 }, (done, total) => { told.push([done, total]); return done < 200; }), 'cancelled');
+    throwsTyped(
+      () =>
+        simulateDrive({ durationS: 20 }, (done, total) => {
+          told.push([done, total]);
+          return done < 200;
+        }),
+      'cancelled',
+    );
     assert.ok(told.length > 1 && told.every(([done, total]) => done < total && total > 1000), JSON.stringify(told));
     const progress = [];
     await pool.simulateDrive({ durationS: 20 }, { onProgress: (...steps) => progress.push(steps) });
     assert.deepEqual(progress.at(-1)[0], progress.at(-1)[1]);
     const controller = new AbortController();
     // Minutes of work.
-    const job = pool.simulateDrive({ durationS: 3600 }, { signal: controller.signal, onProgress: () => controller.abort() });
+    const job = pool.simulateDrive(
+      { durationS: 3600 },
+      { signal: controller.signal, onProgress: () => controller.abort() },
+    );
     await assert.rejects(job, { name: 'AbortError' });
   });
 
@@ -185,7 +240,8 @@ describe('driveFrame', () => {
 
   test('refuses what is no scan', () => {
     const drive = readDrive(csv());
-    for (const scan of [-1, 2, 0.5, Number.NaN, '0', undefined]) throwsTyped(() => driveFrame(drive, scan), 'out-of-range', 'scan');
+    for (const scan of [-1, 2, 0.5, Number.NaN, '0', undefined])
+      throwsTyped(() => driveFrame(drive, scan), 'out-of-range', 'scan');
     throwsTyped(() => driveFrame(drive, 0, { maxGapS: -1 }), 'wrong-type', 'maxGapS');
     throwsTyped(() => driveFrame(null, 0), 'wrong-type', 'drive');
   });

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { before, describe, test } from 'node:test';
-import { Estimator, array, arrayPresets, estimate, init, methods, version } from 'boresight';
+import { array, arrayPresets, Estimator, estimate, init, methods, version } from 'boresight';
 import { batchOf, planeWaves, throwsTyped } from './lib/assert.mjs';
 
 before(() => init());
@@ -18,22 +18,55 @@ describe('arrays', () => {
   });
 
   test('a sparse MIMO array has the sums of its positions', () => {
-    const rx = [[0, 0, 0], [0, 1, 0]];
-    const { positions, unambiguousDeg, uniform } = array({ tx: [[0, 0, 0], [0, 4, 0]], rx });
-    assert.deepEqual(positions.map((p) => p[1]), [0, 1, 4, 5]);
+    const rx = [
+      [0, 0, 0],
+      [0, 1, 0],
+    ];
+    const { positions, unambiguousDeg, uniform } = array({
+      tx: [
+        [0, 0, 0],
+        [0, 4, 0],
+      ],
+      rx,
+    });
+    assert.deepEqual(
+      positions.map((p) => p[1]),
+      [0, 1, 4, 5],
+    );
     assert.equal(uniform, false);
     assert.equal(unambiguousDeg, 90);
-    const repeated = { tx: [[0, 0, 0], [0, 1, 0]], rx };
+    const repeated = {
+      tx: [
+        [0, 0, 0],
+        [0, 1, 0],
+      ],
+      rx,
+    };
     assert.equal(array(repeated).positions.length, 4);
     assert.equal(array({ ...repeated, withoutDuplicates: true }).positions.length, 3);
-    const wide = array({ positions: [[0, 0, 0], [0, 2, 0]] });
+    const wide = array({
+      positions: [
+        [0, 0, 0],
+        [0, 2, 0],
+      ],
+    });
     assert.ok(Math.abs(wide.unambiguousDeg - 30) < 1e-9);
   });
 
   test('what makes no array is refused with its place', () => {
     throwsTyped(() => array('awr0000'), 'unknown-name', 'array preset');
     throwsTyped(() => array({ positions: [] }), 'empty');
-    throwsTyped(() => array({ positions: [[0, 0, 0], [0, Number.NaN, 0]] }), 'out-of-range', 'array.positions[1][1]');
+    throwsTyped(
+      () =>
+        array({
+          positions: [
+            [0, 0, 0],
+            [0, Number.NaN, 0],
+          ],
+        }),
+      'out-of-range',
+      'array.positions[1][1]',
+    );
     throwsTyped(() => array({ positions: [[0, 0]] }), 'shape', 'array.positions[0]');
     throwsTyped(() => array({ positions: 'ula8' }), 'wrong-type', 'array.positions');
     throwsTyped(() => array({ tx: [[0, 0, 0]] }), 'missing', 'array.rx');
@@ -51,7 +84,10 @@ describe('estimate', () => {
   test('finds two plane waves', () => {
     const { method, sources, spectrum, resolved, warnings } = estimate({ snapshots }, options);
     assert.equal(method, 'bartlett');
-    const angles = sources.slice(0, 2).map((s) => s.azimuthDeg).sort((a, b) => a - b);
+    const angles = sources
+      .slice(0, 2)
+      .map((s) => s.azimuthDeg)
+      .sort((a, b) => a - b);
     // A tenth of the beam width of 10 deg: the beamformer is biased by the other source.
     assert.ok(Math.abs(angles[0] + 15) < 1 && Math.abs(angles[1] - 22) < 1, `${angles}`);
     assert.ok(Math.abs(sources[0].powerDb) < 1, `${sources[0].powerDb}`);
@@ -66,9 +102,16 @@ describe('estimate', () => {
     const estimator = new Estimator(options);
     const [once, again] = [estimate({ snapshots }, options), estimator.estimate({ snapshots: single })];
     // The two are as strong as each other, so rounding decides which comes first.
-    const angles = (result) => result.sources.slice(0, 2).map((s) => s.azimuthDeg).sort((x, y) => x - y);
+    const angles = (result) =>
+      result.sources
+        .slice(0, 2)
+        .map((s) => s.azimuthDeg)
+        .sort((x, y) => x - y);
     const [expected, found] = [angles(once), angles(again)];
-    assert.ok(expected.every((angle, k) => Math.abs(angle - found[k]) < 1e-4), `${expected} ${found}`);
+    assert.ok(
+      expected.every((angle, k) => Math.abs(angle - found[k]) < 1e-4),
+      `${expected} ${found}`,
+    );
     estimator.free();
   });
 
@@ -86,7 +129,8 @@ describe('estimate', () => {
   });
 
   test('bad input is refused by name and leaves the instance working', () => {
-    const bad = (change, code, what) => throwsTyped(() => estimate({ snapshots }, { ...options, ...change }), code, what);
+    const bad = (change, code, what) =>
+      throwsTyped(() => estimate({ snapshots }, { ...options, ...change }), code, what);
     bad({ method: 'musik' }, 'unknown-name', 'method');
     bad({ method: undefined }, 'missing', 'method');
     bad({ method: 3 }, 'wrong-type', 'method');
@@ -104,7 +148,12 @@ describe('estimate', () => {
     bad({ iaa: { iterations: 0 } }, 'out-of-range', 'iaa.iterations');
     bad({ iaa: { iteration: 3 } }, 'unknown-option', 'iaa.iteration');
     bad({ iaa: 3 }, 'wrong-type', 'iaa');
-    const trap = { ...options, get loading() { throw new Error('no'); } };
+    const trap = {
+      ...options,
+      get loading() {
+        throw new Error('no');
+      },
+    };
     throwsTyped(() => estimate({ snapshots }, trap), 'wrong-type', 'loading');
     throwsTyped(() => estimate({ snapshots }), 'wrong-type', 'options');
     throwsTyped(() => estimate({ snapshots }, []), 'wrong-type', 'options');
@@ -154,9 +203,17 @@ describe('a batch', () => {
       const alone = cells.map((snapshots) => estimate({ snapshots }, options));
       const sources = alone.flatMap((cell) => cell.sources);
       for (const field of ['azimuthDeg', 'elevationDeg', 'powerDb']) {
-        assert.deepEqual([...batch[field]], sources.map((source) => source[field]), `${name} ${field}`);
+        assert.deepEqual(
+          [...batch[field]],
+          sources.map((source) => source[field]),
+          `${name} ${field}`,
+        );
       }
-      assert.deepEqual([...batch.cell], alone.flatMap((cell, c) => cell.sources.map(() => c)), name);
+      assert.deepEqual(
+        [...batch.cell],
+        alone.flatMap((cell, c) => cell.sources.map(() => c)),
+        name,
+      );
       assert.equal(batch.method, name);
       assert.equal(batch.unresolved, alone.filter(({ resolved }) => !resolved).length, name);
       assert.equal(batch.spectra !== undefined, spectrum, name);

@@ -2,8 +2,17 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { before, describe, test } from 'node:test';
 import {
-  BoardLogStream, init, parseBoardLog, parseConfig, readDetectionsCsv, readNpy, readSnapshotsCsv, waveformSummary,
-  writeDetectionsCsv, writeNpy, writeSnapshotsCsv,
+  BoardLogStream,
+  init,
+  parseBoardLog,
+  parseConfig,
+  readDetectionsCsv,
+  readNpy,
+  readSnapshotsCsv,
+  waveformSummary,
+  writeDetectionsCsv,
+  writeNpy,
+  writeSnapshotsCsv,
 } from 'boresight';
 import { throwsTyped } from './lib/assert.mjs';
 
@@ -46,7 +55,10 @@ describe('board logs', () => {
     assert.equal(log.frames.length, 250);
     // The recording ends inside its last packet.
     assert.equal(log.damagedPackets, 1);
-    assert.deepEqual(log.frames.filter(({ complete }) => !complete), log.frames.slice(-1));
+    assert.deepEqual(
+      log.frames.filter(({ complete }) => !complete),
+      log.frames.slice(-1),
+    );
     for (const { objects } of log.frames) {
       // The board's first object: x = 283/512 m to the right, y = 1485/512 m ahead.
       const first = objects.find(({ rangeBin }) => rangeBin === 58);
@@ -109,8 +121,15 @@ describe('npy', () => {
 
 describe('tables', () => {
   const detection = {
-    frame: 1, rangeM: 2.95, rateMps: -0.1, azimuthDeg: -10.8, elevationDeg: 0, powerDb: -30.25, snrDb: 25,
-    rangeBin: 58, dopplerBin: 8,
+    frame: 1,
+    rangeM: 2.95,
+    rateMps: -0.1,
+    azimuthDeg: -10.8,
+    elevationDeg: 0,
+    powerDb: -30.25,
+    snrDb: 25,
+    rangeBin: 58,
+    dopplerBin: 8,
   };
 
   test('of detections keep every number', () => {
@@ -129,7 +148,11 @@ describe('tables', () => {
     throwsTyped(() => readDetectionsCsv('range_m\n1'), 'malformed-table');
     throwsTyped(() => readSnapshotsCsv('snapshot,element,re,im\n0,0,x,0'), 'malformed-table');
     throwsTyped(() => readSnapshotsCsv(''), 'malformed-table');
-    throwsTyped(() => writeDetectionsCsv([{ ...detection, rangeM: Number.NaN }]), 'out-of-range', 'detections[0].rangeM');
+    throwsTyped(
+      () => writeDetectionsCsv([{ ...detection, rangeM: Number.NaN }]),
+      'out-of-range',
+      'detections[0].rangeM',
+    );
     throwsTyped(() => writeDetectionsCsv({}), 'wrong-type', 'detections');
   });
 });

@@ -2,8 +2,16 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import {
-  Capture, Estimator, birdsEyeView, frameCells, imageFrame, init, rangeAzimuthMap, sidelobeMeasure,
-  simulateStreet, streetScene,
+  birdsEyeView,
+  Capture,
+  Estimator,
+  frameCells,
+  imageFrame,
+  init,
+  rangeAzimuthMap,
+  sidelobeMeasure,
+  simulateStreet,
+  streetScene,
 } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { throwsTyped } from './lib/assert.mjs';
@@ -23,14 +31,18 @@ before(async () => {
 after(() => pool.terminate());
 
 const by = (method, more) => ({ ...options, angle: { method }, ...more });
-const viewOf = (map, mounting) => birdsEyeView({
-  radars: [{ map, mounting }],
-  grid: { xM: [-10, 60], yM: [-20, 30], cellM: 0.25 },
-});
+const viewOf = (map, mounting) =>
+  birdsEyeView({
+    radars: [{ map, mounting }],
+    grid: { xM: [-10, 60], yM: [-20, 30], cellM: 0.25 },
+  });
 const gate = { rangeM: 0.8, sine: 0.025 };
 
 test('the street has four radars, and what each sees lies in the scene', () => {
-  assert.deepEqual(scene.radars.map(({ name }) => name), ['right', 'front-right', 'front-left', 'left']);
+  assert.deepEqual(
+    scene.radars.map(({ name }) => name),
+    ['right', 'front-right', 'front-left', 'left'],
+  );
   assert.ok(scene.targets.length > 500);
   const { xM, yM, yawDeg } = street.radar.mounting;
   for (const { target, rangeM, azimuthDeg, rateMps } of street.targets) {
@@ -62,10 +74,12 @@ test('a frame has about 300 cells, and their snapshots give what the chain gives
 
 test('the image of IAA is cleaner than that of the FFT, and shows the targets no less', () => {
   const targets = street.targets.map(({ target }) => scene.targets[target]);
-  const measured = Object.fromEntries(['bartlett', 'iaa', 'nomp'].map((method) => {
-    const { map } = imageFrame(street.cube, by(method));
-    return [method, sidelobeMeasure(viewOf(map, street.radar.mounting), targets, gate)];
-  }));
+  const measured = Object.fromEntries(
+    ['bartlett', 'iaa', 'nomp'].map((method) => {
+      const { map } = imageFrame(street.cube, by(method));
+      return [method, sidelobeMeasure(viewOf(map, street.radar.mounting), targets, gate)];
+    }),
+  );
   assert.ok(measured.bartlett.outsideDb > -9, JSON.stringify(measured));
   assert.ok(measured.iaa.outsideDb < measured.bartlett.outsideDb - 10, JSON.stringify(measured));
   assert.ok(measured.iaa.litOutside < 0.1 * measured.bartlett.litOutside);
@@ -86,7 +100,10 @@ test('maps hold all power of the estimates, on the grid or beside it', () => {
   const found = map.power.reduce((sum, power) => sum + power, map.outside.power);
   assert.ok(Math.abs(found / all - 1) < 1e-5);
   const half = rangeAzimuthMap({
-    cells, from: 'targets', grid, estimates: { ...estimates, confidence: new Float64Array(estimates.cell.length).fill(0.5) },
+    cells,
+    from: 'targets',
+    grid,
+    estimates: { ...estimates, confidence: new Float64Array(estimates.cell.length).fill(0.5) },
   });
   assert.ok(Math.abs(half.power.reduce((sum, power) => sum + power, half.outside.power) / all - 0.5) < 1e-5);
 });
@@ -95,7 +112,10 @@ test('radars are fused by maximum, with the radar each cell came from', () => {
   const { map } = imageFrame(street.cube, by('bartlett'));
   const other = { xM: 3.86, yM: -0.7, yawDeg: -25 };
   const grid = { xM: [0, 40], yM: [-20, 20], cellM: 0.5 };
-  const radars = [{ map, mounting: street.radar.mounting }, { map, mounting: other }];
+  const radars = [
+    { map, mounting: street.radar.mounting },
+    { map, mounting: other },
+  ];
   const both = birdsEyeView({ radars, grid });
   const alone = radars.map((radar) => birdsEyeView({ radars: [radar], grid }));
   assert.deepEqual(both.shape, [80, 80]);
@@ -148,14 +168,24 @@ test('what is wrong is refused by name, and the next call works', () => {
   const input = { cells, estimates, from: 'spectra', grid };
   const { spectra: _, ...without } = estimates;
   throwsTyped(() => rangeAzimuthMap({ ...input, estimates: without }), 'missing', 'estimates.spectra');
-  throwsTyped(() => rangeAzimuthMap({ ...input, grid: { ...grid, azimuths: 1 } }), 'out-of-range', 'points of azimuths');
   throwsTyped(
-    () => rangeAzimuthMap({ ...input, from: 'targets', estimates: { ...estimates, cell: estimates.cell.map(() => 99) } }),
-    'out-of-range', 'cell of an estimate',
+    () => rangeAzimuthMap({ ...input, grid: { ...grid, azimuths: 1 } }),
+    'out-of-range',
+    'points of azimuths',
+  );
+  throwsTyped(
+    () =>
+      rangeAzimuthMap({ ...input, from: 'targets', estimates: { ...estimates, cell: estimates.cell.map(() => 99) } }),
+    'out-of-range',
+    'cell of an estimate',
   );
   const radars = [{ map, mounting: street.radar.mounting }];
   throwsTyped(() => birdsEyeView({ radars: [], grid: { xM: [0, 9], yM: [0, 9], cellM: 1 } }), 'out-of-range', 'radars');
-  throwsTyped(() => birdsEyeView({ radars, grid: { xM: [0, 1e5], yM: [0, 1e5], cellM: 0.01 } }), 'out-of-range', 'points of x_m');
+  throwsTyped(
+    () => birdsEyeView({ radars, grid: { xM: [0, 1e5], yM: [0, 1e5], cellM: 0.01 } }),
+    'out-of-range',
+    'points of x_m',
+  );
   const view = birdsEyeView({ radars, grid: { xM: [0, 9], yM: [0, 9], cellM: 1 } });
   throwsTyped(() => sidelobeMeasure(view, [], { gateM: -1 }), 'out-of-range', 'gateM');
   assert.equal(sidelobeMeasure(view, [], { gateM: 1 }).outsideDb, 0);

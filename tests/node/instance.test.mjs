@@ -3,7 +3,15 @@ import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import {
-  BoresightError, Estimator, estimate, init, initDrives, initDrivesSync, initSync, readDrive, version,
+  BoresightError,
+  Estimator,
+  estimate,
+  init,
+  initDrives,
+  initDrivesSync,
+  initSync,
+  readDrive,
+  version,
 } from 'boresight';
 import glue from '../../dist/wasm/boresight.js';
 import drivesGlue from '../../dist/wasm/boresight_drives.js';
@@ -52,7 +60,9 @@ test('after a trap calls say so, and init() gives a fresh instance', async () =>
 });
 
 test('errors show their parts as JSON', () => {
-  const shown = JSON.parse(JSON.stringify(new BoresightError('code', 'text', { what: 'a', expected: 'b', given: 'c' })));
+  const shown = JSON.parse(
+    JSON.stringify(new BoresightError('code', 'text', { what: 'a', expected: 'b', given: 'c' })),
+  );
   assert.deepEqual(shown, { code: 'code', message: 'text', what: 'a', expected: 'b', given: 'c' });
 });
 

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
 import { array, estimate, frameCells, init, processCube, simulateCube, simulateSnapshots } from 'boresight';
-import { BoresightError, Network, initNeural, initNeuralSync } from 'boresight/neural';
+import { BoresightError, initNeural, initNeuralSync, Network } from 'boresight/neural';
 import { createPool } from 'boresight/worker';
 import glue from '../../dist/wasm/boresight_neural.js';
 import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
@@ -14,11 +14,17 @@ const aaetr = 'aaetr-small';
 /** Snapshots of `lrr48` with three targets each, as one batch. */
 const scenes = (count) => {
   const { data, shape } = simulateSnapshots({
-    array: 'lrr48', targets: { count: [3, 3], fieldOfViewDeg: 50 }, snrDb: 25, scenes: count, seed: 5,
+    array: 'lrr48',
+    targets: { count: [3, 3], fieldOfViewDeg: 50 },
+    snrDb: 25,
+    scenes: count,
+    seed: 5,
   });
   return { data, shape: shape.slice(0, 2) };
 };
-const cell = ({ data, shape }, index) => ({ snapshots: { data: data.slice(2 * index * shape[1], 2 * (index + 1) * shape[1]), shape: [shape[1], 1] } });
+const cell = ({ data, shape }, index) => ({
+  snapshots: { data: data.slice(2 * index * shape[1], 2 * (index + 1) * shape[1]), shape: [shape[1], 1] },
+});
 
 test('before initNeural() every call says so; loading can be tried again', async () => {
   throwsTyped(() => new Network(new Uint8Array(8)), 'not-initialised');
@@ -36,7 +42,10 @@ describe('every shipped network', () => {
         const network = new Network(onnx, options);
         const inputs = Object.fromEntries(network.inputs.map((port) => [port.name, tensor(name, port.name)]));
         const outputs = network.run(inputs);
-        assert.deepEqual(Object.keys(outputs), network.outputs.map((port) => port.name));
+        assert.deepEqual(
+          Object.keys(outputs),
+          network.outputs.map((port) => port.name),
+        );
         for (const [port, given] of Object.entries(outputs)) {
           const expected = tensor(name, port);
           assert.deepEqual(given.shape, expected.shape);
@@ -59,18 +68,28 @@ describe('a network', () => {
   test('finds the targets of clean snapshots', () => {
     const { positions } = array('lrr48');
     assert.deepEqual(network.inputs.find(({ name }) => name === 'positions').axes, [48, 3]);
-    for (const truth of [[-20, 15], [-41, 0, 33]]) {
+    for (const truth of [
+      [-20, 15],
+      [-41, 0, 33],
+    ]) {
       const data = new Float64Array(96);
-      truth.forEach((angle, source) => positions.forEach(([, y], k) => {
-        const phase = Math.PI * y * Math.sin((angle * Math.PI) / 180) + 2 * source;
-        data[2 * k] += Math.cos(phase);
-        data[2 * k + 1] += Math.sin(phase);
-      }));
+      truth.forEach((angle, source) =>
+        positions.forEach(([, y], k) => {
+          const phase = Math.PI * y * Math.sin((angle * Math.PI) / 180) + 2 * source;
+          data[2 * k] += Math.cos(phase);
+          data[2 * k + 1] += Math.sin(phase);
+        }),
+      );
       const result = network.estimate({ snapshots: { data, shape: [48, 1] } });
       assertShape(result, 'Estimate');
       assert.equal(result.method, 'aaetr');
       const found = result.sources.map(({ azimuthDeg }) => azimuthDeg);
-      truth.forEach((angle) => assert.ok(found.some((near) => Math.abs(near - angle) < 0.5), `${found} for ${truth}`));
+      truth.forEach((angle) =>
+        assert.ok(
+          found.some((near) => Math.abs(near - angle) < 0.5),
+          `${found} for ${truth}`,
+        ),
+      );
     }
   });
 
@@ -84,7 +103,9 @@ describe('a network', () => {
       const found = [...all.azimuthDeg].filter((_, i) => all.cell[i] === index);
       assert.equal(found.length, sources.length);
       // Products of a batch are added up in another order.
-      sources.forEach(({ azimuthDeg }, i) => assert.ok(Math.abs(found[i] - azimuthDeg) < 1e-3, `${found[i]} for ${azimuthDeg}`));
+      sources.forEach(({ azimuthDeg }, i) =>
+        assert.ok(Math.abs(found[i] - azimuthDeg) < 1e-3, `${found[i]} for ${azimuthDeg}`),
+      );
     }
   });
 
@@ -226,31 +247,51 @@ describe('a pool', () => {
     assert.deepEqual(await pool.estimate(cell(batch, 3), options({ refine: true })), network.estimate(cell(batch, 3)));
     network.setOptions({ array: 'lrr48' });
     const progress = [];
-    const many = await pool.estimateBatch({ snapshots: batch }, options(), { onProgress: (done) => progress.push(done) });
+    const many = await pool.estimateBatch({ snapshots: batch }, options(), {
+      onProgress: (done) => progress.push(done),
+    });
     const here = network.estimateBatch({ snapshots: batch });
     assert.deepEqual(many.cell, here.cell);
     assert.ok(difference(many.azimuthDeg, here.azimuthDeg) < 1e-5);
     assert.equal(progress.at(-1), 40);
     assert.ok(progress.length > 1);
     const inputs = [0, 1, 2].map((index) => cell(batch, index));
-    assert.deepEqual(await pool.estimateMany(inputs, options()), inputs.map((input) => network.estimate(input)));
+    assert.deepEqual(
+      await pool.estimateMany(inputs, options()),
+      inputs.map((input) => network.estimate(input)),
+    );
     // The same workers run both kinds.
-    assert.deepEqual(await pool.estimate(inputs[0], { method: 'iaa', array: 'lrr48' }), estimate(inputs[0], { method: 'iaa', array: 'lrr48' }));
+    assert.deepEqual(
+      await pool.estimate(inputs[0], { method: 'iaa', array: 'lrr48' }),
+      estimate(inputs[0], { method: 'iaa', array: 'lrr48' }),
+    );
   });
 
   test('processes cubes and makes images with a network', async () => {
     const waveform = {
-      startFrequencyHz: 76e9, slopeHzPerS: 30e12, sampleRateHz: 10e6, samples: 64, adcStartS: 0, chirpIntervalS: 30e-6,
-      transmitters: 6, loops: 16, frameIntervalS: 0.05,
+      startFrequencyHz: 76e9,
+      slopeHzPerS: 30e12,
+      sampleRateHz: 10e6,
+      samples: 64,
+      adcStartS: 0,
+      chirpIntervalS: 30e-6,
+      transmitters: 6,
+      loops: 16,
+      frameIntervalS: 0.05,
     };
-    const targets = [{ rangeM: 8, rateMps: 1, azimuthDeg: 20 }, { rangeM: 15, rateMps: -2, azimuthDeg: -31 }];
+    const targets = [
+      { rangeM: 8, rateMps: 1, azimuthDeg: 20 },
+      { rangeM: 15, rateMps: -2, azimuthDeg: -31 },
+    ];
     const cube = simulateCube({ waveform, array: 'lrr48', targets, snrDb: 20, seed: 3 });
     const chain = { waveform, array: 'lrr48', angle: { method: 'aaetr', network: info.id } };
     const frames = await pool.processCube(cube, chain);
     assert.deepEqual(frames, network.processCube(cube, chain));
     assertShape(frames[0], 'FrameResult');
     for (const { rangeM, azimuthDeg } of targets) {
-      const near = frames[0].detections.some((d) => Math.abs(d.rangeM - rangeM) < 0.5 && Math.abs(d.azimuthDeg - azimuthDeg) < 0.5);
+      const near = frames[0].detections.some(
+        (d) => Math.abs(d.rangeM - rangeM) < 0.5 && Math.abs(d.azimuthDeg - azimuthDeg) < 0.5,
+      );
       assert.ok(near, `a target at ${azimuthDeg} deg among ${frames[0].detections.map((d) => d.azimuthDeg)}`);
     }
     const image = await pool.imageFrame(cube, chain);
@@ -275,7 +316,8 @@ describe('a pool', () => {
   test('goes on after a job is cancelled, and forgets a network when told to', async () => {
     const controller = new AbortController();
     const job = pool.estimateBatch({ snapshots: scenes(400) }, options(), {
-      signal: controller.signal, onProgress: () => controller.abort(),
+      signal: controller.signal,
+      onProgress: () => controller.abort(),
     });
     await assert.rejects(job, { name: 'AbortError' });
     const other = await pool.loadNetwork(model(aaetr));

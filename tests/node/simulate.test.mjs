@@ -6,8 +6,15 @@ import { throwsTyped } from './lib/assert.mjs';
 
 const options = { array: 'lrr48', targets: { count: [2, 10] }, snrDb: 20, snapshots: 3, scenes: 21, seed: 7 };
 const waveform = {
-  startFrequencyHz: 77e9, slopeHzPerS: 60e12, sampleRateHz: 5e6, samples: 64, adcStartS: 5e-6, chirpIntervalS: 80e-6,
-  transmitters: 2, loops: 4, frameIntervalS: 40e-3,
+  startFrequencyHz: 77e9,
+  slopeHzPerS: 60e12,
+  sampleRateHz: 5e6,
+  samples: 64,
+  adcStartS: 5e-6,
+  chirpIntervalS: 80e-6,
+  transmitters: 2,
+  loops: 4,
+  frameIntervalS: 40e-3,
 };
 const cubeOptions = { waveform, array: 'awr1642', targets: [{ rangeM: 3 }], snrDb: 10, seed: 1 };
 
@@ -50,10 +57,18 @@ test('given targets, their phases and imperfections are obeyed', () => {
   const { data, truth } = simulateSnapshots(given);
   const amplitude = 10 ** (-6 / 20);
   // Element 0 has the target's phase; at 30 deg each further element leads by a quarter turn.
-  const expected = [[0, 1], [-1, 0], [0, -1], [1, 0]].flat();
+  const expected = [
+    [0, 1],
+    [-1, 0],
+    [0, -1],
+    [1, 0],
+  ].flat();
   data.forEach((x, i) => assert.ok(Math.abs(x - amplitude * expected[i]) < 1e-9, `${i}: ${x}`));
   assert.ok(Math.abs(truth[0][0].azimuthDeg - 30) < 1e-9);
-  const spoilt = simulateSnapshots({ ...given, imperfections: { gainDb: 1, phaseDeg: 10, position: 0.1, couplingDb: -20 } });
+  const spoilt = simulateSnapshots({
+    ...given,
+    imperfections: { gainDb: 1, phaseDeg: 10, position: 0.1, couplingDb: -20 },
+  });
   assert.notDeepEqual(spoilt.data, data);
 });
 

@@ -9,7 +9,12 @@ test('one source: the bound is the closed form', () => {
   // Stoica and Nehorai 1989, eq. (5.2): var(w) = 6 / (N snr m (m^2 - 1)) for w = pi sin(azimuth).
   const [m, snapshots, snr] = [10, 100, 100];
   const target = { azimuthDeg: 20, snrDb: 20 };
-  const { azimuthDeg, elevationDeg } = cramerRaoBound({ array: 'ula10', targets: [target], snapshots, kind: 'deterministic' });
+  const { azimuthDeg, elevationDeg } = cramerRaoBound({
+    array: 'ula10',
+    targets: [target],
+    snapshots,
+    kind: 'deterministic',
+  });
   const deviation = Math.sqrt(6 / (snapshots * snr * m * (m * m - 1))) / (Math.PI * Math.cos((20 * Math.PI) / 180));
   assert.ok(Math.abs(azimuthDeg[0] / ((deviation * 180) / Math.PI) - 1) < 1e-9, `${azimuthDeg[0]}`);
   assert.equal(elevationDeg, undefined);

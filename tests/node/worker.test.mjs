@@ -26,18 +26,26 @@ describe('a pool of worker threads', () => {
   test('gives what the functions give', async () => {
     assert.deepEqual(await pool.estimate(inputs[3], options), estimate(inputs[3], options));
     const [version, presets, methods, geometry] = await Promise.all([
-      pool.version(), pool.arrayPresets(), pool.methods(), pool.array('ula8'),
+      pool.version(),
+      pool.arrayPresets(),
+      pool.methods(),
+      pool.array('ula8'),
     ]);
     assert.match(version, /^\d+\.\d+\.\d+/);
     assert.ok(presets.includes('lrr48'));
-    assert.deepEqual(methods.filter(({ network }) => network).map(({ name }) => name), ['aaetr', 'dnn', 'cnn3d']);
+    assert.deepEqual(
+      methods.filter(({ network }) => network).map(({ name }) => name),
+      ['aaetr', 'dnn', 'cnn3d'],
+    );
     assert.equal(methods.length, 14);
     assert.equal(geometry.positions.length, 8);
   });
 
   test('splits many inputs, keeps their order and says how far it is', async () => {
     const progress = [];
-    const estimates = await pool.estimateMany(inputs, options, { onProgress: (done, total) => progress.push([done, total]) });
+    const estimates = await pool.estimateMany(inputs, options, {
+      onProgress: (done, total) => progress.push([done, total]),
+    });
     const found = estimates.map(({ sources }) => sources[0].azimuthDeg);
     // A single noiseless source: only the grid of 1024 sines and the parabola stand in between.
     found.forEach((angle, i) => assert.ok(Math.abs(angle - angles[i]) < 0.05, `${angle} for ${angles[i]}`));
@@ -84,10 +92,16 @@ describe('a pool of worker threads', () => {
   test('counts the warnings of a batch, and its cells, over all pieces', async () => {
     const silent = { data: new Float64Array(20 * 9 * 2), shape: [9, 10, 2] };
     const batch = await pool.estimateBatch({ snapshots: silent }, options);
-    assert.deepEqual(batch.warnings.map(({ code, cells }) => [code, cells]), [['no-sources', 9]]);
+    assert.deepEqual(
+      batch.warnings.map(({ code, cells }) => [code, cells]),
+      [['no-sources', 9]],
+    );
     assert.deepEqual([batch.cells, batch.unresolved, batch.cell.length], [9, 9, 0]);
     const pairs = batchOf([inputs[3], inputs[3], inputs[7]].map(({ snapshots }) => snapshots));
-    assert.deepEqual([...(await pool.estimateBatch({ snapshots: pairs }, { ...options, maxPeaks: 1 })).cell], [0, 1, 2]);
+    assert.deepEqual(
+      [...(await pool.estimateBatch({ snapshots: pairs }, { ...options, maxPeaks: 1 })).cell],
+      [0, 1, 2],
+    );
   });
 
   test('refuses what is no batch, and the next one is fine', async () => {
@@ -124,7 +138,9 @@ describe('a pool of worker threads', () => {
   });
 
   test('passes on what onProgress throws', async () => {
-    const onProgress = () => { throw new RangeError('mine'); };
+    const onProgress = () => {
+      throw new RangeError('mine');
+    };
     await assert.rejects(pool.estimateMany(inputs, options, { onProgress }), { name: 'RangeError', message: 'mine' });
     assert.equal((await pool.estimate(inputs[0], options)).method, 'bartlett');
   });
@@ -139,7 +155,8 @@ describe('a pool of worker threads', () => {
   });
 
   test('refuses an impossible number of workers', () => {
-    for (const workers of [0, -1, 1.5, 65, Number.NaN, '2']) throwsTyped(() => createPool({ workers }), 'out-of-range', 'workers');
+    for (const workers of [0, -1, 1.5, 65, Number.NaN, '2'])
+      throwsTyped(() => createPool({ workers }), 'out-of-range', 'workers');
   });
 });
 
@@ -151,7 +168,13 @@ describe('the crew', () => {
       workers: () => size,
       compile: async () => new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])),
       spawn(events) {
-        const worker = { alive: true, terminate() { this.alive = false; }, keepAlive() {} };
+        const worker = {
+          alive: true,
+          terminate() {
+            this.alive = false;
+          },
+          keepAlive() {},
+        };
         worker.post = (message) => 'id' in message && queueMicrotask(() => behave(events, message, spawned.length));
         spawned.push(worker);
         return worker;
@@ -163,11 +186,15 @@ describe('the crew', () => {
 
   test('replaces a worker that died and rejects its job with a typed error', async () => {
     const { crew, spawned } = crewOf((events, { id }, nth) =>
-      nth === 1 ? events.lost('out of memory') : events.reply({ id, result: nth }));
+      nth === 1 ? events.lost('out of memory') : events.reply({ id, result: nth }),
+    );
     const [first, second] = [crew.run([piece]), crew.run([piece])];
     await rejectsTyped(first, 'worker-lost', 'worker');
     assert.deepEqual(await second, [2]);
-    assert.deepEqual(spawned.map(({ alive }) => alive), [false, true]);
+    assert.deepEqual(
+      spawned.map(({ alive }) => alive),
+      [false, true],
+    );
   });
 
   test('drops the rest of a job whose first piece failed', async () => {
@@ -177,18 +204,29 @@ describe('the crew', () => {
       pieces += 1;
       events.reply({ id, error: plain });
     });
-    await assert.rejects(crew.run([piece, piece, piece]), (error) => error instanceof BoresightError && error.code === 'shape');
+    await assert.rejects(
+      crew.run([piece, piece, piece]),
+      (error) => error instanceof BoresightError && error.code === 'shape',
+    );
     assert.equal(pieces, 1);
   });
 
   test('tries to load the module again after a failure', async () => {
     let tries = 0;
     const { crew } = crewOf((events, { id }) => events.reply({ id, result: 'ok' }));
-    const broken = new Crew({
-      workers: () => 1,
-      compile: async () => { if (++tries === 1) throw new Error('offline'); return new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])); },
-      spawn: () => { throw new Error('not reached'); },
-    }, 1);
+    const broken = new Crew(
+      {
+        workers: () => 1,
+        compile: async () => {
+          if (++tries === 1) throw new Error('offline');
+          return new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]));
+        },
+        spawn: () => {
+          throw new Error('not reached');
+        },
+      },
+      1,
+    );
     await rejectsTyped(broken.run([piece]), 'not-loaded');
     assert.deepEqual(await broken.run([]), []);
     assert.deepEqual(await crew.run([piece]), ['ok']);

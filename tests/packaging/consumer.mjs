@@ -15,7 +15,11 @@ const manifest = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
 /** Runs a program; on failure the error holds what it printed. */
 export async function run(program, args, options = {}) {
   try {
-    return await execute(program, args, { maxBuffer: 1 << 26, shell: program === npm && npm.endsWith('.cmd'), ...options });
+    return await execute(program, args, {
+      maxBuffer: 1 << 26,
+      shell: program === npm && npm.endsWith('.cmd'),
+      ...options,
+    });
   } catch (error) {
     throw new Error(`${program} ${args.join(' ')} failed\n${error.stdout ?? ''}\n${error.stderr ?? error.message}`);
   }
@@ -25,7 +29,9 @@ export const temporaryFolder = () => mkdtempSync(join(tmpdir(), 'boresight-'));
 
 /** Packs what `npm publish` would upload; gives the tarball and the list of its files. */
 export async function pack(folder) {
-  const { stdout } = await run(npm, ['pack', '--json', '--ignore-scripts', '--pack-destination', folder], { cwd: root });
+  const { stdout } = await run(npm, ['pack', '--json', '--ignore-scripts', '--pack-destination', folder], {
+    cwd: root,
+  });
   const [packed] = JSON.parse(stdout);
   return { tarball: join(folder, packed.filename), files: packed.files.map(({ path }) => path), size: packed.size };
 }
@@ -42,7 +48,11 @@ export async function consumer({ files = {}, fixtures = [], tools = [] }) {
   const devDependencies = Object.fromEntries(tools.map((name) => [name, manifest.devDependencies[name]]));
   const all = {
     'package.json': JSON.stringify({
-      name: 'consumer', private: true, type: 'module', dependencies: { boresight: `file:${tarball}` }, devDependencies,
+      name: 'consumer',
+      private: true,
+      type: 'module',
+      dependencies: { boresight: `file:${tarball}` },
+      devDependencies,
     }),
     ...files,
   };

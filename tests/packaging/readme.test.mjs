@@ -34,7 +34,10 @@ test('the first snippet finds both targets with the methods that resolve them', 
   assert.equal(snippets.length, 6);
   assert.ok(snippets[0].trim().split('\n').length <= 15, 'fifteen lines');
   const lines = await printed('snippet-0.mjs');
-  assert.deepEqual(lines.map((line) => line.split(' ')[0]), ['bartlett', 'iaa', 'nomp']);
+  assert.deepEqual(
+    lines.map((line) => line.split(' ')[0]),
+    ['bartlett', 'iaa', 'nomp'],
+  );
   // 25 dB on 48 elements: the bound on the weaker target is below 0.02 deg, a grid cell is 0.11 deg.
   const nomp = [...lines[2].matchAll(/(-?[\d.]+) deg/g)].map(([, deg]) => Number(deg));
   assert.equal(nomp.length, 2);
@@ -43,13 +46,22 @@ test('the first snippet finds both targets with the methods that resolve them', 
 
 test('the second snippet finds the targets of the capture', async () => {
   const lines = await printed('snippet-1.mjs');
-  assert.ok(lines.some((line) => /^2\.9\d m -1[01]\.\d deg/.test(line)), lines.join('\n'));
-  assert.ok(lines.some((line) => /^4\.9\d m/.test(line)), lines.join('\n'));
+  assert.ok(
+    lines.some((line) => /^2\.9\d m -1[01]\.\d deg/.test(line)),
+    lines.join('\n'),
+  );
+  assert.ok(
+    lines.some((line) => /^4\.9\d m/.test(line)),
+    lines.join('\n'),
+  );
 });
 
 test('the third snippet reports progress and the shape', async () => {
   const lines = await printed('snippet-2.mjs');
-  assert.ok(lines.some((line) => line.endsWith('of 500')), lines.join('\n'));
+  assert.ok(
+    lines.some((line) => line.endsWith('of 500')),
+    lines.join('\n'),
+  );
   assert.match(lines.at(-1), /500, 48, 1/);
 });
 
@@ -98,8 +110,14 @@ test('the table of estimators says what methods() says', async () => {
       m.network && 'a model',
     ].filter(Boolean);
     const cells = [
-      m.title, `\`${m.name}\``, m.reference, needs.join('; ') || 'nothing more', yes(m.takesCovariance),
-      yes(m.elevation), yes(m.spectrum), m.cost,
+      m.title,
+      `\`${m.name}\``,
+      m.reference,
+      needs.join('; ') || 'nothing more',
+      yes(m.takesCovariance),
+      yes(m.elevation),
+      yes(m.spectrum),
+      m.cost,
     ];
     return `| ${cells.join(' | ')} |`;
   });

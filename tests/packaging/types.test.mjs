@@ -51,26 +51,36 @@ const wrong = `
 const tsconfig = (module, moduleResolution) =>
   JSON.stringify({
     compilerOptions: {
-      target: 'ES2022', lib: ['ES2022', 'DOM', 'ESNext.Disposable'], module, moduleResolution, strict: true, noEmit: true,
-      skipLibCheck: false, exactOptionalPropertyTypes: true, types: [],
+      target: 'ES2022',
+      lib: ['ES2022', 'DOM', 'ESNext.Disposable'],
+      module,
+      moduleResolution,
+      strict: true,
+      noEmit: true,
+      skipLibCheck: false,
+      exactOptionalPropertyTypes: true,
+      types: [],
     },
     files: ['program.ts'],
   });
 
 let project;
-before(async () => {
-  project = await consumer({
-    tools: ['typescript'],
-    files: {
-      'program.ts': program,
-      'wrong.ts': wrong,
-      'bundler.json': tsconfig('ESNext', 'Bundler'),
-      'node16.json': tsconfig('Node16', 'Node16'),
-      'nodenext.json': tsconfig('NodeNext', 'NodeNext'),
-      'wrong.json': JSON.stringify({ extends: './node16.json', files: ['wrong.ts'] }),
-    },
-  });
-}, { timeout: 120_000 });
+before(
+  async () => {
+    project = await consumer({
+      tools: ['typescript'],
+      files: {
+        'program.ts': program,
+        'wrong.ts': wrong,
+        'bundler.json': tsconfig('ESNext', 'Bundler'),
+        'node16.json': tsconfig('Node16', 'Node16'),
+        'nodenext.json': tsconfig('NodeNext', 'NodeNext'),
+        'wrong.json': JSON.stringify({ extends: './node16.json', files: ['wrong.ts'] }),
+      },
+    });
+  },
+  { timeout: 120_000 },
+);
 after(() => project?.remove());
 
 for (const resolution of ['bundler', 'node16', 'nodenext']) {

@@ -14,7 +14,8 @@ before(async () => {
     tools: ['vite'],
     fixtures: ['program.mjs'],
     files: {
-      'index.html': '<!doctype html><link rel="icon" href="data:,"><title>consumer</title><main></main><script type="module" src="./page.js"></script>',
+      'index.html':
+        '<!doctype html><link rel="icon" href="data:,"><title>consumer</title><main></main><script type="module" src="./page.js"></script>',
       'page.js': `
         import * as boresight from 'boresight';
         import { createPool } from 'boresight/worker';
@@ -44,7 +45,9 @@ after(async () => {
 
 async function checkPage(url) {
   const opened = await openPage(browser, url);
-  await opened.page.waitForFunction(() => document.querySelector('main').textContent !== '', null, { timeout: 20_000 }).catch(() => {});
+  await opened.page
+    .waitForFunction(() => document.querySelector('main').textContent !== '', null, { timeout: 20_000 })
+    .catch(() => {});
   const text = await opened.page.textContent('main');
   await opened.close();
   assert.deepEqual(opened.problems, []);
@@ -55,7 +58,10 @@ async function checkPage(url) {
   assert.ok(scans[0] > 40 && scans[1] === scans[0], `scans of a simulated second: ${scans}`);
 }
 
-test('a Vite project builds with the package and runs in Chromium', { skip: skipWithoutBrowser, timeout: 120_000 }, async () => {
+test('a Vite project builds with the package and runs in Chromium', {
+  skip: skipWithoutBrowser,
+  timeout: 120_000,
+}, async () => {
   await project.run(process.execPath, [join(project.folder, 'node_modules', 'vite', 'bin', 'vite.js'), 'build']);
   const server = await serve(project.folder);
   servers.push(server);

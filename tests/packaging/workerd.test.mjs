@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
@@ -27,13 +27,17 @@ const main = `
 let project;
 let server;
 let url;
-before(async () => {
-  const onnx = readFileSync(join(root, 'models', 'aaetr-small.onnx')).toString('base64');
-  const files = { 'main.js': main, 'network.mjs': `export default '${onnx}';` };
-  project = await consumer({ tools: ['vite'], fixtures: ['program.mjs'], files });
-  // workerd resolves no package names, so a deployment bundles first: with the export map's
-  // workerd condition, leaving the wasm as a module of its own, as edge platforms do.
-  await project.run(process.execPath, ['--input-type=module', '--eval', `
+before(
+  async () => {
+    const onnx = readFileSync(join(root, 'models', 'aaetr-small.onnx')).toString('base64');
+    const files = { 'main.js': main, 'network.mjs': `export default '${onnx}';` };
+    project = await consumer({ tools: ['vite'], fixtures: ['program.mjs'], files });
+    // workerd resolves no package names, so a deployment bundles first: with the export map's
+    // workerd condition, leaving the wasm as a module of its own, as edge platforms do.
+    await project.run(process.execPath, [
+      '--input-type=module',
+      '--eval',
+      `
     import { build } from 'vite';
     import { copyFileSync, mkdirSync } from 'node:fs';
     mkdirSync('bundle', { recursive: true });
@@ -53,20 +57,28 @@ before(async () => {
       ssr: { target: 'webworker', noExternal: true, resolve: { conditions: ['workerd'] } },
       build: { ssr: 'main.js', outDir: 'bundle', emptyOutDir: false, minify: false, rollupOptions: { output: { entryFileNames: 'main.js' } } },
     });
-  `]);
-  const names = readdirSync(join(project.folder, 'bundle'));
-  const modules = names.map((name) => `(name = "${name}", ${name.endsWith('.wasm') ? 'wasm' : 'esModule'} = embed "bundle/${name}")`);
-  modules.sort((a) => (a.includes('"main.js"') ? -1 : 1));
-  const config = join(project.folder, 'workerd.capnp');
-  writeFileSync(config, `
+  `,
+    ]);
+    const names = readdirSync(join(project.folder, 'bundle'));
+    const modules = names.map(
+      (name) => `(name = "${name}", ${name.endsWith('.wasm') ? 'wasm' : 'esModule'} = embed "bundle/${name}")`,
+    );
+    modules.sort((a) => (a.includes('"main.js"') ? -1 : 1));
+    const config = join(project.folder, 'workerd.capnp');
+    writeFileSync(
+      config,
+      `
     using Workerd = import "/workerd/workerd.capnp";
     const config :Workerd.Config = (
       services = [(name = "main", worker = (compatibilityDate = "2025-01-01", modules = [${modules.join(', ')}]))],
       sockets = [(name = "http", address = "127.0.0.1:0", http = (), service = "main")]
     );
-  `);
-  url = await start(config);
-}, { timeout: 120_000 });
+  `,
+    );
+    url = await start(config);
+  },
+  { timeout: 120_000 },
+);
 after(() => {
   server?.kill();
   project?.remove();

@@ -3,11 +3,19 @@ import { test } from 'node:test';
 import { recorded, regressions } from '../../bench/baseline.mjs';
 
 const row = (name, median, spread, more = {}) => ({
-  name, keep: true, ratio: { median, low: median / spread, high: median * spread }, ...more,
+  name,
+  keep: true,
+  ratio: { median, low: median / spread, high: median * spread },
+  ...more,
 });
 
 test('only ratios within one process are kept', () => {
-  const rows = [row('a', 3, 1.1), row('b', 2, 1.1, { keep: false }), row('c', 2, 1.1, { error: 'differs' }), { name: 'd', value: 1 }];
+  const rows = [
+    row('a', 3, 1.1),
+    row('b', 2, 1.1, { keep: false }),
+    row('c', 2, 1.1, { error: 'differs' }),
+    { name: 'd', value: 1 },
+  ];
   assert.deepEqual(Object.keys(recorded(rows)), ['a']);
 });
 

@@ -52,10 +52,24 @@ test('each dependency rule fails when broken', () => {
 
 test('licence expressions are read as SPDX has them', () => {
   const good = [
-    'MIT', 'MIT OR Apache-2.0', 'MIT/Apache-2.0', '(MIT OR Apache-2.0) AND Unicode-3.0', 'MPL-2.0',
-    'Apache-2.0 WITH LLVM-exception OR Apache-2.0', 'GPL-3.0-only OR MIT',
+    'MIT',
+    'MIT OR Apache-2.0',
+    'MIT/Apache-2.0',
+    '(MIT OR Apache-2.0) AND Unicode-3.0',
+    'MPL-2.0',
+    'Apache-2.0 WITH LLVM-exception OR Apache-2.0',
+    'GPL-3.0-only OR MIT',
   ];
-  const bad = [undefined, '', 'GPL-3.0-only', 'MIT AND GPL-3.0-only', '(MIT OR ISC) AND LGPL-2.1', 'SSPL-1.0', '(MIT', 'MIT MIT'];
+  const bad = [
+    undefined,
+    '',
+    'GPL-3.0-only',
+    'MIT AND GPL-3.0-only',
+    '(MIT OR ISC) AND LGPL-2.1',
+    'SSPL-1.0',
+    '(MIT',
+    'MIT MIT',
+  ];
   for (const expression of good) assert.equal(licenceAllowed(expression), true, expression);
   for (const expression of bad) assert.equal(licenceAllowed(expression), false, expression);
 });

@@ -4,8 +4,8 @@ import { join, relative } from 'node:path';
 import { after, test } from 'node:test';
 import { findBrowser } from '../../scripts/lib/browser.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
-import { cargoCounts, nodeCounts, summary } from '../../scripts/lib/summary.mjs';
 import { digest, filesUnder, whenChanged } from '../../scripts/lib/stamp.mjs';
+import { cargoCounts, nodeCounts, summary } from '../../scripts/lib/summary.mjs';
 
 const folder = mkdtempSync(join(root, 'tests', '.stamp-'));
 const inside = (name) => relative(root, join(folder, name));
@@ -31,13 +31,16 @@ test('closing lines of node are read from both reporters', () => {
 
 test('the summary closes with the totals alone on a line', () => {
   const step = { passed: 2, failed: 1, skipped: 0, seconds: 1 };
-  const lines = summary([{ name: 'a', ...step }, { name: 'b', ...step, skipped: 3 }]).split('\n');
+  const lines = summary([
+    { name: 'a', ...step },
+    { name: 'b', ...step, skipped: 3 },
+  ]).split('\n');
   assert.equal(lines.at(-1), '4 passed, 2 failed, 3 skipped');
 });
 
 test('a browser that is named but missing is not replaced by another', () => {
   assert.equal(findBrowser({ PATH: process.env.PATH, CHROMIUM: '/no/such/chromium' }), null);
-  assert.equal(findBrowser({ PATH: '' , CHROMIUM: process.execPath }), process.execPath);
+  assert.equal(findBrowser({ PATH: '', CHROMIUM: process.execPath }), process.execPath);
 });
 
 test('digests follow names and contents and leave build outputs out', () => {

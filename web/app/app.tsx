@@ -11,7 +11,13 @@ import { announcement } from './state/announce.ts';
 import { lastParams, type Page, pageAddress, route } from './state/route.ts';
 import { type ThemeChoice, themeChoice } from './state/theme.ts';
 
-const TITLES: Record<Page, string> = { angle: 'Angle lab', capture: 'Capture', mounting: 'Mounting angle', birdseye: 'Bird’s-eye view', networks: 'Networks' };
+const TITLES: Record<Page, string> = {
+  angle: 'Angle lab',
+  capture: 'Capture',
+  mounting: 'Mounting angle',
+  birdseye: 'Bird’s-eye view',
+  networks: 'Networks',
+};
 const DOCS = 'https://github.com/boresight/boresight';
 
 export function App() {
@@ -19,28 +25,47 @@ export function App() {
   const [problem, setProblem] = useState<Problem | null>(null);
   const { page } = route.value;
   useEffect(() => {
-    load().then(() => setReady(true), (error: unknown) => setProblem(describeError(error)));
+    load().then(
+      () => setReady(true),
+      (error: unknown) => setProblem(describeError(error)),
+    );
   }, []);
   useEffect(() => {
     document.title = `${TITLES[page]} – Boresight`;
   }, [page]);
   return (
     <>
-      <a class="skip" href="#content" onClick={(event) => {
-        event.preventDefault();
-        document.getElementById('content')?.focus();
-      }}>Skip to the content</a>
+      <a
+        class="skip"
+        href="#content"
+        onClick={(event) => {
+          event.preventDefault();
+          document.getElementById('content')?.focus();
+        }}
+      >
+        Skip to the content
+      </a>
       <header class="site-head">
-        <p class="brand"><img src={icon} width="20" height="20" alt="" /> Boresight</p>
+        <p class="brand">
+          <img src={icon} width="20" height="20" alt="" /> Boresight
+        </p>
         <nav aria-label="Pages">
           {(Object.keys(TITLES) as Page[]).map((name) => (
-            <a key={name} href={pageAddress(name, lastParams(name))} aria-current={name === page ? 'page' : undefined}>{TITLES[name]}</a>
+            <a key={name} href={pageAddress(name, lastParams(name))} aria-current={name === page ? 'page' : undefined}>
+              {TITLES[name]}
+            </a>
           ))}
         </nav>
         <label class="theme">
           <span class="visually-hidden">Colours</span>
-          <select name="theme" title="Colours: the system's, light, or dark" value={themeChoice.value}
-            onChange={(event) => { themeChoice.value = event.currentTarget.value as ThemeChoice; }}>
+          <select
+            name="theme"
+            title="Colours: the system's, light, or dark"
+            value={themeChoice.value}
+            onChange={(event) => {
+              themeChoice.value = event.currentTarget.value as ThemeChoice;
+            }}
+          >
             <option value="auto">System colours</option>
             <option value="light">Light</option>
             <option value="dark">Dark</option>
@@ -50,21 +75,39 @@ export function App() {
       <main id="content" tabIndex={-1}>
         <h1 class="visually-hidden">{TITLES[page]}</h1>
         {problem ? (
-          <p class="alert" role="alert" data-error={problem.code}><strong>Boresight could not start.</strong> {problem.message}</p>
+          <p class="alert" role="alert" data-error={problem.code}>
+            <strong>Boresight could not start.</strong> {problem.message}
+          </p>
         ) : !ready ? (
-          <p class="panel loading" role="status">Loading the signal processing</p>
-        ) : page === 'capture' ? <CapturePage /> : page === 'mounting' ? <MountingPage /> : page === 'birdseye' ? <BirdseyePage /> : page === 'networks' ? <NetworksPage /> : <AnglePage />}
+          <p class="panel loading" role="status">
+            Loading the signal processing
+          </p>
+        ) : page === 'capture' ? (
+          <CapturePage />
+        ) : page === 'mounting' ? (
+          <MountingPage />
+        ) : page === 'birdseye' ? (
+          <BirdseyePage />
+        ) : page === 'networks' ? (
+          <NetworksPage />
+        ) : (
+          <AnglePage />
+        )}
       </main>
       <footer class="site-foot">
-        <p title="The page’s content security policy forbids connections to anywhere but its own server.">Computed in this tab. Your data never leaves your machine.</p>
+        <p title="The page’s content security policy forbids connections to anywhere but its own server.">
+          Computed in this tab. Your data never leaves your machine.
+        </p>
         <p>
           Boresight {ready ? api.version() : ''} <span aria-hidden="true">{'·'}</span>{' '}
           <a href={`${DOCS}#readme`}>Read me</a> <span aria-hidden="true">{'·'}</span>{' '}
-          <a href={`${DOCS}/blob/main/docs/conventions.md`}>Frames, signs and units</a> <span aria-hidden="true">{'·'}</span>{' '}
-          <a href={`${DOCS}/blob/main/docs/architecture.md`}>Architecture</a>
+          <a href={`${DOCS}/blob/main/docs/conventions.md`}>Frames, signs and units</a>{' '}
+          <span aria-hidden="true">{'·'}</span> <a href={`${DOCS}/blob/main/docs/architecture.md`}>Architecture</a>
         </p>
       </footer>
-      <p class="visually-hidden" role="status" aria-live="polite" data-live>{announcement.value}</p>
+      <p class="visually-hidden" role="status" aria-live="polite" data-live>
+        {announcement.value}
+      </p>
     </>
   );
 }

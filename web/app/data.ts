@@ -5,7 +5,10 @@ import { createPool, type Pool } from 'boresight/worker';
 export const api = boresight;
 
 /** An error as the pages show it. */
-export interface Problem { code: string; message: string }
+export interface Problem {
+  code: string;
+  message: string;
+}
 
 /** What is wrong with a file, before the package has seen it. */
 export class FileProblem extends Error {

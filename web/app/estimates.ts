@@ -6,7 +6,12 @@ import { methodStyle } from './plots/theme.ts';
 /** Tick steps for degrees. */
 export const ANGLE_STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 60, 90];
 
-export interface Curve { method: string; title: string; azimuthDeg: Float64Array; valuesDb: Float64Array }
+export interface Curve {
+  method: string;
+  title: string;
+  azimuthDeg: Float64Array;
+  valuesDb: Float64Array;
+}
 
 /** Row of a spectrum nearest to zero elevation. */
 export function cut(elevationDeg: Float64Array): number {
@@ -41,7 +46,12 @@ export function sameGrid(curves: readonly (Curve | null)[]): Curve[] {
 }
 
 export function series(curves: readonly Curve[]): PlotSeries[] {
-  return curves.map(({ method, title, valuesDb }) => ({ id: method, label: title, y: valuesDb, style: methodStyle(method) }));
+  return curves.map(({ method, title, valuesDb }) => ({
+    id: method,
+    label: title,
+    y: valuesDb,
+    style: methodStyle(method),
+  }));
 }
 
 export function highest(values: ArrayLike<number>): number {

@@ -1,7 +1,13 @@
 import * as glue from '../wasm/boresight.js';
 import { Handle } from './handle.js';
 import { call, core } from './instance.js';
-import type { CalibrationFrame, CalibrationMethodInfo, CalibrationOptions, CalibrationResult, FrameOutcome } from './types.js';
+import type {
+  CalibrationFrame,
+  CalibrationMethodInfo,
+  CalibrationOptions,
+  CalibrationResult,
+  FrameOutcome,
+} from './types.js';
 
 /** The methods that find a mounting angle. */
 export function calibrationMethods(): CalibrationMethodInfo[] {

@@ -2,8 +2,7 @@
 import type { Warning } from './types.js';
 
 /** How a mounting angle is estimated. */
-export type CalibrationMethod =
-  | 'weighted-mean' | 'kabsch' | 'least-squares' | 'orthogonal-distance' | 'recursive';
+export type CalibrationMethod = 'weighted-mean' | 'kabsch' | 'least-squares' | 'orthogonal-distance' | 'recursive';
 
 /** How the radar's own motion is estimated; the recursive method has `tracked` alone. */
 export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-distance' | 'tracked';

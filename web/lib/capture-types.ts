@@ -1,6 +1,12 @@
 /** From frames to detections: the chain, captures and what a board reports. */
 import type {
-  ArrayGeometry, ArrayInput, EstimatorOptions, Method, Warning, Waveform, WaveformSummary,
+  ArrayGeometry,
+  ArrayInput,
+  EstimatorOptions,
+  Method,
+  Warning,
+  Waveform,
+  WaveformSummary,
 } from './types.js';
 
 export type WindowName = 'rectangular' | 'hann' | 'hamming' | 'blackman' | 'blackman-harris' | 'chebyshev' | 'taylor';
@@ -28,7 +34,11 @@ export interface ChainOptions {
   };
   peakGrouping?: boolean;
   /** Limits outside which detections are dropped (and counted). */
-  region?: { rangeM?: readonly [number, number]; rateMps?: readonly [number, number]; azimuthDeg?: readonly [number, number] };
+  region?: {
+    rangeM?: readonly [number, number];
+    rateMps?: readonly [number, number];
+    azimuthDeg?: readonly [number, number];
+  };
   /** Estimator for each detection's angle; its array is the chain's. */
   angle?: AngleOptions;
   maxDetections?: number;

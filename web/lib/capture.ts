@@ -3,8 +3,18 @@ import { Handle } from './handle.js';
 import { call, core } from './instance.js';
 import type { Report } from './report.js';
 import type {
-  AngleOptions, BytesInput, CaptureInfo, Cell, ChainOptions, CombineOptions, ComplexData, CubeChainOptions, Estimate,
-  FrameCells, FrameResult, TextInput,
+  AngleOptions,
+  BytesInput,
+  CaptureInfo,
+  Cell,
+  ChainOptions,
+  CombineOptions,
+  ComplexData,
+  CubeChainOptions,
+  Estimate,
+  FrameCells,
+  FrameResult,
+  TextInput,
 } from './types.js';
 
 /** A raw capture (`.bin` of a DCA1000) with the board's configuration (`.cfg`). */

@@ -1,17 +1,30 @@
 import * as glue from '../wasm/boresight.js';
-import { type Task, jointTaskOf, taskOf } from './drive-radars.js';
-import { type View, checkOrder, extent, interpolate, scansOf, viewOf } from './drive-view.js';
+import { jointTaskOf, type Task, taskOf } from './drive-radars.js';
+import { checkOrder, extent, interpolate, scansOf, type View, viewOf } from './drive-view.js';
 import { failure } from './errors.js';
 import { Handle } from './handle.js';
 import { core } from './instance.js';
 import { type Report, tell } from './report.js';
 import type {
-  CalibrateDriveOptions, CalibratedFrames, CalibrationOptions, CalibrationResult, DriveCalibration, DriveData,
-  FrameVerdict, JointCalibrationOptions,
+  CalibrateDriveOptions,
+  CalibratedFrames,
+  CalibrationOptions,
+  CalibrationResult,
+  DriveCalibration,
+  DriveData,
+  FrameVerdict,
+  JointCalibrationOptions,
 } from './types.js';
 
 /** What can become of a frame, in the order of its numbers. */
-export const frameVerdicts: readonly FrameVerdict[] = ['used', 'standing', 'slow', 'turning', 'sparse', 'without-motion'];
+export const frameVerdicts: readonly FrameVerdict[] = [
+  'used',
+  'standing',
+  'slow',
+  'turning',
+  'sparse',
+  'without-motion',
+];
 
 /** Most frames and detections handed over at a time. */
 const FRAMES = 256;
@@ -28,7 +41,11 @@ export function calibrateDrive(drive: DriveData, options?: CalibrateDriveOptions
 }
 
 /** Finds the angles of several radars of a drive together: one yaw-rate sensor, one scale and one bias. */
-export function jointCalibration(drive: DriveData, options?: JointCalibrationOptions, report?: Report): DriveCalibration[] {
+export function jointCalibration(
+  drive: DriveData,
+  options?: JointCalibrationOptions,
+  report?: Report,
+): DriveCalibration[] {
   const view = viewOf(drive);
   return run(view, jointTaskOf(view, options), report);
 }
@@ -98,14 +115,21 @@ class Chunk {
 function finite(what: string, values: Float32Array | Float64Array, start: number, end: number, index: number): void {
   for (let i = start; i < end; i++) {
     if (Number.isFinite(Math.fround(values[i] ?? NaN))) continue;
-    throw failure('not-finite', { what, expected: 'finite numbers', given: `${values[i]} at index ${index + i - start}` });
+    throw failure('not-finite', {
+      what,
+      expected: 'finite numbers',
+      given: `${values[i]} at index ${index + i - start}`,
+    });
   }
 }
 
 function run(view: View, task: Task, report: Report | undefined): DriveCalibration[] {
   checkOrder(view);
   const { radars, joint, historyS, maxGapS } = task;
-  const scans = scansOf(view, radars.map(({ sensor }) => sensor));
+  const scans = scansOf(
+    view,
+    radars.map(({ sensor }) => sensor),
+  );
   const places = new Uint8Array(256);
   radars.forEach(({ sensor }, place) => (places[sensor] = place));
   const placeOf = (scan: number): number => places[view.sensor[scan] ?? 0] ?? 0;
@@ -130,8 +154,12 @@ function run(view: View, task: Task, report: Report | undefined): DriveCalibrati
       const { frames, detections } = chunk;
       if (frames > 0) {
         const rows = calibrator.add(
-          chunk.radar.subarray(0, frames), chunk.timeS.subarray(0, frames), chunk.yawRateDegps.subarray(0, frames),
-          chunk.speedMps.subarray(0, frames), chunk.ends.subarray(0, frames), chunk.azimuthDeg.subarray(0, detections),
+          chunk.radar.subarray(0, frames),
+          chunk.timeS.subarray(0, frames),
+          chunk.yawRateDegps.subarray(0, frames),
+          chunk.speedMps.subarray(0, frames),
+          chunk.ends.subarray(0, frames),
+          chunk.azimuthDeg.subarray(0, detections),
           chunk.rangeRateMps.subarray(0, detections),
         );
         const weights = task.weights ? calibrator.weights() : undefined;
@@ -142,7 +170,11 @@ function run(view: View, task: Task, report: Report | undefined): DriveCalibrati
       }
       const nextS = view.timeS[scans[next] ?? 0] ?? NaN;
       if (frames === 0 && !(nextS > dueS)) {
-        throw failure('wrong-type', { what: 'drive.scans', expected: 'arrays that stay', given: 'arrays given away meanwhile' });
+        throw failure('wrong-type', {
+          what: 'drive.scans',
+          expected: 'arrays that stay',
+          given: 'arrays given away meanwhile',
+        });
       }
       const finished = next === scans.length;
       if (finished || nextS > dueS) {
@@ -213,7 +245,13 @@ class Table {
     const { frames } = this;
     const index = this.#next++;
     const columns = [
-      frames.verdict, frames.vxMps, frames.vyMps, frames.angleDeg, frames.angleSigmaDeg, frames.weight, frames.inliers,
+      frames.verdict,
+      frames.vxMps,
+      frames.vyMps,
+      frames.angleDeg,
+      frames.angleSigmaDeg,
+      frames.weight,
+      frames.inliers,
     ];
     columns.forEach((column, place) => (column[index] = row[place] ?? NaN));
     if (weights) frames.weights?.values.set(weights, frames.weights.offsets[index]);

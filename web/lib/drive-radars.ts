@@ -1,5 +1,5 @@
 // Which radars of a drive are calibrated, and how each sits on the car.
-import { type View, gapOf, positive } from './drive-view.js';
+import { gapOf, positive, type View } from './drive-view.js';
 import { failure, own, wrong } from './errors.js';
 import type { CalibrateDriveOptions, CalibrationOptions, DriveSensor, JointCalibrationOptions } from './types.js';
 
@@ -29,7 +29,12 @@ export function taskOf(view: View, options: CalibrateDriveOptions | undefined): 
 export function jointTaskOf(view: View, options: JointCalibrationOptions | undefined): Task {
   const { sensors, historyS, maxGapS, weights, ...rest } = own(options, 'options');
   for (const name of ['method', 'motion', 'xM', 'yM', 'nominalDeg']) {
-    if (name in rest) throw failure('unknown-option', { what: name, expected: 'an option of all radars', given: 'one of a single radar' });
+    if (name in rest)
+      throw failure('unknown-option', {
+        what: name,
+        expected: 'an option of all radars',
+        given: 'one of a single radar',
+      });
   }
   const asked: unknown = sensors ?? view.sensors.map(({ id }) => id);
   if (!Array.isArray(asked) || asked.length === 0 || asked.length > 256) {
@@ -37,16 +42,22 @@ export function jointTaskOf(view: View, options: JointCalibrationOptions | undef
   }
   const radars = Array.from(asked, (item: unknown, index) => {
     const path = `sensors[${index}]`;
-    const { sensor, xM, yM, nominalDeg, ...others } = typeof item === 'object' ? own(item as RadarOptions, path) : { sensor: item };
+    const { sensor, xM, yM, nominalDeg, ...others } =
+      typeof item === 'object' ? own(item as RadarOptions, path) : { sensor: item };
     const [unknown] = Object.keys(others);
     if (unknown !== undefined) {
-      throw failure('unknown-option', { what: `${path}.${unknown}`, expected: 'sensor, xM, yM, nominalDeg', given: 'an unknown option' });
+      throw failure('unknown-option', {
+        what: `${path}.${unknown}`,
+        expected: 'sensor, xM, yM, nominalDeg',
+        given: 'an unknown option',
+      });
     }
     return placed(known(view, path, sensor), { ...rest, method: 'recursive', xM, yM, nominalDeg });
   });
   const ids = radars.map(({ sensor }) => sensor);
   const twice = ids.find((id, index) => ids.indexOf(id) !== index);
-  if (twice !== undefined) throw failure('out-of-range', { what: 'sensors', expected: 'each radar once', given: String(twice) });
+  if (twice !== undefined)
+    throw failure('out-of-range', { what: 'sensors', expected: 'each radar once', given: String(twice) });
   return { radars, joint: true, ...settings({ historyS, maxGapS, weights }) };
 }
 
@@ -59,7 +70,11 @@ function settings({ historyS, maxGapS, weights }: { historyS?: unknown; maxGapS?
 } {
   if (weights !== undefined && typeof weights !== 'boolean') throw wrong('weights', 'true or false', weights);
   // No frames follow one another in less than a millisecond.
-  return { historyS: Math.max(1e-3, positive('historyS', historyS ?? 1)), maxGapS: gapOf({ maxGapS: maxGapS as number }), weights: weights ?? false };
+  return {
+    historyS: Math.max(1e-3, positive('historyS', historyS ?? 1)),
+    maxGapS: gapOf({ maxGapS: maxGapS as number }),
+    weights: weights ?? false,
+  };
 }
 
 function known(view: View, what: string, given: unknown): DriveSensor {
@@ -72,7 +87,10 @@ function known(view: View, what: string, given: unknown): DriveSensor {
 }
 
 /** Place and nominal angle as asked for, or as the drive has them. */
-function placed(radar: DriveSensor, { xM, yM, nominalDeg, method, ...rest }: { [K in keyof CalibrationOptions]?: unknown }): Radar {
+function placed(
+  radar: DriveSensor,
+  { xM, yM, nominalDeg, method, ...rest }: { [K in keyof CalibrationOptions]?: unknown },
+): Radar {
   const place = xM ?? radar.xM;
   if (place === null) {
     const expected = 'the distance ahead of the rear axle, m, which the drive does not state';

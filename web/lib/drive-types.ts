@@ -2,7 +2,14 @@
  * Drives, and calibration over whole drives. A drive is a plain object of flat typed arrays, so that
  * one can be made of any data and sent to a worker.
  */
-import type { CalibrationFrame, CalibrationMethod, CalibrationOptions, CalibrationResult, FrameOutcome, Warning } from './types.js';
+import type {
+  CalibrationFrame,
+  CalibrationMethod,
+  CalibrationOptions,
+  CalibrationResult,
+  FrameOutcome,
+  Warning,
+} from './types.js';
 
 type Floats = Float32Array | Float64Array;
 
@@ -190,7 +197,8 @@ export interface CalibrateDriveOptions extends Partial<CalibrationOptions>, Moti
 
 /** Radars whose angles are estimated together by the recursive method, with one scale and bias of the yaw rate. */
 export interface JointCalibrationOptions
-  extends Omit<Partial<CalibrationOptions>, 'method' | 'motion' | 'xM' | 'yM' | 'nominalDeg'>, MotionGap {
+  extends Omit<Partial<CalibrationOptions>, 'method' | 'motion' | 'xM' | 'yM' | 'nominalDeg'>,
+    MotionGap {
   /** Default: all radars of the drive, each as the drive has it. */
   sensors?: readonly (number | { sensor: number; xM?: number; yM?: number; nominalDeg?: number })[];
   historyS?: number;

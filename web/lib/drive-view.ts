@@ -42,7 +42,11 @@ export class Reader {
     try {
       return (this.#object as Record<string, unknown>)[name] ?? undefined;
     } catch (cause) {
-      throw failure('wrong-type', { what: this.path(name), expected: 'a value', given: 'a property that throws' }, cause);
+      throw failure(
+        'wrong-type',
+        { what: this.path(name), expected: 'a value', given: 'a property that throws' },
+        cause,
+      );
     }
   }
 
@@ -51,7 +55,11 @@ export class Reader {
   }
 
   /** A typed array of one of these kinds, of a length unless that is its own; undefined if absent. */
-  maybe<T extends { length: number }>(name: string, kinds: readonly (new (length: number) => T)[], length?: number): T | undefined {
+  maybe<T extends { length: number }>(
+    name: string,
+    kinds: readonly (new (length: number) => T)[],
+    length?: number,
+  ): T | undefined {
     const value = this.get(name);
     if (value === undefined) return undefined;
     const array = kinds.find((kind) => value instanceof kind) ? (value as T) : undefined;
@@ -100,7 +108,8 @@ export function viewOf(drive: DriveData): View {
 }
 
 function sensorsOf(value: unknown): DriveSensor[] {
-  if (!Array.isArray(value) || value.length > 256) throw wrong('drive.sensors', 'an array of at most 256 radars', value);
+  if (!Array.isArray(value) || value.length > 256)
+    throw wrong('drive.sensors', 'an array of at most 256 radars', value);
   const sensors = Array.from(value, (item, index): DriveSensor => {
     const fields = new Reader(item, `drive.sensors[${index}]`);
     const number = (name: string): number | null => {
@@ -116,7 +125,8 @@ function sensorsOf(value: unknown): DriveSensor[] {
   });
   const ids = sensors.map(({ id }) => id);
   const twice = ids.find((id, index) => ids.indexOf(id) !== index);
-  if (twice !== undefined) throw failure('out-of-range', { what: 'drive.sensors', expected: 'each number once', given: `${twice}` });
+  if (twice !== undefined)
+    throw failure('out-of-range', { what: 'drive.sensors', expected: 'each number once', given: `${twice}` });
   return sensors;
 }
 
@@ -135,7 +145,11 @@ export function ascending(what: string, times: Floats): void {
       throw failure('not-finite', { what, expected: 'finite numbers', given: `${given} at index ${index}` });
     }
     if (given < previous) {
-      throw failure('time-backwards', { what, expected: `at least ${previous} s`, given: `${given} s at index ${index}` });
+      throw failure('time-backwards', {
+        what,
+        expected: `at least ${previous} s`,
+        given: `${given} s at index ${index}`,
+      });
     }
     previous = given;
   }
@@ -186,7 +200,11 @@ export function interpolate(times: Floats, values: Floats | undefined, timeS: nu
 export function driveFrame(drive: DriveData, scan: number, gap?: MotionGap): DriveFrame {
   const view = viewOf(drive);
   if (!(Number.isInteger(scan) && scan >= 0 && scan < view.timeS.length)) {
-    throw failure('out-of-range', { what: 'scan', expected: `a whole number below ${view.timeS.length}`, given: String(scan) });
+    throw failure('out-of-range', {
+      what: 'scan',
+      expected: `a whole number below ${view.timeS.length}`,
+      given: String(scan),
+    });
   }
   const [start, end] = extent(view, scan);
   const timeS = view.timeS[scan] ?? NaN;

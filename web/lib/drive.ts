@@ -1,7 +1,14 @@
 import instantiate, * as glue from '../wasm/boresight_drives.js';
 import { Instance } from './module.js';
 import type { Report } from './report.js';
-import type { Drive, DriveFile, DriveScenarioInfo, ReadDriveOptions, SimulateDriveOptions, SimulatedDrive } from './types.js';
+import type {
+  Drive,
+  DriveFile,
+  DriveScenarioInfo,
+  ReadDriveOptions,
+  SimulateDriveOptions,
+  SimulatedDrive,
+} from './types.js';
 
 /** The module of this file's functions, loaded by initDrives(). */
 export const drives = new Instance(glue, instantiate, { file: 'boresight_drives_bg.wasm', init: 'initDrives()' });

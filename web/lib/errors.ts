@@ -39,8 +39,9 @@ export class BoresightError extends Error {
 
 /** Whether a thrown value is an error of the bindings. */
 export function isPlainError(thrown: unknown): thrown is PlainError {
-  return typeof thrown === 'object' && thrown !== null && !(thrown instanceof Error)
-    && 'code' in thrown && 'what' in thrown;
+  return (
+    typeof thrown === 'object' && thrown !== null && !(thrown instanceof Error) && 'code' in thrown && 'what' in thrown
+  );
 }
 
 /** An error made on this side of the boundary; its message is put together from the details. */
@@ -59,7 +60,8 @@ export function wrong(what: string, expected: string, value: unknown): Boresight
 /** A copy of options; none of them where there are no options. */
 export function own<T extends object>(options: T | undefined, what: string): { [K in keyof T]?: unknown } {
   if (options === undefined) return {};
-  if (typeof options !== 'object' || options === null || Array.isArray(options)) throw wrong(what, 'an object', options);
+  if (typeof options !== 'object' || options === null || Array.isArray(options))
+    throw wrong(what, 'an object', options);
   try {
     return { ...options };
   } catch (cause) {

@@ -2,7 +2,13 @@ import * as glue from '../wasm/boresight.js';
 import { Handle } from './handle.js';
 import { call, core } from './instance.js';
 import type {
-  BatchEstimate, BatchInput, BatchOptions, Estimate, EstimateInput, EstimatorOptions, MethodInfo,
+  BatchEstimate,
+  BatchInput,
+  BatchOptions,
+  Estimate,
+  EstimateInput,
+  EstimatorOptions,
+  MethodInfo,
 } from './types.js';
 
 /** The estimators and what each needs and gives. */

@@ -1,5 +1,12 @@
 import type {
-  BatchEstimate, BatchSpectra, ComplexData, CubeChainOptions, CubeResult, EstimatorOptions, FrameCounts, Waveform,
+  BatchEstimate,
+  BatchSpectra,
+  ComplexData,
+  CubeChainOptions,
+  CubeResult,
+  EstimatorOptions,
+  FrameCounts,
+  Waveform,
 } from './types.js';
 
 /** Where a radar sits in the car's frame (origin at the rear axle, x forward, y left) and which way it looks. */

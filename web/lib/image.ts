@@ -5,9 +5,25 @@ import { Estimator, methods } from './estimate.js';
 import { chainOf } from './image-options.js';
 import { call } from './instance.js';
 import type {
-  AngleOptions, BirdsEyeView, BirdsEyeViewInput, ComplexData, CubeChainOptions, FrameCells, Gate, ImageFrame, ImageFrameOptions,
-  ImagePlan, MapGrid, RangeAzimuthMap, RangeAzimuthMapInput, SidelobeMeasure, SimulatedStreet, SimulateStreetOptions,
-  StreetOptions, StreetScene, Waveform,
+  AngleOptions,
+  BirdsEyeView,
+  BirdsEyeViewInput,
+  ComplexData,
+  CubeChainOptions,
+  FrameCells,
+  Gate,
+  ImageFrame,
+  ImageFrameOptions,
+  ImagePlan,
+  MapGrid,
+  RangeAzimuthMap,
+  RangeAzimuthMapInput,
+  SidelobeMeasure,
+  SimulatedStreet,
+  SimulateStreetOptions,
+  StreetOptions,
+  StreetScene,
+  Waveform,
 } from './types.js';
 
 /** Azimuths of a map where none are asked for, and how far to each side. */

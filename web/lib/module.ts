@@ -122,7 +122,11 @@ export class Instance {
   }
 
   #dead(cause?: unknown): BoresightError {
-    const details = { what: 'WebAssembly instance', expected: `${this.#init} again for a fresh one`, given: this.#lastWords };
+    const details = {
+      what: 'WebAssembly instance',
+      expected: `${this.#init} again for a fresh one`,
+      given: this.#lastWords,
+    };
     const message = `Boresight stopped unexpectedly (${this.#lastWords}); call ${this.#init} for a fresh instance`;
     return new BoresightError('trap', message, details, cause === undefined ? undefined : { cause });
   }

@@ -5,8 +5,24 @@ import { Handle } from './handle.js';
 import { Instance } from './module.js';
 import type { Report } from './report.js';
 import type {
-  BatchEstimate, BatchInput, BatchOptions, BytesInput, ChainOptions, CombineOptions, ComplexData, CubeChainOptions, Estimate,
-  EstimateInput, FrameResult, ModelCard, NetworkKind, NetworkMethod, NetworkOptions, NetworkPort, SourceProbabilities, Tensor,
+  BatchEstimate,
+  BatchInput,
+  BatchOptions,
+  BytesInput,
+  ChainOptions,
+  CombineOptions,
+  ComplexData,
+  CubeChainOptions,
+  Estimate,
+  EstimateInput,
+  FrameResult,
+  ModelCard,
+  NetworkKind,
+  NetworkMethod,
+  NetworkOptions,
+  NetworkPort,
+  SourceProbabilities,
+  Tensor,
   TextInput,
 } from './types.js';
 

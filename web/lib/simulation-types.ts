@@ -25,9 +25,7 @@ export interface SceneSampling {
 export interface SnapshotOptions {
   array: ArrayInput;
   /** Given targets, or a rule to sample them from. */
-  targets:
-    | readonly SnapshotTarget[]
-    | SceneSampling;
+  targets: readonly SnapshotTarget[] | SceneSampling;
   snrDb: number;
   /** Snapshots a scene, default 1. */
   snapshots?: number;

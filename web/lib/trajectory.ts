@@ -1,6 +1,6 @@
 import * as glue from '../wasm/boresight.js';
 import { frameVerdicts } from './drive-calibration.js';
-import { type Floats, Reader, ascending, floats, interpolate, positive } from './drive-view.js';
+import { ascending, type Floats, floats, interpolate, positive, Reader } from './drive-view.js';
 import { failure, wrong } from './errors.js';
 import { call } from './instance.js';
 import type { CalibratedFrames, Trajectory, TrajectoryOptions } from './types.js';
@@ -39,7 +39,18 @@ export function trajectory(
   const of = (values: Floats): Float64Array => Float64Array.from(kept, (index) => values[index] ?? NaN);
   const times = of(timeS);
   ascending('frames.timeS', times);
-  return call(() => glue.integrateMotion(times, of(vx), of(vy), rates ? of(rates) : new Float64Array(), angleDeg, xM, yM) as Trajectory | null);
+  return call(
+    () =>
+      glue.integrateMotion(
+        times,
+        of(vx),
+        of(vy),
+        rates ? of(rates) : new Float64Array(),
+        angleDeg,
+        xM,
+        yM,
+      ) as Trajectory | null,
+  );
 }
 
 /**

@@ -58,8 +58,17 @@ export interface Imperfections {
 }
 
 export type Method =
-  | 'bartlett' | 'capon' | 'music' | 'single-snapshot-music' | 'root-music' | 'esprit'
-  | 'min-norm' | 'iaa' | 'nomp' | 'maximum-likelihood' | 'sparse-bayesian'
+  | 'bartlett'
+  | 'capon'
+  | 'music'
+  | 'single-snapshot-music'
+  | 'root-music'
+  | 'esprit'
+  | 'min-norm'
+  | 'iaa'
+  | 'nomp'
+  | 'maximum-likelihood'
+  | 'sparse-bayesian'
   | NetworkMethod;
 
 /** What a method needs and gives. */
@@ -130,9 +139,7 @@ export interface EstimatorOptions {
 }
 
 /** Snapshots (elements x snapshots, or a vector of elements) or a covariance. */
-export type EstimateInput =
-  | { snapshots: ComplexData }
-  | { covariance: ComplexData; snapshotCount: number };
+export type EstimateInput = { snapshots: ComplexData } | { covariance: ComplexData; snapshotCount: number };
 
 /** Something to know of a result; not an error. */
 export interface Warning {

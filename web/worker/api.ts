@@ -3,9 +3,9 @@ import { jointTaskOf, taskOf } from '../lib/drive-radars.js';
 import { driveFrame, selected, viewOf } from '../lib/drive-view.js';
 import { chainOf } from '../lib/image-options.js';
 import type * as lib from '../lib/types.js';
+import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { Crew, type JobOptions, type Piece, type Runtime } from './pool.js';
 import type { OperationName, Operations } from './protocol.js';
-import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { split } from './split.js';
 import { packed } from './transfer.js';
 
@@ -75,7 +75,11 @@ export class Pool {
   }
 
   /** Runs the graph of a network as it is: named inputs to named outputs. */
-  runNetwork(id: string, inputs: Readonly<Record<string, lib.Tensor>>, job?: JobOptions): Promise<Record<string, lib.Tensor>> {
+  runNetwork(
+    id: string,
+    inputs: Readonly<Record<string, lib.Tensor>>,
+    job?: JobOptions,
+  ): Promise<Record<string, lib.Tensor>> {
     return this.#one('runNetwork', [id, inputs], job, id);
   }
 
@@ -104,11 +108,13 @@ export class Pool {
   async simulateSnapshots(options: lib.SnapshotOptions, job?: JobOptions): Promise<lib.SnapshotResult> {
     const { scenes = 1, firstScene = 0 } = options;
     if (!Number.isInteger(scenes) || scenes < 2) return this.#one('simulateSnapshots', [options], job);
-    const pieces = split(scenes, this.workers).map(({ first, count }): Piece<'simulateSnapshots'> => ({
-      name: 'simulateSnapshots',
-      args: [{ ...options, scenes: count, firstScene: firstScene + first }],
-      units: count,
-    }));
+    const pieces = split(scenes, this.workers).map(
+      ({ first, count }): Piece<'simulateSnapshots'> => ({
+        name: 'simulateSnapshots',
+        args: [{ ...options, scenes: count, firstScene: firstScene + first }],
+        units: count,
+      }),
+    );
     return joinedScenes(await this.#crew.run(pieces, job));
   }
 
@@ -148,12 +154,14 @@ export class Pool {
     const all = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
     // Without a whole frame one worker gets the bytes, for its error.
     const frames = Math.max(1, Math.floor(all.byteLength / frameBytes));
-    const pieces = split(frames, this.workers).map(({ first, count }): Piece<'processStretch'> => ({
-      name: 'processStretch',
-      args: [all.subarray(first * frameBytes, (first + count) * frameBytes), config, first, options],
-      units: count,
-      network: options?.angle?.network,
-    }));
+    const pieces = split(frames, this.workers).map(
+      ({ first, count }): Piece<'processStretch'> => ({
+        name: 'processStretch',
+        args: [all.subarray(first * frameBytes, (first + count) * frameBytes), config, first, options],
+        units: count,
+        network: options?.angle?.network,
+      }),
+    );
     return (await this.#crew.run(pieces, { ...job, transfer: false })).flat();
   }
 
@@ -217,7 +225,10 @@ export class Pool {
   ): Promise<lib.DriveCalibration> {
     job.signal?.throwIfAborted();
     const { radars } = taskOf(viewOf(drive), options);
-    const part = selected(drive, radars.map(({ sensor }) => sensor));
+    const part = selected(
+      drive,
+      radars.map(({ sensor }) => sensor),
+    );
     const result = await this.#one('calibrateDrive', [part.drive, options], { ...job, transfer: true });
     return numbered(result, part.scans);
   }
@@ -230,7 +241,10 @@ export class Pool {
   ): Promise<lib.DriveCalibration[]> {
     job.signal?.throwIfAborted();
     const { radars } = jointTaskOf(viewOf(drive), options);
-    const part = selected(drive, radars.map(({ sensor }) => sensor));
+    const part = selected(
+      drive,
+      radars.map(({ sensor }) => sensor),
+    );
     const results = await this.#one('jointCalibration', [part.drive, options], { ...job, transfer: true });
     return results.map((result) => numbered(result, part.scans));
   }
@@ -295,12 +309,14 @@ export class Pool {
     options: lib.EstimatorOptions,
     job?: JobOptions,
   ): Promise<lib.Estimate[]> {
-    const pieces = split(inputs.length, this.workers).map(({ first, count }): Piece<'estimateMany'> => ({
-      name: 'estimateMany',
-      args: [inputs.slice(first, first + count), options],
-      units: count,
-      network: options?.network,
-    }));
+    const pieces = split(inputs.length, this.workers).map(
+      ({ first, count }): Piece<'estimateMany'> => ({
+        name: 'estimateMany',
+        args: [inputs.slice(first, first + count), options],
+        units: count,
+        network: options?.network,
+      }),
+    );
     return (await this.#crew.run(pieces, job)).flat();
   }
 
@@ -310,12 +326,14 @@ export class Pool {
     options: lib.EstimatorOptions & lib.BatchOptions,
     job?: JobOptions,
   ): Promise<lib.BatchEstimate> {
-    const pieces = stretchesOf(input, this.workers).map(({ input, cells }): Piece<'estimateBatch'> => ({
-      name: 'estimateBatch',
-      args: [input, options],
-      units: cells,
-      network: options?.network,
-    }));
+    const pieces = stretchesOf(input, this.workers).map(
+      ({ input, cells }): Piece<'estimateBatch'> => ({
+        name: 'estimateBatch',
+        args: [input, options],
+        units: cells,
+        network: options?.network,
+      }),
+    );
     const [first, ...rest] = await this.#crew.run(pieces, job);
     return joinedBatches([first as lib.BatchEstimate, ...rest]);
   }
@@ -368,7 +386,11 @@ export class Pool {
    * From a cube of one frame to its map. One worker finds the cells (with `transfer` the cube moves there instead of
    * being copied), all estimate their angles; progress counts cells.
    */
-  async imageFrame(cube: lib.ComplexData, options: lib.ImageFrameOptions, job: JobOptions = {}): Promise<lib.ImageFrame> {
+  async imageFrame(
+    cube: lib.ComplexData,
+    options: lib.ImageFrameOptions,
+    job: JobOptions = {},
+  ): Promise<lib.ImageFrame> {
     const { onProgress: _, ...quiet } = job;
     const cells = await this.frameCells(cube, chainOf(options), quiet);
     return this.imageCells(cells, options, { ...job, transfer: false });

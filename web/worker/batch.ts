@@ -11,7 +11,10 @@ export function stretchesOf(input: BatchInput, workers: number): { input: BatchI
   if (!isData || data.length === 0 || data.length !== cells * numbers) return [{ input, cells: 1 }];
   return split(cells, workers).map(({ first, count }) => {
     const part = data.subarray(first * numbers, (first + count) * numbers);
-    return { input: { ...input, snapshots: { ...input.snapshots, data: part, shape: [count, ...cell] } }, cells: count };
+    return {
+      input: { ...input, snapshots: { ...input.snapshots, data: part, shape: [count, ...cell] } },
+      cells: count,
+    };
   });
 }
 

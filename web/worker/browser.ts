@@ -3,8 +3,8 @@ import { Pool, type PoolOptions } from './api.js';
 import type { Runtime } from './pool.js';
 import type { Reply } from './protocol.js';
 
-export type { JobOptions } from './pool.js';
 export { BoresightError } from '../lib/errors.js';
+export type { JobOptions } from './pool.js';
 export { Pool, type PoolOptions };
 
 async function compile(address: URL): Promise<WebAssembly.Module> {

@@ -32,9 +32,14 @@ export function networkWith(id: string, given: object = {}): Network {
   let one = loaded.get(id);
   if (one?.instance !== neural.number) {
     const file = files.get(id);
-    if (!file) throw failure('unknown-network', { what: 'network', expected: 'one that the pool has loaded', given: id });
+    if (!file)
+      throw failure('unknown-network', { what: 'network', expected: 'one that the pool has loaded', given: id });
     const { onnx, card } = file;
-    one = { network: new Network(onnx, { ...(card !== undefined && { card }) }), instance: neural.number, options: '{}' };
+    one = {
+      network: new Network(onnx, { ...(card !== undefined && { card }) }),
+      instance: neural.number,
+      options: '{}',
+    };
     loaded.set(id, one);
   }
   if (one.options !== text) {

@@ -1,5 +1,5 @@
 // Runs in a Node worker thread.
-import { type TransferListItem, parentPort } from 'node:worker_threads';
+import { parentPort, type TransferListItem } from 'node:worker_threads';
 import type { Request, Setup } from './protocol.js';
 import { serve } from './serve.js';
 

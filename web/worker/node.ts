@@ -6,16 +6,18 @@ import { Pool, type PoolOptions } from './api.js';
 import type { Runtime } from './pool.js';
 import type { Reply } from './protocol.js';
 
-export type { JobOptions } from './pool.js';
 export { BoresightError } from '../lib/errors.js';
+export type { JobOptions } from './pool.js';
 export { Pool, type PoolOptions };
 
 const runtime: Runtime = {
   workers: () => Math.min(availableParallelism(), 8),
 
   compile: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_bg.wasm', import.meta.url))),
-  compileDrives: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url))),
-  compileNeural: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url))),
+  compileDrives: async () =>
+    WebAssembly.compile(await readFile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url))),
+  compileNeural: async () =>
+    WebAssembly.compile(await readFile(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url))),
 
   spawn(events) {
     const worker = new Worker(new URL('./node-worker.js', import.meta.url));

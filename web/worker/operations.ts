@@ -1,11 +1,34 @@
 // What a worker can do: the plain functions of the package, and pieces of the batch helpers.
-import * as api from '../lib/api.js';
+
 import type {
-  AngleOptions, BatchEstimate, BatchInput, BatchOptions, BytesInput, CalibrateDriveOptions, CaptureInfo, Cell,
-  ChainOptions, CombineOptions, ComplexData, CubeChainOptions, DriveCalibration, DriveData, Estimate, EstimateInput,
-  EstimatorOptions, FrameCells, FrameResult, JointCalibrationOptions, NetworkInfo, SimulateDriveOptions, SimulatedDrive,
-  SourceProbabilities, Tensor, TextInput,
+  AngleOptions,
+  BatchEstimate,
+  BatchInput,
+  BatchOptions,
+  BytesInput,
+  CalibrateDriveOptions,
+  CaptureInfo,
+  Cell,
+  ChainOptions,
+  CombineOptions,
+  ComplexData,
+  CubeChainOptions,
+  DriveCalibration,
+  DriveData,
+  Estimate,
+  EstimateInput,
+  EstimatorOptions,
+  FrameCells,
+  FrameResult,
+  JointCalibrationOptions,
+  NetworkInfo,
+  SimulateDriveOptions,
+  SimulatedDrive,
+  SourceProbabilities,
+  Tensor,
+  TextInput,
 } from '../lib/api.js';
+import * as api from '../lib/api.js';
 import { core } from '../lib/instance.js';
 import { keyOf, networkWith } from './networks.js';
 
@@ -109,10 +132,12 @@ function processFrame(bytes: BytesInput, config: TextInput, frame: number, optio
 /** Every frame of a stretch of a capture that begins with frame `first`. */
 function processStretch(bytes: BytesInput, config: TextInput, first: number, options?: ChainOptions): FrameResult[] {
   const id = networkOf(options?.angle);
-  const results = id !== undefined
-    ? networkWith(id).processFrames(bytes, config, options)
-    : freeing(new api.Capture(bytes, config), (capture) =>
-        Array.from({ length: capture.info.frames }, (_, index) => capture.processFrame(index, options)));
+  const results =
+    id !== undefined
+      ? networkWith(id).processFrames(bytes, config, options)
+      : freeing(new api.Capture(bytes, config), (capture) =>
+          Array.from({ length: capture.info.frames }, (_, index) => capture.processFrame(index, options)),
+        );
   for (const result of results) for (const part of [result, ...result.detections]) part.frame += first;
   return results;
 }

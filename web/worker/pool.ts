@@ -117,7 +117,11 @@ export class Crew {
   constructor(runtime: Runtime, workers: number | undefined) {
     const size = workers ?? runtime.workers();
     if (!Number.isInteger(size) || size < 1 || size > 64) {
-      throw failure('out-of-range', { what: 'workers', expected: 'a whole number from 1 to 64', given: String(workers) });
+      throw failure('out-of-range', {
+        what: 'workers',
+        expected: 'a whole number from 1 to 64',
+        given: String(workers),
+      });
     }
     this.#runtime = runtime;
     this.#core = new Loader(() => runtime.compile(), 'boresight_bg.wasm');
@@ -140,7 +144,10 @@ export class Crew {
   }
 
   /** Runs the pieces on the workers; their results in the order of the pieces. */
-  async run<N extends OperationName>(pieces: Piece<N>[], options: JobOptions = {}): Promise<ReturnType<Operations[N]>[]> {
+  async run<N extends OperationName>(
+    pieces: Piece<N>[],
+    options: JobOptions = {},
+  ): Promise<ReturnType<Operations[N]>[]> {
     options.signal?.throwIfAborted();
     if (this.#terminated) throw terminated();
     const network = pieces.find((piece) => piece.network !== undefined)?.network;
@@ -173,7 +180,9 @@ export class Crew {
   /** Ends all workers; jobs under way reject. */
   terminate(): void {
     this.#terminated = true;
-    const jobs = new Set([...this.#queue, ...[...this.#members].flatMap(({ task }) => task ?? [])].map(({ job }) => job));
+    const jobs = new Set(
+      [...this.#queue, ...[...this.#members].flatMap(({ task }) => task ?? [])].map(({ job }) => job),
+    );
     for (const member of this.#members) this.#dismiss(member);
     for (const job of jobs) job.reject(terminated());
     this.#queue = [];
@@ -184,12 +193,14 @@ export class Crew {
     const { resolve, reject } = job;
     const { signal } = job.options;
     const onAbort = (): void => job.reject(signal?.reason);
-    const settle = <T>(then: (value: T) => void) => (value: T): void => {
-      if (job.settled) return;
-      job.settled = true;
-      signal?.removeEventListener('abort', onAbort);
-      then(value);
-    };
+    const settle =
+      <T>(then: (value: T) => void) =>
+      (value: T): void => {
+        if (job.settled) return;
+        job.settled = true;
+        signal?.removeEventListener('abort', onAbort);
+        then(value);
+      };
     job.resolve = settle(resolve);
     job.reject = settle((reason: unknown) => {
       reject(reason);
@@ -238,7 +249,14 @@ export class Crew {
     } catch (cause) {
       this.#release(member);
       if (cause instanceof BoresightError) job.reject(cause);
-      else job.reject(failure('wrong-type', { what: 'arguments', expected: 'what can be sent to a worker', given: String(cause) }, cause));
+      else
+        job.reject(
+          failure(
+            'wrong-type',
+            { what: 'arguments', expected: 'what can be sent to a worker', given: String(cause) },
+            cause,
+          ),
+        );
     }
   }
 
@@ -256,7 +274,11 @@ export class Crew {
   #fileOf(id: string): NetworkFile {
     const file = this.#networks.get(id);
     if (file) return file;
-    throw failure('unknown-network', { what: 'network', expected: 'the id of a network that this pool has loaded', given: String(id) });
+    throw failure('unknown-network', {
+      what: 'network',
+      expected: 'the id of a network that this pool has loaded',
+      given: String(id),
+    });
   }
 
   #hire(): Member | undefined {
@@ -265,7 +287,13 @@ export class Crew {
       reply: (reply) => this.#finish(member, reply),
       lost: (reason) => this.#lose(member, reason),
     };
-    const member: Member = { worker: this.#runtime.spawn(events), task: undefined, hasDrives: false, hasNeural: false, networks: new Set() };
+    const member: Member = {
+      worker: this.#runtime.spawn(events),
+      task: undefined,
+      hasDrives: false,
+      hasNeural: false,
+      networks: new Set(),
+    };
     this.#members.add(member);
     member.worker.post({ module: this.#core.module }, []);
     return member;

@@ -1,6 +1,7 @@
 // The inside of a worker.
-import { BoresightError, failure } from '../lib/errors.js';
+
 import { initDrivesSync } from '../lib/drive.js';
+import { BoresightError, failure } from '../lib/errors.js';
 import { initSync } from '../lib/instance.js';
 import { initNeuralSync } from '../lib/neural.js';
 import { forgetNetwork, keepNetwork } from './networks.js';
@@ -33,7 +34,8 @@ export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (
     }
     const { id, name, args } = message;
     try {
-      if (module === undefined) throw failure('not-initialised', { what: 'worker', expected: 'a module', given: 'none' });
+      if (module === undefined)
+        throw failure('not-initialised', { what: 'worker', expected: 'a module', given: 'none' });
       initSync(module); // makes a fresh instance where the last one stopped
       if (drives !== undefined) initDrivesSync(drives);
       if (neural !== undefined) initNeuralSync(neural);

@@ -44,12 +44,21 @@ export function packed<T>(value: T, move: boolean): { value: T; buffers: ArrayBu
 }
 
 function copied(view: Bytes): Bytes {
-  if (view instanceof DataView) return new DataView(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
+  if (view instanceof DataView)
+    return new DataView(view.buffer.slice(view.byteOffset, view.byteOffset + view.byteLength));
   // The plain kind: a Node Buffer's slice() is a view of the same bytes.
   const kind = kinds.find((kind) => view instanceof kind) ?? Uint8Array;
   return new (kind as typeof Uint8Array)(view as Uint8Array);
 }
 
 const kinds = [
-  Float64Array, Float32Array, Uint8Array, Uint8ClampedArray, Uint16Array, Uint32Array, Int8Array, Int16Array, Int32Array,
+  Float64Array,
+  Float32Array,
+  Uint8Array,
+  Uint8ClampedArray,
+  Uint16Array,
+  Uint32Array,
+  Int8Array,
+  Int16Array,
+  Int32Array,
 ];

@@ -1,6 +1,6 @@
 // The fields that web/lib/*types.ts declare, so that tests can hold results against them.
 import assert from 'node:assert/strict';
-import { readFileSync, readdirSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 
 const folder = new URL('../../../web/lib/', import.meta.url);
 const source = readdirSync(folder)
@@ -10,7 +10,9 @@ const source = readdirSync(folder)
 
 /** Interface -> { required, optional } field names, with those of the interfaces it extends. */
 export const interfaces = new Map();
-for (const [, name, parent, body] of source.matchAll(/^export interface (\w+)(?: extends (\w+))? \{\n([\s\S]*?)^\}/gm)) {
+for (const [, name, parent, body] of source.matchAll(
+  /^export interface (\w+)(?: extends (\w+))? \{\n([\s\S]*?)^\}/gm,
+)) {
   const fields = [...body.matchAll(/^ {2}(?:readonly )?(\w+)(\??):/gm)];
   const of = (mark) => fields.filter(([, , optional]) => optional === mark).map(([, field]) => field);
   interfaces.set(name, { parent, required: of(''), optional: of('?') });
@@ -26,6 +28,7 @@ export function assertShape(value, name) {
   const { required, optional } = interfaces.get(name) ?? assert.fail(`no interface ${name}`);
   const keys = Object.keys(value);
   for (const field of required) assert.ok(keys.includes(field), `${name} lacks ${field}`);
-  for (const key of keys) assert.ok(required.includes(key) || optional.includes(key), `${name} has ${key}, which is not declared`);
+  for (const key of keys)
+    assert.ok(required.includes(key) || optional.includes(key), `${name} has ${key}, which is not declared`);
   for (const key of keys) assert.notEqual(value[key], undefined, `${name}.${key} is undefined`);
 }

@@ -1,12 +1,15 @@
 // The trained networks and what PyTorch says of a batch for each.
-import { readFileSync, readdirSync } from 'node:fs';
+import { readdirSync, readFileSync } from 'node:fs';
 import { readNpy } from 'boresight';
 
 const models = new URL('../../../models/', import.meta.url);
 const goldens = new URL('../../golden/networks/', import.meta.url);
 
 /** Names of the shipped networks. */
-export const names = readdirSync(models).filter((name) => name.endsWith('.onnx')).map((name) => name.slice(0, -5)).sort();
+export const names = readdirSync(models)
+  .filter((name) => name.endsWith('.onnx'))
+  .map((name) => name.slice(0, -5))
+  .sort();
 
 /** File and card of a network. */
 export function model(name) {

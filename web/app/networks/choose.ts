@@ -12,7 +12,12 @@ export function fitting(method: Method, geometries: readonly Geometry[], sources
 }
 
 /** The one used: one that the link names, else the best. */
-export function modelFor(method: Method, geometries: readonly Geometry[], sources: number | null, named: string): Model | undefined {
+export function modelFor(
+  method: Method,
+  geometries: readonly Geometry[],
+  sources: number | null,
+  named: string,
+): Model | undefined {
   const all = fitting(method, geometries, sources);
   const names = named.split(',');
   return all.find(({ name }) => names.includes(name)) ?? all[0];
@@ -20,7 +25,8 @@ export function modelFor(method: Method, geometries: readonly Geometry[], source
 
 /** Why no network of the method works on snapshots of these arrays, in words; null where one does. */
 export function whyNoNetwork(method: Method, geometries: readonly Geometry[]): string | null {
-  if (method === 'cnn3d') return 'takes a region of range bins and chirps, which one cell is not: try it on the page Networks';
+  if (method === 'cnn3d')
+    return 'takes a region of range bins and chirps, which one cell is not: try it on the page Networks';
   if (fitting(method, geometries, null).length) return null;
   const model = models.value.find(({ card }) => card.network === method);
   if (!model) return 'has no network here';
@@ -30,5 +36,8 @@ export function whyNoNetwork(method: Method, geometries: readonly Geometry[]): s
 /** The names in a link with `name` in place of the others of its method. */
 export function choosing(named: string, model: Model): string {
   const kinds = new Map(models.value.map(({ name, card }) => [name, card.network]));
-  return [...named.split(',').filter((name) => kinds.has(name) && kinds.get(name) !== model.card.network), model.name].join(',');
+  return [
+    ...named.split(',').filter((name) => kinds.has(name) && kinds.get(name) !== model.card.network),
+    model.name,
+  ].join(',');
 }

@@ -20,7 +20,9 @@ export const ownModels = signal<readonly Model[]>([]);
 export const models = computed<readonly Model[]>(() => [...MODELS, ...ownModels.value]);
 
 /** Changes when a network becomes ready. */
-export const readyNetworks = computed(() => [...loadings.value].flatMap(([name, { status }]) => (status === 'ready' ? [name] : [])).join());
+export const readyNetworks = computed(() =>
+  [...loadings.value].flatMap(([name, { status }]) => (status === 'ready' ? [name] : [])).join(),
+);
 
 /** Whether a network's loading came to an end before it was ready: it is said, and tried again, where it is listed. */
 export function stopped(name: string | undefined): boolean {
@@ -55,7 +57,11 @@ function loadOnce(name: string): Promise<NetworkInfo> {
   const promise = start(name, controller.signal).catch((error: unknown) => {
     pending.delete(name);
     const { done = 0, total = 0 } = loadings.peek().get(name) ?? {};
-    say(name, { done, total, ...(aborted(error) ? { status: 'cancelled' } : { status: 'failed', problem: describeError(error) }) });
+    say(name, {
+      done,
+      total,
+      ...(aborted(error) ? { status: 'cancelled' } : { status: 'failed', problem: describeError(error) }),
+    });
     throw error;
   });
   pending.set(name, { promise, controller });
@@ -85,12 +91,13 @@ async function start(name: string, signal: AbortSignal): Promise<NetworkInfo> {
 async function fetched({ name, address, card }: Model, signal: AbortSignal): Promise<Uint8Array> {
   if (!address) throw new FileProblem('not-found', name, 'the file is no longer open; open it again');
   const response = await fetch(address, { signal });
-  if (!response.ok || !response.body) throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
+  if (!response.ok || !response.body)
+    throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
   const total = card.bytes ?? Number(response.headers.get('Content-Length') ?? 0);
   const parts: Uint8Array[] = [];
   let done = 0;
   say(name, { status: 'fetching', done, total });
-  for (const reader = response.body.getReader(); ;) {
+  for (const reader = response.body.getReader(); ; ) {
     const { done: last, value } = await reader.read();
     if (last) break;
     parts.push(value);
@@ -111,7 +118,9 @@ export async function addModel(name: string, onnx: Uint8Array, card: string | un
   const info = await pool().loadNetwork({ onnx, ...(card === undefined ? {} : { card }) });
   const { kind: network, inputs, outputs } = info;
   const model: Model = {
-    name: `own:${name}`, title: info.card?.title ?? name, hasCard: card !== undefined,
+    name: `own:${name}`,
+    title: info.card?.title ?? name,
+    hasCard: card !== undefined,
     card: { name, network, inputs, outputs, bytes: onnx.byteLength, ...info.card },
   };
   const before = loadings.peek().get(model.name)?.info;

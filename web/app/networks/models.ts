@@ -32,31 +32,51 @@ export interface Model {
 const stem = (path: string): string => path.replace(/^.*\//, '').replace(/\.\w+$/, '');
 
 const cards = import.meta.glob<Card>('../../../models/*.json', { eager: true, import: 'default' });
-const cardAddresses = import.meta.glob<string>('../../../models/*.json', { eager: true, query: '?url', import: 'default' });
+const cardAddresses = import.meta.glob<string>('../../../models/*.json', {
+  eager: true,
+  query: '?url',
+  import: 'default',
+});
 const addresses = import.meta.glob<string>('../../../models/*.onnx', { eager: true, query: '?url', import: 'default' });
 
 const KINDS: readonly NetworkKind[] = ['aaetr', 'counting', 'dnn', 'cnn3d'];
-export const KIND_TITLES: Record<NetworkKind, string> = { aaetr: 'AAETR', counting: 'Counting network', dnn: 'DNN', cnn3d: '3D-CNN' };
+export const KIND_TITLES: Record<NetworkKind, string> = {
+  aaetr: 'AAETR',
+  counting: 'Counting network',
+  dnn: 'DNN',
+  cnn3d: '3D-CNN',
+};
 
 /** How many targets a classifier of directions is for; null where the network finds that out. */
 export function targetsOf({ network, targets: stated, data }: Card): number | null {
   const targets = typeof stated === 'number' ? [stated, stated] : data?.targets;
-  return (network === 'dnn' || network === 'cnn3d') && Array.isArray(targets) && targets[0] === targets[1] ? Number(targets[1]) : null;
+  return (network === 'dnn' || network === 'cnn3d') && Array.isArray(targets) && targets[0] === targets[1]
+    ? Number(targets[1])
+    : null;
 }
 
 function titleOf(card: Card): string {
   if (card.title) return card.title;
   const targets = targetsOf(card);
-  return [KIND_TITLES[card.network], card.form, targets && (targets === 1 ? 'one target' : `${targets} targets`)].filter(Boolean).join(', ');
+  return [KIND_TITLES[card.network], card.form, targets && (targets === 1 ? 'one target' : `${targets} targets`)]
+    .filter(Boolean)
+    .join(', ');
 }
 
 export const MODELS: readonly Model[] = Object.entries(cards)
   .flatMap(([path, card]): Model[] => {
     const address = addresses[path.replace(/json$/, 'onnx')];
     const cardAddress = cardAddresses[path];
-    return address && cardAddress && KINDS.includes(card.network) ? [{ name: stem(path), title: titleOf(card), card, hasCard: true, address, cardAddress }] : [];
+    return address && cardAddress && KINDS.includes(card.network)
+      ? [{ name: stem(path), title: titleOf(card), card, hasCard: true, address, cardAddress }]
+      : [];
   })
-  .sort((a, b) => KINDS.indexOf(a.card.network) - KINDS.indexOf(b.card.network) || (a.card.parameters ?? 0) - (b.card.parameters ?? 0) || a.name.localeCompare(b.name));
+  .sort(
+    (a, b) =>
+      KINDS.indexOf(a.card.network) - KINDS.indexOf(b.card.network) ||
+      (a.card.parameters ?? 0) - (b.card.parameters ?? 0) ||
+      a.name.localeCompare(b.name),
+  );
 
 /** Virtual elements the network's input has room for. */
 export function elementsOf({ network, inputs }: Card): number {
@@ -69,7 +89,9 @@ export function elementsOf({ network, inputs }: Card): number {
 
 /** The array in words. */
 export function arrayOf(card: Card): string {
-  return typeof card.data?.array === 'string' ? card.data.array : `${elementsOf(card)} elements half a wavelength apart`;
+  return typeof card.data?.array === 'string'
+    ? card.data.array
+    : `${elementsOf(card)} elements half a wavelength apart`;
 }
 
 export type Geometry = Pick<ArrayGeometry, 'positions' | 'uniform' | 'aperture'>;

@@ -5,9 +5,13 @@ import type { Layer, LayerContext } from './layers.ts';
 export type Ground = (context: LayerContext) => (xM: number, yM: number) => [x: number, y: number];
 
 /** The car looks to the right: the horizontal axis is x. */
-export const aheadRight: Ground = ({ x, y }) => (xM, yM) => [x(xM), y(yM)];
+export const aheadRight: Ground =
+  ({ x, y }) =>
+  (xM, yM) => [x(xM), y(yM)];
 /** The car looks up: the vertical axis is x, the horizontal one y, descending. */
-export const aheadUp: Ground = ({ x, y }) => (xM, yM) => [x(yM), y(xM)];
+export const aheadUp: Ground =
+  ({ x, y }) =>
+  (xM, yM) => [x(yM), y(xM)];
 
 /** A car's outline about its rear axle, m: typical, as logs do not say. */
 const CAR = { behind: 1, ahead: 3.9, half: 0.93 } as const;
@@ -27,7 +31,10 @@ export function carOutline(ground: Ground = aheadRight): Layer {
     ctx.stroke();
     // The windscreen tells front from back, the line is the rear axle.
     ctx.beginPath();
-    for (const [xM, half] of [[2.4, CAR.half * 0.8], [0, CAR.half]] as const) {
+    for (const [xM, half] of [
+      [2.4, CAR.half * 0.8],
+      [0, CAR.half],
+    ] as const) {
       ctx.moveTo(...at(xM, half));
       ctx.lineTo(...at(xM, -half));
     }

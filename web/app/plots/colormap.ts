@@ -5,7 +5,9 @@ export const COLOR_MAPS = ['viridis', 'cividis', 'magma'] as const;
 export type ColorMapName = (typeof COLOR_MAPS)[number];
 
 const INTERPOLATORS: Record<ColorMapName, (t: number) => string> = {
-  viridis: interpolateViridis, cividis: interpolateCividis, magma: interpolateMagma,
+  viridis: interpolateViridis,
+  cividis: interpolateCividis,
+  magma: interpolateMagma,
 };
 
 const tables = new Map<ColorMapName, Uint8ClampedArray>();

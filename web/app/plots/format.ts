@@ -20,7 +20,15 @@ export function significant(value: number, digits = 3): string {
   return fixed(value, Math.min(decimals, 6));
 }
 
-const PREFIXES: [number, string][] = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'], [1e-9, 'n']];
+const PREFIXES: [number, string][] = [
+  [1e9, 'G'],
+  [1e6, 'M'],
+  [1e3, 'k'],
+  [1, ''],
+  [1e-3, 'm'],
+  [1e-6, 'µ'],
+  [1e-9, 'n'],
+];
 
 /** A value with an SI prefix and its unit: `3.07 GHz`. */
 export function engineering(value: number, unit: string, digits = 3): string {
@@ -33,7 +41,8 @@ export function engineering(value: number, unit: string, digits = 3): string {
 /** Tick labels with as many decimals as their step needs. */
 export function ticks(splits: number[], step: number): string[] {
   let decimals = 0;
-  for (let scaled = step; decimals < 6 && Math.abs(scaled - Math.round(scaled)) > 1e-6 * scaled; scaled *= 10) decimals += 1;
+  for (let scaled = step; decimals < 6 && Math.abs(scaled - Math.round(scaled)) > 1e-6 * scaled; scaled *= 10)
+    decimals += 1;
   return splits.map((value) => (value == null ? '' : fixed(value, decimals)));
 }
 
@@ -52,7 +61,11 @@ export function milliseconds(value: number): string {
 
 /** A file's size. */
 export function byteSize(bytes: number): string {
-  return bytes < 1024 ? `${bytes} B` : bytes < 1024 ** 2 ? `${(bytes / 1024).toFixed(0)} KiB` : `${(bytes / 1024 ** 2).toFixed(2)} MiB`;
+  return bytes < 1024
+    ? `${bytes} B`
+    : bytes < 1024 ** 2
+      ? `${(bytes / 1024).toFixed(0)} KiB`
+      : `${(bytes / 1024 ** 2).toFixed(2)} MiB`;
 }
 
 /** A count with its thousands apart. */

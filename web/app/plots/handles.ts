@@ -1,7 +1,11 @@
 /** Points on a plot that can be dragged or moved with the keyboard. */
 import type { Plot } from './plot.ts';
 
-export interface HandlePoint { x: number; y: number; label: string }
+export interface HandlePoint {
+  x: number;
+  y: number;
+  label: string;
+}
 
 export interface HandleActions {
   /** A drag: where the point was put. */
@@ -103,8 +107,14 @@ export class Handles {
   #key(event: KeyboardEvent, index: number): void {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const steps: Record<string, [number, number]> = {
-      ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
-      '+': [0, 1], '=': [0, 1], '-': [0, -1], '_': [0, -1],
+      ArrowLeft: [-1, 0],
+      ArrowRight: [1, 0],
+      ArrowUp: [0, 1],
+      ArrowDown: [0, -1],
+      '+': [0, 1],
+      '=': [0, 1],
+      '-': [0, -1],
+      _: [0, -1],
     };
     const step = steps[event.key];
     if (step) this.#actions.nudge(index, step[0], step[1], event.shiftKey && event.key.startsWith('Arrow'));

@@ -70,7 +70,8 @@ function barColor(colors: BarColors): (share: number, theme: ThemeName) => strin
 function barTicks([low, high]: readonly [number, number], room: number): { value: number; text: string }[] {
   const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50].find((s) => (high - low) / s <= room) ?? 50;
   const found = [];
-  for (let value = Math.ceil(low / step) * step; value <= high; value += step) found.push({ value, text: fixed(value, step < 1 ? 1 : 0) });
+  for (let value = Math.ceil(low / step) * step; value <= high; value += step)
+    found.push({ value, text: fixed(value, step < 1 ? 1 : 0) });
   return found;
 }
 

@@ -121,7 +121,12 @@ export function polyline(px: ArrayLike<number>, py: ArrayLike<number>, style: Se
 }
 
 /** The area between a lower and an upper curve; where either is missing there is none. */
-export function areaBetween(px: ArrayLike<number>, low: ArrayLike<number>, high: ArrayLike<number>, style: SeriesStyle): Layer {
+export function areaBetween(
+  px: ArrayLike<number>,
+  low: ArrayLike<number>,
+  high: ArrayLike<number>,
+  style: SeriesStyle,
+): Layer {
   return ({ ctx, plot, themeName, x, y }) => {
     clipToPlot(ctx, plot);
     ctx.fillStyle = style.color[themeName];
@@ -141,7 +146,9 @@ export function areaBetween(px: ArrayLike<number>, low: ArrayLike<number>, high:
 /** Small dots, for tens of thousands of points: painted pixel by pixel, darker where they lie on each other. */
 export function dots(px: ArrayLike<number>, py: ArrayLike<number>, style: SeriesStyle, alpha = 0.4): Layer {
   return ({ ctx, plot, themeName, ratio, x, y }) => {
-    const [left, top, width, height] = [plot.bbox.left, plot.bbox.top, plot.bbox.width, plot.bbox.height].map(Math.round) as [number, number, number, number];
+    const [left, top, width, height] = [plot.bbox.left, plot.bbox.top, plot.bbox.width, plot.bbox.height].map(
+      Math.round,
+    ) as [number, number, number, number];
     if (width < 1 || height < 1) return;
     const image = document.createElement('canvas');
     [image.width, image.height] = [width, height];
@@ -151,7 +158,10 @@ export function dots(px: ArrayLike<number>, py: ArrayLike<number>, style: Series
     const [red, green, blue] = parseColor(style.color[themeName]);
     const size = Math.max(Math.round(1.5 * ratio), 1);
     for (let i = 0; i < px.length; i++) {
-      const [column, row] = [Math.round(x(px[i] as number) - left - size / 2), Math.round(y(py[i] as number) - top - size / 2)];
+      const [column, row] = [
+        Math.round(x(px[i] as number) - left - size / 2),
+        Math.round(y(py[i] as number) - top - size / 2),
+      ];
       if (!(column >= 0 && row >= 0 && column + size <= width && row + size <= height)) continue;
       for (let k = 0; k < size * size; k++) {
         const at = 4 * ((row + Math.floor(k / size)) * width + column + (k % size));
@@ -214,26 +224,77 @@ export function drawMarker(
   };
   let open = false;
   switch (shape) {
-    case 'circle': path.arc(x, y, r * 0.95, 0, 2 * Math.PI); break;
-    case 'square': path.rect(x - r * 0.85, y - r * 0.85, 1.7 * r, 1.7 * r); break;
-    case 'diamond': polygon([[0, -1.25], [1.1, 0], [0, 1.25], [-1.1, 0]]); break;
-    case 'up': polygon([[0, -1.15], [1.1, 0.85], [-1.1, 0.85]]); break;
-    case 'down': polygon([[0, 1.15], [1.1, -0.85], [-1.1, -0.85]]); break;
-    case 'left': polygon([[-1.15, 0], [0.85, 1.1], [0.85, -1.1]]); break;
-    case 'right': polygon([[1.15, 0], [-0.85, 1.1], [-0.85, -1.1]]); break;
-    case 'star':
-      polygon(Array.from({ length: 10 }, (_, i) => {
-        const radius = i % 2 ? 0.55 : 1.35;
-        const angle = (i * Math.PI) / 5 - Math.PI / 2;
-        return [radius * Math.cos(angle), radius * Math.sin(angle)] as [number, number];
-      }));
+    case 'circle':
+      path.arc(x, y, r * 0.95, 0, 2 * Math.PI);
       break;
-    case 'plus': case 'cross': case 'bar': {
+    case 'square':
+      path.rect(x - r * 0.85, y - r * 0.85, 1.7 * r, 1.7 * r);
+      break;
+    case 'diamond':
+      polygon([
+        [0, -1.25],
+        [1.1, 0],
+        [0, 1.25],
+        [-1.1, 0],
+      ]);
+      break;
+    case 'up':
+      polygon([
+        [0, -1.15],
+        [1.1, 0.85],
+        [-1.1, 0.85],
+      ]);
+      break;
+    case 'down':
+      polygon([
+        [0, 1.15],
+        [1.1, -0.85],
+        [-1.1, -0.85],
+      ]);
+      break;
+    case 'left':
+      polygon([
+        [-1.15, 0],
+        [0.85, 1.1],
+        [0.85, -1.1],
+      ]);
+      break;
+    case 'right':
+      polygon([
+        [1.15, 0],
+        [-0.85, 1.1],
+        [-0.85, -1.1],
+      ]);
+      break;
+    case 'star':
+      polygon(
+        Array.from({ length: 10 }, (_, i) => {
+          const radius = i % 2 ? 0.55 : 1.35;
+          const angle = (i * Math.PI) / 5 - Math.PI / 2;
+          return [radius * Math.cos(angle), radius * Math.sin(angle)] as [number, number];
+        }),
+      );
+      break;
+    case 'plus':
+    case 'cross':
+    case 'bar': {
       open = true;
       const strokes: [number, number, number, number][] =
-        shape === 'plus' ? [[-1.2, 0, 1.2, 0], [0, -1.2, 0, 1.2]]
-        : shape === 'cross' ? [[-1, -1, 1, 1], [-1, 1, 1, -1]]
-        : [[0, -1.4, 0, 1.4], [-0.7, -1.4, 0.7, -1.4], [-0.7, 1.4, 0.7, 1.4]];
+        shape === 'plus'
+          ? [
+              [-1.2, 0, 1.2, 0],
+              [0, -1.2, 0, 1.2],
+            ]
+          : shape === 'cross'
+            ? [
+                [-1, -1, 1, 1],
+                [-1, 1, 1, -1],
+              ]
+            : [
+                [0, -1.4, 0, 1.4],
+                [-0.7, -1.4, 0.7, -1.4],
+                [-0.7, 1.4, 0.7, 1.4],
+              ];
       for (const [ax, ay, bx, by] of strokes) {
         path.moveTo(x + ax * r, y + ay * r);
         path.lineTo(x + bx * r, y + by * r);
@@ -279,7 +340,10 @@ export function drawSwatch(
   }
   if (style.marker) {
     drawMarker(ctx, style.marker, x + (SWATCH.width / 2) * ratio, y, (hollow ? 5 : 3.6) * ratio, {
-      stroke: color, fill: hollow ? null : color, halo: theme.background, ratio,
+      stroke: color,
+      fill: hollow ? null : color,
+      halo: theme.background,
+      ratio,
     });
   }
 }

@@ -15,7 +15,10 @@ export function navigate(plot: Plot): () => void {
     const box = over.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top };
   };
-  const value = (at: { x: number; y: number }): { x: number; y: number } => ({ x: plot.u.posToVal(at.x, 'x'), y: plot.u.posToVal(at.y, 'y') });
+  const value = (at: { x: number; y: number }): { x: number; y: number } => ({
+    x: plot.u.posToVal(at.x, 'x'),
+    y: plot.u.posToVal(at.y, 'y'),
+  });
   /** Events come faster than plots are drawn. */
   const soon = (): void => {
     frame ||= requestAnimationFrame(() => {
@@ -48,7 +51,8 @@ export function navigate(plot: Plot): () => void {
     dy += (now.y - before.y) * share;
     if (other) {
       about = { x: (now.x + other.x) / 2, y: (now.y + other.y) / 2 };
-      const distance = (from: { x: number; y: number }): number => Math.max(Math.hypot(from.x - other.x, from.y - other.y), 1);
+      const distance = (from: { x: number; y: number }): number =>
+        Math.max(Math.hypot(from.x - other.x, from.y - other.y), 1);
       factor *= distance(before) / distance(now);
     }
     soon();

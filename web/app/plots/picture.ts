@@ -35,7 +35,10 @@ export interface Picture {
 }
 
 /** A canvas with a heading above, a legend and remarks below, as PNG. */
-export function picture(source: HTMLCanvasElement, { heading, legend, remarks, ratio, theme: name }: Picture): Promise<Blob> {
+export function picture(
+  source: HTMLCanvasElement,
+  { heading, legend, remarks, ratio, theme: name }: Picture,
+): Promise<Blob> {
   const theme = THEMES[name];
   const canvas = document.createElement('canvas');
   const ctx = canvas.getContext('2d');
@@ -44,7 +47,11 @@ export function picture(source: HTMLCanvasElement, { heading, legend, remarks, r
   const margin = 12 * ratio;
   const line = 17 * ratio;
   ctx.font = small;
-  const places = legendPlaces(legend.map(({ label }) => ctx.measureText(label).width), source.width - 2 * margin, ratio);
+  const places = legendPlaces(
+    legend.map(({ label }) => ctx.measureText(label).width),
+    source.width - 2 * margin,
+    ratio,
+  );
   const rows = (places.at(-1)?.row ?? -1) + 1 + remarks.length;
   const top = 30 * ratio;
   canvas.width = source.width;
@@ -69,6 +76,9 @@ export function picture(source: HTMLCanvasElement, { heading, legend, remarks, r
     ctx.fillText(remark, margin, rowY(rows - remarks.length + i), canvas.width - 2 * margin);
   });
   return new Promise((resolve, reject) => {
-    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser could not encode the image.'))), 'image/png');
+    canvas.toBlob(
+      (blob) => (blob ? resolve(blob) : reject(new Error('The browser could not encode the image.'))),
+      'image/png',
+    );
   });
 }

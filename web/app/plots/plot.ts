@@ -12,7 +12,10 @@ import { type LegendEntry, picture } from './picture.ts';
 import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
 
 export type Interval = readonly [number, number];
-export interface View { x: Interval; y: Interval }
+export interface View {
+  x: Interval;
+  y: Interval;
+}
 
 export interface AxisOptions {
   /** Quantity and unit: `Range (m)`. */
@@ -161,7 +164,9 @@ export class Plot {
         if (!content.series.length) this.u.addSeries({ scale: 'y', show: false }, 1);
         this.#ids = ids;
       }
-      const columns = content.series.length ? content.series.map((series) => series.y) : [new Array(content.x.length).fill(null)];
+      const columns = content.series.length
+        ? content.series.map((series) => series.y)
+        : [new Array(content.x.length).fill(null)];
       this.u.setData([content.x, ...columns] as unknown as uPlot.AlignedData, false);
       this.#applyView();
     });
@@ -183,7 +188,10 @@ export class Plot {
   zoomBy(factor: number, about?: { x: number; y: number }): void {
     const { extent } = this.#content;
     const scaled = ([a, b]: Interval, at = (a + b) / 2): Interval => [at + (a - at) * factor, at + (b - at) * factor];
-    const view: View = { x: scaled(this.view.x, about?.x), y: this.#options.equal ? scaled(this.view.y, about?.y) : this.view.y };
+    const view: View = {
+      x: scaled(this.view.x, about?.x),
+      y: this.#options.equal ? scaled(this.view.y, about?.y) : this.view.y,
+    };
     const all = view.x[1] - view.x[0] >= extent.x[1] - extent.x[0];
     this.setView(all ? null : view, true);
   }
@@ -236,7 +244,10 @@ export class Plot {
       grid: { show: this.#options.grid ?? true, stroke: () => theme().grid, width: 1 },
       ticks: { show: true, stroke: () => theme().muted, width: 1, size: 4 },
       border: { show: true, stroke: () => theme().muted, width: 1 },
-      values: (_u, splits, _axis, _space, step) => ticks(splits, step).map((text, i) => ((splits[i] as number) < (options.from ?? Number.NEGATIVE_INFINITY) ? '' : text)),
+      values: (_u, splits, _axis, _space, step) =>
+        ticks(splits, step).map((text, i) =>
+          (splits[i] as number) < (options.from ?? Number.NEGATIVE_INFINITY) ? '' : text,
+        ),
       ...(options.steps ? { incrs: options.steps } : {}),
       ...(options.log
         ? {
@@ -252,7 +263,12 @@ export class Plot {
       padding: [8, options.right ?? 14, options.bottom ?? 0, 0],
       legend: { show: false },
       scales: {
-        x: { time: false, auto: false, dir: options.x.descending ? -1 : 1, range: (u) => [...this.#drawn(u).x] as [number, number] },
+        x: {
+          time: false,
+          auto: false,
+          dir: options.x.descending ? -1 : 1,
+          range: (u) => [...this.#drawn(u).x] as [number, number],
+        },
         y: { auto: false, range: (u) => [...this.#drawn(u).y] as [number, number] },
       },
       axes: [axis(options.x, 2, AXIS_HEIGHT - 18), axis(options.y, 3, (options.y.width ?? AXIS_WIDTH) - 18)],
@@ -321,7 +337,10 @@ export class Plot {
     const { x, y } = this.view;
     if (!this.#options.equal || !(bbox.width > 0 && bbox.height > 0)) return { x, y };
     const unit = Math.max((x[1] - x[0]) / bbox.width, (y[1] - y[0]) / bbox.height);
-    const widened = ([a, b]: Interval, size: number): Interval => [(a + b - unit * size) / 2, (a + b + unit * size) / 2];
+    const widened = ([a, b]: Interval, size: number): Interval => [
+      (a + b - unit * size) / 2,
+      (a + b + unit * size) / 2,
+    ];
     return { x: widened(x, bbox.width), y: widened(y, bbox.height) };
   }
 
@@ -349,7 +368,9 @@ export class Plot {
     const whole = (size: number, full: number): boolean => size < 4 || size >= full - 1;
     const [a, b] = [u.posToVal(left, 'x'), u.posToVal(left + width, 'x')];
     const x: Interval = whole(width, u.over.clientWidth) ? this.view.x : [Math.min(a, b), Math.max(a, b)];
-    const y: Interval = whole(height, u.over.clientHeight) ? this.view.y : [u.posToVal(top + height, 'y'), u.posToVal(top, 'y')];
+    const y: Interval = whole(height, u.over.clientHeight)
+      ? this.view.y
+      : [u.posToVal(top + height, 'y'), u.posToVal(top, 'y')];
     u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
     this.setView({ x, y }, true);
   }
@@ -357,7 +378,11 @@ export class Plot {
   #position(event: MouseEvent): CursorPosition {
     const box = this.u.over.getBoundingClientRect();
     const x = this.u.posToVal(event.clientX - box.left, 'x');
-    return { x, y: this.u.posToVal(event.clientY - box.top, 'y'), index: this.#content.x.length ? this.u.valToIdx(x) : null };
+    return {
+      x,
+      y: this.u.posToVal(event.clientY - box.top, 'y'),
+      index: this.#content.x.length ? this.u.valToIdx(x) : null,
+    };
   }
 
   /** uPlot keeps clicks that end a drag to itself. */
@@ -378,13 +403,29 @@ export class Plot {
   #ownKey(event: KeyboardEvent): boolean {
     if (this.#options.navigate && this.#arrow(event)) return true;
     switch (event.key) {
-      case '+': case '=': this.zoomBy(0.5); return true;
-      case '-': this.zoomBy(2); return true;
-      case '0': case 'Escape': this.resetZoom(); return true;
-      case 'PageUp': this.panBy(0.25); return true;
-      case 'PageDown': this.panBy(-0.25); return true;
-      case 'ArrowLeft': case 'ArrowRight': this.#moveCursor((event.key === 'ArrowLeft' ? -1 : 1) * (event.shiftKey ? 10 : 1)); return true;
-      default: return false;
+      case '+':
+      case '=':
+        this.zoomBy(0.5);
+        return true;
+      case '-':
+        this.zoomBy(2);
+        return true;
+      case '0':
+      case 'Escape':
+        this.resetZoom();
+        return true;
+      case 'PageUp':
+        this.panBy(0.25);
+        return true;
+      case 'PageDown':
+        this.panBy(-0.25);
+        return true;
+      case 'ArrowLeft':
+      case 'ArrowRight':
+        this.#moveCursor((event.key === 'ArrowLeft' ? -1 : 1) * (event.shiftKey ? 10 : 1));
+        return true;
+      default:
+        return false;
     }
   }
 
@@ -415,7 +456,10 @@ export class Plot {
     const first = this.#content.series[0]?.y[this.u.valToIdx(value)];
     this.u.setCursor({
       left: this.u.valToPos(value, 'x'),
-      top: typeof first === 'number' ? Math.min(Math.max(this.u.valToPos(first, 'y'), 0), this.u.over.clientHeight) : this.u.over.clientHeight / 2,
+      top:
+        typeof first === 'number'
+          ? Math.min(Math.max(this.u.valToPos(first, 'y'), 0), this.u.over.clientHeight)
+          : this.u.over.clientHeight / 2,
     });
   }
 
@@ -432,7 +476,11 @@ export class Plot {
   #context(): LayerContext {
     const u = this.u;
     return {
-      ctx: u.ctx, plot: u, theme: THEMES[this.#theme], themeName: this.#theme, ratio: uPlot.pxRatio,
+      ctx: u.ctx,
+      plot: u,
+      theme: THEMES[this.#theme],
+      themeName: this.#theme,
+      ratio: uPlot.pxRatio,
       x: (value) => u.valToPos(value, 'x', true),
       y: (value) => u.valToPos(value, 'y', true),
     };

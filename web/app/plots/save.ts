@@ -39,7 +39,11 @@ export async function sideBySide(images: readonly Blob[]): Promise<Blob> {
 
 /** A safe, readable file name. */
 export function fileName(parts: readonly (string | number | undefined)[], extension: string): string {
-  const stem = parts.filter((part) => part !== undefined && part !== '').join('-')
-    .toLowerCase().replace(/[^a-z0-9.+-]+/g, '-').replace(/^-+|-+$/g, '');
+  const stem = parts
+    .filter((part) => part !== undefined && part !== '')
+    .join('-')
+    .toLowerCase()
+    .replace(/[^a-z0-9.+-]+/g, '-')
+    .replace(/^-+|-+$/g, '');
   return `boresight-${stem.slice(0, 90)}.${extension}`;
 }

@@ -18,17 +18,41 @@ const FONT = '-apple-system, "Segoe UI", Roboto, "Helvetica Neue", "Liberation S
 
 export const THEMES: Record<ThemeName, PlotTheme> = {
   light: {
-    background: '#ffffff', text: '#23292f', muted: '#5b6670', grid: '#e6e9ec', accent: '#0a5ea8',
-    truth: '#23292f', band: 'rgba(35, 41, 47, 0.13)', shade: 'rgba(91, 102, 112, 0.10)', font: FONT,
+    background: '#ffffff',
+    text: '#23292f',
+    muted: '#5b6670',
+    grid: '#e6e9ec',
+    accent: '#0a5ea8',
+    truth: '#23292f',
+    band: 'rgba(35, 41, 47, 0.13)',
+    shade: 'rgba(91, 102, 112, 0.10)',
+    font: FONT,
   },
   dark: {
-    background: '#191d21', text: '#dfe4e8', muted: '#98a3ad', grid: '#2a3037', accent: '#63b1f5',
-    truth: '#f0f3f5', band: 'rgba(240, 243, 245, 0.16)', shade: 'rgba(152, 163, 173, 0.10)', font: FONT,
+    background: '#191d21',
+    text: '#dfe4e8',
+    muted: '#98a3ad',
+    grid: '#2a3037',
+    accent: '#63b1f5',
+    truth: '#f0f3f5',
+    band: 'rgba(240, 243, 245, 0.16)',
+    shade: 'rgba(152, 163, 173, 0.10)',
+    font: FONT,
   },
 };
 
 export type MarkerShape =
-  | 'circle' | 'square' | 'diamond' | 'up' | 'down' | 'plus' | 'cross' | 'star' | 'left' | 'right' | 'bar';
+  | 'circle'
+  | 'square'
+  | 'diamond'
+  | 'up'
+  | 'down'
+  | 'plus'
+  | 'cross'
+  | 'star'
+  | 'left'
+  | 'right'
+  | 'bar';
 
 export interface SeriesStyle {
   /** One colour a theme; hue, dash and marker together tell series apart, never hue alone. */
@@ -72,9 +96,20 @@ export function methodStyle(method: string): SeriesStyle {
 export const ACCENT_STYLE: SeriesStyle = FALLBACK;
 
 /** Static detections have a weight near 1, others near 0: from orange to blue, through grey. */
-const WEIGHT_COLORS: Record<ThemeName, readonly [low: readonly number[], middle: readonly number[], high: readonly number[]]> = {
-  light: [[213, 94, 0], [138, 138, 138], [0, 98, 165]],
-  dark: [[255, 138, 61], [150, 150, 150], [94, 180, 240]],
+const WEIGHT_COLORS: Record<
+  ThemeName,
+  readonly [low: readonly number[], middle: readonly number[], high: readonly number[]]
+> = {
+  light: [
+    [213, 94, 0],
+    [138, 138, 138],
+    [0, 98, 165],
+  ],
+  dark: [
+    [255, 138, 61],
+    [150, 150, 150],
+    [94, 180, 240],
+  ],
 };
 
 export function weightColor(weight: number, theme: ThemeName): string {

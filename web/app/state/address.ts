@@ -1,7 +1,7 @@
 /** Binds a page's state to the address. */
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { type Page, type Route, lastParams, route, writeParams } from './route.ts';
+import { lastParams, type Page, type Route, route, writeParams } from './route.ts';
 
 export interface Binding {
   /** Takes the state from parameters: those of the address, or where it has none those the page was left with. */

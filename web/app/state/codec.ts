@@ -24,7 +24,8 @@ export function choice<const T extends string>(fallback: T, values: readonly T[]
   return { fallback, read: (text) => given(values).find((value) => value === text), write: (value) => value };
 }
 
-const given = <T>(values: readonly T[] | (() => readonly T[])): readonly T[] => (typeof values === 'function' ? values() : values);
+const given = <T>(values: readonly T[] | (() => readonly T[])): readonly T[] =>
+  typeof values === 'function' ? values() : values;
 
 export function flag(fallback: boolean): Field<boolean> {
   return {
@@ -44,13 +45,18 @@ export function optional<T>(field: Field<T>): Field<T | null> {
 }
 
 /** Names from a known set, in the set's order; a dash for none. */
-export function names<T extends string>(fallback: readonly T[], values: readonly T[] | (() => readonly T[])): Field<readonly T[]> {
+export function names<T extends string>(
+  fallback: readonly T[],
+  values: readonly T[] | (() => readonly T[]),
+): Field<readonly T[]> {
   return {
     fallback,
     read: (value) => {
       const known = given(values);
       const wanted = value === '-' ? [] : value.split(',');
-      return wanted.every((name) => known.includes(name as T)) ? known.filter((name) => wanted.includes(name)) : undefined;
+      return wanted.every((name) => known.includes(name as T))
+        ? known.filter((name) => wanted.includes(name))
+        : undefined;
     },
     write: (value) => value.join(',') || '-',
   };
@@ -75,10 +81,12 @@ export function codec<F extends { [K in keyof F]: Field<F[K] extends Field<infer
   return {
     defaults: Object.fromEntries(all.map(([key, field]) => [key, field.fallback])) as S,
     read: (params) =>
-      Object.fromEntries(all.map(([key, field]) => {
-        const given = params.get(key);
-        return [key, (given === null ? undefined : field.read(given)) ?? field.fallback];
-      })) as S,
+      Object.fromEntries(
+        all.map(([key, field]) => {
+          const given = params.get(key);
+          return [key, (given === null ? undefined : field.read(given)) ?? field.fallback];
+        }),
+      ) as S,
     write: (state) => {
       const params = new URLSearchParams();
       for (const [key, field] of all) {

@@ -4,7 +4,10 @@ import { signal } from '@preact/signals';
 export const PAGES = ['angle', 'capture', 'mounting', 'birdseye', 'networks'] as const;
 export type Page = (typeof PAGES)[number];
 
-export interface Route { page: Page; params: URLSearchParams }
+export interface Route {
+  page: Page;
+  params: URLSearchParams;
+}
 
 function parse(hash: string): Route {
   const [path = '', query = ''] = hash.replace(/^#\/?/, '').split('?', 2);

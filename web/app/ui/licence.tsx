@@ -5,13 +5,17 @@ export function Licence({ address, summary, remark }: { address: string; summary
   const text = useSignal<string | null>(null);
   const load = async (): Promise<void> => {
     const response = await fetch(address);
-    text.value = response.ok ? await response.text() : `The licence could not be loaded: the server answered ${response.status}.`;
+    text.value = response.ok
+      ? await response.text()
+      : `The licence could not be loaded: the server answered ${response.status}.`;
   };
   return (
     <details class="licence small" onToggle={(event) => event.currentTarget.open && text.value === null && void load()}>
       <summary>{summary}</summary>
       <p class="muted">{remark}</p>
-      <pre tabIndex={0} aria-label="Licence of the recording">{text.value ?? ''}</pre>
+      <pre tabIndex={0} aria-label="Licence of the recording">
+        {text.value ?? ''}
+      </pre>
     </details>
   );
 }

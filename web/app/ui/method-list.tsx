@@ -37,13 +37,22 @@ export function MethodList<T extends string>(props: {
         const checked = chosen.includes(name);
         return (
           <div key={name} class={`method${off ? ' off' : ''}`} title={about}>
-            <input type="checkbox" id={id} name={id} checked={checked} disabled={Boolean(off) && !checked} aria-describedby={`${id}-note`}
-              onChange={(event) => change(name, event.currentTarget.checked)} />
+            <input
+              type="checkbox"
+              id={id}
+              name={id}
+              checked={checked}
+              disabled={Boolean(off) && !checked}
+              aria-describedby={`${id}-note`}
+              onChange={(event) => change(name, event.currentTarget.checked)}
+            />
             <Swatch style={methodStyle(name)} line={line} />
             <label for={id}>{title}</label>
             {extra}
             {!off && detail}
-            <p id={`${id}-note`} class="note" hidden={!off && !note}>{off ?? note}</p>
+            <p id={`${id}-note`} class="note" hidden={!off && !note}>
+              {off ?? note}
+            </p>
           </div>
         );
       })}

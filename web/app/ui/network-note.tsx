@@ -3,7 +3,12 @@ import { cancelLoading, load, loadings } from '../networks/load.ts';
 import { arrayOf, type Model } from '../networks/models.ts';
 import { byteSize } from '../plots/format.ts';
 
-export function NetworkNote({ model, choices, chosen, onChange }: {
+export function NetworkNote({
+  model,
+  choices,
+  chosen,
+  onChange,
+}: {
   model: Model;
   /** All that fit. */
   choices: readonly Model[];
@@ -15,16 +20,32 @@ export function NetworkNote({ model, choices, chosen, onChange }: {
   return (
     <div class="note network-note" data-network-note={model.name}>
       {choices.length > 1 ? (
-        <select aria-label={`Network for ${model.card.network}`} name={`network-${model.card.network}`} value={model.name}
+        <select
+          aria-label={`Network for ${model.card.network}`}
+          name={`network-${model.card.network}`}
+          value={model.name}
           onChange={(event) => {
             const next = choices.find(({ name }) => name === event.currentTarget.value);
             if (next) onChange(next);
-          }}>
-          {choices.map(({ name, title }) => <option key={name} value={name} selected={name === model.name}>{title}</option>)}
+          }}
+        >
+          {choices.map(({ name, title }) => (
+            <option key={name} value={name} selected={name === model.name}>
+              {title}
+            </option>
+          ))}
         </select>
-      ) : <span>{model.title}: </span>}
-      {' '}
-      {chosen ? <LoadState name={model.name} /> : <span>for {arrayOf(model.card)}{size}; loads when chosen</span>}
+      ) : (
+        <span>{model.title}: </span>
+      )}{' '}
+      {chosen ? (
+        <LoadState name={model.name} />
+      ) : (
+        <span>
+          for {arrayOf(model.card)}
+          {size}; loads when chosen
+        </span>
+      )}
     </div>
   );
 }
@@ -33,24 +54,44 @@ export function NetworkNote({ model, choices, chosen, onChange }: {
 export function LoadState({ name }: { name: string }) {
   const state = loadings.value.get(name);
   switch (state?.status) {
-    case 'fetching': case 'starting': {
-      const far = state.status === 'starting' ? 'starting' : `${byteSize(state.done)} of ${state.total ? byteSize(state.total) : 'unknown size'}`;
+    case 'fetching':
+    case 'starting': {
+      const far =
+        state.status === 'starting'
+          ? 'starting'
+          : `${byteSize(state.done)} of ${state.total ? byteSize(state.total) : 'unknown size'}`;
       return (
         <span class="progress-line" data-loading={name}>
-          <progress aria-label="Loading the network" {...(state.status === 'fetching' && state.total ? { max: state.total, value: state.done } : {})} />
+          <progress
+            aria-label="Loading the network"
+            {...(state.status === 'fetching' && state.total ? { max: state.total, value: state.done } : {})}
+          />
           <span>{far}</span>
-          <button type="button" data-action="cancel-loading" onClick={() => cancelLoading(name)}>Cancel</button>
+          <button type="button" data-action="cancel-loading" onClick={() => cancelLoading(name)}>
+            Cancel
+          </button>
         </span>
       );
     }
-    case 'ready': return <span data-ready={name}>ready</span>;
-    case 'failed': case 'cancelled':
+    case 'ready':
+      return <span data-ready={name}>ready</span>;
+    case 'failed':
+    case 'cancelled':
       return (
         <span data-stopped={name}>
-          {state.status === 'cancelled' ? 'loading was cancelled ' : <span class="problem">{state.problem?.message} <code>{state.problem?.code}</code> </span>}
-          <button type="button" data-action="load" onClick={() => void load(name).catch(() => {})}>Load</button>
+          {state.status === 'cancelled' ? (
+            'loading was cancelled '
+          ) : (
+            <span class="problem">
+              {state.problem?.message} <code>{state.problem?.code}</code>{' '}
+            </span>
+          )}
+          <button type="button" data-action="load" onClick={() => void load(name).catch(() => {})}>
+            Load
+          </button>
         </span>
       );
-    default: return null;
+    default:
+      return null;
   }
 }

@@ -59,8 +59,14 @@ export function PlotFrame(props: PlotFrameProps) {
     const latest = () => current.current.options;
     const made = new Plot(host.current, {
       ...props.options,
-      label: [`${props.title}.`, props.keys, 'Plus and minus zoom, 0 resets.', !/arrows/i.test(props.keys ?? '') && 'Left and right move the cursor.']
-        .filter(Boolean).join(' '),
+      label: [
+        `${props.title}.`,
+        props.keys,
+        'Plus and minus zoom, 0 resets.',
+        !/arrows/i.test(props.keys ?? '') && 'Left and right move the cursor.',
+      ]
+        .filter(Boolean)
+        .join(' '),
       theme: theme.peek(),
       onCursor: (position) => {
         cursor.value = position;
@@ -89,20 +95,45 @@ export function PlotFrame(props: PlotFrameProps) {
 
   const parts = [props.name, ...(props.fileParts ?? [])];
   const savePng = async (): Promise<void> => {
-    const image = await plot.current?.png(props.detail ? `${props.title}, ${props.detail}` : props.title, props.imageLegend ?? props.legend, props.imageRemarks ?? props.remarks);
+    const image = await plot.current?.png(
+      props.detail ? `${props.title}, ${props.detail}` : props.title,
+      props.imageLegend ?? props.legend,
+      props.imageRemarks ?? props.remarks,
+    );
     if (image) download(image, fileName(parts, 'png'));
   };
   return (
     <figure class="panel plot-frame" data-plot={props.name} aria-labelledby={`${id}-title`}>
       <div class="panel-head">
-        <h3 id={`${id}-title`}>{props.title}</h3>{props.detail && <span class="muted detail">{props.detail}</span>}
+        <h3 id={`${id}-title`}>{props.title}</h3>
+        {props.detail && <span class="muted detail">{props.detail}</span>}
         {props.tools}
         <div class="tools" role="group" aria-label={`${props.title}: tools`}>
-          <button type="button" aria-label="Zoom in" title={`Zoom in (+). Drag across the plot${props.options.navigate ? ' with Shift' : ''} to zoom to a region.`} onClick={() => plot.current?.zoomBy(0.5)}>+</button>
-          <button type="button" aria-label="Zoom out" title="Zoom out (−)" onClick={() => plot.current?.zoomBy(2)}>{'−'}</button>
-          <button type="button" title="Show everything again (0)" onClick={() => plot.current?.resetZoom()}>Reset</button>
-          <button type="button" title="Save the plot as an image" data-export="png" onClick={() => void savePng()}>PNG</button>
-          <button type="button" title="Save the numbers with a header row" data-export="csv" onClick={() => download(props.csv(), fileName(parts, 'csv'))}>CSV</button>
+          <button
+            type="button"
+            aria-label="Zoom in"
+            title={`Zoom in (+). Drag across the plot${props.options.navigate ? ' with Shift' : ''} to zoom to a region.`}
+            onClick={() => plot.current?.zoomBy(0.5)}
+          >
+            +
+          </button>
+          <button type="button" aria-label="Zoom out" title="Zoom out (−)" onClick={() => plot.current?.zoomBy(2)}>
+            {'−'}
+          </button>
+          <button type="button" title="Show everything again (0)" onClick={() => plot.current?.resetZoom()}>
+            Reset
+          </button>
+          <button type="button" title="Save the plot as an image" data-export="png" onClick={() => void savePng()}>
+            PNG
+          </button>
+          <button
+            type="button"
+            title="Save the numbers with a header row"
+            data-export="csv"
+            onClick={() => download(props.csv(), fileName(parts, 'csv'))}
+          >
+            CSV
+          </button>
         </div>
       </div>
       <Readout cursor={cursor} text={props.readout} />
@@ -119,7 +150,9 @@ export function PlotFrame(props: PlotFrameProps) {
           ))}
         </ul>
       )}
-      {(props.remarks || props.hint) && <figcaption>{[...(props.remarks ?? []), props.hint].filter(Boolean).join(' ')}</figcaption>}
+      {(props.remarks || props.hint) && (
+        <figcaption>{[...(props.remarks ?? []), props.hint].filter(Boolean).join(' ')}</figcaption>
+      )}
     </figure>
   );
 }
@@ -128,10 +161,22 @@ type Cursor = ReturnType<typeof useSignal<CursorPosition | null>>;
 
 function Readout({ cursor, text }: { cursor: Cursor; text(position: CursorPosition): string }) {
   const position = cursor.value;
-  return <p class="readout" data-readout>{position ? text(position) : <span class="muted">Cursor: point at the plot</span>}</p>;
+  return (
+    <p class="readout" data-readout>
+      {position ? text(position) : <span class="muted">Cursor: point at the plot</span>}
+    </p>
+  );
 }
 
-function LegendValue({ cursor, value, rest }: { cursor: Cursor; value(position: CursorPosition): string; rest: string }) {
+function LegendValue({
+  cursor,
+  value,
+  rest,
+}: {
+  cursor: Cursor;
+  value(position: CursorPosition): string;
+  rest: string;
+}) {
   const position = cursor.value;
   return <span class="legend-value">{position ? value(position) : rest}</span>;
 }

@@ -8,10 +8,20 @@ export function Sidebar({ label, button, children }: { label: string; button: st
   const id = useId();
   return (
     <div class={`sidebar${open.value ? ' open' : ''}`}>
-      <button type="button" class="sidebar-toggle" aria-expanded={open.value} aria-controls={id} onClick={() => { open.value = !open.value; }}>
+      <button
+        type="button"
+        class="sidebar-toggle"
+        aria-expanded={open.value}
+        aria-controls={id}
+        onClick={() => {
+          open.value = !open.value;
+        }}
+      >
         {open.value ? `Hide ${button}` : `Show ${button}`}
       </button>
-      <form id={id} class="controls" aria-label={label} onSubmit={(event) => event.preventDefault()}>{children}</form>
+      <form id={id} class="controls" aria-label={label} onSubmit={(event) => event.preventDefault()}>
+        {children}
+      </form>
     </div>
   );
 }

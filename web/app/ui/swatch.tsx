@@ -17,5 +17,14 @@ export function Swatch({ style, line, hollow = false }: { style: SeriesStyle; li
     canvas.current.height = height * ratio;
     drawSwatch(ctx, { style, line, hollow }, { x: 0, y: (height / 2) * ratio, ratio }, THEMES[name], name);
   }, [name, style, line, hollow]);
-  return <canvas ref={canvas} class="swatch" width={width} height={height} style={{ width: `${width}px`, height: `${height}px` }} aria-hidden="true" />;
+  return (
+    <canvas
+      ref={canvas}
+      class="swatch"
+      width={width}
+      height={height}
+      style={{ width: `${width}px`, height: `${height}px` }}
+      aria-hidden="true"
+    />
+  );
 }

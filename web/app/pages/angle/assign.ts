@@ -11,7 +11,8 @@ export interface Assignment {
 /** One to one, nearest pairs first, none further apart than `gateDeg`. */
 export function assign(targetsDeg: readonly number[], sources: readonly Source[], gateDeg: number): Assignment {
   const pairs = targetsDeg.flatMap((azimuth, target) =>
-    sources.map((source, estimate) => ({ target, estimate, distance: Math.abs(source.azimuthDeg - azimuth) })));
+    sources.map((source, estimate) => ({ target, estimate, distance: Math.abs(source.azimuthDeg - azimuth) })),
+  );
   pairs.sort((a, b) => a.distance - b.distance);
   const matched: (number | undefined)[] = targetsDeg.map(() => undefined);
   const taken = new Set<number>();

@@ -3,13 +3,21 @@
  * Quick methods run within the frame that shows them; slow ones on workers, latest state first.
  */
 import { batch, effect, signal } from '@preact/signals';
-import type { ArrayGeometry, ArrayInput, Estimate, EstimatorOptions, Method, MethodInfo, SnapshotResult } from 'boresight';
+import type {
+  ArrayGeometry,
+  ArrayInput,
+  Estimate,
+  EstimatorOptions,
+  Method,
+  MethodInfo,
+  SnapshotResult,
+} from 'boresight';
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { cut, highest } from '../../estimates.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
-import { arrayInput, type AngleState, angleState } from './state.ts';
+import { type AngleState, angleState, arrayInput } from './state.ts';
 
 export interface MethodResult {
   estimate?: Estimate;
@@ -45,7 +53,9 @@ const TRAVEL_SHARE = 0.5;
 const SLOW_AT_FIRST: readonly Method[] = ['nomp', 'maximum-likelihood', 'sparse-bayesian', 'iaa'];
 /** One slow call proves nothing. */
 const FEWEST_TIMES = 3;
-const recent = new Map<Method, number[]>(SLOW_AT_FIRST.map((method) => [method, new Array<number>(FEWEST_TIMES).fill(FRAME_BUDGET_MS * 2)]));
+const recent = new Map<Method, number[]>(
+  SLOW_AT_FIRST.map((method) => [method, new Array<number>(FEWEST_TIMES).fill(FRAME_BUDGET_MS * 2)]),
+);
 
 export function start(): () => void {
   let frame = 0;
@@ -79,7 +89,10 @@ export function whyNot(info: MethodInfo, geometry: ArrayGeometry, state: AngleSt
 /** Multiples of half a wavelength's hundredth count as a grid, as the estimators' own check does. */
 function onLattice({ positions }: ArrayGeometry): boolean {
   const ys = positions.map(([, y]) => y).sort((a, b) => a - b);
-  const gaps = ys.slice(1).map((y, i) => y - (ys[i] as number)).filter((gap) => gap > 1e-9);
+  const gaps = ys
+    .slice(1)
+    .map((y, i) => y - (ys[i] as number))
+    .filter((gap) => gap > 1e-9);
   const step = Math.min(...gaps);
   const flat = positions.every(([x, , z]) => x === positions[0]?.[0] && z === positions[0]?.[2]);
   return flat && gaps.every((gap) => Math.abs(gap / step - Math.round(gap / step)) < 1e-6);
@@ -111,7 +124,10 @@ function imperfections(state: AngleState) {
   if (!gain && !phase && !position && coupling === 'off') return {};
   return {
     imperfections: {
-      gainDb: gain, phaseDeg: phase, position, seed,
+      gainDb: gain,
+      phaseDeg: phase,
+      position,
+      seed,
       ...(coupling === 'off' ? {} : { couplingDb: Number(coupling) }),
     },
   };
@@ -126,11 +142,18 @@ function simulate(state: AngleState): Scene {
   const array = arrayInput(state.array);
   const geometry = api.array(array);
   const snapshots = api.simulateSnapshots({
-    array, targets: state.targets, snrDb: state.snr, snapshots: state.snapshots, fluctuation: fluctuationOf(state), seed: state.seed,
+    array,
+    targets: state.targets,
+    snrDb: state.snr,
+    snapshots: state.snapshots,
+    fluctuation: fluctuationOf(state),
+    seed: state.seed,
     ...imperfections(state),
   });
   const made: Scene = {
-    state, geometry, snapshots,
+    state,
+    geometry,
+    snapshots,
     boundKind: state.snapshots > 1 && state.fluctuation === 'complex-normal' ? 'stochastic' : 'deterministic',
     beamWidthDeg: geometry.aperture > 0 ? (Math.asin(Math.min(1, 2 / geometry.aperture)) * 180) / Math.PI : 90,
   };
@@ -150,11 +173,14 @@ function bound({ state, boundKind, snapshots }: Scene, array: ArrayInput): Float
   const fixed = state.snapshots === 1 || state.fluctuation === 'coherent';
   const repeats = fixed ? 10 * Math.log10(state.snapshots) : 0;
   return api.cramerRaoBound({
-    array, snapshots: fixed ? 1 : state.snapshots, kind: boundKind,
+    array,
+    snapshots: fixed ? 1 : state.snapshots,
+    kind: boundKind,
     targets: state.targets.map((target, i) => {
       const phaseDeg = snapshots.truth[0]?.[i]?.phaseDeg;
       return {
-        azimuthDeg: target.azimuthDeg, snrDb: state.snr + target.powerDb + repeats,
+        azimuthDeg: target.azimuthDeg,
+        snrDb: state.snr + target.powerDb + repeats,
         ...(fixed && phaseDeg !== undefined ? { phaseDeg } : {}),
       };
     }),
@@ -229,7 +255,12 @@ const warmThere = new Set<string>();
 
 async function onWorker(method: Method, made: Scene): Promise<MethodResult> {
   const model = networkFor(method, made.geometry, made.state);
-  const network = model && await load(model.name).then(({ id }) => id, (error: unknown) => ({ problem: describeError(error) }));
+  const network =
+    model &&
+    (await load(model.name).then(
+      ({ id }) => id,
+      (error: unknown) => ({ problem: describeError(error) }),
+    ));
   if (typeof network === 'object') return { problem: network.problem, stale: false };
   if (busy >= pool().workers) await new Promise<void>((free) => queue.push(free));
   busy += 1;
@@ -285,7 +316,10 @@ function typicalMs(method: Method): number {
 export function beamPattern(array: string, gridPoints = 2048): { azimuthDeg: Float64Array; valuesDb: Float64Array } {
   const input = arrayInput(array);
   const { data, shape } = api.simulateSnapshots({
-    array: input, targets: [{ azimuthDeg: 0, powerDb: 0, phaseDeg: 0 }], snrDb: 200, seed: 0,
+    array: input,
+    targets: [{ azimuthDeg: 0, powerDb: 0, phaseDeg: 0 }],
+    snrDb: 200,
+    seed: 0,
   });
   const spectrum = api.estimate(
     { snapshots: { data, shape: [shape[1], shape[2]] } },

@@ -1,14 +1,14 @@
-import { announce } from '../../state/announce.ts';
-import { useAddress } from '../../state/address.ts';
+import { useSignalEffect } from '@preact/signals';
 import { fixed, signed } from '../../plots/format.ts';
+import { useAddress } from '../../state/address.ts';
+import { announce } from '../../state/announce.ts';
+import { About } from '../../ui/about.tsx';
 import { ArrayPanel } from './array-panel.tsx';
 import { results, scene, sceneProblem, start } from './compute.ts';
 import { Controls } from './controls.tsx';
 import { ResultsTable } from './results-table.tsx';
 import { SpectrumPlot } from './spectrum-plot.tsx';
 import { angleCodec, angleState } from './state.ts';
-import { About } from '../../ui/about.tsx';
-import { useSignalEffect } from '@preact/signals';
 
 export function AnglePage() {
   useAddress('angle', {
@@ -19,8 +19,12 @@ export function AnglePage() {
     write: () => angleCodec.write(angleState.value),
   });
   useSignalEffect(() => {
-    const lines = [...results.value].filter(([, result]) => result.estimate).map(([method, { estimate }]) =>
-      `${method}: ${estimate?.sources.map((source) => `${signed(source.azimuthDeg, 1)} degrees`).join(', ') || 'none'}`);
+    const lines = [...results.value]
+      .filter(([, result]) => result.estimate)
+      .map(
+        ([method, { estimate }]) =>
+          `${method}: ${estimate?.sources.map((source) => `${signed(source.azimuthDeg, 1)} degrees`).join(', ') || 'none'}`,
+      );
     if (lines.length) announce(`Estimates. ${lines.join('. ')}.`);
   });
   const problem = sceneProblem.value;
@@ -28,33 +32,40 @@ export function AnglePage() {
     <div class="page">
       <Controls />
       <div class="main-column">
-        {problem && <p class="alert" role="alert" data-error={problem.code}><strong>Cannot simulate this.</strong> {problem.message} <code>{problem.code}</code></p>}
+        {problem && (
+          <p class="alert" role="alert" data-error={problem.code}>
+            <strong>Cannot simulate this.</strong> {problem.message} <code>{problem.code}</code>
+          </p>
+        )}
         {scene.value ? (
           <>
             <SpectrumPlot scene={scene.value} />
             <ResultsTable scene={scene.value} />
             <ArrayPanel scene={scene.value} />
           </>
-        ) : !problem && <p class="panel loading">Computing the first scene</p>}
+        ) : (
+          !problem && <p class="panel loading">Computing the first scene</p>
+        )}
         <About title="About the angle lab">
           <p>
             Plane waves from the targets reach the array; each snapshot is <i>y = Σ a(θ) s + n</i>. Targets fluctuate
-            from snapshot to snapshot, in phase alone or not at all, as chosen. Everything is drawn anew from the seed at each change, so a
-            link shows the same numbers anywhere.
+            from snapshot to snapshot, in phase alone or not at all, as chosen. Everything is drawn anew from the seed
+            at each change, so a link shows the same numbers anywhere.
           </p>
           <p>
-            <b>Levels</b> are in dB relative to a 0 dB target at one element; SNR is its power over the noise power at one element.
-            Power spectra (Bartlett, Capon, IAA, sparse Bayesian learning) are drawn as they are. Pseudo-spectra (MUSIC,
-            min-norm) have no power of their own and are shifted so that their highest peak meets the strongest estimate.
+            <b>Levels</b> are in dB relative to a 0 dB target at one element; SNR is its power over the noise power at
+            one element. Power spectra (Bartlett, Capon, IAA, sparse Bayesian learning) are drawn as they are.
+            Pseudo-spectra (MUSIC, min-norm) have no power of their own and are shifted so that their highest peak meets
+            the strongest estimate.
           </p>
           <p>
-            <b>Signs.</b> Azimuth is positive to the left of boresight, counter-clockwise seen from above.
-            An estimate is counted for a target when it lies within one beam width of it
+            <b>Signs.</b> Azimuth is positive to the left of boresight, counter-clockwise seen from above. An estimate
+            is counted for a target when it lies within one beam width of it
             {scene.value ? ` (${fixed(scene.value.beamWidthDeg, 1)}° here)` : ''}, nearest pairs first.
           </p>
           <p>
-            <b>Bounds</b> are Cramér–Rao bounds of an unbiased estimator that knows the array exactly: the stochastic one
-            for fluctuating targets, else the deterministic one. Imperfections of the array are not in them.
+            <b>Bounds</b> are Cramér–Rao bounds of an unbiased estimator that knows the array exactly: the stochastic
+            one for fluctuating targets, else the deterministic one. Imperfections of the array are not in them.
           </p>
         </About>
       </div>

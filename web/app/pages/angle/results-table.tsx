@@ -10,80 +10,155 @@ import { results, type Scene } from './compute.ts';
 export function ResultsTable({ scene }: { scene: Scene }) {
   const { targets } = scene.state;
   const truth = targets.map((target) => target.azimuthDeg);
-  const rows = api.methods().filter(({ name }) => results.value.has(name)).map((info) => {
-    const result = results.value.get(info.name);
-    const sources = result?.estimate?.sources ?? [];
-    return { info, result, sources, assignment: assign(truth, sources, Math.max(scene.beamWidthDeg, 1)) };
-  });
+  const rows = api
+    .methods()
+    .filter(({ name }) => results.value.has(name))
+    .map((info) => {
+      const result = results.value.get(info.name);
+      const sources = result?.estimate?.sources ?? [];
+      return { info, result, sources, assignment: assign(truth, sources, Math.max(scene.beamWidthDeg, 1)) };
+    });
   const sigma = (i: number): number => scene.bound?.[i] ?? Number.NaN;
-  const csv = (): string => toCsv(
-    ['method', 'target', 'true_azimuth_deg', 'true_power_db', 'azimuth_deg', 'error_deg', 'power_db', 'crb_sigma_deg', 'time_ms'],
-    rows.flatMap(({ info, result, sources, assignment }) => targets.map((target, i) => {
-      const source = sources[assignment.matched[i] ?? -1];
-      return [info.name, i + 1, target.azimuthDeg, target.powerDb, source?.azimuthDeg,
-        source && source.azimuthDeg - target.azimuthDeg, source?.powerDb, sigma(i), result?.milliseconds];
-    })),
-  );
+  const csv = (): string =>
+    toCsv(
+      [
+        'method',
+        'target',
+        'true_azimuth_deg',
+        'true_power_db',
+        'azimuth_deg',
+        'error_deg',
+        'power_db',
+        'crb_sigma_deg',
+        'time_ms',
+      ],
+      rows.flatMap(({ info, result, sources, assignment }) =>
+        targets.map((target, i) => {
+          const source = sources[assignment.matched[i] ?? -1];
+          return [
+            info.name,
+            i + 1,
+            target.azimuthDeg,
+            target.powerDb,
+            source?.azimuthDeg,
+            source && source.azimuthDeg - target.azimuthDeg,
+            source?.powerDb,
+            sigma(i),
+            result?.milliseconds,
+          ];
+        }),
+      ),
+    );
   return (
     <section class="panel" aria-labelledby="results-title" data-table="results">
       <div class="panel-head">
         <h3 id="results-title">Estimates and errors</h3>
-        <div class="tools"><button type="button" data-export="csv" onClick={() => download(csv(), fileName(['estimates', `seed${scene.state.seed}`], 'csv'))}>CSV</button></div>
+        <div class="tools">
+          <button
+            type="button"
+            data-export="csv"
+            onClick={() => download(csv(), fileName(['estimates', `seed${scene.state.seed}`], 'csv'))}
+          >
+            CSV
+          </button>
+        </div>
       </div>
       {scene.boundProblem && <p class="remark">No bound: {scene.boundProblem.message}</p>}
       <div class="table-scroll" tabIndex={0} role="region" aria-label="Estimates and errors, scrollable">
         <table class="data">
           <thead>
             <tr>
-              <th rowSpan={2} scope="col" class="text">Method</th>
-              {targets.map((_, i) => <th key={i} colSpan={3} scope="colgroup" class="group-head">Target {i + 1}</th>)}
-              <th rowSpan={2} scope="col" title="Estimates that belong to no target">Extra</th>
-              <th rowSpan={2} scope="col" title="Time of one estimate">Time</th>
+              <th rowSpan={2} scope="col" class="text">
+                Method
+              </th>
+              {targets.map((_, i) => (
+                <th key={i} colSpan={3} scope="colgroup" class="group-head">
+                  Target {i + 1}
+                </th>
+              ))}
+              <th rowSpan={2} scope="col" title="Estimates that belong to no target">
+                Extra
+              </th>
+              <th rowSpan={2} scope="col" title="Time of one estimate">
+                Time
+              </th>
             </tr>
             <tr>
               {targets.map((_, i) => [
-                <th key={`a${i}`} scope="col" class="group-start">Azimuth ({'°'})</th>,
-                <th key={`e${i}`} scope="col">Error ({'°'})</th>,
-                <th key={`p${i}`} scope="col">Power (dB)</th>,
+                <th key={`a${i}`} scope="col" class="group-start">
+                  Azimuth ({'°'})
+                </th>,
+                <th key={`e${i}`} scope="col">
+                  Error ({'°'})
+                </th>,
+                <th key={`p${i}`} scope="col">
+                  Power (dB)
+                </th>,
               ])}
             </tr>
           </thead>
           <tbody>
             <tr class="reference">
-              <th scope="row" class="text">Truth</th>
+              <th scope="row" class="text">
+                Truth
+              </th>
               {targets.map((target, i) => [
-                <td key={`a${i}`} class="group-start" data-field="truth" data-target={i} data-value={target.azimuthDeg}>{signed(target.azimuthDeg, 2)}</td>,
+                <td key={`a${i}`} class="group-start" data-field="truth" data-target={i} data-value={target.azimuthDeg}>
+                  {signed(target.azimuthDeg, 2)}
+                </td>,
                 <td key={`e${i}`} />,
                 <td key={`p${i}`}>{signed(target.powerDb, 1)}</td>,
               ])}
-              <td /><td />
+              <td />
+              <td />
             </tr>
             <tr class="reference">
-              <th scope="row" class="text">CRB, {scene.boundKind}: {'σ'}</th>
+              <th scope="row" class="text">
+                CRB, {scene.boundKind}: {'σ'}
+              </th>
               {targets.map((_, i) => [
                 <td key={`a${i}`} class="group-start" />,
-                <td key={`e${i}`} data-field="crb" data-target={i} data-value={sigma(i)}>{Number.isFinite(sigma(i)) ? `±${fixed(sigma(i), sigma(i) < 0.01 ? 4 : 3)}` : '–'}</td>,
+                <td key={`e${i}`} data-field="crb" data-target={i} data-value={sigma(i)}>
+                  {Number.isFinite(sigma(i)) ? `±${fixed(sigma(i), sigma(i) < 0.01 ? 4 : 3)}` : '–'}
+                </td>,
                 <td key={`p${i}`} />,
               ])}
-              <td /><td />
+              <td />
+              <td />
             </tr>
             {rows.map(({ info, result, sources, assignment }) => (
               <tr key={info.name} class={result?.stale ? 'stale' : ''} data-row={info.name}>
-                <th scope="row" class="text"><Swatch style={methodStyle(info.name)} line={info.spectrum} /> {info.title}</th>
+                <th scope="row" class="text">
+                  <Swatch style={methodStyle(info.name)} line={info.spectrum} /> {info.title}
+                </th>
                 {result?.problem ? (
-                  <td class="text problem" colSpan={targets.length * 3 + 2}>{result.problem.message}</td>
+                  <td class="text problem" colSpan={targets.length * 3 + 2}>
+                    {result.problem.message}
+                  </td>
                 ) : (
                   <>
                     {targets.map((target, i) => {
                       const source = sources[assignment.matched[i] ?? -1];
                       const error = source && source.azimuthDeg - target.azimuthDeg;
                       return [
-                        <td key={`a${i}`} class="group-start" data-field="azimuth" data-target={i} data-value={source?.azimuthDeg}>{source ? signed(source.azimuthDeg, 2) : '–'}</td>,
-                        <td key={`e${i}`} data-field="error" data-target={i} data-value={error}>{error === undefined ? 'missed' : signed(error, 3)}</td>,
+                        <td
+                          key={`a${i}`}
+                          class="group-start"
+                          data-field="azimuth"
+                          data-target={i}
+                          data-value={source?.azimuthDeg}
+                        >
+                          {source ? signed(source.azimuthDeg, 2) : '–'}
+                        </td>,
+                        <td key={`e${i}`} data-field="error" data-target={i} data-value={error}>
+                          {error === undefined ? 'missed' : signed(error, 3)}
+                        </td>,
                         <td key={`p${i}`}>{source ? signed(source.powerDb, 1) : '–'}</td>,
                       ];
                     })}
-                    <td title={assignment.extra.map((k) => `${signed(sources[k]?.azimuthDeg ?? 0, 1)}°`).join(', ')}>{assignment.extra.length}</td>
+                    <td title={assignment.extra.map((k) => `${signed(sources[k]?.azimuthDeg ?? 0, 1)}°`).join(', ')}>
+                      {assignment.extra.length}
+                    </td>
                     <td>{result?.milliseconds === undefined ? '–' : milliseconds(result.milliseconds)}</td>
                   </>
                 )}
@@ -97,11 +172,21 @@ export function ResultsTable({ scene }: { scene: Scene }) {
   );
 }
 
-function Warnings({ rows }: { rows: readonly { title: string; estimate: { resolved: boolean; warnings: { message: string }[] } | undefined }[] }) {
+function Warnings({
+  rows,
+}: {
+  rows: readonly { title: string; estimate: { resolved: boolean; warnings: { message: string }[] } | undefined }[];
+}) {
   const lines = rows.flatMap(({ title, estimate }) => [
     ...(estimate && !estimate.resolved ? [`${title}: sources not resolved`] : []),
     ...(estimate?.warnings ?? []).map(({ message }) => `${title}: ${message}`),
   ]);
   if (!lines.length) return null;
-  return <ul class="warnings" aria-label="Warnings">{lines.map((line) => <li key={line}>{line}</li>)}</ul>;
+  return (
+    <ul class="warnings" aria-label="Warnings">
+      {lines.map((line) => (
+        <li key={line}>{line}</li>
+      ))}
+    </ul>
+  );
 }

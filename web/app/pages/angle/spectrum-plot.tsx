@@ -16,10 +16,12 @@ import { addTarget, angleState, LIMITS, removeTarget, setTarget } from './state.
 const EXTENT = { x: [-90, 90], y: [-50, 14] } as const;
 
 function curves(): Curve[] {
-  return sameGrid(api.methods().map(({ name, title }) => {
-    const estimate = results.value.get(name)?.estimate;
-    return estimate ? curve(estimate, title) : null;
-  }));
+  return sameGrid(
+    api.methods().map(({ name, title }) => {
+      const estimate = results.value.get(name)?.estimate;
+      return estimate ? curve(estimate, title) : null;
+    }),
+  );
 }
 
 const TRUTH_RING = { ...TRUTH_STYLE, marker: 'circle' } as const;
@@ -66,34 +68,58 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
   const shown = curves();
   const content = useMemo(() => {
     const { unambiguousDeg } = scene.geometry;
-    const outside: [number, number][] = unambiguousDeg < 89.9 ? [[-90, -unambiguousDeg], [unambiguousDeg, 90]] : [];
+    const outside: [number, number][] =
+      unambiguousDeg < 89.9
+        ? [
+            [-90, -unambiguousDeg],
+            [unambiguousDeg, 90],
+          ]
+        : [];
     const bound = scene.state.targets.flatMap((target, i) => {
       const sigma = scene.bound?.[i];
-      return sigma !== undefined && Number.isFinite(sigma) ? [[target.azimuthDeg - sigma, target.azimuthDeg + sigma] as const] : [];
+      return sigma !== undefined && Number.isFinite(sigma)
+        ? [[target.azimuthDeg - sigma, target.azimuthDeg + sigma] as const]
+        : [];
     });
     const estimates = [...found].flatMap(([method, { estimate }]) =>
-      (estimate?.sources ?? []).map((source) => ({ x: source.azimuthDeg, y: source.powerDb, style: methodStyle(method) })));
+      (estimate?.sources ?? []).map((source) => ({
+        x: source.azimuthDeg,
+        y: source.powerDb,
+        style: methodStyle(method),
+      })),
+    );
     return {
-      x: shown[0]?.azimuthDeg ?? [], series: series(shown), extent: EXTENT,
+      x: shown[0]?.azimuthDeg ?? [],
+      series: series(shown),
+      extent: EXTENT,
       below: [bands(outside, (t) => t.shade), bands(bound, (t) => t.band)],
       above: [horizontalLine(-snr, 'noise at one element'), markers(estimates), truthLayer(targets)],
     };
   }, [scene, found]);
 
-  handles.current?.set(targets.map((target, i) => ({
-    x: target.azimuthDeg, y: target.powerDb,
-    label: `Target ${i + 1}: azimuth ${signed(target.azimuthDeg, 1)} degrees, power ${signed(target.powerDb, 1)} dB. Arrows move it, plus and minus change power, Delete removes.`,
-  })));
+  handles.current?.set(
+    targets.map((target, i) => ({
+      x: target.azimuthDeg,
+      y: target.powerDb,
+      label: `Target ${i + 1}: azimuth ${signed(target.azimuthDeg, 1)} degrees, power ${signed(target.powerDb, 1)} dB. Arrows move it, plus and minus change power, Delete removes.`,
+    })),
+  );
 
   const legend: LegendItem[] = [
     { id: 'truth', label: 'Target, CRB ±σ band', style: TRUTH_RING, line: false, hollow: true },
-    ...api.methods().filter(({ name }) => found.has(name)).map((info): LegendItem => {
-      const curve = shown.find(({ method }) => method === info.name);
-      return {
-        id: info.name, label: info.title, style: methodStyle(info.name), line: info.spectrum,
-        ...(curve ? { value: ({ index }) => `${fixed(curve.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB` } : {}),
-      };
-    }),
+    ...api
+      .methods()
+      .filter(({ name }) => found.has(name))
+      .map((info): LegendItem => {
+        const curve = shown.find(({ method }) => method === info.name);
+        return {
+          id: info.name,
+          label: info.title,
+          style: methodStyle(info.name),
+          line: info.spectrum,
+          ...(curve ? { value: ({ index }) => `${fixed(curve.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB` } : {}),
+        };
+      }),
   ];
 
   const attach = (plot: Plot): (() => void) => {
@@ -117,7 +143,13 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       },
     });
     handles.current = made;
-    made.set(angleState.value.targets.map((target, i) => ({ x: target.azimuthDeg, y: target.powerDb, label: `Target ${i + 1}` })));
+    made.set(
+      angleState.value.targets.map((target, i) => ({
+        x: target.azimuthDeg,
+        y: target.powerDb,
+        label: `Target ${i + 1}`,
+      })),
+    );
     return () => {
       made.destroy();
       handles.current = null;
@@ -125,10 +157,17 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
   };
 
   const { state } = scene;
-  const setup = `${state.array.startsWith('at:') ? `positions ${state.array.slice(3)}` : state.array}, SNR ${fixed(state.snr, 1)} dB, `
-    + `${state.snapshots} snapshot${state.snapshots === 1 ? '' : 's'}${state.fluctuation === 'complex-normal' || state.snapshots === 1 ? '' : `, ${state.fluctuation.replace('-', ' ')}`}, seed ${state.seed}`;
+  const setup =
+    `${state.array.startsWith('at:') ? `positions ${state.array.slice(3)}` : state.array}, SNR ${fixed(state.snr, 1)} dB, ` +
+    `${state.snapshots} snapshot${state.snapshots === 1 ? '' : 's'}${state.fluctuation === 'complex-normal' || state.snapshots === 1 ? '' : `, ${state.fluctuation.replace('-', ' ')}`}, seed ${state.seed}`;
   return (
-    <PlotFrame title="Angle spectrum" name="spectrum" height="tall" content={content} legend={legend} onPlot={attach}
+    <PlotFrame
+      title="Angle spectrum"
+      name="spectrum"
+      height="tall"
+      content={content}
+      legend={legend}
+      onPlot={attach}
       keys="Tab to a target to move it."
       options={{
         x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS },
@@ -138,13 +177,17 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
         },
       }}
       readout={({ x, y }) => `Azimuth ${signed(x, 2)}°   Level ${fixed(y, 1)}\u00a0dB`}
-      csv={() => toCsv(
-        ['azimuth_deg', ...shown.map(({ method }) => `${method.replaceAll('-', '_')}_db`)],
-        Array.from(shown[0]?.azimuthDeg ?? [], (azimuth, i) => [azimuth, ...shown.map(({ valuesDb }) => valuesDb[i])]),
-      )}
+      csv={() =>
+        toCsv(
+          ['azimuth_deg', ...shown.map(({ method }) => `${method.replaceAll('-', '_')}_db`)],
+          Array.from(shown[0]?.azimuthDeg ?? [], (azimuth, i) => [
+            azimuth,
+            ...shown.map(({ valuesDb }) => valuesDb[i]),
+          ]),
+        )
+      }
       fileParts={[state.array.split(':')[0] ?? '', `seed${state.seed}`]}
-      remarks={[
-        `${setup}. Pseudo-spectra (MUSIC, min-norm) are shifted to the strongest estimated power.`,
-      ]} />
+      remarks={[`${setup}. Pseudo-spectra (MUSIC, min-norm) are shifted to the strongest estimated power.`]}
+    />
   );
 }

@@ -4,26 +4,44 @@ import type { ArrayInput, Method, Position } from 'boresight';
 import { methodNames, networkNames } from '../../methods.ts';
 import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
 
-export interface Target { azimuthDeg: number; powerDb: number }
+export interface Target {
+  azimuthDeg: number;
+  powerDb: number;
+}
 
 export const LIMITS = {
-  azimuthDeg: [-89.9, 89.9], powerDb: [-40, 10], snrDb: [-30, 60], snapshots: [1, 2000], seed: [0, 4294967295],
-  elements: [2, 128], targets: 12, gridPoints: [64, 8192],
+  azimuthDeg: [-89.9, 89.9],
+  powerDb: [-40, 10],
+  snrDb: [-30, 60],
+  snapshots: [1, 2000],
+  seed: [0, 4294967295],
+  elements: [2, 128],
+  targets: 12,
+  gridPoints: [64, 8192],
 } as const;
 
 export const PRESETS = ['awr1642', 'awr1843', 'cascade86', 'lrr48'] as const;
 
 const targets: Field<readonly Target[]> = {
-  fallback: [{ azimuthDeg: -5, powerDb: 0 }, { azimuthDeg: 12, powerDb: 0 }],
+  fallback: [
+    { azimuthDeg: -5, powerDb: 0 },
+    { azimuthDeg: 12, powerDb: 0 },
+  ],
   read: (value) => {
     if (value === '-') return [];
     const list = value.split(',').map((part) => {
       const [azimuthDeg = Number.NaN, powerDb = 0] = part.split(':').map(Number);
       return { azimuthDeg, powerDb };
     });
-    const valid = list.length <= LIMITS.targets && list.every((target) =>
-      target.azimuthDeg >= LIMITS.azimuthDeg[0] && target.azimuthDeg <= LIMITS.azimuthDeg[1]
-      && target.powerDb >= LIMITS.powerDb[0] && target.powerDb <= LIMITS.powerDb[1]);
+    const valid =
+      list.length <= LIMITS.targets &&
+      list.every(
+        (target) =>
+          target.azimuthDeg >= LIMITS.azimuthDeg[0] &&
+          target.azimuthDeg <= LIMITS.azimuthDeg[1] &&
+          target.powerDb >= LIMITS.powerDb[0] &&
+          target.powerDb <= LIMITS.powerDb[1],
+      );
     return valid ? list : undefined;
   },
   write: (list) => list.map(({ azimuthDeg, powerDb }) => `${azimuthDeg}:${powerDb}`).join(',') || '-',
@@ -36,25 +54,28 @@ function validArray(name: string): boolean {
   return PRESETS.some((preset) => preset === name);
 }
 
-export const angleCodec = codec({
-  array: text('ula10', validArray),
-  targets,
-  snr: number(20, LIMITS.snrDb),
-  snapshots: number(100, LIMITS.snapshots, 'integer'),
-  seed: number(1, LIMITS.seed, 'integer'),
-  fluctuation: choice('complex-normal', ['complex-normal', 'random-phase', 'coherent']),
-  gain: number(0, [0, 6]),
-  phase: number(0, [0, 60]),
-  position: number(0, [0, 0.5]),
-  coupling: text('off', (value) => value === 'off' || (Number(value) >= -60 && Number(value) <= -5)),
-  sources: choice('known', ['known', 'aic', 'mdl']),
-  methods: names<Method>(['bartlett', 'capon', 'music', 'root-music'], methodNames),
-  grid: number(1024, LIMITS.gridPoints, 'integer'),
-  average: flag(false),
-  refine: flag(false),
-  networks: networkNames,
-  smoothing: number(0, [0, LIMITS.elements[1]], 'integer'),
-}, ['array', 'targets', 'snr', 'snapshots', 'seed', 'methods']);
+export const angleCodec = codec(
+  {
+    array: text('ula10', validArray),
+    targets,
+    snr: number(20, LIMITS.snrDb),
+    snapshots: number(100, LIMITS.snapshots, 'integer'),
+    seed: number(1, LIMITS.seed, 'integer'),
+    fluctuation: choice('complex-normal', ['complex-normal', 'random-phase', 'coherent']),
+    gain: number(0, [0, 6]),
+    phase: number(0, [0, 60]),
+    position: number(0, [0, 0.5]),
+    coupling: text('off', (value) => value === 'off' || (Number(value) >= -60 && Number(value) <= -5)),
+    sources: choice('known', ['known', 'aic', 'mdl']),
+    methods: names<Method>(['bartlett', 'capon', 'music', 'root-music'], methodNames),
+    grid: number(1024, LIMITS.gridPoints, 'integer'),
+    average: flag(false),
+    refine: flag(false),
+    networks: networkNames,
+    smoothing: number(0, [0, LIMITS.elements[1]], 'integer'),
+  },
+  ['array', 'targets', 'snr', 'snapshots', 'seed', 'methods'],
+);
 
 export type AngleState = typeof angleCodec.defaults;
 export const angleState = signal<AngleState>(angleCodec.defaults);

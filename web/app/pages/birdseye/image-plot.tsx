@@ -1,6 +1,7 @@
 /** One method's image of the ground around the car. */
-import { useMemo } from 'preact/hooks';
+
 import type { MethodInfo } from 'boresight';
+import { useMemo } from 'preact/hooks';
 import { api } from '../../data.ts';
 import { aheadUp, carOutline } from '../../plots/car.ts';
 import { decibels, fixed, signed } from '../../plots/format.ts';
@@ -21,7 +22,9 @@ import { birdseyeState, zoom } from './state.ts';
  */
 function colorLimits(span: number, top: number | null): [number, number] {
   const cell = Math.max(...frames.value.map(({ cells }) => cells.powerDb[0] ?? Number.NEGATIVE_INFINITY));
-  const peak = Math.max(...[...images.value.values()].map(({ peakDb = Number.NEGATIVE_INFINITY }) => Math.min(peakDb, cell)));
+  const peak = Math.max(
+    ...[...images.value.values()].map(({ peakDb = Number.NEGATIVE_INFINITY }) => Math.min(peakDb, cell)),
+  );
   const high = top ?? (Number.isFinite(peak) ? Math.ceil(peak) : 0);
   return [high - span, high];
 }
@@ -53,7 +56,8 @@ function detailOf({ stale, problem, from, measure }: MethodImage): string {
 /** What the image is of, for those who see it alone. */
 function remark({ radars = [] }: MethodImage): string {
   const { source, seed, frame, speed } = birdseyeState.peek();
-  const scene = source === 'street' ? `Simulated street, seed ${seed}, own speed ${speed} m/s` : `Capture, frame ${frame + 1}`;
+  const scene =
+    source === 'street' ? `Simulated street, seed ${seed}, own speed ${speed} m/s` : `Capture, frame ${frame + 1}`;
   return `${scene}. Radars: ${radars.map(({ title }) => title.toLowerCase()).join(', ') || 'none'}.`;
 }
 
@@ -88,7 +92,10 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
   const looked = input.value;
   const limits = colorLimits(Number(span), top);
   const heat = useMemo(
-    () => (image.view && image.levelsDb ? heatImage({ x: image.view.yM.slice().reverse(), y: image.view.xM, values: image.levelsDb, limits, colors }) : () => {}),
+    () =>
+      image.view && image.levelsDb
+        ? heatImage({ x: image.view.yM.slice().reverse(), y: image.view.xM, values: image.levelsDb, limits, colors })
+        : () => {},
     [image.view, limits[0], limits[1], colors],
   );
   const points = useMemo(
@@ -97,44 +104,83 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
   );
   const { xM, yM } = grid.value;
   const view = useMemo(() => turned(zoom.value), [zoom.value]);
-  const content = useMemo((): PlotContent => ({
-    x: [], series: [], extent: { x: yM, y: xM },
-    below: [faded(heat, opacity / 100)],
-    above: [
-      ...(looked?.street ? [carOutline(aheadUp)] : []),
-      ...(fields ? [fieldsOfView(shownRadars.value.map((radar) => ({ radar, rangeM: api.waveformSummary(radar.waveform).maxRangeM })))] : []),
-      ...(truthShown ? [truth(looked?.street ?? null, points)] : []),
-      colorBarBelow(limits, colors, 'dBFS'),
-    ],
-  }), [heat, opacity, truthShown, fields, points, shownRadars.value, grid.value]);
+  const content = useMemo(
+    (): PlotContent => ({
+      x: [],
+      series: [],
+      extent: { x: yM, y: xM },
+      below: [faded(heat, opacity / 100)],
+      above: [
+        ...(looked?.street ? [carOutline(aheadUp)] : []),
+        ...(fields
+          ? [
+              fieldsOfView(
+                shownRadars.value.map((radar) => ({ radar, rangeM: api.waveformSummary(radar.waveform).maxRangeM })),
+              ),
+            ]
+          : []),
+        ...(truthShown ? [truth(looked?.street ?? null, points)] : []),
+        colorBarBelow(limits, colors, 'dBFS'),
+      ],
+    }),
+    [heat, opacity, truthShown, fields, points, shownRadars.value, grid.value],
+  );
   return (
-    <PlotFrame title={info.title} detail={detailOf(image)} name={`image-${info.name}`} height="portrait" content={content} view={view}
+    <PlotFrame
+      title={info.title}
+      detail={detailOf(image)}
+      name={`image-${info.name}`}
+      height="portrait"
+      content={content}
+      view={view}
       keys="Arrows move, with Shift the cursor."
-      imageLegend={legendItems()} imageRemarks={[remark(image)]}
+      imageLegend={legendItems()}
+      imageRemarks={[remark(image)]}
       options={{
-        x: { label: 'y, left (m)', descending: true }, y: { label: 'x, ahead (m)' }, bottom: COLOR_BAR_HEIGHT, equal: true, navigate: true, grid: false, cursorKey: 'birdseye', minZoom: 0.01,
-        onView: (next, zoomed) => { zoom.value = zoomed ? turned(next) : null; },
+        x: { label: 'y, left (m)', descending: true },
+        y: { label: 'x, ahead (m)' },
+        bottom: COLOR_BAR_HEIGHT,
+        equal: true,
+        navigate: true,
+        grid: false,
+        cursorKey: 'birdseye',
+        minZoom: 0.01,
+        onView: (next, zoomed) => {
+          zoom.value = zoomed ? turned(next) : null;
+        },
       }}
       readout={({ x: yM, y: xM }) => {
         const cell = cellAt(image, xM, yM);
         return `x ${signed(xM, 1)} m  y ${signed(yM, 1)} m  ${cell ? `${Number.isFinite(cell.levelDb) ? `${fixed(cell.levelDb, 1)}\u00a0dBFS` : 'nothing'}  ${cell.radar.toLowerCase()}` : 'not seen'}${truthShown ? thingAt(points, xM, yM) : ''}`;
       }}
-      csv={() => toCsv(['x_m', 'y_m', 'power_dbfs', 'radar'], (function* rows() {
-        const { view, radars } = image;
-        if (!view) return;
-        const [ahead, across] = view.shape;
-        for (let i = 0; i < ahead; i++) {
-          for (let j = 0; j < across; j++) {
-            const at = i * across + j;
-            const levelDb = 10 * Math.log10(view.power[at] as number);
-            if (view.seen[at]) yield [view.xM[i]?.toFixed(3), view.yM[j]?.toFixed(3), Number.isFinite(levelDb) ? levelDb.toFixed(2) : '', radars?.[view.radar[at] as number]?.name];
-          }
-        }
-      })())}
+      csv={() =>
+        toCsv(
+          ['x_m', 'y_m', 'power_dbfs', 'radar'],
+          (function* rows() {
+            const { view, radars } = image;
+            if (!view) return;
+            const [ahead, across] = view.shape;
+            for (let i = 0; i < ahead; i++) {
+              for (let j = 0; j < across; j++) {
+                const at = i * across + j;
+                const levelDb = 10 * Math.log10(view.power[at] as number);
+                if (view.seen[at])
+                  yield [
+                    view.xM[i]?.toFixed(3),
+                    view.yM[j]?.toFixed(3),
+                    Number.isFinite(levelDb) ? levelDb.toFixed(2) : '',
+                    radars?.[view.radar[at] as number]?.name,
+                  ];
+              }
+            }
+          })(),
+        )
+      }
       fileParts={fileParts()}
       onPlot={(plot) => {
         plots.set(info.name, plot);
         return () => plots.delete(info.name);
-      }} />
+      }}
+    />
   );
 }

@@ -3,7 +3,7 @@ import { computed } from '@preact/signals';
 import type { ArrayInput, CubeChainOptions, Mounting, StreetScene, ViewGrid, Waveform } from 'boresight';
 import { api, describeError, type Problem } from '../../data.ts';
 import { boardLog, type Loaded, loaded } from '../capture/files.ts';
-import { birdseyeState, type BirdseyeState, LIMITS, RADARS } from './state.ts';
+import { type BirdseyeState, birdseyeState, LIMITS, RADARS } from './state.ts';
 
 export interface Radar {
   name: string;
@@ -14,7 +14,11 @@ export interface Radar {
   fieldOfViewDeg: number;
 }
 
-export interface Point { xM: number; yM: number; kind?: string }
+export interface Point {
+  xM: number;
+  yM: number;
+  kind?: string;
+}
 
 export interface Input {
   /** Changes with what is looked at. */
@@ -32,14 +36,22 @@ const AT_ORIGIN: Mounting = { xM: 0, yM: 0, yawDeg: 0 };
 /** What a board on a bench sees. */
 const CAPTURE_FIELD_DEG = 75;
 
-const streetKey = computed(() => JSON.stringify({ seed: birdseyeState.value.seed, egoSpeedMps: birdseyeState.value.speed }));
+const streetKey = computed(() =>
+  JSON.stringify({ seed: birdseyeState.value.seed, egoSpeedMps: birdseyeState.value.speed }),
+);
 
 const street = computed<Input | Problem>(() => {
   try {
     const scene = api.streetScene(JSON.parse(streetKey.value));
-    const radars = [...scene.radars].sort((a, b) => RADARS.indexOf(a.name as 'front-left') - RADARS.indexOf(b.name as 'front-left'));
+    const radars = [...scene.radars].sort(
+      (a, b) => RADARS.indexOf(a.name as 'front-left') - RADARS.indexOf(b.name as 'front-left'),
+    );
     return {
-      key: `street ${streetKey.value}`, street: scene, capture: null, reachM: 60, cellM: 0.2,
+      key: `street ${streetKey.value}`,
+      street: scene,
+      capture: null,
+      reachM: 60,
+      cellM: 0.2,
       radars: radars.map((radar) => ({ ...radar, title: sentence(radar.name.replace('-', ' ')) })),
     };
   } catch (error) {
@@ -54,19 +66,38 @@ const capture = computed<Input | Problem | null>(() => {
   const open = loaded.value;
   if (!open) return null;
   const { info } = open;
-  if (!info.array) return { code: 'unknown-array', message: 'The capture’s platform is not known, so nothing is known of its array either.' };
+  if (!info.array)
+    return {
+      code: 'unknown-array',
+      message: 'The capture’s platform is not known, so nothing is known of its array either.',
+    };
   if (!numbers.has(open)) numbers.set(open, captures++);
   const { waveform, summary, array } = info.config;
   const { tx, rx } = info.array;
   return {
-    key: `capture ${numbers.get(open)}`, street: null, capture: open, reachM: Math.min(Math.ceil(summary.maxRangeM), LIMITS.reachM[1]), cellM: 0.05,
-    radars: [{ name: 'capture', title: 'The capture’s radar', mounting: AT_ORIGIN, array: array ?? { tx, rx }, waveform, fieldOfViewDeg: CAPTURE_FIELD_DEG }],
+    key: `capture ${numbers.get(open)}`,
+    street: null,
+    capture: open,
+    reachM: Math.min(Math.ceil(summary.maxRangeM), LIMITS.reachM[1]),
+    cellM: 0.05,
+    radars: [
+      {
+        name: 'capture',
+        title: 'The capture’s radar',
+        mounting: AT_ORIGIN,
+        array: array ?? { tx, rx },
+        waveform,
+        fieldOfViewDeg: CAPTURE_FIELD_DEG,
+      },
+    ],
   };
 });
 
 const either = computed(() => (birdseyeState.value.source === 'street' ? street.value : capture.value));
 export const input = computed<Input | null>(() => (either.value && 'key' in either.value ? either.value : null));
-export const problemOfInput = computed<Problem | null>(() => (either.value && 'code' in either.value ? either.value : null));
+export const problemOfInput = computed<Problem | null>(() =>
+  either.value && 'code' in either.value ? either.value : null,
+);
 
 /** The radars that are switched on. */
 export const shownRadars = computed<readonly Radar[]>(() => {
@@ -75,15 +106,23 @@ export const shownRadars = computed<readonly Radar[]>(() => {
 });
 
 /** Objects the board reported in its last frame: the only truth there is of a capture. */
-export const boardPoints = computed<Point[]>(() => (input.value?.capture ? (boardLog.value?.frames.at(-1)?.objects ?? []) : []));
+export const boardPoints = computed<Point[]>(() =>
+  input.value?.capture ? (boardLog.value?.frames.at(-1)?.objects ?? []) : [],
+);
 
 export const reachM = computed(() => birdseyeState.value.reach ?? input.value?.reachM ?? 50);
-export const cellM = computed(() => (birdseyeState.value.cell === null ? (input.value?.cellM ?? 0.2) : Number(birdseyeState.value.cell)));
+export const cellM = computed(() =>
+  birdseyeState.value.cell === null ? (input.value?.cellM ?? 0.2) : Number(birdseyeState.value.cell),
+);
 
 /** The grid of the images, the same for all: they are taller than wide, as a street seen by a driver. */
 export const grid = computed<ViewGrid>(() => {
   const reach = reachM.value;
-  return { xM: [-reach * (input.value?.capture ? 0.05 : 0.3), reach], yM: [-0.4 * reach, 0.4 * reach], cellM: cellM.value };
+  return {
+    xM: [-reach * (input.value?.capture ? 0.05 : 0.3), reach],
+    yM: [-0.4 * reach, 0.4 * reach],
+    cellM: cellM.value,
+  };
 });
 
 /** Why there can be no image of this grid. */
@@ -99,7 +138,13 @@ export const gridProblem = computed<Problem | null>(() => {
 
 /** What a radar's frame is processed by. */
 export function chainOptions(radar: Radar, { falseAlarm, grouping }: BirdseyeState): CubeChainOptions {
-  return { waveform: radar.waveform, array: radar.array, peakGrouping: grouping, maxDetections: 4096, cfar: { falseAlarm: Number(falseAlarm) } };
+  return {
+    waveform: radar.waveform,
+    array: radar.array,
+    peakGrouping: grouping,
+    maxDetections: 4096,
+    cfar: { falseAlarm: Number(falseAlarm) },
+  };
 }
 
 function sentence(text: string): string {

@@ -1,8 +1,8 @@
 import { useSignalEffect } from '@preact/signals';
 import { api } from '../../data.ts';
 import { count, fixed } from '../../plots/format.ts';
-import { announce } from '../../state/announce.ts';
 import { useAddress } from '../../state/address.ts';
+import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { fileProblem, loaded, openBundled } from '../capture/files.ts';
 import { Controls } from './controls.tsx';
@@ -37,17 +37,32 @@ export function BirdseyePage() {
     if (lines.length) announce(`${lines.join('. ')}.`);
   });
   const capture = birdseyeState.value.source === 'capture';
-  const problems = [problemOfInput.value, gridProblem.value, frameProblem.value, capture ? fileProblem.value : null].filter((problem) => problem !== null);
+  const problems = [
+    problemOfInput.value,
+    gridProblem.value,
+    frameProblem.value,
+    capture ? fileProblem.value : null,
+  ].filter((problem) => problem !== null);
   return (
     <div class="page">
       <Controls />
       <div class="main-column" aria-busy={working.value}>
         {problems.map((problem) => (
-          <p key={problem.code} class="alert" role="alert" data-error={problem.code}><strong>No image with these settings.</strong> {problem.message} <code>{problem.code}</code></p>
+          <p key={problem.code} class="alert" role="alert" data-error={problem.code}>
+            <strong>No image with these settings.</strong> {problem.message} <code>{problem.code}</code>
+          </p>
         ))}
         <Bar />
-        {input.value && shownRadars.value.length === 0 && <p class="notice" role="status" data-notice="radars">No radar is switched on.</p>}
-        {images.value.size === 0 && <p class="notice" role="status" data-notice="methods">No method is chosen.</p>}
+        {input.value && shownRadars.value.length === 0 && (
+          <p class="notice" role="status" data-notice="radars">
+            No radar is switched on.
+          </p>
+        )}
+        {images.value.size === 0 && (
+          <p class="notice" role="status" data-notice="methods">
+            No method is chosen.
+          </p>
+        )}
         <div class="images">
           {api.methods().map((info) => {
             const image = images.value.get(info.name);
@@ -68,7 +83,15 @@ function Bar() {
     <section class="panel birdseye-bar" aria-label="Legend and progress">
       <Legend />
       <Progress />
-      <button type="button" data-action="save-all" disabled={working.value || !images.value.size} title="Save all images side by side" onClick={() => void saveAll()}>PNG of all</button>
+      <button
+        type="button"
+        data-action="save-all"
+        disabled={working.value || !images.value.size}
+        title="Save all images side by side"
+        onClick={() => void saveAll()}
+      >
+        PNG of all
+      </button>
     </section>
   );
 }
@@ -80,7 +103,9 @@ function Progress() {
       <div class="progress-line" data-progress>
         <progress max={1} value={state.share} aria-label={state.what} />
         <span>{state.what}</span>
-        <button type="button" data-action="cancel" onClick={cancel}>Cancel</button>
+        <button type="button" data-action="cancel" onClick={cancel}>
+          Cancel
+        </button>
       </div>
     );
   }
@@ -88,41 +113,74 @@ function Progress() {
     return (
       <div class="progress-line" data-cancelled>
         <span class="muted">Cancelled: what is greyed is of other settings</span>
-        <button type="button" data-action="resume" onClick={restart}>Compute again</button>
+        <button type="button" data-action="resume" onClick={restart}>
+          Compute again
+        </button>
       </div>
     );
   }
-  return <p class="muted small">Drag to move, wheel over a chosen image or two fingers to zoom; all images move together.</p>;
+  return (
+    <p class="muted small">Drag to move, wheel over a chosen image or two fingers to zoom; all images move together.</p>
+  );
 }
 
 /** What was dropped on the way, radar by radar. */
 function Counts() {
   if (!frames.value.length) return null;
-  const rows = frames.value.map(({ radar, cells: { counts, rangeM }, visible }) => ({ radar, counts, cells: rangeM.length, visible: visible?.length }));
+  const rows = frames.value.map(({ radar, cells: { counts, rangeM }, visible }) => ({
+    radar,
+    counts,
+    cells: rangeM.length,
+    visible: visible?.length,
+  }));
   const street = input.value?.street;
   return (
     <section class="panel" aria-labelledby="counts-title" data-table="counts">
-      <div class="panel-head"><h3 id="counts-title">What each radar detected, and what was dropped</h3></div>
+      <div class="panel-head">
+        <h3 id="counts-title">What each radar detected, and what was dropped</h3>
+      </div>
       <div class="table-scroll" tabIndex={0} role="region" aria-label="Counts, scrollable">
         <table class="data">
           <thead>
             <tr>
-              <th scope="col" class="text">Radar</th>
-              {street && <th scope="col" title="Points of the street in its field of view that nothing hides">True points</th>}
-              <th scope="col" title="Cells of range and Doppler that go into the images">Cells</th>
-              <th scope="col" title="Before grouping">Over threshold</th>
-              <th scope="col" title="Cells over the threshold that are no local peak">Joined to a peak</th>
-              <th scope="col" title="Dropped by the limits of range">Outside the region</th>
-              <th scope="col" title="Dropped because there were more than the most that are kept">Beyond the limit</th>
-              <th scope="col" title="Samples at the converter’s limits">Clipped samples</th>
+              <th scope="col" class="text">
+                Radar
+              </th>
+              {street && (
+                <th scope="col" title="Points of the street in its field of view that nothing hides">
+                  True points
+                </th>
+              )}
+              <th scope="col" title="Cells of range and Doppler that go into the images">
+                Cells
+              </th>
+              <th scope="col" title="Before grouping">
+                Over threshold
+              </th>
+              <th scope="col" title="Cells over the threshold that are no local peak">
+                Joined to a peak
+              </th>
+              <th scope="col" title="Dropped by the limits of range">
+                Outside the region
+              </th>
+              <th scope="col" title="Dropped because there were more than the most that are kept">
+                Beyond the limit
+              </th>
+              <th scope="col" title="Samples at the converter’s limits">
+                Clipped samples
+              </th>
             </tr>
           </thead>
           <tbody>
             {rows.map(({ radar, counts, cells, visible }) => (
               <tr key={radar.name} data-radar={radar.name}>
-                <th scope="row" class="text">{radar.title}</th>
+                <th scope="row" class="text">
+                  {radar.title}
+                </th>
                 {street && <td>{count(visible ?? 0)}</td>}
-                <td data-field="cells" data-value={cells}>{count(cells)}</td>
+                <td data-field="cells" data-value={cells}>
+                  {count(cells)}
+                </td>
                 <td>{count(counts.cellsOverThreshold)}</td>
                 <td>{count(counts.grouped)}</td>
                 <td>{count(counts.outsideRegion)}</td>
@@ -141,28 +199,32 @@ function Help() {
   return (
     <About title="What is seen here">
       <p>
-        Each radar sends one frame of chirps. Range and Doppler transforms and a detector leave the cells in which something is; the
-        phases across the antennas of such a cell give one snapshot, and a method makes of it a spectrum over azimuth, or a few
-        directions. All cells together make a map over range and azimuth, which is laid on the ground around the car. Where radars
-        overlap, the strongest is shown.
+        Each radar sends one frame of chirps. Range and Doppler transforms and a detector leave the cells in which
+        something is; the phases across the antennas of such a cell give one snapshot, and a method makes of it a
+        spectrum over azimuth, or a few directions. All cells together make a map over range and azimuth, which is laid
+        on the ground around the car. Where radars overlap, the strongest is shown.
       </p>
       <p>
-        <b>Why IAA is cleaner.</b> The FFT (Bartlett) sees a point through the array’s beam pattern: a main lobe as wide as the aperture
-        allows, and with 48 sparse elements side lobes 14 dB below it in every direction. Each strong point thus draws an arc at its range.
-        IAA weighs the data anew for each direction by what all the other directions were found to hold, and so takes their side
-        lobes away; NOMP finds one direction after the other and subtracts it.
+        <b>Why IAA is cleaner.</b> The FFT (Bartlett) sees a point through the array’s beam pattern: a main lobe as wide
+        as the aperture allows, and with 48 sparse elements side lobes 14 dB below it in every direction. Each strong
+        point thus draws an arc at its range. IAA weighs the data anew for each direction by what all the other
+        directions were found to hold, and so takes their side lobes away; NOMP finds one direction after the other and
+        subtracts it.
       </p>
       <p>
-        <b>Energy outside</b> is the image’s energy farther from all true points than the radars resolve, over all of its energy, dB.
-        True points are those which a radar that is on can see: in its field of view and hidden by nothing.
+        <b>Energy outside</b> is the image’s energy farther from all true points than the radars resolve, over all of
+        its energy, dB. True points are those which a radar that is on can see: in its field of view and hidden by
+        nothing.
       </p>
       <p>
-        <b>Frames and signs.</b> The car’s frame: origin at the rear axle, x ahead, y to the left. Powers are those of one raw sample at one
-        element relative to full scale. A capture says nothing of a car: its board lies at the origin.
+        <b>Frames and signs.</b> The car’s frame: origin at the rear axle, x ahead, y to the left. Powers are those of
+        one raw sample at one element relative to full scale. A capture says nothing of a car: its board lies at the
+        origin.
       </p>
       <p>
-        <b>Keys</b> on a chosen image: plus and minus zoom, 0 shows all, arrows move, with Shift they move the cursor. With the mouse a drag
-        moves, a drag with Shift zooms to a region, the wheel zooms an image that was clicked, or any with Ctrl.
+        <b>Keys</b> on a chosen image: plus and minus zoom, 0 shows all, arrows move, with Shift they move the cursor.
+        With the mouse a drag moves, a drag with Shift zooms to a region, the wheel zooms an image that was clicked, or
+        any with Ctrl.
       </p>
     </About>
   );

@@ -5,15 +5,25 @@
  */
 import { batch, computed, effect, signal } from '@preact/signals';
 import type {
-  ArrayGeometry, BatchEstimate, BirdsEyeView, FrameCells, Gate, ImageFrom, Method, RangeAzimuthMap, SidelobeMeasure, SimulatedStreet, Warning,
+  ArrayGeometry,
+  BatchEstimate,
+  BirdsEyeView,
+  FrameCells,
+  Gate,
+  ImageFrom,
+  Method,
+  RangeAzimuthMap,
+  SidelobeMeasure,
+  SimulatedStreet,
+  Warning,
 } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
-import { aborted, api, describeError, pool, type Problem } from '../../data.ts';
-import { chainOptions, grid, gridProblem, input, type Input, type Point, type Radar, shownRadars } from './input.ts';
+import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
-import { birdseyeState, type BirdseyeState } from './state.ts';
+import { chainOptions, grid, gridProblem, type Input, input, type Point, type Radar, shownRadars } from './input.ts';
+import { type BirdseyeState, birdseyeState } from './state.ts';
 
 /** A radar's frame: what was detected, and the street's points it can see. */
 export interface RadarFrame {
@@ -58,7 +68,8 @@ export const unavailable = computed<ReadonlyMap<Method, string>>(() => {
   for (const info of api.methods()) {
     const problem = info.network ? whyNoNetwork(info.name, geometries) : null;
     if (problem) reasons.set(info.name, problem);
-    else if (info.uniformArray && geometries.some(({ uniform }) => !uniform)) reasons.set(info.name, 'needs a uniform linear array');
+    else if (info.uniformArray && geometries.some(({ uniform }) => !uniform))
+      reasons.set(info.name, 'needs a uniform linear array');
   }
   return reasons;
 });
@@ -74,8 +85,19 @@ export function networkFor(method: Method): Model | undefined {
 const job = computed(() => {
   const { methods, networks, refine, from, falseAlarm, grouping, sources, points, gate, frame } = birdseyeState.value;
   return JSON.stringify({
-    input: input.value?.key, radars: shownRadars.value.map(({ name }) => name), grid: grid.value,
-    methods: methods.filter((method) => !unavailable.value.has(method)), networks, refine, from, falseAlarm, grouping, sources, points, gate, frame,
+    input: input.value?.key,
+    radars: shownRadars.value.map(({ name }) => name),
+    grid: grid.value,
+    methods: methods.filter((method) => !unavailable.value.has(method)),
+    networks,
+    refine,
+    from,
+    falseAlarm,
+    grouping,
+    sources,
+    points,
+    gate,
+    frame,
   });
 });
 
@@ -91,14 +113,18 @@ export function restart(): void {
 }
 
 /** What is kept of an input, and what each part was made for. */
-let kept: { input: string; street: Map<string, SimulatedStreet>; parts: Map<string, unknown> } = { input: '', street: new Map(), parts: new Map() };
+let kept: { input: string; street: Map<string, SimulatedStreet>; parts: Map<string, unknown> } = {
+  input: '',
+  street: new Map(),
+  parts: new Map(),
+};
 /** Spectra of a few settings; older ones make room. */
 const MOST_PARTS = 120;
 
 async function once<T>(key: string, make: () => Promise<T>): Promise<T> {
   const { parts } = kept;
   const known = parts.get(key) as T | undefined;
-  const made = known ?? await make();
+  const made = known ?? (await make());
   // The latest stand last.
   parts.delete(key);
   parts.set(key, made);
@@ -131,7 +157,11 @@ export function start(): () => void {
       }
       const { methods } = birdseyeState.peek();
       const before = shownRadars.value.length ? images.peek() : new Map<Method, MethodImage>();
-      images.value = new Map(methods.filter((method) => !unavailable.peek().has(method)).map((method) => [method, { ...before.get(method), stale: shownRadars.peek().length > 0 }]));
+      images.value = new Map(
+        methods
+          .filter((method) => !unavailable.peek().has(method))
+          .map((method) => [method, { ...before.get(method), stale: shownRadars.peek().length > 0 }]),
+      );
     });
     if (!looked || gridProblem.value || !shownRadars.peek().length) return;
     working.value = true;
@@ -149,7 +179,12 @@ export function start(): () => void {
   };
 }
 
-async function run(looked: Input, radars: readonly Radar[], methods: readonly Method[], state: BirdseyeState): Promise<void> {
+async function run(
+  looked: Input,
+  radars: readonly Radar[],
+  methods: readonly Method[],
+  state: BirdseyeState,
+): Promise<void> {
   const controller = new AbortController();
   running = controller;
   const { signal } = controller;
@@ -164,12 +199,14 @@ async function run(looked: Input, radars: readonly Radar[], methods: readonly Me
   try {
     what = looked.street ? 'Simulating the street' : 'Detecting';
     say();
-    const made = await Promise.all(radars.map(async (radar) => {
-      const frame = await frameOf(looked, radar, state, signal);
-      done += 1;
-      say();
-      return frame;
-    }));
+    const made = await Promise.all(
+      radars.map(async (radar) => {
+        const frame = await frameOf(looked, radar, state, signal);
+        done += 1;
+        say();
+        return frame;
+      }),
+    );
     if (!current()) return;
     frames.value = made;
     for (const method of methods) {
@@ -177,7 +214,9 @@ async function run(looked: Input, radars: readonly Radar[], methods: readonly Me
       let image: MethodImage;
       try {
         image = await imageOf(looked, method, made, state, signal, {
-          step: () => { done += 1; },
+          step: () => {
+            done += 1;
+          },
           report: say,
         });
       } catch (error) {
@@ -213,45 +252,80 @@ async function frameOf(looked: Input, radar: Radar, state: BirdseyeState, signal
     const at = Math.min(state.frame, info.frames - 1);
     const { waveform: _, ...options } = chain;
     const cells = await once(`cells ${key}`, () =>
-      pool().captureCells(bin.subarray(at * frameBytes, (at + 1) * frameBytes), cfg, 0, options, { signal }));
+      pool().captureCells(bin.subarray(at * frameBytes, (at + 1) * frameBytes), cfg, 0, options, { signal }),
+    );
     return { radar, cells, visible: null };
   }
   const { seed, egoSpeedMps } = JSON.parse(looked.key.slice(looked.key.indexOf('{')));
   const { street } = kept;
-  const simulated = street.get(radar.name) ?? await pool().simulateStreet({ seed, egoSpeedMps, radar: radar.name }, { signal });
+  const simulated =
+    street.get(radar.name) ?? (await pool().simulateStreet({ seed, egoSpeedMps, radar: radar.name }, { signal }));
   street.set(radar.name, simulated);
   const cells = await once(`cells ${key}`, () => pool().frameCells(simulated.cube, chain, { signal }));
   const visible = simulated.targets.map(({ target }) => looked.street?.targets[target] as Point);
   return { radar, cells, visible };
 }
 
-interface Steps { step(): void; report(part?: number): void }
+interface Steps {
+  step(): void;
+  report(part?: number): void;
+}
 
 async function imageOf(
-  looked: Input, method: Method, made: readonly RadarFrame[], state: BirdseyeState, signal: AbortSignal, { step, report }: Steps,
+  looked: Input,
+  method: Method,
+  made: readonly RadarFrame[],
+  state: BirdseyeState,
+  signal: AbortSignal,
+  { step, report }: Steps,
 ): Promise<MethodImage> {
   const { points, gate, refine } = state;
-  const { spectrum: hasSpectrum = false, sourceCount = false, network: isNetwork = false } = api.methods().find(({ name }) => name === method) ?? {};
+  const {
+    spectrum: hasSpectrum = false,
+    sourceCount = false,
+    network: isNetwork = false,
+  } = api.methods().find(({ name }) => name === method) ?? {};
   const model = isNetwork ? networkFor(method) : undefined;
   const network = model && (await load(model.name, signal)).id;
-  const parts: { frame: RadarFrame; estimate: BatchEstimate; milliseconds: number; map: RangeAzimuthMap; from: ImageFrom }[] = [];
+  const parts: {
+    frame: RadarFrame;
+    estimate: BatchEstimate;
+    milliseconds: number;
+    map: RangeAzimuthMap;
+    from: ImageFrom;
+  }[] = [];
   for (const one of made) {
     const { radar, cells } = one;
     const key = `${method} ${network ?? ''} ${refine} ${points} ${sourceCount ? state.sources : ''} ${detectionKey(looked, radar, state)}`;
     const job: JobOptions = { signal, onProgress: (done, total) => report(total > 0 ? done / total : 0) };
     const plan = api.imagePlan({
-      waveform: radar.waveform, array: radar.array, from: hasSpectrum ? state.from : 'targets',
+      waveform: radar.waveform,
+      array: radar.array,
+      from: hasSpectrum ? state.from : 'targets',
       // One snapshot does not tell how many there are.
-      angle: { method, ...(sourceCount ? { sources: Number(state.sources) } : {}), gridPoints: Number(points), ...(refine ? { refine } : {}), fieldOfViewDeg: radar.fieldOfViewDeg }, grid: { fieldOfViewDeg: radar.fieldOfViewDeg },
+      angle: {
+        method,
+        ...(sourceCount ? { sources: Number(state.sources) } : {}),
+        gridPoints: Number(points),
+        ...(refine ? { refine } : {}),
+        fieldOfViewDeg: radar.fieldOfViewDeg,
+      },
+      grid: { fieldOfViewDeg: radar.fieldOfViewDeg },
     });
     const { estimate, milliseconds } = await once(`estimates ${key}`, async () => {
       const started = performance.now();
       // Spectra come along for the time when they are asked for.
-      const estimate = await pool().estimateBatch({ snapshots: cells.snapshots }, { ...plan.estimator, ...(network === undefined ? {} : { network }), spectra: hasSpectrum }, job);
+      const estimate = await pool().estimateBatch(
+        { snapshots: cells.snapshots },
+        { ...plan.estimator, ...(network === undefined ? {} : { network }), spectra: hasSpectrum },
+        job,
+      );
       return { estimate, milliseconds: performance.now() - started };
     });
     const { from, grid } = plan;
-    const map = await once(`map ${key} ${from}`, () => pool().rangeAzimuthMap({ cells, estimates: estimate, from, grid }, { signal }));
+    const map = await once(`map ${key} ${from}`, () =>
+      pool().rangeAzimuthMap({ cells, estimates: estimate, from, grid }, { signal }),
+    );
     parts.push({ frame: one, estimate, milliseconds, map, from });
     step();
     report();
@@ -259,9 +333,15 @@ async function imageOf(
   const { view, levelsDb, peakDb, measure } = await imageOfMaps(looked, parts, gate, signal);
   const warnings = new Map<string, Warning>();
   for (const { estimate } of parts) for (const warning of estimate.warnings) warnings.set(warning.code, warning);
-  const sum = (value: (part: (typeof parts)[number]) => number): number => parts.reduce((total, part) => total + value(part), 0);
+  const sum = (value: (part: (typeof parts)[number]) => number): number =>
+    parts.reduce((total, part) => total + value(part), 0);
   return {
-    view, levelsDb, peakDb, measure, radars: made.map(({ radar }) => radar), from: parts[0]?.from ?? state.from,
+    view,
+    levelsDb,
+    peakDb,
+    measure,
+    radars: made.map(({ radar }) => radar),
+    from: parts[0]?.from ?? state.from,
     cells: sum(({ estimate }) => estimate.cells),
     sources: sum(({ estimate }) => estimate.cell.length),
     unresolved: sum(({ estimate }) => estimate.unresolved),
@@ -273,9 +353,15 @@ async function imageOf(
 }
 
 async function imageOfMaps(
-  looked: Input, parts: readonly { frame: RadarFrame; map: RangeAzimuthMap }[], gate: number | null, signal: AbortSignal,
+  looked: Input,
+  parts: readonly { frame: RadarFrame; map: RangeAzimuthMap }[],
+  gate: number | null,
+  signal: AbortSignal,
 ): Promise<{ view: BirdsEyeView; levelsDb: Float32Array; peakDb: number; measure: SidelobeMeasure | undefined }> {
-  const view = await pool().birdsEyeView({ radars: parts.map(({ frame, map }) => ({ map, mounting: frame.radar.mounting })), grid: grid.peek() }, { signal });
+  const view = await pool().birdsEyeView(
+    { radars: parts.map(({ frame, map }) => ({ map, mounting: frame.radar.mounting })), grid: grid.peek() },
+    { signal },
+  );
   let peak = 0;
   for (const power of view.power) peak = Math.max(peak, power);
   const [ahead, across] = view.shape;
@@ -287,7 +373,9 @@ async function imageOfMaps(
     }
   }
   const targets = uniquePoints(parts.flatMap(({ frame }) => frame.visible ?? []));
-  const measure = looked.street ? await pool().sidelobeMeasure(view, targets, gateOf(parts, gate), { signal }) : undefined;
+  const measure = looked.street
+    ? await pool().sidelobeMeasure(view, targets, gateOf(parts, gate), { signal })
+    : undefined;
   return { view, levelsDb, peakDb: 10 * Math.log10(peak), measure };
 }
 
@@ -299,7 +387,10 @@ function gateOf([part]: readonly { frame: RadarFrame; map: RangeAzimuthMap }[], 
   if (gateM !== null || !part) return { gateM: gateM ?? 1 };
   const { waveform, array } = part.frame.radar;
   const [first = 0, second = 0] = part.map.azimuthDeg.map((azimuth) => Math.sin((azimuth * Math.PI) / 180));
-  return { rangeM: 2 * api.waveformSummary(waveform).rangeResolutionM, sine: 2 / (api.array(array).aperture + 1) + second - first };
+  return {
+    rangeM: 2 * api.waveformSummary(waveform).rangeResolutionM,
+    sine: 2 / (api.array(array).aperture + 1) + second - first,
+  };
 }
 
 /** A point that several radars see counts once. */

@@ -1,9 +1,9 @@
 /** State of the bird's-eye page: all of it in the address. */
 import { signal } from '@preact/signals';
 import type { Method } from 'boresight';
+import { networkNames, singleSnapshotMethods } from '../../methods.ts';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
 import type { View } from '../../plots/plot.ts';
-import { networkNames, singleSnapshotMethods } from '../../methods.ts';
 import { choice, codec, type Field, flag, names, number, optional } from '../../state/codec.ts';
 
 export const SOURCES = ['street', 'capture'] as const;
@@ -15,7 +15,13 @@ export const SPANS = ['20', '30', '40', '50', '60', '80'] as const;
 export const FALSE_ALARMS = ['1e-3', '1e-4', '1e-5', '1e-6', '1e-8'] as const;
 
 export const LIMITS = {
-  seed: [0, 4294967295], speedMps: [-30, 30], reachM: [2, 300], gateM: [0.05, 20], topDb: [-200, 100], opacity: [0, 100], frame: [0, 9_999_999],
+  seed: [0, 4294967295],
+  speedMps: [-30, 30],
+  reachM: [2, 300],
+  gateM: [0.05, 20],
+  topDb: [-200, 100],
+  opacity: [0, 100],
+  frame: [0, 9_999_999],
   /** Cells of an image that a page can hold for several methods. */
   cells: 4_000_000,
 } as const;
@@ -25,42 +31,47 @@ const place: Field<View> = {
   read: (value) => {
     const [a, b, c, d, ...more] = value.split(':').map((part) => (part.trim() === '' ? Number.NaN : Number(part)));
     const far = (m: number | undefined): m is number => m !== undefined && Math.abs(m) <= 1000;
-    return far(a) && far(b) && far(c) && far(d) && a < b && c < d && !more.length ? { x: [a, b], y: [c, d] } : undefined;
+    return far(a) && far(b) && far(c) && far(d) && a < b && c < d && !more.length
+      ? { x: [a, b], y: [c, d] }
+      : undefined;
   },
   write: ({ x, y }) => [...x, ...y].map((value) => Number(value.toFixed(2))).join(':'),
 };
 
-export const birdseyeCodec = codec({
-  source: choice('street', SOURCES),
-  seed: number(1, LIMITS.seed, 'integer'),
-  speed: number(6, LIMITS.speedMps),
-  radars: names<RadarName>(RADARS, RADARS),
-  frame: number(0, LIMITS.frame, 'integer'),
-  methods: names<Method>(['bartlett', 'iaa', 'nomp'], () => singleSnapshotMethods().map(({ name }) => name)),
-  networks: networkNames,
-  refine: flag(false),
-  from: choice('spectra', ['spectra', 'targets']),
-  falseAlarm: choice('1e-6', FALSE_ALARMS),
-  grouping: flag(false),
-  /** Directions in a cell, for methods that must be told. */
-  sources: choice('2', ['1', '2', '3', '4']),
-  points: choice('1024', ['256', '512', '1024', '2048']),
-  /** How far the images reach, m; null for what suits the input. */
-  reach: optional(number(0, LIMITS.reachM)),
-  /** Null for what suits the input. */
-  cell: optional(choice('0.2', CELLS)),
-  /** Radius of what counts as a target, m; null for what the radars resolve. */
-  gate: optional(number(1, LIMITS.gateM)),
-  span: choice('60', SPANS),
-  /** Power of the last colour, dB; null for the strongest cell's. */
-  top: optional(number(0, LIMITS.topDb)),
-  colors: choice('viridis', COLOR_MAPS),
-  /** Percent. */
-  opacity: number(90, LIMITS.opacity),
-  truth: flag(true),
-  fields: flag(true),
-  view: optional(place),
-}, ['source', 'seed', 'methods']);
+export const birdseyeCodec = codec(
+  {
+    source: choice('street', SOURCES),
+    seed: number(1, LIMITS.seed, 'integer'),
+    speed: number(6, LIMITS.speedMps),
+    radars: names<RadarName>(RADARS, RADARS),
+    frame: number(0, LIMITS.frame, 'integer'),
+    methods: names<Method>(['bartlett', 'iaa', 'nomp'], () => singleSnapshotMethods().map(({ name }) => name)),
+    networks: networkNames,
+    refine: flag(false),
+    from: choice('spectra', ['spectra', 'targets']),
+    falseAlarm: choice('1e-6', FALSE_ALARMS),
+    grouping: flag(false),
+    /** Directions in a cell, for methods that must be told. */
+    sources: choice('2', ['1', '2', '3', '4']),
+    points: choice('1024', ['256', '512', '1024', '2048']),
+    /** How far the images reach, m; null for what suits the input. */
+    reach: optional(number(0, LIMITS.reachM)),
+    /** Null for what suits the input. */
+    cell: optional(choice('0.2', CELLS)),
+    /** Radius of what counts as a target, m; null for what the radars resolve. */
+    gate: optional(number(1, LIMITS.gateM)),
+    span: choice('60', SPANS),
+    /** Power of the last colour, dB; null for the strongest cell's. */
+    top: optional(number(0, LIMITS.topDb)),
+    colors: choice('viridis', COLOR_MAPS),
+    /** Percent. */
+    opacity: number(90, LIMITS.opacity),
+    truth: flag(true),
+    fields: flag(true),
+    view: optional(place),
+  },
+  ['source', 'seed', 'methods'],
+);
 
 export type BirdseyeState = Omit<typeof birdseyeCodec.defaults, 'view'>;
 const { view: _, ...defaults } = birdseyeCodec.defaults;

@@ -1,7 +1,7 @@
 /** Detections, sortable, with the board's own beside them. */
 import { useSignal } from '@preact/signals';
-import type { ComponentChildren } from 'preact';
 import type { BoardObject, Cell, FrameResult } from 'boresight';
+import type { ComponentChildren } from 'preact';
 import { fixed, signed } from '../../plots/format.ts';
 import { download, fileName, toCsv } from '../../plots/save.ts';
 import { type Comparison, compare } from './match.ts';
@@ -17,31 +17,125 @@ interface Column {
   show(value: number): string;
 }
 
-const azimuthDifference = ({ row, board }: Comparison): number | undefined => row && board && row.azimuthDeg - board.azimuthDeg;
+const azimuthDifference = ({ row, board }: Comparison): number | undefined =>
+  row && board && row.azimuthDeg - board.azimuthDeg;
 
 function columns(elevated: boolean, withBoard: boolean): Column[] {
-  const ours = (key: string, title: string, csv: string, help: string, value: (row: NonNullable<Comparison['row']>) => number, show: (value: number) => string): Column =>
-    ({ key, title, csv, help, group: 'ours', show, value: ({ row }) => row && value(row) });
+  const ours = (
+    key: string,
+    title: string,
+    csv: string,
+    help: string,
+    value: (row: NonNullable<Comparison['row']>) => number,
+    show: (value: number) => string,
+  ): Column => ({ key, title, csv, help, group: 'ours', show, value: ({ row }) => row && value(row) });
   const list: Column[] = [
-    ours('rangeM', 'Range (m)', 'range_m', 'Distance, interpolated between range bins', (r) => r.rangeM, (v) => fixed(v, 2)),
-    ours('rateMps', 'Rate (m/s)', 'rate_mps', 'Range rate, positive when receding', (r) => r.rateMps, (v) => signed(v, 2)),
-    ours('azimuthDeg', 'Azimuth (°)', 'azimuth_deg', 'Positive to the left of boresight', (r) => r.azimuthDeg, (v) => signed(v, 1)),
+    ours(
+      'rangeM',
+      'Range (m)',
+      'range_m',
+      'Distance, interpolated between range bins',
+      (r) => r.rangeM,
+      (v) => fixed(v, 2),
+    ),
+    ours(
+      'rateMps',
+      'Rate (m/s)',
+      'rate_mps',
+      'Range rate, positive when receding',
+      (r) => r.rateMps,
+      (v) => signed(v, 2),
+    ),
+    ours(
+      'azimuthDeg',
+      'Azimuth (°)',
+      'azimuth_deg',
+      'Positive to the left of boresight',
+      (r) => r.azimuthDeg,
+      (v) => signed(v, 1),
+    ),
   ];
-  if (elevated) list.push(ours('elevationDeg', 'Elevation (°)', 'elevation_deg', 'Positive upwards', (r) => r.elevationDeg, (v) => signed(v, 1)));
+  if (elevated)
+    list.push(
+      ours(
+        'elevationDeg',
+        'Elevation (°)',
+        'elevation_deg',
+        'Positive upwards',
+        (r) => r.elevationDeg,
+        (v) => signed(v, 1),
+      ),
+    );
   list.push(
-    ours('powerDb', 'Power (dBFS)', 'power_dbfs', 'Of one raw sample at one element, relative to full scale', (r) => r.powerDb, (v) => fixed(v, 1)),
-    ours('snrDb', 'SNR (dB)', 'snr_db', 'Cell power over the noise level estimated around it', (r) => r.snrDb, (v) => fixed(v, 1)),
+    ours(
+      'powerDb',
+      'Power (dBFS)',
+      'power_dbfs',
+      'Of one raw sample at one element, relative to full scale',
+      (r) => r.powerDb,
+      (v) => fixed(v, 1),
+    ),
+    ours(
+      'snrDb',
+      'SNR (dB)',
+      'snr_db',
+      'Cell power over the noise level estimated around it',
+      (r) => r.snrDb,
+      (v) => fixed(v, 1),
+    ),
   );
   if (withBoard) {
-    const board = (key: string, title: string, csv: string, help: string, value: (object: BoardObject) => number | undefined, show: (value: number) => string): Column =>
-      ({ key, title, csv, help, group: 'board', show, value: (entry) => entry.board && value(entry.board) });
+    const board = (
+      key: string,
+      title: string,
+      csv: string,
+      help: string,
+      value: (object: BoardObject) => number | undefined,
+      show: (value: number) => string,
+    ): Column => ({ key, title, csv, help, group: 'board', show, value: (entry) => entry.board && value(entry.board) });
     list.push(
-      board('boardRangeM', 'Range (m)', 'board_range_m', 'As the board reported it', (b) => b.rangeM, (v) => fixed(v, 2)),
-      board('boardRateMps', 'Rate (m/s)', 'board_rate_mps', 'As the board reported it', (b) => b.rateMps ?? undefined, (v) => signed(v, 2)),
-      board('boardAzimuthDeg', 'Azimuth (°)', 'board_azimuth_deg', 'The board’s x points right; shown here positive to the left', (b) => b.azimuthDeg, (v) => signed(v, 1)),
-      { key: 'rangeDifferenceM', title: 'Range (m)', csv: 'range_difference_m', group: 'difference', help: 'Ours less the board’s', show: (v) => signed(v, 2),
-        value: ({ row, board: b }) => row && b && row.rangeM - b.rangeM },
-      { key: 'azimuthDifferenceDeg', title: 'Azimuth (°)', csv: 'azimuth_difference_deg', group: 'difference', help: 'Ours less the board’s', show: (v) => signed(v, 1), value: azimuthDifference },
+      board(
+        'boardRangeM',
+        'Range (m)',
+        'board_range_m',
+        'As the board reported it',
+        (b) => b.rangeM,
+        (v) => fixed(v, 2),
+      ),
+      board(
+        'boardRateMps',
+        'Rate (m/s)',
+        'board_rate_mps',
+        'As the board reported it',
+        (b) => b.rateMps ?? undefined,
+        (v) => signed(v, 2),
+      ),
+      board(
+        'boardAzimuthDeg',
+        'Azimuth (°)',
+        'board_azimuth_deg',
+        'The board’s x points right; shown here positive to the left',
+        (b) => b.azimuthDeg,
+        (v) => signed(v, 1),
+      ),
+      {
+        key: 'rangeDifferenceM',
+        title: 'Range (m)',
+        csv: 'range_difference_m',
+        group: 'difference',
+        help: 'Ours less the board’s',
+        show: (v) => signed(v, 2),
+        value: ({ row, board: b }) => row && b && row.rangeM - b.rangeM,
+      },
+      {
+        key: 'azimuthDifferenceDeg',
+        title: 'Azimuth (°)',
+        csv: 'azimuth_difference_deg',
+        group: 'difference',
+        help: 'Ours less the board’s',
+        show: (v) => signed(v, 1),
+        value: azimuthDifference,
+      },
     );
   }
   return list;
@@ -49,7 +143,15 @@ function columns(elevated: boolean, withBoard: boolean): Column[] {
 
 const GROUPS = { ours: 'Computed here', board: 'Board’s own', difference: 'Difference' } as const;
 
-export function DetectionTable({ view, cell, board, gateM, elevated, foot, fileParts }: {
+export function DetectionTable({
+  view,
+  cell,
+  board,
+  gateM,
+  elevated,
+  foot,
+  fileParts,
+}: {
   view: FrameResult;
   cell: Cell;
   /** Null without a log. */
@@ -69,34 +171,71 @@ export function DetectionTable({ view, cell, board, gateM, elevated, foot, fileP
     if (x === undefined || y === undefined) return Number(x === undefined) - Number(y === undefined);
     return sort.value.down ? y - x : x - y;
   });
-  const groups = (['ours', 'board', 'difference'] as const).map((group) => ({ group, size: shown.filter((column) => column.group === group).length })).filter(({ size }) => size > 0);
+  const groups = (['ours', 'board', 'difference'] as const)
+    .map((group) => ({ group, size: shown.filter((column) => column.group === group).length }))
+    .filter(({ size }) => size > 0);
   const starts = new Set(groups.map(({ group }) => shown.find((column) => column.group === group)?.key));
-  const csv = (): string => toCsv(
-    ['range_bin', 'doppler_bin', ...shown.map((column) => column.csv)],
-    sorted.map((entry) => [entry.row?.rangeBin, entry.row?.dopplerBin, ...shown.map((column) => column.value(entry))]),
-  );
+  const csv = (): string =>
+    toCsv(
+      ['range_bin', 'doppler_bin', ...shown.map((column) => column.csv)],
+      sorted.map((entry) => [
+        entry.row?.rangeBin,
+        entry.row?.dopplerBin,
+        ...shown.map((column) => column.value(entry)),
+      ]),
+    );
   return (
     <section class="panel" aria-labelledby="detections-title" data-table="detections">
       <div class="panel-head">
         <h3 id="detections-title">Detections</h3>
-        <span class="muted" data-count>{view.detections.length} here{board ? `, ${board.length} reported by the board` : ''}</span>
-        <div class="tools"><button type="button" data-export="csv" onClick={() => download(csv(), fileName(['detections', ...fileParts], 'csv'))}>CSV</button></div>
+        <span class="muted" data-count>
+          {view.detections.length} here{board ? `, ${board.length} reported by the board` : ''}
+        </span>
+        <div class="tools">
+          <button
+            type="button"
+            data-export="csv"
+            onClick={() => download(csv(), fileName(['detections', ...fileParts], 'csv'))}
+          >
+            CSV
+          </button>
+        </div>
       </div>
       <div class="table-scroll capped" tabIndex={0} role="region" aria-label="Detections, scrollable">
         <table class="data">
           <thead>
             <tr>
-              {groups.map(({ group, size }) => <th key={group} colSpan={size + (group === 'ours' ? 1 : 0)} scope="colgroup" class="group-head">{GROUPS[group]}</th>)}
+              {groups.map(({ group, size }) => (
+                <th key={group} colSpan={size + (group === 'ours' ? 1 : 0)} scope="colgroup" class="group-head">
+                  {GROUPS[group]}
+                </th>
+              ))}
             </tr>
             <tr>
-              <th scope="col"><span class="visually-hidden">Cell</span></th>
+              <th scope="col">
+                <span class="visually-hidden">Cell</span>
+              </th>
               {shown.map((column) => (
-                <th key={column.key} scope="col" class={starts.has(column.key) && column.group !== 'ours' ? 'group-start' : ''} title={column.help}
-                  aria-sort={sort.value.key === column.key ? (sort.value.down ? 'descending' : 'ascending') : undefined}>
-                  <button type="button" class="sort" onClick={() => {
-                    const same = sort.value.key === column.key;
-                    sort.value = { key: column.key, down: same ? !sort.value.down : column.key !== 'rangeM' };
-                  }}>{column.title}<span aria-hidden="true">{sort.value.key === column.key ? (sort.value.down ? ' ▾' : ' ▴') : ''}</span></button>
+                <th
+                  key={column.key}
+                  scope="col"
+                  class={starts.has(column.key) && column.group !== 'ours' ? 'group-start' : ''}
+                  title={column.help}
+                  aria-sort={sort.value.key === column.key ? (sort.value.down ? 'descending' : 'ascending') : undefined}
+                >
+                  <button
+                    type="button"
+                    class="sort"
+                    onClick={() => {
+                      const same = sort.value.key === column.key;
+                      sort.value = { key: column.key, down: same ? !sort.value.down : column.key !== 'rangeM' };
+                    }}
+                  >
+                    {column.title}
+                    <span aria-hidden="true">
+                      {sort.value.key === column.key ? (sort.value.down ? ' ▾' : ' ▴') : ''}
+                    </span>
+                  </button>
                 </th>
               ))}
             </tr>
@@ -106,21 +245,51 @@ export function DetectionTable({ view, cell, board, gateM, elevated, foot, fileP
               const { row } = entry;
               const chosen = row !== undefined && row.rangeBin === cell.rangeBin && row.dopplerBin === cell.dopplerBin;
               return (
-                <tr key={row ? `${row.rangeBin}:${row.dopplerBin}:${i}` : `board${i}`} class={row ? 'pick' : 'reference'} data-detection={row ? `${row.rangeBin}:${row.dopplerBin}` : 'board'}
+                <tr
+                  key={row ? `${row.rangeBin}:${row.dopplerBin}:${i}` : `board${i}`}
+                  class={row ? 'pick' : 'reference'}
+                  data-detection={row ? `${row.rangeBin}:${row.dopplerBin}` : 'board'}
                   aria-selected={chosen ? 'true' : undefined}
-                  onClick={() => row && update({ cell: { rangeBin: row.rangeBin, dopplerBin: row.dopplerBin } })}>
-                  <td class="text">{row ? (
-                    <button type="button" class="cell-button" aria-pressed={chosen} aria-label={`Show the cell at ${fixed(row.rangeM, 2)} metres`}
-                      title={`Range bin ${row.rangeBin}, Doppler bin ${row.dopplerBin}`}>{row.rangeBin}, {row.dopplerBin}</button>
-                  ) : <span class="muted">not here</span>}</td>
+                  onClick={() => row && update({ cell: { rangeBin: row.rangeBin, dopplerBin: row.dopplerBin } })}
+                >
+                  <td class="text">
+                    {row ? (
+                      <button
+                        type="button"
+                        class="cell-button"
+                        aria-pressed={chosen}
+                        aria-label={`Show the cell at ${fixed(row.rangeM, 2)} metres`}
+                        title={`Range bin ${row.rangeBin}, Doppler bin ${row.dopplerBin}`}
+                      >
+                        {row.rangeBin}, {row.dopplerBin}
+                      </button>
+                    ) : (
+                      <span class="muted">not here</span>
+                    )}
+                  </td>
                   {shown.map((column) => {
                     const value = column.value(entry);
-                    return <td key={column.key} data-field={column.key} data-value={value} class={starts.has(column.key) && column.group !== 'ours' ? 'group-start' : ''}>{value === undefined ? '–' : column.show(value)}</td>;
+                    return (
+                      <td
+                        key={column.key}
+                        data-field={column.key}
+                        data-value={value}
+                        class={starts.has(column.key) && column.group !== 'ours' ? 'group-start' : ''}
+                      >
+                        {value === undefined ? '–' : column.show(value)}
+                      </td>
+                    );
                   })}
                 </tr>
               );
             })}
-            {entries.length === 0 && <tr><td class="text" colSpan={shown.length + 1}>No detections with these settings.</td></tr>}
+            {entries.length === 0 && (
+              <tr>
+                <td class="text" colSpan={shown.length + 1}>
+                  No detections with these settings.
+                </td>
+              </tr>
+            )}
           </tbody>
         </table>
       </div>

@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { significant } from '../../plots/format.ts';
 import { loaded } from './files.ts';
-import { cancel, progress, wasCancelled, restart } from './process.ts';
+import { cancel, progress, restart, wasCancelled } from './process.ts';
 import { captureState, update } from './state.ts';
 
 /** Playback is no faster than one can see. */
@@ -17,30 +17,61 @@ export function FrameBar() {
   const interval = capture?.info.config.waveform.frameIntervalS ?? 0;
   useEffect(() => {
     if (!playing.value || frames < 2) return undefined;
-    const timer = setInterval(() => {
-      const now = captureState.value.frame;
-      update({ frame: now === 'all' ? 0 : (now + 1) % frames });
-    }, Math.max(interval * 1000, SHORTEST_MS));
+    const timer = setInterval(
+      () => {
+        const now = captureState.value.frame;
+        update({ frame: now === 'all' ? 0 : (now + 1) % frames });
+      },
+      Math.max(interval * 1000, SHORTEST_MS),
+    );
     return () => clearInterval(timer);
   }, [playing.value, frames, interval]);
   if (!capture) return null;
   const at = frame === 'all' ? 0 : Math.min(frame, frames - 1);
   return (
     <section class="panel frame-bar" aria-label="Frames">
-      <button type="button" aria-pressed={frame === 'all'} data-action="all-frames" title="Powers averaged over all frames; detections of all frames joined"
+      <button
+        type="button"
+        aria-pressed={frame === 'all'}
+        data-action="all-frames"
+        title="Powers averaged over all frames; detections of all frames joined"
         onClick={() => {
           playing.value = false;
           update({ frame: frame === 'all' ? 0 : 'all' });
-        }}>All {frames} frames</button>
-      <button type="button" aria-pressed={playing.value} data-action="play" disabled={frames < 2} title="Step through the frames"
-        onClick={() => { playing.value = !playing.value; }}>{playing.value ? 'Pause' : 'Play'}</button>
-      <input type="range" min={0} max={Math.max(frames - 1, 0)} step={1} value={at} aria-label="Frame" name="frame" disabled={frames < 2}
+        }}
+      >
+        All {frames} frames
+      </button>
+      <button
+        type="button"
+        aria-pressed={playing.value}
+        data-action="play"
+        disabled={frames < 2}
+        title="Step through the frames"
+        onClick={() => {
+          playing.value = !playing.value;
+        }}
+      >
+        {playing.value ? 'Pause' : 'Play'}
+      </button>
+      <input
+        type="range"
+        min={0}
+        max={Math.max(frames - 1, 0)}
+        step={1}
+        value={at}
+        aria-label="Frame"
+        name="frame"
+        disabled={frames < 2}
         aria-valuetext={frame === 'all' ? 'all frames' : `frame ${at + 1} of ${frames}`}
         onInput={(event) => {
           playing.value = false;
           update({ frame: Number(event.currentTarget.value) });
-        }} />
-      <output>{frame === 'all' ? 'all combined' : `frame ${at + 1} of ${frames}, ${significant(at * interval * 1000)} ms`}</output>
+        }}
+      />
+      <output>
+        {frame === 'all' ? 'all combined' : `frame ${at + 1} of ${frames}, ${significant(at * interval * 1000)} ms`}
+      </output>
       <Progress />
     </section>
   );
@@ -53,15 +84,21 @@ function Progress() {
       <div class="progress-line" data-progress>
         <progress max={1} value={state.total > 0 ? state.done / state.total : 0} aria-label="Processing" />
         <span>{Math.round((100 * state.done) / Math.max(state.total, 1))} %</span>
-        <button type="button" data-action="cancel" onClick={cancel}>Cancel</button>
+        <button type="button" data-action="cancel" onClick={cancel}>
+          Cancel
+        </button>
       </div>
     );
   }
   if (wasCancelled.value) {
     return (
       <div class="progress-line" data-cancelled>
-        <span class="muted">Cancelled at {Math.round((100 * wasCancelled.value.done) / Math.max(wasCancelled.value.total, 1))} %</span>
-        <button type="button" data-action="resume" onClick={restart}>Process again</button>
+        <span class="muted">
+          Cancelled at {Math.round((100 * wasCancelled.value.done) / Math.max(wasCancelled.value.total, 1))} %
+        </span>
+        <button type="button" data-action="resume" onClick={restart}>
+          Process again
+        </button>
       </div>
     );
   }

@@ -8,7 +8,9 @@ export interface Comparison {
 
 /** Rows with the board's objects nearest in range, one to one, none further off than the gate; then objects left over. */
 export function compare(rows: readonly Detection[], objects: readonly BoardObject[], gateM: number): Comparison[] {
-  const pairs = rows.flatMap((row, i) => objects.map((object, j) => ({ i, j, apart: Math.abs(row.rangeM - object.rangeM), power: row.powerDb })));
+  const pairs = rows.flatMap((row, i) =>
+    objects.map((object, j) => ({ i, j, apart: Math.abs(row.rangeM - object.rangeM), power: row.powerDb })),
+  );
   // The strongest of ours in the gate is the board's one: side lobes lie beside it.
   pairs.sort((a, b) => b.power - a.power || a.apart - b.apart);
   const boardOf = new Map<number, number>();

@@ -1,14 +1,14 @@
 import { useSignalEffect } from '@preact/signals';
+import type { FrameResult } from 'boresight';
 import { count, fixed, signed } from '../../plots/format.ts';
-import { announce } from '../../state/announce.ts';
 import { useAddress } from '../../state/address.ts';
+import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { CellPanel } from './cell-panel.tsx';
 import { Controls } from './controls.tsx';
 import { DetectionTable } from './detection-table.tsx';
 import { boardLog, fileProblem, loaded, openBundled } from './files.ts';
 import { FrameBar } from './frame-bar.tsx';
-import type { FrameResult } from 'boresight';
 import { compare } from './match.ts';
 import { cellResults, processProblem, result, start, usedArray, working } from './process.ts';
 import { RangeDopplerMap, RangeProfile } from './range-plots.tsx';
@@ -32,7 +32,12 @@ export function CapturePage() {
   useSignalEffect(() => {
     const shown = result.value;
     if (shown) {
-      announce(`${shown.detections.length} detections. ${shown.detections.slice(0, 4).map((row) => `${fixed(row.rangeM, 2)} metres at ${signed(row.azimuthDeg, 1)} degrees`).join(', ')}.`);
+      announce(
+        `${shown.detections.length} detections. ${shown.detections
+          .slice(0, 4)
+          .map((row) => `${fixed(row.rangeM, 2)} metres at ${signed(row.azimuthDeg, 1)} degrees`)
+          .join(', ')}.`,
+      );
     }
   });
   const problem = fileProblem.value;
@@ -42,24 +47,39 @@ export function CapturePage() {
       <div class="main-column" aria-busy={working.value}>
         {problem && (
           <p class="alert" role="alert" data-error={problem.code}>
-            <strong>{problem.file ? `${problem.file}: ` : ''}</strong>{problem.message} <code>{problem.code}</code>
+            <strong>{problem.file ? `${problem.file}: ` : ''}</strong>
+            {problem.message} <code>{problem.code}</code>
             {capture && ' The capture opened before is still shown.'}
           </p>
         )}
-        {processProblem.value && <p class="alert" role="alert" data-error={processProblem.value.code}><strong>Cannot process with these settings.</strong> {processProblem.value.message} <code>{processProblem.value.code}</code></p>}
+        {processProblem.value && (
+          <p class="alert" role="alert" data-error={processProblem.value.code}>
+            <strong>Cannot process with these settings.</strong> {processProblem.value.message}{' '}
+            <code>{processProblem.value.code}</code>
+          </p>
+        )}
         {capture && <Summary info={capture.info} geometry={usedArray.value} />}
         {capture && <FrameBar />}
-        {capture && result.value ? <Plots view={result.value} /> : !problem && !processProblem.value && <p class="panel loading" role="status">Loading the capture</p>}
+        {capture && result.value ? (
+          <Plots view={result.value} />
+        ) : (
+          !problem &&
+          !processProblem.value && (
+            <p class="panel loading" role="status">
+              Loading the capture
+            </p>
+          )
+        )}
         <About title="About this page">
           <p>
             A capture is the raw samples of a DCA1000 board (.bin) and the configuration the radar ran with (.cfg); the
-            log of the board’s own detections (.dat) may come with it. Samples are windowed and transformed along
-            range and Doppler; transmitters that take turns are aligned for the motion between them; cells over the
-            threshold become detections, and the phases across the virtual array give their angle.
+            log of the board’s own detections (.dat) may come with it. Samples are windowed and transformed along range
+            and Doppler; transmitters that take turns are aligned for the motion between them; cells over the threshold
+            become detections, and the phases across the virtual array give their angle.
           </p>
           <p>
-            <b>Signs.</b> Azimuth is positive to the left of boresight; range rate is positive when receding. The board’s
-            log has x to the right; it is turned into this frame before it is shown.
+            <b>Signs.</b> Azimuth is positive to the left of boresight; range rate is positive when receding. The
+            board’s log has x to the right; it is turned into this frame before it is shown.
           </p>
           <p>
             <b>Levels</b> are the power of one raw sample at one element relative to full scale (dBFS). SNR is a cell’s
@@ -81,14 +101,26 @@ function Plots({ view }: { view: FrameResult }) {
   const { frame, cell: chosen, board } = captureState.value;
   if (!capture) return null;
   const cell = shownCell(view, chosen);
-  const boardIndex = log && log.frames.length ? (board === 'last' ? log.frames.length - 1 : Math.min(Number(board), log.frames.length - 1)) : -1;
+  const boardIndex =
+    log && log.frames.length
+      ? board === 'last'
+        ? log.frames.length - 1
+        : Math.min(Number(board), log.frames.length - 1)
+      : -1;
   const boardFrame = log?.frames[boardIndex];
   const objects = boardFrame?.objects ?? [];
   const gateM = Math.max(2 * capture.info.config.summary.rangeResolutionM, 0.1);
-  const here = compare(view.detections, objects, gateM)
-    .find(({ row }) => row && Math.abs(row.rangeBin - cell.rangeBin) <= 1 && Math.abs(row.dopplerBin - cell.dopplerBin) <= 1)?.board;
-  const label = frame === 'all' ? `Mean of ${view.frames} frames` : `Frame ${Math.min(frame, capture.info.frames - 1) + 1} of ${capture.info.frames}`;
-  const fileParts = [capture.files[0]?.name.replace(/\.bin$/i, '') ?? 'capture', frame === 'all' ? 'all-frames' : `frame${frame + 1}`];
+  const here = compare(view.detections, objects, gateM).find(
+    ({ row }) => row && Math.abs(row.rangeBin - cell.rangeBin) <= 1 && Math.abs(row.dopplerBin - cell.dopplerBin) <= 1,
+  )?.board;
+  const label =
+    frame === 'all'
+      ? `Mean of ${view.frames} frames`
+      : `Frame ${Math.min(frame, capture.info.frames - 1) + 1} of ${capture.info.frames}`;
+  const fileParts = [
+    capture.files[0]?.name.replace(/\.bin$/i, '') ?? 'capture',
+    frame === 'all' ? 'all-frames' : `frame${frame + 1}`,
+  ];
   const shared = { view, cell, board: objects, label, fileParts };
   const geometry = usedArray.value;
   const elevated = geometry?.extent === 'area' || geometry?.extent === 'line';
@@ -99,29 +131,56 @@ function Plots({ view }: { view: FrameResult }) {
           <RangeProfile {...shared} />
           <RangeDopplerMap {...shared} />
         </div>
-        <CellPanel view={view} cell={cell} results={cellResults.value} boardDeg={here?.azimuthDeg}
-          unambiguousDeg={geometry?.unambiguousDeg ?? 90} label={label} fileParts={fileParts} />
+        <CellPanel
+          view={view}
+          cell={cell}
+          results={cellResults.value}
+          boardDeg={here?.azimuthDeg}
+          unambiguousDeg={geometry?.unambiguousDeg ?? 90}
+          label={label}
+          fileParts={fileParts}
+        />
       </div>
-      <DetectionTable view={view} cell={cell} board={boardFrame ? objects : null} gateM={gateM} elevated={elevated} fileParts={fileParts}
-        foot={log && boardFrame && (
-          <>
-            {log.frames.length > 1 && (
-              <div class="row board-frame">
-                <label for="board-frame">Board’s frame</label>
-                <input id="board-frame" type="range" min={0} max={log.frames.length - 1} step={1} value={boardIndex} name="board"
-                  onInput={(event) => {
-                    const value = Number(event.currentTarget.value);
-                    update({ board: value === log.frames.length - 1 ? 'last' : String(value) });
-                  }} />
-                <output>{boardIndex + 1} of {log.frames.length}</output>
-              </div>
-            )}
-            <p class="remark">
-              Matched within {fixed(gateM, 2)} m of range.
-              {capture.bundled && ' The bundled log is from a separate run on what appears to be the same scene.'}
-            </p>
-          </>
-        )} />
+      <DetectionTable
+        view={view}
+        cell={cell}
+        board={boardFrame ? objects : null}
+        gateM={gateM}
+        elevated={elevated}
+        fileParts={fileParts}
+        foot={
+          log &&
+          boardFrame && (
+            <>
+              {log.frames.length > 1 && (
+                <div class="row board-frame">
+                  <label for="board-frame">Board’s frame</label>
+                  <input
+                    id="board-frame"
+                    type="range"
+                    min={0}
+                    max={log.frames.length - 1}
+                    step={1}
+                    value={boardIndex}
+                    name="board"
+                    onInput={(event) => {
+                      const value = Number(event.currentTarget.value);
+                      update({ board: value === log.frames.length - 1 ? 'last' : String(value) });
+                    }}
+                  />
+                  <output>
+                    {boardIndex + 1} of {log.frames.length}
+                  </output>
+                </div>
+              )}
+              <p class="remark">
+                Matched within {fixed(gateM, 2)} m of range.
+                {capture.bundled && ' The bundled log is from a separate run on what appears to be the same scene.'}
+              </p>
+            </>
+          )
+        }
+      />
       <Remarks view={view} />
     </>
   );
@@ -140,19 +199,41 @@ function Remarks({ view }: { view: FrameResult }) {
     ['Beyond the limit', counts.beyondLimit, 'Dropped because there were more than the most that are kept'],
     ['Clipped samples', counts.clippedSamples, 'Samples at the converter’s limits'],
     ['Trailing bytes', capture?.info.trailingBytes ?? 0, 'After the last whole frame of the .bin'],
-    ...(log ? [
-      ['Skipped log bytes', log.skippedBytes, 'Between the packets of the .dat'],
-      ['Damaged packets', log.damagedPackets, 'Packets of the .dat that were cut or not readable'],
-    ] as [string, number, string][] : []),
+    ...(log
+      ? ([
+          ['Skipped log bytes', log.skippedBytes, 'Between the packets of the .dat'],
+          ['Damaged packets', log.damagedPackets, 'Packets of the .dat that were cut or not readable'],
+        ] as [string, number, string][])
+      : []),
   ];
-  const warnings = [...(capture?.info.config.warnings ?? []), ...(capture?.info.warnings ?? []), ...view.warnings, ...(log?.warnings ?? [])];
+  const warnings = [
+    ...(capture?.info.config.warnings ?? []),
+    ...(capture?.info.warnings ?? []),
+    ...view.warnings,
+    ...(log?.warnings ?? []),
+  ];
   return (
     <section class="panel" aria-labelledby="counts-title">
-      <div class="panel-head"><h3 id="counts-title">What was dropped, and remarks</h3></div>
+      <div class="panel-head">
+        <h3 id="counts-title">What was dropped, and remarks</h3>
+      </div>
       <dl class="facts flat" data-facts="counts">
-        {facts.map(([term, value, help]) => <div key={term} title={help}><dt>{term}</dt><dd>{count(value)}</dd></div>)}
+        {facts.map(([term, value, help]) => (
+          <div key={term} title={help}>
+            <dt>{term}</dt>
+            <dd>{count(value)}</dd>
+          </div>
+        ))}
       </dl>
-      {warnings.length > 0 && <ul class="warnings">{warnings.map(({ code, message }, i) => <li key={i}>{message} <code>{code}</code></li>)}</ul>}
+      {warnings.length > 0 && (
+        <ul class="warnings">
+          {warnings.map(({ code, message }, i) => (
+            <li key={i}>
+              {message} <code>{code}</code>
+            </li>
+          ))}
+        </ul>
+      )}
     </section>
   );
 }

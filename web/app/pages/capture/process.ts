@@ -6,8 +6,8 @@ import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
 import { type Loaded, loaded } from './files.ts';
-import { captureState, chainOptions, sourceOption } from './state.ts';
 import { estimateCell, runChain } from './source.ts';
+import { captureState, chainOptions, sourceOption } from './state.ts';
 import { shownCell } from './view.ts';
 
 export interface CellResult {
@@ -44,7 +44,9 @@ async function withNetwork(angle: AngleOptions): Promise<AngleOptions> {
 export function networkFor(method: Method): Model | undefined {
   const geometry = usedArray.value;
   const sources = sourceOption(captureState.value);
-  return geometry ? modelFor(method, [geometry], typeof sources === 'number' ? sources : null, captureState.value.networks) : undefined;
+  return geometry
+    ? modelFor(method, [geometry], typeof sources === 'number' ? sources : null, captureState.value.networks)
+    : undefined;
 }
 
 /** The configuration's array, or the one chosen; null where the platform is not known. */
@@ -63,8 +65,10 @@ export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
     const problem = info.network ? whyNoNetwork(info.name, [geometry]) : null;
     if (problem) reasons.set(info.name, problem);
     else if (info.uniformArray && !geometry.uniform) reasons.set(info.name, 'needs a uniform linear array');
-    else if (snapshots < info.minSnapshots) reasons.set(info.name, `needs ${info.minSnapshots} snapshots: combine frames`);
-    else if (info.maxSnapshots !== null && snapshots > info.maxSnapshots) reasons.set(info.name, 'takes a single snapshot: choose one frame');
+    else if (snapshots < info.minSnapshots)
+      reasons.set(info.name, `needs ${info.minSnapshots} snapshots: combine frames`);
+    else if (info.maxSnapshots !== null && snapshots > info.maxSnapshots)
+      reasons.set(info.name, 'takes a single snapshot: choose one frame');
   }
   return reasons;
 });
@@ -185,7 +189,11 @@ let cellJob: AbortController | undefined;
 
 /** Cells come quickly while arrows are held down; estimates follow when they settle. */
 function scheduleCell(
-  capture: Loaded, chain: string, frame: number | 'all', cell: Cell, methods: readonly Method[],
+  capture: Loaded,
+  chain: string,
+  frame: number | 'all',
+  cell: Cell,
+  methods: readonly Method[],
 ): void {
   clearTimeout(cellTimer);
   cellJob?.abort();
@@ -200,13 +208,20 @@ function scheduleCell(
 }
 
 async function estimateOne(
-  capture: Loaded, chain: string, frame: number | 'all', cell: Cell, method: Method, controller: AbortController,
+  capture: Loaded,
+  chain: string,
+  frame: number | 'all',
+  cell: Cell,
+  method: Method,
+  controller: AbortController,
 ): Promise<void> {
   let made: CellResult;
   try {
-    const angle = await withNetwork({ ...JSON.parse(cellOptions.peek()) as AngleOptions, method });
+    const angle = await withNetwork({ ...(JSON.parse(cellOptions.peek()) as AngleOptions), method });
     if (cellJob !== controller) return;
-    const estimate = await estimateCell(capture, JSON.parse(chain) as ChainOptions, frame, cell, angle, { signal: controller.signal });
+    const estimate = await estimateCell(capture, JSON.parse(chain) as ChainOptions, frame, cell, angle, {
+      signal: controller.signal,
+    });
     made = { estimate, stale: false };
   } catch (error) {
     if (controller.signal.aborted) return;

@@ -1,9 +1,9 @@
 /** Range profile and range-Doppler map: one range axis for both. */
 import { signal } from '@preact/signals';
-import { useMemo } from 'preact/hooks';
 import type { BoardObject, Cell, FrameResult } from 'boresight';
+import { useMemo } from 'preact/hooks';
 import { fixed, signed } from '../../plots/format.ts';
-import { cellExtent, COLOR_BAR_WIDTH, colorBar, heatImage } from '../../plots/heat.ts';
+import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage } from '../../plots/heat.ts';
 import { clipToPlot, type Layer, verticalLines } from '../../plots/layers.ts';
 import type { View as Zoom } from '../../plots/plot.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -40,28 +40,52 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
     return Number.isFinite(low) ? [Math.floor(low / 10) * 10, Math.ceil((high + 4) / 10) * 10] : [-100, 0];
   }, [view]);
   const extentX = useMemo(() => cellExtent(view.rangeM), [view]);
-  const content = useMemo(() => ({
-    x: view.rangeM,
-    series: [{ id: 'profile', label: 'Profile', y: view.rangeProfileDb, style: { color: ACCENT_STYLE.color } }],
-    extent: { x: extentX, y: extentY },
-    above: [
-      verticalLines(board.map(({ rangeM }) => ({ x: rangeM })), { dash: [2, 4], color: (t) => t.muted }),
-      detectionTicks(view),
-    ],
-  }), [view, board]);
+  const content = useMemo(
+    () => ({
+      x: view.rangeM,
+      series: [{ id: 'profile', label: 'Profile', y: view.rangeProfileDb, style: { color: ACCENT_STYLE.color } }],
+      extent: { x: extentX, y: extentY },
+      above: [
+        verticalLines(
+          board.map(({ rangeM }) => ({ x: rangeM })),
+          { dash: [2, 4], color: (t) => t.muted },
+        ),
+        detectionTicks(view),
+      ],
+    }),
+    [view, board],
+  );
   const zoom = rangeZoom.value;
   const shown: Zoom | null = zoom ? { x: zoom, y: extentY } : null;
   return (
-    <PlotFrame title="Range profile" name="range-profile" height="short" content={content} view={shown}
+    <PlotFrame
+      title="Range profile"
+      name="range-profile"
+      height="short"
+      content={content}
+      view={shown}
       options={{
-        x: RANGE_AXIS, y: { label: 'Power (dBFS)' }, right: COLOR_BAR_WIDTH, cursorKey: 'range',
-        onView: (next, zoomed) => { rangeZoom.value = zoomed ? next.x : null; },
+        x: RANGE_AXIS,
+        y: { label: 'Power (dBFS)' },
+        right: COLOR_BAR_WIDTH,
+        cursorKey: 'range',
+        onView: (next, zoomed) => {
+          rangeZoom.value = zoomed ? next.x : null;
+        },
         onClick: ({ index }) => index !== null && update({ cell: { rangeBin: index, dopplerBin: cell.dopplerBin } }),
       }}
-      readout={({ x, index }) => `Range ${fixed(x, 3)} m   Power ${fixed(view.rangeProfileDb[index ?? -1] ?? Number.NaN, 1)} dBFS`}
-      csv={() => toCsv(['range_m', 'power_dbfs'], Array.from(view.rangeM, (range, i) => [range, view.rangeProfileDb[i]]))}
+      readout={({ x, index }) =>
+        `Range ${fixed(x, 3)} m   Power ${fixed(view.rangeProfileDb[index ?? -1] ?? Number.NaN, 1)} dBFS`
+      }
+      csv={() =>
+        toCsv(
+          ['range_m', 'power_dbfs'],
+          Array.from(view.rangeM, (range, i) => [range, view.rangeProfileDb[i]]),
+        )
+      }
       fileParts={fileParts}
-      remarks={[`${label}. Triangles: detections; dotted lines: ranges the board reported.`]} />
+      remarks={[`${label}. Triangles: detections; dotted lines: ranges the board reported.`]}
+    />
   );
 }
 
@@ -90,20 +114,28 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
     [view, limits[0], limits[1], colors],
   );
   const extent = useMemo(() => ({ x: cellExtent(view.rangeM), y: cellExtent(view.rateMps) }), [view]);
-  const content = useMemo(() => ({
-    x: view.rangeM, series: [], extent,
-    below: [image],
-    above: [detectionBoxes(view), selection(view, cell), colorBar(limits, colors, 'dBFS')],
-  }), [view, image, cell.rangeBin, cell.dopplerBin]);
-  const zoom: Zoom | null = rangeZoom.value || rateZoom.value
-    ? { x: rangeZoom.value ?? extent.x, y: rateZoom.value ?? extent.y }
-    : null;
-  const level = (range: number, doppler: number): number => view.rangeDopplerDb[range * view.rateMps.length + doppler] ?? Number.NaN;
+  const content = useMemo(
+    () => ({
+      x: view.rangeM,
+      series: [],
+      extent,
+      below: [image],
+      above: [detectionBoxes(view), selection(view, cell), colorBar(limits, colors, 'dBFS')],
+    }),
+    [view, image, cell.rangeBin, cell.dopplerBin],
+  );
+  const zoom: Zoom | null =
+    rangeZoom.value || rateZoom.value ? { x: rangeZoom.value ?? extent.x, y: rateZoom.value ?? extent.y } : null;
+  const level = (range: number, doppler: number): number =>
+    view.rangeDopplerDb[range * view.rateMps.length + doppler] ?? Number.NaN;
   const select = (next: Cell): void => {
     const range = Math.min(Math.max(next.rangeBin, 0), view.rangeM.length - 1);
     const doppler = Math.min(Math.max(next.dopplerBin, 0), view.rateMps.length - 1);
     update({ cell: { rangeBin: range, dopplerBin: doppler } });
-    announce(`Range ${fixed(view.rangeM[range] ?? 0, 2)} metres, rate ${signed(view.rateMps[doppler] ?? 0, 2)} metres per second, ${fixed(level(range, doppler), 1)} dB.`, 300);
+    announce(
+      `Range ${fixed(view.rangeM[range] ?? 0, 2)} metres, rate ${signed(view.rateMps[doppler] ?? 0, 2)} metres per second, ${fixed(level(range, doppler), 1)} dB.`,
+      300,
+    );
   };
   const nearest = (values: Float64Array, wanted: number): number => {
     let best = 0;
@@ -122,21 +154,45 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
   const key = (event: KeyboardEvent): boolean => {
     const by = event.shiftKey ? 10 : 1;
     switch (event.key) {
-      case 'ArrowLeft': select({ ...cell, rangeBin: cell.rangeBin - by }); return true;
-      case 'ArrowRight': select({ ...cell, rangeBin: cell.rangeBin + by }); return true;
-      case 'ArrowUp': select({ ...cell, dopplerBin: cell.dopplerBin + by }); return true;
-      case 'ArrowDown': select({ ...cell, dopplerBin: cell.dopplerBin - by }); return true;
-      case 'n': step(1); return true;
-      case 'p': step(-1); return true;
-      case 'Home': update({ cell: null }); return true;
-      default: return false;
+      case 'ArrowLeft':
+        select({ ...cell, rangeBin: cell.rangeBin - by });
+        return true;
+      case 'ArrowRight':
+        select({ ...cell, rangeBin: cell.rangeBin + by });
+        return true;
+      case 'ArrowUp':
+        select({ ...cell, dopplerBin: cell.dopplerBin + by });
+        return true;
+      case 'ArrowDown':
+        select({ ...cell, dopplerBin: cell.dopplerBin - by });
+        return true;
+      case 'n':
+        step(1);
+        return true;
+      case 'p':
+        step(-1);
+        return true;
+      case 'Home':
+        update({ cell: null });
+        return true;
+      default:
+        return false;
     }
   };
   return (
-    <PlotFrame title="Range-Doppler map" name="range-doppler" height="medium" content={content} view={zoom}
+    <PlotFrame
+      title="Range-Doppler map"
+      name="range-doppler"
+      height="medium"
+      content={content}
+      view={zoom}
       keys="Arrows choose a cell, with Shift by ten; N and P go through the detections; Home takes the strongest."
       options={{
-        x: RANGE_AXIS, y: { label: 'Range rate (m/s), + receding' }, right: COLOR_BAR_WIDTH, grid: false, cursorKey: 'range',
+        x: RANGE_AXIS,
+        y: { label: 'Range rate (m/s), + receding' },
+        right: COLOR_BAR_WIDTH,
+        grid: false,
+        cursorKey: 'range',
         onClick: ({ x, y }) => select({ rangeBin: nearest(view.rangeM, x), dopplerBin: nearest(view.rateMps, y) }),
         onKey: key,
         onView: (next, zoomed) => {
@@ -148,14 +204,20 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
         const [range, doppler] = [nearest(view.rangeM, x), nearest(view.rateMps, y)];
         return `Range ${fixed(view.rangeM[range] ?? Number.NaN, 3)} m   Rate ${signed(view.rateMps[doppler] ?? Number.NaN, 3)} m/s   Power ${fixed(level(range, doppler), 1)} dBFS   bin ${range}, ${doppler}`;
       }}
-      csv={() => toCsv(['range_m', 'rate_mps', 'power_dbfs'], (function* rows() {
-        for (let i = 0; i < view.rangeM.length; i++) {
-          for (let j = 0; j < view.rateMps.length; j++) yield [view.rangeM[i], view.rateMps[j], level(i, j)];
-        }
-      })())}
+      csv={() =>
+        toCsv(
+          ['range_m', 'rate_mps', 'power_dbfs'],
+          (function* rows() {
+            for (let i = 0; i < view.rangeM.length; i++) {
+              for (let j = 0; j < view.rateMps.length; j++) yield [view.rangeM[i], view.rateMps[j], level(i, j)];
+            }
+          })(),
+        )
+      }
       fileParts={fileParts}
       remarks={[`${label}. Squares: detections; crosshair: the chosen cell.`]}
-      hint="Click a cell, or use the arrow keys." />
+      hint="Click a cell, or use the arrow keys."
+    />
   );
 }
 
@@ -189,7 +251,10 @@ function selection(view: FrameResult, cell: Cell): Layer {
     const gap = 9 * ratio;
     const path = new Path2D();
     for (const [ax, ay, bx, by] of [
-      [left, py, px - gap, py], [px + gap, py, left + width, py], [px, top, px, py - gap], [px, py + gap, px, top + height],
+      [left, py, px - gap, py],
+      [px + gap, py, left + width, py],
+      [px, top, px, py - gap],
+      [px, py + gap, px, top + height],
     ] as const) {
       path.moveTo(ax, ay);
       path.lineTo(bx, by);

@@ -6,7 +6,10 @@ import type { Loaded } from './files.ts';
 
 /** One frame, or all of them combined. */
 export async function runChain(
-  capture: Loaded, chain: ChainOptions, frame: number | 'all', job: JobOptions,
+  capture: Loaded,
+  chain: ChainOptions,
+  frame: number | 'all',
+  job: JobOptions,
 ): Promise<FrameResult> {
   const { bin, cfg } = capture;
   if (frame === 'all') return pool().combineFrames(bin, cfg, chain, job);
@@ -16,7 +19,12 @@ export async function runChain(
 
 /** Angles in one cell: from one snapshot, or one of each frame. */
 export function estimateCell(
-  capture: Loaded, chain: ChainOptions, frame: number | 'all', cell: Cell, angle: AngleOptions, job: JobOptions,
+  capture: Loaded,
+  chain: ChainOptions,
+  frame: number | 'all',
+  cell: Cell,
+  angle: AngleOptions,
+  job: JobOptions,
 ): Promise<Estimate> {
   const { bin, cfg } = capture;
   return frame === 'all'

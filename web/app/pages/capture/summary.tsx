@@ -6,22 +6,77 @@ import { captureState } from './state.ts';
 export function Summary({ info, geometry }: { info: CaptureInfo; geometry: ArrayGeometry | null }) {
   const { waveform, summary, platform, array } = info.config;
   const { array: chosen } = captureState.value;
-  const angularDeg = geometry && geometry.aperture > 0 ? (Math.asin(Math.min(1, 2 / (geometry.aperture + 1))) * 180) / Math.PI : Number.NaN;
+  const angularDeg =
+    geometry && geometry.aperture > 0
+      ? (Math.asin(Math.min(1, 2 / (geometry.aperture + 1))) * 180) / Math.PI
+      : Number.NaN;
   const facts: [string, string, string, string?][] = [
-    ['Range resolution', `${significant(summary.rangeResolutionM * 100)}\u00a0cm`, 'c / 2B, with B the bandwidth sampled', 'rangeResolution'],
-    ['Maximum range', `${significant(summary.maxRangeM, 4)}\u00a0m`, 'Where the beat frequency reaches the sample rate (complex sampling)', 'maxRange'],
-    ['Rate resolution', `${significant(summary.rateResolutionMps)}\u00a0m/s`, 'λ / 2T, with T the time of a frame’s chirps', 'rateResolution'],
-    ['Rate limit', `±${significant(summary.maxRateMps)}\u00a0m/s`, 'λ / 4T, with T the time between chirps of one transmitter', 'maxRate'],
-    ['Angular resolution', `${fixed(angularDeg, 1)}°`, 'λ over aperture, at boresight; the aperture includes the outer elements', 'angularResolution'],
+    [
+      'Range resolution',
+      `${significant(summary.rangeResolutionM * 100)}\u00a0cm`,
+      'c / 2B, with B the bandwidth sampled',
+      'rangeResolution',
+    ],
+    [
+      'Maximum range',
+      `${significant(summary.maxRangeM, 4)}\u00a0m`,
+      'Where the beat frequency reaches the sample rate (complex sampling)',
+      'maxRange',
+    ],
+    [
+      'Rate resolution',
+      `${significant(summary.rateResolutionMps)}\u00a0m/s`,
+      'λ / 2T, with T the time of a frame’s chirps',
+      'rateResolution',
+    ],
+    [
+      'Rate limit',
+      `±${significant(summary.maxRateMps)}\u00a0m/s`,
+      'λ / 4T, with T the time between chirps of one transmitter',
+      'maxRate',
+    ],
+    [
+      'Angular resolution',
+      `${fixed(angularDeg, 1)}°`,
+      'λ over aperture, at boresight; the aperture includes the outer elements',
+      'angularResolution',
+    ],
     ['Bandwidth', engineering(summary.bandwidthHz, 'Hz'), 'Swept while samples are taken', 'bandwidth'],
-    ['Centre frequency', engineering(summary.centreFrequencyHz, 'Hz', 4), `Wavelength ${significant(summary.wavelengthM * 1000)} mm`, 'centre'],
-    ['Frame', `${waveform.loops} × ${waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`, `${significant(summary.frameTimeS * 1000)} ms of them transmitting`, 'frame'],
-    ['Samples a chirp', `${waveform.samples} at ${engineering(waveform.sampleRateHz, 'S/s', 4)}`, `Slope ${significant(waveform.slopeHzPerS / 1e12, 4)} MHz/µs`, 'samples'],
-    ['Array', geometry ? `${chosen === 'auto' ? array ?? platform ?? 'configured' : chosen}, ${geometry.positions.length} virtual` : 'not known', `${info.config.transmitters} transmitters, ${info.config.receivers} receivers`, 'array'],
+    [
+      'Centre frequency',
+      engineering(summary.centreFrequencyHz, 'Hz', 4),
+      `Wavelength ${significant(summary.wavelengthM * 1000)} mm`,
+      'centre',
+    ],
+    [
+      'Frame',
+      `${waveform.loops} × ${waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`,
+      `${significant(summary.frameTimeS * 1000)} ms of them transmitting`,
+      'frame',
+    ],
+    [
+      'Samples a chirp',
+      `${waveform.samples} at ${engineering(waveform.sampleRateHz, 'S/s', 4)}`,
+      `Slope ${significant(waveform.slopeHzPerS / 1e12, 4)} MHz/µs`,
+      'samples',
+    ],
+    [
+      'Array',
+      geometry
+        ? `${chosen === 'auto' ? (array ?? platform ?? 'configured') : chosen}, ${geometry.positions.length} virtual`
+        : 'not known',
+      `${info.config.transmitters} transmitters, ${info.config.receivers} receivers`,
+      'array',
+    ],
   ];
   return (
     <dl class="facts" data-facts="capture">
-      {facts.map(([term, value, help, key]) => <div key={term} title={help} data-fact={key}><dt>{term}</dt><dd>{value}</dd></div>)}
+      {facts.map(([term, value, help, key]) => (
+        <div key={term} title={help} data-fact={key}>
+          <dt>{term}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
     </dl>
   );
 }

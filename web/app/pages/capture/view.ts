@@ -3,8 +3,15 @@ import type { Cell, Detection, FrameResult } from 'boresight';
 
 /** The chosen cell, or the strongest detection's, kept within the map. */
 export function shownCell(view: FrameResult, cell: Cell | null): Cell {
-  const strongest = view.detections.reduce<Detection | null>((best, row) => (best && best.powerDb >= row.powerDb ? best : row), null);
-  const wanted = cell ?? (strongest ? { rangeBin: strongest.rangeBin, dopplerBin: strongest.dopplerBin } : { rangeBin: 0, dopplerBin: Math.floor(view.rateMps.length / 2) });
+  const strongest = view.detections.reduce<Detection | null>(
+    (best, row) => (best && best.powerDb >= row.powerDb ? best : row),
+    null,
+  );
+  const wanted =
+    cell ??
+    (strongest
+      ? { rangeBin: strongest.rangeBin, dopplerBin: strongest.dopplerBin }
+      : { rangeBin: 0, dopplerBin: Math.floor(view.rateMps.length / 2) });
   return {
     rangeBin: Math.min(wanted.rangeBin, view.rangeM.length - 1),
     dopplerBin: Math.min(wanted.dopplerBin, view.rateMps.length - 1),

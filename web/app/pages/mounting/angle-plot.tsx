@@ -1,6 +1,7 @@
 /** The angle over driving time, as each method has it, with the deviation it claims. */
-import { useMemo } from 'preact/hooks';
+
 import type { AngleHistory } from 'boresight';
+import { useMemo } from 'preact/hooks';
 import { fixed, signed } from '../../plots/format.ts';
 import { areaBetween, dots, horizontalLine, type Layer, polyline } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -12,9 +13,14 @@ import { after } from './playhead.ts';
 import { results, shown, shownMethod, where } from './process.ts';
 import { mountingState } from './state.ts';
 import { sinceStart, startTime, TimePlot, timeExtent } from './time-plot.tsx';
-import { about, type Way, WAYS } from './ways.ts';
+import { about, WAYS, type Way } from './ways.ts';
 
-interface Curve { method: Way; title: string; history: AngleHistory; stale: boolean }
+interface Curve {
+  method: Way;
+  title: string;
+  history: AngleHistory;
+  stale: boolean;
+}
 
 /** The last entry not later than a time. */
 const entry = (history: AngleHistory, timeS: number): number => after(history.timeS, timeS) - 1;
@@ -29,26 +35,49 @@ export function AnglePlot() {
   const found = results.value;
   const frames = shown.value;
   const method = shownMethod.value;
-  const curves = useMemo(() => WAYS.flatMap((way): Curve[] => {
-    const result = found.get(way);
-    const history = result?.calibration?.history;
-    return history ? [{ method: way, title: about(way).title, history, stale: result.stale }] : [];
-  }), [found]);
+  const curves = useMemo(
+    () =>
+      WAYS.flatMap((way): Curve[] => {
+        const result = found.get(way);
+        const history = result?.calibration?.history;
+        return history ? [{ method: way, title: about(way).title, history, stale: result.stale }] : [];
+      }),
+    [found],
+  );
   const content = useMemo(() => {
     const below: Layer[] = [];
     const lines: Layer[] = [];
-    for (const { method: way, history } of [...curves].sort((a, b) => Number(a.method === method) - Number(b.method === method))) {
+    for (const { method: way, history } of [...curves].sort(
+      (a, b) => Number(a.method === method) - Number(b.method === method),
+    )) {
       const x = sinceStart(history.timeS);
       const style = methodStyle(way);
-      const edge = (sign: number): Float64Array => history.angleDeg.map((angle, i) => angle + sign * sigmas * (history.sigmaDeg[i] as number));
+      const edge = (sign: number): Float64Array =>
+        history.angleDeg.map((angle, i) => angle + sign * sigmas * (history.sigmaDeg[i] as number));
       below.push(areaBetween(x, edge(-1), edge(1), style));
       lines.push(polyline(x, history.angleDeg, style));
     }
-    if (frames && method && singles) lines.unshift(dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.2));
-    const extent = { x: timeExtent(), y: angleExtent(curves, sigmas, trueDeg, nominalDeg, found.get(method ?? 'recursive')?.calibration?.result.angleDeg) };
-    if (nominalDeg !== null) lines.push(horizontalLine(nominalDeg, `nominal ${signed(nominalDeg, 2)}°`, { left: true }));
+    if (frames && method && singles)
+      lines.unshift(dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.2));
+    const extent = {
+      x: timeExtent(),
+      y: angleExtent(
+        curves,
+        sigmas,
+        trueDeg,
+        nominalDeg,
+        found.get(method ?? 'recursive')?.calibration?.result.angleDeg,
+      ),
+    };
+    if (nominalDeg !== null)
+      lines.push(horizontalLine(nominalDeg, `nominal ${signed(nominalDeg, 2)}°`, { left: true }));
     if (trueDeg !== undefined) {
-      lines.push(horizontalLine(trueDeg, `${open?.truth ? 'true' : 'stated'} ${signed(trueDeg, 2)}°`, { color: (t) => t.truth, dash: [6, 3] }));
+      lines.push(
+        horizontalLine(trueDeg, `${open?.truth ? 'true' : 'stated'} ${signed(trueDeg, 2)}°`, {
+          color: (t) => t.truth,
+          dash: [6, 3],
+        }),
+      );
     }
     return { x: sinceStart(curves[0]?.history.timeS ?? new Float64Array()), series: [], extent, below, above: lines };
   }, [curves, frames, method, singles, sigmas, trueDeg, nominalDeg]);
@@ -58,26 +87,54 @@ export function AnglePlot() {
     return `${signed(angle, 3)}° ± ${sigma === Number.POSITIVE_INFINITY ? '∞' : fixed(sigma, 3)}`;
   };
   const legend: LegendItem[] = [
-    ...curves.map((curve): LegendItem => ({
-      id: curve.method, label: curve.title, style: methodStyle(curve.method), line: true, value: ({ x }) => at(curve, x), rest: at(curve, Number.POSITIVE_INFINITY),
-    })),
-    ...(trueDeg === undefined ? [] : [{ id: 'truth', label: open?.truth ? 'True angle' : 'Angle stated by the data set', style: { ...TRUTH_STYLE, dash: [6, 3] }, line: true }]),
+    ...curves.map(
+      (curve): LegendItem => ({
+        id: curve.method,
+        label: curve.title,
+        style: methodStyle(curve.method),
+        line: true,
+        value: ({ x }) => at(curve, x),
+        rest: at(curve, Number.POSITIVE_INFINITY),
+      }),
+    ),
+    ...(trueDeg === undefined
+      ? []
+      : [
+          {
+            id: 'truth',
+            label: open?.truth ? 'True angle' : 'Angle stated by the data set',
+            style: { ...TRUTH_STYLE, dash: [6, 3] },
+            line: true,
+          },
+        ]),
   ];
   const ends = curves.map(({ history }) => history.angleDeg.at(-1) ?? Number.NaN);
-  const beyond = curves.filter((_, i) => (ends[i] as number) < content.extent.y[0] || (ends[i] as number) > content.extent.y[1]).map(({ title }) => title);
+  const beyond = curves
+    .filter((_, i) => (ends[i] as number) < content.extent.y[0] || (ends[i] as number) > content.extent.y[1])
+    .map(({ title }) => title);
   const outside = nominalDeg !== null && (nominalDeg < content.extent.y[0] || nominalDeg > content.extent.y[1]);
   return (
-    <TimePlot title="Angle over driving time" name="angle-history" height="medium" content={content} legend={legend}
+    <TimePlot
+      title="Angle over driving time"
+      name="angle-history"
+      height="medium"
+      content={content}
+      legend={legend}
       y={{ label: 'Mounting angle (°)', width: 64 }}
       readout={({ x, y }) => `Time ${fixed(x, 1)} s   Angle ${signed(y, 3)}°`}
-      csv={() => toCsv(
-        ['method', 'time_s', 'angle_deg', 'sigma_deg'],
-        curves.flatMap(({ method, history }) => Array.from(history.timeS, (time, i) => [method, time, history.angleDeg[i], history.sigmaDeg[i]])),
-      )}
+      csv={() =>
+        toCsv(
+          ['method', 'time_s', 'angle_deg', 'sigma_deg'],
+          curves.flatMap(({ method, history }) =>
+            Array.from(history.timeS, (time, i) => [method, time, history.angleDeg[i], history.sigmaDeg[i]]),
+          ),
+        )
+      }
       remarks={[
-        `Shaded: the angle ± ${band} standard deviation${band === '1' ? '' : 's'}, as each method claims them.`
-        + `${frames && singles ? ' Dots: what single frames give.' : ''}${outside ? ` The nominal angle, ${signed(nominalDeg, 2)}°, is outside.` : ''}${beyond.length ? ` Out of sight at the end: ${beyond.join('; ')}.` : ''}`,
-      ]} />
+        `Shaded: the angle ± ${band} standard deviation${band === '1' ? '' : 's'}, as each method claims them.` +
+          `${frames && singles ? ' Dots: what single frames give.' : ''}${outside ? ` The nominal angle, ${signed(nominalDeg, 2)}°, is outside.` : ''}${beyond.length ? ` Out of sight at the end: ${beyond.join('; ')}.` : ''}`,
+      ]}
+    />
   );
 }
 
@@ -86,11 +143,17 @@ const REACH_DEG = 4;
 
 /** What is worth showing: the first part of the drive, when little is known, may run out of sight. */
 function angleExtent(
-  curves: readonly Curve[], sigmas: number, trueDeg: number | undefined, nominalDeg: number | null, shownDeg: number | undefined,
+  curves: readonly Curve[],
+  sigmas: number,
+  trueDeg: number | undefined,
+  nominalDeg: number | null,
+  shownDeg: number | undefined,
 ): [number, number] {
   const edges: number[] = [];
   const ends: number[] = trueDeg === undefined ? [] : [trueDeg];
-  for (const { history: { angleDeg, sigmaDeg } } of curves) {
+  for (const {
+    history: { angleDeg, sigmaDeg },
+  } of curves) {
     for (let i = Math.floor(angleDeg.length * 0.1); i < angleDeg.length; i++) {
       const [angle, sigma] = [angleDeg[i] as number, sigmas * (sigmaDeg[i] as number)];
       if (Number.isFinite(sigma)) edges.push(angle - sigma, angle + sigma);
@@ -105,7 +168,9 @@ function angleExtent(
   const room = Math.max(0.2 * (top - bottom), 0.05);
   const shown: [number, number] = [bottom - room, top + room];
   // The nominal angle is drawn in where that leaves the rest readable.
-  if (nominalDeg !== null && nominalDeg > shown[1] && nominalDeg - shown[1] < top - bottom) shown[1] = nominalDeg + room;
-  if (nominalDeg !== null && nominalDeg < shown[0] && shown[0] - nominalDeg < top - bottom) shown[0] = nominalDeg - room;
+  if (nominalDeg !== null && nominalDeg > shown[1] && nominalDeg - shown[1] < top - bottom)
+    shown[1] = nominalDeg + room;
+  if (nominalDeg !== null && nominalDeg < shown[0] && shown[0] - nominalDeg < top - bottom)
+    shown[0] = nominalDeg - room;
   return shown;
 }

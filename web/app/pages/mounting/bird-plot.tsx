@@ -19,9 +19,15 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
   const extent = useMemo(() => {
     const ranges = drive?.detections.rangeM;
     const azimuths = drive?.detections.azimuthDeg;
-    const places = sample.value.map((k) => inCar(ranges?.[k] ?? Number.NaN, azimuths?.[k] ?? Number.NaN, at?.nominalDeg ?? angleDeg));
+    const places = sample.value.map((k) =>
+      inCar(ranges?.[k] ?? Number.NaN, azimuths?.[k] ?? Number.NaN, at?.nominalDeg ?? angleDeg),
+    );
     const along = (axis: 0 | 1): [number, number] => {
-      const [low, high] = quantiles(places.map((place) => place[axis]), 0.02, 0.95) ?? [-20, 20];
+      const [low, high] = quantiles(
+        places.map((place) => place[axis]),
+        0.02,
+        0.95,
+      ) ?? [-20, 20];
       return [Math.min(low, -3) - 2, Math.max(high, 6) + 2];
     };
     return { x: along(0), y: along(1) };
@@ -30,34 +36,69 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
     const all = Array.from(view.azimuthDeg, (azimuth, i) => inCar(view.rangeM?.[i] ?? Number.NaN, azimuth, angleDeg));
     return { x: all.map(([x]) => x), y: all.map(([, y]) => y) };
   }, [view, angleDeg, at]);
-  const content = useMemo(() => ({
-    x: [], series: [], extent,
-    below: [carOutline(), boresight(at?.xM ?? 0, at?.yM ?? 0, at?.nominalDeg ?? null, angleDeg)],
-    above: [detectionLayer(places.x, places.y, view)],
-  }), [places, view, extent, at?.nominalDeg, angleDeg]);
+  const content = useMemo(
+    () => ({
+      x: [],
+      series: [],
+      extent,
+      below: [carOutline(), boresight(at?.xM ?? 0, at?.yM ?? 0, at?.nominalDeg ?? null, angleDeg)],
+      above: [detectionLayer(places.x, places.y, view)],
+    }),
+    [places, view, extent, at?.nominalDeg, angleDeg],
+  );
   const legend: LegendItem[] = [
     ...detectionLegend(view),
     { id: 'boresight', label: `Boresight, ${signed(angleDeg, 2)}°`, style: BORESIGHT, line: true },
-    ...(at?.nominalDeg == null ? [] : [{ id: 'nominal', label: `Nominal, ${signed(at.nominalDeg, 2)}°`, style: { ...BORESIGHT, dash: [3, 4] }, line: true }]),
+    ...(at?.nominalDeg == null
+      ? []
+      : [
+          {
+            id: 'nominal',
+            label: `Nominal, ${signed(at.nominalDeg, 2)}°`,
+            style: { ...BORESIGHT, dash: [3, 4] },
+            line: true,
+          },
+        ]),
   ];
   const without = !view.rangeM || quantiles(view.rangeM, 0, 1) === null;
   return (
-    <PlotFrame title="From above, in the car’s frame" name="birds-eye" height="tall" content={content} legend={legend}
+    <PlotFrame
+      title="From above, in the car’s frame"
+      name="birds-eye"
+      height="tall"
+      content={content}
+      legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."
       options={{ x: { label: 'Ahead of the rear axle (m)' }, y: { label: 'Left (m)' }, equal: true, onKey: frameKey }}
       readout={(position) => {
         const i = nearest(places.x, places.y, position, extent);
         if (i === null) return `Ahead ${signed(position.x, 1)} m   left ${signed(position.y, 1)} m`;
         const rcs = view.rcsDbsm?.[i];
-        return `Detection ${i + 1}: ahead ${signed(places.x[i] as number, 1)} m   left ${signed(places.y[i] as number, 1)} m   range ${fixed(view.rangeM?.[i] ?? Number.NaN, 1)} m`
-          + (rcs !== undefined && Number.isFinite(rcs) ? `   RCS ${signed(rcs, 1)} dBsm` : '');
+        return (
+          `Detection ${i + 1}: ahead ${signed(places.x[i] as number, 1)} m   left ${signed(places.y[i] as number, 1)} m   range ${fixed(view.rangeM?.[i] ?? Number.NaN, 1)} m` +
+          (rcs !== undefined && Number.isFinite(rcs) ? `   RCS ${signed(rcs, 1)} dBsm` : '')
+        );
       }}
-      csv={() => toCsv(
-        ['x_m', 'y_m', 'range_m', 'azimuth_deg', 'rcs_dbsm', 'weight'],
-        Array.from(view.azimuthDeg, (azimuth, i) => [places.x[i], places.y[i], view.rangeM?.[i], azimuth, view.rcsDbsm?.[i], view.weights?.[i]]),
-      )}
+      csv={() =>
+        toCsv(
+          ['x_m', 'y_m', 'range_m', 'azimuth_deg', 'rcs_dbsm', 'weight'],
+          Array.from(view.azimuthDeg, (azimuth, i) => [
+            places.x[i],
+            places.y[i],
+            view.rangeM?.[i],
+            azimuth,
+            view.rcsDbsm?.[i],
+            view.weights?.[i],
+          ]),
+        )
+      }
       fileParts={[...fileParts(), `${fixed(view.timeS, 2)}s`]}
-      remarks={[without && view.azimuthDeg.length ? 'This drive has no ranges, so its detections have no place.' : `${label}. The radar is turned by the angle found. The car’s outline is a typical one.`]} />
+      remarks={[
+        without && view.azimuthDeg.length
+          ? 'This drive has no ranges, so its detections have no place.'
+          : `${label}. The radar is turned by the angle found. The car’s outline is a typical one.`,
+      ]}
+    />
   );
 }
 

@@ -1,6 +1,7 @@
 /** Detections on a plot, by the weight with which they were taken as static. */
-import type { CursorPosition, View } from '../../plots/plot.ts';
+
 import { drawMarker, type Layer } from '../../plots/layers.ts';
+import type { CursorPosition, View } from '../../plots/plot.ts';
 import { methodStyle, type SeriesStyle, THEMES, weightColor } from '../../plots/theme.ts';
 import type { LegendItem } from '../../ui/plot-frame.tsx';
 import type { FrameView } from './frame.ts';
@@ -8,10 +9,15 @@ import type { FrameView } from './frame.ts';
 /** Weight from which a detection counts as static. */
 const INLIER = 0.5;
 
-const style = (weight: number, marker: 'circle' | 'diamond'): SeriesStyle =>
-  ({ color: { light: weightColor(weight, 'light'), dark: weightColor(weight, 'dark') }, marker });
+const style = (weight: number, marker: 'circle' | 'diamond'): SeriesStyle => ({
+  color: { light: weightColor(weight, 'light'), dark: weightColor(weight, 'dark') },
+  marker,
+});
 const INLIER_STYLE = style(1, 'circle');
-const UNWEIGHED_STYLE: SeriesStyle = { color: { light: THEMES.light.muted, dark: THEMES.dark.muted }, marker: 'circle' };
+const UNWEIGHED_STYLE: SeriesStyle = {
+  color: { light: THEMES.light.muted, dark: THEMES.dark.muted },
+  marker: 'circle',
+};
 const OUTLIER_STYLE = style(0, 'diamond');
 /** A ring around what the drive itself knows to move. */
 const MOVING_STYLE: SeriesStyle = { color: methodStyle('kabsch').color, marker: 'circle' };
@@ -19,17 +25,32 @@ const MOVING_STYLE: SeriesStyle = { color: methodStyle('kabsch').color, marker: 
 /** What the marks mean. */
 export function detectionLegend({ weights, moving }: Pick<FrameView, 'weights' | 'moving'>): LegendItem[] {
   return [
-    ...(weights ? [
-      { id: 'inlier', label: `Static, weight ≥ ${INLIER}`, style: INLIER_STYLE, line: false },
-      { id: 'outlier', label: 'Outlier', style: OUTLIER_STYLE, line: false, hollow: true },
-    ] : [{ id: 'unweighed', label: 'Detection, not weighed in this frame', style: UNWEIGHED_STYLE, line: false }]),
-    ...(moving ? [{ id: 'moving', label: 'Ring: moving by the drive’s own labels', style: MOVING_STYLE, line: false, hollow: true }] : []),
+    ...(weights
+      ? [
+          { id: 'inlier', label: `Static, weight ≥ ${INLIER}`, style: INLIER_STYLE, line: false },
+          { id: 'outlier', label: 'Outlier', style: OUTLIER_STYLE, line: false, hollow: true },
+        ]
+      : [{ id: 'unweighed', label: 'Detection, not weighed in this frame', style: UNWEIGHED_STYLE, line: false }]),
+    ...(moving
+      ? [
+          {
+            id: 'moving',
+            label: 'Ring: moving by the drive’s own labels',
+            style: MOVING_STYLE,
+            line: false,
+            hollow: true,
+          },
+        ]
+      : []),
   ];
 }
 
 /** Filled circles for what is static, hollow diamonds for the rest; on request, what is beyond top or bottom stands at the edge. */
 export function detectionLayer(
-  px: ArrayLike<number>, py: ArrayLike<number>, { weights, moving }: Pick<FrameView, 'weights' | 'moving'>, { edge = false } = {},
+  px: ArrayLike<number>,
+  py: ArrayLike<number>,
+  { weights, moving }: Pick<FrameView, 'weights' | 'moving'>,
+  { edge = false } = {},
 ): Layer {
   return ({ ctx, plot, theme, themeName, ratio, x, y }) => {
     const { left, top, width, height } = plot.bbox;
@@ -51,14 +72,22 @@ export function detectionLayer(
         ctx.stroke();
       }
       drawMarker(ctx, isStatic ? 'circle' : 'diamond', at, place, size, {
-        stroke: color, fill: isStatic ? color : theme.background, halo: theme.background, ratio,
+        stroke: color,
+        fill: isStatic ? color : theme.background,
+        halo: theme.background,
+        ratio,
       });
     }
   };
 }
 
 /** The detection next to the cursor, if one is near: distances as shares of the plot. */
-export function nearest(px: ArrayLike<number>, py: ArrayLike<number>, { x, y }: CursorPosition, { x: [left, right], y: [bottom, top] }: View): number | null {
+export function nearest(
+  px: ArrayLike<number>,
+  py: ArrayLike<number>,
+  { x, y }: CursorPosition,
+  { x: [left, right], y: [bottom, top] }: View,
+): number | null {
   let best: number | null = null;
   let least = 0.05;
   for (let i = 0; i < px.length; i++) {

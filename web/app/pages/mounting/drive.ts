@@ -3,9 +3,9 @@ import { computed, effect, signal } from '@preact/signals';
 import type { Drive, DriveSensor, DriveTruth, SimulateDriveOptions } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import radarAddress from '../../../../recordings/delphi/front_radar.csv.gz?url';
-import poseAddress from '../../../../recordings/delphi/pose_10hz.csv.gz?url';
 import licenceAddress from '../../../../recordings/delphi/LICENSE?url';
-import { aborted, describeError, FileProblem, pool, type Problem } from '../../data.ts';
+import poseAddress from '../../../../recordings/delphi/pose_10hz.csv.gz?url';
+import { aborted, describeError, FileProblem, type Problem, pool } from '../../data.ts';
 import type { NamedFile } from './entries.ts';
 import { type MountingState, mountingState, update } from './state.ts';
 
@@ -55,7 +55,11 @@ const LARGEST_BYTES = 1024 ** 3;
 /** The latest opening wins, and ends the one before. */
 let controller: AbortController | undefined;
 
-async function open(what: string, work: (signal: AbortSignal, job: JobOptions) => Promise<Loaded>, opened: () => void = () => {}): Promise<void> {
+async function open(
+  what: string,
+  work: (signal: AbortSignal, job: JobOptions) => Promise<Loaded>,
+  opened: () => void = () => {},
+): Promise<void> {
   controller?.abort();
   const mine = new AbortController();
   controller = mine;
@@ -73,9 +77,10 @@ async function open(what: string, work: (signal: AbortSignal, job: JobOptions) =
     driveProblem.value = null;
   } catch (error) {
     if (controller !== mine || aborted(error)) return;
-    driveProblem.value = error instanceof FileProblem
-      ? { code: error.code, message: error.message, file: error.file }
-      : describeError(error);
+    driveProblem.value =
+      error instanceof FileProblem
+        ? { code: error.code, message: error.message, file: error.file }
+        : describeError(error);
   } finally {
     if (controller === mine) {
       controller = undefined;
@@ -104,66 +109,120 @@ const OWN = { sensor: null, xM: null, yM: null, nominal: null, minSpeed: null } 
 
 export function openBundled(): Promise<void> {
   return open('Loading the bundled drive', async (signal, job) => {
-    const addresses = [['front_radar.csv.gz', radarAddress], ['pose_10hz.csv.gz', poseAddress]] as const;
-    const files = await Promise.all(addresses.map(async ([name, address]) => {
-      const response = await fetch(address, { signal });
-      if (!response.ok) throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
-      return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
-    }));
+    const addresses = [
+      ['front_radar.csv.gz', radarAddress],
+      ['pose_10hz.csv.gz', poseAddress],
+    ] as const;
+    const files = await Promise.all(
+      addresses.map(async ([name, address]) => {
+        const response = await fetch(address, { signal });
+        if (!response.ok)
+          throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
+        return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
+      }),
+    );
     const sizes = files.map(({ name, bytes }) => ({ name, bytes: bytes.length }));
     const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
-    return { name: 'bundled', source: 'delphi', files: sizes, drive, truth: null, statedDeg: new Map([[1, -1.96]]), licence: licenceAddress };
+    return {
+      name: 'bundled',
+      source: 'delphi',
+      files: sizes,
+      drive,
+      truth: null,
+      statedDeg: new Map([[1, -1.96]]),
+      licence: licenceAddress,
+    };
   });
 }
 
 export function openFiles(given: readonly NamedFile[] | Promise<readonly NamedFile[]>): Promise<void> {
-  return open('Reading the files', async (signal, job) => {
-    const all = await given;
-    const drives = all.filter(({ name }) => DRIVES.test(name));
-    const first = all[0];
-    if (!first) throw new FileProblem('no-drive-log', 'The folder', 'it is empty; a .csv, .csv.gz or .h5 with a drive is expected');
-    if (drives.length === 0) {
-      const what = all.length === 1 ? first.name : `${all.length} files`;
-      throw new FileProblem('no-drive-log', what, 'no drive is in it; .csv or .csv.gz tables, or the radar_data.h5 of a RadarScenes sequence, are expected');
-    }
-    const sequences = drives.filter(({ name }) => /\.(h5|hdf5)$/i.test(name)).length;
-    if (sequences > 1) throw new FileProblem('ambiguous', `${all.length} files`, `${sequences} sequences are in them; one is expected: open the folder of that alone`);
-    const kept = [...drives, ...all.filter(({ name }) => BESIDE.test(name))];
-    const size = kept.reduce((sum, { file }) => sum + file.size, 0);
-    const what = kept.length === 1 ? (kept[0] as NamedFile).name : `${kept.length} files`;
-    if (size > LARGEST_BYTES) {
-      throw new FileProblem('too-large', what, `${Math.round(size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected: choose one sequence`);
-    }
-    const files = await Promise.all(kept.map(async ({ name, file }) => ({ name, bytes: new Uint8Array(await file.arrayBuffer()) })));
-    signal.throwIfAborted();
-    try {
-      const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
-      const path = (drives[0] as NamedFile).name.split('/');
-      const name = path.at(-2) ?? (path.at(-1) as string).replace(DRIVES, '');
-      return {
-        name, source: 'files', files: kept.map(({ name, file }) => ({ name, bytes: file.size })),
-        drive, truth: null, statedDeg: new Map(), licence: null,
-      };
-    } catch (error) {
-      if (aborted(error)) throw error;
-      const { code, message } = describeError(error);
-      throw new FileProblem(code, what, message);
-    }
-  }, () => update({ ...OWN, source: 'files' }));
+  return open(
+    'Reading the files',
+    async (signal, job) => {
+      const all = await given;
+      const drives = all.filter(({ name }) => DRIVES.test(name));
+      const first = all[0];
+      if (!first)
+        throw new FileProblem(
+          'no-drive-log',
+          'The folder',
+          'it is empty; a .csv, .csv.gz or .h5 with a drive is expected',
+        );
+      if (drives.length === 0) {
+        const what = all.length === 1 ? first.name : `${all.length} files`;
+        throw new FileProblem(
+          'no-drive-log',
+          what,
+          'no drive is in it; .csv or .csv.gz tables, or the radar_data.h5 of a RadarScenes sequence, are expected',
+        );
+      }
+      const sequences = drives.filter(({ name }) => /\.(h5|hdf5)$/i.test(name)).length;
+      if (sequences > 1)
+        throw new FileProblem(
+          'ambiguous',
+          `${all.length} files`,
+          `${sequences} sequences are in them; one is expected: open the folder of that alone`,
+        );
+      const kept = [...drives, ...all.filter(({ name }) => BESIDE.test(name))];
+      const size = kept.reduce((sum, { file }) => sum + file.size, 0);
+      const what = kept.length === 1 ? (kept[0] as NamedFile).name : `${kept.length} files`;
+      if (size > LARGEST_BYTES) {
+        throw new FileProblem(
+          'too-large',
+          what,
+          `${Math.round(size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected: choose one sequence`,
+        );
+      }
+      const files = await Promise.all(
+        kept.map(async ({ name, file }) => ({ name, bytes: new Uint8Array(await file.arrayBuffer()) })),
+      );
+      signal.throwIfAborted();
+      try {
+        const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
+        const path = (drives[0] as NamedFile).name.split('/');
+        const name = path.at(-2) ?? (path.at(-1) as string).replace(DRIVES, '');
+        return {
+          name,
+          source: 'files',
+          files: kept.map(({ name, file }) => ({ name, bytes: file.size })),
+          drive,
+          truth: null,
+          statedDeg: new Map(),
+          licence: null,
+        };
+      } catch (error) {
+        if (aborted(error)) throw error;
+        const { code, message } = describeError(error);
+        throw new FileProblem(code, what, message);
+      }
+    },
+    () => update({ ...OWN, source: 'files' }),
+  );
 }
 
 function simulation(state: MountingState): SimulateDriveOptions {
   const { scenario, seed, duration, moving, misalignment } = state;
   const misalignmentDeg = Object.fromEntries([1, 2, 3, 4].map((id) => [id, misalignment]));
-  return { scenario, seed, durationS: duration, misalignmentDeg, ...(moving === null ? {} : { movingShare: moving / 100 }) };
+  return {
+    scenario,
+    seed,
+    durationS: duration,
+    misalignmentDeg,
+    ...(moving === null ? {} : { movingShare: moving / 100 }),
+  };
 }
 
 function openSimulated(options: SimulateDriveOptions): Promise<void> {
   return open('Simulating a drive', async (_, job) => {
     const { truth, ...drive } = await pool().simulateDrive(options, job);
     return {
-      name: `${options.scenario}-seed${options.seed}`, source: 'simulated', files: [], drive, truth,
-      statedDeg: new Map(truth.sensors.map(({ id, yawDeg }) => [id, yawDeg])), licence: null,
+      name: `${options.scenario}-seed${options.seed}`,
+      source: 'simulated',
+      files: [],
+      drive,
+      truth,
+      statedDeg: new Map(truth.sensors.map(({ id, yawDeg }) => [id, yawDeg])),
+      licence: null,
     };
   });
 }
@@ -189,12 +248,17 @@ export function start(): () => void {
     } else if (wanted === 'simulated') {
       if (open?.source === 'simulated' && simulated === text) return;
       // Numbers are typed digit by digit.
-      timer = setTimeout(() => {
-        simulated = text;
-        void openSimulated(JSON.parse(text) as SimulateDriveOptions);
-      }, open ? 400 : 0);
+      timer = setTimeout(
+        () => {
+          simulated = text;
+          void openSimulated(JSON.parse(text) as SimulateDriveOptions);
+        },
+        open ? 400 : 0,
+      );
     } else if (open?.source !== 'files' && opening.peek() === null) {
-      void openBundled().then(() => { filesWanted.value = loaded.peek()?.source === 'delphi'; });
+      void openBundled().then(() => {
+        filesWanted.value = loaded.peek()?.source === 'delphi';
+      });
     }
   });
   return () => {

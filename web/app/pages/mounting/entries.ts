@@ -1,6 +1,9 @@
 /** Files out of what was dropped: folders are looked through. */
 
-export interface NamedFile { name: string; file: File }
+export interface NamedFile {
+  name: string;
+  file: File;
+}
 
 /** More files than a folder of one drive holds. */
 const MOST_FILES = 20_000;

@@ -25,7 +25,10 @@ export interface FrameView extends DriveFrame {
 const STATIC_LABEL = 11;
 
 /** In the radar's frame. */
-export interface Motion { vxMps: number; vyMps: number }
+export interface Motion {
+  vxMps: number;
+  vyMps: number;
+}
 
 /** Range rate of what stands, seen from a moving radar. */
 export function standingRate({ vxMps, vyMps }: Motion, azimuthDeg: number): number {
@@ -57,7 +60,8 @@ export const frameView = computed<FrameView | null>(() => {
   }
   const calibration = shown.value;
   const frames = calibration?.frames;
-  const known = (value: number | undefined): number | null => (value !== undefined && Number.isFinite(value) ? value : null);
+  const known = (value: number | undefined): number | null =>
+    value !== undefined && Number.isFinite(value) ? value : null;
   const { offsets, values } = frames?.weights ?? {};
   const weights = offsets && values?.subarray(offsets[index], offsets[index + 1]);
   const read = api.driveFrame(drive, at);

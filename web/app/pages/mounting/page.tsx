@@ -1,7 +1,7 @@
 import { effect, useSignalEffect } from '@preact/signals';
 import { count, fixed, signed } from '../../plots/format.ts';
-import { announce } from '../../state/announce.ts';
 import { useAddress } from '../../state/address.ts';
+import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { AnglePlot } from './angle-plot.tsx';
 import { BirdPlot } from './bird-plot.tsx';
@@ -14,8 +14,8 @@ import { results, shownMethod, start as startProcess, where, working } from './p
 import { ResultsTable } from './results-table.tsx';
 import { SharePlot } from './share-plot.tsx';
 import { mountingCodec, mountingState } from './state.ts';
-import { frameKey } from './time-plot.tsx';
 import { Progress, TimeBar } from './time-bar.tsx';
+import { frameKey } from './time-plot.tsx';
 import { TrajectoryPlot } from './trajectory-plot.tsx';
 
 /** The time a link asks for, until its drive is there. */
@@ -48,7 +48,13 @@ function startPage(): () => void {
   const stops = [startDrive(), startProcess(), startClock(), followDrive()];
   const key = (event: KeyboardEvent): void => {
     const on = event.target as HTMLElement;
-    if (event.ctrlKey || event.metaKey || event.altKey || on.closest('button, input, select, summary, a, [role="application"], [tabindex="0"]')) return;
+    if (
+      event.ctrlKey ||
+      event.metaKey ||
+      event.altKey ||
+      on.closest('button, input, select, summary, a, [role="application"], [tabindex="0"]')
+    )
+      return;
     if (frameKey(event)) event.preventDefault();
   };
   addEventListener('keydown', key);
@@ -72,7 +78,8 @@ export function MountingPage() {
   useSignalEffect(() => {
     if (working.value || !loaded.value) return;
     const found = results.value.get(shownMethod.value ?? 'recursive')?.calibration?.result;
-    if (found) announce(`Mounting angle ${signed(found.angleDeg, 2)} degrees, standard deviation ${fixed(found.sigmaDeg, 2)}.`);
+    if (found)
+      announce(`Mounting angle ${signed(found.angleDeg, 2)} degrees, standard deviation ${fixed(found.sigmaDeg, 2)}.`);
   });
 
   const problem = driveProblem.value;
@@ -83,34 +90,53 @@ export function MountingPage() {
       <div class="main-column" aria-busy={working.value || opening.value !== null}>
         {problem && (
           <p class="alert" role="alert" data-error={problem.code}>
-            <strong>{problem.file ? `${problem.file}: ` : ''}</strong>{problem.message} <code>{problem.code}</code>
+            <strong>{problem.file ? `${problem.file}: ` : ''}</strong>
+            {problem.message} <code>{problem.code}</code>
             {open && ' The drive opened before is still shown.'}
           </p>
         )}
-        {filesWanted.value && <p class="notice" role="status">This link is of files that are not here. Open or drop them to see them with its settings.</p>}
+        {filesWanted.value && (
+          <p class="notice" role="status">
+            This link is of files that are not here. Open or drop them to see them with its settings.
+          </p>
+        )}
         {open && where.value?.xM === null && (
-          <p class="notice" role="status" data-notice="place">This drive does not say where the radar is: give its place ahead of the rear axle, under Radar.</p>
+          <p class="notice" role="status" data-notice="place">
+            This drive does not say where the radar is: give its place ahead of the rear axle, under Radar.
+          </p>
         )}
         {open && <Summary />}
         {open && <TimeBar />}
-        {open ? <Plots /> : !problem && <div class="panel loading" role="status"><Progress /></div>}
+        {open ? (
+          <Plots />
+        ) : (
+          !problem && (
+            <div class="panel loading" role="status">
+              <Progress />
+            </div>
+          )
+        )}
         <About title="About this page">
           <p>
-            The yaw a radar is mounted at shows in its Doppler: what stands has a range rate of −(v<sub>x</sub> cos a + v<sub>y</sub> sin a)
-            at azimuth a, where (v<sub>x</sub>, v<sub>y</sub>) is the radar’s own motion in its own frame. That motion’s direction, and
-            the one the car’s yaw rate and the radar’s place call for, differ by the mounting angle.
+            The yaw a radar is mounted at shows in its Doppler: what stands has a range rate of −(v<sub>x</sub> cos a +
+            v<sub>y</sub> sin a) at azimuth a, where (v<sub>x</sub>, v<sub>y</sub>) is the radar’s own motion in its own
+            frame. That motion’s direction, and the one the car’s yaw rate and the radar’s place call for, differ by the
+            mounting angle.
           </p>
           <p>
-            <b>Frames and signs.</b> The car’s frame is centred on the rear axle, x forward, y left. Angles are positive to the left,
-            range rates positive when receding. Scale and bias are those of the yaw-rate sensor: measured = scale × true + bias.
+            <b>Frames and signs.</b> The car’s frame is centred on the rear axle, x forward, y left. Angles are positive
+            to the left, range rates positive when receding. Scale and bias are those of the yaw-rate sensor: measured =
+            scale × true + bias.
           </p>
           <p>
-            <b>Deviations.</b> Each method’s own. The published ones take frames as independent, which tracked objects, as in the bundled
-            drive, are not: there they claim several times too little. “Not determined” is an infinite one: the drive does not tell.
+            <b>Deviations.</b> Each method’s own. The published ones take frames as independent, which tracked objects,
+            as in the bundled drive, are not: there they claim several times too little. “Not determined” is an infinite
+            one: the drive does not tell.
           </p>
           <p>
-            <b>Files.</b> A RadarScenes sequence (radar_data.h5), Delphi ESR tables, or general tables: detections with time_s, azimuth_deg
-            and range_rate_mps, and motion with time_s and yaw_rate_degps; the documentation names all columns.
+            <b>Files.</b> A RadarScenes sequence (radar_data.h5), Delphi ESR tables, or general tables: detections with
+            time_s, azimuth_deg and range_rate_mps, and motion with time_s and yaw_rate_degps; the documentation names
+            all columns.
           </p>
         </About>
       </div>
@@ -122,7 +148,9 @@ function Plots() {
   const view = frameView.value;
   const start = scans.value.timeS[0] ?? 0;
   const verdict = view?.verdict ? `, ${view.verdict.replace('-', ' ')}` : '';
-  const label = view ? `${fixed(view.timeS - start, 2)} s, frame ${frame.value + 1}: ${view.azimuthDeg.length} detections${verdict}` : '';
+  const label = view
+    ? `${fixed(view.timeS - start, 2)} s, frame ${frame.value + 1}: ${view.azimuthDeg.length} detections${verdict}`
+    : '';
   return (
     <>
       <AnglePlot />
@@ -149,27 +177,56 @@ function Summary() {
   const { drive } = open;
   const { timeS, scan } = scans.value;
   const lasts = (timeS.at(-1) ?? 0) - (timeS[0] ?? 0);
-  const mine = scan.reduce((sum, i) => sum + (drive.scans.offsets[i + 1] as number) - (drive.scans.offsets[i] as number), 0);
+  const mine = scan.reduce(
+    (sum, i) => sum + (drive.scans.offsets[i + 1] as number) - (drive.scans.offsets[i] as number),
+    0,
+  );
   const facts: [string, string, string, string][] = [
     ['Drive', `${open.name}, ${drive.format}`, 'Its name and format', 'name'],
     ['Lasts', `${fixed(lasts, 1)}\u00a0s`, 'From the radar’s first frame to its last', 'duration'],
     ['Radars', `${drive.sensors.length}`, 'Radars of the drive', 'radars'],
-    ['Frames', `${count(scan.length)} at ${fixed(lasts > 0 ? (scan.length - 1) / lasts : Number.NaN, 1)}\u00a0Hz`, 'Of the radar that is shown', 'frames'],
-    ['Detections', `${count(mine)}, ${fixed(mine / Math.max(scan.length, 1), 0)} a frame`, 'Of the radar that is shown', 'detections'],
+    [
+      'Frames',
+      `${count(scan.length)} at ${fixed(lasts > 0 ? (scan.length - 1) / lasts : Number.NaN, 1)}\u00a0Hz`,
+      'Of the radar that is shown',
+      'frames',
+    ],
+    [
+      'Detections',
+      `${count(mine)}, ${fixed(mine / Math.max(scan.length, 1), 0)} a frame`,
+      'Of the radar that is shown',
+      'detections',
+    ],
     ['Speed now', `${fixed(view?.speedMps ?? Number.NaN, 1)}\u00a0m/s`, 'Of the rear axle, as measured', 'speed'],
     ['Yaw rate now', `${signed(view?.yawRateDegps ?? Number.NaN, 1)}\u00a0°/s`, 'As measured', 'yawRate'],
-    ['This frame alone', view?.angleDeg == null ? '–' : `${signed(view.angleDeg, 2)}°\u00a0± ${fixed(view.angleSigmaDeg ?? Number.NaN, 2)}`, 'The mounting angle this frame gives by itself', 'alone'],
+    [
+      'This frame alone',
+      view?.angleDeg == null
+        ? '–'
+        : `${signed(view.angleDeg, 2)}°\u00a0± ${fixed(view.angleSigmaDeg ?? Number.NaN, 2)}`,
+      'The mounting angle this frame gives by itself',
+      'alone',
+    ],
   ];
   return (
     <dl class="facts" data-facts="drive">
-      {facts.map(([term, value, help, key]) => <div key={term} title={help} data-fact={key}><dt>{term}</dt><dd>{value}</dd></div>)}
+      {facts.map(([term, value, help, key]) => (
+        <div key={term} title={help} data-fact={key}>
+          <dt>{term}</dt>
+          <dd>{value}</dd>
+        </div>
+      ))}
     </dl>
   );
 }
 
 const REASONS: Record<string, string> = {
-  'not-finite': 'Not finite', 'invalid-marker': 'Without range rate', status: 'Not valid by status', duplicate: 'Duplicates',
-  'motion-not-finite': 'Motion not finite', 'motion-duplicate': 'Motion duplicates',
+  'not-finite': 'Not finite',
+  'invalid-marker': 'Without range rate',
+  status: 'Not valid by status',
+  duplicate: 'Duplicates',
+  'motion-not-finite': 'Motion not finite',
+  'motion-duplicate': 'Motion duplicates',
 };
 
 /** What was left out of the files, and what they had to say. */
@@ -178,19 +235,45 @@ function Remarks() {
   if (!drive) return null;
   const { incompleteDetections, incompleteMotion } = drive.counts;
   const facts: [string, number][] = [
-    ['Detections in the files', drive.counts.detections], ['Motion samples', drive.counts.motion],
-    ...(incompleteDetections > 0 ? [['Kept without range, place or cross-section', incompleteDetections] as [string, number]] : []),
+    ['Detections in the files', drive.counts.detections],
+    ['Motion samples', drive.counts.motion],
+    ...(incompleteDetections > 0
+      ? [['Kept without range, place or cross-section', incompleteDetections] as [string, number]]
+      : []),
     ...(incompleteMotion > 0 ? [['Motion kept without speed or pose', incompleteMotion] as [string, number]] : []),
-    ...Object.entries(drive.counts.dropped).map(([reason, number]): [string, number] => [REASONS[reason] ?? reason, number]),
+    ...Object.entries(drive.counts.dropped).map(([reason, number]): [string, number] => [
+      REASONS[reason] ?? reason,
+      number,
+    ]),
   ];
   return (
     <section class="panel" aria-labelledby="dropped-title">
-      <div class="panel-head"><h3 id="dropped-title">What was left out of the files, and remarks</h3></div>
+      <div class="panel-head">
+        <h3 id="dropped-title">What was left out of the files, and remarks</h3>
+      </div>
       <dl class="facts flat" data-facts="counts">
-        {facts.map(([term, value]) => <div key={term}><dt>{term}</dt><dd>{count(value)}</dd></div>)}
+        {facts.map(([term, value]) => (
+          <div key={term}>
+            <dt>{term}</dt>
+            <dd>{count(value)}</dd>
+          </div>
+        ))}
       </dl>
-      {drive.mountings && <p class="remark">Nominal mountings are from {drive.mountings === 'sensors-json' ? 'sensors.json' : 'what is known of the format'}.</p>}
-      {drive.warnings.length > 0 && <ul class="warnings">{drive.warnings.map(({ code, message }, i) => <li key={i}>{message} <code>{code}</code></li>)}</ul>}
+      {drive.mountings && (
+        <p class="remark">
+          Nominal mountings are from{' '}
+          {drive.mountings === 'sensors-json' ? 'sensors.json' : 'what is known of the format'}.
+        </p>
+      )}
+      {drive.warnings.length > 0 && (
+        <ul class="warnings">
+          {drive.warnings.map(({ code, message }, i) => (
+            <li key={i}>
+              {message} <code>{code}</code>
+            </li>
+          ))}
+        </ul>
+      )}
     </section>
   );
 }

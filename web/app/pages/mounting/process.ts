@@ -2,10 +2,10 @@
 import { batch, computed, effect, signal } from '@preact/signals';
 import type { CalibrationOptions, Drive, DriveCalibration } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
-import { aborted, describeError, pool, type Problem } from '../../data.ts';
+import { aborted, describeError, type Problem, pool } from '../../data.ts';
 import { type Loaded, loaded, sensor } from './drive.ts';
 import { calibrationOptions, mountingState, type Place, place } from './state.ts';
-import { type Way, WAYS } from './ways.ts';
+import { WAYS, type Way } from './ways.ts';
 
 export interface MethodResult {
   calibration?: DriveCalibration;
@@ -92,7 +92,9 @@ export function start(): () => void {
         known.clear();
         knownOf = { open, job: text };
       }
-      results.value = new Map(wanted.map((method) => [method, known.get(method) ?? { ...before.get(method), stale: true }]));
+      results.value = new Map(
+        wanted.map((method) => [method, known.get(method) ?? { ...before.get(method), stale: true }]),
+      );
     });
     const missing = wanted.filter((method) => !known.has(method));
     if (!open || !text || !missing.length) return;
@@ -124,26 +126,29 @@ async function calibrate(open: Loaded, text: string, missing: readonly Way[]): P
   const options = JSON.parse(text) as Options;
   const shares = new Map(missing.map((method) => [method, 0]));
   const say = (): void => {
-    if (running === controller) progress.value = { done: [...shares.values()].reduce((sum, share) => sum + share, 0), total: missing.length };
+    if (running === controller)
+      progress.value = { done: [...shares.values()].reduce((sum, share) => sum + share, 0), total: missing.length };
   };
   say();
-  await Promise.all(missing.map(async (method) => {
-    const started = performance.now();
-    try {
-      const calibration = await calibrateBy(method, open.drive, options, {
-        signal: controller.signal,
-        onProgress: (done, total) => {
-          shares.set(method, total > 0 ? done / total : 1);
-          say();
-        },
-      });
-      keep(method, { calibration, stale: false, milliseconds: performance.now() - started });
-    } catch (error) {
-      if (!aborted(error)) keep(method, { problem: describeError(error), stale: false });
-    }
-    shares.set(method, 1);
-    say();
-  }));
+  await Promise.all(
+    missing.map(async (method) => {
+      const started = performance.now();
+      try {
+        const calibration = await calibrateBy(method, open.drive, options, {
+          signal: controller.signal,
+          onProgress: (done, total) => {
+            shares.set(method, total > 0 ? done / total : 1);
+            say();
+          },
+        });
+        keep(method, { calibration, stale: false, milliseconds: performance.now() - started });
+      } catch (error) {
+        if (!aborted(error)) keep(method, { problem: describeError(error), stale: false });
+      }
+      shares.set(method, 1);
+      say();
+    }),
+  );
   if (running !== controller) return;
   running = undefined;
   batch(() => {

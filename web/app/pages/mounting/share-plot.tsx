@@ -15,7 +15,12 @@ import { about } from './ways.ts';
 
 /** Below the curves a lane for each verdict, so that no colour has to tell them apart. */
 const LANES = [
-  ['used', 'used'], ['standing', 'standing'], ['slow', 'slow'], ['turning', 'turning'], ['sparse', 'sparse'], ['without-motion', 'no motion'],
+  ['used', 'used'],
+  ['standing', 'standing'],
+  ['slow', 'slow'],
+  ['turning', 'turning'],
+  ['sparse', 'sparse'],
+  ['without-motion', 'no motion'],
 ] as const;
 const LANE = 0.085;
 
@@ -31,9 +36,13 @@ export function SharePlot() {
     const x = sinceStart(frames.timeS);
     const { offsets } = drive.scans;
     const sizes = Float32Array.from(frames.scan, (i) => (offsets[i + 1] as number) - (offsets[i] as number));
-    const share = sizes.map((size, i) => (size && Number.isFinite(frames.vxMps[i]) ? (frames.inliers[i] as number) / size : Number.NaN));
+    const share = sizes.map((size, i) =>
+      size && Number.isFinite(frames.vxMps[i]) ? (frames.inliers[i] as number) / size : Number.NaN,
+    );
     const [, heaviest] = quantiles(frames.weight, 0, 0.98) ?? [0, 1];
-    const weight = Float32Array.from(frames.weight, (value) => (value > 0 ? Math.min(value / (heaviest || 1), 1.1) : Number.NaN));
+    const weight = Float32Array.from(frames.weight, (value) =>
+      value > 0 ? Math.min(value / (heaviest || 1), 1.1) : Number.NaN,
+    );
     return { x, sizes, share, weight, heaviest, frames };
   }, [calibration, drive]);
   const content = useMemo(() => {
@@ -41,10 +50,15 @@ export function SharePlot() {
     if (!data) return { x: [], series: [], extent };
     const { x, share, weight, frames } = data;
     return {
-      x, series: [], extent,
+      x,
+      series: [],
+      extent,
       above: [
-        dots(x, weight, WEIGHT, 0.15), dots(x, share, SHARE, 0.2),
-        polyline(x, smoothed(x, weight), WEIGHT), polyline(x, smoothed(x, share), SHARE), lanes(x, frames.verdict),
+        dots(x, weight, WEIGHT, 0.15),
+        dots(x, share, SHARE, 0.2),
+        polyline(x, smoothed(x, weight), WEIGHT),
+        polyline(x, smoothed(x, share), SHARE),
+        lanes(x, frames.verdict),
       ],
     };
   }, [data, scans.value]);
@@ -52,27 +66,61 @@ export function SharePlot() {
   const verdict = (i: number): string => api.frameVerdicts[data?.frames.verdict[i] ?? -1] ?? '–';
   const now = frame.value;
   const part = (values: Float32Array | undefined) => ({
-    value: ({ x }: { x: number }) => fixed(values?.[at(x)] ?? Number.NaN, 2), rest: fixed(values?.[now] ?? Number.NaN, 2),
+    value: ({ x }: { x: number }) => fixed(values?.[at(x)] ?? Number.NaN, 2),
+    rest: fixed(values?.[now] ?? Number.NaN, 2),
   });
   const legend: LegendItem[] = [
     { id: 'share', label: 'Share of static detections', style: SHARE, line: true, ...part(data?.share) },
     { id: 'weight', label: 'Weight of the frame, relative', style: WEIGHT, line: true, ...part(data?.weight) },
   ];
   return (
-    <TimePlot title="Frames: inliers, weights, what became of them" {...(shownMethod.value ? { detail: about(shownMethod.value).title } : {})} name="frame-weights" height="medium" content={content} legend={legend}
+    <TimePlot
+      title="Frames: inliers, weights, what became of them"
+      {...(shownMethod.value ? { detail: about(shownMethod.value).title } : {})}
+      name="frame-weights"
+      height="medium"
+      content={content}
+      legend={legend}
       y={{ label: 'Share, relative weight', from: 0, width: 64 }}
       readout={({ x }) => {
         const i = at(x);
-        return data ? `Time ${fixed(x, 2)} s   frame ${i + 1}: ${data.frames.inliers[i] ?? 0} of ${data.sizes[i] ?? 0} static   ${verdict(i).replace('-', ' ')}` : '';
+        return data
+          ? `Time ${fixed(x, 2)} s   frame ${i + 1}: ${data.frames.inliers[i] ?? 0} of ${data.sizes[i] ?? 0} static   ${verdict(i).replace('-', ' ')}`
+          : '';
       }}
-      csv={() => toCsv(
-        ['time_s', 'verdict', 'detections', 'inliers', 'weight_per_rad2', 'vx_mps', 'vy_mps', 'angle_deg', 'angle_sigma_deg'],
-        Array.from(data?.frames.timeS ?? [], (time, i) => {
-          const { inliers, weight, vxMps, vyMps, angleDeg, angleSigmaDeg } = data!.frames;
-          return [time, verdict(i), data!.sizes[i], inliers[i], weight[i], vxMps[i], vyMps[i], angleDeg[i], angleSigmaDeg[i]];
-        }),
-      )}
-      remarks={[`Lines: means over 4 s.${data && data.heaviest > 0 ? ` Weights are relative to ${data.heaviest.toExponential(1)} rad⁻².` : ''}`]} />
+      csv={() =>
+        toCsv(
+          [
+            'time_s',
+            'verdict',
+            'detections',
+            'inliers',
+            'weight_per_rad2',
+            'vx_mps',
+            'vy_mps',
+            'angle_deg',
+            'angle_sigma_deg',
+          ],
+          Array.from(data?.frames.timeS ?? [], (time, i) => {
+            const { inliers, weight, vxMps, vyMps, angleDeg, angleSigmaDeg } = data!.frames;
+            return [
+              time,
+              verdict(i),
+              data!.sizes[i],
+              inliers[i],
+              weight[i],
+              vxMps[i],
+              vyMps[i],
+              angleDeg[i],
+              angleSigmaDeg[i],
+            ];
+          }),
+        )
+      }
+      remarks={[
+        `Lines: means over 4 s.${data && data.heaviest > 0 ? ` Weights are relative to ${data.heaviest.toExponential(1)} rad⁻².` : ''}`,
+      ]}
+    />
   );
 }
 

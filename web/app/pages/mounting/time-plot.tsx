@@ -1,7 +1,7 @@
 /** A plot over driving time: one zoom and one cursor for all, the playhead, and a click that goes there. */
 import { effect, signal, useSignal } from '@preact/signals';
-import type { AxisOptions, Interval, Plot, View } from '../../plots/plot.ts';
 import { Playhead } from '../../plots/playhead.ts';
+import type { AxisOptions, Interval, Plot, View } from '../../plots/plot.ts';
 import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
 import { loaded, scans, sensor } from './drive.ts';
 import { playing, step, time, togglePlaying } from './playhead.ts';
@@ -37,13 +37,20 @@ export function TimePlot({ y, ...props }: Props) {
       head.destroy();
     };
   };
-  const view: View | null = zoom.value || zoomY.value ? { x: zoom.value ?? extent.x, y: zoomY.value ?? extent.y } : null;
+  const view: View | null =
+    zoom.value || zoomY.value ? { x: zoom.value ?? extent.x, y: zoomY.value ?? extent.y } : null;
   return (
-    <PlotFrame {...props} view={view} fileParts={fileParts()} onPlot={follow}
+    <PlotFrame
+      {...props}
+      view={view}
+      fileParts={fileParts()}
+      onPlot={follow}
       keys="Space plays; arrows step by a frame, with Shift by ten."
       hint="Click to go to a time."
       options={{
-        x: { label: 'Driving time (s)' }, y, cursorKey: 'drive-time',
+        x: { label: 'Driving time (s)' },
+        y,
+        cursorKey: 'drive-time',
         onClick: (position) => {
           playing.value = false;
           time.value = position.x + startTime();
@@ -54,17 +61,25 @@ export function TimePlot({ y, ...props }: Props) {
           zoomY.value = within(next.y, extent.y) ? next.y : null;
         },
         onKey: frameKey,
-      }} />
+      }}
+    />
   );
 }
 
 /** Keys that all plots of the page share. */
 export function frameKey(event: KeyboardEvent): boolean {
   switch (event.key) {
-    case ' ': togglePlaying(); return true;
-    case 'ArrowLeft': step(event.shiftKey ? -10 : -1); return true;
-    case 'ArrowRight': step(event.shiftKey ? 10 : 1); return true;
-    default: return false;
+    case ' ':
+      togglePlaying();
+      return true;
+    case 'ArrowLeft':
+      step(event.shiftKey ? -10 : -1);
+      return true;
+    case 'ArrowRight':
+      step(event.shiftKey ? 10 : 1);
+      return true;
+    default:
+      return false;
   }
 }
 

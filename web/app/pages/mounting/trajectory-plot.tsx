@@ -1,6 +1,7 @@
 /** The drive from above: from the radar's motion with the angle found and the nominal one, and as the log has it. */
-import { useMemo } from 'preact/hooks';
+
 import type { Trajectory } from 'boresight';
+import { useMemo } from 'preact/hooks';
 import { fixed, signed } from '../../plots/format.ts';
 import { type Layer, markers, polyline } from '../../plots/layers.ts';
 import type { View } from '../../plots/plot.ts';
@@ -10,8 +11,8 @@ import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded } from './drive.ts';
 import { after, time } from './playhead.ts';
 import { shown, shownMethod } from './process.ts';
-import { fileParts, frameKey } from './time-plot.tsx';
 import { mountingState } from './state.ts';
+import { fileParts, frameKey } from './time-plot.tsx';
 import { paths, SEGMENT_M } from './trajectory.ts';
 
 const NOMINAL: SeriesStyle = { color: methodStyle('weighted-mean').color, dash: [5, 4] };
@@ -24,42 +25,117 @@ export function TrajectoryPlot() {
   const calibration = shown.value;
   const simulated = loaded.value?.truth !== null;
   const FOUND: SeriesStyle = { ...methodStyle(shownMethod.value ?? 'recursive'), width: 2 };
-  const lines = useMemo(() => (all ? ([[all.nominal, NOMINAL], [all.found, FOUND], [all.reference, REFERENCE]] as const).flatMap(([path, style]): Layer[] =>
-    (path ? [polyline(path.xM, path.yM, style)] : [])) : []), [all]);
+  const lines = useMemo(
+    () =>
+      all
+        ? (
+            [
+              [all.nominal, NOMINAL],
+              [all.found, FOUND],
+              [all.reference, REFERENCE],
+            ] as const
+          ).flatMap(([path, style]): Layer[] => (path ? [polyline(path.xM, path.yM, style)] : []))
+        : [],
+    [all],
+  );
   const extent = useMemo(() => bounds(all?.reference ?? null, all?.found ?? null), [all]);
   const now = time.value;
   const content = useMemo(() => {
     const here = (path: Trajectory | null | undefined, style: SeriesStyle, marker: 'circle' | 'square' | 'cross') => {
       if (!path) return [];
       const i = Math.max(after(path.timeS, now) - 1, 0);
-      return path.xM.length ? [{ x: path.xM[i] as number, y: path.yM[i] as number, style: { ...style, marker }, size: 5 }] : [];
+      return path.xM.length
+        ? [{ x: path.xM[i] as number, y: path.yM[i] as number, style: { ...style, marker }, size: 5 }]
+        : [];
     };
     return {
-      x: [], series: [], extent,
-      above: [...lines, markers([...here(all?.nominal, NOMINAL, 'square'), ...here(all?.reference, REFERENCE, 'cross'), ...here(all?.found, FOUND, 'circle')], { edge: false })],
+      x: [],
+      series: [],
+      extent,
+      above: [
+        ...lines,
+        markers(
+          [
+            ...here(all?.nominal, NOMINAL, 'square'),
+            ...here(all?.reference, REFERENCE, 'cross'),
+            ...here(all?.found, FOUND, 'circle'),
+          ],
+          { edge: false },
+        ),
+      ],
     };
   }, [lines, extent, now]);
   const error = (value: number | null | undefined): string => (value == null ? '' : `, RTE ${fixed(value, 2)} m`);
   const nominalDeg = calibration?.mounting.nominalDeg;
-  const legend: LegendItem[] = all ? [
-    { id: 'found', label: `Angle found, ${signed(calibration?.result.angleDeg ?? Number.NaN, 2)}°${error(all.foundError)}`, style: { ...FOUND, marker: 'circle' }, line: true },
-    ...(all.nominal ? [{ id: 'nominal', label: `Nominal angle, ${signed(nominalDeg ?? Number.NaN, 2)}°${error(all.nominalError)}`, style: { ...NOMINAL, marker: 'square' as const }, line: true }] : []),
-    ...(all.reference ? [{ id: 'reference', label: REFERENCES[simulated ? 'truth' : (all.kind ?? 'poses')], style: { ...REFERENCE, marker: 'cross' as const }, line: true }] : []),
-  ] : [];
-  const remark = !all ? 'Not calibrated yet.'
-    : !all.found ? 'The radar is too near the rear axle’s line to tell how the car turns.'
+  const legend: LegendItem[] = all
+    ? [
+        {
+          id: 'found',
+          label: `Angle found, ${signed(calibration?.result.angleDeg ?? Number.NaN, 2)}°${error(all.foundError)}`,
+          style: { ...FOUND, marker: 'circle' },
+          line: true,
+        },
+        ...(all.nominal
+          ? [
+              {
+                id: 'nominal',
+                label: `Nominal angle, ${signed(nominalDeg ?? Number.NaN, 2)}°${error(all.nominalError)}`,
+                style: { ...NOMINAL, marker: 'square' as const },
+                line: true,
+              },
+            ]
+          : []),
+        ...(all.reference
+          ? [
+              {
+                id: 'reference',
+                label: REFERENCES[simulated ? 'truth' : (all.kind ?? 'poses')],
+                style: { ...REFERENCE, marker: 'cross' as const },
+                line: true,
+              },
+            ]
+          : []),
+      ]
+    : [];
+  const remark = !all
+    ? 'Not calibrated yet.'
+    : !all.found
+      ? 'The radar is too near the rear axle’s line to tell how the car turns.'
       : `The radar’s own motion from the start, ${mountingState.value.heading === 'sensor' ? 'turned by the yaw rate as measured less its bias' : 'which also turns the car: a wrong angle bends the way'}. RTE: mean end-point error of ${SEGMENT_M} m segments.${all.reference ? '' : ' This drive has neither poses nor speed to compare with.'}`;
   return (
-    <PlotFrame title="Trajectory" name="trajectory" height="tall" content={content} legend={legend}
+    <PlotFrame
+      title="Trajectory"
+      name="trajectory"
+      height="tall"
+      content={content}
+      legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."
-      options={{ x: { label: 'Along the first heading (m)' }, y: { label: 'Left of it (m)' }, equal: true, onKey: frameKey }}
+      options={{
+        x: { label: 'Along the first heading (m)' },
+        y: { label: 'Left of it (m)' },
+        equal: true,
+        onKey: frameKey,
+      }}
       readout={({ x, y }) => `Along ${signed(x, 0)} m   left ${signed(y, 0)} m`}
-      csv={() => toCsv(
-        ['path', 'time_s', 'x_m', 'y_m', 'yaw_deg'],
-        all ? ([['found', all.found], ['nominal', all.nominal], ['reference', all.reference]] as const).flatMap(([name, path]) =>
-          Array.from(path?.timeS ?? [], (t, i) => [name, t, path?.xM[i], path?.yM[i], path?.yawDeg[i]])) : [],
-      )}
-      fileParts={fileParts()} remarks={[remark]} />
+      csv={() =>
+        toCsv(
+          ['path', 'time_s', 'x_m', 'y_m', 'yaw_deg'],
+          all
+            ? (
+                [
+                  ['found', all.found],
+                  ['nominal', all.nominal],
+                  ['reference', all.reference],
+                ] as const
+              ).flatMap(([name, path]) =>
+                Array.from(path?.timeS ?? [], (t, i) => [name, t, path?.xM[i], path?.yM[i], path?.yawDeg[i]]),
+              )
+            : [],
+        )
+      }
+      fileParts={fileParts()}
+      remarks={[remark]}
+    />
   );
 }
 
@@ -68,7 +144,8 @@ function bounds(reference: Trajectory | null, found: Trajectory | null): View {
   const along = (axis: 'xM' | 'yM'): [number, number] => {
     const range = (path: Trajectory | null): [number, number] => {
       let [low, high] = [0, 0];
-      for (const value of path?.[axis] ?? []) if (Number.isFinite(value)) [low, high] = [Math.min(low, value), Math.max(high, value)];
+      for (const value of path?.[axis] ?? [])
+        if (Number.isFinite(value)) [low, high] = [Math.min(low, value), Math.max(high, value)];
       return [low, high];
     };
     const [[a, b], [c, d]] = [range(reference ?? found), range(found)];

@@ -12,14 +12,23 @@ import type { Way } from './ways.ts';
 export const SEGMENT_M = 50;
 
 /** By the radar alone; null where it is too near the axle's line to tell how the car turns. */
-function path({ frames, mounting: { xM, yM } }: DriveCalibration, angleDeg: number, options?: TrajectoryOptions): Trajectory | null {
+function path(
+  { frames, mounting: { xM, yM } }: DriveCalibration,
+  angleDeg: number,
+  options?: TrajectoryOptions,
+): Trajectory | null {
   return api.trajectory(frames, { angleDeg, xM, yM }, options);
 }
 
 /** The car's yaw rate as its sensor has it at each frame, less the bias that was found. */
 function sensorTurns({ frames, result }: DriveCalibration, drive: Drive): TrajectoryOptions {
   const bias = Number.isFinite(result.biasDegps) ? result.biasDegps : 0;
-  return { yawRateDegps: Float64Array.from(frames.scan, (scan) => (api.driveFrame(drive, scan).yawRateDegps ?? Number.NaN) - bias) };
+  return {
+    yawRateDegps: Float64Array.from(
+      frames.scan,
+      (scan) => (api.driveFrame(drive, scan).yawRateDegps ?? Number.NaN) - bias,
+    ),
+  };
 }
 
 /** What paths are compared with: the log's own poses, else where its speed and yaw rate take the car. */
@@ -30,7 +39,7 @@ const reference = computed<{ path: Trajectory; kind: 'poses' | 'odometry' } | nu
 });
 
 const relativeError = (estimated: Trajectory | null): number | null =>
-  (estimated && reference.value ? api.relativeTrajectoryError(estimated, reference.value.path, SEGMENT_M) : null);
+  estimated && reference.value ? api.relativeTrajectoryError(estimated, reference.value.path, SEGMENT_M) : null;
 
 export interface Paths {
   /** With the angle that was found, and with the nominal one. */
@@ -55,10 +64,12 @@ export const paths = computed<Paths | null>(() => {
   const found = path(calibration, calibration.result.angleDeg, turns);
   const nominal = nominalDeg === null ? null : path(calibration, nominalDeg, turns);
   return {
-    found, nominal,
+    found,
+    nominal,
     reference: found && reference.value && fromStart(reference.value.path, found),
     kind: reference.value?.kind ?? null,
-    foundError: relativeError(found), nominalError: relativeError(nominal),
+    foundError: relativeError(found),
+    nominalError: relativeError(nominal),
   };
 });
 
@@ -79,8 +90,15 @@ export const relativeErrors = computed<ReadonlyMap<Way, number>>(() => {
 
 /** By speed and yaw rate as they were measured; between samples with both, their mean. */
 function odometry({ timeS, speedMps, yawRateDegps }: Drive['motion']): Trajectory {
-  const known = Array.from(timeS.keys()).filter((i) => Number.isFinite(speedMps[i]) && Number.isFinite(yawRateDegps[i]));
-  const path = { timeS: Float64Array.from(known, (i) => timeS[i] as number), xM: new Float64Array(known.length), yM: new Float64Array(known.length), yawDeg: new Float64Array(known.length) };
+  const known = Array.from(timeS.keys()).filter(
+    (i) => Number.isFinite(speedMps[i]) && Number.isFinite(yawRateDegps[i]),
+  );
+  const path = {
+    timeS: Float64Array.from(known, (i) => timeS[i] as number),
+    xM: new Float64Array(known.length),
+    yM: new Float64Array(known.length),
+    yawDeg: new Float64Array(known.length),
+  };
   for (let k = 1; k < known.length; k++) {
     const [a, b] = [known[k - 1] as number, known[k] as number];
     const dt = (timeS[b] as number) - (timeS[a] as number);

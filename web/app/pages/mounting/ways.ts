@@ -4,7 +4,14 @@ import { api } from '../../data.ts';
 
 export type Way = CalibrationMethod | 'joint';
 
-export const WAYS: readonly Way[] = ['recursive', 'weighted-mean', 'kabsch', 'least-squares', 'orthogonal-distance', 'joint'];
+export const WAYS: readonly Way[] = [
+  'recursive',
+  'weighted-mean',
+  'kabsch',
+  'least-squares',
+  'orthogonal-distance',
+  'joint',
+];
 
 let known: ReadonlyMap<Way, { title: string; reference: string }> | undefined;
 
@@ -12,7 +19,13 @@ let known: ReadonlyMap<Way, { title: string; reference: string }> | undefined;
 export function about(way: Way): { title: string; reference: string } {
   known ??= new Map([
     ...api.calibrationMethods().map(({ name, title, reference }) => [name, { title, reference }] as const),
-    ['joint', { title: 'Recursive, all radars together', reference: 'Boresight. One scale and bias of the yaw rate for all radars of the drive' }],
+    [
+      'joint',
+      {
+        title: 'Recursive, all radars together',
+        reference: 'Boresight. One scale and bias of the yaw rate for all radars of the drive',
+      },
+    ],
   ]);
   return known.get(way) ?? { title: way, reference: '' };
 }

@@ -4,22 +4,25 @@ export function AboutNetworks() {
   return (
     <About title="About this page">
       <p>
-        <b>AAETR</b> is a transformer that answers one snapshot of any array with a set of targets: the sine of each azimuth, its amplitude and a
-        confidence. It must not be told how many there are. <b>Counting network, DNN and 3D-CNN</b> see a region of interest of a data cube,
-        65 range bins of 8 elements and 4 chirps: the first two its covariance, the last the region itself. They tell whether there are none, one or two targets,
-        and in which of the whole degrees from −10 to 10 these lie; an angle between two degrees is rounded.
+        <b>AAETR</b> is a transformer that answers one snapshot of any array with a set of targets: the sine of each
+        azimuth, its amplitude and a confidence. It must not be told how many there are.{' '}
+        <b>Counting network, DNN and 3D-CNN</b> see a region of interest of a data cube, 65 range bins of 8 elements and
+        4 chirps: the first two its covariance, the last the region itself. They tell whether there are none, one or two
+        targets, and in which of the whole degrees from −10 to 10 these lie; an angle between two degrees is rounded.
       </p>
       <p>
-        All were trained on simulated data alone, by the code in <code>training/</code>, for as long as each card says, on the hardware it
-        names: far less than in the papers. What they do outside the data of their cards is not known, and the pages say so where an array or a field of view differs.
+        All were trained on simulated data alone, by the code in <code>training/</code>, for as long as each card says,
+        on the hardware it names: far less than in the papers. What they do outside the data of their cards is not
+        known, and the pages say so where an array or a field of view differs.
       </p>
       <p>
-        <b>Refinement</b> takes what a method found to the best fit of the model by Gauss-Newton steps, adds what stands out of the rest and drops what noise explains.
-        After it little may be left of what the network found by itself: compare with refined IAA.
+        <b>Refinement</b> takes what a method found to the best fit of the model by Gauss-Newton steps, adds what stands
+        out of the rest and drops what noise explains. After it little may be left of what the network found by itself:
+        compare with refined IAA.
       </p>
       <p>
-        Networks run in this tab, in WebAssembly, on workers. The module that runs them and each network’s file are fetched when one is first used, and kept while
-        the tab is open. Files of your own stay on your machine.
+        Networks run in this tab, in WebAssembly, on workers. The module that runs them and each network’s file are
+        fetched when one is first used, and kept while the tab is open. Files of your own stay on your machine.
       </p>
     </About>
   );

@@ -23,7 +23,12 @@ export function AttemptPanel() {
   if (!model) return null;
   const shown = made && made.model === model.name ? made : null;
   return (
-    <section class="stack" aria-labelledby="try-title" aria-busy={trying.value} data-attempt={shown && !trying.value ? shown.scene : undefined}>
+    <section
+      class="stack"
+      aria-labelledby="try-title"
+      aria-busy={trying.value}
+      data-attempt={shown && !trying.value ? shown.scene : undefined}
+    >
       <div class="panel experiment-head">
         <h2 id="try-title">Try it</h2>
         <p class="remark">
@@ -32,14 +37,32 @@ export function AttemptPanel() {
             : 'One simulated region of interest, drawn from the seed: the network beside classical methods on the same numbers. All are told the number of targets but those that count it.'}
         </p>
         <p class="row choices">
-          {networksState.value.run
-            ? <button type="button" data-action="stop" onClick={() => update({ run: false })}>Stop</button>
-            : <button type="button" class="primary" data-action="run" onClick={() => update({ run: true })}>Run on this scene</button>}
+          {networksState.value.run ? (
+            <button type="button" data-action="stop" onClick={() => update({ run: false })}>
+              Stop
+            </button>
+          ) : (
+            <button type="button" class="primary" data-action="run" onClick={() => update({ run: true })}>
+              Run on this scene
+            </button>
+          )}
           <LoadState name={model.name} />
         </p>
       </div>
-      {problem && <p class="alert" role="alert" data-error={problem.code}><strong>The network could not be run.</strong> {problem.message} <code>{problem.code}</code></p>}
-      {shown && (shown.counts.length ? <Counts shown={shown} /> : <><ScenePlot shown={shown} /><Found shown={shown} /></>)}
+      {problem && (
+        <p class="alert" role="alert" data-error={problem.code}>
+          <strong>The network could not be run.</strong> {problem.message} <code>{problem.code}</code>
+        </p>
+      )}
+      {shown &&
+        (shown.counts.length ? (
+          <Counts shown={shown} />
+        ) : (
+          <>
+            <ScenePlot shown={shown} />
+            <Found shown={shown} />
+          </>
+        ))}
     </section>
   );
 }
@@ -49,30 +72,86 @@ function ScenePlot({ shown }: { shown: Attempt }) {
   const onRegion = !shown.snapshot;
   // Levels of regions are relative to the strongest source.
   const level = ({ estimate }: Row): number => (onRegion ? strongest(estimate?.sources ?? []) : 0);
-  const curves = useMemo(() => sameGrid(rows.map((row) => {
-    const one = row.estimate ? curve(row.estimate, row.title) : null;
-    return one && onRegion ? { ...one, valuesDb: one.valuesDb.map((value) => value - level(row)) } : one;
-  })), [shown]);
-  const content = useMemo(() => ({
-    x: curves[0]?.azimuthDeg ?? [], series: series(curves), extent: { x: [-fieldOfViewDeg - 3, fieldOfViewDeg + 3] as const, y: [onRegion ? -30 : -40, 8] as const },
-    below: [bands(truth.flatMap(({ azimuthDeg }, i) => (bound?.[i] ? [[azimuthDeg - (bound[i] as number), azimuthDeg + (bound[i] as number)] as const] : [])), (t) => t.band)],
-    above: [
-      markers(rows.flatMap((row) => (row.estimate?.sources ?? []).map(({ azimuthDeg, powerDb }) =>
-        ({ x: azimuthDeg, y: powerDb - level(row), style: methodStyle(row.method), size: row === rows[0] ? 6 : 4.5 }))).reverse()),
-      truthLayer(truth),
-    ],
-  }), [shown]);
+  const curves = useMemo(
+    () =>
+      sameGrid(
+        rows.map((row) => {
+          const one = row.estimate ? curve(row.estimate, row.title) : null;
+          return one && onRegion ? { ...one, valuesDb: one.valuesDb.map((value) => value - level(row)) } : one;
+        }),
+      ),
+    [shown],
+  );
+  const content = useMemo(
+    () => ({
+      x: curves[0]?.azimuthDeg ?? [],
+      series: series(curves),
+      extent: { x: [-fieldOfViewDeg - 3, fieldOfViewDeg + 3] as const, y: [onRegion ? -30 : -40, 8] as const },
+      below: [
+        bands(
+          truth.flatMap(({ azimuthDeg }, i) =>
+            bound?.[i] ? [[azimuthDeg - (bound[i] as number), azimuthDeg + (bound[i] as number)] as const] : [],
+          ),
+          (t) => t.band,
+        ),
+      ],
+      above: [
+        markers(
+          rows
+            .flatMap((row) =>
+              (row.estimate?.sources ?? []).map(({ azimuthDeg, powerDb }) => ({
+                x: azimuthDeg,
+                y: powerDb - level(row),
+                style: methodStyle(row.method),
+                size: row === rows[0] ? 6 : 4.5,
+              })),
+            )
+            .reverse(),
+        ),
+        truthLayer(truth),
+      ],
+    }),
+    [shown],
+  );
   return (
-    <PlotFrame key={shown.model} title="Scene" detail={shown.scene} name="attempt" height="tall" content={content}
+    <PlotFrame
+      key={shown.model}
+      title="Scene"
+      detail={shown.scene}
+      name="attempt"
+      height="tall"
+      content={content}
       legend={[
-        { id: 'truth', label: bound ? 'Target, CRB ±σ band' : 'Target', style: { ...TRUTH_STYLE, marker: 'circle' }, line: false, hollow: true },
-        ...rows.map(({ method, title, estimate }) => ({ id: method, label: title, style: methodStyle(method), line: Boolean(estimate?.spectrum) })),
+        {
+          id: 'truth',
+          label: bound ? 'Target, CRB ±σ band' : 'Target',
+          style: { ...TRUTH_STYLE, marker: 'circle' },
+          line: false,
+          hollow: true,
+        },
+        ...rows.map(({ method, title, estimate }) => ({
+          id: method,
+          label: title,
+          style: methodStyle(method),
+          line: Boolean(estimate?.spectrum),
+        })),
       ]}
-      options={{ x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS }, y: { label: onRegion ? 'Level (dB re the strongest)' : 'Level (dB re 0 dB target)' } }}
+      options={{
+        x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS },
+        y: { label: onRegion ? 'Level (dB re the strongest)' : 'Level (dB re 0 dB target)' },
+      }}
       readout={({ x, y }) => `Azimuth ${signed(x, 2)}°   Level ${fixed(y, 1)}\u00a0dB`}
-      csv={() => toCsv(['azimuth_deg', ...curves.map(({ method }) => `${method}_db`)],
-        Array.from(curves[0]?.azimuthDeg ?? [], (azimuth, i) => [azimuth, ...curves.map(({ valuesDb }) => valuesDb[i])]))}
-      fileParts={[shown.model]} />
+      csv={() =>
+        toCsv(
+          ['azimuth_deg', ...curves.map(({ method }) => `${method}_db`)],
+          Array.from(curves[0]?.azimuthDeg ?? [], (azimuth, i) => [
+            azimuth,
+            ...curves.map(({ valuesDb }) => valuesDb[i]),
+          ]),
+        )
+      }
+      fileParts={[shown.model]}
+    />
   );
 }
 
@@ -81,40 +160,112 @@ function Found({ shown }: { shown: Attempt }) {
   const gate = gateOf(shown);
   const scored = rows.map((row) => {
     const sources = row.estimate?.sources ?? [];
-    const { matched, extra } = assign(truth.map(({ azimuthDeg }) => azimuthDeg), sources, gate);
-    const errors = matched.flatMap((at, i) => (at === undefined ? [] : [(sources[at]?.azimuthDeg ?? 0) - (truth[i]?.azimuthDeg ?? 0)]));
-    const power = matched.flatMap((at, i) => (at === undefined ? [] : [Math.abs((sources[at]?.powerDb ?? 0) - (truth[i]?.powerDb ?? 0))]));
+    const { matched, extra } = assign(
+      truth.map(({ azimuthDeg }) => azimuthDeg),
+      sources,
+      gate,
+    );
+    const errors = matched.flatMap((at, i) =>
+      at === undefined ? [] : [(sources[at]?.azimuthDeg ?? 0) - (truth[i]?.azimuthDeg ?? 0)],
+    );
+    const power = matched.flatMap((at, i) =>
+      at === undefined ? [] : [Math.abs((sources[at]?.powerDb ?? 0) - (truth[i]?.powerDb ?? 0))],
+    );
     return { row, found: errors.length, extra: extra.length, rmse: rms(errors), power: mean(power) };
   });
   const crb = bound?.length ? rms([...bound]) : Number.NaN;
   const onSnapshot = shown.snapshot;
-  const csv = (): string => toCsv(['method', 'found', 'missed', 'false', 'rmse_deg', 'power_error_db', 'time_ms'],
-    scored.map(({ row, found, extra, rmse, power }) => [row.method, found, truth.length - found, extra, rmse, onSnapshot ? power : Number.NaN, row.milliseconds]));
+  const csv = (): string =>
+    toCsv(
+      ['method', 'found', 'missed', 'false', 'rmse_deg', 'power_error_db', 'time_ms'],
+      scored.map(({ row, found, extra, rmse, power }) => [
+        row.method,
+        found,
+        truth.length - found,
+        extra,
+        rmse,
+        onSnapshot ? power : Number.NaN,
+        row.milliseconds,
+      ]),
+    );
   return (
     <section class="panel" aria-labelledby="found-title" data-table="attempt">
       <div class="panel-head">
         <h3 id="found-title">What each found</h3>
-        <div class="tools"><button type="button" data-export="csv" onClick={() => download(csv(), fileName(['attempt', shown.model], 'csv'))}>CSV</button></div>
+        <div class="tools">
+          <button
+            type="button"
+            data-export="csv"
+            onClick={() => download(csv(), fileName(['attempt', shown.model], 'csv'))}
+          >
+            CSV
+          </button>
+        </div>
       </div>
       <div class="table-scroll" tabIndex={0} role="region" aria-label="What each found, scrollable">
         <table class="data">
           <thead>
             <tr>
-              <th scope="col" class="text">Method</th><th scope="col" title={`Targets with an estimate within ${gate}°`}>Found</th><th scope="col">Missed</th>
-              <th scope="col" title="Estimates that belong to no target">False</th><th scope="col" title="Root mean square error of those found">RMSE (°)</th>
-              {onSnapshot && <th scope="col" title="Mean absolute error of those found">Power error (dB)</th>}
-              <th scope="col" title="Of one estimate, with the way to the worker and back">Time</th>
+              <th scope="col" class="text">
+                Method
+              </th>
+              <th scope="col" title={`Targets with an estimate within ${gate}°`}>
+                Found
+              </th>
+              <th scope="col">Missed</th>
+              <th scope="col" title="Estimates that belong to no target">
+                False
+              </th>
+              <th scope="col" title="Root mean square error of those found">
+                RMSE (°)
+              </th>
+              {onSnapshot && (
+                <th scope="col" title="Mean absolute error of those found">
+                  Power error (dB)
+                </th>
+              )}
+              <th scope="col" title="Of one estimate, with the way to the worker and back">
+                Time
+              </th>
             </tr>
           </thead>
           <tbody>
-            <tr class="reference"><th scope="row" class="text">Truth</th><td data-field="truth" data-value={truth.length}>{truth.length}</td><td /><td /><td>{Number.isFinite(crb) ? `CRB ${fixed(crb, 3)}` : ''}</td>{onSnapshot && <td />}<td /></tr>
+            <tr class="reference">
+              <th scope="row" class="text">
+                Truth
+              </th>
+              <td data-field="truth" data-value={truth.length}>
+                {truth.length}
+              </td>
+              <td />
+              <td />
+              <td>{Number.isFinite(crb) ? `CRB ${fixed(crb, 3)}` : ''}</td>
+              {onSnapshot && <td />}
+              <td />
+            </tr>
             {scored.map(({ row, found, extra, rmse, power }) => (
               <tr key={row.title} data-row={row.method}>
-                <th scope="row" class="text"><Swatch style={methodStyle(row.method)} line={Boolean(row.estimate?.spectrum)} /> {row.title}</th>
-                {row.problem ? <td class="text problem" colSpan={6}>{row.problem.message}</td> : (
+                <th scope="row" class="text">
+                  <Swatch style={methodStyle(row.method)} line={Boolean(row.estimate?.spectrum)} /> {row.title}
+                </th>
+                {row.problem ? (
+                  <td class="text problem" colSpan={6}>
+                    {row.problem.message}
+                  </td>
+                ) : (
                   <>
-                    <td data-field="found" data-value={found}>{found}</td><td data-field="missed" data-value={truth.length - found}>{truth.length - found}</td>
-                    <td data-field="false" data-value={extra}>{extra}</td><td data-field="rmse" data-value={rmse}>{fixed(rmse, 3)}</td>
+                    <td data-field="found" data-value={found}>
+                      {found}
+                    </td>
+                    <td data-field="missed" data-value={truth.length - found}>
+                      {truth.length - found}
+                    </td>
+                    <td data-field="false" data-value={extra}>
+                      {extra}
+                    </td>
+                    <td data-field="rmse" data-value={rmse}>
+                      {fixed(rmse, 3)}
+                    </td>
                     {onSnapshot && <td>{fixed(power, 2)}</td>}
                     <td>{milliseconds(row.milliseconds ?? Number.NaN)}</td>
                   </>
@@ -130,24 +281,64 @@ function Found({ shown }: { shown: Attempt }) {
 }
 
 function Warnings({ rows }: { rows: readonly Row[] }) {
-  const lines = rows.flatMap(({ title, estimate }) => (estimate?.warnings ?? []).map(({ message }) => `${title}: ${message}`));
-  return lines.length ? <ul class="warnings">{lines.map((line) => <li key={line}>{line}</li>)}</ul> : null;
+  const lines = rows.flatMap(({ title, estimate }) =>
+    (estimate?.warnings ?? []).map(({ message }) => `${title}: ${message}`),
+  );
+  return lines.length ? (
+    <ul class="warnings">
+      {lines.map((line) => (
+        <li key={line}>{line}</li>
+      ))}
+    </ul>
+  ) : null;
 }
 
 function Counts({ shown }: { shown: Attempt }) {
   const most = 2;
   return (
     <section class="panel" aria-labelledby="counts-title" data-table="attempt">
-      <div class="panel-head"><h3 id="counts-title">How many targets</h3><span class="muted detail">{shown.scene}</span></div>
+      <div class="panel-head">
+        <h3 id="counts-title">How many targets</h3>
+        <span class="muted detail">{shown.scene}</span>
+      </div>
       <div class="table-scroll" tabIndex={0} role="region" aria-label="How many targets, scrollable">
         <table class="data">
-          <thead><tr><th scope="col" class="text">Rule</th><th scope="col">Targets</th>{[0, 1, most].map((number) => <th key={number} scope="col" title="Probability, each for itself">P({number})</th>)}</tr></thead>
+          <thead>
+            <tr>
+              <th scope="col" class="text">
+                Rule
+              </th>
+              <th scope="col">Targets</th>
+              {[0, 1, most].map((number) => (
+                <th key={number} scope="col" title="Probability, each for itself">
+                  P({number})
+                </th>
+              ))}
+            </tr>
+          </thead>
           <tbody>
-            <tr class="reference"><th scope="row" class="text">Truth</th><td data-field="truth" data-value={shown.truth.length}>{shown.truth.length}</td><td /><td /><td /></tr>
+            <tr class="reference">
+              <th scope="row" class="text">
+                Truth
+              </th>
+              <td data-field="truth" data-value={shown.truth.length}>
+                {shown.truth.length}
+              </td>
+              <td />
+              <td />
+              <td />
+            </tr>
             {shown.counts.map(({ rule, title, sources, probability }) => (
               <tr key={rule} data-row={rule}>
-                <th scope="row" class="text">{title}</th><td data-field="sources" data-value={sources} class={sources === shown.truth.length ? '' : 'bad'}>{sources}</td>
-                {[0, 1, most].map((number) => <td key={number}>{probability ? fixed(probability[number] ?? Number.NaN, 3) : ''}</td>)}
+                <th scope="row" class="text">
+                  {title}
+                </th>
+                <td data-field="sources" data-value={sources} class={sources === shown.truth.length ? '' : 'bad'}>
+                  {sources}
+                </td>
+                {[0, 1, most].map((number) => (
+                  <td key={number}>{probability ? fixed(probability[number] ?? Number.NaN, 3) : ''}</td>
+                ))}
               </tr>
             ))}
           </tbody>
@@ -157,5 +348,6 @@ function Counts({ shown }: { shown: Attempt }) {
   );
 }
 
-const mean = (values: readonly number[]): number => (values.length ? values.reduce((a, b) => a + b, 0) / values.length : Number.NaN);
+const mean = (values: readonly number[]): number =>
+  values.length ? values.reduce((a, b) => a + b, 0) / values.length : Number.NaN;
 const rms = (values: readonly number[]): number => Math.sqrt(mean(values.map((value) => value * value)));

@@ -1,11 +1,11 @@
 /** A network tried on one simulated scene, beside classical methods and the truth. */
 import { batch, computed, effect, signal } from '@preact/signals';
 import type { Estimate, EstimateInput, EstimatorOptions, Method, NetworkInfo, Source } from 'boresight';
-import { api, describeError, pool, type Problem } from '../../data.ts';
+import { api, describeError, type Problem, pool } from '../../data.ts';
 import { load, loadings, models } from '../../networks/load.ts';
 import { type Card, elementsOf, type Model, targetsOf } from '../../networks/models.ts';
 import { REGION_ARRAY, simulateRegion } from './region.ts';
-import { LIMITS, networksState, type NetworksState } from './state.ts';
+import { LIMITS, type NetworksState, networksState } from './state.ts';
 
 export interface Row {
   method: Method;
@@ -15,7 +15,13 @@ export interface Row {
   milliseconds?: number;
 }
 
-export interface Count { rule: string; title: string; sources?: number; probability?: readonly number[]; problem?: Problem }
+export interface Count {
+  rule: string;
+  title: string;
+  sources?: number;
+  probability?: readonly number[];
+  problem?: Problem;
+}
 
 export interface Attempt {
   model: string;
@@ -37,7 +43,9 @@ export const attempt = signal<Attempt | null>(null);
 export const attemptProblem = signal<Problem | null>(null);
 export const trying = signal(false);
 
-export const selected = computed<Model | undefined>(() => models.value.find(({ name }) => name === networksState.value.model));
+export const selected = computed<Model | undefined>(() =>
+  models.value.find(({ name }) => name === networksState.value.model),
+);
 
 /** How many targets a network can be tried on. */
 export function targetRange(card: Card): readonly [number, number] {
@@ -98,7 +106,11 @@ async function attemptOn(model: Model, scene: Scene, controller: AbortController
   }
 }
 
-interface Wanted { method: Method; title: string; run(): Promise<Estimate> }
+interface Wanted {
+  method: Method;
+  title: string;
+  run(): Promise<Estimate>;
+}
 
 /** Each by itself, so that times say something; the first call of each is not timed, for it may compile. */
 async function rowsOf(wanted: readonly Wanted[], signal: AbortSignal): Promise<Row[]> {
@@ -120,7 +132,13 @@ async function rowsOf(wanted: readonly Wanted[], signal: AbortSignal): Promise<R
 
 const title = (method: Method): string => api.methods().find(({ name }) => name === method)?.title ?? method;
 
-function classical(method: Method, input: EstimateInput, options: Omit<EstimatorOptions, 'method'>, signal: AbortSignal, name = title(method)): Wanted {
+function classical(
+  method: Method,
+  input: EstimateInput,
+  options: Omit<EstimatorOptions, 'method'>,
+  signal: AbortSignal,
+  name = title(method),
+): Wanted {
   return { method, title: name, run: () => pool().estimate(input, { ...options, method }, { signal }) };
 }
 
@@ -136,23 +154,50 @@ async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal:
   const targets = targetsIn(scene, card);
   const array = arrayFor(card);
   const fieldOfViewDeg = typeof card.data?.fieldOfViewDeg === 'number' ? card.data.fieldOfViewDeg : 60;
-  const drawn = api.simulateSnapshots({ array, targets: { count: [targets, targets], fieldOfViewDeg, powerDb: [-13, 0] }, snrDb, seed });
+  const drawn = api.simulateSnapshots({
+    array,
+    targets: { count: [targets, targets], fieldOfViewDeg, powerDb: [-13, 0] },
+    snrDb,
+    seed,
+  });
   const truth = [...(drawn.truth[0] ?? [])].sort((a, b) => a.azimuthDeg - b.azimuthDeg);
   const [, elements, count] = drawn.shape;
   const input: EstimateInput = { snapshots: { data: drawn.data, shape: [elements, count] } };
   const options = { array, gridPoints: 2048, ...(refine ? { refine } : {}) };
-  const rows = await rowsOf([
-    { method: 'aaetr', title: model.title, run: () => pool().estimate(input, { ...options, method: 'aaetr', network: info.id, fieldOfViewDeg }, { signal }) },
-    ...(['iaa', 'nomp', 'bartlett'] as const).map((method) => classical(method, input, options, signal)),
-  ], signal);
+  const rows = await rowsOf(
+    [
+      {
+        method: 'aaetr',
+        title: model.title,
+        run: () =>
+          pool().estimate(input, { ...options, method: 'aaetr', network: info.id, fieldOfViewDeg }, { signal }),
+      },
+      ...(['iaa', 'nomp', 'bartlett'] as const).map((method) => classical(method, input, options, signal)),
+    ],
+    signal,
+  );
   return {
-    model: name, snapshot: true, truth, fieldOfViewDeg, array, rows, counts: [],
-    ...(truth.length ? {
-      bound: api.cramerRaoBound({
-        array, snapshots: 1, kind: 'deterministic',
-        targets: truth.map(({ azimuthDeg, powerDb, phaseDeg }) => ({ azimuthDeg, snrDb: snrDb + powerDb, ...(phaseDeg === undefined ? {} : { phaseDeg }) })),
-      }).azimuthDeg,
-    } : {}),
+    model: name,
+    snapshot: true,
+    truth,
+    fieldOfViewDeg,
+    array,
+    rows,
+    counts: [],
+    ...(truth.length
+      ? {
+          bound: api.cramerRaoBound({
+            array,
+            snapshots: 1,
+            kind: 'deterministic',
+            targets: truth.map(({ azimuthDeg, powerDb, phaseDeg }) => ({
+              azimuthDeg,
+              snrDb: snrDb + powerDb,
+              ...(phaseDeg === undefined ? {} : { phaseDeg }),
+            })),
+          }).azimuthDeg,
+        }
+      : {}),
     scene: `${array}, ${targets} targets, ${snrDb} dB, seed ${seed}${refine ? ', refined' : ''}`,
   };
 }
@@ -161,38 +206,75 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, signal: A
   const { card, name } = model;
   const { snr, seed, range, refine } = scene;
   const targets = targetsIn(scene, card);
-  const { azimuthDeg, region, covariance, vectors, snapshots } = simulateRegion(targets, snr, seed, range === 'together');
+  const { azimuthDeg, region, covariance, vectors, snapshots } = simulateRegion(
+    targets,
+    snr,
+    seed,
+    range === 'together',
+  );
   const input: EstimateInput = { covariance, snapshotCount: vectors };
   const made: Attempt = {
-    model: name, snapshot: false, truth: azimuthDeg.map((azimuth) => ({ azimuthDeg: azimuth, powerDb: 0 })), fieldOfViewDeg: 15, array: REGION_ARRAY, rows: [], counts: [],
+    model: name,
+    snapshot: false,
+    truth: azimuthDeg.map((azimuth) => ({ azimuthDeg: azimuth, powerDb: 0 })),
+    fieldOfViewDeg: 15,
+    array: REGION_ARRAY,
+    rows: [],
+    counts: [],
     scene: `${targets} ${targets === 1 ? 'target' : 'targets'}${targets === 2 ? (range === 'together' ? ' at one range' : ' at ranges of their own') : ''}, ${snr} dB, seed ${seed}`,
   };
   if (card.network === 'counting') {
     const answer = await pool().countWithNetwork(info.id, input, { signal });
-    const rules = [['mdl', false], ['mdl', true], ['aic', false]] as const;
+    const rules = [
+      ['mdl', false],
+      ['mdl', true],
+      ['aic', false],
+    ] as const;
     return {
       ...made,
       counts: [
         { rule: 'network', title: model.title, sources: answer.sources, probability: [...answer.probability] },
-        ...rules.map(([criterion, forwardBackward]): Count => ({
-          rule: `${criterion}${forwardBackward ? '-reversed' : ''}`, title: `${criterion.toUpperCase()}${forwardBackward ? ', forward-backward' : ''}`,
-          sources: api.countSources(input, { criterion, forwardBackward }).count,
-        })),
+        ...rules.map(
+          ([criterion, forwardBackward]): Count => ({
+            rule: `${criterion}${forwardBackward ? '-reversed' : ''}`,
+            title: `${criterion.toUpperCase()}${forwardBackward ? ', forward-backward' : ''}`,
+            sources: api.countSources(input, { criterion, forwardBackward }).count,
+          }),
+        ),
       ],
     };
   }
   const method = card.network;
-  const options = { array: REGION_ARRAY, fieldOfViewDeg: 15, sources: targets, maxPeaks: targets, ...(refine ? { refine } : {}) };
+  const options = {
+    array: REGION_ARRAY,
+    fieldOfViewDeg: 15,
+    sources: targets,
+    maxPeaks: targets,
+    ...(refine ? { refine } : {}),
+  };
   const smooth = { ...options, smoothing: 6, forwardBackward: true };
-  made.rows = await rowsOf([
-    { method, title: model.title, run: () => pool().estimateRegion(region, { array: REGION_ARRAY, sources: targets, fieldOfViewDeg: 10, method, network: info.id }, { signal }) },
-    classical('maximum-likelihood', input, options, signal),
-    classical('music', input, options, signal),
-    classical('root-music', input, smooth, signal, `${title('root-music')}, smoothed`),
-    classical('iaa', { snapshots }, options, signal, `${title('iaa')}, strongest bin`),
-  ], signal);
+  made.rows = await rowsOf(
+    [
+      {
+        method,
+        title: model.title,
+        run: () =>
+          pool().estimateRegion(
+            region,
+            { array: REGION_ARRAY, sources: targets, fieldOfViewDeg: 10, method, network: info.id },
+            { signal },
+          ),
+      },
+      classical('maximum-likelihood', input, options, signal),
+      classical('music', input, options, signal),
+      classical('root-music', input, smooth, signal, `${title('root-music')}, smoothed`),
+      classical('iaa', { snapshots }, options, signal, `${title('iaa')}, strongest bin`),
+    ],
+    signal,
+  );
   return made;
 }
 
 /** Of the strongest source, so that curves and signs of all methods stand on one scale. */
-export const strongest = (sources: readonly Source[]): number => sources.reduce((most, { powerDb }) => Math.max(most, powerDb), Number.NEGATIVE_INFINITY);
+export const strongest = (sources: readonly Source[]): number =>
+  sources.reduce((most, { powerDb }) => Math.max(most, powerDb), Number.NEGATIVE_INFINITY);

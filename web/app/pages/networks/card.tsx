@@ -1,6 +1,7 @@
 /** One network's card: what it takes and gives, how it was trained, how well it does. */
-import { useMemo } from 'preact/hooks';
+
 import type { NetworkPort } from 'boresight';
+import { useMemo } from 'preact/hooks';
 import type { Card, Model } from '../../networks/models.ts';
 import { count, fixed } from '../../plots/format.ts';
 import { markers } from '../../plots/layers.ts';
@@ -16,27 +17,56 @@ export function CardPanel({ model }: { model: Model }) {
     ['File', sizeOf(card), 'ONNX; fetched when the network is first used'],
     ['Samples seen', card.samplesSeen === undefined ? '–' : count(card.samplesSeen), 'All simulated'],
     ['Training', card.hours === undefined ? '–' : `${fixed(card.hours, 2)} h`, card.hardware ?? ''],
-    ['Least confidence', card.confidence === undefined ? '–' : fixed(card.confidence, 3), 'What a source must have to be reported, unless the number of sources is known'],
+    [
+      'Least confidence',
+      card.confidence === undefined ? '–' : fixed(card.confidence, 3),
+      'What a source must have to be reported, unless the number of sources is known',
+    ],
   ];
   return (
     <section class="panel" aria-labelledby="card-title" data-card={model.name}>
       <div class="panel-head">
         <h3 id="card-title">{title}</h3>
         <span class="tools">
-          {model.address && <a class="button" href={model.address} download={`${model.name}.onnx`}>ONNX</a>}
-          {model.cardAddress && <a class="button" href={model.cardAddress} download={`${model.name}.json`}>Card</a>}
+          {model.address && (
+            <a class="button" href={model.address} download={`${model.name}.onnx`}>
+              ONNX
+            </a>
+          )}
+          {model.cardAddress && (
+            <a class="button" href={model.cardAddress} download={`${model.name}.json`}>
+              Card
+            </a>
+          )}
         </span>
       </div>
-      <p class="remark">{taskOf(card)}.{card.reference && <> After <cite>{card.reference}</cite>.</>}</p>
+      <p class="remark">
+        {taskOf(card)}.
+        {card.reference && (
+          <>
+            {' '}
+            After <cite>{card.reference}</cite>.
+          </>
+        )}
+      </p>
       <dl class="facts flat" data-facts="card">
-        {facts.map(([term, value, help]) => <div key={term} title={help}><dt>{term}</dt><dd>{value}</dd></div>)}
+        {facts.map(([term, value, help]) => (
+          <div key={term} title={help}>
+            <dt>{term}</dt>
+            <dd>{value}</dd>
+          </div>
+        ))}
       </dl>
       <Ports card={card} />
       <div class="card-details">
         <Pairs title="Trained on simulated" pairs={trainedOn(card)} />
         <Pairs title="Training" pairs={training(card)} />
       </div>
-      {card.sha256 && <p class="remark digest">SHA-256 <code>{card.sha256}</code></p>}
+      {card.sha256 && (
+        <p class="remark digest">
+          SHA-256 <code>{card.sha256}</code>
+        </p>
+      )}
       <p class="remark">Licence: MIT or Apache-2.0, as Boresight itself; data and weights are our own.</p>
     </section>
   );
@@ -47,23 +77,56 @@ function Pairs({ title, pairs }: { title: string; pairs: readonly [string, strin
     <div>
       <h4>{title}</h4>
       <table class="data compact pairs">
-        <tbody>{pairs.map(([name, value]) => <tr key={name}><th scope="row" class="text">{name}</th><td class="text wrap">{value}</td></tr>)}</tbody>
+        <tbody>
+          {pairs.map(([name, value]) => (
+            <tr key={name}>
+              <th scope="row" class="text">
+                {name}
+              </th>
+              <td class="text wrap">{value}</td>
+            </tr>
+          ))}
+        </tbody>
       </table>
     </div>
   );
 }
 
 function Ports({ card }: { card: Card }) {
-  const rows: [string, NetworkPort][] = [...card.inputs.map((port): [string, NetworkPort] => ['Input', port]), ...card.outputs.map((port): [string, NetworkPort] => ['Output', port])];
+  const rows: [string, NetworkPort][] = [
+    ...card.inputs.map((port): [string, NetworkPort] => ['Input', port]),
+    ...card.outputs.map((port): [string, NetworkPort] => ['Output', port]),
+  ];
   return (
     <div class="table-scroll" tabIndex={0} role="region" aria-label="Inputs and outputs, scrollable">
       <table class="data compact">
-        <thead><tr><th scope="col" class="text">Tensor</th><th scope="col" class="text">Name</th><th scope="col" class="text">Shape</th><th scope="col" class="text">Meaning and units</th></tr></thead>
+        <thead>
+          <tr>
+            <th scope="col" class="text">
+              Tensor
+            </th>
+            <th scope="col" class="text">
+              Name
+            </th>
+            <th scope="col" class="text">
+              Shape
+            </th>
+            <th scope="col" class="text">
+              Meaning and units
+            </th>
+          </tr>
+        </thead>
         <tbody>
           {rows.map(([kind, port]) => (
             <tr key={kind + port.name}>
-              <th scope="row" class="text">{kind}</th><td class="text"><code>{port.name}</code></td>
-              <td class="text">{port.axes.join(' × ')}</td><td class="text wrap">{port.meaning}</td>
+              <th scope="row" class="text">
+                {kind}
+              </th>
+              <td class="text">
+                <code>{port.name}</code>
+              </td>
+              <td class="text">{port.axes.join(' × ')}</td>
+              <td class="text wrap">{port.meaning}</td>
             </tr>
           ))}
         </tbody>
@@ -75,19 +138,34 @@ function Ports({ card }: { card: Card }) {
 type Row = Readonly<Record<string, number>>;
 
 /** Which metric a plot of a network shows, as series over SNR. */
-function curvesOf(card: Card): { key: string; label: string; series: { label: string; values: (row: Row) => number | undefined }[]; rows: readonly Row[][] } {
+function curvesOf(card: Card): {
+  key: string;
+  label: string;
+  series: { label: string; values: (row: Row) => number | undefined }[];
+  rows: readonly Row[][];
+} {
   const rows = card.metrics ?? [];
   if (card.network === 'aaetr') {
     const numbers = [...new Set(rows.map(({ targets }) => targets as number))].sort((a, b) => a - b);
     return {
-      key: 'f1', label: 'Largest F1', rows: numbers.map((targets) => rows.filter((row) => row.targets === targets)),
+      key: 'f1',
+      label: 'Largest F1',
+      rows: numbers.map((targets) => rows.filter((row) => row.targets === targets)),
       series: numbers.map((targets) => ({ label: `${targets} targets`, values: ({ f1 }) => f1 })),
     };
   }
-  const keys = card.network === 'counting' ? ['accuracy'] : ['within0Deg', 'within1Deg', 'closePairsWithin1Deg'].filter((key) => rows.some((row) => key in row));
+  const keys =
+    card.network === 'counting'
+      ? ['accuracy']
+      : ['within0Deg', 'within1Deg', 'closePairsWithin1Deg'].filter((key) => rows.some((row) => key in row));
   return {
-    key: keys[0] ?? '', label: 'Share of regions (%)', rows: keys.map(() => [...rows]),
-    series: keys.map((key) => ({ label: METRICS[key]?.title ?? key, values: (row) => (row[key] === undefined ? undefined : 100 * row[key]) })),
+    key: keys[0] ?? '',
+    label: 'Share of regions (%)',
+    rows: keys.map(() => [...rows]),
+    series: keys.map((key) => ({
+      label: METRICS[key]?.title ?? key,
+      values: (row) => (row[key] === undefined ? undefined : 100 * row[key]),
+    })),
   };
 }
 
@@ -103,7 +181,12 @@ export function MetricsPanel({ model }: { model: Model }) {
     const snrs = [...new Set(rows.map(({ snrDb }) => snrDb as number))].sort((a, b) => a - b);
     const lines = series.map((one, i) => {
       const dash = DASHES[i % DASHES.length];
-      const style: SeriesStyle = { color: methodStyle(card.network).color, width: 1.8, marker: SHAPES[i % SHAPES.length] as 'circle', ...(dash ? { dash } : {}) };
+      const style: SeriesStyle = {
+        color: methodStyle(card.network).color,
+        width: 1.8,
+        marker: SHAPES[i % SHAPES.length] as 'circle',
+        ...(dash ? { dash } : {}),
+      };
       const y = snrs.map((snr) => {
         const row = parts[i]?.find(({ snrDb }) => snrDb === snr);
         return (row && one.values(row)) ?? null;
@@ -115,33 +198,81 @@ export function MetricsPanel({ model }: { model: Model }) {
     const high = card.network === 'aaetr' ? 1 : 100;
     const margin = Math.max((high - low) * 0.08, high * 0.002);
     return {
-      lines, snrs, label,
+      lines,
+      snrs,
+      label,
       content: {
-        x: snrs, series: lines, extent: { x: [Math.min(...snrs) - 1, Math.max(...snrs) + 1] as const, y: [low - margin, high + margin] as const },
-        above: [markers(lines.flatMap(({ y, style }) => snrs.flatMap((x, k) => (y[k] == null ? [] : [{ x, y: y[k] as number, style, size: 4 }]))))],
+        x: snrs,
+        series: lines,
+        extent: {
+          x: [Math.min(...snrs) - 1, Math.max(...snrs) + 1] as const,
+          y: [low - margin, high + margin] as const,
+        },
+        above: [
+          markers(
+            lines.flatMap(({ y, style }) =>
+              snrs.flatMap((x, k) => (y[k] == null ? [] : [{ x, y: y[k] as number, style, size: 4 }])),
+            ),
+          ),
+        ],
       },
     };
   }, [card]);
   if (!rows.length) return null;
   const columns = Object.keys(METRICS).filter((key) => rows.some((row) => key in row));
-  const csv = (): string => toCsv(columns, rows.map((row) => columns.map((key) => row[key])));
+  const csv = (): string =>
+    toCsv(
+      columns,
+      rows.map((row) => columns.map((key) => row[key])),
+    );
   return (
-    <PlotFrame key={name} title="How well it does" detail={`on ${count(card.metricsExamples ?? 0)} new simulated samples each`} name="metrics" height="short" content={plot.content}
+    <PlotFrame
+      key={name}
+      title="How well it does"
+      detail={`on ${count(card.metricsExamples ?? 0)} new simulated samples each`}
+      name="metrics"
+      height="short"
+      content={plot.content}
       options={{ x: { label: 'SNR (dB)', steps: [1, 5, 10] }, y: { label: plot.label } }}
       legend={plot.lines.map(({ id, label, style, y }) => ({
-        id, label, style, line: true, value: ({ index }) => fixed(y[index ?? -1] ?? Number.NaN, card.network === 'aaetr' ? 4 : 1),
+        id,
+        label,
+        style,
+        line: true,
+        value: ({ index }) => fixed(y[index ?? -1] ?? Number.NaN, card.network === 'aaetr' ? 4 : 1),
       }))}
-      readout={({ index }) => `SNR ${fixed(plot.snrs[index ?? -1] ?? Number.NaN, 0)} dB`} csv={csv} fileParts={[name]}
+      readout={({ index }) => `SNR ${fixed(plot.snrs[index ?? -1] ?? Number.NaN, 0)} dB`}
+      csv={csv}
+      fileParts={[name]}
       overlay={
         <details class="table-details" open>
           <summary>As a table</summary>
           <div class="table-scroll capped" tabIndex={0} role="region" aria-label="Metrics, scrollable">
             <table class="data compact" data-table="metrics">
-              <thead><tr>{columns.map((key) => <th key={key} scope="col" title={METRICS[key]?.help}>{METRICS[key]?.title}</th>)}</tr></thead>
-              <tbody>{rows.map((row, i) => <tr key={i}>{columns.map((key) => <td key={key} data-field={key} data-value={row[key]}>{metricText(key, row[key])}</td>)}</tr>)}</tbody>
+              <thead>
+                <tr>
+                  {columns.map((key) => (
+                    <th key={key} scope="col" title={METRICS[key]?.help}>
+                      {METRICS[key]?.title}
+                    </th>
+                  ))}
+                </tr>
+              </thead>
+              <tbody>
+                {rows.map((row, i) => (
+                  <tr key={i}>
+                    {columns.map((key) => (
+                      <td key={key} data-field={key} data-value={row[key]}>
+                        {metricText(key, row[key])}
+                      </td>
+                    ))}
+                  </tr>
+                ))}
+              </tbody>
             </table>
           </div>
         </details>
-      } />
+      }
+    />
   );
 }

@@ -39,13 +39,16 @@ const binomial = (p: number, n: number): number => {
   const held = (p * n + 1) / (n + 2);
   return Math.sqrt((held * (1 - held)) / Math.max(n, 1));
 };
-const present = (value: number | null | undefined): number | null => (value === null || value === undefined || !Number.isFinite(value) ? null : value);
+const present = (value: number | null | undefined): number | null =>
+  value === null || value === undefined || !Number.isFinite(value) ? null : value;
 
 /** Over the number of targets, at one SNR. */
 export function aoaFigures(report: AoaReport, snrDb: number): Figure[] {
   const conditions = report.conditions.filter((one) => one.snrDb === snrDb).sort((a, b) => a.targets - b.targets);
   const x = conditions.map(({ targets }) => targets);
-  const line = (value: (of: (typeof conditions)[number]['methods'][number], targets: number) => [number | null, number | null]): Line[] =>
+  const line = (
+    value: (of: (typeof conditions)[number]['methods'][number], targets: number) => [number | null, number | null],
+  ): Line[] =>
     report.methods.map((method, i) => {
       const pairs = conditions.map((one) => {
         const of = one.methods[i];
@@ -54,19 +57,37 @@ export function aoaFigures(report: AoaReport, snrDb: number): Figure[] {
       return { method, values: pairs.map(([a]) => a ?? null), sigma: pairs.map(([, b]) => b ?? null) };
     });
   const shared = {
-    xLabel: 'Targets in the snapshot', xSteps: [1, 2, 5], x, at: (targets: number) => `${targets} targets`, lowerIsBetter: true,
+    xLabel: 'Targets in the snapshot',
+    xSteps: [1, 2, 5],
+    x,
+    at: (targets: number) => `${targets} targets`,
+    lowerIsBetter: true,
     detail: `${report.array}, ${snrDb} dB`,
   };
   const trials = `${count(report.trials)} snapshots a condition.`;
   return [
     {
-      ...shared, name: 'f1', title: 'F1: what is missing', yLabel: '1 − largest F1', log: true, y: [0.0001, 0.5], unit: 'one_minus_f1',
-      lines: line(({ best }, targets) => (best ? [1 - best.f1, binomial(best.f1, report.trials * targets)] : [null, null])),
+      ...shared,
+      name: 'f1',
+      title: 'F1: what is missing',
+      yLabel: '1 − largest F1',
+      log: true,
+      y: [0.0001, 0.5],
+      unit: 'one_minus_f1',
+      lines: line(({ best }, targets) =>
+        best ? [1 - best.f1, binomial(best.f1, report.trials * targets)] : [null, null],
+      ),
       show: (value) => `F1 ${fixed(1 - value, 4)}`,
       remark: `Right is what lies within 0.5° of a target; the threshold is the best for each method. ${trials}`,
     },
     {
-      ...shared, name: 'bound', title: 'Angle error against the bound', yLabel: 'RMSE over CRB', log: true, y: [0.9, 20], unit: 'rmse_over_crb',
+      ...shared,
+      name: 'bound',
+      title: 'Angle error against the bound',
+      yLabel: 'RMSE over CRB',
+      log: true,
+      y: [0.9, 20],
+      unit: 'rmse_over_crb',
       lines: line(({ separated: { rmseDeg, boundDeg, found } }) => {
         const ratio = rmseDeg === null || !boundDeg ? null : present(rmseDeg / boundDeg);
         return [ratio, ratio === null ? null : ratio / Math.sqrt(2 * Math.max(found, 1))];
@@ -75,7 +96,12 @@ export function aoaFigures(report: AoaReport, snrDb: number): Figure[] {
       remark: `Over targets found that stand two beam widths apart from all others; 1 is the Cramér–Rao bound. ${trials}`,
     },
     {
-      ...shared, name: 'power', title: 'Power error', yLabel: 'Mean absolute error (dB)', y: [0, 2], unit: 'power_error_db',
+      ...shared,
+      name: 'power',
+      title: 'Power error',
+      yLabel: 'Mean absolute error (dB)',
+      y: [0, 2],
+      unit: 'power_error_db',
       lines: line(({ best }, targets) => {
         const error = present(best?.powerErrorDb);
         // Of a mean of absolute values of a normal quantity.
@@ -88,7 +114,11 @@ export function aoaFigures(report: AoaReport, snrDb: number): Figure[] {
 }
 
 /** Precision against recall in one condition; thinned curves do. */
-export function precisionRecall(report: AoaReport, snrDb: number, targets: number): { method: string; points: Operating[] }[] {
+export function precisionRecall(
+  report: AoaReport,
+  snrDb: number,
+  targets: number,
+): { method: string; points: Operating[] }[] {
   const condition = report.conditions.find((one) => one.snrDb === snrDb && one.targets === targets);
   return report.methods.flatMap((method, i) => {
     const points = condition?.methods[i]?.curve;
@@ -99,17 +129,25 @@ export function precisionRecall(report: AoaReport, snrDb: number, targets: numbe
 export const COUNTERS = ['AIC', 'MDL', 'AIC, forward-backward', 'MDL, forward-backward'];
 
 export function doaFigures(report: DoaReport, range: 'apart' | 'together', regionSnrDb: number): Figure[] {
-  const of = (targets: string) => report.conditions.filter((one) => one.targets === targets).sort((a, b) => a.snrDb - b.snrDb);
+  const of = (targets: string) =>
+    report.conditions.filter((one) => one.targets === targets).sort((a, b) => a.snrDb - b.snrDb);
   const two = of(range);
   const one = of('one');
   const none = of('none');
   const snrs = one.map(({ snrDb }) => snrDb);
-  const overSnr = { xLabel: 'SNR of a sample (dB)', xSteps: [5, 10], x: snrs, at: (snr: number) => `${fixed(snr, 0)} dB` };
+  const overSnr = {
+    xLabel: 'SNR of a sample (dB)',
+    xSteps: [5, 10],
+    x: snrs,
+    at: (snr: number) => `${fixed(snr, 0)} dB`,
+  };
   const where = range === 'apart' ? 'two at ranges of their own' : 'two at one range';
   const trials = `${count(report.trials)} regions a condition.`;
   const share = (values: (number | null | undefined)[], numbers: number[]): Pick<Line, 'values' | 'sigma'> => ({
     values: values.map((value) => (present(value) === null ? null : 100 * (value as number))),
-    sigma: values.map((value, i) => (present(value) === null ? null : 100 * binomial(value as number, numbers[i] ?? 1))),
+    sigma: values.map((value, i) =>
+      present(value) === null ? null : 100 * binomial(value as number, numbers[i] ?? 1),
+    ),
   });
   const percent = (value: number): string => `${fixed(value, 1)}\u00a0%`;
   const rules = report.counters ?? COUNTERS;
@@ -120,47 +158,109 @@ export function doaFigures(report: DoaReport, range: 'apart' | 'together', regio
   };
   const errors = (value: (of: DoaResult) => number | null | undefined, floor: number): Line[] =>
     report.methods.map((method, i) => ({
-      method, values: one.map(({ methods }) => present(methods[i] && value(methods[i]))),
+      method,
+      values: one.map(({ methods }) => present(methods[i] && value(methods[i]))),
       sigma: one.map(({ methods, trials: n }) => {
         const error = present(methods[i] && value(methods[i]));
-        return error === null ? null : Math.max(error / Math.sqrt(2 * Math.max((methods[i]?.found ?? 0) * n, 1)), floor);
+        return error === null
+          ? null
+          : Math.max(error / Math.sqrt(2 * Math.max((methods[i]?.found ?? 0) * n, 1)), floor);
       }),
     }));
   const at = two.find(({ snrDb }) => snrDb === regionSnrDb);
-  const deviation = (name: string, title: string, values: (i: number) => readonly (number | null)[] | undefined, number: number): Figure => ({
-    name, title, detail: `${where}, ${fixed(regionSnrDb, 0)} dB`, xLabel: 'Allowed deviation (°)', xSteps: [1, 2], x: [0, 2, 4], at: (x) => `${x}° allowed`,
-    yLabel: 'Regions right (%)', y: [0, 103], lowerIsBetter: false, unit: 'percent', show: percent,
+  const deviation = (
+    name: string,
+    title: string,
+    values: (i: number) => readonly (number | null)[] | undefined,
+    number: number,
+  ): Figure => ({
+    name,
+    title,
+    detail: `${where}, ${fixed(regionSnrDb, 0)} dB`,
+    xLabel: 'Allowed deviation (°)',
+    xSteps: [1, 2],
+    x: [0, 2, 4],
+    at: (x) => `${x}° allowed`,
+    yLabel: 'Regions right (%)',
+    y: [0, 103],
+    lowerIsBetter: false,
+    unit: 'percent',
+    show: percent,
     lines: report.methods.map((method, i) => ({ method, ...share([...(values(i) ?? [])], [number, number, number]) })),
     remark: `Both angles, rounded to whole degrees. ${count(number)} regions.`,
   });
   const figures: Figure[] = [
     {
-      ...overSnr, name: 'counting', title: 'Counting targets', detail: `none, one, or ${where}`, yLabel: 'Counted rightly (%)', y: [60, 101], lowerIsBetter: false,
+      ...overSnr,
+      name: 'counting',
+      title: 'Counting targets',
+      detail: `none, one, or ${where}`,
+      yLabel: 'Counted rightly (%)',
+      y: [60, 101],
+      lowerIsBetter: false,
       lines: rules.map((method, rule) => {
         const pairs = snrs.map((_, i) => counted(rule, i));
-        return { method, ...share(pairs.map(([value]) => value), pairs.map(([, n]) => n)) };
+        return {
+          method,
+          ...share(
+            pairs.map(([value]) => value),
+            pairs.map(([, n]) => n),
+          ),
+        };
       }),
-      show: percent, unit: 'percent', remark: `A third each of none, one and two targets. ${trials}`,
+      show: percent,
+      unit: 'percent',
+      remark: `A third each of none, one and two targets. ${trials}`,
     },
     {
-      ...overSnr, name: 'rmse', title: 'One target: error of its angle', detail: '', yLabel: 'RMSE (°)', log: true, y: [0.008, 1], lowerIsBetter: true,
+      ...overSnr,
+      name: 'rmse',
+      title: 'One target: error of its angle',
+      detail: '',
+      yLabel: 'RMSE (°)',
+      log: true,
+      y: [0.008, 1],
+      lowerIsBetter: true,
       lines: errors(({ rmseDeg }) => rmseDeg, 0),
       bounds: [
         { name: 'Cramér–Rao bound', values: report.boundsDeg.map(([frame]) => frame) },
         { name: 'MUSIC in theory', values: report.boundsDeg.map(([, region]) => region) },
       ],
-      show: (value) => `${fixed(value, 4)}°`, unit: 'rmse_deg',
+      show: (value) => `${fixed(value, 4)}°`,
+      unit: 'rmse_deg',
       remark: `Where as many angles as targets were found. Networks choose among whole degrees, which all targets stand at: their error can be nothing, and is then off the plot. ${trials}`,
     },
     {
-      ...overSnr, name: 'rounded', title: 'One target: error after rounding', detail: '', yLabel: 'RMSE (°)', y: [0, 1], lowerIsBetter: true,
-      lines: errors(({ roundedRmseDeg }) => roundedRmseDeg, 1 / report.trials), show: (value) => `${fixed(value, 4)}°`, unit: 'rounded_rmse_deg',
+      ...overSnr,
+      name: 'rounded',
+      title: 'One target: error after rounding',
+      detail: '',
+      yLabel: 'RMSE (°)',
+      y: [0, 1],
+      lowerIsBetter: true,
+      lines: errors(({ roundedRmseDeg }) => roundedRmseDeg, 1 / report.trials),
+      show: (value) => `${fixed(value, 4)}°`,
+      unit: 'rounded_rmse_deg',
       remark: `The same of angles rounded to whole degrees, so that all methods know as much as the networks. ${trials}`,
     },
     {
-      ...overSnr, name: 'success', title: 'Two targets within 1°', detail: where, yLabel: 'Regions right (%)', y: [0, 103], lowerIsBetter: false,
-      lines: report.methods.map((method, i) => ({ method, ...share(two.map(({ methods }) => methods[i]?.success), two.map(({ trials: n }) => n)) })),
-      show: percent, unit: 'percent', remark: `Both angles within 1°. ${trials}`,
+      ...overSnr,
+      name: 'success',
+      title: 'Two targets within 1°',
+      detail: where,
+      yLabel: 'Regions right (%)',
+      y: [0, 103],
+      lowerIsBetter: false,
+      lines: report.methods.map((method, i) => ({
+        method,
+        ...share(
+          two.map(({ methods }) => methods[i]?.success),
+          two.map(({ trials: n }) => n),
+        ),
+      })),
+      show: percent,
+      unit: 'percent',
+      remark: `Both angles within 1°. ${trials}`,
     },
     deviation('deviation', 'Two targets by allowed deviation', (i) => at?.methods[i]?.within, at?.trials ?? 0),
     deviation('close', 'Close pairs by allowed deviation', (i) => at?.methods[i]?.closeWithin, at?.close ?? 0),

@@ -5,7 +5,10 @@ import { methodStyle, type SeriesStyle } from '../../plots/theme.ts';
 
 const KINDS = Object.keys(KIND_TITLES) as (keyof typeof KIND_TITLES)[];
 
-interface Parts { base: string; variant: string }
+interface Parts {
+  base: string;
+  variant: string;
+}
 
 function partsOf(name: string): Parts {
   const [base = '', ...variant] = name.split(/\s*[+,]\s*/);
@@ -22,7 +25,11 @@ export function titleOf(name: string): string {
   const { base, variant } = partsOf(name);
   const kind = kindOf(name);
   const model = MODELS.find((one) => one.name === base);
-  const title = model?.title ?? (kind ? [KIND_TITLES[kind], ...base.slice(kind.length).split('-').filter(Boolean)].join(' ') : api.methods().find((info) => info.name === base)?.title ?? name.split(/[+,]/)[0]);
+  const title =
+    model?.title ??
+    (kind
+      ? [KIND_TITLES[kind], ...base.slice(kind.length).split('-').filter(Boolean)].join(' ')
+      : (api.methods().find((info) => info.name === base)?.title ?? name.split(/[+,]/)[0]));
   return [title, variant].filter(Boolean).join(', ');
 }
 

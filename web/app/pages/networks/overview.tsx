@@ -12,22 +12,42 @@ import { briefly, sizeOf } from './words.ts';
 export function Overview() {
   return (
     <section class="panel" aria-labelledby="networks-title" data-table="networks">
-      <div class="panel-head"><h3 id="networks-title">Networks</h3></div>
+      <div class="panel-head">
+        <h3 id="networks-title">Networks</h3>
+      </div>
       <div class="table-scroll" tabIndex={0} role="region" aria-label="Networks, scrollable">
         <table class="data">
           <thead>
             <tr>
-              <th scope="col" class="text">Network</th>
-              <th scope="col" class="text">Task</th>
-              <th scope="col" class="text">Input</th>
+              <th scope="col" class="text">
+                Network
+              </th>
+              <th scope="col" class="text">
+                Task
+              </th>
+              <th scope="col" class="text">
+                Input
+              </th>
               <th scope="col">Parameters</th>
-              <th scope="col" title="Bytes that are fetched when it is first used">File</th>
-              <th scope="col" title="Simulated samples it was trained on">Samples seen</th>
-              <th scope="col" title="Time of training">Hours</th>
-              <th scope="col" class="text" title="Counted from the experiments below">Against classical methods</th>
+              <th scope="col" title="Bytes that are fetched when it is first used">
+                File
+              </th>
+              <th scope="col" title="Simulated samples it was trained on">
+                Samples seen
+              </th>
+              <th scope="col" title="Time of training">
+                Hours
+              </th>
+              <th scope="col" class="text" title="Counted from the experiments below">
+                Against classical methods
+              </th>
             </tr>
           </thead>
-          <tbody>{models.value.map((model) => <Row key={model.name} model={model} />)}</tbody>
+          <tbody>
+            {models.value.map((model) => (
+              <Row key={model.name} model={model} />
+            ))}
+          </tbody>
         </table>
       </div>
     </section>
@@ -42,7 +62,15 @@ function Row({ model: { name, title, card } }: { model: Model }) {
   return (
     <tr class="pick" aria-selected={selected} data-network={name} onClick={() => update({ model: name })}>
       <th scope="row" class="text">
-        <button type="button" class="cell-button" aria-pressed={selected} title="Show its card" onClick={() => update({ model: name })}>{title}</button>
+        <button
+          type="button"
+          class="cell-button"
+          aria-pressed={selected}
+          title="Show its card"
+          onClick={() => update({ model: name })}
+        >
+          {title}
+        </button>
       </th>
       <td class="text wrap">{task}</td>
       <td class="text wrap">{input}</td>
@@ -50,13 +78,22 @@ function Row({ model: { name, title, card } }: { model: Model }) {
       <td>{sizeOf(card)}</td>
       <td>{card.samplesSeen === undefined ? '–' : count(card.samplesSeen)}</td>
       <td>{card.hours === undefined ? '–' : fixed(card.hours, 2)}</td>
-      <td class="text wrap" data-field="summary">{found ? <Against summary={found} /> : '–'}</td>
+      <td class="text wrap" data-field="summary">
+        {found ? <Against summary={found} /> : '–'}
+      </td>
     </tr>
   );
 }
 
 function Against({ summary: { figure, against, behind, conditions } }: { summary: Summary }) {
-  return against
-    ? <><span class="loses">Loses to {titleOf(against)}</span> in {behind} of {conditions} conditions ({figure.split(':')[0]})</>
-    : <>Beaten by none in {conditions} conditions ({figure.split(':')[0]})</>;
+  return against ? (
+    <>
+      <span class="loses">Loses to {titleOf(against)}</span> in {behind} of {conditions} conditions (
+      {figure.split(':')[0]})
+    </>
+  ) : (
+    <>
+      Beaten by none in {conditions} conditions ({figure.split(':')[0]})
+    </>
+  );
 }

@@ -24,13 +24,22 @@ async function open(files: readonly File[]): Promise<void> {
   reading.value = true;
   try {
     if (!onnx) throw new FileProblem('missing', card?.name ?? '', 'the ONNX file of this card is needed beside it');
-    if (files.length > (card ? 2 : 1)) throw new FileProblem('ambiguous', onnx.name, 'one ONNX file, with its card or without, is expected');
-    if (onnx.size > LARGEST_BYTES) throw new FileProblem('too-large', onnx.name, `${byteSize(onnx.size)}; at most ${byteSize(LARGEST_BYTES)} are expected`);
+    if (files.length > (card ? 2 : 1))
+      throw new FileProblem('ambiguous', onnx.name, 'one ONNX file, with its card or without, is expected');
+    if (onnx.size > LARGEST_BYTES)
+      throw new FileProblem(
+        'too-large',
+        onnx.name,
+        `${byteSize(onnx.size)}; at most ${byteSize(LARGEST_BYTES)} are expected`,
+      );
     const model = await addModel(onnx.name, new Uint8Array(await onnx.arrayBuffer()), await card?.text());
     ownProblem.value = null;
     update({ model: model.name });
   } catch (error) {
-    ownProblem.value = error instanceof FileProblem ? { code: error.code, message: error.message, file: error.file } : { ...describeError(error), file: blame?.name ?? '' };
+    ownProblem.value =
+      error instanceof FileProblem
+        ? { code: error.code, message: error.message, file: error.file }
+        : { ...describeError(error), file: blame?.name ?? '' };
   } finally {
     reading.value = false;
   }
@@ -44,21 +53,40 @@ export function OwnNetwork() {
       {ownModels.value.length > 0 && (
         <ul class="files own" aria-label="Own networks">
           {ownModels.value.map(({ name, card }) => (
-            <li key={name}><span class="file">{name.slice(4)}</span><span class="muted">{byteSize(card.bytes ?? 0)}</span></li>
+            <li key={name}>
+              <span class="file">{name.slice(4)}</span>
+              <span class="muted">{byteSize(card.bytes ?? 0)}</span>
+            </li>
           ))}
         </ul>
       )}
       <div class="row">
-        <button type="button" disabled={reading.value} onClick={() => input.current?.click()} title="An .onnx file, and its card (.json) if there is one">{reading.value ? 'Reading' : 'Open ONNX file'}</button>
-        <input ref={input} type="file" multiple hidden accept=".onnx,.json" aria-label="ONNX file" name="onnx"
+        <button
+          type="button"
+          disabled={reading.value}
+          onClick={() => input.current?.click()}
+          title="An .onnx file, and its card (.json) if there is one"
+        >
+          {reading.value ? 'Reading' : 'Open ONNX file'}
+        </button>
+        <input
+          ref={input}
+          type="file"
+          multiple
+          hidden
+          accept=".onnx,.json"
+          aria-label="ONNX file"
+          name="onnx"
           onChange={(event) => {
             const list = [...(event.currentTarget.files ?? [])];
             event.currentTarget.value = '';
             void open(list);
-          }} />
+          }}
+        />
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>
-        Or drop an .onnx, with its card or without, anywhere on the page. Its inputs and outputs must be those of one of the networks here. Nothing is uploaded.
+        Or drop an .onnx, with its card or without, anywhere on the page. Its inputs and outputs must be those of one of
+        the networks here. Nothing is uploaded.
       </p>
     </div>
   );

@@ -1,6 +1,6 @@
 import { useSignalEffect } from '@preact/signals';
-import { announce } from '../../state/announce.ts';
 import { useAddress } from '../../state/address.ts';
+import { announce } from '../../state/announce.ts';
 import { AboutNetworks } from './about.tsx';
 import { attempt, selected, start } from './attempt.ts';
 import { AttemptPanel } from './attempt-panel.tsx';
@@ -23,7 +23,8 @@ export function NetworksPage() {
   useSignalEffect(() => {
     const made = attempt.value;
     const row = made?.rows[0];
-    if (row?.estimate) announce(`${row.title}: ${row.estimate.sources.length} estimates for ${made?.truth.length} targets.`);
+    if (row?.estimate)
+      announce(`${row.title}: ${row.estimate.sources.length} estimates for ${made?.truth.length} targets.`);
     const count = made?.counts[0];
     if (count) announce(`${count.title}: ${count.sources} targets counted, ${made?.truth.length} are there.`);
   });
@@ -34,10 +35,18 @@ export function NetworksPage() {
       <Controls />
       <div class="main-column">
         {problem && (
-          <p class="alert" role="alert" data-error={problem.code}><strong>{problem.file}: </strong>{problem.message} <code>{problem.code}</code></p>
+          <p class="alert" role="alert" data-error={problem.code}>
+            <strong>{problem.file}: </strong>
+            {problem.message} <code>{problem.code}</code>
+          </p>
         )}
         <Overview />
-        {model && <div class="wide-narrow"><CardPanel model={model} /><MetricsPanel model={model} /></div>}
+        {model && (
+          <div class="wide-narrow">
+            <CardPanel model={model} />
+            <MetricsPanel model={model} />
+          </div>
+        )}
         <AttemptPanel />
         <TimingPanel />
         <Experiments />

@@ -4,8 +4,15 @@ import { api } from '../../data.ts';
 
 /** Table 3 of Sang et al. (2021): 150 MHz in 256 samples, so range bins of 1 m. The paper names no chirp interval. */
 export const WAVEFORM: Waveform = {
-  startFrequencyHz: 77e9, slopeHzPerS: 3.476e12, sampleRateHz: (256 * 3.476e12) / 0.15e9, samples: 256, adcStartS: 0,
-  chirpIntervalS: 50e-6, transmitters: 1, loops: 4, frameIntervalS: 40e-3,
+  startFrequencyHz: 77e9,
+  slopeHzPerS: 3.476e12,
+  sampleRateHz: (256 * 3.476e12) / 0.15e9,
+  samples: 256,
+  adcStartS: 0,
+  chirpIntervalS: 50e-6,
+  transmitters: 1,
+  loops: 4,
+  frameIntervalS: 40e-3,
 };
 export const REGION_ARRAY = 'ula8';
 const [BINS, ELEMENTS, CHIRPS] = [65, 8, 4];
@@ -27,7 +34,9 @@ export function anglesOf(targets: number, seed: number): number[] {
   if (targets === 0) return [];
   const step = (seed * 83) % (targets === 1 ? 21 : 210);
   if (targets === 1) return [step - 10];
-  const pairs = Array.from({ length: 21 }, (_, a) => Array.from({ length: 20 - a }, (_, b) => [a - 10, a - 9 + b])).flat();
+  const pairs = Array.from({ length: 21 }, (_, a) =>
+    Array.from({ length: 20 - a }, (_, b) => [a - 10, a - 9 + b]),
+  ).flat();
   return pairs[step] as number[];
 }
 
@@ -37,7 +46,10 @@ export function simulateRegion(targets: number, snrDb: number, seed: number, tog
   const share = (seed * 0.618034) % 1;
   const rangeM = [70 + 20 * share, 70 + 20 * ((share + 0.381966) % 1)];
   const cube = api.simulateCube({
-    waveform: WAVEFORM, array: REGION_ARRAY, snrDb, seed,
+    waveform: WAVEFORM,
+    array: REGION_ARRAY,
+    snrDb,
+    seed,
     targets: azimuthDeg.map((azimuth, i) => ({ azimuthDeg: azimuth, rangeM: rangeM[together ? 0 : i] as number })),
   });
   return { azimuthDeg, ...cut(cube.data) };
@@ -48,7 +60,10 @@ function cut(cube: Float32Array): Omit<RegionScene, 'azimuthDeg'> {
   const { samples } = WAVEFORM;
   const spectrum = new Float64Array(2 * CHIRPS * ELEMENTS * samples);
   const power = new Float64Array(samples);
-  const turn = Array.from({ length: samples }, (_, i) => [Math.cos((2 * Math.PI * i) / samples), Math.sin((2 * Math.PI * i) / samples)] as const);
+  const turn = Array.from(
+    { length: samples },
+    (_, i) => [Math.cos((2 * Math.PI * i) / samples), Math.sin((2 * Math.PI * i) / samples)] as const,
+  );
   for (let row = 0; row < CHIRPS * ELEMENTS; row++) {
     for (let bin = 0; bin < samples; bin++) {
       let [re, im] = [0, 0];
@@ -80,7 +95,10 @@ function cut(cube: Float32Array): Omit<RegionScene, 'azimuthDeg'> {
     region: { data: region, shape: [BINS, ELEMENTS, CHIRPS] },
     covariance: { data: covarianceOf(region), shape: [ELEMENTS, ELEMENTS] },
     vectors: BINS * CHIRPS,
-    snapshots: { data: Float64Array.from(region.subarray(2 * middle, 2 * (middle + ELEMENTS * CHIRPS))), shape: [ELEMENTS, CHIRPS] },
+    snapshots: {
+      data: Float64Array.from(region.subarray(2 * middle, 2 * (middle + ELEMENTS * CHIRPS))),
+      shape: [ELEMENTS, CHIRPS],
+    },
   };
 }
 

@@ -2,7 +2,14 @@
 import { signal } from '@preact/signals';
 import { describeError, FileProblem, type Problem } from '../../data.ts';
 
-export interface Operating { precision: number; recall: number; f1: number; strictF1: number; angleErrorDeg: number; powerErrorDb: number }
+export interface Operating {
+  precision: number;
+  recall: number;
+  f1: number;
+  strictF1: number;
+  angleErrorDeg: number;
+  powerErrorDb: number;
+}
 
 /** Of `evaluate aoa`: snapshots of many targets. */
 export interface AoaReport {
@@ -53,12 +60,19 @@ export interface DoaReport {
   }[];
 }
 
-export interface Results { aoa?: AoaReport; doa?: DoaReport }
+export interface Results {
+  aoa?: AoaReport;
+  doa?: DoaReport;
+}
 
 export const results = signal<Results | null>(null);
 export const resultsProblem = signal<Problem | null>(null);
 
-const addresses = import.meta.glob<string>('../../../../docs/experiments/*.json', { eager: true, query: '?url', import: 'default' });
+const addresses = import.meta.glob<string>('../../../../docs/experiments/*.json', {
+  eager: true,
+  query: '?url',
+  import: 'default',
+});
 
 let loading = false;
 
@@ -66,10 +80,12 @@ export async function loadResults(): Promise<void> {
   if (loading) return;
   loading = true;
   try {
-    const found = await Promise.all(['aoa', 'doa'].map(async (name) => {
-      const address = addresses[`../../../../docs/experiments/${name}.json`];
-      return address ? [name, await report(address)] : null;
-    }));
+    const found = await Promise.all(
+      ['aoa', 'doa'].map(async (name) => {
+        const address = addresses[`../../../../docs/experiments/${name}.json`];
+        return address ? [name, await report(address)] : null;
+      }),
+    );
     results.value = Object.fromEntries(found.filter((item) => item !== null)) as Results;
     resultsProblem.value = null;
   } catch (error) {
@@ -80,6 +96,7 @@ export async function loadResults(): Promise<void> {
 
 async function report(address: string): Promise<unknown> {
   const response = await fetch(address);
-  if (!response.ok) throw new FileProblem('not-found', address, `could not be loaded: the server answered ${response.status}`);
+  if (!response.ok)
+    throw new FileProblem('not-found', address, `could not be loaded: the server answered ${response.status}`);
   return response.json();
 }

@@ -10,20 +10,23 @@ export const REGION_SNRS = ['-10', '-5', '0', '5', '10', '15'] as const;
 
 const first = MODELS[0]?.name ?? '';
 
-export const networksCodec = codec({
-  model: text(first, (name) => MODELS.some((model) => model.name === name)),
-  targets: number(6, LIMITS.targets, 'integer'),
-  snr: number(15, LIMITS.snrDb),
-  seed: number(1, LIMITS.seed, 'integer'),
-  refine: flag(false),
-  /** Whether the scene is run, and the network for it loaded. */
-  run: flag(false),
-  /** Of the experiments' plots. */
-  at: choice('15', EXPERIMENT_SNRS),
-  of: choice('6', TARGETS),
-  regionAt: choice('0', REGION_SNRS),
-  range: choice('apart', ['apart', 'together']),
-}, ['model']);
+export const networksCodec = codec(
+  {
+    model: text(first, (name) => MODELS.some((model) => model.name === name)),
+    targets: number(6, LIMITS.targets, 'integer'),
+    snr: number(15, LIMITS.snrDb),
+    seed: number(1, LIMITS.seed, 'integer'),
+    refine: flag(false),
+    /** Whether the scene is run, and the network for it loaded. */
+    run: flag(false),
+    /** Of the experiments' plots. */
+    at: choice('15', EXPERIMENT_SNRS),
+    of: choice('6', TARGETS),
+    regionAt: choice('0', REGION_SNRS),
+    range: choice('apart', ['apart', 'together']),
+  },
+  ['model'],
+);
 
 export type NetworksState = typeof networksCodec.defaults;
 export const networksState = signal<NetworksState>(networksCodec.defaults);

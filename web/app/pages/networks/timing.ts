@@ -1,7 +1,7 @@
 /** How long networks and classical methods take here: the same cells one by one and in batches, on a worker. */
 import { signal } from '@preact/signals';
 import type { EstimateInput, EstimatorOptions, Method, NetworkInfo, Tensor } from 'boresight';
-import { aborted, api, describeError, pool, type Problem } from '../../data.ts';
+import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
 import { load } from '../../networks/load.ts';
 import type { Card, Model } from '../../networks/models.ts';
 import { arrayFor, targetRange } from './attempt.ts';
@@ -11,7 +11,12 @@ export const BATCHES = [1, 32] as const;
 export type Batch = (typeof BATCHES)[number];
 
 /** Of one call, milliseconds. */
-export interface Spread { median: number; low: number; high: number; calls: number }
+export interface Spread {
+  median: number;
+  low: number;
+  high: number;
+  calls: number;
+}
 
 export interface Timed {
   subject: string;
@@ -22,7 +27,10 @@ export interface Timed {
   batches: Map<Batch, Spread>;
 }
 
-export interface Timing { rows: Timed[]; travelMs: number }
+export interface Timing {
+  rows: Timed[];
+  travelMs: number;
+}
 
 export const timings = signal<ReadonlyMap<string, Timing>>(new Map());
 export const timing = signal<{ model: string; share: number; what: string } | null>(null);
@@ -39,7 +47,13 @@ const BUDGET_MS = 1500;
 const [FEWEST, MOST] = [5, 200];
 const WARM_UP = 2;
 
-interface Subject { id: string; title: string; method: string; network: boolean; run(batch: Batch, signal: AbortSignal): Promise<unknown> }
+interface Subject {
+  id: string;
+  title: string;
+  method: string;
+  network: boolean;
+  run(batch: Batch, signal: AbortSignal): Promise<unknown>;
+}
 
 export async function timeModel(model: Model): Promise<void> {
   running?.abort();
@@ -55,14 +69,28 @@ export async function timeModel(model: Model): Promise<void> {
     say(0, 'Loading');
     const info = await load(model.name, signal);
     const subjects = (model.card.network === 'aaetr' ? ofSnapshots : ofRegions)(model, info);
-    const travelMs = (await measure(() => pool().version({ signal }), signal, () => {}, 200)).median;
+    const travelMs = (
+      await measure(
+        () => pool().version({ signal }),
+        signal,
+        () => {},
+        200,
+      )
+    ).median;
     const rows: Timed[] = [];
     let step = 0;
     for (const { id, title, method, network, run } of subjects) {
       const batches = new Map<Batch, Spread>();
       for (const batch of BATCHES) {
         const what = `${title}, ${batch === 1 ? 'one at a time' : `batches of ${batch}`}`;
-        batches.set(batch, await measure(() => run(batch, signal), signal, (share) => say((step + share) / (subjects.length * BATCHES.length), what)));
+        batches.set(
+          batch,
+          await measure(
+            () => run(batch, signal),
+            signal,
+            (share) => say((step + share) / (subjects.length * BATCHES.length), what),
+          ),
+        );
         step += 1;
       }
       rows.push({ subject: id, title, method, network, batches });
@@ -78,7 +106,12 @@ export async function timeModel(model: Model): Promise<void> {
   }
 }
 
-async function measure(call: () => Promise<unknown>, signal: AbortSignal, report: (share: number) => void, budgetMs = BUDGET_MS): Promise<Spread> {
+async function measure(
+  call: () => Promise<unknown>,
+  signal: AbortSignal,
+  report: (share: number) => void,
+  budgetMs = BUDGET_MS,
+): Promise<Spread> {
   for (let i = 0; i < WARM_UP; i++) await call();
   const times: number[] = [];
   const started = performance.now();
@@ -97,30 +130,56 @@ async function measure(call: () => Promise<unknown>, signal: AbortSignal, report
 const titleOf = (method: Method): string => api.methods().find(({ name }) => name === method)?.title ?? method;
 
 /** A classical method has no batches: it takes one cell after the other. */
-function classical(method: Method, cells: readonly EstimateInput[], options: Omit<EstimatorOptions, 'method'>): Subject {
+function classical(
+  method: Method,
+  cells: readonly EstimateInput[],
+  options: Omit<EstimatorOptions, 'method'>,
+): Subject {
   return {
-    id: method, title: titleOf(method), method, network: false,
-    run: (batch, signal) => (batch === 1 ? pool().estimate(cells[0] as EstimateInput, { ...options, method }, { signal })
-      : pool().estimateMany(cells.slice(0, batch), { ...options, method }, { signal })),
+    id: method,
+    title: titleOf(method),
+    method,
+    network: false,
+    run: (batch, signal) =>
+      batch === 1
+        ? pool().estimate(cells[0] as EstimateInput, { ...options, method }, { signal })
+        : pool().estimateMany(cells.slice(0, batch), { ...options, method }, { signal }),
   };
 }
 
 function ofSnapshots(model: Model, info: NetworkInfo): Subject[] {
   const most = BATCHES[BATCHES.length - 1] as number;
   const array = arrayFor(model.card);
-  const { data, shape: [, elements] } = api.simulateSnapshots({ array, targets: { count: [6, 6] }, snrDb: 15, scenes: most, seed: 1 });
+  const {
+    data,
+    shape: [, elements],
+  } = api.simulateSnapshots({ array, targets: { count: [6, 6] }, snrDb: 15, scenes: most, seed: 1 });
   const size = 2 * elements;
-  const cells = Array.from({ length: most }, (_, i): EstimateInput => ({ snapshots: { data: data.slice(i * size, (i + 1) * size), shape: [elements, 1] } }));
+  const cells = Array.from(
+    { length: most },
+    (_, i): EstimateInput => ({ snapshots: { data: data.slice(i * size, (i + 1) * size), shape: [elements, 1] } }),
+  );
   const [snapshots, positions] = info.inputs;
   const places: Tensor = { data: Float32Array.from(api.array(array).positions.flat()), shape: [elements, 3] };
   const options = { array, gridPoints: 2048 };
   return [
     {
-      id: 'network', title: model.title, method: model.card.network, network: true,
-      run: (batch, signal) => pool().runNetwork(info.id, {
-        [snapshots?.name ?? 'snapshots']: { data: Float32Array.from(data.subarray(0, batch * size)), shape: [batch, elements, 2] },
-        ...(positions ? { [positions.name]: places } : {}),
-      }, { signal }),
+      id: 'network',
+      title: model.title,
+      method: model.card.network,
+      network: true,
+      run: (batch, signal) =>
+        pool().runNetwork(
+          info.id,
+          {
+            [snapshots?.name ?? 'snapshots']: {
+              data: Float32Array.from(data.subarray(0, batch * size)),
+              shape: [batch, elements, 2],
+            },
+            ...(positions ? { [positions.name]: places } : {}),
+          },
+          { signal },
+        ),
     },
     classical('iaa', cells, options),
     classical('nomp', cells, options),
@@ -129,27 +188,55 @@ function ofSnapshots(model: Model, info: NetworkInfo): Subject[] {
 
 function ofRegions(model: Model, info: NetworkInfo): Subject[] {
   const [, targets] = targetRange(model.card);
-  const scenes = Array.from({ length: BATCHES[BATCHES.length - 1] as number }, (_, seed) => simulateRegion(targets, 10, seed + 1, false));
+  const scenes = Array.from({ length: BATCHES[BATCHES.length - 1] as number }, (_, seed) =>
+    simulateRegion(targets, 10, seed + 1, false),
+  );
   const [input] = info.inputs;
   const features = featuresOf(model.card);
-  const tensors = new Map(BATCHES.map((batch) => [batch, { data: Float32Array.from(scenes.slice(0, batch).flatMap(features)), shape: shapeOf(input?.axes ?? [], batch) }]));
+  const tensors = new Map(
+    BATCHES.map((batch) => [
+      batch,
+      { data: Float32Array.from(scenes.slice(0, batch).flatMap(features)), shape: shapeOf(input?.axes ?? [], batch) },
+    ]),
+  );
   const cells = scenes.map(({ covariance, vectors }): EstimateInput => ({ covariance, snapshotCount: vectors }));
   const options = { array: REGION_ARRAY, fieldOfViewDeg: 15, sources: targets };
   return [
     {
-      id: 'network', title: model.title, method: model.card.network, network: true,
-      run: (batch, signal) => pool().runNetwork(info.id, { [input?.name ?? '']: tensors.get(batch) as Tensor }, { signal }),
+      id: 'network',
+      title: model.title,
+      method: model.card.network,
+      network: true,
+      run: (batch, signal) =>
+        pool().runNetwork(info.id, { [input?.name ?? '']: tensors.get(batch) as Tensor }, { signal }),
     },
     classical('music', cells, options),
     classical('maximum-likelihood', cells, options),
-    { ...classical('iaa', scenes.map(({ snapshots }): EstimateInput => ({ snapshots })), options), title: `${titleOf('iaa')}, strongest bin` },
-    { ...classical('nomp', scenes.map(({ snapshots }): EstimateInput => ({ snapshots })), options), title: `${titleOf('nomp')}, strongest bin` },
+    {
+      ...classical(
+        'iaa',
+        scenes.map(({ snapshots }): EstimateInput => ({ snapshots })),
+        options,
+      ),
+      title: `${titleOf('iaa')}, strongest bin`,
+    },
+    {
+      ...classical(
+        'nomp',
+        scenes.map(({ snapshots }): EstimateInput => ({ snapshots })),
+        options,
+      ),
+      title: `${titleOf('nomp')}, strongest bin`,
+    },
   ];
 }
 
 function featuresOf({ network }: Card): (scene: RegionScene) => number[] {
-  return network === 'cnn3d' ? ({ region }) => regionChannels(region) : ({ covariance }) => covarianceFeatures(covariance);
+  return network === 'cnn3d'
+    ? ({ region }) => regionChannels(region)
+    : ({ covariance }) => covarianceFeatures(covariance);
 }
 
 /** A batch's shape: names stand for the batch. */
-const shapeOf = (axes: readonly (number | string)[], batch: number): number[] => axes.map((axis) => (typeof axis === 'number' ? axis : batch));
+const shapeOf = (axes: readonly (number | string)[], batch: number): number[] =>
+  axes.map((axis) => (typeof axis === 'number' ? axis : batch));

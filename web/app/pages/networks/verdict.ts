@@ -23,7 +23,7 @@ export function compare(figure: Figure, network: Line, other: Line): Verdict {
     const [a, b] = [network.values[i], other.values[i]];
     if (a == null || b == null) return;
     const sigma = Math.hypot(network.sigma[i] ?? 0, other.sigma[i] ?? 0) || Number.EPSILON;
-    const lead = ((figure.lowerIsBetter ? b - a : a - b)) / sigma;
+    const lead = (figure.lowerIsBetter ? b - a : a - b) / sigma;
     if (lead > LEVEL_SIGMAS) verdict.ahead += 1;
     else if (lead >= -LEVEL_SIGMAS) verdict.level += 1;
     else {
@@ -38,9 +38,17 @@ export function compare(figure: Figure, network: Line, other: Line): Verdict {
 }
 
 /** Each network of a figure against each classical method of it. */
-export function verdicts(figure: Figure): { networks: Line[]; classical: Line[]; of(network: Line, other: Line): Verdict } {
-  const networks = figure.lines.filter(({ method, values }) => kindOf(method) && values.some((value) => value !== null));
-  const classical = figure.lines.filter(({ method, values }) => !kindOf(method) && values.some((value) => value !== null));
+export function verdicts(figure: Figure): {
+  networks: Line[];
+  classical: Line[];
+  of(network: Line, other: Line): Verdict;
+} {
+  const networks = figure.lines.filter(
+    ({ method, values }) => kindOf(method) && values.some((value) => value !== null),
+  );
+  const classical = figure.lines.filter(
+    ({ method, values }) => !kindOf(method) && values.some((value) => value !== null),
+  );
   return { networks, classical, of: (network, other) => compare(figure, network, other) };
 }
 
@@ -53,17 +61,32 @@ export function hardest(figure: Figure, network: Line): Verdict | null {
 }
 
 /** What a network is judged by at a glance: one figure of its paper, over all its conditions. */
-export interface Summary { figure: string; against: string; behind: number; conditions: number }
+export interface Summary {
+  figure: string;
+  against: string;
+  behind: number;
+  conditions: number;
+}
 
 /** The classical method that beats a network in most conditions of its main figure; `against` is empty where none does. */
 export function summary({ aoa, doa }: Results, network: string): Summary | null {
   const figures: (Figure | undefined)[] = [
-    ...(aoa ? [...new Set(aoa.conditions.map(({ snrDb }) => snrDb))].map((snr) => aoaFigures(aoa, snr).find(({ name }) => name === 'f1')) : []),
-    ...(doa ? (['apart', 'together'] as const).flatMap((range) => doaFigures(doa, range, 0).filter(({ name }) => name === 'success' || name === 'counting')) : []),
+    ...(aoa
+      ? [...new Set(aoa.conditions.map(({ snrDb }) => snrDb))].map((snr) =>
+          aoaFigures(aoa, snr).find(({ name }) => name === 'f1'),
+        )
+      : []),
+    ...(doa
+      ? (['apart', 'together'] as const).flatMap((range) =>
+          doaFigures(doa, range, 0).filter(({ name }) => name === 'success' || name === 'counting'),
+        )
+      : []),
     ...(doa ? doaFigures(doa, 'apart', 0).filter(({ name }) => name === 'rounded') : []),
   ];
   const mine = figures.flatMap((figure) => {
-    const line = figure?.lines.find(({ method, values }) => method === network && values.some((value) => value !== null));
+    const line = figure?.lines.find(
+      ({ method, values }) => method === network && values.some((value) => value !== null),
+    );
     return figure && line ? [{ figure, line }] : [];
   });
   const [first] = mine;
@@ -74,7 +97,8 @@ export function summary({ aoa, doa }: Results, network: string): Summary | null 
   let conditions = 0;
   for (const { figure, line } of same) {
     conditions += line.values.filter((value) => value !== null).length;
-    for (const other of verdicts(figure).classical) behind.set(other.method, (behind.get(other.method) ?? 0) + compare(figure, line, other).behind);
+    for (const other of verdicts(figure).classical)
+      behind.set(other.method, (behind.get(other.method) ?? 0) + compare(figure, line, other).behind);
   }
   const [against, most] = [...behind].sort((a, b) => b[1] - a[1])[0] ?? ['', 0];
   return { figure: first.figure.title, against: most ? against : '', behind: most, conditions };
