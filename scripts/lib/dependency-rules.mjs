@@ -1,6 +1,7 @@
 /** Crates of the workspace that each crate may name; `null` for any but a binding crate. */
 const allowed = {
-  core: [],
+  derive: [],
+  core: ['derive'],
   signal: ['core'],
   simulate: ['core', 'signal'],
   aoa: ['core', 'signal'],
@@ -10,6 +11,7 @@ const allowed = {
   neural: ['core', 'signal', 'aoa'],
   pipeline: ['core', 'signal', 'aoa'],
   evaluate: ['core', 'signal', 'aoa', 'calibrate', 'simulate', 'image', 'neural', 'pipeline'],
+  generate: ['core', 'aoa', 'calibrate', 'pipeline', 'simulate'],
   cli: null,
   wasm: null,
   'wasm-neural': null,

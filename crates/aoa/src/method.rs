@@ -1,11 +1,11 @@
 //! The estimators by name, and what each asks for.
 
 use boresight_core::CoreError;
-use boresight_core::error::named;
+use boresight_core::describe::{Described, Named};
 use serde::{Deserialize, Serialize};
 
 /// An angle-of-arrival estimator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Described, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Delay and sum (an FFT on a lattice).
@@ -89,22 +89,7 @@ impl Method {
 
     /// The name used in options, in JavaScript and on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Bartlett => "bartlett",
-            Self::Capon => "capon",
-            Self::Music => "music",
-            Self::SingleSnapshotMusic => "single-snapshot-music",
-            Self::RootMusic => "root-music",
-            Self::Esprit => "esprit",
-            Self::MinNorm => "min-norm",
-            Self::Iaa => "iaa",
-            Self::Nomp => "nomp",
-            Self::MaximumLikelihood => "maximum-likelihood",
-            Self::SparseBayesian => "sparse-bayesian",
-            Self::Aaetr => "aaetr",
-            Self::Dnn => "dnn",
-            Self::Cnn3d => "cnn3d",
-        }
+        Named::name(self)
     }
 
     /// Finds a method by its [`Method::name`].
@@ -112,8 +97,7 @@ impl Method {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        let known: Vec<Self> = Self::ALL.into_iter().chain(Self::NETWORKS).collect();
-        named("method", &known, Self::name, name)
+        Named::from_name("method", name)
     }
 
     /// What the method needs and gives.

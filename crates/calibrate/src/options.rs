@@ -2,11 +2,12 @@
 
 use crate::CalibrateError;
 use boresight_core::CoreError;
-use boresight_core::error::{check_positive, check_range, named};
-use std::f64::consts::PI;
+use boresight_core::describe::{self, Described, Named, Naming};
+use serde::{Deserialize, Serialize};
 
 /// How the mounting angle is estimated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
     /// Weighted mean of the frames' angles, scale taken as 1 (Kellner et al. 2015).
@@ -24,7 +25,8 @@ pub enum Method {
 }
 
 /// How the radar's motion is estimated from a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum MotionMethod {
     /// RANSAC, then least squares on the inliers (Kellner et al. 2013).
@@ -38,74 +40,67 @@ pub enum MotionMethod {
     Tracked,
 }
 
-/// Options of all methods. Those a method has no use for are ignored.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Options of all methods. Those a method has no use for are ignored. The car's frame is centred on
+/// the rear axle, x forward, y left; angles are positive to the left.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Options {
     /// How the angle is estimated.
+    #[option(required)]
     pub method: Method,
-    /// How the motion is estimated; `None` for the one that belongs to the method.
+    /// How the motion is estimated; the way that belongs to the method if absent.
     pub motion: Option<MotionMethod>,
-    /// The radar's place ahead of the rear axle, m.
+    /// The radar's place ahead of the rear axle.
+    #[option(required, range = -100..=100)]
     pub x_m: f64,
-    /// The radar's place left of the centre line, m.
+    /// The radar's place left of the centre line.
+    #[option(range = -100..=100)]
     pub y_m: f64,
-    /// The angle the radar should be mounted at, rad, if known: where the search begins, and what
-    /// the alarm compares with.
+    /// The angle the radar should be mounted at, if known: where the search begins, and what the
+    /// alarm compares with.
+    #[option(range = -180..=180)]
     pub nominal_rad: Option<f64>,
-    /// How far from nominal is a misalignment, rad.
+    /// How far from nominal is a misalignment.
+    #[option(default = 1.0_f64.to_radians(), range = 1e-9..=180)]
     pub alarm_rad: f64,
-    /// Standard deviation below which the estimate may count as converged, rad.
+    /// Standard deviation below which the estimate may count as converged.
+    #[option(default = 0.1_f64.to_radians(), range = 1e-9..=180)]
     pub converged_rad: f64,
-    /// Standard deviation of a detection's range rate, m/s.
+    /// Standard deviation of a detection's range rate.
+    #[option(default = 0.1, positive)]
     pub range_rate_sigma_mps: f64,
-    /// Standard deviation of a detection's azimuth, rad.
+    /// Standard deviation of a detection's azimuth.
+    #[option(default = 0.5_f64.to_radians(), range = 0..=180)]
     pub azimuth_sigma_rad: f64,
-    /// Standard deviation of the yaw rate's bias before anything is known of it, rad/s.
+    /// Standard deviation of the yaw rate's bias before anything is known of it.
+    #[option(default = 0.1_f64.to_radians(), positive)]
     pub bias_sigma_radps: f64,
-    /// Frames below this speed of the radar are left out, m/s.
+    /// Frames below this speed of the radar are left out.
+    #[option(default = 1.0, range = 0..=1000)]
     pub min_speed_mps: f64,
-    /// Frames turning faster than this are left out, rad/s.
+    /// Frames turning faster than this are left out.
+    #[option(default = 140.0_f64.to_radians(), range = 0.1..=180)]
     pub max_yaw_rate_radps: f64,
-    /// Below this residual, m/s, a detection is an inlier of RANSAC.
+    /// Below this residual a detection is an inlier of RANSAC.
+    #[option(default = 0.3, positive)]
     pub inlier_residual_mps: f64,
-    /// A detection is an inlier where its weight is at least this (IT).
+    /// Weight from which a detection is an inlier (IT).
+    #[option(default = 0.5, range = 0..=1)]
     pub inlier_threshold: f64,
     /// Frames with a smaller share of inliers are left out (IRT).
+    #[option(default = 0.3, range = 0..=1)]
     pub inlier_ratio_threshold: f64,
     /// Fewest inliers of a frame.
+    #[option(default = 5, range = 3..=1e6)]
     pub min_inliers: usize,
     /// Probability that RANSAC draws a pair of inliers at least once.
+    #[option(default = 0.999, range = 0..=1)]
     pub confidence: f64,
-    /// Largest gap in the yaw rate over which it is interpolated, s.
+    /// Largest gap in the yaw rate over which it is interpolated.
+    #[option(default = 0.25, positive)]
     pub max_gap_s: f64,
     /// Seed of RANSAC's draws.
     pub seed: u64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            method: Method::default(),
-            motion: None,
-            x_m: 0.0,
-            y_m: 0.0,
-            nominal_rad: None,
-            alarm_rad: 1.0_f64.to_radians(),
-            converged_rad: 0.1_f64.to_radians(),
-            range_rate_sigma_mps: 0.1,
-            azimuth_sigma_rad: 0.5_f64.to_radians(),
-            bias_sigma_radps: 0.1_f64.to_radians(),
-            min_speed_mps: 1.0,
-            max_yaw_rate_radps: 140.0_f64.to_radians(),
-            inlier_residual_mps: 0.3,
-            inlier_threshold: 0.5,
-            inlier_ratio_threshold: 0.3,
-            min_inliers: 5,
-            confidence: 0.999,
-            max_gap_s: 0.25,
-            seed: 0,
-        }
-    }
 }
 
 impl Options {
@@ -114,29 +109,7 @@ impl Options {
     /// # Errors
     /// [`CoreError::OutOfRange`] naming the option.
     pub fn validate(&self) -> Result<(), CalibrateError> {
-        check_range("xM", self.x_m, -100.0, 100.0)?;
-        check_range("yM", self.y_m, -100.0, 100.0)?;
-        if let Some(nominal) = self.nominal_rad {
-            check_range("nominalRad", nominal, -PI, PI)?;
-        }
-        for (what, given) in [
-            ("alarmRad", self.alarm_rad),
-            ("convergedRad", self.converged_rad),
-            ("rangeRateSigmaMps", self.range_rate_sigma_mps),
-            ("maxYawRateRadps", self.max_yaw_rate_radps),
-            ("inlierResidualMps", self.inlier_residual_mps),
-            ("maxGapS", self.max_gap_s),
-            ("biasSigmaRadps", self.bias_sigma_radps),
-        ] {
-            check_positive(what, given)?;
-        }
-        check_range("azimuthSigmaRad", self.azimuth_sigma_rad, 0.0, PI)?;
-        check_range("minSpeedMps", self.min_speed_mps, 0.0, 1e3)?;
-        check_range("inlierThreshold", self.inlier_threshold, 0.0, 1.0)?;
-        check_range("inlierRatioThreshold", self.inlier_ratio_threshold, 0.0, 1.0)?;
-        check_range("minInliers", self.min_inliers as f64, 3.0, 1e6)?;
-        check_range("confidence", self.confidence, 0.0, 1.0)?;
-        Ok(())
+        Ok(describe::check(self, Naming::Rust)?)
     }
 
     /// The motion method in use: the one asked for, or the one that belongs to the method.
@@ -162,13 +135,7 @@ impl Method {
 
     /// The name used in options and on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::WeightedMean => "weighted-mean",
-            Self::Kabsch => "kabsch",
-            Self::LeastSquares => "least-squares",
-            Self::OrthogonalDistance => "orthogonal-distance",
-            Self::Recursive => "recursive",
-        }
+        Named::name(self)
     }
 
     /// Name for people.
@@ -198,7 +165,7 @@ impl Method {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        named("method", &Self::ALL, Self::name, name)
+        Named::from_name("method", name)
     }
 }
 
@@ -209,12 +176,7 @@ impl MotionMethod {
 
     /// The name used in options and on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Ransac => "ransac",
-            Self::WeightedLeastSquares => "weighted-least-squares",
-            Self::OrthogonalDistance => "orthogonal-distance",
-            Self::Tracked => "tracked",
-        }
+        Named::name(self)
     }
 
     /// Name for people.
@@ -242,6 +204,6 @@ impl MotionMethod {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        named("motion", &Self::ALL, Self::name, name)
+        Named::from_name("motion", name)
     }
 }

@@ -8,6 +8,7 @@ mod commands;
 mod drive;
 mod error;
 mod files;
+mod flags;
 mod network;
 mod output;
 mod picture;

@@ -68,10 +68,10 @@ pub fn chain(
     options: &ChainOptions,
     arguments: &ModelArguments,
 ) -> Result<Chain, CliError> {
-    match model_for(options.method, arguments)? {
+    match model_for(options.angle.method, arguments)? {
         None => Ok(Chain::new(waveform, receivers, array, options)?),
         Some((model, path)) => {
-            let estimators = model.estimators(array, &options.angle, options.threads);
+            let estimators = model.estimators(array, &options.angle.options, options.threads);
             let estimators = estimators.map_err(|error| wrong(&path, error))?;
             Ok(Chain::with_estimators(waveform, receivers, array, options, estimators)?)
         }

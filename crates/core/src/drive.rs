@@ -5,6 +5,8 @@
 //! standing target at azimuth `a` seen by a radar that moves with `(vx, vy)` in its own frame has
 //! `-range_rate = vx cos a + vy sin a`.
 
+use crate::describe::Described;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// One point of a Doppler point cloud, in the radar's frame.
@@ -59,13 +61,13 @@ pub struct MotionSample {
 }
 
 /// Where a radar sits in the car's frame and which way it looks.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 pub struct Mounting {
-    /// Ahead of the rear axle, m.
+    /// Ahead of the rear axle.
     pub x_m: f64,
-    /// Left of the centre line, m.
+    /// Left of the centre line.
     pub y_m: f64,
-    /// Direction of boresight, rad.
+    /// Direction of boresight, counter-clockwise from the car's x.
     pub yaw_rad: f64,
 }
 

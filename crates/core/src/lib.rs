@@ -5,7 +5,12 @@
 //! the name; the sensor frame has x forward, y left and z up; azimuth is counter-clockwise
 //! positive; range rate is positive when receding; antenna positions are in half wavelengths.
 
+// What `Described` derives names the crate from outside.
+#[allow(unused_extern_crates)]
+extern crate self as boresight_core;
+
 pub mod array;
+pub mod describe;
 pub mod direction;
 pub mod drive;
 pub mod error;

@@ -56,8 +56,8 @@ impl Chain {
         array: &Array,
         options: &ChainOptions,
     ) -> Result<Self, PipelineError> {
-        let angle = suited(options.method, array, &options.angle);
-        let estimators = || Estimators::new(options.method, array, &angle, options.threads);
+        let angle = suited(options.angle.method, array, &options.angle.options);
+        let estimators = || Estimators::new(options.angle.method, array, &angle, options.threads);
         Self::plan(waveform, receivers, array, options, estimators)
     }
 
@@ -337,8 +337,8 @@ fn cfar_options(options: &ChainOptions, transform: &RangeDoppler) -> CfarOptions
     let padding = [options.range_doppler.range_padding, options.range_doppler.doppler_padding];
     let padded = |cells: [usize; 2]| [0, 1].map(|axis| cells[axis].saturating_mul(padding[axis]));
     CfarOptions {
-        guard: padded(options.cfar.guard),
-        training: padded(options.cfar.training),
+        guard_cells: padded(options.cfar.guard_cells),
+        training_cells: padded(options.cfar.training_cells),
         looks: transform.channels(),
         correlation: transform.cell_correlation(),
         ..options.cfar

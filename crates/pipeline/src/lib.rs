@@ -17,6 +17,6 @@ mod source;
 pub use beam::suited;
 pub use chain::Chain;
 pub use error::PipelineError;
-pub use options::{ChainOptions, usable_range_m};
+pub use options::{AngleOptions, ChainOptions, usable_range_m};
 pub use result::{Counts, DetectedCell, Detection, FrameCells, FrameResult, Remark};
 pub use source::{CubeFrames, Frame, FrameSource, Progress};

@@ -3,8 +3,9 @@
 use crate::error::PipelineError;
 use boresight_aoa::{Method, Options};
 use boresight_core::Waveform;
-use boresight_core::error::check_range;
-use boresight_signal::{CfarAxes, CfarOptions, RangeDopplerOptions, Region};
+use boresight_core::describe::{self, Described, Naming};
+use boresight_signal::{CfarOptions, RangeDopplerOptions, Region};
+use serde::{Deserialize, Serialize};
 
 /// Bins at zero range that the coupling from transmitters to receivers fills: the main lobe of the
 /// usual windows and as much again.
@@ -20,54 +21,44 @@ pub fn usable_range_m(waveform: &Waveform) -> [f64; 2] {
     [COUPLING_BINS * waveform.range_resolution_m(), USABLE_BAND * waveform.max_range_m()]
 }
 
-/// How frames become detections.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ChainOptions {
-    /// Windows, padding and clutter removal of the transforms.
-    pub range_doppler: RangeDopplerOptions,
-    /// Detection. Guard and training cells are counted in cells of unpadded transforms; the number
-    /// of looks and the correlation of cells follow from the array and the windows and are set by
-    /// the chain.
-    pub cfar: CfarOptions,
-    /// Keep one detection a peak.
-    pub peak_grouping: bool,
-    /// Limits outside which detections are dropped, and counted. Where it names no range, that is
-    /// [`usable_range_m`].
-    pub region: Region,
+/// Angle estimation in each cell, on the chain's array.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
+pub struct AngleOptions {
     /// Method of angle estimation.
+    #[option(default = Method::Bartlett)]
     pub method: Method,
     /// Its options. For the conventional beamformer and Capon's the dynamic range is at most that
     /// between main lobe and sidelobes of the array less 6 dB; Capon's is loaded by 0.1 of the
     /// mean element power where no loading is asked for.
-    pub angle: Options,
-    /// Most detections a frame; the strongest are kept.
-    pub max_detections: usize,
-    /// Most threads that estimate angles; 1 where there are none, as in WebAssembly.
-    pub threads: usize,
+    #[serde(rename = "..options")]
+    pub options: Options,
 }
 
-impl Default for ChainOptions {
-    /// Hann windows without padding; cell averaging along range, because in a scene that stands
-    /// still all power lies at zero Doppler and a window across it would see no noise like the
-    /// cell's own; guard cells that cover the main lobe; the conventional beamformer, which needs
-    /// no more than one snapshot.
-    fn default() -> Self {
-        Self {
-            range_doppler: RangeDopplerOptions::default(),
-            cfar: CfarOptions {
-                axes: CfarAxes::Range,
-                guard: [4, 2],
-                training: [8, 4],
-                ..CfarOptions::default()
-            },
-            peak_grouping: true,
-            region: Region::default(),
-            method: Method::Bartlett,
-            angle: Options::default(),
-            max_detections: 256,
-            threads: 1,
-        }
-    }
+/// How frames become detections.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ChainOptions {
+    /// Windows, padding and clutter removal of the transforms.
+    #[serde(rename = "..range_doppler")]
+    pub range_doppler: RangeDopplerOptions,
+    /// Detection. Guard and training cells are counted in cells of unpadded transforms.
+    pub cfar: CfarOptions,
+    /// Keep one detection a peak.
+    #[option(default = true)]
+    pub peak_grouping: bool,
+    /// Limits outside which detections are dropped, and counted. Where it names no range, that is
+    /// from 4 range resolutions to 0.9 of the unambiguous range.
+    pub region: Region,
+    /// Angle estimation.
+    pub angle: AngleOptions,
+    /// Most detections a frame; the strongest are kept.
+    #[option(default = 256, range = 1..=65_536)]
+    pub max_detections: usize,
+    /// Most threads that estimate angles; 1 where there are none, as in WebAssembly.
+    #[option(default = 1)]
+    #[serde(skip)]
+    pub threads: usize,
 }
 
 impl ChainOptions {
@@ -77,7 +68,7 @@ impl ChainOptions {
     /// [`boresight_core::CoreError::OutOfRange`] naming the option.
     pub fn check(&self) -> Result<(), PipelineError> {
         self.region.check()?;
-        self.angle.check()?;
-        Ok(check_range("max_detections", self.max_detections as f64, 1.0, 65_536.0)?)
+        self.angle.options.check()?;
+        Ok(describe::check(self, Naming::Rust)?)
     }
 }

@@ -5,8 +5,10 @@ use crate::error::SignalError;
 use crate::power::accumulate_power;
 use crate::range::{RowTransform, range_axis_m};
 use crate::window::Window;
+use boresight_core::describe::Described;
 use boresight_core::{Complex32, Complex64, CoreError, Waveform};
 use ndarray::{Array1, Array2, Array3, ArrayView4, Axis};
+use serde::{Deserialize, Serialize};
 
 /// Most complex values a range-Doppler cube may hold (512 MiB).
 pub const MAX_CUBE_VALUES: usize = 1 << 26;
@@ -15,30 +17,21 @@ pub const MAX_CUBE_VALUES: usize = 1 << 26;
 const TILE: usize = 16;
 
 /// How a frame is transformed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct RangeDopplerOptions {
     /// Window over the samples of a chirp.
     pub range_window: Window,
-    /// Window over the loops.
+    /// Window over the loops of a frame.
     pub doppler_window: Window,
-    /// Range bins as a multiple of the samples, 1 to 64.
+    /// Range bins as a multiple of the samples, a power of two.
+    #[option(default = 1, range = 1..=64)]
     pub range_padding: usize,
-    /// Doppler bins as a multiple of the loops, 1 to 64.
+    /// Doppler bins as a multiple of the loops, a power of two.
+    #[option(default = 1, range = 1..=64)]
     pub doppler_padding: usize,
     /// Take the mean over the loops off, which removes what does not move.
     pub static_clutter_removal: bool,
-}
-
-impl Default for RangeDopplerOptions {
-    fn default() -> Self {
-        Self {
-            range_window: Window::Hann,
-            doppler_window: Window::Hann,
-            range_padding: 1,
-            doppler_padding: 1,
-            static_clutter_removal: false,
-        }
-    }
 }
 
 /// A frame in range and Doppler.

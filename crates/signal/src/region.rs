@@ -3,18 +3,22 @@
 use crate::error::SignalError;
 use crate::range::RowTransform;
 use crate::window::Window;
+use boresight_core::describe::Described;
 use boresight_core::error::check_range;
 use boresight_core::{Complex32, Complex64, CoreError};
 use ndarray::{Array2, Array3, Array4, ArrayView3, ArrayView4, s};
+use serde::{Deserialize, Serialize};
 
 /// Limits, both ends inside; absent ones hold nothing back.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Region {
-    /// Least and greatest range, m.
+    /// Least and greatest range.
     pub range_m: Option<[f64; 2]>,
-    /// Least and greatest range rate, m/s.
+    /// Least and greatest range rate.
     pub rate_mps: Option<[f64; 2]>,
-    /// Least and greatest azimuth, rad.
+    /// Least and greatest azimuth.
+    #[option(range = -90..=90)]
     pub azimuth_rad: Option<[f64; 2]>,
 }
 

@@ -1,16 +1,19 @@
 //! Windows for the range and Doppler transforms.
 
 use crate::error::SignalError;
+use boresight_core::describe::{Choice, Described, Kind};
 use boresight_core::error::check_range;
 use boresight_core::fft::Transforms;
 use boresight_core::{Complex64, CoreError};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Longest window, so that a wrong length cannot exhaust memory.
 pub const MAX_LENGTH: usize = 1 << 20;
 
 /// A taper, symmetric about the middle of the data, with a largest value of 1.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "&'static str")]
 pub enum Window {
     /// All ones: best resolution, sidelobes at -13 dB.
     Rectangular,
@@ -35,6 +38,36 @@ pub enum Window {
         /// Main lobe over the near sidelobes, dB, 15 to 100.
         sidelobe_db: f64,
     },
+}
+
+impl Described for Window {
+    const KIND: Kind = Kind::Choice(&Choice {
+        name: "WindowName",
+        doc: "A taper.",
+        variants: &[
+            ("rectangular", "All ones: best resolution, sidelobes at -13 dB."),
+            ("hann", "Raised cosine, sidelobes from -31 dB falling 18 dB an octave."),
+            ("hamming", "Raised cosine on a pedestal, sidelobes at -43 dB."),
+            ("blackman", "Three terms, sidelobes at -58 dB."),
+            ("blackman-harris", "Four terms, sidelobes at -92 dB."),
+            ("chebyshev", "Dolph-Chebyshev: the narrowest main lobe for sidelobes all at -80 dB."),
+            ("taylor", "Taylor: three sidelobes near -40 dB, the others falling."),
+        ],
+    });
+}
+
+impl TryFrom<String> for Window {
+    type Error = SignalError;
+
+    fn try_from(name: String) -> Result<Self, SignalError> {
+        Self::named(&name)
+    }
+}
+
+impl From<Window> for &'static str {
+    fn from(window: Window) -> Self {
+        window.name()
+    }
 }
 
 impl Window {

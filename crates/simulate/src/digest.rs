@@ -91,7 +91,7 @@ pub fn reference_drive() -> Result<u64, SimulateError> {
         seed: 9,
         duration_s: 30.0,
         moving_share: Some(0.33),
-        slip_gradient: 0.002,
+        slip_gradient_rad: 0.002,
         ..DriveOptions::default()
     })
 }

@@ -12,7 +12,6 @@ use boresight_wasm::capture::{Capture, process_cube_by};
 use boresight_wasm::complex::Cube;
 use boresight_wasm::error::Fallible;
 use boresight_wasm::estimate::{Estimator, Input, estimate_record, shape_error};
-use boresight_wasm::options::read_options;
 use boresight_wasm::read::{Fields, Read};
 use boresight_wasm::write::{Record, float64, list};
 use js_sys::Function;
@@ -54,7 +53,7 @@ impl Network {
         let mut fields = Fields::of_optional(options)?;
         let method = fields.optional("method")?;
         let array = fields.optional("array")?;
-        let options = read_options(&mut fields)?;
+        let options: Options = fields.spread()?;
         fields.finish()?;
         options.check()?;
         self.check_method(method)?;
@@ -197,8 +196,8 @@ impl Network {
         array: &Array,
         options: &ChainOptions,
     ) -> Fallible<Chain> {
-        self.check_method(Some(options.method).filter(|method| *method != Method::Bartlett))?;
-        let estimator = self.model.estimator(array, &options.angle)?;
+        self.check_method(Some(options.angle.method).filter(|method| *method != Method::Bartlett))?;
+        let estimator = self.model.estimator(array, &options.angle.options)?;
         let estimators = Estimators::of(vec![estimator])?;
         Ok(Chain::with_estimators(waveform, receivers, array, options, estimators)?)
     }

@@ -1,12 +1,13 @@
 //! The mounting angle of a radar, one frame at a time.
 
+use crate::carry;
 use crate::complex::float_array;
 use crate::error::Fallible;
-use crate::read::{Fields, Read, choice};
+use crate::read::{Fields, Read};
 use crate::write::{Record, float32, list};
 use boresight_calibrate::{
     self as calibrate, AngleEstimate, FrameCounts, FrameInput, FrameOutcome, Method, Motion,
-    MotionMethod, Options, Verdict,
+    Options, Verdict,
 };
 use boresight_core::error::check_finite;
 use boresight_core::{CoreError, Detection};
@@ -40,7 +41,7 @@ impl Calibration {
     /// Checks the options and prepares.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue) -> Fallible<Self> {
-        let options = read_calibration(Fields::new(options, "")?)?;
+        let options = carry::read(options)?;
         Ok(Self { inner: calibrate::Calibrator::new(options)? })
     }
 
@@ -128,45 +129,6 @@ fn column(fields: &mut Fields, name: &'static str, count: usize) -> Fallible<Vec
     }
     let (what, expected) = (fields.path_of(name), format!("[{count}], as azimuthDeg has"));
     Err(CoreError::Shape { what, expected, given: vec![numbers.len()] }.into())
-}
-
-/// Reads the options of a calibration and refuses other fields.
-pub(crate) fn read_calibration(mut fields: Fields) -> Fallible<Options> {
-    let mut options = Options { method: fields.required("method")?, ..Options::default() };
-    options.motion = fields.optional("motion")?;
-    options.x_m = fields.required("xM")?;
-    fields.update("yM", &mut options.y_m)?;
-    options.nominal_rad = fields.degrees("nominalDeg", [-180.0, 180.0])?;
-    fields.update_degrees("alarmDeg", [1e-9, 180.0], &mut options.alarm_rad)?;
-    fields.update_degrees("convergedDeg", [1e-9, 180.0], &mut options.converged_rad)?;
-    fields.update("rangeRateSigmaMps", &mut options.range_rate_sigma_mps)?;
-    fields.update_degrees("azimuthSigmaDeg", [0.0, 180.0], &mut options.azimuth_sigma_rad)?;
-    fields.update("minSpeedMps", &mut options.min_speed_mps)?;
-    fields.update_degrees("maxYawRateDegps", [0.1, 180.0], &mut options.max_yaw_rate_radps)?;
-    fields.update("inlierResidualMps", &mut options.inlier_residual_mps)?;
-    fields.update("inlierThreshold", &mut options.inlier_threshold)?;
-    fields.update("inlierRatioThreshold", &mut options.inlier_ratio_threshold)?;
-    fields.update("minInliers", &mut options.min_inliers)?;
-    fields.update("confidence", &mut options.confidence)?;
-    fields.update("seed", &mut options.seed)?;
-    fields.finish()?;
-    Ok(options)
-}
-
-impl Read for Method {
-    const EXPECTED: &'static str = "the name of a method of calibration";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        choice(value, path, &Self::ALL.map(|method| (method.name(), method)))
-    }
-}
-
-impl Read for MotionMethod {
-    const EXPECTED: &'static str = "the name of a method of ego-motion";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        choice(value, path, &Self::ALL.map(|method| (method.name(), method)))
-    }
 }
 
 /// The verdicts in the order of their numbers in JavaScript.

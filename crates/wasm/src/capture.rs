@@ -11,7 +11,6 @@ use crate::frames::frame_record;
 use crate::read::{Fields, Read};
 use crate::report::reporter;
 use crate::write::{Record, complex64, list, remarks};
-use boresight_aoa::Method;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64, Waveform};
 use boresight_formats::{self as formats, RadarConfig};
@@ -124,12 +123,12 @@ impl Capture {
         angle: &JsValue,
         options: &JsValue,
     ) -> Fallible<JsValue> {
-        let (method, angle) = read_angle(Fields::of_optional(angle)?, Method::Bartlett)?;
+        let angle = read_angle(Fields::of_optional(angle)?)?;
         let mut fields = Fields::of_optional(options)?;
         let (array, options) = read_chain(&mut fields)?;
         fields.finish()?;
         let (chain, snapshots) = self.snapshots(cell, array, &options)?;
-        let estimate = chain.cell_spectrum(snapshots.view(), method, &angle)?;
+        let estimate = chain.cell_spectrum(snapshots.view(), angle.method, &angle.options)?;
         Ok(estimate_record(&estimate).into())
     }
 }

@@ -8,10 +8,9 @@ use crate::estimate::shape_error;
 use crate::frames::counts_record;
 use crate::read::{Fields, Read};
 use crate::write::{Record, complex64, finite_db, float64, list};
-use boresight_aoa::Method;
 use boresight_core::Array;
 use boresight_core::units::power_to_db;
-use boresight_pipeline::{Chain, DetectedCell, FrameCells, suited};
+use boresight_pipeline::{AngleOptions, Chain, DetectedCell, FrameCells, suited};
 use js_sys::Uint32Array;
 use ndarray::ArrayView4;
 use wasm_bindgen::JsValue;
@@ -48,7 +47,7 @@ impl Capture {
 #[wasm_bindgen(js_name = suitedAngle)]
 pub fn suited_angle(array: &JsValue, angle: &JsValue) -> Fallible<JsValue> {
     let array = Array::read(array, "array")?;
-    let (method, options) = read_angle(Fields::of_optional(angle)?, Method::Bartlett)?;
+    let AngleOptions { method, options } = read_angle(Fields::of_optional(angle)?)?;
     options.check()?;
     let options = suited(method, &array, &options);
     Ok(Record::new()

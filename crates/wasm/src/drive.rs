@@ -1,21 +1,20 @@
 //! Drives, read from files and simulated, as flat typed arrays.
 
 use crate::bytes::Bytes;
+use crate::carry;
 use crate::error::Fallible;
-use crate::read::{Fields, Read, choice, wrong_type};
+use crate::read::{Fields, Read, choice};
 use crate::report::reporter;
 use crate::write::{Record, float32, float64, list, remarks};
-use boresight_core::CoreError;
 use boresight_core::drive::{DriveLog, MotionSample, Mounting, Sensor};
-use boresight_core::error::check_range;
 use boresight_formats::drive_log::{self, DriveFormat, ReadReport};
 use boresight_pipeline::Progress;
-use boresight_simulate::drive::{RadarNoise, SimulatedDrive};
+use boresight_simulate::drive::SimulatedDrive;
 use boresight_simulate::{DriveOptions, Scenario, simulate_drive_reporting};
-use js_sys::{Function, Object, Reflect, Uint8Array, Uint32Array};
+use js_sys::{Function, Uint8Array, Uint32Array};
 use std::ops::ControlFlow;
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
-use wasm_bindgen::{JsCast, JsValue};
 
 /// Scans between two reports.
 const SCANS_A_REPORT: usize = 128;
@@ -35,7 +34,7 @@ pub fn read_drive(files: &JsValue, options: &JsValue) -> Fallible<JsValue> {
 /// Simulates a drive.
 #[wasm_bindgen(js_name = simulateDrive)]
 pub fn simulate_drive(options: &JsValue, report: Option<Function>) -> Fallible<JsValue> {
-    let options = read_options(Fields::of_optional(options)?)?;
+    let options: DriveOptions = carry::read_optional(options)?;
     let mut report = reporter(report);
     let drive = simulate_drive_reporting(&options, |done, total| {
         if done % SCANS_A_REPORT == 0 {
@@ -82,114 +81,6 @@ impl Read for DriveFormat {
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
         choice(value, path, &Self::ALL.map(|format| (format.name(), format)))
     }
-}
-
-impl Read for Scenario {
-    const EXPECTED: &'static str = "the name of a scenario";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        choice(value, path, &Self::ALL.map(|scenario| (scenario.name(), scenario)))
-    }
-}
-
-/// The number of a radar.
-struct Id(u8);
-
-impl Read for Id {
-    const EXPECTED: &'static str = "a whole number from 0 to 255";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let given = value.as_f64().ok_or_else(|| wrong_type(path, Self::EXPECTED, value))?;
-        if given.fract() == 0.0 && (0.0..=255.0).contains(&given) {
-            return Ok(Self(given as u8));
-        }
-        let (what, expected) = (path.into(), Self::EXPECTED.into());
-        Err(CoreError::OutOfRange { what, expected, given }.into())
-    }
-}
-
-/// A radar that is to be simulated.
-struct Placed(u8, Mounting);
-
-impl Read for Placed {
-    const EXPECTED: &'static str = "{ id, xM, yM, yawDeg }";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let mut fields = Fields::new(value, path)?;
-        let Id(id) = fields.required("id")?;
-        let mut mounting = Mounting { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0 };
-        for (name, place) in [("xM", &mut mounting.x_m), ("yM", &mut mounting.y_m)] {
-            *place = fields.required(name)?;
-            check_range(&fields.path_of(name), *place, -20.0, 20.0)?;
-        }
-        let yaw_deg = fields.required("yawDeg")?;
-        check_range(&fields.path_of("yawDeg"), yaw_deg, -360.0, 360.0)?;
-        mounting.yaw_rad = yaw_deg.to_radians();
-        fields.finish()?;
-        Ok(Self(id, mounting))
-    }
-}
-
-/// Angles by the number of a radar, rad.
-struct Misalignments(Vec<(u8, f64)>);
-
-impl Read for Misalignments {
-    const EXPECTED: &'static str = "{ [number of a radar]: degrees }";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        if !value.is_object() || js_sys::Array::is_array(value) {
-            return Err(wrong_type(path, Self::EXPECTED, value));
-        }
-        let mut angles = vec![];
-        for key in Object::keys(value.unchecked_ref::<Object>()).iter() {
-            let name = key.as_string().unwrap_or_default();
-            let Ok(id) = name.parse() else {
-                return Err(wrong_type(path, Self::EXPECTED, &key));
-            };
-            let path = format!("{path}.{id}");
-            let value = Reflect::get(value, &key).unwrap_or(JsValue::UNDEFINED);
-            let degrees = f64::read(&value, &path)?;
-            check_range(&path, degrees, -90.0, 90.0)?;
-            angles.push((id, degrees.to_radians()));
-        }
-        Ok(Self(angles))
-    }
-}
-
-fn read_options(mut fields: Fields) -> Fallible<DriveOptions> {
-    let mut options = DriveOptions::default();
-    fields.update("scenario", &mut options.scenario)?;
-    fields.update("seed", &mut options.seed)?;
-    fields.update("durationS", &mut options.duration_s)?;
-    if let Some(sensors) = fields.optional::<Vec<Placed>>("sensors")? {
-        options.sensors = sensors.into_iter().map(|Placed(id, mounting)| (id, mounting)).collect();
-    }
-    if let Some(Misalignments(angles)) = fields.optional("misalignmentDeg")? {
-        options.misalignment_rad = angles;
-    }
-    options.moving_share = fields.optional("movingShare")?;
-    if let Some(fields) = fields.object("noise")? {
-        read_noise(fields, &mut options.noise)?;
-    }
-    options.yaw_rate_scale = fields.optional("yawRateScale")?;
-    options.yaw_rate_bias_radps = fields.degrees("yawRateBiasDegps", [-50.0, 50.0])?;
-    options.yaw_rate_sigma_radps = fields.degrees("yawRateSigmaDegps", [0.0, 50.0])?;
-    fields.update("speedScale", &mut options.speed_scale)?;
-    fields.update("speedSigmaMps", &mut options.speed_sigma_mps)?;
-    fields.update_degrees("slipGradientDeg", [-1.0, 1.0], &mut options.slip_gradient)?;
-    fields.finish()?;
-    Ok(options)
-}
-
-fn read_noise(mut fields: Fields, noise: &mut RadarNoise) -> Fallible<()> {
-    fields.update_degrees("azimuthSigmaDeg", [0.0, 10.0], &mut noise.azimuth_sigma_rad)?;
-    fields.update("azimuthGrowth", &mut noise.azimuth_growth)?;
-    fields.update("rangeRateSigmaMps", &mut noise.range_rate_sigma_mps)?;
-    fields.update("rangeSigmaM", &mut noise.range_sigma_m)?;
-    fields.update("coherentIntervalS", &mut noise.coherent_interval_s)?;
-    fields.update("ghostShare", &mut noise.ghost_share)?;
-    fields.update("clutter", &mut noise.clutter)?;
-    fields.finish()
 }
 
 fn drive_record(log: &DriveLog, format: &str, report: &ReadReport) -> Record {

@@ -1,9 +1,10 @@
 //! Mounting angles from many frames at a time, as flat numbers; for the TypeScript around this
 //! crate, which checks what goes in.
 
-use crate::calibrate::{VERDICTS, estimate_record, read_calibration};
+use crate::calibrate::{VERDICTS, estimate_record};
+use crate::carry;
 use crate::error::Fallible;
-use crate::read::{Fields, items};
+use crate::read::items;
 use crate::write::list;
 use boresight_calibrate::{AngleEstimate, Calibrator, FrameInput, Joint};
 use boresight_core::Detection;
@@ -33,11 +34,11 @@ impl DriveCalibrator {
         let inner = if js_sys::Array::is_array(options) {
             let mut radars = vec![];
             for (place, (item, _)) in (0..=u8::MAX).zip(items(options, "sensors")?) {
-                radars.push((place, read_calibration(Fields::new(&item, "")?)?));
+                radars.push((place, carry::read(&item)?));
             }
             Inner::Joint(Joint::new(&radars)?)
         } else {
-            Inner::One(Box::new(Calibrator::new(read_calibration(Fields::new(options, "")?)?)?))
+            Inner::One(Box::new(Calibrator::new(carry::read(options)?)?))
         };
         Ok(Self { inner, detections: vec![], weights: weights.then(Vec::new) })
     }

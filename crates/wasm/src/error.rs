@@ -3,12 +3,15 @@
 use crate::write::Record;
 use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
+use boresight_core::describe::At;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
+use serde::de::{Expected, Unexpected};
+use std::fmt::Display;
 use thiserror::Error;
 use wasm_bindgen::JsValue;
 
@@ -124,6 +127,57 @@ impl Diagnose for BindingError {
                 Details::new(what, "what fits into memory", format!("{given} bytes"))
             }
         }
+    }
+}
+
+impl BindingError {
+    /// Says where the value was that serde refused, which it does not know itself.
+    #[must_use]
+    pub fn at(self, at: &At<'_>) -> Self {
+        let placed = |what: String| if what.is_empty() { at.path() } else { what };
+        match self {
+            Self::Argument(CoreError::Unknown { what, expected, given }) => {
+                CoreError::Unknown { what: placed(what), expected, given }.into()
+            }
+            Self::Type { what, expected, given } => {
+                Self::Type { what: placed(what), expected, given }
+            }
+            Self::Missing { what, expected } if !what.contains(['.', '[']) => {
+                let above = at.path();
+                let what = if above.is_empty() { what } else { format!("{above}.{what}") };
+                Self::Missing { what, expected }
+            }
+            other => other,
+        }
+    }
+}
+
+impl serde::de::Error for BindingError {
+    fn custom<T: Display>(message: T) -> Self {
+        Self::Type { what: String::new(), expected: message.to_string(), given: "another".into() }
+    }
+
+    fn invalid_type(given: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        let (expected, given) = (expected.to_string(), given.to_string());
+        Self::Type { what: String::new(), expected, given }
+    }
+
+    fn invalid_value(given: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        Self::invalid_type(given, expected)
+    }
+
+    fn unknown_variant(given: &str, expected: &'static [&'static str]) -> Self {
+        let (what, expected, given) = (String::new(), expected.join(", "), given.into());
+        CoreError::Unknown { what, expected, given }.into()
+    }
+
+    fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
+        Self::UnknownField { what: field.into(), expected: expected.join(", ") }
+    }
+
+    fn missing_field(field: &'static str) -> Self {
+        let what = crate::carry::property(field).name.into();
+        Self::Missing { what, expected: "a value".into() }
     }
 }
 

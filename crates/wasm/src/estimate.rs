@@ -2,7 +2,6 @@
 
 use crate::complex::ComplexData;
 use crate::error::{BindingError, Fallible};
-use crate::options::read_options;
 use crate::read::{Fields, Read};
 use crate::write::{Record, degrees, finite_db, finite_dbs, float32, float64, list};
 use boresight_aoa::{self as aoa, Data, Method, SpectrumKind};
@@ -56,7 +55,7 @@ impl Estimator {
         let mut fields = Fields::new(options, "")?;
         let method: Method = fields.required("method")?;
         let array: Array = fields.required("array")?;
-        let options = read_options(&mut fields)?;
+        let options = fields.spread()?;
         fields.finish()?;
         Ok(aoa::Estimator::new(method, &array, &options)?.into())
     }
@@ -217,6 +216,7 @@ fn source_record(source: &aoa::Source) -> Record {
         .with("elevationDeg", source.direction.elevation_rad.to_degrees())
         .with("powerDb", finite_db(source.power))
         .with_some("amplitude", source.amplitude.map(|z| list([z.re, z.im])))
+        .with_some("confidence", source.confidence)
 }
 
 fn spectrum_record(spectrum: &aoa::Spectrum) -> Record {

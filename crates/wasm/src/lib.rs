@@ -23,6 +23,7 @@ pub mod bytes;
 mod calibrate;
 #[cfg(feature = "chain")]
 pub mod capture;
+pub mod carry;
 #[cfg(feature = "chain")]
 mod cells;
 #[cfg(feature = "chain")]
@@ -45,7 +46,6 @@ pub mod frames;
 mod image;
 #[cfg(feature = "core")]
 mod imperfections;
-mod names;
 #[cfg(feature = "core")]
 mod npy;
 #[cfg(feature = "chain")]

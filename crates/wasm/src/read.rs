@@ -1,10 +1,13 @@
 //! Options out of JavaScript objects, with errors that name the field.
 
+use crate::carry::{Reader, property, refuse_unknown};
 use crate::error::{BindingError, Fallible};
-use crate::names;
 use boresight_core::CoreError;
+use boresight_core::describe::{At, Described, Naming};
 use boresight_core::error::check_range;
 use js_sys::{Array, BigInt, Object, Reflect};
+use serde::de::DeserializeOwned;
+use std::cell::RefCell;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// Most items of an array: a longer one, which may well be empty, would not fit into memory.
@@ -54,7 +57,7 @@ impl Fields {
     /// The raw value of a field; nothing if absent or `undefined`.
     pub fn raw(&mut self, name: &'static str) -> Fallible<Option<JsValue>> {
         self.known.push(name);
-        match Reflect::get(&self.object, &names::name(name)) {
+        match Reflect::get(&self.object, &property(name).key) {
             Ok(value) if value.is_undefined() => Ok(None),
             Ok(value) => Ok(Some(value)),
             Err(_) => Err(BindingError::Type {
@@ -122,6 +125,15 @@ impl Fields {
         Ok(())
     }
 
+    /// Reads a described struct whose fields stand among those of this object.
+    pub fn spread<T: DeserializeOwned + Described>(&mut self) -> Fallible<T> {
+        let known = RefCell::new(std::mem::take(&mut self.known));
+        let at = At::named(Naming::JavaScript, &self.path);
+        let read = Reader::spread(&self.object, at, &known);
+        self.known = known.into_inner();
+        read
+    }
+
     /// The fields of an object in a field; nothing if absent.
     pub fn object(&mut self, name: &'static str) -> Fallible<Option<Self>> {
         match self.raw(name)? {
@@ -132,21 +144,7 @@ impl Fields {
 
     /// Refuses fields that were not asked for, unless they are `undefined`.
     pub fn finish(self) -> Fallible<()> {
-        for key in Object::keys(&self.object).iter() {
-            let name = key.as_string().unwrap_or_default();
-            if self.known.contains(&name.as_str()) {
-                continue;
-            }
-            let given = Reflect::get(&self.object, &key).unwrap_or(JsValue::NULL);
-            if !given.is_undefined() {
-                let name = if name.is_empty() { "\"\"".into() } else { shortened(&name) };
-                return Err(BindingError::UnknownField {
-                    what: self.path_of(&name),
-                    expected: self.known.join(", "),
-                });
-            }
-        }
-        Ok(())
+        refuse_unknown(&self.object, &At::named(Naming::JavaScript, &self.path), &self.known)
     }
 }
 
@@ -207,7 +205,7 @@ fn describe(value: &JsValue) -> String {
     }
 }
 
-fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 60;
     match text.char_indices().nth(LONGEST) {
         Some((end, _)) => format!("{}...", &text[..end]),

@@ -6,9 +6,7 @@ use crate::read::{Fields, choice};
 use crate::waveform::waveform_record;
 use crate::write::{Record, complex32, float64, list};
 use boresight_simulate::VisibleTarget;
-use boresight_simulate::street::{
-    STREET_RADARS, Street, StreetOptions, StreetOutline, StreetRadar, StreetTarget,
-};
+use boresight_simulate::street::{STREET_RADARS, Street, StreetOutline, StreetRadar, StreetTarget};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -16,7 +14,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen(js_name = streetScene)]
 pub fn street_scene(options: &JsValue) -> Fallible<JsValue> {
     let mut fields = Fields::of_optional(options)?;
-    let street = Street::new(read_options(&mut fields)?)?;
+    let street = Street::new(fields.spread()?)?;
     fields.finish()?;
     Ok(Record::new()
         .with("egoSpeedMps", street.options().ego_speed_mps)
@@ -34,7 +32,7 @@ pub fn simulate_street(options: &JsValue) -> Fallible<JsValue> {
         STREET_RADARS.iter().enumerate().map(|(index, name)| (*name, index)).collect();
     let name: String = fields.required("radar")?;
     let radar = choice(&JsValue::from(name), "radar", &radars)?;
-    let street = Street::new(read_options(&mut fields)?)?;
+    let street = Street::new(fields.spread()?)?;
     fields.finish()?;
     let (cube, targets) = street.cube(radar)?;
     let shape = list(cube.shape().iter().copied());
@@ -45,13 +43,6 @@ pub fn simulate_street(options: &JsValue) -> Fallible<JsValue> {
         .with("radar", radar_record(&street.radars[radar]))
         .with("targets", list(targets.iter().map(visible_record)))
         .into())
-}
-
-fn read_options(fields: &mut Fields) -> Fallible<StreetOptions> {
-    let mut options = StreetOptions::default();
-    fields.update("seed", &mut options.seed)?;
-    fields.update("egoSpeedMps", &mut options.ego_speed_mps)?;
-    Ok(options)
 }
 
 fn radar_record(radar: &StreetRadar) -> Record {

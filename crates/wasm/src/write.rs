@@ -1,6 +1,6 @@
 //! Plain JavaScript objects, lists and typed arrays out of results.
 
-use crate::names;
+use crate::carry::property;
 use boresight_core::{Complex32, Complex64};
 use boresight_formats::Remark;
 use js_sys::{Array, Float32Array, Float64Array, Object, Reflect};
@@ -25,7 +25,7 @@ impl Record {
     #[must_use]
     pub fn with(self, name: &'static str, value: impl Into<JsValue>) -> Self {
         // Setting a property of a fresh plain object cannot fail.
-        let _ = Reflect::set(&self.0, &names::name(name), &value.into());
+        let _ = Reflect::set(&self.0, &property(name).key, &value.into());
         self
     }
 

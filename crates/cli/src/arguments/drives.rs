@@ -1,6 +1,7 @@
 //! What `log` and `calibrate` take.
 
-use boresight_calibrate::{Method as Calibration, MotionMethod};
+use crate::flags::{Flags, OnCommandLine};
+use boresight_calibrate::Options;
 use boresight_formats::DriveFormat;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -39,29 +40,13 @@ pub struct CalibrateArguments {
     /// Only this radar of the log.
     #[arg(long, value_name = "N")]
     pub sensor: Option<u8>,
-    /// How the angle is estimated.
-    #[arg(long, default_value = "recursive",
-          value_parser = PossibleValuesParser::new(Calibration::ALL.map(Calibration::name)))]
-    pub method: String,
     /// Estimate all radars of the log together, by the recursive method with one scale and bias of
     /// the yaw rate for all; --sensor then says which is printed.
     #[arg(long, conflicts_with_all = ["method", "motion"])]
     pub joint: bool,
-    /// How the radar's motion is estimated, instead of the way that belongs to the method.
-    #[arg(long, value_parser = PossibleValuesParser::new(MotionMethod::ALL.map(MotionMethod::name)))]
-    pub motion: Option<String>,
-    /// The angle the radar should be mounted at, deg, positive to the left.
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
-    pub nominal: Option<f64>,
-    /// The radar's distance ahead of the rear axle, m, where the log does not state it.
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
-    pub x: Option<f64>,
-    /// The radar's distance left of the centre line, m.
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
-    pub y: Option<f64>,
-    /// Frames below this speed of the radar are left out, m/s.
-    #[arg(long, value_name = "MPS", default_value_t = 1.0)]
-    pub min_speed: f64,
+    /// How it is calibrated.
+    #[command(flatten)]
+    pub flags: Flags<Options>,
     /// Write the car's trajectory by the radar's motion and the estimated angle: time_s, x_m, y_m,
     /// yaw_deg of the rear axle, from the origin along x, and where the log has poses
     /// logged_x_m, logged_y_m, logged_yaw_deg in the same frame.
@@ -70,4 +55,8 @@ pub struct CalibrateArguments {
     /// Print JSON: an object, or an array of them where there are several radars.
     #[arg(long)]
     pub json: bool,
+}
+
+impl OnCommandLine for Options {
+    const HEADING: &'static str = "Calibration";
 }

@@ -7,7 +7,7 @@ mod image;
 mod simulate;
 
 pub use drives::{CalibrateArguments, LogArguments};
-pub use estimate::{AngleArguments, ChainArguments, EstimateArguments, ModelArguments};
+pub use estimate::{EstimateArguments, ModelArguments};
 pub use evaluate::{
     DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
 };

@@ -1,8 +1,8 @@
 //! What `simulate` takes.
 
 use super::{ImperfectionArguments, pair};
-use boresight_simulate::Scenario;
-use clap::builder::PossibleValuesParser;
+use crate::flags::{Flags, OnCommandLine};
+use boresight_simulate::DriveOptions;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -25,19 +25,9 @@ Writes DIR/data/sequence_1/radar_data.h5 and scenes.json, DIR/data/sensors.json 
 and the truth, DIR/truth.json, which calibrate does not read. sensors.json has the nominal \
 mountings: those of --sensor less the misalignment.")]
 pub struct DriveArguments {
-    /// Roads and traffic.
-    #[arg(long, default_value = "city",
-          value_parser = PossibleValuesParser::new(Scenario::ALL.map(Scenario::name)))]
-    pub scenario: String,
     /// Seed; the same one gives the same drive on every machine.
     #[arg(long, value_name = "S")]
     pub seed: u64,
-    /// Length of the drive, s.
-    #[arg(long, value_name = "S", default_value_t = 60.0)]
-    pub duration: f64,
-    /// Share of moving detections, 0 to 0.8; without it what the scenario's traffic gives.
-    #[arg(long, value_name = "SHARE")]
-    pub moving_share: Option<f64>,
     /// A radar: the number of one of the RadarScenes car's (1 to 4), or where it truly sits and
     /// looks, such as id=1,x=3.7,y=-0.6,yaw=-30: m from the rear axle, deg. Repeat for more;
     /// without it all four of the RadarScenes car.
@@ -47,21 +37,21 @@ pub struct DriveArguments {
     /// Repeat for more.
     #[arg(long = "misalign", value_name = "N=DEG")]
     pub misalignments: Vec<String>,
-    /// Measured over true yaw rate; without it drawn from 0.98 to 1.02.
-    #[arg(long, value_name = "RATIO")]
-    pub yaw_rate_scale: Option<f64>,
-    /// Yaw rate measured at standstill, deg/s; without it drawn from -0.2 to 0.2.
-    #[arg(long, value_name = "DEG/S", allow_negative_numbers = true)]
-    pub yaw_rate_bias: Option<f64>,
-    /// Slip angle of the rear axle over lateral acceleration, deg/(m/s^2).
-    #[arg(long, value_name = "DEG/(M/S2)", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub slip: f64,
+    /// What is simulated.
+    #[command(flatten)]
+    pub flags: Flags<DriveOptions>,
     /// Write radar_data.h5 in chunks packed by deflate.
     #[arg(long)]
     pub packed: bool,
     /// Folder to write.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+}
+
+impl OnCommandLine for DriveOptions {
+    const HEADING: &'static str = "Drive";
+    /// Seed, radars and their misalignments have flags of their own.
+    const ELSEWHERE: &'static [&'static str] = &["seed", "sensors", "misalignment_rad"];
 }
 
 /// Arguments shared by the simulations of snapshots and data cubes.

@@ -36,7 +36,7 @@ pub fn run(arguments: &EstimateArguments, bytes: &[u8]) -> Result<String, CliErr
     let capture = Capture::new(bytes, &config)?;
     remark(config.remarks.iter().chain(capture.remarks()).map(|remark| remark.message.clone()));
     let array = array_of(arguments, &config)?;
-    let (options, receivers) = (chain_options(arguments)?, config.receivers.len());
+    let (options, receivers) = (chain_options(arguments), config.receivers.len());
     let model = &arguments.angle.model;
     let mut chain = network::chain(&config.waveform, receivers, &array, &options, model)?;
     detections(arguments, &mut chain, &CaptureFrames(capture))

@@ -1,86 +1,20 @@
 //! From arguments to the chain, and from its results to a table.
 
-use crate::arguments::{AngleArguments, ChainArguments, EstimateArguments};
+use crate::arguments::EstimateArguments;
 use crate::commands::estimate::frame_within;
 use crate::error::CliError;
 use crate::output::{Column, Table, remark};
 use crate::run::Run;
-use boresight_aoa::{Method, Options, SourceCount};
-use boresight_core::error::check_range;
 use boresight_core::units::power_to_db;
 use boresight_pipeline::{Chain, ChainOptions, Detection, FrameResult, FrameSource};
-use boresight_signal::{CfarAxes, CfarKind, CfarOptions, RangeDopplerOptions, Region, Window};
 
-/// Method and options of angle estimation.
-pub fn angle_options(arguments: &AngleArguments) -> Result<(Method, Options), CliError> {
-    let sources = match arguments.sources.as_str() {
-        "aic" => SourceCount::Aic,
-        "mdl" => SourceCount::Mdl,
-        text => SourceCount::Known(text.parse().map_err(|_| CliError::Option {
-            option: "--sources",
-            expected: "a number, aic or mdl".into(),
-            given: format!("{text:?}"),
-        })?),
-    };
-    check_range("--field-of-view (deg)", arguments.field_of_view, 0.1, 90.0)?;
-    let options = Options {
-        sources,
-        field_of_view_rad: arguments.field_of_view.to_radians(),
-        grid_points: arguments.grid_points,
-        forward_backward: arguments.forward_backward,
-        smoothing: arguments.smoothing,
-        loading: arguments.loading,
-        dynamic_range_db: arguments.dynamic_range,
-        max_peaks: arguments.max_peaks,
-        refine: arguments.refine,
-        confidence: arguments.confidence,
-        ..Options::default()
-    };
-    Ok((Method::from_name(&arguments.method)?, options))
-}
-
-/// Options of the chain.
-pub fn chain_options(arguments: &EstimateArguments) -> Result<ChainOptions, CliError> {
-    let (method, angle) = angle_options(&arguments.angle)?;
-    let chain: &ChainArguments = &arguments.chain;
-    let kind = match chain.cfar.as_str() {
-        "greatest-of" => CfarKind::GreatestOf,
-        "smallest-of" => CfarKind::SmallestOf,
-        "ordered-statistic" => CfarKind::OrderedStatistic { rank: chain.rank },
-        _ => CfarKind::CellAveraging,
-    };
-    let axes = match chain.cfar_axes.as_str() {
-        "doppler" => CfarAxes::Doppler,
-        "both" => CfarAxes::Both,
-        _ => CfarAxes::Range,
-    };
-    Ok(ChainOptions {
+/// Options of the chain, on all processor cores.
+pub fn chain_options(arguments: &EstimateArguments) -> ChainOptions {
+    ChainOptions {
+        angle: arguments.angle.flags.options,
         threads: std::thread::available_parallelism().map_or(1, usize::from),
-        range_doppler: RangeDopplerOptions {
-            range_window: Window::named(&chain.range_window)?,
-            doppler_window: Window::named(&chain.doppler_window)?,
-            range_padding: chain.range_padding,
-            doppler_padding: chain.doppler_padding,
-            static_clutter_removal: chain.remove_static,
-        },
-        cfar: CfarOptions {
-            kind,
-            axes,
-            false_alarm: chain.false_alarm,
-            guard: chain.guard,
-            training: chain.training,
-            ..CfarOptions::default()
-        },
-        peak_grouping: !chain.no_grouping,
-        region: Region {
-            range_m: chain.range_limits,
-            rate_mps: chain.rate_limits,
-            azimuth_rad: chain.azimuth_limits.map(|limits| limits.map(f64::to_radians)),
-        },
-        method,
-        angle,
-        max_detections: chain.max_detections,
-    })
+        ..arguments.chain.options
+    }
 }
 
 /// Runs the chain over the frames asked for and returns what is printed.
@@ -93,7 +27,7 @@ where
     CliError: From<S::Error>,
 {
     let frames = source.frames();
-    let single = chain.options().method.requirements().max_snapshots == Some(1);
+    let single = chain.options().angle.method.requirements().max_snapshots == Some(1);
     let run = Run::start("frames")?;
     let mut results = vec![];
     let report = &mut |progress| run.report(progress);

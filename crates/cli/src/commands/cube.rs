@@ -45,7 +45,7 @@ pub fn run(arguments: &EstimateArguments, file: &NpyArray) -> Result<String, Cli
             });
         }
     };
-    let (options, model) = (chain_options(arguments)?, &arguments.angle.model);
+    let (options, model) = (chain_options(arguments), &arguments.angle.model);
     let mut chain = network::chain(&waveform, shape[3], &array, &options, model)?;
     detections(arguments, &mut chain, &CubeFrames(cube.view()))
 }

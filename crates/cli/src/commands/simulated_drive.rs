@@ -8,7 +8,7 @@ use crate::run::Run;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_formats::radarscenes::{Packing, write};
 use boresight_pipeline::Progress;
-use boresight_simulate::{DriveOptions, Scenario, SimulatedDrive, simulate_drive_reporting};
+use boresight_simulate::{DriveOptions, SimulatedDrive, simulate_drive_reporting};
 use serde_json::{Value, json};
 
 /// The one sequence written.
@@ -55,19 +55,13 @@ fn moving_share(drive: &SimulatedDrive) -> f64 {
 
 fn options(arguments: &DriveArguments) -> Result<DriveOptions, CliError> {
     let mut options = DriveOptions {
-        scenario: Scenario::from_name(&arguments.scenario)?,
         seed: arguments.seed,
-        duration_s: arguments.duration,
         misalignment_rad: arguments
             .misalignments
             .iter()
             .map(|text| misalignment(text))
             .collect::<Result<_, _>>()?,
-        moving_share: arguments.moving_share,
-        yaw_rate_scale: arguments.yaw_rate_scale,
-        yaw_rate_bias_radps: arguments.yaw_rate_bias.map(f64::to_radians),
-        slip_gradient: arguments.slip.to_radians(),
-        ..DriveOptions::default()
+        ..arguments.flags.options.clone()
     };
     if !arguments.sensors.is_empty() {
         options.sensors =
@@ -138,7 +132,7 @@ fn truth(options: &DriveOptions, drive: &SimulatedDrive) -> Value {
             "biasDegps": truth.yaw_rate.bias_radps.to_degrees(),
             "sigmaDegps": truth.yaw_rate.sigma_radps.to_degrees(),
         },
-        "slipDegPerMps2": options.slip_gradient.to_degrees(),
+        "slipDegPerMps2": options.slip_gradient_rad.to_degrees(),
         "movingShare": moving_share(drive),
     })
 }

@@ -1,6 +1,5 @@
 //! Snapshots of an array.
 
-use super::chain::angle_options;
 use super::estimate::frame_within;
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
@@ -10,6 +9,7 @@ use boresight_aoa::{Data, Method};
 use boresight_core::units::power_to_db;
 use boresight_core::{Complex64, CoreError};
 use boresight_formats::NpyArray;
+use boresight_pipeline::AngleOptions;
 use ndarray::{Array3, Axis};
 
 /// Scenes x elements x snapshots; a vector is one snapshot, a matrix elements x snapshots.
@@ -37,7 +37,7 @@ pub fn run(arguments: &EstimateArguments, scenes: &Array3<Complex64>) -> Result<
         expected: "the array that took the snapshots".into(),
         given: "nothing".into(),
     })?;
-    let (method, options) = angle_options(&arguments.angle)?;
+    let AngleOptions { method, options } = arguments.angle.flags.options;
     let model = &arguments.angle.model;
     let mut estimator = network::estimator(method, &array::array(name)?, &options, model)?;
     let count = scenes.len_of(Axis(0));

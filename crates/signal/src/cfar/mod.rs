@@ -18,8 +18,10 @@ mod threshold;
 
 use crate::error::SignalError;
 use boresight_core::CoreError;
+use boresight_core::describe::{self, Described, Naming};
 use boresight_core::error::check_range;
 use ndarray::{Array2, ArrayView2};
+use serde::{Deserialize, Serialize};
 use stencil::{Rectangle, Stencil};
 use sums::CumulativeSums;
 use threshold::factors;
@@ -29,7 +31,8 @@ pub use threshold::{Factors, TrainingCells};
 pub const MAX_CELLS: usize = 1 << 26;
 
 /// How noise is estimated from the training cells.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum CfarKind {
     /// The mean of all (Finn and Johnson 1968): the least loss in even noise.
     #[default]
@@ -40,56 +43,53 @@ pub enum CfarKind {
     /// The smaller of the means of the halves (Trunk 1978): keeps targets apart.
     SmallestOf,
     /// The cell of a rank (Rohling 1983): keeps targets apart and most of the rate.
-    OrderedStatistic {
-        /// Rank as a share of the training cells, 0 to 1; 0.75 is usual.
-        rank: f64,
-    },
+    OrderedStatistic,
 }
 
 /// Along which axes training cells lie.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum CfarAxes {
-    /// Range only.
+    /// Range only: in a scene that stands still all power lies at zero Doppler, and a window across
+    /// it would see no noise like the cell's own.
+    #[default]
     Range,
     /// Doppler only.
     Doppler,
     /// A ring around the cell in both.
-    #[default]
     Both,
 }
 
 /// How detection works.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct CfarOptions {
-    /// Noise estimate.
+    /// How noise is estimated from the training cells.
     pub kind: CfarKind,
-    /// Axes of the window.
+    /// Axes along which training cells lie.
     pub axes: CfarAxes,
-    /// Probability that a cell of noise becomes a detection, 1e-15 to 0.5.
+    /// Probability that a cell of noise becomes a detection.
+    #[option(default = 1e-6, range = 1e-15..=0.5)]
     pub false_alarm: f64,
-    /// Cells left out on each side of the cell under test, along range and Doppler.
-    pub guard: [usize; 2],
+    /// Cells left out on each side of the cell under test, along range and Doppler, so that they
+    /// cover the main lobe.
+    #[option(default = [4, 2])]
+    pub guard_cells: [usize; 2],
     /// Training cells on each side beyond the guard cells, along range and Doppler.
-    pub training: [usize; 2],
+    #[option(default = [8, 4])]
+    pub training_cells: [usize; 2],
+    /// Rank of the ordered statistic, as a share of the training cells.
+    #[option(default = 0.75, range = 0..=1)]
+    pub rank: f64,
     /// Channels averaged in each cell.
+    #[option(default = 1)]
+    #[serde(skip)]
     pub looks: usize,
     /// Neighbouring cells that count as one independent cell, along range and Doppler: 1 without
     /// window and padding, else [`crate::RangeDoppler::cell_correlation`].
+    #[option(default = [1.0; 2])]
+    #[serde(skip)]
     pub correlation: [f64; 2],
-}
-
-impl Default for CfarOptions {
-    fn default() -> Self {
-        Self {
-            kind: CfarKind::CellAveraging,
-            axes: CfarAxes::Both,
-            false_alarm: 1e-6,
-            guard: [2, 2],
-            training: [6, 4],
-            looks: 1,
-            correlation: [1.0; 2],
-        }
-    }
 }
 
 /// A cell above its threshold.
@@ -111,6 +111,8 @@ pub struct Detection {
 /// A plan for maps of one shape. It keeps its thresholds and scratch space.
 pub struct Cfar {
     kind: CfarKind,
+    /// Of the ordered statistic, as a share of the training cells.
+    rank: f64,
     shape: (usize, usize),
     stencil: Stencil,
     /// Training cells and factors of each row.
@@ -127,15 +129,12 @@ impl Cfar {
     /// [`CoreError::OutOfRange`] for an option out of range, [`SignalError::Window`] where the
     /// window is larger than the map, [`SignalError::TooLarge`] above [`MAX_CELLS`].
     pub fn new(ranges: usize, dopplers: usize, options: &CfarOptions) -> Result<Self, SignalError> {
-        check_range("false_alarm", options.false_alarm, 1e-15, 0.5)?;
+        describe::check(options, Naming::Rust)?;
         check_range("looks", options.looks as f64, 1.0, 1024.0)?;
         for (what, correlation) in
             ["range correlation", "Doppler correlation"].into_iter().zip(options.correlation)
         {
             check_range(what, correlation, 1.0, 1e3)?;
-        }
-        if let CfarKind::OrderedStatistic { rank } = options.kind {
-            check_range("rank", rank, 0.0, 1.0)?;
         }
         check_range("range bins", ranges as f64, 1.0, MAX_CELLS as f64)?;
         check_range("Doppler bins", dopplers as f64, 1.0, MAX_CELLS as f64)?;
@@ -146,9 +145,10 @@ impl Cfar {
         }
         let stencil = Stencil::new(ranges, dopplers, options)?;
         let reach = stencil.doppler_reach();
-        let ordered = matches!(options.kind, CfarKind::OrderedStatistic { .. });
+        let ordered = matches!(options.kind, CfarKind::OrderedStatistic);
         Ok(Self {
             kind: options.kind,
+            rank: options.rank,
             shape: (ranges, dopplers),
             rows: row_factors(ranges, &stencil, options),
             sums: CumulativeSums::new(if ordered { 0 } else { ranges }, dopplers, reach),
@@ -171,8 +171,8 @@ impl Cfar {
     pub fn detect(&mut self, power: ArrayView2<f32>) -> Result<Vec<Detection>, SignalError> {
         check_power(power, self.shape)?;
         let mut detections = Vec::new();
-        if let CfarKind::OrderedStatistic { rank } = self.kind {
-            self.detect_by_rank(power, rank, &mut detections);
+        if self.kind == CfarKind::OrderedStatistic {
+            self.detect_by_rank(power, self.rank, &mut detections);
         } else {
             self.detect_by_mean(power, &mut detections);
         }
@@ -307,7 +307,7 @@ fn row_factors(
             if let Some((_, factors)) = known.iter().find(|(c, _)| *c == cells || *c == mirrored) {
                 return (cells, *factors);
             }
-            let new = factors(options.kind, cells, options.looks, correlation, options.false_alarm);
+            let new = factors(options, cells, correlation);
             known.push((cells, new));
             (cells, new)
         })

@@ -34,8 +34,8 @@ pub struct Stencil {
 
 impl Stencil {
     pub fn new(ranges: usize, dopplers: usize, options: &CfarOptions) -> Result<Self, SignalError> {
-        let mut guard = options.guard;
-        let mut training = options.training;
+        let mut guard = options.guard_cells;
+        let mut training = options.training_cells;
         for (what, cells) in [
             ("range guard cells", guard[0]),
             ("Doppler guard cells", guard[1]),

@@ -1,6 +1,6 @@
 //! Threshold factors from false-alarm probabilities.
 
-use super::{CfarKind, cell_averaging, greatest_of, ordered_statistic, smallest_of};
+use super::{CfarKind, CfarOptions, cell_averaging, greatest_of, ordered_statistic, smallest_of};
 
 /// Training cells around a cell under test: in the half before it and in the half after it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,16 +31,11 @@ pub struct Factors {
 /// exponential powers, exact for each kind and any number of training cells of at least one;
 /// `correlation` is the number of training cells that count as one independent cell. Behind
 /// windows that is an approximation which keeps the rate a little low: by the variance of the mean,
-/// for a rank by its root, since whether a cell lies below a level is less correlated than powers.
-pub fn factors(
-    kind: CfarKind,
-    cells: TrainingCells,
-    looks: usize,
-    correlation: f64,
-    false_alarm: f64,
-) -> Factors {
+/// for an ordered statistic, whose `rank` is a share of the cells, by its root, since whether a cell lies below a level is less correlated than powers.
+pub fn factors(options: &CfarOptions, cells: TrainingCells, correlation: f64) -> Factors {
+    let CfarOptions { kind, rank, looks, false_alarm, .. } = *options;
     let correlation = match kind {
-        CfarKind::OrderedStatistic { .. } => correlation.sqrt(),
+        CfarKind::OrderedStatistic => correlation.sqrt(),
         _ => correlation,
     };
     let independent = |n: usize| (n as f64 / correlation).max(1.0);
@@ -48,7 +43,7 @@ pub fn factors(
     let halves = [shape(cells.before), shape(cells.after)];
     let one_sided = cells.before == 0 || cells.after == 0;
     match kind {
-        CfarKind::OrderedStatistic { rank } => {
+        CfarKind::OrderedStatistic => {
             let total = independent(cells.total());
             let share =
                 ordered_statistic::rank_of(rank, cells.total()) as f64 / cells.total() as f64;

@@ -11,6 +11,7 @@ mod radar;
 mod scenario;
 mod traffic;
 mod trim;
+pub mod wire;
 mod world;
 
 #[cfg(test)]
@@ -89,7 +90,7 @@ pub fn simulate_drive_reporting(
         &route,
         scenario,
         options.duration_s,
-        options.slip_gradient,
+        options.slip_gradient_rad,
         &mut stream(DRIVER),
     );
     let mut inertial = stream(INERTIAL);

@@ -1,13 +1,16 @@
 //! Kinds of roads, and routes over them: curvature, speed limits and stops along the way.
 
-use boresight_core::error::named;
+use boresight_core::describe::{Described, Named};
 use boresight_core::{CoreError, Random};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Roads and traffic of a drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Scenario {
     /// Streets with junctions, roundabouts, lights, parked cars, pedestrians.
+    #[default]
     City,
     /// Curves between fields and woods, oncoming traffic.
     CountryRoad,
@@ -34,14 +37,7 @@ impl Scenario {
 
     /// The name used in options and on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::City => "city",
-            Self::CountryRoad => "country-road",
-            Self::Motorway => "motorway",
-            Self::CarPark => "car-park",
-            Self::StopAndGo => "stop-and-go",
-            Self::DenseTraffic => "dense-traffic",
-        }
+        Named::name(self)
     }
 
     /// Name for people.
@@ -61,7 +57,7 @@ impl Scenario {
     /// # Errors
     /// [`CoreError::Unknown`], listing the known names.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        named("scenario", &Self::ALL, Self::name, name)
+        Named::from_name("scenario", name)
     }
 
     /// Free speed from and to, m/s.

@@ -10,11 +10,13 @@ pub use view::VisibleTarget;
 use crate::cube::{CubeOptions, simulate_cube};
 use crate::error::SimulateError;
 use crate::waveforms::waveform_corner;
+use boresight_core::describe::{self, Described, Naming};
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Complex32, Random, Waveform};
 use ndarray::Array5;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
 
 /// Names of the radars, by the way they look.
@@ -26,19 +28,15 @@ pub const STREET_RADARS: [&str; 4] = ["right", "front-right", "front-left", "lef
 pub const STREET_SNR_DB: f64 = 38.0;
 
 /// What a street is made from.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct StreetOptions {
     /// The things in it come from stream 0 of this seed, the cube of radar `i` from one that stream
     /// `i + 1` gives.
     pub seed: u64,
-    /// Speed of the car along x, m/s. What stands still spreads over Doppler with it.
+    /// Speed of the car along x. What stands still spreads over Doppler with it.
+    #[option(default = 6.0, range = -30..=30)]
     pub ego_speed_mps: f64,
-}
-
-impl Default for StreetOptions {
-    fn default() -> Self {
-        Self { seed: 0, ego_speed_mps: 6.0 }
-    }
 }
 
 /// What a point belongs to.
@@ -140,7 +138,7 @@ impl Street {
     /// # Errors
     /// [`boresight_core::CoreError::OutOfRange`] for a speed beyond 30 m/s either way.
     pub fn new(options: StreetOptions) -> Result<Self, SimulateError> {
-        check_range("ego_speed_mps", options.ego_speed_mps, -30.0, 30.0)?;
+        describe::check(&options, Naming::Rust)?;
         let radar = |(name, (_, mounting)): (&'static str, (u8, Mounting))| StreetRadar {
             name,
             mounting,

@@ -10,8 +10,7 @@ use crate::files;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_calibrate::{
-    AngleEstimate, CalibrateError, Calibrator, FrameInput, FrameOutcome, Joint, Method,
-    MotionMethod, Options,
+    AngleEstimate, CalibrateError, Calibrator, FrameInput, FrameOutcome, Joint, Options,
 };
 use boresight_core::drive::{DriveLog, Scan, Sensor};
 use boresight_formats::DriveFormat;
@@ -95,24 +94,30 @@ fn chosen(log: &DriveLog, sensor: Option<u8>) -> Result<Vec<&Sensor>, CliError> 
 }
 
 fn options(arguments: &CalibrateArguments, sensor: &Sensor) -> Result<Options, CliError> {
-    let x_m = arguments.x.or(sensor.mounting.map(|m| m.x_m)).ok_or_else(|| CliError::Option {
-        option: "--x",
-        expected: "the radar's distance ahead of the rear axle, m: the log does not state it"
-            .into(),
-        given: "not given".into(),
-    })?;
-    Ok(Options {
-        method: Method::from_name(&arguments.method)?,
-        motion: arguments.motion.as_deref().map(MotionMethod::from_name).transpose()?,
-        x_m,
-        y_m: arguments.y.or(sensor.mounting.map(|m| m.y_m)).unwrap_or(0.0),
-        nominal_rad: arguments
-            .nominal
-            .map(f64::to_radians)
-            .or(sensor.mounting.map(|mounting| mounting.yaw_rad)),
-        min_speed_mps: arguments.min_speed,
-        ..Options::default()
-    })
+    let flags = &arguments.flags;
+    let mut options = flags.options;
+    match sensor.mounting {
+        Some(mounting) => {
+            if !flags.given("x_m") {
+                options.x_m = mounting.x_m;
+            }
+            if !flags.given("y_m") {
+                options.y_m = mounting.y_m;
+            }
+            options.nominal_rad = options.nominal_rad.or(Some(mounting.yaw_rad));
+        }
+        None if !flags.given("x_m") => {
+            return Err(CliError::Option {
+                option: "--x",
+                expected:
+                    "the radar's distance ahead of the rear axle, m: the log does not state it"
+                        .into(),
+                given: "not given".into(),
+            });
+        }
+        None => {}
+    }
+    Ok(options)
 }
 
 /// Hands the scans that `wanted` picks to `add`, in order.

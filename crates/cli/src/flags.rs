@@ -1,0 +1,242 @@
+//! Options that describe themselves as flags: `iaa.threshold_db` is `--iaa-threshold DB`.
+
+use boresight_core::describe::{At, Described, Field, Kind, Naming, Record, naming};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::error::ErrorKind;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Number, Value};
+
+/// Options that stand on the command line.
+pub trait OnCommandLine: Described + Default + Serialize + DeserializeOwned + Clone {
+    /// Where they stand in the help.
+    const HEADING: &'static str;
+    /// Fields that a command fills by other means, by their name in Rust.
+    const ELSEWHERE: &'static [&'static str] = &[];
+}
+
+/// Options read from flags, those not given at their defaults.
+#[derive(Debug, Clone)]
+pub struct Flags<T> {
+    /// The options.
+    pub options: T,
+    given: Vec<&'static str>,
+}
+
+impl<T> Flags<T> {
+    /// Whether a field that stands directly in the options was given, by its name in Rust.
+    pub fn given(&self, field: &str) -> bool {
+        self.given.contains(&field)
+    }
+}
+
+/// One flag and the field it sets.
+struct Flag<'a> {
+    /// Names in Rust of the fields that lead to it.
+    path: Vec<&'static str>,
+    field: &'static Field,
+    default: Option<&'a Value>,
+}
+
+impl Flag<'_> {
+    /// Its name without the dashes, and whether giving it says no to what is true by default.
+    fn name(&self) -> (String, bool) {
+        let shown: Vec<String> = self
+            .path
+            .iter()
+            .filter(|name| !name.starts_with(".."))
+            .map(|name| naming::flag(name))
+            .collect();
+        let name = shown.join("-");
+        let says_no = self.default == Some(&Value::Bool(true));
+        (if says_no { format!("no-{name}") } else { name }, says_no)
+    }
+
+    fn arg(&self, heading: &'static str) -> Arg {
+        let (name, _) = self.name();
+        let arg = Arg::new(name.clone()).long(name).help_heading(heading);
+        let help = self.help();
+        match self.kind() {
+            Kind::Truth => arg.action(ArgAction::SetTrue).help(help),
+            Kind::Choice(choice) => {
+                let variants = choice.variants.iter();
+                let values = variants.map(|(name, doc)| PossibleValue::new(*name).help(*doc));
+                arg.value_parser(PossibleValuesParser::new(values))
+                    .hide_possible_values(false)
+                    .help(help)
+            }
+            kind => arg.value_name(self.value_name(&kind)).allow_hyphen_values(true).help(help),
+        }
+    }
+
+    fn kind(&self) -> Kind {
+        match self.field.kind {
+            Kind::Optional(kind) => *kind,
+            kind => kind,
+        }
+    }
+
+    fn value_name(&self, kind: &Kind) -> String {
+        let unit = naming::unit(self.field.name).to_uppercase();
+        let one = match kind {
+            Kind::Special(special) => special.flag,
+            _ if !unit.is_empty() => &unit,
+            Kind::Whole | Kind::Tuple(Kind::Whole, _) => "N",
+            Kind::Seed => "SEED",
+            Kind::Text => "NAME",
+            _ => "X",
+        };
+        match kind {
+            Kind::Tuple(_, length) => vec![one; *length].join(","),
+            _ => one.into(),
+        }
+    }
+
+    fn help(&self) -> String {
+        let doc = self.field.doc.trim_end_matches('.');
+        let default = self.default.and_then(|value| text(self.field, value));
+        match default {
+            Some(default) if self.kind() != Kind::Truth => format!("{doc} [default: {default}]"),
+            _ => doc.into(),
+        }
+    }
+
+    /// What was given for it, in the units of Rust.
+    fn value(&self, matches: &ArgMatches) -> Result<Option<Value>, clap::Error> {
+        let (name, says_no) = self.name();
+        let kind = self.kind();
+        if kind == Kind::Truth {
+            return Ok(matches.get_flag(&name).then_some(Value::Bool(!says_no)));
+        }
+        let Some(given) = matches.get_one::<String>(&name) else { return Ok(None) };
+        let wrong = |expected: &str| {
+            let what = format!("--{name} is {given:?}; expected {expected}\n");
+            clap::Error::raw(ErrorKind::ValueValidation, what)
+        };
+        let one = |text: &str, kind: &Kind| match kind {
+            Kind::Number => self.number(text).ok_or_else(|| wrong("a number")),
+            Kind::Whole | Kind::Seed => {
+                text.trim().parse::<u64>().map(Value::from).map_err(|_| wrong("a whole number"))
+            }
+            Kind::Special(_) => Ok(text.parse::<u64>().map_or_else(|_| text.into(), Value::from)),
+            _ => Ok(text.into()),
+        };
+        if let Kind::Tuple(of, length) = kind {
+            let parts: Vec<&str> = given.split(',').collect();
+            if parts.len() != length {
+                return Err(wrong(&format!("{length} numbers with a comma between")));
+            }
+            return parts
+                .into_iter()
+                .map(|part| one(part, of))
+                .collect::<Result<_, _>>()
+                .map(|list| Some(Value::Array(list)));
+        }
+        one(given, &kind).map(Some)
+    }
+
+    fn number(&self, text: &str) -> Option<Value> {
+        let number: f64 = text.trim().parse().ok()?;
+        let number = if naming::is_angle(self.field.name) { number.to_radians() } else { number };
+        Number::from_f64(number).map(Value::Number)
+    }
+}
+
+/// A default as one would give it; nothing where there is none.
+fn text(field: &Field, value: &Value) -> Option<String> {
+    match value {
+        Value::Number(number) => {
+            let number = number.as_f64()?;
+            let number = if naming::is_angle(field.name) { number.to_degrees() } else { number };
+            Some(format!("{}", format!("{number:.12e}").parse::<f64>().unwrap_or(number)))
+        }
+        Value::String(text) => Some(text.clone()),
+        Value::Array(items) => items
+            .iter()
+            .map(|item| text(field, item))
+            .collect::<Option<Vec<_>>>()
+            .map(|all| all.join(",")),
+        _ => None,
+    }
+}
+
+/// The flags of a record.
+fn flags<'a>(
+    record: &'static Record,
+    defaults: Option<&'a Value>,
+    above: &[&'static str],
+    elsewhere: &[&str],
+) -> Vec<Flag<'a>> {
+    let mut all = vec![];
+    for field in record.fields.iter().filter(|field| !elsewhere.contains(&field.name)) {
+        let path = [above, &[field.name]].concat();
+        let default = defaults.and_then(|defaults| defaults.get(field.name));
+        match field.kind {
+            Kind::Record(inner) => all.extend(flags(inner, default, &path, elsewhere)),
+            Kind::List(_) | Kind::Numbers(_) => {}
+            _ => all.push(Flag { path, field, default }),
+        }
+    }
+    all
+}
+
+fn record<T: Described>() -> &'static Record {
+    match T::KIND {
+        Kind::Record(record) => record,
+        _ => &Record { name: "", doc: "", fields: &[] },
+    }
+}
+
+impl<T: OnCommandLine> Args for Flags<T> {
+    fn augment_args(command: Command) -> Command {
+        let defaults = serde_json::to_value(T::default()).ok();
+        let flags = flags(record::<T>(), defaults.as_ref(), &[], T::ELSEWHERE);
+        command.args(flags.iter().map(|flag| flag.arg(T::HEADING)))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<T: OnCommandLine> FromArgMatches for Flags<T> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let raw = |error: &dyn std::fmt::Display| {
+            clap::Error::raw(ErrorKind::ValueValidation, format!("{error}\n"))
+        };
+        let defaults = serde_json::to_value(T::default()).map_err(|error| raw(&error))?;
+        let mut values = defaults.clone();
+        let mut given = vec![];
+        for flag in flags(record::<T>(), Some(&defaults), &[], T::ELSEWHERE) {
+            if let Some(value) = flag.value(matches)? {
+                set(&mut values, &flag.path, value);
+                if let [own] = flag.path[..] {
+                    given.push(own);
+                }
+            }
+        }
+        let options: T = serde_json::from_value(values).map_err(|error| raw(&error))?;
+        options.check(None, &At::top(Naming::CommandLine)).map_err(|error| raw(&error))?;
+        Ok(Self { options, given })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+fn set(values: &mut Value, path: &[&'static str], value: Value) {
+    match path {
+        [] => *values = value,
+        [name, rest @ ..] => {
+            if !values.is_object() {
+                *values = Value::Object(Map::new());
+            }
+            if let Value::Object(fields) = values {
+                set(fields.entry(*name).or_insert(Value::Null), rest, value);
+            }
+        }
+    }
+}

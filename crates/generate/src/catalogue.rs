@@ -1,0 +1,64 @@
+//! What is generated, in the order in which it is listed.
+
+use boresight_core::describe::{Described, Field, Kind, Record};
+use serde::Serialize;
+use serde_json::Value;
+
+/// Options that users give.
+pub struct Entry {
+    /// Name in TypeScript and in the schema.
+    pub name: &'static str,
+    /// Title of its table.
+    pub title: &'static str,
+    /// What it is.
+    pub record: &'static Record,
+    /// Its defaults, in the names and units of Rust.
+    pub defaults: Value,
+}
+
+/// All options.
+pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
+    Ok(vec![
+        entry::<boresight_aoa::Options>("SharedEstimatorOptions", "Estimators of angle")?,
+        entry::<boresight_pipeline::ChainOptions>(
+            "DetectionOptions",
+            "The chain from frames to detections",
+        )?,
+        entry::<boresight_calibrate::Options>("CalibrationOptions", "Mounting angles")?,
+        entry::<boresight_simulate::DriveOptions>("SimulateDriveOptions", "Simulated drives")?,
+        entry::<boresight_simulate::street::StreetOptions>(
+            "StreetOptions",
+            "The simulated street",
+        )?,
+    ])
+}
+
+fn entry<T: Described + Default + Serialize>(
+    name: &'static str,
+    title: &'static str,
+) -> Result<Entry, serde_json::Error> {
+    let record = match T::KIND {
+        Kind::Record(record) => record,
+        _ => &Record { name: "", doc: "", fields: &[] },
+    };
+    Ok(Entry { name, title, record, defaults: serde_json::to_value(T::default())? })
+}
+
+/// A field as users see it, where those of spread fields stand among the others.
+pub struct Shown<'a> {
+    pub field: &'static Field,
+    pub default: Option<&'a Value>,
+}
+
+/// The fields of a record with their defaults, those of spread fields in their place.
+pub fn shown<'a>(record: &'static Record, defaults: Option<&'a Value>) -> Vec<Shown<'a>> {
+    let mut all = vec![];
+    for field in record.fields {
+        let default = defaults.and_then(|defaults| defaults.get(field.name));
+        match (field.name.starts_with(".."), field.kind) {
+            (true, Kind::Record(inner)) => all.extend(shown(inner, default)),
+            _ => all.push(Shown { field, default }),
+        }
+    }
+    all
+}

@@ -1,0 +1,105 @@
+//! JSON Schemas, from which a dashboard can build a form.
+
+use crate::catalogue::{Entry, shown};
+use crate::values::{in_user_units, plain};
+use boresight_core::describe::{Field, Kind, Record, naming};
+use serde_json::{Map, Value, json};
+
+/// One document that defines all options under `$defs`.
+pub fn document(entries: &[Entry]) -> Result<String, serde_json::Error> {
+    let mut definitions = Map::new();
+    for entry in entries {
+        definitions.insert(entry.name.into(), record(entry.record, Some(&entry.defaults))?);
+    }
+    let document = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Options of Boresight",
+        "$defs": definitions,
+    });
+    Ok(serde_json::to_string_pretty(&document)? + "\n")
+}
+
+fn record(record: &'static Record, defaults: Option<&Value>) -> Result<Value, serde_json::Error> {
+    let mut properties = Map::new();
+    let mut required = vec![];
+    for one in shown(record, defaults) {
+        let name = naming::javascript(one.field.name);
+        if one.field.required {
+            required.push(Value::from(name.clone()));
+        }
+        properties.insert(name, property(one.field, one.default)?);
+    }
+    let mut schema = Map::new();
+    schema.insert("type".into(), "object".into());
+    schema.insert("description".into(), record.doc.into());
+    schema.insert("properties".into(), properties.into());
+    if !required.is_empty() {
+        schema.insert("required".into(), required.into());
+    }
+    schema.insert("additionalProperties".into(), false.into());
+    Ok(schema.into())
+}
+
+fn property(field: &'static Field, default: Option<&Value>) -> Result<Value, serde_json::Error> {
+    let mut schema = kind(field, &field.kind, default)?;
+    if let Value::Object(schema) = &mut schema {
+        schema.insert("description".into(), field.doc.into());
+        let unit = naming::unit(field.name);
+        if !unit.is_empty() {
+            schema.insert("x-unit".into(), unit.into());
+        }
+        if let Some(value) = default.and_then(|value| in_user_units(field, value)) {
+            schema.insert("default".into(), value);
+        }
+    }
+    Ok(schema)
+}
+
+fn kind(
+    field: &'static Field,
+    of: &Kind,
+    default: Option<&Value>,
+) -> Result<Value, serde_json::Error> {
+    Ok(match of {
+        Kind::Number => limited(field, "number"),
+        Kind::Whole | Kind::Seed => limited(field, "integer"),
+        Kind::Truth => json!({ "type": "boolean" }),
+        Kind::Text => json!({ "type": "string" }),
+        Kind::Choice(choice) => {
+            let variants = choice.variants.iter();
+            json!({ "oneOf": variants
+                .map(|(name, doc)| json!({ "const": name, "description": doc }))
+                .collect::<Vec<_>>() })
+        }
+        Kind::Record(inner) => record(inner, default)?,
+        Kind::Optional(inner) => kind(field, inner, default)?,
+        Kind::Numbers(_) => json!({ "type": "array", "items": { "type": "number" } }),
+        Kind::List(inner) => json!({ "type": "array", "items": kind(field, inner, None)? }),
+        Kind::Tuple(inner, length) => json!({
+            "type": "array",
+            "items": kind(field, inner, None)?,
+            "minItems": length,
+            "maxItems": length,
+        }),
+        Kind::Special(special) => serde_json::from_str(special.schema)?,
+    })
+}
+
+fn limited(field: &Field, name: &str) -> Value {
+    let mut schema = Map::new();
+    schema.insert("type".into(), name.into());
+    match field.range {
+        Some(range) => {
+            let least = if range.above_low { "exclusiveMinimum" } else { "minimum" };
+            schema.insert(least.into(), plain(range.low));
+            if range.high.is_finite() {
+                schema.insert("maximum".into(), plain(range.high));
+            }
+        }
+        None if name == "integer" => {
+            schema.insert("minimum".into(), 0.into());
+        }
+        None => {}
+    }
+    schema.into()
+}

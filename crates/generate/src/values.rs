@@ -1,0 +1,41 @@
+//! Values as users see them.
+
+use boresight_core::describe::naming;
+use boresight_core::describe::{Field, Range};
+use serde_json::Value;
+
+/// A default in the units that users give: angles in degrees; nothing for none.
+pub fn in_user_units(field: &Field, value: &Value) -> Option<Value> {
+    match value {
+        Value::Null | Value::Object(_) => None,
+        Value::Number(number) => {
+            let number = number.as_f64()?;
+            Some(plain(if naming::is_angle(field.name) { number.to_degrees() } else { number }))
+        }
+        Value::Array(items) => items
+            .iter()
+            .map(|item| in_user_units(field, item))
+            .collect::<Option<_>>()
+            .map(Value::Array),
+        other => Some(other.clone()),
+    }
+}
+
+/// A number without the rounding of its conversion, whole where it is.
+pub fn plain(number: f64) -> Value {
+    let rounded = format!("{number:.12e}").parse().unwrap_or(number);
+    if rounded.fract() == 0.0 && rounded.abs() < 1e15 {
+        return Value::from(rounded as i64);
+    }
+    Value::from(rounded)
+}
+
+/// A range in words; nothing without limits.
+pub fn range(range: Range) -> String {
+    let Range { low, high, above_low } = range;
+    match (above_low, high == f64::INFINITY) {
+        (true, _) => format!("more than {}", plain(low)),
+        (false, true) => format!("at least {}", plain(low)),
+        (false, false) => format!("{} to {}", plain(low), plain(high)),
+    }
+}

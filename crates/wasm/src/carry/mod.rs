@@ -1,0 +1,11 @@
+//! Options and results that describe themselves (`boresight_core::describe`), carried over the
+//! boundary by serde: objects are read and written here, in the names and units of JavaScript, and
+//! every leaf by serde-wasm-bindgen.
+
+mod names;
+mod read;
+mod write;
+
+pub use names::property;
+pub use read::{Reader, read, read_named, read_optional, refuse_unknown};
+pub use write::write;

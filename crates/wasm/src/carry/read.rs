@@ -1,0 +1,415 @@
+//! Options out of JavaScript objects.
+
+use super::names::property;
+use crate::error::{BindingError, Fallible};
+use crate::read::{shortened, wrong_type};
+use boresight_core::CoreError;
+use boresight_core::describe::{At, Described, Kind, Naming, Record};
+use js_sys::{Array, Object, Reflect};
+use serde::de::value::StringDeserializer;
+use serde::de::{
+    DeserializeOwned, DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqAccess,
+    Visitor,
+};
+use serde::forward_to_deserialize_any;
+use std::cell::RefCell;
+use wasm_bindgen::{JsCast, JsValue};
+
+/// Most items of an array: a longer one, which may well be empty, would not fit into memory.
+const MOST_ITEMS: u32 = 1 << 22;
+
+/// Reads an argument and checks it against its description. Fields that it does not know are
+/// refused; those that are `undefined` count as absent.
+pub fn read<T: DeserializeOwned + Described>(value: &JsValue) -> Fallible<T> {
+    read_named(value, "")
+}
+
+/// The same for options that may be left out altogether.
+pub fn read_optional<T: DeserializeOwned + Described + Default>(value: &JsValue) -> Fallible<T> {
+    if value.is_undefined() { Ok(T::default()) } else { read(value) }
+}
+
+/// The same for a value that has a name in errors.
+pub fn read_named<T: DeserializeOwned + Described>(value: &JsValue, name: &str) -> Fallible<T> {
+    let at = At::named(Naming::JavaScript, name);
+    if let (Kind::Record(record), Some(object)) = (T::KIND, value.dyn_ref::<Object>()) {
+        check_required(object, record, &at)?;
+    }
+    let read = T::deserialize(Reader { value: value.clone(), at, is_angle: false, known: None })?;
+    read.check(None, &at)?;
+    Ok(read)
+}
+
+/// Refuses an object without the fields that options have to name.
+fn check_required(object: &Object, record: &Record, at: &At<'_>) -> Fallible<()> {
+    for field in record.fields.iter().filter(|field| field.required) {
+        let value = Reflect::get(object, &property(field.name).key);
+        if value.is_ok_and(|value| value.is_undefined()) {
+            let expected = field.kind.expected();
+            return Err(BindingError::Missing { what: at.field(field.name).path(), expected });
+        }
+    }
+    Ok(())
+}
+
+/// A value on its way into Rust.
+pub struct Reader<'a> {
+    value: JsValue,
+    at: At<'a>,
+    is_angle: bool,
+    /// Where the value's fields stand among those of another object: all names that this one has.
+    known: Option<&'a Known>,
+}
+
+/// Names of fields that were asked for.
+pub type Known = RefCell<Vec<&'static str>>;
+
+impl<'a> Reader<'a> {
+    /// Reads a struct whose fields stand among others of an object, which the caller holds against
+    /// `known` once all are read.
+    pub fn spread<T: DeserializeOwned + Described>(
+        object: &Object,
+        at: At<'a>,
+        known: &'a Known,
+    ) -> Fallible<T> {
+        let value = object.clone().into();
+        let read = T::deserialize(Reader { value, at, is_angle: false, known: Some(known) })?;
+        read.check(None, &at)?;
+        Ok(read)
+    }
+
+    fn wrong_type(&self, expected: &str) -> BindingError {
+        let path = self.at.path();
+        let what = if path.is_empty() { "options" } else { &path };
+        wrong_type(what, expected, &self.value)
+    }
+
+    fn out_of_range(&self, expected: &str, given: f64) -> BindingError {
+        CoreError::OutOfRange { what: self.at.path(), expected: expected.into(), given }.into()
+    }
+
+    /// What serde-wasm-bindgen reads of the value.
+    fn leaf(&self) -> serde_wasm_bindgen::Deserializer {
+        serde_wasm_bindgen::Deserializer::from(self.value.clone())
+    }
+
+    fn number(&self) -> Fallible<f64> {
+        let given = self.value.as_f64().ok_or_else(|| self.wrong_type("a number"))?;
+        if !given.is_finite() {
+            return Err(self.out_of_range("a finite number", given));
+        }
+        Ok(if self.is_angle { given.to_radians() } else { given })
+    }
+
+    fn items(&self) -> Fallible<&Array> {
+        if !Array::is_array(&self.value) {
+            return Err(self.wrong_type("an array"));
+        }
+        let array: &Array = self.value.unchecked_ref();
+        if array.length() > MOST_ITEMS {
+            return Err(self.wrong_type(&format!("an array of at most {MOST_ITEMS} items")));
+        }
+        Ok(array)
+    }
+
+    fn whole<'de, V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        let expected = "a whole number from 0 to 2^53 - 1, or a bigint up to 2^64 - 1";
+        let is_number = self.value.as_f64();
+        if is_number.is_none() && !self.value.is_bigint() {
+            return Err(self.wrong_type(expected));
+        }
+        serde::Deserializer::deserialize_u64(self.leaf(), visitor).map_err(|_| match is_number {
+            Some(given) => self.out_of_range(expected, given),
+            None => self.wrong_type(expected),
+        })
+    }
+}
+
+impl<'de> Deserializer<'de> for Reader<'_> {
+    type Error = BindingError;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        let placed = |error: BindingError| error.at(&self.at);
+        if let Some(number) = self.value.as_f64() {
+            if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) {
+                return visitor.visit_u64(number as u64).map_err(placed);
+            }
+            return visitor.visit_f64(number).map_err(placed);
+        }
+        if let Some(text) = self.value.as_string() {
+            return visitor.visit_string(text).map_err(placed);
+        }
+        if Array::is_array(&self.value) {
+            return self.deserialize_seq(visitor);
+        }
+        if self.value.is_object() && !self.value.is_function() {
+            return self.deserialize_map(visitor);
+        }
+        let expected = Expected(&visitor).to_string();
+        Err(self.wrong_type(&expected))
+    }
+
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        let truth = self.value.as_bool().ok_or_else(|| self.wrong_type("true or false"))?;
+        visitor.visit_bool(truth)
+    }
+
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        visitor.visit_f64(self.number()?)
+    }
+
+    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        self.deserialize_f64(visitor)
+    }
+
+    fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        self.whole(visitor)
+    }
+
+    fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        self.whole(visitor)
+    }
+
+    fn deserialize_u16<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        self.whole(visitor)
+    }
+
+    fn deserialize_u8<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        self.whole(visitor)
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        let text = self.value.as_string().ok_or_else(|| self.wrong_type("a string"))?;
+        visitor.visit_string(text).map_err(|error: BindingError| error.at(&self.at))
+    }
+
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        self.deserialize_string(visitor)
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Fallible<V::Value> {
+        let Some(name) = self.value.as_string() else {
+            return Err(self.wrong_type(&format!("one of {}", variants.join(", "))));
+        };
+        let name: StringDeserializer<BindingError> = shortened(&name).into_deserializer();
+        visitor.visit_enum(name).map_err(|error| error.at(&self.at))
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        if self.value.is_undefined() || self.value.is_null() {
+            return visitor.visit_none();
+        }
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        visitor: V,
+    ) -> Fallible<V::Value> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        let array = self.items()?;
+        visitor.visit_seq(Items { array, at: &self.at, is_angle: self.is_angle, next: 0 })
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Fallible<V::Value> {
+        let given = self.items()?.length() as usize;
+        if given != len {
+            let (what, expected) = (self.at.path(), format!("[{len}]"));
+            return Err(CoreError::Shape { what, expected, given: vec![given] }.into());
+        }
+        self.deserialize_seq(visitor)
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        let object: &Object = self.value.unchecked_ref();
+        let entries = Entries {
+            object,
+            keys: Object::keys(object),
+            at: &self.at,
+            is_angle: self.is_angle,
+            next: 0,
+        };
+        visitor.visit_map(entries).map_err(|error| error.at(&self.at))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Fallible<V::Value> {
+        let is_plain =
+            self.value.is_object() && !Array::is_array(&self.value) && !self.value.is_function();
+        if !is_plain {
+            return Err(self.wrong_type("an object"));
+        }
+        let object: &Object = self.value.unchecked_ref();
+        let own = Known::default();
+        let known = self.known.unwrap_or(&own);
+        let found = FieldsOf { object, fields: fields.iter(), at: &self.at, known, next: None };
+        let read = visitor.visit_map(found).map_err(|error| error.at(&self.at))?;
+        if self.known.is_none() {
+            refuse_unknown(object, &self.at, &own.borrow())?;
+        }
+        Ok(read)
+    }
+
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+        visitor.visit_unit()
+    }
+
+    forward_to_deserialize_any! {
+        i8 i16 i32 i64 i128 u128 char bytes byte_buf unit unit_struct tuple_struct identifier
+    }
+}
+
+/// What a visitor expects, in words.
+struct Expected<'a, V>(&'a V);
+
+impl<'de, V: Visitor<'de>> std::fmt::Display for Expected<'_, V> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.expecting(f)
+    }
+}
+
+/// Refuses fields that were not asked for, unless they are `undefined`.
+pub fn refuse_unknown(object: &Object, at: &At<'_>, known: &[&'static str]) -> Fallible<()> {
+    for key in Object::keys(object).iter() {
+        let name = key.as_string().unwrap_or_default();
+        if known.contains(&name.as_str()) {
+            continue;
+        }
+        let given = Reflect::get(object, &key).unwrap_or(JsValue::NULL);
+        if !given.is_undefined() {
+            let name = if name.is_empty() { "\"\"".into() } else { shortened(&name) };
+            let above = at.path();
+            let what = if above.is_empty() { name } else { format!("{above}.{name}") };
+            return Err(BindingError::UnknownField { what, expected: known.join(", ") });
+        }
+    }
+    Ok(())
+}
+
+/// The fields of a struct out of an object.
+struct FieldsOf<'a> {
+    object: &'a Object,
+    fields: std::slice::Iter<'static, &'static str>,
+    at: &'a At<'a>,
+    known: &'a Known,
+    next: Option<(&'static str, JsValue, bool)>,
+}
+
+impl<'de> MapAccess<'de> for FieldsOf<'_> {
+    type Error = BindingError;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Fallible<Option<K::Value>> {
+        for &field in self.fields.by_ref() {
+            if field.starts_with("..") {
+                self.next = Some((field, self.object.clone().into(), false));
+                return seed.deserialize(field.into_deserializer()).map(Some);
+            }
+            let property = property(field);
+            self.known.borrow_mut().push(property.name);
+            let value =
+                Reflect::get(self.object, &property.key).map_err(|_| BindingError::Type {
+                    what: self.at.field(field).path(),
+                    expected: "a value".into(),
+                    given: "a property that throws".into(),
+                })?;
+            if !value.is_undefined() {
+                self.next = Some((field, value, property.is_angle));
+                return seed.deserialize(field.into_deserializer()).map(Some);
+            }
+        }
+        Ok(None)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Fallible<V::Value> {
+        let (field, value, is_angle) = self.next.take().unwrap_or(("", JsValue::UNDEFINED, false));
+        let spread = field.starts_with("..");
+        let inner = self.at.field(field);
+        let at = if spread { *self.at } else { inner };
+        let known = spread.then_some(self.known);
+        seed.deserialize(Reader { value, at, is_angle, known }).map_err(|error| error.at(&at))
+    }
+}
+
+/// The items of an array.
+struct Items<'a> {
+    array: &'a Array,
+    at: &'a At<'a>,
+    is_angle: bool,
+    next: u32,
+}
+
+impl<'de> SeqAccess<'de> for Items<'_> {
+    type Error = BindingError;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(
+        &mut self,
+        seed: T,
+    ) -> Fallible<Option<T::Value>> {
+        if self.next >= self.array.length() {
+            return Ok(None);
+        }
+        let at = self.at.item(self.next as usize);
+        let value = self.array.get(self.next);
+        self.next += 1;
+        let reader = Reader { value, at, is_angle: self.is_angle, known: None };
+        seed.deserialize(reader).map_err(|error| error.at(&at)).map(Some)
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some((self.array.length() - self.next) as usize)
+    }
+}
+
+/// All entries of an object whose keys are not known beforehand.
+struct Entries<'a> {
+    object: &'a Object,
+    keys: Array,
+    at: &'a At<'a>,
+    is_angle: bool,
+    next: u32,
+}
+
+impl<'de> MapAccess<'de> for Entries<'_> {
+    type Error = BindingError;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Fallible<Option<K::Value>> {
+        while self.next < self.keys.length() {
+            let key = self.keys.get(self.next);
+            if Reflect::get(self.object, &key).is_ok_and(|value| value.is_undefined()) {
+                self.next += 1;
+                continue;
+            }
+            let name: StringDeserializer<BindingError> =
+                key.as_string().unwrap_or_default().into_deserializer();
+            return seed.deserialize(name).map(Some);
+        }
+        Ok(None)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Fallible<V::Value> {
+        let key = self.keys.get(self.next);
+        self.next += 1;
+        let name = key.as_string().unwrap_or_default();
+        let at = self.at.field(&name);
+        let value = Reflect::get(self.object, &key).map_err(|_| BindingError::Type {
+            what: at.path(),
+            expected: "a value".into(),
+            given: "a property that throws".into(),
+        })?;
+        let reader = Reader { value, at, is_angle: self.is_angle, known: None };
+        seed.deserialize(reader).map_err(|error| error.at(&at))
+    }
+}

@@ -1,0 +1,271 @@
+//! Results as plain JavaScript objects with typed arrays of their own.
+
+use super::names::property;
+use boresight_core::describe::NumberType;
+use boresight_core::describe::columns::number_type;
+use js_sys::{
+    Array, Float32Array, Float64Array, Int8Array, Object, Reflect, Uint8Array, Uint32Array,
+};
+use serde::ser::{
+    Serialize, SerializeMap, SerializeSeq, SerializeStruct, SerializeTuple, Serializer,
+};
+use serde_wasm_bindgen::Error;
+use wasm_bindgen::{JsCast, JsValue};
+
+/// A result as a plain object. What serde cannot write, of which there is none, becomes undefined.
+pub fn write<T: Serialize + ?Sized>(value: &T) -> JsValue {
+    value.serialize(Writer::default()).unwrap_or(JsValue::UNDEFINED)
+}
+
+/// How a value is written.
+#[derive(Clone, Copy, Default)]
+struct Writer<'a> {
+    is_angle: bool,
+    /// Where the value's fields stand among those of another object.
+    into: Option<&'a Object>,
+}
+
+const LEAVES: serde_wasm_bindgen::Serializer =
+    serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
+
+macro_rules! leaves {
+    ($($method:ident($type:ty))*) => {$(
+        fn $method(self, value: $type) -> Result<JsValue, Error> {
+            LEAVES.$method(value)
+        }
+    )*};
+}
+
+impl<'a> Serializer for Writer<'a> {
+    type Ok = JsValue;
+    type Error = Error;
+    type SerializeSeq = List;
+    type SerializeTuple = List;
+    type SerializeTupleStruct = serde::ser::Impossible<JsValue, Error>;
+    type SerializeTupleVariant = serde::ser::Impossible<JsValue, Error>;
+    type SerializeMap = Entries;
+    type SerializeStruct = Fields<'a>;
+    type SerializeStructVariant = serde::ser::Impossible<JsValue, Error>;
+
+    leaves! {
+        serialize_bool(bool)
+        serialize_i8(i8) serialize_i16(i16) serialize_i32(i32) serialize_i64(i64)
+        serialize_u8(u8) serialize_u16(u16) serialize_u32(u32) serialize_u64(u64)
+        serialize_f32(f32) serialize_char(char) serialize_str(&str) serialize_bytes(&[u8])
+    }
+
+    fn is_human_readable(&self) -> bool {
+        false
+    }
+
+    fn serialize_f64(self, value: f64) -> Result<JsValue, Error> {
+        Ok(if self.is_angle { value.to_degrees() } else { value }.into())
+    }
+
+    fn serialize_none(self) -> Result<JsValue, Error> {
+        LEAVES.serialize_none()
+    }
+
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<JsValue, Error> {
+        value.serialize(self)
+    }
+
+    fn serialize_unit(self) -> Result<JsValue, Error> {
+        LEAVES.serialize_unit()
+    }
+
+    fn serialize_unit_struct(self, name: &'static str) -> Result<JsValue, Error> {
+        LEAVES.serialize_unit_struct(name)
+    }
+
+    fn serialize_unit_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+    ) -> Result<JsValue, Error> {
+        Ok(property(variant).key)
+    }
+
+    fn serialize_newtype_struct<T: Serialize + ?Sized>(
+        self,
+        name: &'static str,
+        value: &T,
+    ) -> Result<JsValue, Error> {
+        let Some(kind) = number_type(name) else { return value.serialize(self) };
+        // The bytes of the numbers, in a buffer of their own.
+        let bytes: Uint8Array = value.serialize(&LEAVES)?.unchecked_into();
+        let buffer = bytes.buffer();
+        Ok(match kind {
+            NumberType::F64 if self.is_angle => {
+                let mut numbers = Float64Array::new(&buffer).to_vec();
+                numbers.iter_mut().for_each(|number| *number = number.to_degrees());
+                Float64Array::new_from_slice(&numbers).into()
+            }
+            NumberType::F64 => Float64Array::new(&buffer).into(),
+            NumberType::F32 => Float32Array::new(&buffer).into(),
+            NumberType::U32 => Uint32Array::new(&buffer).into(),
+            NumberType::U8 => bytes.into(),
+            NumberType::I8 => Int8Array::new(&buffer).into(),
+        })
+    }
+
+    fn serialize_newtype_variant<T: Serialize + ?Sized>(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        _: &T,
+    ) -> Result<JsValue, Error> {
+        Err(serde::ser::Error::custom(variant))
+    }
+
+    fn serialize_seq(self, _: Option<usize>) -> Result<List, Error> {
+        Ok(List { array: Array::new(), is_angle: self.is_angle })
+    }
+
+    fn serialize_tuple(self, _: usize) -> Result<List, Error> {
+        self.serialize_seq(None)
+    }
+
+    fn serialize_tuple_struct(
+        self,
+        name: &'static str,
+        _: usize,
+    ) -> Result<Self::SerializeTupleStruct, Error> {
+        Err(serde::ser::Error::custom(name))
+    }
+
+    fn serialize_tuple_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        _: usize,
+    ) -> Result<Self::SerializeTupleVariant, Error> {
+        Err(serde::ser::Error::custom(variant))
+    }
+
+    fn serialize_map(self, _: Option<usize>) -> Result<Entries, Error> {
+        Ok(Entries { object: Object::new(), key: JsValue::NULL, is_angle: self.is_angle })
+    }
+
+    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Fields<'a>, Error> {
+        Ok(Fields { own: self.into.is_none().then(Object::new), into: self.into })
+    }
+
+    fn serialize_struct_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+        _: usize,
+    ) -> Result<Self::SerializeStructVariant, Error> {
+        Err(serde::ser::Error::custom(variant))
+    }
+}
+
+/// A list of values.
+struct List {
+    array: Array,
+    is_angle: bool,
+}
+
+impl List {
+    fn push<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+        let writer = Writer { is_angle: self.is_angle, into: None };
+        self.array.push(&value.serialize(writer)?);
+        Ok(())
+    }
+}
+
+impl SerializeSeq for List {
+    type Ok = JsValue;
+    type Error = Error;
+
+    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+        self.push(value)
+    }
+
+    fn end(self) -> Result<JsValue, Error> {
+        Ok(self.array.into())
+    }
+}
+
+impl SerializeTuple for List {
+    type Ok = JsValue;
+    type Error = Error;
+
+    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+        self.push(value)
+    }
+
+    fn end(self) -> Result<JsValue, Error> {
+        Ok(self.array.into())
+    }
+}
+
+/// A struct as an object.
+struct Fields<'a> {
+    own: Option<Object>,
+    into: Option<&'a Object>,
+}
+
+impl Fields<'_> {
+    fn object(&self) -> Option<&Object> {
+        self.own.as_ref().or(self.into)
+    }
+}
+
+impl SerializeStruct for Fields<'_> {
+    type Ok = JsValue;
+    type Error = Error;
+
+    fn serialize_field<T: Serialize + ?Sized>(
+        &mut self,
+        field: &'static str,
+        value: &T,
+    ) -> Result<(), Error> {
+        let Some(object) = self.object() else { return Ok(()) };
+        if field.starts_with("..") {
+            value.serialize(Writer { is_angle: false, into: Some(object) })?;
+            return Ok(());
+        }
+        let property = property(field);
+        let value = value.serialize(Writer { is_angle: property.is_angle, into: None })?;
+        // Setting a property of a fresh plain object cannot fail.
+        let _ = Reflect::set(object, &property.key, &value);
+        Ok(())
+    }
+
+    fn end(self) -> Result<JsValue, Error> {
+        Ok(self.own.map_or(JsValue::UNDEFINED, Into::into))
+    }
+}
+
+/// A map as an object.
+struct Entries {
+    object: Object,
+    key: JsValue,
+    is_angle: bool,
+}
+
+impl SerializeMap for Entries {
+    type Ok = JsValue;
+    type Error = Error;
+
+    fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), Error> {
+        self.key = key.serialize(Writer::default())?;
+        Ok(())
+    }
+
+    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+        let value = value.serialize(Writer { is_angle: self.is_angle, into: None })?;
+        let _ = Reflect::set(&self.object, &self.key, &value);
+        Ok(())
+    }
+
+    fn end(self) -> Result<JsValue, Error> {
+        Ok(self.object.into())
+    }
+}

@@ -1,0 +1,434 @@
+// Written by `npm run generate` from the descriptions in Rust; not edited by hand.
+
+/**
+ * How ESPRIT solves for the rotation.
+ *
+ * - `least-squares`: Least squares.
+ * - `total-least-squares`: Total least squares.
+ */
+export type EspritForm = 'least-squares' | 'total-least-squares';
+
+/**
+ * How IAA treats weak parts of the spectrum (Rowe, Li and Stoica 2013).
+ *
+ * - `none`: Plain IAA.
+ * - `hard`: Powers below the threshold become zero after each iteration.
+ * - `soft`: The threshold is taken off every power after each iteration.
+ */
+export type Thresholding = 'none' | 'hard' | 'soft';
+
+/**
+ * How IAA is computed.
+ *
+ * - `auto`: Fast where the elements stand on a lattice, else dense.
+ * - `fast`: By FFTs; needs a lattice.
+ * - `dense`: By matrix products; any array.
+ */
+export type IaaForm = 'auto' | 'fast' | 'dense';
+
+/**
+ * Precision of IAA's fast form.
+ *
+ * - `auto`: On grids of a power of two single, and double from the first iteration on that needs it to tell angles to
+ * 0.001 deg: with strong sources far above the noise. Else double.
+ * - `double`: Double throughout.
+ */
+export type IaaPrecision = 'auto' | 'double';
+
+/** Options of IAA. */
+export interface IaaOptions {
+  /** Iterations (1 to 10000; default 15). */
+  iterations?: number;
+  /** Treatment of weak powers (default 'none'). */
+  thresholding?: Thresholding;
+  /** Threshold below the strongest power (positive) (0 to 300 dB; default 40). */
+  thresholdDb?: number;
+  /**
+   * Noise power added to the diagonal, as a share of the mean element power; 0 for plain IAA (0 to 1000000; default
+   * 0).
+   */
+  regularisation?: number;
+  /** Fast or dense (default 'auto'). */
+  form?: IaaForm;
+  /** Precision of the fast form (default 'auto'). */
+  precision?: IaaPrecision;
+}
+
+/** Options of NOMP. */
+export interface NompOptions {
+  /** Probability that noise alone adds a source (1e-12 to 0.5; default 0.01). */
+  falseAlarm?: number;
+  /** Noise power at one element; estimated from the residual if absent (more than 0). */
+  noisePower?: number;
+  /** Grid points per element of aperture (1 to 64; default 4). */
+  oversampling?: number;
+  /** Newton steps on a new source (0 to 100; default 3). */
+  singleRefinements?: number;
+  /** Rounds of Newton steps over all sources after each new one (0 to 100; default 3). */
+  cyclicRefinements?: number;
+  /** Most sources (1 to 1024; default 16). */
+  maxSources?: number;
+}
+
+/** Options of all estimators. Those a method has no use for are ignored. */
+export interface SharedEstimatorOptions {
+  /** Number of sources, or how they are counted, for methods that need it (1 to 1024; default 'mdl'). */
+  sources?: number | 'aic' | 'mdl';
+  /** Half width of the field of view in azimuth (0.1 to 90 deg; default 90). */
+  fieldOfViewDeg?: number;
+  /** Half width of the field of view in elevation (arrays that span an area) (0.1 to 90 deg; default 30). */
+  elevationFieldOfViewDeg?: number;
+  /** Points of the azimuth grid, uniform in sin(azimuth) over [-1, 1) (16 to 65536; default 1024). */
+  gridPoints?: number;
+  /** Points of the elevation grid (arrays that span an area) (3 to 1024; default 61). */
+  elevationPoints?: number;
+  /** Average the covariance with its reversal (evenly spaced arrays) (default false). */
+  forwardBackward?: boolean;
+  /** Length of the subarrays of spatial smoothing (evenly spaced arrays); none if absent (2 to 1024). */
+  smoothing?: number;
+  /** Diagonal loading as a share of the mean element power (0 to 1000000; default 0). */
+  loading?: number;
+  /** Peaks this far below the strongest are not reported (spectral methods) (0.1 to 300 dB; default 20). */
+  dynamicRangeDb?: number;
+  /** Most sources reported by spectral methods (1 to 1024; default 16). */
+  maxPeaks?: number;
+  /** How ESPRIT solves for the rotation (default 'total-least-squares'). */
+  esprit?: EspritForm;
+  /** The iterative adaptive approach. */
+  iaa?: IaaOptions;
+  /** Newtonized orthogonal matching pursuit. */
+  nomp?: NompOptions;
+  /**
+   * Refine the sources on the matched model: those that noise explains are dropped, what stands out of the rest is
+   * added, and all are taken to the best fit by Gauss-Newton steps, with the false-alarm probability and noise power
+   * of `nomp` (default false).
+   */
+  refine?: boolean;
+  /** A network that has been loaded under this name, for the methods that need one. */
+  network?: string;
+  /** Least confidence of a network's sources; that of its card if absent (0 to 1). */
+  confidence?: number;
+  /** Most iterations of maximum likelihood and sparse Bayesian learning (1 to 100000; default 200). */
+  maxIterations?: number;
+  /** Change of angle (rad) or relative change of power at which iterations stop (1e-15 to 1; default 1e-8). */
+  tolerance?: number;
+}
+
+/**
+ * A taper.
+ *
+ * - `rectangular`: All ones: best resolution, sidelobes at -13 dB.
+ * - `hann`: Raised cosine, sidelobes from -31 dB falling 18 dB an octave.
+ * - `hamming`: Raised cosine on a pedestal, sidelobes at -43 dB.
+ * - `blackman`: Three terms, sidelobes at -58 dB.
+ * - `blackman-harris`: Four terms, sidelobes at -92 dB.
+ * - `chebyshev`: Dolph-Chebyshev: the narrowest main lobe for sidelobes all at -80 dB.
+ * - `taylor`: Taylor: three sidelobes near -40 dB, the others falling.
+ */
+export type WindowName = 'rectangular' | 'hann' | 'hamming' | 'blackman' | 'blackman-harris' | 'chebyshev' | 'taylor';
+
+/**
+ * How noise is estimated from the training cells.
+ *
+ * - `cell-averaging`: The mean of all (Finn and Johnson 1968): the least loss in even noise.
+ * - `greatest-of`: The larger of the means of the halves (Hansen and Sawyers 1980): keeps the rate at clutter edges.
+ * - `smallest-of`: The smaller of the means of the halves (Trunk 1978): keeps targets apart.
+ * - `ordered-statistic`: The cell of a rank (Rohling 1983): keeps targets apart and most of the rate.
+ */
+export type CfarKind = 'cell-averaging' | 'greatest-of' | 'smallest-of' | 'ordered-statistic';
+
+/**
+ * Along which axes training cells lie.
+ *
+ * - `range`: Range only: in a scene that stands still all power lies at zero Doppler, and a window across it would see
+ * no noise like the cell's own.
+ * - `doppler`: Doppler only.
+ * - `both`: A ring around the cell in both.
+ */
+export type CfarAxes = 'range' | 'doppler' | 'both';
+
+/** How detection works. */
+export interface CfarOptions {
+  /** How noise is estimated from the training cells (default 'cell-averaging'). */
+  kind?: CfarKind;
+  /** Axes along which training cells lie (default 'range'). */
+  axes?: CfarAxes;
+  /** Probability that a cell of noise becomes a detection (1e-15 to 0.5; default 1e-6). */
+  falseAlarm?: number;
+  /**
+   * Cells left out on each side of the cell under test, along range and Doppler, so that they cover the main lobe
+   * (default [4, 2]).
+   */
+  guardCells?: readonly [number, number];
+  /** Training cells on each side beyond the guard cells, along range and Doppler (default [8, 4]). */
+  trainingCells?: readonly [number, number];
+  /** Rank of the ordered statistic, as a share of the training cells (0 to 1; default 0.75). */
+  rank?: number;
+}
+
+/** Limits, both ends inside; absent ones hold nothing back. */
+export interface Region {
+  /** Least and greatest range. */
+  rangeM?: readonly [number, number];
+  /** Least and greatest range rate. */
+  rateMps?: readonly [number, number];
+  /** Least and greatest azimuth (-90 to 90 deg). */
+  azimuthDeg?: readonly [number, number];
+}
+
+/**
+ * An angle-of-arrival estimator.
+ *
+ * - `bartlett`: Delay and sum (an FFT on a lattice).
+ * - `capon`: Minimum-variance beamformer (Capon 1969).
+ * - `music`: Multiple signal classification (Schmidt 1986).
+ * - `single-snapshot-music`: MUSIC on a Hankel matrix of one snapshot (Liao and Fannjiang 2016).
+ * - `root-music`: Root-MUSIC (Barabell 1983).
+ * - `esprit`: Rotational invariance (Roy and Kailath 1989), least squares or total least squares.
+ * - `min-norm`: Minimum norm (Kumaresan and Tufts 1983).
+ * - `iaa`: Iterative adaptive approach (Yardibi et al. 2010).
+ * - `nomp`: Newtonized orthogonal matching pursuit (Mamandipoor et al. 2016).
+ * - `maximum-likelihood`: Deterministic maximum likelihood by alternating projection (Ziskind and Wax 1988).
+ * - `sparse-bayesian`: Off-grid sparse Bayesian learning (Yang, Xie and Zhang 2013).
+ * - `aaetr`: A transformer that answers with a set of targets.
+ * - `dnn`: A fully connected network on the covariance, of whole degrees (after Chen, Gong and Mao 2020).
+ * - `cnn3d`: A convolutional network on a region of the range spectrum, of whole degrees (Sang et al. 2021).
+ */
+export type Method =
+  | 'bartlett'
+  | 'capon'
+  | 'music'
+  | 'single-snapshot-music'
+  | 'root-music'
+  | 'esprit'
+  | 'min-norm'
+  | 'iaa'
+  | 'nomp'
+  | 'maximum-likelihood'
+  | 'sparse-bayesian'
+  | 'aaetr'
+  | 'dnn'
+  | 'cnn3d';
+
+/** Angle estimation in each cell, on the chain's array. */
+export interface AngleOptions {
+  /** Method of angle estimation (default 'bartlett'). */
+  method?: Method;
+  /** Number of sources, or how they are counted, for methods that need it (1 to 1024; default 'mdl'). */
+  sources?: number | 'aic' | 'mdl';
+  /** Half width of the field of view in azimuth (0.1 to 90 deg; default 90). */
+  fieldOfViewDeg?: number;
+  /** Half width of the field of view in elevation (arrays that span an area) (0.1 to 90 deg; default 30). */
+  elevationFieldOfViewDeg?: number;
+  /** Points of the azimuth grid, uniform in sin(azimuth) over [-1, 1) (16 to 65536; default 1024). */
+  gridPoints?: number;
+  /** Points of the elevation grid (arrays that span an area) (3 to 1024; default 61). */
+  elevationPoints?: number;
+  /** Average the covariance with its reversal (evenly spaced arrays) (default false). */
+  forwardBackward?: boolean;
+  /** Length of the subarrays of spatial smoothing (evenly spaced arrays); none if absent (2 to 1024). */
+  smoothing?: number;
+  /** Diagonal loading as a share of the mean element power (0 to 1000000; default 0). */
+  loading?: number;
+  /** Peaks this far below the strongest are not reported (spectral methods) (0.1 to 300 dB; default 20). */
+  dynamicRangeDb?: number;
+  /** Most sources reported by spectral methods (1 to 1024; default 16). */
+  maxPeaks?: number;
+  /** How ESPRIT solves for the rotation (default 'total-least-squares'). */
+  esprit?: EspritForm;
+  /** The iterative adaptive approach. */
+  iaa?: IaaOptions;
+  /** Newtonized orthogonal matching pursuit. */
+  nomp?: NompOptions;
+  /**
+   * Refine the sources on the matched model: those that noise explains are dropped, what stands out of the rest is
+   * added, and all are taken to the best fit by Gauss-Newton steps, with the false-alarm probability and noise power
+   * of `nomp` (default false).
+   */
+  refine?: boolean;
+  /** A network that has been loaded under this name, for the methods that need one. */
+  network?: string;
+  /** Least confidence of a network's sources; that of its card if absent (0 to 1). */
+  confidence?: number;
+  /** Most iterations of maximum likelihood and sparse Bayesian learning (1 to 100000; default 200). */
+  maxIterations?: number;
+  /** Change of angle (rad) or relative change of power at which iterations stop (1e-15 to 1; default 1e-8). */
+  tolerance?: number;
+}
+
+/** How frames become detections. */
+export interface DetectionOptions {
+  /** Window over the samples of a chirp (default 'hann'). */
+  rangeWindow?: WindowName;
+  /** Window over the loops of a frame (default 'hann'). */
+  dopplerWindow?: WindowName;
+  /** Range bins as a multiple of the samples, a power of two (1 to 64; default 1). */
+  rangePadding?: number;
+  /** Doppler bins as a multiple of the loops, a power of two (1 to 64; default 1). */
+  dopplerPadding?: number;
+  /** Take the mean over the loops off, which removes what does not move (default false). */
+  staticClutterRemoval?: boolean;
+  /** Detection. Guard and training cells are counted in cells of unpadded transforms. */
+  cfar?: CfarOptions;
+  /** Keep one detection a peak (default true). */
+  peakGrouping?: boolean;
+  /**
+   * Limits outside which detections are dropped, and counted. Where it names no range, that is from 4 range
+   * resolutions to 0.9 of the unambiguous range.
+   */
+  region?: Region;
+  /** Angle estimation. */
+  angle?: AngleOptions;
+  /** Most detections a frame; the strongest are kept (1 to 65536; default 256). */
+  maxDetections?: number;
+}
+
+/**
+ * How the radar's motion is estimated from a frame.
+ *
+ * - `ransac`: RANSAC, then least squares on the inliers (Kellner et al. 2013).
+ * - `weighted-least-squares`: RANSAC, then least squares weighted by each detection's noise.
+ * - `orthogonal-distance`: RANSAC, then orthogonal distance regression: azimuths are noisy too.
+ * - `tracked`: Robust maximum likelihood led by the frames before, the yaw rate and the angle so far.
+ */
+export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-distance' | 'tracked';
+
+/**
+ * Options of all methods. Those a method has no use for are ignored. The car's frame is centred on the rear axle, x
+ * forward, y left; angles are positive to the left.
+ */
+export interface CalibrationOptions {
+  /** How the angle is estimated (default 'recursive'). */
+  method: Method;
+  /** How the motion is estimated; the way that belongs to the method if absent. */
+  motion?: MotionMethod;
+  /** The radar's place ahead of the rear axle (-100 to 100 m; default 0). */
+  xM: number;
+  /** The radar's place left of the centre line (-100 to 100 m; default 0). */
+  yM?: number;
+  /**
+   * The angle the radar should be mounted at, if known: where the search begins, and what the alarm compares with
+   * (-180 to 180 deg).
+   */
+  nominalDeg?: number;
+  /** How far from nominal is a misalignment (1e-9 to 180 deg; default 1). */
+  alarmDeg?: number;
+  /** Standard deviation below which the estimate may count as converged (1e-9 to 180 deg; default 0.1). */
+  convergedDeg?: number;
+  /** Standard deviation of a detection's range rate (more than 0 m/s; default 0.1). */
+  rangeRateSigmaMps?: number;
+  /** Standard deviation of a detection's azimuth (0 to 180 deg; default 0.5). */
+  azimuthSigmaDeg?: number;
+  /** Standard deviation of the yaw rate's bias before anything is known of it (more than 0 deg/s; default 0.1). */
+  biasSigmaDegps?: number;
+  /** Frames below this speed of the radar are left out (0 to 1000 m/s; default 1). */
+  minSpeedMps?: number;
+  /** Frames turning faster than this are left out (0.1 to 180 deg/s; default 140). */
+  maxYawRateDegps?: number;
+  /** Below this residual a detection is an inlier of RANSAC (more than 0 m/s; default 0.3). */
+  inlierResidualMps?: number;
+  /** Weight from which a detection is an inlier (IT) (0 to 1; default 0.5). */
+  inlierThreshold?: number;
+  /** Frames with a smaller share of inliers are left out (IRT) (0 to 1; default 0.3). */
+  inlierRatioThreshold?: number;
+  /** Fewest inliers of a frame (3 to 1000000; default 5). */
+  minInliers?: number;
+  /** Probability that RANSAC draws a pair of inliers at least once (0 to 1; default 0.999). */
+  confidence?: number;
+  /** Largest gap in the yaw rate over which it is interpolated (more than 0 s; default 0.25). */
+  maxGapS?: number;
+  /** Seed of RANSAC's draws (default 0). */
+  seed?: number | bigint;
+}
+
+/**
+ * Roads and traffic of a drive.
+ *
+ * - `city`: Streets with junctions, roundabouts, lights, parked cars, pedestrians.
+ * - `country-road`: Curves between fields and woods, oncoming traffic.
+ * - `motorway`: Up to 130 km/h between guard rails.
+ * - `car-park`: Tight turns between parked cars, forward and in reverse.
+ * - `stop-and-go`: A queue on a city road.
+ * - `dense-traffic`: Vehicles on all sides at nearly the car's speed.
+ */
+export type Scenario = 'city' | 'country-road' | 'motorway' | 'car-park' | 'stop-and-go' | 'dense-traffic';
+
+/** A radar of a simulated drive. */
+export interface PlacedRadar {
+  /** Its number. */
+  id: number;
+  /** Ahead of the rear axle. */
+  xM: number;
+  /** Left of the centre line. */
+  yM: number;
+  /** Direction of boresight, counter-clockwise from the car's x. */
+  yawDeg: number;
+}
+
+/** How well a radar measures. */
+export interface RadarNoise {
+  /** Standard deviation of azimuth at boresight (0 to 10 deg; default 0.35). */
+  azimuthSigmaDeg?: number;
+  /** Growth of it: `sigma (1 + growth (azimuth / 60 deg)^2)` (0 to 20; default 2). */
+  azimuthGrowth?: number;
+  /** Standard deviation of range rate (0 to 5 m/s; default 0.05). */
+  rangeRateSigmaMps?: number;
+  /** Standard deviation of range (0 to 5 m; default 0.1). */
+  rangeSigmaM?: number;
+  /**
+   * Length of the interval a range rate is measured over. It ends at the scan's time stamp; each detection has the
+   * range rate of a random instant within (0 to 0.07 s; default 0.04).
+   */
+  coherentIntervalS?: number;
+  /** Share of detections of standing things that get a random range rate (multipath) (0 to 0.5; default 0.012). */
+  ghostShare?: number;
+  /** Mean number of false detections a scan (0 to 50; default 0.5). */
+  clutter?: number;
+}
+
+/** A drive to simulate. */
+export interface SimulateDriveOptions {
+  /** Roads and traffic (default 'city'). */
+  scenario?: Scenario;
+  /** Everything random comes from it (default 0). */
+  seed?: number | bigint;
+  /** Length of the drive; four radars for an hour at most, or as much by fewer (1 to 7200 s; default 60). */
+  durationS?: number;
+  /** The radars by number, where they truly sit and look; those of RadarScenes if absent. */
+  sensors?: readonly PlacedRadar[];
+  /** By how much a radar's true yaw exceeds the one the log states, by its number; zero for radars not named. */
+  misalignmentDeg?: { readonly [sensor: number]: number };
+  /**
+   * Share of moving detections over the scans taken at more than 1 m/s, by leaving out whole movers or detections of
+   * standing things; what the scenario's traffic gives if absent (0 to 0.8).
+   */
+  movingShare?: number;
+  /** How well radars measure. */
+  noise?: RadarNoise;
+  /** Measured over true yaw rate; drawn from 0.98 to 1.02 if absent (0.5 to 2). */
+  yawRateScale?: number;
+  /** Yaw rate measured at standstill; drawn from -0.2 to 0.2 deg/s if absent (-50 to 50 deg/s). */
+  yawRateBiasDegps?: number;
+  /** Standard deviation of a sample's white noise; drawn from 0.07 to 0.13 deg/s if absent (0 to 50 deg/s). */
+  yawRateSigmaDegps?: number;
+  /** Measured over true speed (0.5 to 2; default 1). */
+  speedScale?: number;
+  /** Standard deviation of a sample of speed. At standstill the speed reads zero (0 to 5 m/s; default 0.03). */
+  speedSigmaMps?: number;
+  /**
+   * Slip angle of the rear axle over lateral acceleration, rad/(m/s^2); outside Rust in degrees (-1 to 1 deg; default
+   * 0).
+   */
+  slipGradientDeg?: number;
+}
+
+/** What a street is made from. */
+export interface StreetOptions {
+  /**
+   * The things in it come from stream 0 of this seed, the cube of radar `i` from one that stream `i + 1` gives
+   * (default 0).
+   */
+  seed?: number | bigint;
+  /** Speed of the car along x. What stands still spreads over Doppler with it (-30 to 30 m/s; default 6). */
+  egoSpeedMps?: number;
+}
