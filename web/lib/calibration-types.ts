@@ -1,50 +1,11 @@
 /** Mounting angles of one radar. */
+import type { CalibrationMethod } from './generated/options.js';
 import type { Warning } from './types.js';
-
-/** How a mounting angle is estimated. */
-export type CalibrationMethod = 'weighted-mean' | 'kabsch' | 'least-squares' | 'orthogonal-distance' | 'recursive';
-
-/** How the radar's own motion is estimated; the recursive method has `tracked` alone. */
-export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-distance' | 'tracked';
 
 export interface CalibrationMethodInfo {
   name: CalibrationMethod;
   title: string;
   reference: string;
-}
-
-/** The car's frame is centred on the rear axle, x forward, y left; angles are positive to the left. */
-export interface CalibrationOptions {
-  method: CalibrationMethod;
-  /** Default: the one that belongs to the method. */
-  motion?: MotionMethod;
-  /** The radar's place ahead of the rear axle. */
-  xM: number;
-  /** Left of the centre line, default 0. */
-  yM?: number;
-  /** The angle the radar should be mounted at: where the search begins, and what the alarm compares with. */
-  nominalDeg?: number;
-  /** How far from nominal is a misalignment. */
-  alarmDeg?: number;
-  /** Standard deviation below which the estimate may count as converged. */
-  convergedDeg?: number;
-  /** Standard deviations of a detection. */
-  rangeRateSigmaMps?: number;
-  azimuthSigmaDeg?: number;
-  /** Frames slower than this are left out. */
-  minSpeedMps?: number;
-  /** Frames turning faster than this are left out. */
-  maxYawRateDegps?: number;
-  /** Residual below which RANSAC takes a detection as static. */
-  inlierResidualMps?: number;
-  /** Weight from which a detection counts as static. */
-  inlierThreshold?: number;
-  /** Frames with a smaller share of static detections are left out. */
-  inlierRatioThreshold?: number;
-  minInliers?: number;
-  /** Probability that RANSAC draws a pair of static detections. */
-  confidence?: number;
-  seed?: number | bigint;
 }
 
 /** One radar frame with the car's motion at that time; arrays have a number for each detection. */

@@ -2,50 +2,17 @@
 import type {
   ArrayGeometry,
   ArrayInput,
-  EstimatorOptions,
-  Method,
+  DetectionOptions,
   Warning,
   Waveform,
   WaveformSummary,
 } from './types.js';
 
-export type WindowName = 'rectangular' | 'hann' | 'hamming' | 'blackman' | 'blackman-harris' | 'chebyshev' | 'taylor';
-
-export type CfarKind = 'cell-averaging' | 'greatest-of' | 'smallest-of' | 'ordered-statistic';
-
-export interface ChainOptions {
+/** Options of the chain from frames to detections. */
+export interface ChainOptions extends DetectionOptions {
   /** Default: the preset whose virtual elements match the capture. */
   array?: ArrayInput;
-  rangeWindow?: WindowName;
-  dopplerWindow?: WindowName;
-  /** Transform lengths as a multiple of the data's; powers of two. */
-  rangePadding?: number;
-  dopplerPadding?: number;
-  staticClutterRemoval?: boolean;
-  cfar?: {
-    kind?: CfarKind;
-    /** One-dimensional along range, along Doppler, or two-dimensional. */
-    axes?: 'range' | 'doppler' | 'both';
-    falseAlarm?: number;
-    guardCells?: readonly [range: number, doppler: number];
-    trainingCells?: readonly [range: number, doppler: number];
-    /** Rank of the ordered statistic as a share of the training cells. */
-    rank?: number;
-  };
-  peakGrouping?: boolean;
-  /** Limits outside which detections are dropped (and counted). */
-  region?: {
-    rangeM?: readonly [number, number];
-    rateMps?: readonly [number, number];
-    azimuthDeg?: readonly [number, number];
-  };
-  /** Estimator for each detection's angle; its array is the chain's. */
-  angle?: AngleOptions;
-  maxDetections?: number;
 }
-
-/** Options of an estimator whose array is known; default method `bartlett`. */
-export type AngleOptions = Omit<EstimatorOptions, 'array' | 'method'> & { method?: Method };
 
 export interface CombineOptions extends ChainOptions {
   /** Default 0. */

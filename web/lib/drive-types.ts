@@ -7,6 +7,7 @@ import type {
   CalibrationMethod,
   CalibrationOptions,
   CalibrationResult,
+  DriveScenario,
   FrameOutcome,
   Warning,
 } from './types.js';
@@ -111,47 +112,9 @@ export interface DriveCounts {
   dropped: Record<string, number>;
 }
 
-export type DriveScenario = 'city' | 'country-road' | 'motorway' | 'car-park' | 'stop-and-go' | 'dense-traffic';
-
 export interface DriveScenarioInfo {
   name: DriveScenario;
   title: string;
-}
-
-export interface SimulateDriveOptions {
-  /** Default `city`. */
-  scenario?: DriveScenario;
-  /** Default 0. */
-  seed?: number | bigint;
-  /** 1 to 7200, and 14,400 over all radars; default 60. */
-  durationS?: number;
-  /** Where the radars truly sit and look; default those of RadarScenes, 1 to 4. */
-  sensors?: readonly { id: number; xM: number; yM: number; yawDeg: number }[];
-  /** By how much a radar's true yaw exceeds the one the drive states, by its number. */
-  misalignmentDeg?: Record<number, number>;
-  /** Share of moving detections, 0 to 0.8; default what the scenario's traffic gives. */
-  movingShare?: number;
-  noise?: {
-    /** At boresight; it grows to (1 + azimuthGrowth) times that at 60 deg. */
-    azimuthSigmaDeg?: number;
-    azimuthGrowth?: number;
-    rangeRateSigmaMps?: number;
-    rangeSigmaM?: number;
-    /** Time over which a range rate is measured. */
-    coherentIntervalS?: number;
-    /** Share of detections of standing things with a random range rate. */
-    ghostShare?: number;
-    /** False detections a scan. */
-    clutter?: number;
-  };
-  /** Measured over true yaw rate; this and the next two are drawn if absent. */
-  yawRateScale?: number;
-  yawRateBiasDegps?: number;
-  yawRateSigmaDegps?: number;
-  speedScale?: number;
-  speedSigmaMps?: number;
-  /** Slip angle of the rear axle over lateral acceleration, deg/(m/s^2). */
-  slipGradientDeg?: number;
 }
 
 /** A simulated drive with the truth behind it; its poses are the true ones. */

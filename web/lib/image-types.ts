@@ -6,6 +6,7 @@ import type {
   CubeResult,
   EstimatorOptions,
   FrameCounts,
+  StreetOptions,
   Waveform,
 } from './types.js';
 
@@ -18,13 +19,6 @@ export interface Mounting {
 }
 
 export type StreetKind = 'parked-car' | 'guard-rail' | 'wall' | 'pole' | 'pedestrian' | 'vehicle';
-
-export interface StreetOptions {
-  /** Default 0. */
-  seed?: number | bigint;
-  /** Default 6. Static points spread over Doppler with it. */
-  egoSpeedMps?: number;
-}
 
 /** A point that scatters, in the car's frame. */
 export interface StreetTarget {

@@ -2,11 +2,12 @@
  * Options and results of the package. Angles are in degrees, all else in SI units; the unit is in
  * the name. Azimuth is positive to the left of boresight, range rate positive when receding.
  */
-import type { NetworkMethod } from './neural-types.js';
+import type { Method, SharedEstimatorOptions } from './generated/options.js';
 
 export type * from './calibration-types.js';
 export type * from './capture-types.js';
 export type * from './drive-types.js';
+export type * from './generated/options.js';
 export type * from './image-types.js';
 export type * from './neural-types.js';
 export type * from './simulation-types.js';
@@ -57,20 +58,6 @@ export interface Imperfections {
   seed?: number | bigint;
 }
 
-export type Method =
-  | 'bartlett'
-  | 'capon'
-  | 'music'
-  | 'single-snapshot-music'
-  | 'root-music'
-  | 'esprit'
-  | 'min-norm'
-  | 'iaa'
-  | 'nomp'
-  | 'maximum-likelihood'
-  | 'sparse-bayesian'
-  | NetworkMethod;
-
 /** What a method needs and gives. */
 export interface MethodInfo {
   name: Method;
@@ -89,53 +76,10 @@ export interface MethodInfo {
   network: boolean;
 }
 
-export interface EstimatorOptions {
+/** An estimator: its method, the array it works on, and its options. */
+export interface EstimatorOptions extends SharedEstimatorOptions {
   method: Method;
   array: ArrayInput;
-  /** Number of sources, or how to count them. Default `mdl`. */
-  sources?: number | 'aic' | 'mdl';
-  /** Half width of the field of view, default 90. */
-  fieldOfViewDeg?: number;
-  elevationFieldOfViewDeg?: number;
-  /** Points of the azimuth grid over sin(azimuth) in [-1, 1), default 1024. */
-  gridPoints?: number;
-  elevationPoints?: number;
-  forwardBackward?: boolean;
-  /** Subarray length of spatial smoothing. */
-  smoothing?: number;
-  /** Diagonal loading as a share of the mean element power. */
-  loading?: number;
-  dynamicRangeDb?: number;
-  maxPeaks?: number;
-  esprit?: 'least-squares' | 'total-least-squares';
-  iaa?: {
-    iterations?: number;
-    thresholding?: 'none' | 'hard' | 'soft';
-    thresholdDb?: number;
-    regularisation?: number;
-    form?: 'auto' | 'fast' | 'dense';
-    /** Single precision while that tells angles to 0.001 deg (`auto`, the default), or double throughout. */
-    precision?: 'auto' | 'double';
-  };
-  nomp?: {
-    falseAlarm?: number;
-    noisePower?: number;
-    oversampling?: number;
-    singleRefinements?: number;
-    cyclicRefinements?: number;
-    maxSources?: number;
-  };
-  /**
-   * Refine the sources on the matched model: those that noise explains are dropped, what stands out of the rest is added,
-   * all are taken to the best fit by Gauss-Newton steps. With the false-alarm probability and noise power of `nomp`.
-   */
-  refine?: boolean;
-  maxIterations?: number;
-  tolerance?: number;
-  /** A network that a pool has loaded, for the methods that need one. */
-  network?: string;
-  /** Least confidence of a source, of networks; default: the card's. */
-  confidence?: number;
 }
 
 /** Snapshots (elements x snapshots, or a vector of elements) or a covariance. */
@@ -152,6 +96,8 @@ export interface Source {
   azimuthDeg: number;
   elevationDeg: number;
   powerDb: number;
+  /** How sure a network is of it, from 0 to 1; absent from other methods. */
+  confidence?: number;
   /** Complex amplitude at the array's origin, where one snapshot determines it. */
   amplitude?: readonly [re: number, im: number];
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 /// How the mounting angle is estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Described, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[option(name = "CalibrationMethod")]
 #[non_exhaustive]
 pub enum Method {
     /// Weighted mean of the frames' angles, scale taken as 1 (Kellner et al. 2015).
@@ -44,6 +45,7 @@ pub enum MotionMethod {
 /// the rear axle, x forward, y left; angles are positive to the left.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(default)]
+#[option(name = "CalibrationOptions")]
 pub struct Options {
     /// How the angle is estimated.
     #[option(required)]

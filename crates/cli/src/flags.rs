@@ -240,3 +240,100 @@ fn set(values: &mut Value, path: &[&'static str], value: Value) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use boresight_core::describe::differing_fields;
+    use clap::Parser;
+    use std::fmt::Debug;
+
+    #[derive(Debug, Parser)]
+    struct Line<T: OnCommandLine + Debug + Send + Sync + 'static> {
+        #[command(flatten)]
+        flags: Flags<T>,
+    }
+
+    fn parse<T: OnCommandLine + Debug + Send + Sync + 'static>(
+        arguments: &[&str],
+    ) -> Result<T, clap::Error> {
+        let line = [&["boresight"], arguments].concat();
+        Line::<T>::try_parse_from(line).map(|line| line.flags.options)
+    }
+
+    /// Every flag in turn: a legal value that is not the default changes its field, and no other.
+    fn every_flag<T: OnCommandLine + Debug + Send + Sync + 'static>(count: usize) {
+        let defaults = serde_json::to_value(T::default()).unwrap();
+        let all = flags(record::<T>(), Some(&defaults), &[], T::ELSEWHERE);
+        assert_eq!(all.len(), count);
+        for flag in all {
+            let name = format!("--{}", flag.name().0);
+            let mut has_changed = false;
+            for value in values(&flag) {
+                let given = if value.is_empty() { vec![&*name] } else { vec![&*name, &*value] };
+                let changed: T = parse(&given).unwrap_or_else(|error| panic!("{given:?}: {error}"));
+                let differing = differing_fields(&T::default(), &changed);
+                // One of the names of a choice is the default.
+                if !differing.is_empty() {
+                    let path: Vec<&str> =
+                        flag.path.iter().map(|name| name.trim_start_matches("..")).collect();
+                    let own = path.join(".");
+                    let is_own = |field: &String| {
+                        field
+                            .strip_prefix(&own)
+                            .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+                    };
+                    assert!(differing.iter().all(is_own), "{given:?}: {differing:?}");
+                    has_changed = true;
+                }
+            }
+            assert!(has_changed, "{name} changes nothing");
+        }
+    }
+
+    fn values(flag: &Flag<'_>) -> Vec<String> {
+        let (low, high) = flag.field.range.map_or((0.0, 10.0), |range| (range.low, range.high));
+        let high = if high.is_finite() { high } else { low + 10.0 };
+        let number = low + 0.37 * (high - low);
+        let whole = number.max(low + 1.0).floor();
+        match flag.kind() {
+            Kind::Truth => vec![String::new()],
+            Kind::Number => vec![number.to_string()],
+            Kind::Whole | Kind::Seed => vec![whole.to_string()],
+            Kind::Choice(choice) => {
+                choice.variants.iter().map(|(name, _)| (*name).into()).collect()
+            }
+            Kind::Tuple(Kind::Number, length) => vec![vec![number.to_string(); length].join(",")],
+            Kind::Tuple(_, length) => vec![vec![whole.to_string(); length].join(",")],
+            _ => vec!["3".into(), "aic".into()],
+        }
+    }
+
+    #[test]
+    fn every_flag_sets_its_own_field() {
+        every_flag::<boresight_pipeline::AngleOptions>(30);
+        every_flag::<boresight_pipeline::ChainOptions>(16);
+        every_flag::<boresight_calibrate::Options>(19);
+        every_flag::<boresight_simulate::DriveOptions>(15);
+    }
+
+    #[test]
+    fn errors_name_the_flag_in_its_unit() {
+        type Angle = boresight_pipeline::AngleOptions;
+        for (given, expected) in [
+            (
+                ["--field-of-view", "120"],
+                "--field-of-view is 120; expected a number from 0.1 to 90",
+            ),
+            (["--iaa-threshold", "-1"], "--iaa-threshold is -1; expected a number from 0 to 300"),
+            (["--iaa-iterations", "1.5"], "--iaa-iterations is \"1.5\"; expected a whole number"),
+            (["--sources", "many"], "unknown variant `many`"),
+        ] {
+            let error = parse::<Angle>(&given).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+        type Chain = boresight_pipeline::ChainOptions;
+        let error = parse::<Chain>(&["--cfar-guard-cells", "4"]).unwrap_err().to_string();
+        assert!(error.contains("expected 2 numbers with a comma between"), "{error}");
+    }
+}

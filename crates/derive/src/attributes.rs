@@ -1,6 +1,8 @@
 //! What the attributes of a field, a variant or a type say.
 
-use syn::{Attribute, Expr, ExprLit, ExprRange, Lit, LitStr, Meta, RangeLimits, Result, Type};
+use syn::{
+    Attribute, DeriveInput, Expr, ExprLit, ExprRange, Lit, LitStr, Meta, RangeLimits, Result, Type,
+};
 
 /// The doc comment as one paragraph of text.
 pub fn doc(attributes: &[Attribute]) -> String {
@@ -64,6 +66,21 @@ fn limits(range: ExprRange) -> Result<Range> {
         (RangeLimits::HalfOpen(_), None) => Ok(Range::Limits(low, None)),
         _ => Err(wrong()),
     }
+}
+
+/// The name that `#[option(name = "...")]` gives a type outside Rust, or its own.
+pub fn type_name(input: &DeriveInput) -> Result<String> {
+    let mut name = input.ident.to_string();
+    for attribute in input.attrs.iter().filter(|a| a.path().is_ident("option")) {
+        attribute.parse_nested_meta(|meta| {
+            if !meta.path.is_ident("name") {
+                return Err(meta.error("expected name"));
+            }
+            name = meta.value()?.parse::<LitStr>()?.value();
+            Ok(())
+        })?;
+    }
+    Ok(name)
 }
 
 /// What `#[serde(...)]` says of a field.

@@ -1,12 +1,12 @@
 //! Enums without data.
 
-use crate::attributes::doc;
+use crate::attributes::{doc, type_name};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{DataEnum, DeriveInput, Fields, Result};
 
 pub fn expand(input: &DeriveInput, data: &DataEnum) -> Result<TokenStream> {
-    let (ident, name) = (&input.ident, input.ident.to_string());
+    let (ident, name) = (&input.ident, type_name(input)?);
     let type_doc = doc(&input.attrs);
     let mut described = vec![];
     let mut idents = vec![];

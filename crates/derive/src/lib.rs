@@ -23,6 +23,9 @@ use syn::{Data, DeriveInput, parse_macro_input};
 /// - `#[serde(skip)]`: the field is not described.
 /// - `#[serde(rename = "..NAME")]`: the fields of the field stand among those of the struct.
 /// - `#[serde(skip_serializing_if = ...)]`: the field may be absent in a result.
+///
+/// `#[option(name = "...")]` on the type gives its name outside Rust, where that of the type would not
+/// be the only one.
 #[proc_macro_derive(Described, attributes(option))]
 pub fn described(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);

@@ -1,6 +1,6 @@
 //! Structs with named fields.
 
-use crate::attributes::{FieldOptions, Range, Serde, doc};
+use crate::attributes::{FieldOptions, Range, Serde, doc, type_name};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{DeriveInput, Fields, Result, Type};
@@ -9,7 +9,7 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
     let Fields::Named(fields) = fields else {
         return Err(syn::Error::new_spanned(input, "the fields of a record have names"));
     };
-    let (ident, name, type_doc) = (&input.ident, input.ident.to_string(), doc(&input.attrs));
+    let (ident, name, type_doc) = (&input.ident, type_name(input)?, doc(&input.attrs));
     if !input.generics.params.is_empty() {
         return Err(syn::Error::new_spanned(&input.generics, "a record has no parameters"));
     }

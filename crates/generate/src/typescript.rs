@@ -101,6 +101,7 @@ impl Types {
         if !self.known.insert(choice.name) {
             return;
         }
+
         let names: Vec<String> =
             choice.variants.iter().map(|(name, _)| format!("'{name}'")).collect();
         let list: String =

@@ -10,8 +10,6 @@ use boresight_image::ImageError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
-use serde::de::{Expected, Unexpected};
-use std::fmt::Display;
 use thiserror::Error;
 use wasm_bindgen::JsValue;
 
@@ -149,35 +147,6 @@ impl BindingError {
             }
             other => other,
         }
-    }
-}
-
-impl serde::de::Error for BindingError {
-    fn custom<T: Display>(message: T) -> Self {
-        Self::Type { what: String::new(), expected: message.to_string(), given: "another".into() }
-    }
-
-    fn invalid_type(given: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        let (expected, given) = (expected.to_string(), given.to_string());
-        Self::Type { what: String::new(), expected, given }
-    }
-
-    fn invalid_value(given: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::invalid_type(given, expected)
-    }
-
-    fn unknown_variant(given: &str, expected: &'static [&'static str]) -> Self {
-        let (what, expected, given) = (String::new(), expected.join(", "), given.into());
-        CoreError::Unknown { what, expected, given }.into()
-    }
-
-    fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
-        Self::UnknownField { what: field.into(), expected: expected.join(", ") }
-    }
-
-    fn missing_field(field: &'static str) -> Self {
-        let what = crate::carry::property(field).name.into();
-        Self::Missing { what, expected: "a value".into() }
     }
 }
 

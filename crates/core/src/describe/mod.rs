@@ -28,12 +28,14 @@
 mod check;
 pub mod columns;
 pub mod decibels;
+mod difference;
 mod kinds;
 mod named;
 pub mod naming;
 
 pub use boresight_derive::Described;
 pub use check::{At, Naming, check};
+pub use difference::differing_fields;
 pub use named::Named;
 
 use crate::error::CoreError;

@@ -8,6 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Roads and traffic of a drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Described, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[option(name = "DriveScenario")]
 pub enum Scenario {
     /// Streets with junctions, roundabouts, lights, parked cars, pedestrians.
     #[default]

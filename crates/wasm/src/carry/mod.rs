@@ -4,6 +4,7 @@
 
 mod names;
 mod read;
+mod refusal;
 mod write;
 
 pub use names::property;

@@ -1,6 +1,7 @@
 //! Options out of JavaScript objects.
 
 use super::names::property;
+use super::refusal::ReadError;
 use crate::error::{BindingError, Fallible};
 use crate::read::{shortened, wrong_type};
 use boresight_core::CoreError;
@@ -13,6 +14,9 @@ use serde::de::{
 };
 use serde::forward_to_deserialize_any;
 use std::cell::RefCell;
+use std::iter::Zip;
+use std::ops::RangeFrom;
+use std::slice::Iter;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// Most items of an array: a longer one, which may well be empty, would not fit into memory.
@@ -52,6 +56,8 @@ fn check_required(object: &Object, record: &Record, at: &At<'_>) -> Fallible<()>
     Ok(())
 }
 
+type Reading<T> = Result<T, ReadError>;
+
 /// A value on its way into Rust.
 pub struct Reader<'a> {
     value: JsValue,
@@ -78,14 +84,19 @@ impl<'a> Reader<'a> {
         Ok(read)
     }
 
-    fn wrong_type(&self, expected: &str) -> BindingError {
+    fn wrong_type(&self, expected: &str) -> ReadError {
         let path = self.at.path();
         let what = if path.is_empty() { "options" } else { &path };
-        wrong_type(what, expected, &self.value)
+        wrong_type(what, expected, &self.value).into()
     }
 
-    fn out_of_range(&self, expected: &str, given: f64) -> BindingError {
-        CoreError::OutOfRange { what: self.at.path(), expected: expected.into(), given }.into()
+    fn out_of_range(&self, expected: &str, given: f64) -> ReadError {
+        BindingError::from(CoreError::OutOfRange {
+            what: self.at.path(),
+            expected: expected.into(),
+            given,
+        })
+        .into()
     }
 
     /// What serde-wasm-bindgen reads of the value.
@@ -93,7 +104,7 @@ impl<'a> Reader<'a> {
         serde_wasm_bindgen::Deserializer::from(self.value.clone())
     }
 
-    fn number(&self) -> Fallible<f64> {
+    fn number(&self) -> Reading<f64> {
         let given = self.value.as_f64().ok_or_else(|| self.wrong_type("a number"))?;
         if !given.is_finite() {
             return Err(self.out_of_range("a finite number", given));
@@ -101,7 +112,7 @@ impl<'a> Reader<'a> {
         Ok(if self.is_angle { given.to_radians() } else { given })
     }
 
-    fn items(&self) -> Fallible<&Array> {
+    fn items(&self) -> Reading<&Array> {
         if !Array::is_array(&self.value) {
             return Err(self.wrong_type("an array"));
         }
@@ -112,7 +123,7 @@ impl<'a> Reader<'a> {
         Ok(array)
     }
 
-    fn whole<'de, V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn whole<'de, V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         let expected = "a whole number from 0 to 2^53 - 1, or a bigint up to 2^64 - 1";
         let is_number = self.value.as_f64();
         if is_number.is_none() && !self.value.is_bigint() {
@@ -126,10 +137,10 @@ impl<'a> Reader<'a> {
 }
 
 impl<'de> Deserializer<'de> for Reader<'_> {
-    type Error = BindingError;
+    type Error = ReadError;
 
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
-        let placed = |error: BindingError| error.at(&self.at);
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
+        let placed = |error: ReadError| error.at(&self.at);
         if let Some(number) = self.value.as_f64() {
             if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) {
                 return visitor.visit_u64(number as u64).map_err(placed);
@@ -149,41 +160,41 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         Err(self.wrong_type(&expected))
     }
 
-    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         let truth = self.value.as_bool().ok_or_else(|| self.wrong_type("true or false"))?;
         visitor.visit_bool(truth)
     }
 
-    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         visitor.visit_f64(self.number()?)
     }
 
-    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         self.deserialize_f64(visitor)
     }
 
-    fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         self.whole(visitor)
     }
 
-    fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         self.whole(visitor)
     }
 
-    fn deserialize_u16<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_u16<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         self.whole(visitor)
     }
 
-    fn deserialize_u8<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_u8<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         self.whole(visitor)
     }
 
-    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         let text = self.value.as_string().ok_or_else(|| self.wrong_type("a string"))?;
-        visitor.visit_string(text).map_err(|error: BindingError| error.at(&self.at))
+        visitor.visit_string(text).map_err(|error: ReadError| error.at(&self.at))
     }
 
-    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         self.deserialize_string(visitor)
     }
 
@@ -192,15 +203,15 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         _: &'static str,
         variants: &'static [&'static str],
         visitor: V,
-    ) -> Fallible<V::Value> {
+    ) -> Reading<V::Value> {
         let Some(name) = self.value.as_string() else {
             return Err(self.wrong_type(&format!("one of {}", variants.join(", "))));
         };
-        let name: StringDeserializer<BindingError> = shortened(&name).into_deserializer();
+        let name: StringDeserializer<ReadError> = shortened(&name).into_deserializer();
         visitor.visit_enum(name).map_err(|error| error.at(&self.at))
     }
 
-    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         if self.value.is_undefined() || self.value.is_null() {
             return visitor.visit_none();
         }
@@ -211,25 +222,30 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         self,
         _: &'static str,
         visitor: V,
-    ) -> Fallible<V::Value> {
+    ) -> Reading<V::Value> {
         visitor.visit_newtype_struct(self)
     }
 
-    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         let array = self.items()?;
         visitor.visit_seq(Items { array, at: &self.at, is_angle: self.is_angle, next: 0 })
     }
 
-    fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Reading<V::Value> {
         let given = self.items()?.length() as usize;
         if given != len {
             let (what, expected) = (self.at.path(), format!("[{len}]"));
-            return Err(CoreError::Shape { what, expected, given: vec![given] }.into());
+            return Err(BindingError::from(CoreError::Shape {
+                what,
+                expected,
+                given: vec![given],
+            })
+            .into());
         }
         self.deserialize_seq(visitor)
     }
 
-    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         let object: &Object = self.value.unchecked_ref();
         let entries = Entries {
             object,
@@ -246,7 +262,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         _: &'static str,
         fields: &'static [&'static str],
         visitor: V,
-    ) -> Fallible<V::Value> {
+    ) -> Reading<V::Value> {
         let is_plain =
             self.value.is_object() && !Array::is_array(&self.value) && !self.value.is_function();
         if !is_plain {
@@ -255,7 +271,8 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         let object: &Object = self.value.unchecked_ref();
         let own = Known::default();
         let known = self.known.unwrap_or(&own);
-        let found = FieldsOf { object, fields: fields.iter(), at: &self.at, known, next: None };
+        let fields = (0_u64..).zip(fields);
+        let found = FieldsOf { object, fields, at: &self.at, known, next: None };
         let read = visitor.visit_map(found).map_err(|error| error.at(&self.at))?;
         if self.known.is_none() {
             refuse_unknown(object, &self.at, &own.borrow())?;
@@ -263,7 +280,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         Ok(read)
     }
 
-    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Fallible<V::Value> {
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         visitor.visit_unit()
     }
 
@@ -302,20 +319,21 @@ pub fn refuse_unknown(object: &Object, at: &At<'_>, known: &[&'static str]) -> F
 /// The fields of a struct out of an object.
 struct FieldsOf<'a> {
     object: &'a Object,
-    fields: std::slice::Iter<'static, &'static str>,
+    /// By their place, which serde takes for a name and compares at no cost.
+    fields: Zip<RangeFrom<u64>, Iter<'static, &'static str>>,
     at: &'a At<'a>,
     known: &'a Known,
     next: Option<(&'static str, JsValue, bool)>,
 }
 
 impl<'de> MapAccess<'de> for FieldsOf<'_> {
-    type Error = BindingError;
+    type Error = ReadError;
 
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Fallible<Option<K::Value>> {
-        for &field in self.fields.by_ref() {
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
+        for (place, &field) in self.fields.by_ref() {
             if field.starts_with("..") {
                 self.next = Some((field, self.object.clone().into(), false));
-                return seed.deserialize(field.into_deserializer()).map(Some);
+                return seed.deserialize(place.into_deserializer()).map(Some);
             }
             let property = property(field);
             self.known.borrow_mut().push(property.name);
@@ -327,13 +345,13 @@ impl<'de> MapAccess<'de> for FieldsOf<'_> {
                 })?;
             if !value.is_undefined() {
                 self.next = Some((field, value, property.is_angle));
-                return seed.deserialize(field.into_deserializer()).map(Some);
+                return seed.deserialize(place.into_deserializer()).map(Some);
             }
         }
         Ok(None)
     }
 
-    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Fallible<V::Value> {
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
         let (field, value, is_angle) = self.next.take().unwrap_or(("", JsValue::UNDEFINED, false));
         let spread = field.starts_with("..");
         let inner = self.at.field(field);
@@ -352,12 +370,9 @@ struct Items<'a> {
 }
 
 impl<'de> SeqAccess<'de> for Items<'_> {
-    type Error = BindingError;
+    type Error = ReadError;
 
-    fn next_element_seed<T: DeserializeSeed<'de>>(
-        &mut self,
-        seed: T,
-    ) -> Fallible<Option<T::Value>> {
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Reading<Option<T::Value>> {
         if self.next >= self.array.length() {
             return Ok(None);
         }
@@ -383,23 +398,23 @@ struct Entries<'a> {
 }
 
 impl<'de> MapAccess<'de> for Entries<'_> {
-    type Error = BindingError;
+    type Error = ReadError;
 
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Fallible<Option<K::Value>> {
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
         while self.next < self.keys.length() {
             let key = self.keys.get(self.next);
             if Reflect::get(self.object, &key).is_ok_and(|value| value.is_undefined()) {
                 self.next += 1;
                 continue;
             }
-            let name: StringDeserializer<BindingError> =
+            let name: StringDeserializer<ReadError> =
                 key.as_string().unwrap_or_default().into_deserializer();
             return seed.deserialize(name).map(Some);
         }
         Ok(None)
     }
 
-    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Fallible<V::Value> {
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
         let key = self.keys.get(self.next);
         self.next += 1;
         let name = key.as_string().unwrap_or_default();

@@ -1,0 +1,175 @@
+//! Every field of every options struct, one at a time: a legal value that is not its default goes
+//! through JavaScript, and in Rust this field, and no other, has changed.
+
+#![cfg(target_arch = "wasm32")]
+
+use boresight_core::describe::{Described, Field, Kind, Record, differing_fields, naming};
+use boresight_wasm::carry;
+use js_sys::{Array, Object, Reflect};
+use serde::de::DeserializeOwned;
+use std::fmt::Debug;
+use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen_test::wasm_bindgen_test;
+
+#[wasm_bindgen_test]
+fn options_of_estimators() {
+    every_field::<boresight_aoa::Options>(28);
+}
+
+#[wasm_bindgen_test]
+fn options_of_the_chain() {
+    every_field::<boresight_pipeline::ChainOptions>(45);
+}
+
+#[wasm_bindgen_test]
+fn options_of_calibration() {
+    every_field::<boresight_calibrate::Options>(19);
+}
+
+#[wasm_bindgen_test]
+fn options_of_drives() {
+    every_field::<boresight_simulate::DriveOptions>(19);
+}
+
+#[wasm_bindgen_test]
+fn options_of_streets() {
+    every_field::<boresight_simulate::StreetOptions>(2);
+}
+
+#[wasm_bindgen_test]
+fn results_come_back_whole() {
+    let options = boresight_calibrate::Options {
+        nominal_rad: Some(0.25),
+        seed: 7,
+        ..boresight_calibrate::Options::default()
+    };
+    let there = carry::write(&options);
+    let back: boresight_calibrate::Options = carry::read(&there).unwrap();
+    assert!((back.nominal_rad.unwrap() - 0.25).abs() < 1e-15);
+    let field = |name: &str| Reflect::get(&there, &name.into()).unwrap();
+    assert!((field("nominalDeg").as_f64().unwrap() - 0.25_f64.to_degrees()).abs() < 1e-12);
+    assert_eq!(field("motion"), JsValue::NULL);
+    assert_eq!(field("method"), JsValue::from("recursive"));
+}
+
+/// A field to set: the names in JavaScript that lead to it, and its description.
+struct Leaf {
+    path: Vec<String>,
+    /// As `Debug` of the struct names it.
+    rust: Vec<String>,
+    field: &'static Field,
+}
+
+fn every_field<T: Described + DeserializeOwned + Debug + Default>(count: usize) {
+    let Kind::Record(record) = T::KIND else { panic!("a record") };
+    let mut leaves = vec![];
+    collect(record, &[], &[], &mut leaves);
+    assert_eq!(leaves.len(), count, "fields of {}", record.name);
+    let plain: T = carry::read(&with_required(record)).unwrap();
+    for leaf in leaves {
+        let mut has_changed = false;
+        for value in other_values(leaf.field, &leaf.field.kind) {
+            let options = with_required(record);
+            set(&options, &leaf.path, &value);
+            let changed: T = carry::read(&options)
+                .unwrap_or_else(|error| panic!("{}: {error}", leaf.path.join(".")));
+            let differing = differing_fields(&plain, &changed);
+            // One of the names of a choice is the default.
+            if !differing.is_empty() {
+                let own = leaf.rust.join(".");
+                let is_own = |field: &String| {
+                    field
+                        .strip_prefix(&own)
+                        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+                };
+                assert!(differing.iter().all(is_own), "{}: {differing:?}", leaf.path.join("."));
+                has_changed = true;
+            }
+        }
+        assert!(has_changed, "{} changes nothing", leaf.path.join("."));
+    }
+}
+
+fn collect(record: &Record, above: &[String], rust: &[String], leaves: &mut Vec<Leaf>) {
+    for field in record.fields {
+        let spread = field.name.strip_prefix("..");
+        let rust = [rust, &[spread.unwrap_or(field.name).to_owned()]].concat();
+        let path = match spread {
+            Some(_) => above.to_vec(),
+            None => [above, &[naming::javascript(field.name)]].concat(),
+        };
+        match field.kind {
+            Kind::Record(inner) => collect(inner, &path, &rust, leaves),
+            _ => leaves.push(Leaf { path, rust, field }),
+        }
+    }
+}
+
+/// An object with the fields that options have to name.
+fn with_required(record: &Record) -> JsValue {
+    let object = Object::new();
+    for field in record.fields.iter().filter(|field| field.required) {
+        let value = first_value(&field.kind);
+        Reflect::set(&object, &naming::javascript(field.name).into(), &value).unwrap();
+    }
+    object.into()
+}
+
+fn first_value(kind: &Kind) -> JsValue {
+    match kind {
+        Kind::Choice(choice) => choice.variants[0].0.into(),
+        _ => 1.0.into(),
+    }
+}
+
+/// Legal values, of which one at least is not the default.
+fn other_values(field: &Field, kind: &Kind) -> Vec<JsValue> {
+    let number = |whole: bool| {
+        let (low, high) = field.range.map_or((0.0, 10.0), |range| (range.low, range.high));
+        let high = if high.is_finite() { high } else { low + 10.0 };
+        // Not the middle, which may well be the default.
+        let number = low + 0.37 * (high - low);
+        JsValue::from(if whole { number.max(low + 1.0).floor() } else { number })
+    };
+    match kind {
+        Kind::Number => vec![number(false)],
+        Kind::Whole | Kind::Seed => vec![number(true)],
+        Kind::Truth => vec![true.into(), false.into()],
+        Kind::Choice(choice) => choice.variants.iter().map(|(name, _)| (*name).into()).collect(),
+        Kind::Optional(inner) => other_values(field, inner),
+        Kind::Tuple(inner, length) => other_values(field, inner)
+            .into_iter()
+            .map(|value| std::iter::repeat_n(value, *length).collect::<Array>().into())
+            .collect(),
+        Kind::Special(special) if special.flag == "N=DEG" => {
+            let angles = Object::new();
+            Reflect::set(&angles, &"1".into(), &2.0.into()).unwrap();
+            vec![angles.into()]
+        }
+        Kind::Special(_) => vec![3.0.into(), "aic".into()],
+        Kind::List(Kind::Record(record)) => {
+            let object = Object::new();
+            assert_eq!(record.name, "PlacedRadar");
+            for (i, name) in ["id", "xM", "yM", "yawDeg"].into_iter().enumerate() {
+                Reflect::set(&object, &name.into(), &(i as f64 + 5.0).into()).unwrap();
+            }
+            vec![Array::of1(&object).into()]
+        }
+        Kind::Text => vec!["a name".into()],
+        Kind::List(_) | Kind::Numbers(_) | Kind::Record(_) => vec![],
+    }
+}
+
+fn set(object: &JsValue, path: &[String], value: &JsValue) {
+    let (name, rest) = path.split_first().unwrap();
+    if rest.is_empty() {
+        Reflect::set(object, &name.into(), value).unwrap();
+        return;
+    }
+    let mut inner = Reflect::get(object, &name.into()).unwrap();
+    if !inner.is_object() {
+        inner = Object::new().unchecked_into();
+        Reflect::set(object, &name.into(), &inner).unwrap();
+    }
+    set(&inner, rest, value);
+}
