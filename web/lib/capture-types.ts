@@ -1,12 +1,5 @@
 /** From frames to detections: the chain, captures and what a board reports. */
-import type {
-  ArrayGeometry,
-  ArrayInput,
-  DetectionOptions,
-  Warning,
-  Waveform,
-  WaveformSummary,
-} from './types.js';
+import type { ArrayGeometry, ArrayInput, DetectionOptions, Warning, Waveform, WaveformSummary } from './types.js';
 
 /** Options of the chain from frames to detections. */
 export interface ChainOptions extends DetectionOptions {

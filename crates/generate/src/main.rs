@@ -7,6 +7,8 @@ mod schema;
 mod typescript;
 mod values;
 
+#[cfg(test)]
+use boresight_core::describe::Kind;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use thiserror::Error;
@@ -39,15 +41,9 @@ fn run() -> Result<(), GenerateError> {
         Some("--check") => true,
         Some(other) => return Err(GenerateError::Argument(other.into())),
     };
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let entries = catalogue::entries()?;
-    let files = [
-        ("web/lib/generated/options.ts", typescript::module(&entries)),
-        ("web/lib/generated/schema.json", schema::document(&entries)?),
-        ("docs/options.md", docs::page(&entries)),
-    ];
+    let root = root();
     let mut stale = vec![];
-    for (name, text) in files {
+    for (name, text) in files()? {
         let path = root.join(name);
         let failed = |error| GenerateError::File { path: path.clone(), error };
         if std::fs::read_to_string(&path).is_ok_and(|there| there == text) {
@@ -63,4 +59,66 @@ fn run() -> Result<(), GenerateError> {
         std::fs::write(&path, text).map_err(failed)?;
     }
     if stale.is_empty() { Ok(()) } else { Err(GenerateError::Stale(stale.join(", "))) }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// The files by their place in the checkout, and what they should hold.
+fn files() -> Result<[(&'static str, String); 3], GenerateError> {
+    let entries = catalogue::entries()?;
+    Ok([
+        ("web/lib/generated/options.ts", typescript::module(&entries)),
+        ("web/lib/generated/schema.json", schema::document(&entries)?),
+        ("docs/options.md", docs::page(&entries)),
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn generated_files_are_those_of_the_descriptions() {
+        for (name, text) in files().unwrap() {
+            let there = std::fs::read_to_string(root().join(name)).unwrap();
+            assert!(there == text, "{name} is stale: `npm run generate` writes it");
+        }
+    }
+
+    #[test]
+    fn one_name_means_one_type() {
+        let module = files().unwrap()[0].1.clone();
+        let mut names: Vec<&str> = module
+            .lines()
+            .filter_map(|line| line.strip_prefix("export ")?.split_whitespace().nth(1))
+            .collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count);
+        let mut kinds = vec![];
+        for entry in catalogue::entries().unwrap() {
+            collect(&Kind::Record(entry.record), &mut kinds);
+        }
+        for (name, kind) in &kinds {
+            let same = kinds.iter().filter(|(other, _)| other == name);
+            assert!(same.into_iter().all(|(_, other)| other == kind), "two types are called {name}");
+        }
+    }
+
+    fn collect(kind: &Kind, kinds: &mut Vec<(&'static str, Kind)>) {
+        match *kind {
+            Kind::Choice(choice) => kinds.push((choice.name, *kind)),
+            Kind::Record(record) => {
+                kinds.push((record.name, *kind));
+                record.fields.iter().for_each(|field| collect(&field.kind, kinds));
+            }
+            Kind::Optional(inner) | Kind::List(inner) | Kind::Tuple(inner, _) => {
+                collect(inner, kinds);
+            }
+            _ => {}
+        }
+    }
 }

@@ -284,6 +284,18 @@ export interface DetectionOptions {
 }
 
 /**
+ * How the mounting angle is estimated.
+ *
+ * - `weighted-mean`: Weighted mean of the frames' angles, scale taken as 1 (Kellner et al. 2015).
+ * - `kabsch`: Rotation between the vehicle's and the radar's velocities (Bao et al. 2020; Kabsch 1976).
+ * - `least-squares`: Weighted least squares in angle and inverse scale (Zhu et al., equations 11 to 13).
+ * - `orthogonal-distance`: Weighted orthogonal distance regression in angle and inverse scale.
+ * - `recursive`: Recursive robust maximum likelihood: one frame at a time, with bias, scale and side slip as further
+ * unknowns.
+ */
+export type CalibrationMethod = 'weighted-mean' | 'kabsch' | 'least-squares' | 'orthogonal-distance' | 'recursive';
+
+/**
  * How the radar's motion is estimated from a frame.
  *
  * - `ransac`: RANSAC, then least squares on the inliers (Kellner et al. 2013).
@@ -299,7 +311,7 @@ export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-dis
  */
 export interface CalibrationOptions {
   /** How the angle is estimated (default 'recursive'). */
-  method: Method;
+  method: CalibrationMethod;
   /** How the motion is estimated; the way that belongs to the method if absent. */
   motion?: MotionMethod;
   /** The radar's place ahead of the rear axle (-100 to 100 m; default 0). */
@@ -351,7 +363,7 @@ export interface CalibrationOptions {
  * - `stop-and-go`: A queue on a city road.
  * - `dense-traffic`: Vehicles on all sides at nearly the car's speed.
  */
-export type Scenario = 'city' | 'country-road' | 'motorway' | 'car-park' | 'stop-and-go' | 'dense-traffic';
+export type DriveScenario = 'city' | 'country-road' | 'motorway' | 'car-park' | 'stop-and-go' | 'dense-traffic';
 
 /** A radar of a simulated drive. */
 export interface PlacedRadar {
@@ -389,7 +401,7 @@ export interface RadarNoise {
 /** A drive to simulate. */
 export interface SimulateDriveOptions {
   /** Roads and traffic (default 'city'). */
-  scenario?: Scenario;
+  scenario?: DriveScenario;
   /** Everything random comes from it (default 0). */
   seed?: number | bigint;
   /** Length of the drive; four radars for an hour at most, or as much by fewer (1 to 7200 s; default 60). */
