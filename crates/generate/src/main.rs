@@ -104,7 +104,10 @@ mod tests {
         }
         for (name, kind) in &kinds {
             let same = kinds.iter().filter(|(other, _)| other == name);
-            assert!(same.into_iter().all(|(_, other)| other == kind), "two types are called {name}");
+            assert!(
+                same.into_iter().all(|(_, other)| other == kind),
+                "two types are called {name}"
+            );
         }
     }
 

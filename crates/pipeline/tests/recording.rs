@@ -115,9 +115,10 @@ fn frames_combined_have_both_targets() {
 #[test]
 fn each_method_finds_the_targets() {
     for method in Method::ALL {
-        let mut options = ChainOptions { method, ..ChainOptions::default() };
-        options.angle.sources = SourceCount::Known(1);
-        options.angle.nomp.max_sources = 1;
+        let mut options = ChainOptions::default();
+        options.angle.method = method;
+        options.angle.options.sources = SourceCount::Known(1);
+        options.angle.options.nomp.max_sources = 1;
         let result = match combined(&options) {
             Ok(result) => result,
             Err(Failure::Pipeline(PipelineError::Angle(AoaError::Snapshots { .. }))) => {
@@ -190,7 +191,7 @@ fn cells_give_snapshots_and_spectra() {
     let snapshots = chain.cell_snapshots(&recording, 0..8, 58, 8).unwrap();
     assert_eq!(snapshots.dim(), (8, 8));
     let estimate = chain
-        .cell_spectrum(snapshots.view(), Method::Bartlett, &ChainOptions::default().angle)
+        .cell_spectrum(snapshots.view(), Method::Bartlett, &ChainOptions::default().angle.options)
         .unwrap();
     let azimuth_deg = estimate.sources[0].direction.azimuth_rad.to_degrees();
     assert!((azimuth_deg + 10.8).abs() < 1.0, "{azimuth_deg}");

@@ -118,7 +118,8 @@ fn two_targets_of_one_cell_are_told_apart() {
     let waveform = Waveform { transmitters: 6, ..waveform };
     let targets = [target(6.0, 0.0, -4.0, 0.0), target(6.0, 0.0, 6.0, -4.0)];
     for method in [Method::Bartlett, Method::Iaa] {
-        let options = ChainOptions { method, ..ChainOptions::default() };
+        let mut options = ChainOptions::default();
+        options.angle.method = method;
         let result = run(&waveform, &array, &targets, 20.0, &options);
         let strongest: Vec<f64> =
             result.detections.iter().take(2).map(|d| d.azimuth_rad.to_degrees()).collect();
@@ -181,9 +182,10 @@ fn targets_that_leave_their_cell_are_remarked() {
 fn methods_that_count_sources_work_on_one_frame_by_smoothing() {
     let (waveform, array) = (waveform_awr1642(), preset("awr1642").unwrap());
     let targets = [target(5.0, 1.0, 20.0, 0.0)];
-    let mut options = ChainOptions { method: Method::RootMusic, ..ChainOptions::default() };
-    options.angle.sources = SourceCount::Known(1);
-    options.angle.smoothing = Some(5);
+    let mut options = ChainOptions::default();
+    options.angle.method = Method::RootMusic;
+    options.angle.options.sources = SourceCount::Known(1);
+    options.angle.options.smoothing = Some(5);
     let result = run(&waveform, &array, &targets, 20.0, &options);
     assert_found(&result, &targets, &waveform);
 }

@@ -37,7 +37,7 @@ fn chain(criterion: &mut Criterion) {
     for (name, kind) in [
         ("cfar cell-averaging", CfarKind::CellAveraging),
         ("cfar greatest-of", CfarKind::GreatestOf),
-        ("cfar ordered-statistic", CfarKind::OrderedStatistic { rank: 0.75 }),
+        ("cfar ordered-statistic", CfarKind::OrderedStatistic),
     ] {
         let mut cfar = Cfar::new(256, 128, &CfarOptions { kind, ..base }).unwrap();
         group.bench_function(name, |b| {

@@ -16,7 +16,7 @@ const KINDS: [CfarKind; 4] = [
     CfarKind::CellAveraging,
     CfarKind::GreatestOf,
     CfarKind::SmallestOf,
-    CfarKind::OrderedStatistic { rank: 0.75 },
+    CfarKind::OrderedStatistic,
 ];
 
 /// Maps whose cells are means of `looks` exponential powers.
@@ -71,8 +71,8 @@ fn rates_are_as_asked_inside_and_at_edges() {
                     kind,
                     axes,
                     false_alarm: FALSE_ALARM,
-                    guard: [1, 1],
-                    training: [5, 3],
+                    guard_cells: [1, 1],
+                    training_cells: [5, 3],
                     looks,
                     ..CfarOptions::default()
                 };
@@ -102,8 +102,8 @@ fn low_rates_are_as_asked() {
             kind,
             axes: CfarAxes::Range,
             false_alarm: 1e-4,
-            guard: [1, 0],
-            training: [6, 0],
+            guard_cells: [1, 0],
+            training_cells: [6, 0],
             looks: 2,
             ..CfarOptions::default()
         };
@@ -122,9 +122,10 @@ fn noise_power_is_without_bias() {
     for kind in KINDS {
         let options = CfarOptions {
             kind,
+            axes: CfarAxes::Both,
             false_alarm: 0.5,
-            guard: [1, 1],
-            training: [4, 3],
+            guard_cells: [1, 1],
+            training_cells: [4, 3],
             looks: 4,
             ..CfarOptions::default()
         };
@@ -171,8 +172,8 @@ fn windowed_noise_keeps_the_rate() {
             kind,
             axes,
             false_alarm: 1e-3,
-            guard: [3, 3],
-            training: [6, 6],
+            guard_cells: [3, 3],
+            training_cells: [6, 6],
             looks: 1,
             correlation,
         };

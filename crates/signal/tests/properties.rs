@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use boresight_core::describe::Named;
 use boresight_core::{Complex32, Complex64, Waveform};
 use boresight_signal::region::{crop_region, range_spectrum, region_covariance};
 use boresight_signal::{
@@ -20,12 +21,7 @@ fn any_count() -> impl Strategy<Value = usize> {
 }
 
 fn any_kind() -> impl Strategy<Value = CfarKind> {
-    prop_oneof![
-        Just(CfarKind::CellAveraging),
-        Just(CfarKind::GreatestOf),
-        Just(CfarKind::SmallestOf),
-        any_number().prop_map(|rank| CfarKind::OrderedStatistic { rank }),
-    ]
+    prop::sample::select(CfarKind::VARIANTS)
 }
 
 fn any_window() -> impl Strategy<Value = Window> {
@@ -43,17 +39,18 @@ proptest! {
     #[test]
     fn cfar_detects_or_says_why_not(
         kind in any_kind(),
+        rank in any_number(),
         axes in prop::sample::select(vec![CfarAxes::Range, CfarAxes::Doppler, CfarAxes::Both]),
         false_alarm in prop_oneof![3 => 1e-9..0.5, 1 => any_number()],
-        guard in prop::array::uniform2(any_count()),
-        training in prop::array::uniform2(any_count()),
+        guard_cells in prop::array::uniform2(any_count()),
+        training_cells in prop::array::uniform2(any_count()),
         looks in prop_oneof![3 => 1..20_usize, 1 => any_count()],
         ranges in prop_oneof![3 => 1..40_usize, 1 => any_count()],
         dopplers in prop_oneof![3 => 1..40_usize, 1 => any_count()],
         cells in prop::collection::vec(prop_oneof![0.0_f32..9.0, any::<f32>()], 1..9),
     ) {
         let options = CfarOptions {
-            kind, axes, false_alarm, guard, training, looks, correlation: [1.0, 2.0],
+            kind, axes, false_alarm, guard_cells, training_cells, rank, looks, correlation: [1.0, 2.0],
         };
         // A map of a gigabyte is allowed, and not for a test to make.
         prop_assume!(ranges.saturating_mul(dopplers) < 1 << 20 || ranges.min(dopplers) > 1 << 14);
