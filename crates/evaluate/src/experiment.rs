@@ -65,11 +65,14 @@ pub trait Report: Serialize {
     /// As comma-separated values with a line of heads.
     fn csv(&self) -> String;
 
-    /// Figures as SVG, each with its name.
+    /// Names of the files of its figures.
+    const FIGURES: &'static [&'static str];
+
+    /// Figures as SVG, in the order of their names; the last ones may be lacking.
     ///
     /// # Errors
     /// [`EvaluateError::Figure`].
-    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError>;
+    fn figures(&self) -> Result<Vec<String>, EvaluateError>;
 
     /// As indented JSON; what is no number is `null`.
     fn json(&self) -> String {
@@ -155,6 +158,11 @@ pub fn run<E: Experiment>(
     let legs = records(options, how, Part::WHOLE, progress)?;
     let scenes = side_by_side::<E>(legs);
     Ok(options.report(&plan, scenes.into_values()))
+}
+
+/// Whether a folder has records of an experiment's whole run, by any of its entrants, from which it would go on.
+pub fn is_recorded<E: Experiment>(options: &E, folder: &Path) -> bool {
+    legs(options).iter().any(|leg| folder.join(file_name(leg, Part::WHOLE)).exists())
 }
 
 /// Runs one part of the scenes, whose records [`crate::merge`] puts together with the others', and returns
@@ -278,7 +286,8 @@ mod tests {
             fn csv(&self) -> String {
                 String::new()
             }
-            fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
+            const FIGURES: &'static [&'static str] = &[];
+            fn figures(&self) -> Result<Vec<String>, EvaluateError> {
                 Ok(vec![])
             }
         }

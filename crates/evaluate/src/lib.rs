@@ -21,4 +21,4 @@ mod told;
 
 pub use entrants::{Entrants, Network};
 pub use error::EvaluateError;
-pub use merge::{Outcome, merge};
+pub use merge::{Merged, Outcome, merge};

@@ -57,7 +57,7 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
     }
     assert!(report.tables().contains("keeps 95 %"));
     assert_eq!(report.csv().lines().count(), 1 + 25 * report.methods.len());
-    assert!(report.figures().unwrap()[0].1.contains("deviation of phase"));
+    assert!(report.figures().unwrap()[0].contains("deviation of phase"));
     let between = Options { snr_db: 26.0, ..options };
     assert!(run(&between, HOW, |_| ControlFlow::Continue(())).is_err());
 }

@@ -6,7 +6,7 @@ mod track;
 use crate::arguments::CalibrateArguments;
 use crate::drive::open_path;
 use crate::error::CliError;
-use crate::files;
+use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_calibrate::{
@@ -33,9 +33,9 @@ struct Calibrated {
 }
 
 /// The angles, as text or JSON.
-pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
+pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliError> {
     let format = arguments.format.as_deref().map(DriveFormat::from_name).transpose()?;
-    let read = open_path(&arguments.paths, format, arguments.sequence.as_deref())?;
+    let read = open_path(&arguments.paths, format, arguments.sequence.as_deref(), files)?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     let log = &read.log;
     let shown = chosen(log, arguments.sensor)?;
@@ -46,6 +46,8 @@ pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
             given: "not given".into(),
         });
     }
+    let trajectory =
+        arguments.trajectory.as_deref().map(|path| files.destination(path)).transpose()?;
     let run = Run::start("frames")?;
     let mut results = if arguments.joint {
         jointly(arguments, log, &run)?
@@ -55,7 +57,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
     };
     run.finish();
     results.retain(|result| shown.iter().any(|sensor| sensor.id == result.sensor));
-    if let (Some(path), [result]) = (&arguments.trajectory, &results[..]) {
+    if let (Some(trajectory), [result]) = (trajectory, &results[..]) {
         let csv =
             result.track.csv(result.estimate.angle_rad, &result.options).ok_or_else(|| {
                 CliError::Option {
@@ -65,7 +67,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
                     given: format!("radar {}, x {} m", result.sensor, result.options.x_m),
                 }
             })?;
-        files::write(path, csv.as_bytes())?;
+        files.write(trajectory, csv.as_bytes())?;
     }
     Ok(if arguments.json {
         let mut objects: Vec<Value> = results.iter().map(report::json).collect();
