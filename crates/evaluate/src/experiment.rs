@@ -16,6 +16,8 @@ use std::path::Path;
 pub trait Experiment: Serialize + DeserializeOwned + Clone + PartialEq + Sync {
     /// Name on the command line and of its files.
     const NAME: &'static str;
+    /// Counts the changes of what comes of a scene, so that records from before are not mixed with those from after.
+    const REVISION: u32 = 0;
     /// What scenes share.
     type Plan: Sync;
     /// What is kept of a scene.
@@ -258,12 +260,16 @@ pub(crate) fn file_name<E: Experiment>(leg: &E, part: Part) -> String {
 
 /// What heads the records: experiment, version, methods and options.
 pub(crate) fn setup<E: Experiment>(options: &E, plan: &E::Plan) -> Value {
-    json!({
+    let mut head = json!({
         "experiment": E::NAME,
         "version": env!("CARGO_PKG_VERSION"),
         "methods": E::methods(plan),
         "options": options,
-    })
+    });
+    if let (1.., Some(head)) = (E::REVISION, head.as_object_mut()) {
+        head.insert("revision".into(), E::REVISION.into());
+    }
+    head
 }
 
 #[cfg(test)]
