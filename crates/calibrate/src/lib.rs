@@ -28,6 +28,6 @@ pub use error::CalibrateError;
 pub use estimate::{AngleEstimate, FrameCounts, Remark};
 pub use frame::{FrameInput, FrameOutcome, Motion, Verdict};
 pub use joint::Joint;
-pub use motion::MotionEstimator;
+pub use motion::{FrameMotion, MotionEstimator, MotionPlan};
 pub use options::{Method, MotionMethod, Options};
 pub use recursive::Recursive;
