@@ -10,10 +10,10 @@ use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_calibrate::{
-    AngleEstimate, CalibrateError, Calibrator, FrameInput, FrameOutcome, Joint, Method,
+    AngleEstimate, CalibrateError, Calibrator, FrameInput, FrameOutcome, Frames, Joint, Method,
     MotionMethod, Options,
 };
-use boresight_core::drive::{DriveLog, Scan, Sensor};
+use boresight_core::drive::{DriveLog, Sensor};
 use boresight_formats::DriveFormat;
 use boresight_pipeline::{PipelineError, Progress};
 use serde_json::Value;
@@ -117,22 +117,21 @@ fn options(arguments: &CalibrateArguments, sensor: &Sensor) -> Result<Options, C
     })
 }
 
-/// Hands the scans that `wanted` picks to `add`, in order.
+/// Hands the frames of the radars that `wanted` picks to `add`, in order.
 fn feed<'a>(
     log: &'a DriveLog,
     options: &Options,
     run: &Run,
-    wanted: impl Fn(&Scan) -> bool,
+    wanted: impl Fn(u8) -> bool,
     mut add: impl FnMut(u8, FrameInput<'a>) -> Result<(), CalibrateError>,
 ) -> Result<(), CliError> {
-    let scans = || log.scans.iter().filter(|scan| wanted(scan));
-    let total = scans().count();
-    for (done, scan) in scans().enumerate() {
+    let frames = Frames::of(log, wanted, options.max_gap_s);
+    let total = frames.len();
+    for (done, (sensor, frame)) in frames.enumerate() {
         if done % FRAMES_A_REPORT == 0 && run.report(Progress { done, total }).is_break() {
             return Err(PipelineError::Cancelled { done, total }.into());
         }
-        let frame = FrameInput::of(log, scan, options.max_gap_s);
-        add(scan.sensor, frame)?;
+        add(sensor, frame)?;
     }
     Ok(())
 }
@@ -144,7 +143,7 @@ fn alone(log: &DriveLog, sensor: u8, options: Options, run: &Run) -> Result<Cali
         log,
         &options,
         run,
-        |scan| scan.sensor == sensor,
+        |id| id == sensor,
         |_, frame| {
             track.add(log, &options, &frame, &calibrator.add(frame)?);
             Ok(())
