@@ -8,7 +8,7 @@ const allowed = {
   calibrate: ['core'],
   formats: ['core'],
   neural: ['core', 'signal', 'aoa'],
-  pipeline: ['core', 'signal', 'aoa'],
+  pipeline: ['core', 'signal', 'aoa', 'image'],
   evaluate: ['core', 'signal', 'aoa', 'calibrate', 'simulate', 'image', 'neural', 'pipeline'],
   cli: null,
   wasm: null,

@@ -1,7 +1,7 @@
 //! `boresight image`.
 
 use super::capture::{CaptureFrames, board_array};
-use super::estimate::frame_within;
+use super::frame::frame_within;
 use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 use crate::destination::Destination;
 use crate::error::CliError;
@@ -11,11 +11,10 @@ use crate::run::Run;
 use crate::{network, picture};
 use boresight_aoa::Method;
 use boresight_core::drive::Mounting;
-use boresight_evaluate::images::{
-    Angles, Content, StreetFrames, chain_options, frame_map, map_grid,
-};
+use boresight_evaluate::images::StreetFrames;
 use boresight_formats::{Capture, RadarConfig};
 use boresight_image::{BirdsEyeView, Outside, ViewGrid, birds_eye_view, sidelobe_measure};
+use boresight_pipeline::image::{Angles, Content, chain_options, frame_map, map_grid};
 use boresight_pipeline::{Chain, FrameSource};
 use boresight_simulate::street::STREET_RADARS;
 use boresight_simulate::{Street, StreetOptions};
@@ -107,9 +106,10 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
     for (name, picture) in shared.method.iter().zip(pictures) {
         let map_grid = map_grid(&waveform, FRAC_PI_3)?;
         let angles = angles(shared, name)?;
-        let model = network::model_for(angles.method, &shared.model, files)?;
-        let model = model.as_ref().map(|(model, _)| model);
-        let made = frame_map(&cells, &array, &angles, model, map_grid)?;
+        let options = angles.suited(&array);
+        let mut estimator =
+            network::estimator(angles.method, &array, &options, &shared.model, files)?;
+        let made = frame_map(&cells, &mut estimator, angles.content, map_grid)?;
         remark(made.warnings.iter().map(|warning| format!("{name}: {warning}")));
         let here = Mounting { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0 };
         let view = birds_eye_view(&[(&made.map, here)], grid)?;
