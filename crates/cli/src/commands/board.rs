@@ -1,6 +1,6 @@
 //! What a board detected itself.
 
-use super::estimate::frame_within;
+use super::frame::frame_within;
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
 use crate::files::Files;

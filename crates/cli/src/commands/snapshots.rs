@@ -1,7 +1,7 @@
 //! Snapshots of an array.
 
 use super::chain::angle_options;
-use super::estimate::frame_within;
+use super::frame::frame_within;
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
 use crate::files::Files;
