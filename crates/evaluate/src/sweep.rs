@@ -257,6 +257,7 @@ fn append(file: &mut File, path: &Path, value: &impl Serialize) -> Result<(), Ev
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use boresight_core::Diagnose;
     use std::sync::Mutex;
 
     fn folder(name: &str) -> PathBuf {
@@ -340,8 +341,13 @@ mod tests {
             all.extend(run(&sweep, Ok, go).unwrap().into_keys().map(|scene| (scene, number)));
         }
         assert_eq!(all.into_values().collect::<Vec<_>>(), [1, 2, 3, 1, 2, 3, 1, 2, 3, 1]);
-        for (number, of) in [(0, 3), (4, 3), (1, 0), (1, 2_000_000)] {
-            assert!(Part::new(number, of).is_err());
+        for (number, of, what) in [
+            (0, 3, "number of the part"),
+            (4, 3, "number of the part"),
+            (1, 0, "parts"),
+            (1, 2_000_000, "parts"),
+        ] {
+            assert_eq!(Part::new(number, of).unwrap_err().details().what, what);
         }
     }
 
