@@ -225,7 +225,7 @@ fn radars_of_a_simulated_drive_are_chosen() {
         (&["--moving-share", "0.9"], 1, "moving_share"),
         (&["--scenario", "moon"], 2, "city"),
     ] {
-        let output = boresight(&[&base[..], extra].concat());
+        let output = boresight(&[&base[..], extra, &["--force"]].concat());
         let errors = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(status), "{extra:?}: {errors}");
         assert!(errors.contains(words), "{extra:?}: {errors}");
