@@ -426,8 +426,10 @@ mod tests {
         let options = SnapshotOptions {
             scene: Scene::Given(vec![target]),
             snr_db: 30.0,
+            snapshots: 1,
+            fluctuation: Fluctuation::RandomPhase,
+            imperfections: None,
             seed: 1,
-            ..SnapshotOptions::default()
         };
         let (y, _) = SnapshotSimulator::new(array, &options).unwrap().scene(trial).unwrap();
         let finder = Finder::Method(Method::from_name(name).unwrap());
