@@ -9,7 +9,7 @@ const allowed = {
   calibrate: ['core'],
   formats: ['core'],
   neural: ['core', 'signal', 'aoa'],
-  pipeline: ['core', 'signal', 'aoa'],
+  pipeline: ['core', 'signal', 'aoa', 'image'],
   evaluate: ['core', 'signal', 'aoa', 'calibrate', 'simulate', 'image', 'neural', 'pipeline'],
   generate: ['core', 'aoa', 'calibrate', 'pipeline', 'simulate'],
   cli: null,

@@ -248,6 +248,7 @@ impl NormalEquations {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use boresight_core::Diagnose;
     use boresight_core::presets::preset;
     use boresight_core::steering::steering_matrix;
 
@@ -298,9 +299,12 @@ mod tests {
         assert!((refined.residual_power - 4.0).abs() < 1e-12);
         let many = vec![Direction::azimuth(0.1); 5];
         assert!(!refine(&array, &many, Data::Snapshots(y.view()), LIMITS).unwrap().converged);
-        assert!(refine(&array, &[], Data::Snapshots(y.view()), LIMITS).is_err());
+        let refused = |directions: &[Direction]| {
+            refine(&array, directions, Data::Snapshots(y.view()), LIMITS).unwrap_err()
+        };
+        assert_eq!(refused(&[]).code(), "empty");
         let behind = [Direction::azimuth(2.0)];
-        assert!(refine(&array, &behind, Data::Snapshots(y.view()), LIMITS).is_err());
+        assert_eq!(refused(&behind).details().what, "azimuth_rad");
         let silence = Array2::zeros((4, 1));
         let one = [Direction::azimuth(0.1)];
         let refined = refine(&array, &one, Data::Snapshots(silence.view()), LIMITS).unwrap();

@@ -4,7 +4,7 @@
 
 mod support;
 
-use boresight_aoa::estimator::Plan;
+use boresight_aoa::Plan;
 use boresight_aoa::{
     AoaError, BatchEstimate, Data, Estimate, Estimator, Estimators, Method, Options, Source,
 };

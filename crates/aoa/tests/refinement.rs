@@ -7,7 +7,7 @@ use boresight_aoa::{AoaError, Data, Estimator, Method, Options};
 use boresight_core::linalg::adjoint;
 use boresight_core::presets::preset;
 use boresight_core::steering::{cis, steering_matrix};
-use boresight_core::{Array, Complex64, Direction, Random};
+use boresight_core::{Array, Complex64, Diagnose, Direction, Random};
 use ndarray::Array2;
 
 /// Directions at least two beamwidths apart within 60 deg, and one snapshot of them.
@@ -110,9 +110,10 @@ fn nothing_one_place_and_wrong_data() {
     let other = Array2::zeros((7, 1));
     let refused = refinement.refine(&one, Data::Snapshots(other.view()));
     assert!(matches!(refused, Err(AoaError::Argument(_))), "{refused:?}");
-    assert!(refinement.refine(&[Direction::azimuth(2.0)], Data::Snapshots(y.view())).is_err());
+    let behind = refinement.refine(&[Direction::azimuth(2.0)], Data::Snapshots(y.view()));
+    assert_eq!(behind.unwrap_err().details().what, "azimuth_rad");
     let wrong = Options { dynamic_range_db: -1.0, ..Options::default() };
-    assert!(Refinement::new(&array, &wrong).is_err());
+    assert_eq!(Refinement::new(&array, &wrong).err().unwrap().details().what, "dynamic_range_db");
 }
 
 #[test]

@@ -6,8 +6,8 @@ use crate::angle::{
 };
 use crate::calibrator::check_time;
 use crate::{
-    AngleEstimate, CalibrateError, FrameCounts, FrameInput, FrameOutcome, Method, Motion,
-    MotionEstimator, MotionMethod, Options, Recursive, Remark, Verdict,
+    AngleEstimate, CalibrateError, FrameCounts, FrameInput, FrameMotion, FrameOutcome, Method,
+    Motion, MotionPlan, Options, Remark, Verdict,
 };
 
 /// A radar slower than this stands, m/s, if its detections allow for that.
@@ -24,10 +24,10 @@ const UNDETERMINED_SCALE: f64 = 0.05;
 const SETTLING_S: f64 = 10.0;
 
 /// The methods that weigh all frames at once; they keep 56 bytes of each.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Batch {
     options: Options,
-    source: Source,
+    motion: Box<dyn MotionPlan>,
     samples: Vec<Sample>,
     bias: Bias,
     counts: FrameCounts,
@@ -36,22 +36,10 @@ pub(crate) struct Batch {
     last_time_s: Option<f64>,
 }
 
-/// Where the frames' motions come from.
-#[derive(Debug, Clone)]
-enum Source {
-    /// Each from its own detections.
-    Frame(Box<MotionEstimator>),
-    /// From the recursive method, run alongside.
-    Tracked(Box<Recursive>),
-}
-
 impl Batch {
-    pub(crate) fn new(options: Options) -> Result<Self, CalibrateError> {
-        Ok(Self {
-            source: match options.motion_method() {
-                MotionMethod::Tracked => Source::Tracked(Box::new(Recursive::new(&options)?)),
-                method => Source::Frame(Box::new(MotionEstimator::new(&options, method)?)),
-            },
+    pub(crate) fn new(options: Options, motion: Box<dyn MotionPlan>) -> Self {
+        Self {
+            motion,
             options,
             samples: Vec::new(),
             bias: Bias::default(),
@@ -59,25 +47,24 @@ impl Batch {
             inliers: 0,
             detections: 0,
             last_time_s: None,
-        })
+        }
     }
 
     pub(crate) fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
         check_time(self.last_time_s, frame.time_s)?;
         self.last_time_s = Some(frame.time_s);
-        let mut outcome = self.look(frame)?;
-        let (verdict, sample) = match outcome.verdict {
-            Verdict::Used => self.judge(&frame, outcome.motion.as_ref()),
+        let mut weights = Vec::new();
+        let FrameMotion { motion, verdict } = self.motion.estimate(frame, &mut weights)?;
+        let (verdict, sample) = match verdict {
+            Verdict::Used => self.judge(&frame, motion.as_ref()),
             verdict => (verdict, None),
         };
         if let (Verdict::Standing, Some(yaw_rate_radps)) = (verdict, frame.yaw_rate_radps) {
             self.bias.add(yaw_rate_radps);
         }
         self.counts.add(verdict);
-        outcome.verdict = verdict;
-        outcome.angle_rad = None;
-        outcome.weight = 0.0;
-        if let (Some(sample), Some(motion)) = (sample, outcome.motion) {
+        let mut outcome = FrameOutcome { verdict, motion, angle_rad: None, weight: 0.0, weights };
+        if let (Some(sample), Some(motion)) = (sample, motion) {
             self.inliers += motion.inliers as u64;
             self.detections += motion.detections as u64;
             self.samples.push(sample);
@@ -87,21 +74,6 @@ impl Batch {
             outcome.weight = 1.0 / sample.beta_variance;
         }
         Ok(outcome)
-    }
-
-    /// The frame's motion. A motion from the frame alone is still to be judged; the tracked one has
-    /// been, and has one verdict more: a frame that went into the vote on the angle's start is sparse.
-    fn look(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
-        match &mut self.source {
-            Source::Tracked(recursive) => recursive.add(frame),
-            Source::Frame(estimator) => Ok(FrameOutcome {
-                verdict: Verdict::Used,
-                motion: estimator.estimate(frame.detections),
-                angle_rad: None,
-                weight: 0.0,
-                weights: estimator.weights().to_vec(),
-            }),
-        }
     }
 
     /// What becomes of a frame, and what is kept of it.

@@ -1,19 +1,20 @@
 //! The calibration: frames in, mounting angle out, whichever method.
 
 use crate::batch::Batch;
+use crate::motion::plan::plan;
 use crate::{
-    AngleEstimate, CalibrateError, FrameInput, FrameOutcome, Method, MotionMethod, Options,
-    Recursive,
+    AngleEstimate, CalibrateError, FrameInput, FrameOutcome, Method, MotionMethod, MotionPlan,
+    Options, Recursive,
 };
 use boresight_core::CoreError;
 
 /// Estimates a mounting angle from frames in order of time.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Calibrator {
     inner: Inner,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 enum Inner {
     Batch(Box<Batch>),
     Recursive(Box<Recursive>),
@@ -27,19 +28,33 @@ impl Calibrator {
     /// motion than its own.
     pub fn new(options: Options) -> Result<Self, CalibrateError> {
         options.validate()?;
-        let inner = match options.method {
-            Method::Recursive if options.motion_method() != MotionMethod::Tracked => {
-                return Err(CoreError::Unknown {
-                    what: "motion".into(),
-                    expected: "tracked, with the recursive method".into(),
-                    given: options.motion_method().name().into(),
+        let motion = options.motion_method();
+        if options.method == Method::Recursive {
+            return match motion {
+                MotionMethod::Tracked => {
+                    let recursive = Box::new(Recursive::new(&options)?);
+                    Ok(Self { inner: Inner::Recursive(recursive) })
                 }
-                .into());
-            }
-            Method::Recursive => Inner::Recursive(Box::new(Recursive::new(&options)?)),
-            _ => Inner::Batch(Box::new(Batch::new(options)?)),
-        };
-        Ok(Self { inner })
+                _ => Err(tracked_only(motion.name())),
+            };
+        }
+        Self::with_motion(options, plan(motion, &options)?)
+    }
+
+    /// A calibration on motions that come from elsewhere, such as a network. What the options say of the motion is then
+    /// not looked at.
+    ///
+    /// # Errors
+    /// Those of [`Options::validate`], and [`CoreError::Unknown`] for the recursive method, which finds the motion itself.
+    pub fn with_motion(
+        options: Options,
+        motion: Box<dyn MotionPlan>,
+    ) -> Result<Self, CalibrateError> {
+        options.validate()?;
+        if options.method == Method::Recursive {
+            return Err(tracked_only("a plan"));
+        }
+        Ok(Self { inner: Inner::Batch(Box::new(Batch::new(options, motion))) })
     }
 
     /// Takes one frame.
@@ -66,6 +81,15 @@ impl Calibrator {
             Inner::Recursive(recursive) => recursive.estimate(),
         }
     }
+}
+
+fn tracked_only(given: &str) -> CalibrateError {
+    CoreError::Unknown {
+        what: "motion".into(),
+        expected: "tracked, with the recursive method".into(),
+        given: given.into(),
+    }
+    .into()
 }
 
 /// Checks that time is a number and does not run backwards.

@@ -1,6 +1,6 @@
 //! One radar frame: what goes in and what an estimator makes of it.
 
-use boresight_core::{Detection, DriveLog, Scan};
+use boresight_core::Detection;
 
 /// One scan of the radar with the car's motion at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,18 +14,6 @@ pub struct FrameInput<'a> {
     /// Measured forward speed of the rear axle at this time, m/s, negative in reverse. The full-velocity
     /// method needs it; to the tracked motion it tells the standing world from a queue of cars.
     pub speed_mps: Option<f64>,
-}
-
-impl<'a> FrameInput<'a> {
-    /// A scan of a log with the motion interpolated at its time, over gaps of at most `max_gap_s`.
-    pub fn of(log: &DriveLog, scan: &'a Scan, max_gap_s: f64) -> Self {
-        Self {
-            time_s: scan.time_s,
-            detections: &scan.detections,
-            yaw_rate_radps: log.yaw_rate_at(scan.time_s, max_gap_s),
-            speed_mps: log.speed_at(scan.time_s, max_gap_s),
-        }
-    }
 }
 
 /// The radar's own motion, from one frame.

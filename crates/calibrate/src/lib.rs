@@ -12,6 +12,7 @@
 mod angle;
 mod batch;
 pub mod calibrator;
+pub mod drive;
 pub mod error;
 pub mod estimate;
 pub mod frame;
@@ -24,10 +25,11 @@ mod symmetric;
 pub mod trajectory;
 
 pub use calibrator::Calibrator;
+pub use drive::Frames;
 pub use error::CalibrateError;
 pub use estimate::{AngleEstimate, FrameCounts, Remark};
 pub use frame::{FrameInput, FrameOutcome, Motion, Verdict};
 pub use joint::Joint;
-pub use motion::MotionEstimator;
+pub use motion::{FrameMotion, MotionEstimator, MotionPlan};
 pub use options::{Method, MotionMethod, Options};
 pub use recursive::Recursive;

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
-use boresight_calibrate::{AngleEstimate, Calibrator, FrameInput, Method, Options};
+use boresight_calibrate::{AngleEstimate, Calibrator, Frames, Method, Options};
 use boresight_core::DriveLog;
 use boresight_formats::drive_log;
 use std::path::Path;
@@ -28,8 +28,8 @@ fn calibrate(log: &DriveLog, method: Method, from_s: f64, to_s: f64) -> AngleEst
         ..Options::default()
     };
     let mut calibrator = Calibrator::new(options).unwrap();
-    for scan in log.scans.iter().filter(|scan| scan.time_s >= from_s && scan.time_s < to_s) {
-        let frame = FrameInput::of(log, scan, options.max_gap_s);
+    let frames = Frames::of(log, |_| true, options.max_gap_s).map(|(_, frame)| frame);
+    for frame in frames.filter(|frame| frame.time_s >= from_s && frame.time_s < to_s) {
         calibrator.add(frame).unwrap();
     }
     calibrator.estimate()
@@ -117,13 +117,13 @@ fn the_angle_found_takes_the_car_where_it_went() {
         Options { x_m: mounting.x_m, nominal_rad: Some(mounting.yaw_rad), ..Options::default() };
     let mut calibrator = Calibrator::new(options).unwrap();
     let (mut motions, mut truth) = (vec![], vec![]);
-    for scan in &log.scans {
-        let frame = FrameInput::of(&log, scan, options.max_gap_s);
+    for (_, frame) in Frames::of(&log, |_| true, options.max_gap_s) {
+        let time_s = frame.time_s;
         let yaw_rate_radps = frame.yaw_rate_radps;
         let outcome = calibrator.add(frame).unwrap();
-        if let (Some(motion), Some(pose)) = (outcome.motion, log.pose_at(scan.time_s, 0.25)) {
+        if let (Some(motion), Some(pose)) = (outcome.motion, log.pose_at(time_s, 0.25)) {
             let velocity_mps = motion.velocity_mps;
-            motions.push(TimedMotion { time_s: scan.time_s, velocity_mps, yaw_rate_radps });
+            motions.push(TimedMotion { time_s, velocity_mps, yaw_rate_radps });
             truth.push(pose);
         }
     }

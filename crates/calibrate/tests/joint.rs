@@ -4,8 +4,8 @@
 
 mod support;
 
-use boresight_calibrate::{FrameInput, Joint, Options, Recursive};
-use boresight_core::Random;
+use boresight_calibrate::{CalibrateError, FrameInput, Joint, Options, Recursive};
+use boresight_core::{Diagnose, Random};
 use support::Drive;
 
 fn radars(seed: u64) -> [Drive; 3] {
@@ -90,11 +90,13 @@ fn together_they_share_one_scale_and_know_it_better() {
 
 #[test]
 fn radars_are_named_once_and_frames_belong_to_one() {
-    assert!(Joint::new(&[]).is_err());
+    let what = |error: CalibrateError| (error.code(), error.details().what);
+    assert_eq!(what(Joint::new(&[]).unwrap_err()), ("empty", "radars".into()));
     let options = Options::default();
-    assert!(Joint::new(&[(1, options), (1, options)]).is_err());
+    let twice = Joint::new(&[(1, options), (1, options)]).unwrap_err();
+    assert_eq!(what(twice), ("out-of-range", "sensor".into()));
     let mut joint = Joint::new(&[(1, options)]).unwrap();
     let frame = FrameInput { time_s: 0.0, detections: &[], yaw_rate_radps: None, speed_mps: None };
-    assert!(joint.add(2, frame).is_err());
+    assert_eq!(what(joint.add(2, frame).unwrap_err()), ("out-of-range", "sensor".into()));
     assert_eq!(joint.estimate()[0].1.frames.given, 0);
 }

@@ -4,8 +4,11 @@
 
 mod common;
 
-use boresight_calibrate::{Calibrator, Method, MotionEstimator, MotionMethod, Options};
-use boresight_core::{Detection, Random};
+use boresight_calibrate::{
+    CalibrateError, Calibrator, FrameInput, FrameMotion, Method, Motion, MotionEstimator,
+    MotionMethod, MotionPlan, Options, Verdict,
+};
+use boresight_core::{Detection, Diagnose, Random};
 use common::{Drive, detection};
 
 const VELOCITY: [f64; 2] = [11.0, 3.0];
@@ -199,4 +202,59 @@ fn where_more_detections_share_a_motion_than_stand_ransac_follows_them_and_track
     });
     assert!(ransac > 0.95, "{ransac}");
     assert!(tracked < 0.02, "{tracked}");
+}
+
+/// Motions as a network might give them: the true ones in order, whatever the detections; of every tenth frame it says that
+/// it is of no use.
+#[derive(Debug)]
+struct Given {
+    velocities: std::vec::IntoIter<[f64; 2]>,
+    frames: usize,
+}
+
+impl MotionPlan for Given {
+    fn estimate(
+        &mut self,
+        frame: FrameInput<'_>,
+        weights: &mut Vec<f32>,
+    ) -> Result<FrameMotion, CalibrateError> {
+        weights.clear();
+        weights.resize(frame.detections.len(), 0.25);
+        self.frames += 1;
+        let velocity = self.velocities.next();
+        let motion = velocity.map(|velocity_mps| Motion {
+            velocity_mps,
+            covariance: [[1e-4, 0.0], [0.0, 1e-4]],
+            inliers: 10,
+            detections: 10,
+        });
+        let verdict = if self.frames % 10 == 0 { Verdict::Sparse } else { Verdict::Used };
+        Ok(FrameMotion { motion, verdict })
+    }
+}
+
+#[test]
+fn motions_from_elsewhere_give_the_angle() {
+    let drive = Drive { standing: 0, ..Drive::default() };
+    let mut truth = vec![];
+    drive.run(|_, velocity| truth.push(velocity));
+    let given = || Box::new(Given { velocities: truth.clone().into_iter(), frames: 0 });
+    for method in common::BATCH {
+        let options = Options { max_yaw_rate_radps: 1.0, ..drive.options(method) };
+        let mut calibrator = Calibrator::with_motion(options, given()).unwrap();
+        drive.run(|frame, velocity| {
+            // One detection: no motion comes from it.
+            let frame = FrameInput { detections: &frame.detections[..1], ..frame };
+            let outcome = calibrator.add(frame).unwrap();
+            assert_eq!(outcome.motion.unwrap().velocity_mps, velocity);
+            assert_eq!(outcome.weights, [0.25]);
+        });
+        let estimate = calibrator.estimate();
+        // The yaw rate's noise is left: 0.001 rad/s over 540 frames.
+        let error = (estimate.angle_rad - drive.angle_rad).abs();
+        assert!(error < 1e-3, "{}: {error}", method.name());
+        assert_eq!((estimate.frames.used, estimate.frames.sparse), (540, 60), "{}", method.name());
+    }
+    let refused = Calibrator::with_motion(drive.options(Method::Recursive), given()).unwrap_err();
+    assert_eq!((refused.code(), &*refused.details().what), ("unknown-name", "motion"));
 }

@@ -5,7 +5,7 @@
 mod support;
 
 use boresight_calibrate::{AngleEstimate, CalibrateError, FrameInput, Options, Recursive, Remark};
-use boresight_core::Random;
+use boresight_core::{Diagnose, Random};
 use support::{Drive, detection};
 
 fn options(drive: &Drive) -> Options {
@@ -162,5 +162,6 @@ fn poor_frames_are_counted_and_change_nothing() {
         recursive.add(backwards),
         Err(CalibrateError::TimeBackwards { previous: 3.0, given: 1.0 })
     );
-    assert!(recursive.add(FrameInput { time_s: f64::NAN, ..backwards }).is_err());
+    let refused = recursive.add(FrameInput { time_s: f64::NAN, ..backwards }).unwrap_err();
+    assert_eq!((refused.code(), &*refused.details().what), ("not-finite", "timeS"));
 }

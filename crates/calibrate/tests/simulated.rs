@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use boresight_calibrate::{Calibrator, FrameInput, Method, MotionMethod, Options};
+use boresight_calibrate::{Calibrator, Frames, Method, MotionMethod, Options};
 use boresight_core::DriveLog;
 use boresight_core::drive::RADARSCENES_SENSORS;
 use boresight_simulate::drive::{DriveOptions, Scenario, simulate_drive};
@@ -20,8 +20,7 @@ fn calibrate(log: &DriveLog, sensor: u8, method: Method, motion: MotionMethod) -
         ..Options::default()
     };
     let mut calibrator = Calibrator::new(options).unwrap();
-    for scan in log.scans.iter().filter(|scan| scan.sensor == sensor) {
-        let frame = FrameInput::of(log, scan, options.max_gap_s);
+    for (_, frame) in Frames::of(log, |id| id == sensor, options.max_gap_s) {
         calibrator.add(frame).unwrap();
     }
     let e = calibrator.estimate();

@@ -1,7 +1,7 @@
 //! Arrays by name or from a JSON file.
 
 use crate::error::CliError;
-use crate::files;
+use crate::files::{self, Files};
 use boresight_core::array::Position;
 use boresight_core::{Array, presets};
 use serde::Deserialize;
@@ -15,12 +15,12 @@ enum ArrayFile {
 }
 
 /// The array `text` names, or that the JSON file of that name holds.
-pub fn array(text: &str) -> Result<Array, CliError> {
+pub fn array(text: &str, files: &Files) -> Result<Array, CliError> {
     let path = PathBuf::from(text);
     if files::ending(&path) != "json" {
         return Ok(presets::preset(text)?);
     }
-    let file = serde_json::from_slice(&files::read(&path)?).map_err(|error| CliError::Json {
+    let file = serde_json::from_slice(&files.read(&path)?).map_err(|error| CliError::Json {
         path,
         expected: "positions, or tx and rx: lists of [x, y, z] in half wavelengths",
         error,

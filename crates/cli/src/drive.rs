@@ -1,7 +1,7 @@
 //! Drive logs from files and folders.
 
 use crate::error::CliError;
-use crate::files;
+use crate::files::Files;
 use boresight_formats::drive_log::{is_hdf5, is_table, no_drive_log, open_owned};
 use boresight_formats::radarscenes::{Companions, read_path, sequence_names};
 use boresight_formats::{DriveFormat, DriveRead, ReadReport};
@@ -16,6 +16,7 @@ pub fn open_path(
     paths: &[impl AsRef<Path>],
     format: Option<DriveFormat>,
     sequence: Option<&str>,
+    files: &Files,
 ) -> Result<DriveRead, CliError> {
     let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
     let mut found: Vec<PathBuf> = vec![];
@@ -38,18 +39,18 @@ pub fn open_path(
     if format.is_none_or(|format| format == DriveFormat::RadarScenes) {
         let set = match paths[..] {
             [folder] if folder.is_dir() && !found.iter().any(|path| is_hdf5(&name(path))) => {
-                Sequences::find(folder)?
+                Sequences::find(folder, files)?
             }
             _ => None,
         };
         if let Some(set) = set {
-            return read_sequence(&set.choose(sequence)?, &[]);
+            return read_sequence(&set.choose(sequence)?, &[], files);
         }
         not_wanted(sequence)?;
         let (hdf5, others): (Vec<_>, Vec<_>) =
             found.iter().cloned().partition(|path| is_hdf5(&name(path)));
         if let [radar_data] = &hdf5[..] {
-            return read_sequence(radar_data, &others);
+            return read_sequence(radar_data, &others, files);
         }
     }
     not_wanted(sequence)?;
@@ -58,7 +59,7 @@ pub fn open_path(
     }
     let mut contents = vec![];
     for path in &found {
-        contents.push((name(path), files::read(path)?));
+        contents.push((name(path), files.read(path)?));
     }
     Ok(open_owned(contents, format)?)
 }
@@ -90,7 +91,11 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, CliError> {
 
 /// Reads a sequence of RadarScenes with the JSON files among `others`, in its folder or in the one
 /// above.
-fn read_sequence(radar_data: &Path, others: &[PathBuf]) -> Result<DriveRead, CliError> {
+fn read_sequence(
+    radar_data: &Path,
+    others: &[PathBuf],
+    files: &Files,
+) -> Result<DriveRead, CliError> {
     let folder = radar_data.parent().unwrap_or(Path::new(""));
     let beside = |wanted: &str| -> Result<Option<Vec<u8>>, CliError> {
         let given = others.iter().find(|path| name(path) == wanted).cloned();
@@ -98,7 +103,7 @@ fn read_sequence(radar_data: &Path, others: &[PathBuf]) -> Result<DriveRead, Cli
             .into_iter()
             .chain([folder.join(wanted), folder.join("..").join(wanted)])
             .find(|path| path.is_file())
-            .map(|path| files::read(&path))
+            .map(|path| files.read(&path))
             .transpose()
     };
     let (scenes, sensors) = (beside("scenes.json")?, beside("sensors.json")?);
@@ -114,6 +119,7 @@ fn read_sequence(radar_data: &Path, others: &[PathBuf]) -> Result<DriveRead, Cli
         path: radar_data.into(),
         error,
     })?;
+    files.note_input(radar_data);
     let log = read_path(radar_data, companions, &mut report)?;
     Ok(DriveRead { log, report, format: DriveFormat::RadarScenes })
 }
@@ -127,11 +133,11 @@ struct Sequences {
 impl Sequences {
     /// Those in a folder or in `data` in it: the ones `sequences.json` names, without it all folders
     /// with recordings.
-    fn find(folder: &Path) -> Result<Option<Self>, CliError> {
+    fn find(folder: &Path, files: &Files) -> Result<Option<Self>, CliError> {
         for folder in [folder.to_owned(), folder.join("data")] {
             let list = folder.join("sequences.json");
             let mut names: Vec<String> = if list.is_file() {
-                sequence_names(&files::read(&list)?)?
+                sequence_names(&files.read(&list)?)?
             } else if folder.is_dir() {
                 entries(&folder)?.iter().map(|path| name(path)).collect()
             } else {

@@ -66,6 +66,24 @@ pub enum CliError {
         /// What the system says.
         error: std::io::Error,
     },
+    /// A file that would be replaced.
+    #[error("{} is there already", path.display())]
+    Exists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file would be written that was read.
+    #[error("{} is read by this command", path.display())]
+    OwnInput {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Two outputs would go to one file.
+    #[error("{} would be written twice", path.display())]
+    SameOutput {
+        /// The file.
+        path: PathBuf,
+    },
     /// A JSON file breaks its rules.
     #[error("{}: {error}; expected {expected}", path.display())]
     Json {
@@ -99,7 +117,9 @@ impl CliError {
             Self::Pipeline(PipelineError::Cancelled { .. })
             | Self::Evaluate(EvaluateError::Cancelled { .. })
             | Self::Simulate(SimulateError::Cancelled { .. }) => ExitCode::from(INTERRUPTED),
-            Self::Option { .. } => ExitCode::from(2),
+            Self::Option { .. } | Self::OwnInput { .. } | Self::SameOutput { .. } => {
+                ExitCode::from(2)
+            }
             _ => ExitCode::FAILURE,
         }
     }
@@ -137,6 +157,9 @@ impl Diagnose for CliError {
     fn code(&self) -> &'static str {
         match self {
             Self::File { .. } => "file",
+            Self::Exists { .. } => "exists",
+            Self::OwnInput { .. } => "own-input",
+            Self::SameOutput { .. } => "same-output",
             Self::Json { .. } => "malformed-file",
             Self::Option { .. } => "option",
             Self::Interrupts(_) => "interrupts",
@@ -153,6 +176,21 @@ impl Diagnose for CliError {
                     if *action == "read" { "read" } else { "written" }
                 ),
                 error.to_string(),
+            ),
+            Self::Exists { path } => Details::new(
+                path.display().to_string(),
+                "a file that is not there yet, or --force",
+                "a file that is there",
+            ),
+            Self::OwnInput { path } => Details::new(
+                path.display().to_string(),
+                "another file than those that are read",
+                "a file that is read",
+            ),
+            Self::SameOutput { path } => Details::new(
+                path.display().to_string(),
+                "a file for each output",
+                "the file of another output",
             ),
             Self::Json { path, expected, error } => {
                 Details::new(path.display().to_string(), *expected, error.to_string())

@@ -1,48 +1,109 @@
 //! Reading and writing files.
 
+use crate::destination::{Destination, file_behind};
 use crate::error::CliError;
 use boresight_core::Waveform;
 use boresight_formats::RadarConfig;
 use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated, waveform_awr1642};
 use serde::Deserialize;
-use std::fs::File;
+use std::cell::{Cell, RefCell};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The bytes of a file.
-pub fn read(path: &Path) -> Result<Vec<u8>, CliError> {
-    std::fs::read(path).map_err(|error| CliError::File { action: "read", path: path.into(), error })
+/// The files of a run: all reading and writing goes through it, so that nothing is lost by accident.
+#[derive(Debug, Default)]
+pub struct Files {
+    /// Whether files that are there may be replaced.
+    force: bool,
+    /// Files that were read, which are never written, behind all links.
+    inputs: RefCell<Vec<PathBuf>>,
+    /// Files that are going to be written, behind all links.
+    outputs: RefCell<Vec<PathBuf>>,
+    standard_output: Cell<bool>,
 }
 
-/// Writes a file whole or not at all.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    write_with(path, |file| {
-        file.write_all(bytes).map_err(|error| CliError::File {
-            action: "write",
+impl Files {
+    /// Of a run that may replace files with `force`.
+    pub fn new(force: bool) -> Self {
+        Self { force, ..Self::default() }
+    }
+
+    /// The bytes of a file.
+    pub fn read(&self, path: &Path) -> Result<Vec<u8>, CliError> {
+        self.note_input(path);
+        std::fs::read(path).map_err(|error| CliError::File {
+            action: "read",
             path: path.into(),
             error,
         })
-    })
-}
+    }
 
-/// Writes a file whole or not at all, under another name first, with what `fill` puts into it.
-pub fn write_with<T>(
-    path: &Path,
-    fill: impl FnOnce(&mut File) -> Result<T, CliError>,
-) -> Result<T, CliError> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = path.with_file_name(name);
-    let failed = |error| CliError::File { action: "write", path: path.into(), error };
-    let mut file = File::create(&part).map_err(failed)?;
-    let filled = fill(&mut file);
-    drop(file);
-    filled
-        .and_then(|value| std::fs::rename(&part, path).map_err(failed).map(|()| value))
-        .inspect_err(|_| {
-            // The name is ours; that it cannot be removed either adds nothing to the report.
-            let _ = std::fs::remove_file(&part);
+    /// Keeps a file that is read by other means from being written.
+    pub fn note_input(&self, path: &Path) {
+        if let Ok(path) = file_behind(path) {
+            self.inputs.borrow_mut().push(path);
+        }
+    }
+
+    /// Where an output goes. Refused are a file that is there, without `--force`, and with it too a file that was
+    /// read and one that is written already.
+    pub fn destination(&self, path: &Path) -> Result<Destination, CliError> {
+        self.destination_of(path, false)
+    }
+
+    /// The same, where `own` says that a file there is of an earlier run of the same thing.
+    pub fn destination_of(&self, path: &Path, own: bool) -> Result<Destination, CliError> {
+        let failed = |error| CliError::File { action: "write", path: path.into(), error };
+        let destination = Destination::new(path).map_err(failed)?;
+        if destination.is_standard_output() {
+            self.standard_output.set(true);
+        }
+        self.refuse_input(&destination)?;
+        if let Some(file) = destination.file() {
+            let mut outputs = self.outputs.borrow_mut();
+            if outputs.iter().any(|other| other == file) {
+                return Err(CliError::SameOutput { path: path.into() });
+            }
+            outputs.push(file.into());
+        }
+        if destination.replaces() && !self.force && !own {
+            return Err(CliError::Exists { path: path.into() });
+        }
+        Ok(destination)
+    }
+
+    fn refuse_input(&self, destination: &Destination) -> Result<(), CliError> {
+        match destination.file() {
+            Some(file) if self.inputs.borrow().iter().any(|input| input == file) => {
+                Err(CliError::OwnInput { path: destination.named().into() })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes a file whole or not at all.
+    pub fn write(&self, destination: Destination, bytes: &[u8]) -> Result<(), CliError> {
+        let path = destination.named().to_owned();
+        self.write_with(destination, |out| {
+            out.write_all(bytes).map_err(|error| CliError::File { action: "write", path, error })
         })
+    }
+
+    /// Writes a file whole or not at all, with what `fill` puts into it.
+    pub fn write_with<T>(
+        &self,
+        destination: Destination,
+        fill: impl FnOnce(&mut dyn Write) -> Result<T, CliError>,
+    ) -> Result<T, CliError> {
+        // What was read since it was asked for counts, too.
+        self.refuse_input(&destination)?;
+        destination.write_with(fill)
+    }
+
+    /// Whether data goes to the standard output, where words would be in its way.
+    pub fn standard_output_taken(&self) -> bool {
+        self.standard_output.get()
+    }
 }
 
 /// Makes a folder and those above it, where they are not there.
@@ -68,7 +129,7 @@ enum WaveformFile {
 }
 
 /// A waveform by its name, from a board's configuration, or from a JSON file.
-pub fn waveform(text: &str) -> Result<Waveform, CliError> {
+pub fn waveform(text: &str, files: &Files) -> Result<Waveform, CliError> {
     match text {
         "awr1642" => return Ok(waveform_awr1642()),
         "3dcnn-simulated" => return Ok(waveform_3dcnn_simulated()),
@@ -77,14 +138,15 @@ pub fn waveform(text: &str) -> Result<Waveform, CliError> {
     }
     let path = PathBuf::from(text);
     match ending(&path).as_str() {
-        "cfg" => Ok(RadarConfig::parse(&read(&path)?)?.waveform),
+        "cfg" => Ok(RadarConfig::parse(&files.read(&path)?)?.waveform),
         "json" => {
-            let file = serde_json::from_slice(&read(&path)?).map_err(|error| CliError::Json {
-                path,
-                expected: "a waveform (startFrequencyHz, slopeHzPerS, sampleRateHz, samples, \
+            let file =
+                serde_json::from_slice(&files.read(&path)?).map_err(|error| CliError::Json {
+                    path,
+                    expected: "a waveform (startFrequencyHz, slopeHzPerS, sampleRateHz, samples, \
                            adcStartS, chirpIntervalS, transmitters, loops, frameIntervalS)",
-                error,
-            })?;
+                    error,
+                })?;
             let (WaveformFile::Within { waveform } | WaveformFile::Alone(waveform)) = file;
             waveform.check()?;
             Ok(waveform)

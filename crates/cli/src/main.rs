@@ -5,6 +5,7 @@
 mod arguments;
 mod array;
 mod commands;
+mod destination;
 mod drive;
 mod error;
 mod files;
@@ -17,23 +18,25 @@ mod run;
 use arguments::{Cli, Command};
 use clap::Parser;
 use error::CliError;
+use files::Files;
 use std::io::Write;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
+    let files = Files::new(cli.force);
     let result = match cli.command {
-        Command::Estimate(arguments) => commands::estimate::run(&arguments),
-        Command::Simulate { what } => commands::simulate::run(&what),
-        Command::Calibrate(arguments) => commands::calibrate::run(&arguments),
-        Command::Evaluate { what } => commands::evaluate::run(&what),
-        Command::Image { what } => commands::image::run(&what),
-        Command::Log(arguments) => commands::log::run(&arguments),
+        Command::Estimate(arguments) => commands::estimate::run(&arguments, &files),
+        Command::Simulate { what } => commands::simulate::run(&what, &files),
+        Command::Calibrate(arguments) => commands::calibrate::run(&arguments, &files),
+        Command::Evaluate { what } => commands::evaluate::run(&what, &files),
+        Command::Image { what } => commands::image::run(&what, &files),
+        Command::Log(arguments) => commands::log::run(&arguments, &files),
         Command::Methods(format) => commands::lists::methods(format.json),
-        Command::Network(arguments) => commands::network::run(&arguments),
+        Command::Network(arguments) => commands::network::run(&arguments, &files),
         Command::Arrays(format) => commands::lists::arrays(format.json),
     };
-    match result.and_then(|text| print(&text)) {
+    match result.and_then(|text| print(&text, &files)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             // Nothing is left to do where even the standard error is closed.
@@ -43,8 +46,14 @@ fn main() -> ExitCode {
     }
 }
 
-/// Writes to the standard output. A reader that has seen enough is no error.
-fn print(text: &str) -> Result<(), CliError> {
+/// Writes to the standard output, or where data went there to the standard error. A reader that has seen enough is no
+/// error.
+fn print(text: &str, files: &Files) -> Result<(), CliError> {
+    if files.standard_output_taken() {
+        // The data is what was asked for.
+        let _ = std::io::stderr().write_all(text.as_bytes());
+        return Ok(());
+    }
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {

@@ -2,7 +2,7 @@
 
 use crate::arguments::ModelArguments;
 use crate::error::CliError;
-use crate::files;
+use crate::files::Files;
 use boresight_aoa::{Estimator, Method, Options};
 use boresight_core::{Array, Waveform};
 use boresight_neural::{Card, Model, NeuralError};
@@ -10,16 +10,16 @@ use boresight_pipeline::{Chain, ChainOptions};
 use std::path::{Path, PathBuf};
 
 /// A model and, unless another is named, the card beside it, if there is one.
-pub fn load(path: &Path, card: Option<&Path>) -> Result<Model, CliError> {
+pub fn load(path: &Path, card: Option<&Path>, files: &Files) -> Result<Model, CliError> {
     let beside = path.with_extension("json");
     let card_path = card.map(Path::to_owned).or_else(|| beside.is_file().then_some(beside));
     let card = match &card_path {
         Some(path) => {
-            Some(Card::from_json(&files::read(path)?).map_err(|error| wrong(path, error))?)
+            Some(Card::from_json(&files.read(path)?).map_err(|error| wrong(path, error))?)
         }
         None => None,
     };
-    Model::load(&files::read(path)?, card.as_ref()).map_err(|error| wrong(path, error))
+    Model::load(&files.read(path)?, card.as_ref()).map_err(|error| wrong(path, error))
 }
 
 fn wrong(path: &Path, error: NeuralError) -> CliError {
@@ -30,6 +30,7 @@ fn wrong(path: &Path, error: NeuralError) -> CliError {
 pub fn model_for(
     method: Method,
     arguments: &ModelArguments,
+    files: &Files,
 ) -> Result<Option<(Model, PathBuf)>, CliError> {
     if !Method::NETWORKS.contains(&method) {
         return Ok(None);
@@ -39,7 +40,7 @@ pub fn model_for(
         expected: format!("a trained model (.onnx), since {} is a network", method.name()),
         given: "nothing".into(),
     })?;
-    let model = load(path, arguments.card.as_deref())?;
+    let model = load(path, arguments.card.as_deref(), files)?;
     if model.kind().method() != Some(method) {
         let given = model.kind().name();
         return Err(wrong(path, NeuralError::WrongKind { expected: method.name(), given }));
@@ -53,8 +54,9 @@ pub fn estimator(
     array: &Array,
     options: &Options,
     arguments: &ModelArguments,
+    files: &Files,
 ) -> Result<Estimator, CliError> {
-    match model_for(method, arguments)? {
+    match model_for(method, arguments, files)? {
         None => Ok(Estimator::new(method, array, options)?),
         Some((model, path)) => model.estimator(array, options).map_err(|error| wrong(&path, error)),
     }
@@ -67,8 +69,9 @@ pub fn chain(
     array: &Array,
     options: &ChainOptions,
     arguments: &ModelArguments,
+    files: &Files,
 ) -> Result<Chain, CliError> {
-    match model_for(options.angle.method, arguments)? {
+    match model_for(options.angle.method, arguments, files)? {
         None => Ok(Chain::new(waveform, receivers, array, options)?),
         Some((model, path)) => {
             let estimators = model.estimators(array, &options.angle.options, options.threads);

@@ -86,9 +86,9 @@ fn a_simulated_drive_is_written_and_read_back() {
     assert!((yaw("yawDeg") - yaw("nominalYawDeg") - 1.5).abs() < 1e-9);
     // The same seed gives the same bytes, packed the same drive.
     let before = read("data/sequence_1/radar_data.h5");
-    stdout(&arguments);
+    stdout(&[&arguments[..], &["--force"]].concat());
     assert_eq!(read("data/sequence_1/radar_data.h5"), before);
-    stdout(&[&arguments[..], &["--packed"]].concat());
+    stdout(&[&arguments[..], &["--packed", "--force"]].concat());
     assert!(read("data/sequence_1/radar_data.h5").len() < before.len());
     assert_eq!(parsed(&stdout(&["log", sequence.to_str().unwrap(), "--json"])), log);
 }
@@ -225,7 +225,7 @@ fn radars_of_a_simulated_drive_are_chosen() {
         (&["--moving-share", "0.9"], 1, "moving_share"),
         (&["--scenario", "moon"], 2, "city"),
     ] {
-        let output = boresight(&[&base[..], extra].concat());
+        let output = boresight(&[&base[..], extra, &["--force"]].concat());
         let errors = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(status), "{extra:?}: {errors}");
         assert!(errors.contains(words), "{extra:?}: {errors}");
@@ -278,7 +278,7 @@ fn all_radars_together_and_the_trajectory_of_one() {
 
     let csv = folder.join("way.csv");
     let path = csv.to_str().unwrap();
-    let arguments = ["calibrate", out, "--sensor", "2", "--trajectory", path];
+    let arguments = ["calibrate", out, "--sensor", "2", "--trajectory", path, "--force"];
     let said = stdout(&[&arguments[..], &["--json"]].concat());
     let error = &parsed(&said)["trajectoryError"];
     let [estimated, nominal] = ["estimatedM", "nominalM"].map(|key| error[key].as_f64().unwrap());
@@ -298,7 +298,7 @@ fn all_radars_together_and_the_trajectory_of_one() {
     for (arguments, words) in [
         (&["calibrate", out, "--trajectory", path][..], "1, 2, 3, 4"),
         (&["calibrate", out, "--joint", "--method", "kabsch"], "cannot be used with"),
-        (&["calibrate", out, "--sensor", "2", "--x", "0", "--trajectory", path], "ahead of"),
+        (&[&arguments[..], &["--x", "0"]].concat(), "ahead of"),
     ] {
         let output = boresight(arguments);
         let errors = String::from_utf8_lossy(&output.stderr);

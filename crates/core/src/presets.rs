@@ -120,6 +120,7 @@ mod tests {
             let message = preset(name).unwrap_err().to_string();
             assert!(message.contains("lrr48"), "{message}");
         }
-        assert!(preset("ula0").is_err());
+        let empty = preset("ula0").unwrap_err();
+        assert!(matches!(empty, CoreError::Empty { .. }), "{empty}");
     }
 }

@@ -16,6 +16,8 @@ use std::path::Path;
 pub trait Experiment: Serialize + DeserializeOwned + Clone + PartialEq + Sync {
     /// Name on the command line and of its files.
     const NAME: &'static str;
+    /// Counts the changes of what comes of a scene, so that records from before are not mixed with those from after.
+    const REVISION: u32 = 0;
     /// What scenes share.
     type Plan: Sync;
     /// What is kept of a scene.
@@ -65,11 +67,14 @@ pub trait Report: Serialize {
     /// As comma-separated values with a line of heads.
     fn csv(&self) -> String;
 
-    /// Figures as SVG, each with its name.
+    /// Names of the files of its figures.
+    const FIGURES: &'static [&'static str];
+
+    /// Figures as SVG, in the order of their names; the last ones may be lacking.
     ///
     /// # Errors
     /// [`EvaluateError::Figure`].
-    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError>;
+    fn figures(&self) -> Result<Vec<String>, EvaluateError>;
 
     /// As indented JSON; what is no number is `null`.
     fn json(&self) -> String {
@@ -155,6 +160,11 @@ pub fn run<E: Experiment>(
     let legs = records(options, how, Part::WHOLE, progress)?;
     let scenes = side_by_side::<E>(legs);
     Ok(options.report(&plan, scenes.into_values()))
+}
+
+/// Whether a folder has records of an experiment's whole run, by any of its entrants, from which it would go on.
+pub fn is_recorded<E: Experiment>(options: &E, folder: &Path) -> bool {
+    legs(options).iter().any(|leg| folder.join(file_name(leg, Part::WHOLE)).exists())
 }
 
 /// Runs one part of the scenes, whose records [`crate::merge`] puts together with the others', and returns
@@ -250,12 +260,16 @@ pub(crate) fn file_name<E: Experiment>(leg: &E, part: Part) -> String {
 
 /// What heads the records: experiment, version, methods and options.
 pub(crate) fn setup<E: Experiment>(options: &E, plan: &E::Plan) -> Value {
-    json!({
+    let mut head = json!({
         "experiment": E::NAME,
         "version": env!("CARGO_PKG_VERSION"),
         "methods": E::methods(plan),
         "options": options,
-    })
+    });
+    if let (1.., Some(head)) = (E::REVISION, head.as_object_mut()) {
+        head.insert("revision".into(), E::REVISION.into());
+    }
+    head
 }
 
 #[cfg(test)]
@@ -278,7 +292,8 @@ mod tests {
             fn csv(&self) -> String {
                 String::new()
             }
-            fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
+            const FIGURES: &'static [&'static str] = &[];
+            fn figures(&self) -> Result<Vec<String>, EvaluateError> {
                 Ok(vec![])
             }
         }

@@ -2,145 +2,27 @@
 //! target.
 
 use crate::EvaluateError;
-use boresight_aoa::{BatchEstimate, Estimator, Method, Options, SpectrumKind, WarningCount};
+use boresight_aoa::{Estimator, WarningCount};
+use boresight_core::Array;
 use boresight_core::presets::preset;
-use boresight_core::{Array, CoreError, Waveform};
-use boresight_image::{
-    BirdsEyeView, Gate, Grid, Outside, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target,
-    ViewGrid, birds_eye_view,
-};
+use boresight_image::{BirdsEyeView, Gate, Outside, ViewGrid, birds_eye_view};
 use boresight_neural::Model;
-use boresight_pipeline::{Chain, ChainOptions, FrameCells, suited};
+use boresight_pipeline::image::{Angles, frame_map, map_grid};
+use boresight_pipeline::{Chain, ChainOptions, FrameCells};
 use boresight_simulate::{Street, VisibleTarget};
 use ndarray::Axis;
 use std::f64::consts::FRAC_PI_3;
 
-/// Azimuths of a map.
-const AZIMUTHS: usize = 512;
-
-/// What of the estimates goes into an image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Content {
-    /// The sources found in each cell.
-    Targets,
-    /// The spectrum of each cell.
-    #[default]
-    Spectra,
-}
-
-/// How the angles of an image are found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Angles {
-    /// The method.
-    pub method: Method,
-    /// Its options, adjusted as the chain does it (see [`suited`]).
-    pub options: Options,
-    /// What goes into the image.
-    pub content: Content,
-}
-
-impl Angles {
-    /// The spectra of a method under its default options; the sources of one that has no spectra.
-    pub fn of(method: Method) -> Self {
-        let content =
-            if method.requirements().spectrum { Content::Spectra } else { Content::Targets };
-        Self { method, options: Options::default(), content }
-    }
-}
-
-/// A map of a frame and what it is made of.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FrameMap {
-    /// The map.
-    pub map: RangeAzimuthMap,
-    /// Remarks of the estimator.
-    pub warnings: Vec<WarningCount>,
-}
-
-/// Options of the chain for images, which take every detected cell instead of one a peak.
-pub fn chain_options() -> ChainOptions {
-    ChainOptions { peak_grouping: false, max_detections: 4096, ..ChainOptions::default() }
-}
-
-/// The grid of a map: the range bins of a waveform, and 512 azimuths over `field_of_view_rad` to
-/// each side.
-///
-/// # Errors
-/// [`CoreError::OutOfRange`] for a field of view beyond 90 deg.
-pub fn map_grid(waveform: &Waveform, field_of_view_rad: f64) -> Result<Grid, EvaluateError> {
-    let last_m = (waveform.samples - 1) as f64 * waveform.range_resolution_m();
-    Ok(Grid::new([0.0, last_m], waveform.samples, field_of_view_rad, AZIMUTHS)?)
-}
-
-/// Estimates the angles in the cells of a frame and adds them up to a map; `model` is that of a network.
-///
-/// # Errors
-/// What the method says of array, options and snapshots; [`CoreError::Unknown`] for spectra of a
-/// method that has none.
-pub fn frame_map(
-    cells: &FrameCells,
-    array: &Array,
+/// The estimator of an image's angles; `model` is that of a network.
+fn estimator(
     angles: &Angles,
+    array: &Array,
     model: Option<&Model>,
-    grid: Grid,
-) -> Result<FrameMap, EvaluateError> {
-    let Angles { method, options, content } = angles;
-    let mut estimator = match model {
-        Some(model) => model.estimator(array, options)?,
-        None => Estimator::new(*method, array, &suited(*method, array, options))?,
-    };
-    let wants_spectra = *content == Content::Spectra;
-    let estimates = estimator.estimate_batch(cells.snapshots.view(), wants_spectra)?;
-    let mut image = RangeAzimuthDoppler::new(grid, None)?;
-    match content {
-        Content::Targets => add_sources(&mut image, cells, &estimates)?,
-        Content::Spectra => add_spectra(&mut image, cells, &estimates)?,
-    }
-    Ok(FrameMap { map: image.to_map(), warnings: estimates.warnings })
-}
-
-fn add_sources(
-    image: &mut RangeAzimuthDoppler,
-    cells: &FrameCells,
-    estimates: &BatchEstimate,
-) -> Result<(), EvaluateError> {
-    for (source, &cell) in estimates.sources.iter().zip(&estimates.cell) {
-        let cell = &cells.cells[cell as usize];
-        image.add_target(&Target {
-            range_m: cell.range_m,
-            rate_mps: cell.rate_mps,
-            azimuth_rad: source.direction.azimuth_rad,
-            power: source.power,
-            confidence: source.confidence.unwrap_or(1.0),
-        })?;
-    }
-    Ok(())
-}
-
-fn add_spectra(
-    image: &mut RangeAzimuthDoppler,
-    cells: &FrameCells,
-    estimates: &BatchEstimate,
-) -> Result<(), EvaluateError> {
-    if cells.cells.is_empty() {
-        return Ok(());
-    }
-    let spectra = estimates.spectra.as_ref().ok_or_else(|| CoreError::Unknown {
-        what: "spectrum".into(),
-        expected: "targets for this method".into(),
-        given: estimates.method.name().into(),
-    })?;
-    let plan = SpectrumPlan::new(&spectra.azimuth_rad, &image.grid)?;
-    let each = spectra.values.len() / cells.cells.len();
-    for (cell, power) in cells.cells.iter().zip(spectra.values.chunks_exact(each)) {
-        // A pseudo-spectrum tells angles only; its peak is given the power of the cell.
-        let level = match spectra.kind {
-            SpectrumKind::Power => None,
-            SpectrumKind::Pseudo => Some(cell.power),
-        };
-        image.add_spectrum(&plan, cell.range_m, cell.rate_mps, power, level)?;
-    }
-    Ok(())
+) -> Result<Estimator, EvaluateError> {
+    Ok(match model {
+        Some(model) => model.estimator(array, &angles.options)?,
+        None => Estimator::new(angles.method, array, &angles.suited(array))?,
+    })
 }
 
 /// A frame of one radar of a street.
@@ -214,7 +96,8 @@ impl StreetFrames {
         for frame in &self.frames {
             let radar = &self.street.radars[frame.radar];
             let map_grid = map_grid(&radar.waveform, radar.field_of_view_rad)?;
-            let made = frame_map(&frame.cells, &preset(radar.array)?, angles, model, map_grid)?;
+            let mut estimator = estimator(angles, &preset(radar.array)?, model)?;
+            let made = frame_map(&frame.cells, &mut estimator, angles.content, map_grid)?;
             outside.count += made.map.outside.count;
             outside.power += made.map.outside.power;
             warnings.extend(made.warnings);

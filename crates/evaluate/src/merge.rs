@@ -13,6 +13,9 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+/// Endings of the files of tables, numbers, those that figures show, and numbers in a table.
+const ENDINGS: [&str; 4] = ["md", "json", "brief.json", "csv"];
+
 /// What an experiment came to, as files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
@@ -26,7 +29,7 @@ pub struct Outcome {
     pub brief: String,
     /// All numbers, as comma-separated values.
     pub csv: String,
-    /// Figures, as SVG, by name.
+    /// Figures, as SVG, each with the name of its file.
     pub figures: Vec<(&'static str, String)>,
 }
 
@@ -42,9 +45,35 @@ impl Outcome {
             json: report.json(),
             brief: report.brief(),
             csv: report.csv(),
-            figures: report.figures()?,
+            figures: E::Report::FIGURES.iter().copied().zip(report.figures()?).collect(),
         })
     }
+
+    /// Names of the files that an experiment comes to.
+    pub fn names<E: Experiment>() -> Vec<String> {
+        let tables = ENDINGS.iter().map(|ending| format!("{}.{ending}", E::NAME));
+        tables.chain(E::Report::FIGURES.iter().map(|name| (*name).to_owned())).collect()
+    }
+
+    /// The files, each with its name.
+    pub fn files(&self) -> Vec<(String, &str)> {
+        let tables = [&self.tables, &self.json, &self.brief, &self.csv];
+        let tables = ENDINGS.iter().zip(tables);
+        let tables = tables.map(|(ending, text)| (format!("{}.{ending}", self.name), &**text));
+        let figures = self.figures.iter().map(|(name, svg)| ((*name).to_owned(), &**svg));
+        tables.chain(figures).collect()
+    }
+}
+
+/// What was run in parts, put together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Merged {
+    /// What it came to: the outcome of a run that was never split.
+    pub outcome: Outcome,
+    /// Its records as those of one run, each file with its name.
+    pub records: Vec<(String, String)>,
+    /// The files that were read.
+    pub sources: Vec<PathBuf>,
 }
 
 /// The records of one run by some of its entrants, from several files.
@@ -54,24 +83,24 @@ struct Gathered {
     records: BTreeMap<u64, (Value, PathBuf)>,
 }
 
-/// Puts together the records in `sources`, files of records or folders of them, and writes them as those of one
-/// run into `folder`. The outcome is the one of a run that was never split. Records of methods and of networks in the
-/// same scenes come side by side.
+/// Puts together the records in `sources`, files of records or folders of them. Records of methods and of networks in
+/// the same scenes come side by side.
 ///
 /// # Errors
 /// [`EvaluateError::OtherRun`] where setups differ, or are not what this version would run;
 /// [`EvaluateError::Conflict`] where two files hold different records of a scene; [`EvaluateError::Incomplete`]
 /// where scenes are missing; [`CoreError::Empty`] where there are no records; those of the files.
-pub fn merge(sources: &[PathBuf], folder: &Path) -> Result<Outcome, EvaluateError> {
-    let gathered = gather(sources)?;
+pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
+    let sources = files(sources)?;
+    let gathered = gather(&sources)?;
     let first = &gathered[0];
     let name = first.setup["experiment"].as_str().unwrap_or_default();
     match name {
-        aoa::Options::NAME => merge_as::<aoa::Options>(gathered, folder),
-        calibration::Options::NAME => merge_as::<calibration::Options>(gathered, folder),
-        doa::Options::NAME => merge_as::<doa::Options>(gathered, folder),
-        imperfections::Options::NAME => merge_as::<imperfections::Options>(gathered, folder),
-        resolution::Options::NAME => merge_as::<resolution::Options>(gathered, folder),
+        aoa::Options::NAME => merge_as::<aoa::Options>(gathered, sources),
+        calibration::Options::NAME => merge_as::<calibration::Options>(gathered, sources),
+        doa::Options::NAME => merge_as::<doa::Options>(gathered, sources),
+        imperfections::Options::NAME => merge_as::<imperfections::Options>(gathered, sources),
+        resolution::Options::NAME => merge_as::<resolution::Options>(gathered, sources),
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", first.first.display()),
             expected: "aoa, calibration, doa, imperfections, resolution".into(),
@@ -84,7 +113,7 @@ pub fn merge(sources: &[PathBuf], folder: &Path) -> Result<Outcome, EvaluateErro
 /// At least one.
 fn gather(sources: &[PathBuf]) -> Result<Vec<Gathered>, EvaluateError> {
     let mut gathered: Vec<Gathered> = vec![];
-    for path in files(sources)? {
+    for path in sources.iter().cloned() {
         let failed = |error| EvaluateError::File { action: "read", path: path.clone(), error };
         let text = std::fs::read_to_string(&path).map_err(failed)?;
         let mut lines = sweep::whole_lines(&text).lines().enumerate();
@@ -154,8 +183,8 @@ fn files(sources: &[PathBuf]) -> Result<Vec<PathBuf>, EvaluateError> {
 
 fn merge_as<E: Experiment>(
     gathered: Vec<Gathered>,
-    folder: &Path,
-) -> Result<Outcome, EvaluateError> {
+    sources: Vec<PathBuf>,
+) -> Result<Merged, EvaluateError> {
     let mut found = vec![];
     for Gathered { setup: head, first, .. } in &gathered {
         let malformed = |error| EvaluateError::Record { path: first.clone(), line: 1, error };
@@ -172,27 +201,30 @@ fn merge_as<E: Experiment>(
     let Some(options) = whole(&found) else { return Err(nothing()) };
     let scenes = 0..options.scenes();
     // In the order of a run that was never split.
-    let (mut typed, mut gathered): (Vec<Records<E>>, Vec<_>) =
-        (vec![], found.into_iter().zip(gathered).collect());
+    let (mut typed, mut records): (Vec<Records<E>>, _) = (vec![], vec![]);
+    let mut gathered: Vec<_> = found.into_iter().zip(gathered).collect();
     for leg in legs(&options) {
         let Some(at) = gathered.iter().position(|(options, _)| *options == leg) else { continue };
-        let records = gathered.swap_remove(at).1.records;
-        let missing = scenes.clone().filter(|scene| !records.contains_key(scene));
+        let of_all = gathered.swap_remove(at).1.records;
+        let missing = scenes.clone().filter(|scene| !of_all.contains_key(scene));
         if let Some(first) = missing.clone().next() {
             let missing = missing.count();
             return Err(EvaluateError::Incomplete { missing, first, total: scenes.end });
         }
         let mut of_leg = Records::<E>::new();
-        for (scene, (record, path)) in records {
+        for (scene, (record, path)) in of_all {
             if scenes.contains(&scene) {
                 let malformed = |error| EvaluateError::Scene { path, scene, error };
                 of_leg.insert(scene, serde_json::from_value(record).map_err(malformed)?);
             }
         }
         let setup = setup(&leg, &leg.plan()?);
-        sweep::write(&folder.join(file_name(&leg, Part::WHOLE)), &setup, &of_leg)?;
+        let name = file_name(&leg, Part::WHOLE);
+        let text = sweep::text(Path::new(&name), &setup, &of_leg)?;
+        records.push((name, text));
         typed.push(of_leg);
     }
     let plan = options.plan()?;
-    Outcome::new::<E>(&options.report(&plan, side_by_side::<E>(typed).into_values()))
+    let report = options.report(&plan, side_by_side::<E>(typed).into_values());
+    Ok(Merged { outcome: Outcome::new::<E>(&report)?, records, sources })
 }

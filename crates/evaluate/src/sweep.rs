@@ -224,25 +224,32 @@ pub(crate) fn whole_lines(text: &str) -> &str {
     &text[..text.rfind('\n').map_or(0, |end| end + 1)]
 }
 
-/// Writes the records of a whole run, whatever was there before.
-pub(crate) fn write<R: Serialize>(
+/// The records of a whole run as the lines of a file.
+pub(crate) fn text<R: Serialize>(
     path: &Path,
     setup: &Value,
     records: &BTreeMap<u64, R>,
-) -> Result<(), EvaluateError> {
-    let failed = |error| EvaluateError::File { action: "written", path: path.to_owned(), error };
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(failed)?;
+) -> Result<String, EvaluateError> {
+    let mut text = line(path, setup)?;
+    for (&scene, record) in records {
+        text += &line(path, &Line { scene, record })?;
     }
-    let mut file = File::create(path).map_err(failed)?;
-    append(&mut file, path, setup)?;
-    records.iter().try_for_each(|(&scene, record)| append(&mut file, path, &Line { scene, record }))
+    Ok(text)
+}
+
+/// A value as a line of a file of records.
+fn line(path: &Path, value: &impl Serialize) -> Result<String, EvaluateError> {
+    let failed = |error: serde_json::Error| EvaluateError::File {
+        action: "written",
+        path: path.to_owned(),
+        error: error.into(),
+    };
+    Ok(serde_json::to_string(value).map_err(failed)? + "\n")
 }
 
 fn append(file: &mut File, path: &Path, value: &impl Serialize) -> Result<(), EvaluateError> {
     let failed = |error| EvaluateError::File { action: "written", path: path.to_owned(), error };
-    let mut line = serde_json::to_string(value).map_err(|e| failed(e.into()))?;
-    line.push('\n');
+    let line = line(path, value)?;
     file.write_all(line.as_bytes()).map_err(failed)
 }
 
@@ -250,6 +257,7 @@ fn append(file: &mut File, path: &Path, value: &impl Serialize) -> Result<(), Ev
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use boresight_core::Diagnose;
     use std::sync::Mutex;
 
     fn folder(name: &str) -> PathBuf {
@@ -333,8 +341,13 @@ mod tests {
             all.extend(run(&sweep, Ok, go).unwrap().into_keys().map(|scene| (scene, number)));
         }
         assert_eq!(all.into_values().collect::<Vec<_>>(), [1, 2, 3, 1, 2, 3, 1, 2, 3, 1]);
-        for (number, of) in [(0, 3), (4, 3), (1, 0), (1, 2_000_000)] {
-            assert!(Part::new(number, of).is_err());
+        for (number, of, what) in [
+            (0, 3, "number of the part"),
+            (4, 3, "number of the part"),
+            (1, 0, "parts"),
+            (1, 2_000_000, "parts"),
+        ] {
+            assert_eq!(Part::new(number, of).unwrap_err().details().what, what);
         }
     }
 

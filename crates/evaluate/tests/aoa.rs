@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use boresight_core::Diagnose;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
 use boresight_evaluate::aoa::{Options, Report, SNRS_DB, TARGETS, default_methods};
@@ -57,7 +58,7 @@ fn methods_score_in_the_known_order_whatever_the_threads() {
     let ratio = (errors / bounds).sqrt();
     assert!((0.8..1.25).contains(&ratio), "{ratio}");
     let figures = report.figures().unwrap();
-    assert!(figures[0].1.contains("recall") && figures[1].1.contains("targets"));
+    assert!(figures[0].contains("recall") && figures[1].contains("targets"));
     assert_eq!(report.csv().lines().count(), 1 + 45 * report.methods.len());
     assert!(report.tables().contains("Largest F1, 15 dB"));
 }
@@ -70,11 +71,16 @@ fn uniform_arrays_add_what_needs_one_and_unknown_ones_are_refused() {
         let entrants = Entrants::new(methods.iter().map(|&name| name.into()).collect(), vec![]);
         run(&Options { array: array.into(), entrants, ..options("lrr48") }, 1)
     };
-    assert!(named("nothing", &["iaa"]).is_err());
-    assert!(named("lrr48", &[]).is_err());
-    assert!(named("lrr48", &["single-snapshot-music"]).is_err());
-    assert!(named("lrr48", &["music"]).is_err());
-    assert!(named("lrr48", &["iaa+sharpened"]).is_err());
+    for (array, methods, code, what) in [
+        ("nothing", &["iaa"][..], "unknown-name", "array preset"),
+        ("lrr48", &[], "empty", "methods"),
+        ("lrr48", &["single-snapshot-music"], "unsuitable-array", "array"),
+        ("lrr48", &["music"], "snapshot-count", "snapshots"),
+        ("lrr48", &["iaa+sharpened"], "unknown-name", "method"),
+    ] {
+        let refused = named(array, methods).unwrap_err();
+        assert_eq!((refused.code(), &*refused.details().what), (code, what));
+    }
     let none = Options { trials: 0, ..options("lrr48") };
-    assert!(run(&none, 1).is_err());
+    assert_eq!(run(&none, 1).unwrap_err().details().what, "trials");
 }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use boresight_core::Diagnose;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::experiment::{How, Report as _, run};
 use boresight_evaluate::imperfections::{Kind, NUMBERS, Options};
@@ -57,7 +58,8 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
     }
     assert!(report.tables().contains("keeps 95 %"));
     assert_eq!(report.csv().lines().count(), 1 + 25 * report.methods.len());
-    assert!(report.figures().unwrap()[0].1.contains("deviation of phase"));
+    assert!(report.figures().unwrap()[0].contains("deviation of phase"));
     let between = Options { snr_db: 26.0, ..options };
-    assert!(run(&between, HOW, |_| ControlFlow::Continue(())).is_err());
+    let refused = run(&between, HOW, |_| ControlFlow::Continue(())).unwrap_err();
+    assert_eq!(refused.details().what, "snrDb");
 }

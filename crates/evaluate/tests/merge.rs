@@ -23,6 +23,16 @@ fn part<E: Experiment>(options: &E, number: u64, of: u64, folder: &Path) -> usiz
     run_part(options, how, part, |_| ControlFlow::Continue(())).unwrap()
 }
 
+/// Puts records together, and keeps them in a folder.
+fn merged(sources: &[PathBuf], folder: &Path) -> Outcome {
+    let merged = merge(sources).unwrap();
+    std::fs::create_dir_all(folder).unwrap();
+    for (name, text) in merged.records {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+    merged.outcome
+}
+
 /// Runs at once and in three parts, two of them in one folder.
 fn check<E: Experiment>(options: &E) {
     let root = folder(E::NAME);
@@ -33,7 +43,7 @@ fn check<E: Experiment>(options: &E) {
     let records = part(options, 1, 3, &a) + part(options, 3, 3, &a) + part(options, 2, 3, &b);
     assert_eq!(records as u64, options.scenes());
     // Compared without printing: outcomes are long.
-    assert!(merge(&[a, b], &out).unwrap() == at_once);
+    assert!(merged(&[a, b], &out) == at_once);
     let name = Part::WHOLE.file_name(E::NAME);
     let sorted = |folder: &Path| {
         let text = std::fs::read_to_string(folder.join(&name)).unwrap();
@@ -43,7 +53,7 @@ fn check<E: Experiment>(options: &E) {
     };
     assert!(sorted(&out) == sorted(&root));
     // What was put together can be put together again.
-    assert!(merge(&[out.join(&name)], &out).unwrap() == at_once);
+    assert!(merged(&[out.join(&name)], &out) == at_once);
     std::fs::remove_dir_all(root).unwrap();
 }
 
@@ -69,9 +79,9 @@ fn parts_make_the_whole() {
 #[test]
 fn parts_that_do_not_go_together_are_refused() {
     let root = folder("refused");
-    let [a, b, c, out] = ["a", "b", "c", "out"].map(|name| root.join(name));
+    let [a, b, c] = ["a", "b", "c"].map(|name| root.join(name));
     part(&aoa_options(1), 1, 2, &a);
-    let missing = merge(std::slice::from_ref(&a), &out);
+    let missing = merge(std::slice::from_ref(&a));
     let scenes = aoa_options(1).scenes() as usize;
     assert!(
         matches!(missing, Err(EvaluateError::Incomplete { missing, first: 1, .. }) if missing == scenes / 2),
@@ -79,7 +89,7 @@ fn parts_that_do_not_go_together_are_refused() {
     );
     // Another seed.
     part(&aoa_options(2), 2, 2, &b);
-    let other = merge(&[a.clone(), b], &out);
+    let other = merge(&[a.clone(), b]);
     assert!(matches!(other, Err(EvaluateError::OtherRun { .. })), "{other:?}");
     // The same scenes twice are fine, with other records they are not, and records of another version are
     // not those of this one.
@@ -88,9 +98,9 @@ fn parts_that_do_not_go_together_are_refused() {
     let text = std::fs::read_to_string(&file).unwrap();
     let copy = c.join("copy.jsonl");
     std::fs::write(&copy, &text).unwrap();
-    merge(&[a.clone(), c.clone()], &out).unwrap();
+    merge(&[a.clone(), c.clone()]).unwrap();
     std::fs::write(&copy, text.replacen("\"targets\":", "\"targets\":1", 1)).unwrap();
-    let conflict = merge(&[a.clone(), c.clone()], &out);
+    let conflict = merge(&[a.clone(), c.clone()]);
     assert!(matches!(conflict, Err(EvaluateError::Conflict { .. })), "{conflict:?}");
     std::fs::remove_file(copy).unwrap();
     for file in [file, c.join("aoa-2-of-2.jsonl")] {
@@ -99,10 +109,10 @@ fn parts_that_do_not_go_together_are_refused() {
         assert!(text.contains(&version));
         std::fs::write(&file, text.replacen(&version, "\"version\":\"0.0.0\"", 1)).unwrap();
     }
-    let version = merge(&[a, c], &out);
+    let version = merge(&[a, c]);
     assert!(matches!(version, Err(EvaluateError::OtherRun { .. })), "{version:?}");
-    let nothing = merge(std::slice::from_ref(&root), &out);
+    let nothing = merge(std::slice::from_ref(&root));
     assert!(matches!(nothing, Err(EvaluateError::Core(_))), "{nothing:?}");
-    assert!(matches!(merge(&[root.join("x")], &out), Err(EvaluateError::File { .. })));
+    assert!(matches!(merge(&[root.join("x")]), Err(EvaluateError::File { .. })));
     std::fs::remove_dir_all(root).unwrap();
 }

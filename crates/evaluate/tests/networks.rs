@@ -135,6 +135,6 @@ fn networks_of_regions_count_and_estimate_beside_the_rules() {
     let tables = report.tables();
     let figure_7 = tables.split("Figure 7").nth(1).unwrap().split("Figure 8").next().unwrap();
     assert!(!figure_7.contains("dnn-small-2") && tables.contains("| dnn-small-2 |"), "{tables}");
-    assert!(report.figures().unwrap()[2].1.contains("dnn-small-2"));
+    assert!(report.figures().unwrap()[2].contains("dnn-small-2"));
     assert!(!report.csv().contains("one,15,\"dnn-small-2\""));
 }

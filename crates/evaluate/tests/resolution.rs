@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use boresight_core::Diagnose;
 use boresight_evaluate::EvaluateError;
 use boresight_evaluate::experiment::{Experiment, How, Report as _, run};
 use boresight_evaluate::resolution::{Options, Report, SEPARATIONS, SNRS_DB};
@@ -56,7 +57,7 @@ fn far_targets_are_resolved_near_ones_are_not_and_the_limit_lies_between() {
     let rows: usize = report.conditions.iter().map(|c| c.methods.len() + 1).sum();
     assert_eq!(report.csv().lines().count(), 1 + rows * SEPARATIONS.len());
     assert!(report.tables().contains("limit (Smith 2005)"));
-    assert!(report.figures().unwrap()[0].1.contains("16 snapshots, 20 dB"));
+    assert!(report.figures().unwrap()[0].contains("16 snapshots, 20 dB"));
 }
 
 #[test]
@@ -65,9 +66,12 @@ fn sparse_arrays_leave_out_what_needs_a_uniform_one_and_bad_options_are_refused(
     let names = Options::methods(&sparse.plan().unwrap());
     assert!(names.iter().any(|name| name == "1: nomp"), "{names:?}");
     assert!(!names.iter().any(|name| name.contains("smoothed")), "{names:?}");
-    for (array, snapshots, trials) in
-        [("nothing", &[1][..], 1), ("ula8", &[], 1), ("ula8", &[0], 1), ("ula8", &[1], 0)]
-    {
-        assert!(report(array, snapshots, trials).is_err());
+    for (array, snapshots, trials, what) in [
+        ("nothing", &[1][..], 1, "array preset"),
+        ("ula8", &[], 1, "numbers of snapshots"),
+        ("ula8", &[0], 1, "snapshots"),
+        ("ula8", &[1], 0, "trials"),
+    ] {
+        assert_eq!(report(array, snapshots, trials).unwrap_err().details().what, what);
     }
 }

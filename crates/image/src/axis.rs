@@ -84,6 +84,7 @@ impl Axis {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use boresight_core::Diagnose;
 
     #[test]
     fn shares_interpolate_and_end_with_the_axis() {
@@ -99,11 +100,16 @@ mod tests {
 
     #[test]
     fn what_is_no_axis_is_refused() {
-        for (first, last, count) in
-            [(1.0, 1.0, 2), (1.0, 0.0, 2), (0.0, 1.0, 1), (f64::NAN, 1.0, 2), (0.0, 1e7, 2)]
-        {
-            assert!(Axis::new("range_m", first, last, count).is_err(), "{first} {last} {count}");
+        for (first, last, count, what) in [
+            (1.0, 1.0, 2, "range_m"),
+            (1.0, 0.0, 2, "range_m"),
+            (0.0, 1.0, 1, "points of range_m"),
+            (f64::NAN, 1.0, 2, "range_m"),
+            (0.0, 1e7, 2, "range_m"),
+            (0.0, 1.0, MAX_POINTS + 1, "points of range_m"),
+        ] {
+            let refused = Axis::new("range_m", first, last, count).unwrap_err();
+            assert_eq!((refused.code(), &*refused.details().what), ("out-of-range", what));
         }
-        assert!(Axis::new("range_m", 0.0, 1.0, MAX_POINTS + 1).is_err());
     }
 }

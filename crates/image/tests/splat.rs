@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::Random;
+use boresight_core::{Diagnose, Random};
 use boresight_image::{Axis, Grid, ImageError, RangeAzimuthDoppler, SpectrumPlan, Target};
 use proptest::prelude::*;
 
@@ -156,19 +156,33 @@ fn levels_and_elevations() {
     let mut map = RangeAzimuthDoppler::new(grid(), None).unwrap();
     map.add_spectrum(&plan, 9.0, 0.0, &[f32::MAX; 10], None).unwrap();
     assert!(map.power.iter().all(|power| power.is_finite()));
-    assert!(map.add_spectrum(&plan, 9.0, 0.0, &power[..15], None).is_err());
-    assert!(map.add_spectrum(&plan, 9.0, 0.0, &[f32::NAN; 10], None).is_err());
-    assert!(map.add_spectrum(&plan, 9.0, 0.0, &[-1.0; 10], None).is_err());
+    for (power, code, what) in [
+        (&power[..15], "shape", "a spectrum"),
+        (&[f32::NAN; 10], "out-of-range", "power 0 of a spectrum"),
+        (&[-1.0; 10], "out-of-range", "power 0 of a spectrum"),
+    ] {
+        let refused = map.add_spectrum(&plan, 9.0, 0.0, power, None).unwrap_err();
+        assert_eq!((refused.code(), &*refused.details().what), (code, what));
+    }
 }
 
 #[test]
 fn grids_that_are_none_are_refused() {
-    assert!(Grid::new([-1.0, 5.0], 4, 1.0, 8).is_err());
-    assert!(Grid::new([1.0, 5.0], 4, 1.6, 8).is_err());
-    assert!(Grid::new([1.0, f64::NAN], 4, 1.0, 8).is_err());
+    for (range_m, view_rad, what) in [
+        ([-1.0, 5.0], 1.0, "range_m"),
+        ([1.0, 5.0], 1.6, "field_of_view_rad"),
+        ([1.0, f64::NAN], 1.0, "range_m"),
+    ] {
+        assert_eq!(Grid::new(range_m, 4, view_rad, 8).unwrap_err().details().what, what);
+    }
     let large = Grid::new([1.0, 5.0], 16_000, 1.0, 16_000);
     assert!(matches!(large, Err(ImageError::TooLarge { .. })), "{large:?}");
-    for azimuths in [&[0.1][..], &[0.2, 0.1], &[0.0, 2.0], &[0.0, f64::NAN]] {
-        assert!(SpectrumPlan::new(azimuths, &grid()).is_err(), "{azimuths:?}");
+    for (azimuths, what) in [
+        (&[0.1][..], "azimuths of the spectra"),
+        (&[0.2, 0.1], "azimuth 1 of the spectra (rad)"),
+        (&[0.0, 2.0], "azimuth of a spectrum (rad)"),
+        (&[0.0, f64::NAN], "azimuth of a spectrum (rad)"),
+    ] {
+        assert_eq!(SpectrumPlan::new(azimuths, &grid()).unwrap_err().details().what, what);
     }
 }

@@ -2,10 +2,11 @@
 
 #![allow(clippy::unwrap_used)]
 
+use boresight_core::Diagnose;
 use boresight_core::drive::Mounting;
 use boresight_image::{
-    BirdsEyeView, Gate, Grid, NO_RADAR, RangeAzimuthDoppler, RangeAzimuthMap, Target, ViewGrid,
-    birds_eye_view, sidelobe_measure,
+    BirdsEyeView, Gate, Grid, ImageError, NO_RADAR, RangeAzimuthDoppler, RangeAzimuthMap, Target,
+    ViewGrid, birds_eye_view, sidelobe_measure,
 };
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
@@ -142,12 +143,23 @@ fn gates_of_resolution_widen_with_range_and_towards_the_edge() {
 fn bad_arguments_are_refused() {
     let map = map(20.0, 0.0, 1.0);
     let place = mounting(0.0, 0.0, 0.0);
-    assert!(birds_eye_view(&[], ground()).is_err());
-    assert!(birds_eye_view(&[(&map, mounting(f64::NAN, 0.0, 0.0))], ground()).is_err());
-    assert!(ViewGrid::new([0.0, 1e9], [0.0, 1e9], 0.1).is_err());
-    assert!(ViewGrid::new([0.0, 100.0], [0.0, 100.0], f64::NAN).is_err());
-    assert!(ViewGrid::new([1.0, 0.0], [0.0, 100.0], 0.5).is_err());
+    let refused = |error: ImageError| (error.code(), error.details().what);
+    let viewed = |radars: &[_]| refused(birds_eye_view(radars, ground()).unwrap_err());
+    assert_eq!(viewed(&[]), ("out-of-range", "radars".into()));
+    let nowhere = viewed(&[(&map, mounting(f64::NAN, 0.0, 0.0))]);
+    assert_eq!(nowhere, ("not-finite", "mounting".into()));
+    for (x_m, y_m, cell_m, what) in [
+        ([0.0, 1e9], [0.0, 1e9], 0.1, "x_m"),
+        ([0.0, 100.0], [0.0, 100.0], f64::NAN, "cell_m"),
+        ([1.0, 0.0], [0.0, 100.0], 0.5, "points of x_m"),
+    ] {
+        let grid = refused(ViewGrid::new(x_m, y_m, cell_m).unwrap_err());
+        assert_eq!(grid, ("out-of-range", what.into()));
+    }
     let view = birds_eye_view(&[(&map, place)], ground()).unwrap();
-    assert!(sidelobe_measure(&view, &[], Gate::Circle { radius_m: 0.0 }).is_err());
-    assert!(sidelobe_measure(&view, &[[f64::NAN, 0.0]], Gate::Circle { radius_m: 1.0 }).is_err());
+    let measured = |targets: &[[f64; 2]], radius_m| {
+        refused(sidelobe_measure(&view, targets, Gate::Circle { radius_m }).unwrap_err())
+    };
+    assert_eq!(measured(&[], 0.0), ("out-of-range", "gate_m".into()));
+    assert_eq!(measured(&[[f64::NAN, 0.0]], 1.0), ("not-finite", "targets".into()));
 }

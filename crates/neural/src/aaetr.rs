@@ -3,7 +3,7 @@
 use crate::engine::{Runners, filled};
 use crate::error::{NeuralError, network_failed};
 use crate::model::Model;
-use boresight_aoa::estimator::Plan;
+use boresight_aoa::Plan;
 use boresight_aoa::{AoaError, Data, Estimate, Method, Options, Source, Warning, settle};
 use boresight_core::{Array, Complex64, Direction, presets};
 use ndarray::{Array2, ArrayView3, ArrayViewD, Axis};

@@ -4,7 +4,7 @@ use crate::engine::{Runners, filled};
 use crate::error::{NeuralError, network_failed};
 use crate::features::{ELEMENTS, covariance_features};
 use crate::model::Model;
-use boresight_aoa::estimator::Plan;
+use boresight_aoa::Plan;
 use boresight_aoa::{
     AoaError, Data, Estimate, Method, Options, SourceCount, Warning, settle, sources_at,
 };

@@ -7,7 +7,7 @@ use crate::engine::{Engine, Runners, ports, tensor, tensor_of};
 use crate::error::NeuralError;
 use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
-use boresight_aoa::estimator::Plan;
+use boresight_aoa::Plan;
 use boresight_aoa::{Data, Estimate, Estimator, Estimators, Method, Options};
 use boresight_core::error::{check_finite, check_range};
 use boresight_core::{Array, Complex32, CoreError};

@@ -5,7 +5,7 @@ mod support;
 
 use boresight_aoa::{Data, Options, SourceCount, Warning};
 use boresight_core::steering::{cis, steering_matrix};
-use boresight_core::{Array, Complex32, Complex64, Direction, Random};
+use boresight_core::{Array, Complex32, Complex64, Diagnose, Direction, Random};
 use boresight_neural::{Kind, covariance_features};
 use boresight_signal::region::{region_covariance, region_snapshots};
 use ndarray::{Array2, Array3, array};
@@ -140,7 +140,7 @@ fn limits_and_other_numbers_of_targets_are_told() {
         run(&Options { field_of_view_rad: 0.05, confidence: Some(0.0), ..Options::default() });
     assert!(narrow.sources.iter().all(|s| s.direction.azimuth_rad.abs() <= 0.051));
     let wrong = network.estimator(&Array::ula(7).unwrap(), &Options::default());
-    assert!(wrong.is_err());
+    assert_eq!(wrong.err().unwrap().code(), "unsuitable-array");
 }
 
 /// The features as Python makes them lie within what they are made of here.

@@ -2,6 +2,7 @@
 
 use boresight_aoa::AoaError;
 use boresight_core::{CoreError, Details, Diagnose};
+use boresight_image::ImageError;
 use boresight_signal::SignalError;
 use thiserror::Error;
 
@@ -18,6 +19,9 @@ pub enum PipelineError {
     /// Angle estimation refused.
     #[error(transparent)]
     Angle(#[from] AoaError),
+    /// An image cannot be made.
+    #[error(transparent)]
+    Image(#[from] ImageError),
     /// The array has other channels than the frames.
     #[error("the array {given}; the frames have {expected}")]
     Channels {
@@ -42,6 +46,7 @@ impl Diagnose for PipelineError {
             Self::Argument(error) => error.code(),
             Self::Signal(error) => error.code(),
             Self::Angle(error) => error.code(),
+            Self::Image(error) => error.code(),
             Self::Channels { .. } => "channels",
             Self::Cancelled { .. } => "cancelled",
         }
@@ -52,6 +57,7 @@ impl Diagnose for PipelineError {
             Self::Argument(error) => error.details(),
             Self::Signal(error) => error.details(),
             Self::Angle(error) => error.details(),
+            Self::Image(error) => error.details(),
             Self::Channels { expected, given } => Details::new("array", expected, given),
             Self::Cancelled { done, total } => {
                 Details::new("steps", total.to_string(), format!("{done}, then a request to stop"))

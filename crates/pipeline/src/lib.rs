@@ -4,12 +4,13 @@
 //!
 //! [`Chain::new`] plans for one waveform, array and set of options; [`Chain::process`] takes one
 //! frame, [`Chain::each`] all frames of a [`FrameSource`] one by one, and [`Chain::combine`] all of
-//! them together, which suits scenes that do not move.
+//! them together, which suits scenes that do not move. [`image::frame_map`] makes a range-azimuth map of a frame's cells.
 
 mod beam;
 mod capture;
 mod chain;
 mod error;
+pub mod image;
 mod options;
 mod result;
 mod source;

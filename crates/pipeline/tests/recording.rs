@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
 use boresight_aoa::{AoaError, Method, SourceCount};
-use boresight_core::Array;
+use boresight_core::{Array, Diagnose};
 use boresight_formats::{Capture, FormatError, RadarConfig};
 use boresight_pipeline::{
     Chain, ChainOptions, Detection, Frame, FrameResult, FrameSource, PipelineError,
@@ -196,9 +196,12 @@ fn cells_give_snapshots_and_spectra() {
     let azimuth_deg = estimate.sources[0].direction.azimuth_rad.to_degrees();
     assert!((azimuth_deg + 10.8).abs() < 1.0, "{azimuth_deg}");
     assert!(estimate.spectrum.is_some());
-    assert!(chain.cell_snapshots(&recording, 0..8, 256, 8).is_err());
-    assert!(chain.cell_snapshots(&recording, 0..9, 58, 8).is_err());
-    assert!(chain.cell_snapshots(&recording, 0..0, 58, 8).is_err());
+    for (frames, range_bin, what) in
+        [(0..8, 256, "range bin"), (0..9, 58, "frame"), (0..0, 58, "number of frames")]
+    {
+        let refused = chain.cell_snapshots(&recording, frames, range_bin, 8).unwrap_err();
+        assert!(refused.to_string().starts_with(what), "{refused}");
+    }
 }
 
 #[test]
@@ -219,8 +222,9 @@ fn what_does_not_fit_is_refused() {
     let (mut chain, recording) = chain(&options);
     let mut frame = recording.frame(0).unwrap().samples;
     frame[[3, 1, 2, 100]].re = f32::NAN;
-    assert!(chain.process(frame.view()).is_err());
-    assert!(chain.process(frame.slice(ndarray::s![.., .., .., ..255])).is_err());
+    assert_eq!(chain.process(frame.view()).unwrap_err().code(), "not-finite");
+    let short = chain.process(frame.slice(ndarray::s![.., .., .., ..255])).unwrap_err();
+    assert_eq!(short.code(), "shape");
     // The plan works on after an error.
     let frame = recording.frame(0).unwrap().samples;
     assert_targets(&chain.process(frame.view()).unwrap());

@@ -201,7 +201,8 @@ mod tests {
             assert!(matches!(error, SignalError::Argument(CoreError::OutOfRange { .. })));
         }
         let flat = Array2::zeros((2, 3));
-        assert!(spatial_smoothing(flat.view(), 1).is_err());
+        let error = spatial_smoothing(flat.view(), 1).unwrap_err();
+        assert!(matches!(error, SignalError::Argument(CoreError::Shape { .. })), "{error}");
     }
 
     #[test]

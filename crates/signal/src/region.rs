@@ -158,6 +158,7 @@ pub fn region_channels(region: ArrayView3<Complex32>) -> Array4<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use boresight_core::Diagnose;
     use std::f64::consts::TAU;
 
     /// Four chirps of a tone of power 4 in bin 20 whose phase grows by half a radian a channel.
@@ -181,7 +182,11 @@ mod tests {
         assert_eq!((cells.len(), dropped), (2, 2));
         assert!(region.contains_azimuth(-0.5) && !region.contains_azimuth(-0.6));
         for limits in [[2.0, 1.0], [f64::NAN, 1.0], [0.0, f64::NAN]] {
-            assert!(Region { rate_mps: Some(limits), ..region }.check().is_err());
+            let refused = Region { rate_mps: Some(limits), ..region }.check().unwrap_err();
+            assert_eq!(
+                (refused.code(), &*refused.details().what),
+                ("out-of-range", "region.rate_mps")
+            );
         }
     }
 
@@ -211,9 +216,17 @@ mod tests {
     #[test]
     fn regions_beyond_the_spectrum_are_refused() {
         let spectrum = range_spectrum(frame().view(), Window::Hann).unwrap();
-        for (centre, length, chirps) in [(64, 9, 1), (3, 65, 1), (3, 0, 1), (3, 9, 5), (3, 9, 0)] {
-            assert!(crop_region(spectrum.view(), centre, length, chirps).is_err());
+        for (centre, length, chirps, what) in [
+            (64, 9, 1, "region centre"),
+            (3, 65, 1, "region length"),
+            (3, 0, 1, "region length"),
+            (3, 9, 5, "region chirps"),
+            (3, 9, 0, "region chirps"),
+        ] {
+            let refused = crop_region(spectrum.view(), centre, length, chirps).unwrap_err();
+            assert_eq!((refused.code(), &*refused.details().what), ("out-of-range", what));
         }
-        assert!(range_spectrum(Array4::zeros((0, 1, 1, 8)).view(), Window::Hann).is_err());
+        let none = range_spectrum(Array4::zeros((0, 1, 1, 8)).view(), Window::Hann).unwrap_err();
+        assert_eq!((none.code(), &*none.details().what), ("empty", "frame"));
     }
 }

@@ -50,6 +50,7 @@ pub fn compensate(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use boresight_core::Diagnose;
     use std::f64::consts::PI;
 
     #[test]
@@ -77,7 +78,8 @@ mod tests {
                 Err(SignalError::Argument(CoreError::Shape { .. }))
             ));
         }
-        assert!(compensate(&mut cell, 5, f64::NAN).is_err());
+        let refused = compensate(&mut cell, 5, f64::NAN).unwrap_err();
+        assert_eq!(refused.details().what, "phase_step_rad");
         assert!(compensate(&mut [], 5, 0.0).is_ok());
     }
 }

@@ -244,6 +244,7 @@ fn taylor(length: usize, nbar: usize, sidelobe_db: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use boresight_core::Diagnose;
 
     fn close(given: &[f64], reference: &[f64], name: &str) {
         for (a, b) in given.iter().zip(reference) {
@@ -396,16 +397,19 @@ mod tests {
             for length in [1, 2, 3] {
                 assert!(coherent_gain(&window.coefficients(length).unwrap()) > 0.1);
             }
-            assert!(window.coefficients(0).is_err() && window.coefficients(usize::MAX).is_err());
+            for length in [0, usize::MAX] {
+                let refused = window.coefficients(length).unwrap_err();
+                assert_eq!(refused.details().what, "window length");
+            }
         }
         assert!(Window::named("kaiser").unwrap_err().to_string().contains("taylor"));
-        for bad in [
-            Window::Chebyshev { sidelobe_db: f64::NAN },
-            Window::Chebyshev { sidelobe_db: 0.0 },
-            Window::Taylor { nbar: 0, sidelobe_db: 30.0 },
-            Window::Taylor { nbar: 4, sidelobe_db: 1e9 },
+        for (bad, what) in [
+            (Window::Chebyshev { sidelobe_db: f64::NAN }, "Chebyshev sidelobe_db"),
+            (Window::Chebyshev { sidelobe_db: 0.0 }, "Chebyshev sidelobe_db"),
+            (Window::Taylor { nbar: 0, sidelobe_db: 30.0 }, "Taylor nbar"),
+            (Window::Taylor { nbar: 4, sidelobe_db: 1e9 }, "Taylor sidelobe_db"),
         ] {
-            assert!(bad.coefficients(8).is_err(), "{bad:?}");
+            assert_eq!(bad.coefficients(8).unwrap_err().details().what, what);
         }
     }
 }

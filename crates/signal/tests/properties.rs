@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::describe::Named;
-use boresight_core::{Complex32, Complex64, Waveform};
+use boresight_core::{Complex32, Complex64, Diagnose, Waveform};
 use boresight_signal::region::{crop_region, range_spectrum, region_covariance};
 use boresight_signal::{
     Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,
@@ -70,7 +70,9 @@ proptest! {
                     prop_assert!(peak.power.is_finite());
                 }
             }
-            prop_assert!(cfar.detect(Array2::zeros((ranges + 1, dopplers)).view()).is_err());
+            let other = cfar.detect(Array2::zeros((ranges + 1, dopplers)).view()).err();
+            let other = other.map(|error| (error.code(), error.details().what));
+            prop_assert_eq!(other, Some(("shape", "power map".to_owned())));
         }
     }
 

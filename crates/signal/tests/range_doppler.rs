@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Complex64, CoreError, Random, Waveform};
+use boresight_core::{Complex32, Complex64, CoreError, Diagnose, Random, Waveform};
 use boresight_signal::range_doppler::MAX_CUBE_VALUES;
 use boresight_signal::{
     RangeDoppler, RangeDopplerOptions, SignalError, Window, power_map, remove_static_clutter,
@@ -112,7 +112,9 @@ fn a_tone_keeps_its_power_in_cell_and_profile() {
     assert!(plan.rate_mps().windows(2).all(|w| w[0] < w[1]));
     let snapshot = map.snapshot(20, 42).unwrap();
     assert!(snapshot.len() == 2 && (snapshot[0].norm() - 3.0).abs() < 1e-4);
-    assert!(map.snapshot(64, 0).is_err() && map.snapshot(0, 64).is_err());
+    for (range, doppler, what) in [(64, 0, "range bin"), (0, 64, "Doppler bin")] {
+        assert_eq!(map.snapshot(range, doppler).unwrap_err().details().what, what);
+    }
 }
 
 /// Mean noise power of 8192 cells: its standard error is 1.1 % where they are independent, up to
@@ -188,7 +190,8 @@ fn wrong_shapes_and_sizes_are_named() {
         assert!(matches!(error, SignalError::Argument(CoreError::Shape { .. })));
     }
     let mut other = RangeDoppler::new(&good, 1, &options).unwrap().output();
-    assert!(plan.process(Array4::zeros((4, 1, 2, 8)).view(), &mut other).is_err());
+    let refused = plan.process(Array4::zeros((4, 1, 2, 8)).view(), &mut other).unwrap_err();
+    assert!(matches!(refused, SignalError::Argument(CoreError::Shape { .. })), "{refused}");
     assert!(plan.process(Array4::zeros((4, 1, 2, 8)).view(), &mut map).is_ok());
 
     let huge = Waveform { loops: 40_000, frame_interval_s: 3.0, ..waveform(65_536, 1, 4) };
@@ -199,8 +202,9 @@ fn wrong_shapes_and_sizes_are_named() {
         "{error:?}"
     );
     let padded = RangeDopplerOptions { range_padding: 0, ..options };
-    assert!(RangeDoppler::new(&good, 2, &padded).is_err());
+    let what = |result: Result<RangeDoppler, SignalError>| result.err().unwrap().details().what;
+    assert_eq!(what(RangeDoppler::new(&good, 2, &padded)), "padding");
     let broken = Waveform { sample_rate_hz: f64::NAN, ..good };
-    assert!(RangeDoppler::new(&broken, 2, &options).is_err());
-    assert!(RangeDoppler::new(&good, 0, &options).is_err());
+    assert_eq!(what(RangeDoppler::new(&broken, 2, &options)), "sample_rate_hz");
+    assert_eq!(what(RangeDoppler::new(&good, 0, &options)), "receivers");
 }

@@ -7,7 +7,7 @@ use boresight_core::linalg::hermitian_eigen;
 use boresight_core::presets::preset;
 use boresight_core::steering::steering_vector;
 use boresight_core::units::db_to_power;
-use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections};
+use boresight_core::{Array, Complex64, CoreError, Diagnose, Direction, Imperfections};
 use boresight_signal::sample_covariance;
 use boresight_simulate::{
     Fluctuation, Scene, SceneSampling, SimulateError, SnapshotOptions, SnapshotSimulator, Target,
@@ -178,7 +178,8 @@ fn too_much_and_too_little_are_named() {
     ));
     let backwards = SceneSampling { targets: [3, 2], ..SceneSampling::default() };
     let backwards = SnapshotOptions { scene: Scene::Sampled(backwards), ..good };
-    assert!(SnapshotSimulator::new(&array, &backwards).is_err());
+    let refused = SnapshotSimulator::new(&array, &backwards).err().unwrap();
+    assert_eq!(refused.details().what, "fewest targets");
 }
 
 fn any_number() -> impl Strategy<Value = f64> {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use boresight_core::Diagnose;
 use boresight_simulate::street::StreetKind;
 use boresight_simulate::{Street, StreetOptions};
 
@@ -62,7 +63,7 @@ fn seeds_lay_out_other_streets_and_bad_options_are_refused() {
     assert_eq!(street(), street());
     for speed in [f64::NAN, 31.0] {
         let options = StreetOptions { ego_speed_mps: speed, ..StreetOptions::default() };
-        assert!(Street::new(options).is_err());
+        assert_eq!(Street::new(options).unwrap_err().details().what, "ego_speed_mps");
     }
-    assert!(street().visible(4).is_err());
+    assert_eq!(street().visible(4).unwrap_err().details().what, "radar");
 }

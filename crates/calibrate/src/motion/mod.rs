@@ -4,13 +4,17 @@
 //! [`ransac`] finds the points that agree on one motion; [`least_squares`] and
 //! [`orthogonal_distance`] make the most of them.
 
+mod consensus;
 pub(crate) mod least_squares;
 pub(crate) mod orthogonal_distance;
+pub(crate) mod plan;
 pub(crate) mod ransac;
 
-use crate::{CalibrateError, Motion, MotionMethod, Options};
-use boresight_core::{CoreError, Detection, Random};
-use ransac::Search;
+pub use plan::{FrameMotion, MotionPlan};
+
+use crate::{CalibrateError, FrameInput, Motion, MotionMethod, Options};
+use boresight_core::{CoreError, Detection};
+use plan::plan;
 
 /// Detections as columns: what the sums and counts run over.
 #[derive(Debug, Clone, Default)]
@@ -53,19 +57,10 @@ impl Columns {
 /// of missing values such as 1e30 lie above.
 const MAX_RANGE_RATE_MPS: f32 = 1e4;
 
-/// Residuals are believed down to this share of the noise expected: few detections agree more closely by
-/// chance, copies of two do so for certain.
-const LEAST_NOISE: f64 = 0.1;
-
-/// Estimates the motion frame by frame, reusing its buffers.
-#[derive(Debug, Clone)]
+/// Estimates the motion from single frames, reusing its buffers.
+#[derive(Debug)]
 pub struct MotionEstimator {
-    method: MotionMethod,
-    options: Options,
-    random: Random,
-    columns: Columns,
-    inliers: Vec<u32>,
-    lines: Vec<orthogonal_distance::Line>,
+    plan: Box<dyn MotionPlan>,
     weights: Vec<f32>,
 }
 
@@ -85,70 +80,15 @@ impl MotionEstimator {
             }
             .into());
         }
-        Ok(Self {
-            method,
-            options: *options,
-            random: Random::new(options.seed, 0),
-            columns: Columns::default(),
-            inliers: Vec::new(),
-            lines: Vec::new(),
-            weights: Vec::new(),
-        })
+        Ok(Self { plan: plan(method, options)?, weights: Vec::new() })
     }
 
     /// The motion, with covariance (equation 3 for least squares; the noise model's, inflated by the
     /// residuals where they exceed it, for the weighted methods). `None` where fewer than
     /// `min_inliers` detections agree, or their azimuths do not span a plane.
     pub fn estimate(&mut self, detections: &[Detection]) -> Option<Motion> {
-        self.columns.load(detections);
-        self.weights.clear();
-        self.weights.resize(detections.len(), 0.0);
-        let o = &self.options;
-        let search = Search {
-            residual_mps: o.inlier_residual_mps,
-            confidence: o.confidence,
-            min_share: o.inlier_ratio_threshold,
-        };
-        let mut velocity = search.run(&self.columns, &mut self.random, &mut self.inliers)?;
-        let noise = [o.range_rate_sigma_mps, o.azimuth_sigma_rad];
-        let fit = match self.method {
-            MotionMethod::WeightedLeastSquares | MotionMethod::OrthogonalDistance => {
-                let limit = o.inlier_residual_mps / o.range_rate_sigma_mps;
-                let mut fit = None;
-                for _ in 0..RESELECTIONS {
-                    let (columns, inliers) = (&self.columns, &self.inliers);
-                    let next = if self.method == MotionMethod::WeightedLeastSquares {
-                        least_squares::weighted(columns, inliers, velocity, noise)
-                    } else {
-                        orthogonal_distance::fit(columns, inliers, velocity, noise, &mut self.lines)
-                    }?;
-                    velocity = next.0;
-                    fit = Some(next);
-                    let before = self.inliers.len();
-                    least_squares::select(&self.columns, velocity, noise, limit, &mut self.inliers);
-                    if self.inliers.len() == before {
-                        break;
-                    }
-                }
-                fit
-            }
-            _ => least_squares::plain(&self.columns, &self.inliers, LEAST_NOISE * noise[0]),
-        };
-        let (velocity_mps, covariance) = fit?;
-        for &i in &self.inliers {
-            self.weights[i as usize] = 1.0;
-        }
-        let threshold = o.inlier_threshold as f32;
-        let inliers = self.weights.iter().filter(|&&w| w >= threshold).count();
-        let finite = velocity_mps.iter().all(|v| v.is_finite())
-            && covariance.xx.is_finite()
-            && covariance.yy.is_finite();
-        (finite && inliers >= o.min_inliers).then(|| Motion {
-            velocity_mps,
-            covariance: covariance.rows(),
-            inliers,
-            detections: detections.len(),
-        })
+        let frame = FrameInput { time_s: 0.0, detections, yaw_rate_radps: None, speed_mps: None };
+        self.plan.estimate(frame, &mut self.weights).ok()?.motion
     }
 
     /// For each detection of the last frame, whether it was taken as static (1) or not (0).
@@ -156,6 +96,3 @@ impl MotionEstimator {
         &self.weights
     }
 }
-
-/// How often inliers are selected anew by the noise model.
-const RESELECTIONS: usize = 3;

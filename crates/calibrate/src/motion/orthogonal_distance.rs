@@ -6,12 +6,42 @@
 //! minimised over velocity and errors by Gauss-Newton; the errors are eliminated in closed form
 //! (Boggs, Byrd and Schnabel 1987).
 
-use super::Columns;
+use super::consensus::Consensus;
 use super::least_squares::{Fit, ITERATIONS, SETTLED_MPS, inflation};
+use super::{Columns, FrameMotion, MotionPlan};
 use crate::symmetric::Symmetric;
+use crate::{CalibrateError, FrameInput, Options};
+
+/// RANSAC, then orthogonal distance regression.
+#[derive(Debug)]
+pub(crate) struct OrthogonalDistance {
+    consensus: Consensus,
+    lines: Vec<Line>,
+}
+
+impl OrthogonalDistance {
+    pub fn new(options: &Options) -> Self {
+        Self { consensus: Consensus::new(options), lines: Vec::new() }
+    }
+}
+
+impl MotionPlan for OrthogonalDistance {
+    fn estimate(
+        &mut self,
+        frame: FrameInput<'_>,
+        weights: &mut Vec<f32>,
+    ) -> Result<FrameMotion, CalibrateError> {
+        let Self { consensus, lines } = self;
+        let fit = |columns: &Columns, inliers: &[u32], velocity, noise| {
+            fit(columns, inliers, velocity, noise, lines)
+        };
+        let motion = consensus.estimate_reselecting(frame.detections, weights, fit);
+        Ok(FrameMotion::to_judge(motion))
+    }
+}
 
 /// The fit from a first velocity; `lines` is scratch space.
-pub(crate) fn fit(
+fn fit(
     columns: &Columns,
     inliers: &[u32],
     first: [f64; 2],
@@ -48,7 +78,7 @@ pub(crate) fn fit(
 
 /// The model of one detection, linear about its azimuth error.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Line {
+struct Line {
     cos: f64,
     sin: f64,
     /// Change of the predicted approach with azimuth, m/s per rad.

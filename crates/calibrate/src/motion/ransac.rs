@@ -1,8 +1,10 @@
 //! RANSAC (Fischler and Bolles 1981) for the motion, as in Kellner et al. 2013: two detections make a
 //! hypothesis, the one most detections agree with wins, least squares on those refines it.
 
-use super::{Columns, least_squares};
-use boresight_core::Random;
+use super::consensus::Consensus;
+use super::{Columns, FrameMotion, MotionPlan, least_squares};
+use crate::{CalibrateError, FrameInput, Motion, Options};
+use boresight_core::{Detection, Random};
 
 /// Draws are bounded by this whatever share of inliers is asked for.
 const MAX_DRAWS: usize = 400;
@@ -14,6 +16,41 @@ const MIN_SINE: f32 = 0.01;
 const MAX_SPEED_MPS: f32 = 150.0;
 /// Rounds of least squares and selection after the search.
 const REFINEMENTS: usize = 6;
+/// Residuals are believed down to this share of the noise expected: few detections agree more closely by
+/// chance, copies of two do so for certain.
+const LEAST_NOISE: f64 = 0.1;
+
+/// RANSAC, then least squares on the inliers.
+#[derive(Debug, Clone)]
+pub(crate) struct Ransac {
+    consensus: Consensus,
+    /// Standard deviation that residuals are taken to have at least, m/s.
+    least_mps: f64,
+}
+
+impl Ransac {
+    pub fn new(options: &Options) -> Self {
+        let least_mps = LEAST_NOISE * options.range_rate_sigma_mps;
+        Self { consensus: Consensus::new(options), least_mps }
+    }
+
+    /// The motion in a frame; needs its detections alone.
+    pub fn motion(&mut self, detections: &[Detection], weights: &mut Vec<f32>) -> Option<Motion> {
+        self.consensus.estimate(detections, weights, |columns, inliers, _| {
+            least_squares::plain(columns, inliers, self.least_mps)
+        })
+    }
+}
+
+impl MotionPlan for Ransac {
+    fn estimate(
+        &mut self,
+        frame: FrameInput<'_>,
+        weights: &mut Vec<f32>,
+    ) -> Result<FrameMotion, CalibrateError> {
+        Ok(FrameMotion::to_judge(self.motion(frame.detections, weights)))
+    }
+}
 
 /// What the search needs to know.
 pub(crate) struct Search {

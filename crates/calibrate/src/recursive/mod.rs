@@ -26,8 +26,9 @@ use crate::calibrator::check_time;
 use crate::error::CalibrateError;
 use crate::estimate::{AngleEstimate, FrameCounts, Remark};
 use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
-use crate::motion::MotionEstimator;
-use crate::options::{MotionMethod, Options};
+use crate::motion::ransac::Ransac;
+use crate::motion::{FrameMotion, MotionPlan};
+use crate::options::Options;
 use boresight_core::Detection;
 use information::{Information, Matrix, UNKNOWNS, Vector};
 use tracked::{Cloud, Fit, Limits, Prediction};
@@ -64,7 +65,8 @@ pub struct Recursive {
     limits: Limits,
     information: Information,
     cloud: Cloud,
-    alone: MotionEstimator,
+    alone: Ransac,
+    alone_weights: Vec<f32>,
     vote: Option<Vote>,
     misses: usize,
     time_s: Option<f64>,
@@ -82,6 +84,20 @@ pub struct Recursive {
     detections: f64,
 }
 
+impl MotionPlan for Recursive {
+    /// The tracked motion has been judged already, and has one verdict more: a frame that went into the vote on the
+    /// angle's start is sparse.
+    fn estimate(
+        &mut self,
+        frame: FrameInput<'_>,
+        weights: &mut Vec<f32>,
+    ) -> Result<FrameMotion, CalibrateError> {
+        let outcome = self.add(frame)?;
+        *weights = outcome.weights;
+        Ok(FrameMotion { motion: outcome.motion, verdict: outcome.verdict })
+    }
+}
+
 impl Recursive {
     /// An estimator with nothing seen yet. Without a nominal angle it begins with a vote of frames
     /// whose motion RANSAC finds; the same vote is taken where the frames do not agree with the nominal
@@ -90,6 +106,7 @@ impl Recursive {
     /// # Errors
     /// Those of [`Options::validate`].
     pub fn new(options: &Options) -> Result<Self, CalibrateError> {
+        options.validate()?;
         let bias_sigma = options.bias_sigma_radps;
         let start = options.nominal_rad.unwrap_or(0.0);
         Ok(Self {
@@ -102,7 +119,8 @@ impl Recursive {
             },
             information: prior(start, 0.0, bias_sigma),
             cloud: Cloud::default(),
-            alone: MotionEstimator::new(options, MotionMethod::Ransac)?,
+            alone: Ransac::new(options),
+            alone_weights: Vec::new(),
             vote: options.nominal_rad.is_none().then(Vote::new),
             misses: 0,
             time_s: None,
@@ -206,7 +224,10 @@ impl Recursive {
         if self.counts.used >= START_FRAMES || prediction.measured_speed.is_some() {
             return predicted;
         }
-        let start = self.alone.estimate(detections).map(|motion| motion.velocity_mps);
+        let start = self
+            .alone
+            .motion(detections, &mut self.alone_weights)
+            .map(|motion| motion.velocity_mps);
         let found = start.and_then(|velocity| {
             self.cloud.fit(prediction, &self.limits, self.noise_scale, Some(velocity))
         });
@@ -231,10 +252,10 @@ impl Recursive {
 
     /// Before there is an angle: a frame's own motion, and its vote.
     fn begin(&mut self, frame: &FrameInput, measured: f64, outcome: &mut FrameOutcome) -> Verdict {
-        let Some(motion) = self.alone.estimate(frame.detections) else {
+        let Some(motion) = self.alone.motion(frame.detections, &mut self.alone_weights) else {
             return Verdict::Sparse;
         };
-        outcome.weights.copy_from_slice(self.alone.weights());
+        outcome.weights.copy_from_slice(&self.alone_weights);
         outcome.motion = Some(motion);
         let [vx, vy] = motion.velocity_mps;
         let speed = vx.hypot(vy);

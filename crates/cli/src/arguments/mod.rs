@@ -41,6 +41,9 @@ Angles are in degrees, positive to the left; range rates are positive when reced
 #[derive(Debug, Parser)]
 #[command(name = "boresight", version, after_help = EXAMPLES, max_term_width = 100)]
 pub struct Cli {
+    /// Replace files that are there; never those a command reads.
+    #[arg(long, global = true)]
+    pub force: bool,
     /// What to do.
     #[command(subcommand)]
     pub command: Command,

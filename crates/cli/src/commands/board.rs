@@ -1,16 +1,16 @@
 //! What a board detected itself.
 
-use super::estimate::frame_within;
+use super::frame::frame_within;
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
-use crate::files;
+use crate::files::Files;
 use crate::output::{Column, Table, remark};
 use boresight_formats::{BoardLog, RadarConfig};
 
 /// The board's detections of each packet; `--frame` counts packets from 0.
-pub fn run(arguments: &EstimateArguments, bytes: &[u8]) -> Result<String, CliError> {
+pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result<String, CliError> {
     let config = match &arguments.config {
-        Some(path) => Some(RadarConfig::parse(&files::read(path)?)?),
+        Some(path) => Some(RadarConfig::parse(&files.read(path)?)?),
         None => None,
     };
     let log = BoardLog::parse(bytes, config.as_ref());

@@ -3,8 +3,9 @@
 use super::chain::{chain_options, detections};
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
+use crate::files::Files;
 use crate::output::remark;
-use crate::{array, files, network};
+use crate::{array, network};
 use boresight_core::Array;
 use boresight_formats::{Capture, RadarConfig};
 use boresight_pipeline::{Frame, FrameSource};
@@ -26,31 +27,39 @@ impl FrameSource for CaptureFrames<'_> {
 }
 
 /// Detections in a capture.
-pub fn run(arguments: &EstimateArguments, bytes: &[u8]) -> Result<String, CliError> {
+pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result<String, CliError> {
     let path = arguments.config.as_ref().ok_or_else(|| CliError::Option {
         option: "--config",
         expected: "the board's .cfg file, which tells how to read a .bin file".into(),
         given: "nothing".into(),
     })?;
-    let config = RadarConfig::parse(&files::read(path)?)?;
+    let config = RadarConfig::parse(&files.read(path)?)?;
     let capture = Capture::new(bytes, &config)?;
     remark(config.remarks.iter().chain(capture.remarks()).map(|remark| remark.message.clone()));
-    let array = array_of(arguments, &config)?;
+    let array = array_of(arguments, &config, files)?;
     let (options, receivers) = (chain_options(arguments), config.receivers.len());
     let model = &arguments.angle.model;
-    let mut chain = network::chain(&config.waveform, receivers, &array, &options, model)?;
+    let mut chain = network::chain(&config.waveform, receivers, &array, &options, model, files)?;
     detections(arguments, &mut chain, &CaptureFrames(capture))
 }
 
 /// The array asked for, or the board's.
-pub fn array_of(arguments: &EstimateArguments, config: &RadarConfig) -> Result<Array, CliError> {
-    board_array(arguments.array.as_deref(), config)
+pub fn array_of(
+    arguments: &EstimateArguments,
+    config: &RadarConfig,
+    files: &Files,
+) -> Result<Array, CliError> {
+    board_array(arguments.array.as_deref(), config, files)
 }
 
 /// The array of a name, or the board's.
-pub fn board_array(name: Option<&str>, config: &RadarConfig) -> Result<Array, CliError> {
+pub fn board_array(
+    name: Option<&str>,
+    config: &RadarConfig,
+    files: &Files,
+) -> Result<Array, CliError> {
     match name {
-        Some(name) => array::array(name),
+        Some(name) => array::array(name, files),
         None => config.array().ok_or_else(|| CliError::Option {
             option: "--array",
             expected: "an array, since the configuration names no board with a known one".into(),

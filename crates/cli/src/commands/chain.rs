@@ -1,7 +1,7 @@
 //! From arguments to the chain, and from its results to a table.
 
 use crate::arguments::EstimateArguments;
-use crate::commands::estimate::frame_within;
+use crate::commands::frame::frame_within;
 use crate::error::CliError;
 use crate::output::{Column, Table, remark};
 use crate::run::Run;

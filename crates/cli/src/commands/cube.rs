@@ -4,7 +4,8 @@ use super::capture::array_of;
 use super::chain::{chain_options, detections};
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
-use crate::{array, files, network};
+use crate::files::{self, Files};
+use crate::{array, network};
 use boresight_core::CoreError;
 use boresight_formats::{NpyArray, RadarConfig};
 use boresight_pipeline::CubeFrames;
@@ -12,7 +13,11 @@ use ndarray::Array5;
 
 /// Detections in a data cube of frames x loops x transmitters x receivers x samples; a cube of one
 /// frame may lack the first axis.
-pub fn run(arguments: &EstimateArguments, file: &NpyArray) -> Result<String, CliError> {
+pub fn run(
+    arguments: &EstimateArguments,
+    file: &NpyArray,
+    files: &Files,
+) -> Result<String, CliError> {
     let mut shape = file.shape.clone();
     if shape.len() == 4 {
         shape.insert(0, 1);
@@ -26,8 +31,8 @@ pub fn run(arguments: &EstimateArguments, file: &NpyArray) -> Result<String, Cli
     let cube = Array5::from_shape_vec(shape, file.to_complex32()).map_err(|_| wrong())?;
     let (waveform, array) = match (&arguments.config, &arguments.waveform) {
         (Some(path), _) => {
-            let config = RadarConfig::parse(&files::read(path)?)?;
-            (config.waveform, array_of(arguments, &config)?)
+            let config = RadarConfig::parse(&files.read(path)?)?;
+            (config.waveform, array_of(arguments, &config, files)?)
         }
         (None, Some(name)) => {
             let array = arguments.array.as_ref().ok_or_else(|| CliError::Option {
@@ -35,7 +40,7 @@ pub fn run(arguments: &EstimateArguments, file: &NpyArray) -> Result<String, Cli
                 expected: "the array of the cube".into(),
                 given: "nothing".into(),
             })?;
-            (files::waveform(name)?, array::array(array)?)
+            (files::waveform(name, files)?, array::array(array, files)?)
         }
         (None, None) => {
             return Err(CliError::Option {
@@ -46,6 +51,6 @@ pub fn run(arguments: &EstimateArguments, file: &NpyArray) -> Result<String, Cli
         }
     };
     let (options, model) = (chain_options(arguments), &arguments.angle.model);
-    let mut chain = network::chain(&waveform, shape[3], &array, &options, model)?;
+    let mut chain = network::chain(&waveform, shape[3], &array, &options, model, files)?;
     detections(arguments, &mut chain, &CubeFrames(cube.view()))
 }

@@ -3,26 +3,26 @@
 use super::{board, capture, cube, snapshots};
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
-use crate::files;
+use crate::files::{self, Files};
 use boresight_formats::{NpyArray, tables};
 use ndarray::Array3;
 
 /// Runs the command and returns what it prints.
-pub fn run(arguments: &EstimateArguments) -> Result<String, CliError> {
+pub fn run(arguments: &EstimateArguments, files: &Files) -> Result<String, CliError> {
     let path = &arguments.file;
     match files::ending(path).as_str() {
-        "bin" => capture::run(arguments, &files::read(path)?),
-        "dat" => board::run(arguments, &files::read(path)?),
+        "bin" => capture::run(arguments, &files.read(path)?, files),
+        "dat" => board::run(arguments, &files.read(path)?, files),
         "csv" => {
-            let matrix = tables::read_snapshots(&files::read(path)?)?;
+            let matrix = tables::read_snapshots(&files.read(path)?)?;
             let scenes: Array3<_> = matrix.insert_axis(ndarray::Axis(0));
-            snapshots::run(arguments, &scenes)
+            snapshots::run(arguments, &scenes, files)
         }
         "npy" => {
-            let array = NpyArray::parse(&files::read(path)?)?;
+            let array = NpyArray::parse(&files.read(path)?)?;
             match array.shape.len() {
-                1..=3 => snapshots::run(arguments, &snapshots::scenes(&array)?),
-                _ => cube::run(arguments, &array),
+                1..=3 => snapshots::run(arguments, &snapshots::scenes(&array)?, files),
+                _ => cube::run(arguments, &array, files),
             }
         }
         other => Err(CliError::Option {
@@ -31,19 +31,4 @@ pub fn run(arguments: &EstimateArguments) -> Result<String, CliError> {
             given: if other.is_empty() { "no ending".into() } else { format!(".{other}") },
         }),
     }
-}
-
-/// The index `--frame` asks for, checked against their number.
-pub fn frame_within(frame: usize, count: usize) -> Result<usize, CliError> {
-    if frame < count {
-        return Ok(frame);
-    }
-    Err(CliError::Option {
-        option: "--frame",
-        expected: match count {
-            0 => "no frame, since there is none".into(),
-            _ => format!("0 to {}", count - 1),
-        },
-        given: frame.to_string(),
-    })
 }

@@ -3,8 +3,9 @@
 use crate::arguments::{
     DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
 };
+use crate::destination::Destination;
 use crate::error::CliError;
-use crate::files;
+use crate::files::{self, Files};
 use crate::network;
 use crate::output::remark;
 use crate::run::Run;
@@ -12,13 +13,14 @@ use boresight_core::CoreError;
 use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Experiment, How};
 use boresight_evaluate::{
-    Entrants, Network, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
+    Entrants, Merged, Network, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
 };
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Runs the experiment and returns what it prints.
-pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
+pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
     match what {
         EvaluateCommand::Aoa(arguments) => {
             let options = aoa::Options {
@@ -26,12 +28,17 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
                 imperfections: arguments.imperfections.spread(),
-                entrants: entrants(&arguments.methods, &arguments.array, &arguments.networks)?,
+                entrants: entrants(
+                    &arguments.methods,
+                    &arguments.array,
+                    &arguments.networks,
+                    files,
+                )?,
             };
             if arguments.times {
                 return times(&options);
             }
-            evaluate(&options, &arguments.shared)
+            evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Calibration(arguments) => {
             let options = calibration::Options {
@@ -39,7 +46,7 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
                 seed: arguments.shared.seed,
                 duration_s: arguments.duration,
             };
-            evaluate(&options, &arguments.shared)
+            evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Doa(arguments) => {
             let setup = match arguments.setup {
@@ -47,10 +54,10 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
                 DoaSetup::Experiment => doa::Setup::Experiment,
             };
             let seed = arguments.shared.seed;
-            let networks = networks(&arguments.networks)?;
+            let networks = networks(&arguments.networks, files)?;
             let entrants = Entrants::new(doa::default_methods(setup)?, networks);
             let options = doa::Options { setup, trials: arguments.trials, seed, entrants };
-            evaluate(&options, &arguments.shared)
+            evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Resolution(arguments) => {
             let options = resolution::Options {
@@ -59,7 +66,7 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
             };
-            evaluate(&options, &arguments.shared)
+            evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Imperfections(arguments) => {
             let options = imperfections::Options {
@@ -67,11 +74,16 @@ pub fn run(what: &EvaluateCommand) -> Result<String, CliError> {
                 snr_db: arguments.snr,
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
-                entrants: entrants(&arguments.methods, &arguments.array, &arguments.networks)?,
+                entrants: entrants(
+                    &arguments.methods,
+                    &arguments.array,
+                    &arguments.networks,
+                    files,
+                )?,
             };
-            evaluate(&options, &arguments.shared)
+            evaluate(&options, &arguments.shared, files)
         }
-        EvaluateCommand::Merge(arguments) => merged(arguments),
+        EvaluateCommand::Merge(arguments) => merged(arguments, files),
     }
 }
 
@@ -80,18 +92,19 @@ fn entrants(
     named: &[String],
     array: &str,
     models: &NetworkArguments,
+    files: &Files,
 ) -> Result<Entrants, CliError> {
     let methods = match named {
         [] => aoa::default_methods(&preset(array)?),
         _ => named.to_vec(),
     };
-    Ok(Entrants::new(methods, networks(models)?))
+    Ok(Entrants::new(methods, networks(models, files)?))
 }
 
-fn networks(arguments: &NetworkArguments) -> Result<Vec<Network>, CliError> {
+fn networks(arguments: &NetworkArguments, files: &Files) -> Result<Vec<Network>, CliError> {
     let network = |path: &PathBuf| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        Ok(Network::new(network::load(path, None)?, &name))
+        Ok(Network::new(network::load(path, None, files)?, &name))
     };
     arguments.models.iter().map(network).collect()
 }
@@ -105,7 +118,11 @@ fn times(options: &aoa::Options) -> Result<String, CliError> {
     Ok(text)
 }
 
-fn evaluate<E: Experiment>(options: &E, shared: &EvaluateArguments) -> Result<String, CliError> {
+fn evaluate<E: Experiment>(
+    options: &E,
+    shared: &EvaluateArguments,
+    files: &Files,
+) -> Result<String, CliError> {
     let cores = || std::thread::available_parallelism().map_or(1, usize::from);
     let folder = shared.out.as_deref();
     let how = How { threads: shared.threads.unwrap_or_else(cores), folder };
@@ -136,31 +153,61 @@ fn evaluate<E: Experiment>(options: &E, shared: &EvaluateArguments) -> Result<St
         let file = folder.join(part.file_name(E::NAME));
         return Ok(format!("Part {part}: {records} records in {}\n", file.display()));
     }
+    // What a run wrote before is replaced when it goes on; what only bears the same name is not.
+    let mut results = BTreeMap::new();
+    if let Some(folder) = folder {
+        let own = experiment::is_recorded(options, folder);
+        results = places(Outcome::names::<E>(), folder, own, files)?;
+    }
     let report = experiment::run(options, how, progress)?;
     run.finish();
     took(new);
     let outcome = Outcome::new::<E>(&report)?;
     if let Some(folder) = folder {
-        keep(&outcome, folder)?;
+        keep(&outcome.files(), results, folder, files)?;
     }
     Ok(printed(outcome, shared.format.json, shared.format.csv))
 }
 
-fn merged(arguments: &EvaluateMergeArguments) -> Result<String, CliError> {
-    let outcome = merge(&arguments.sources, &arguments.out)?;
-    keep(&outcome, &arguments.out)?;
+fn merged(arguments: &EvaluateMergeArguments, files: &Files) -> Result<String, CliError> {
+    let Merged { outcome, records, sources } = merge(&arguments.sources)?;
+    sources.iter().for_each(|path| files.note_input(path));
+    let mut all = outcome.files();
+    all.extend(records.iter().map(|(name, text)| (name.clone(), &**text)));
+    let names = all.iter().map(|(name, _)| name.clone());
+    let places = places(names, &arguments.out, false, files)?;
+    keep(&all, places, &arguments.out, files)?;
     Ok(printed(outcome, arguments.format.json, arguments.format.csv))
 }
 
+/// Where files go, by name; `own` says that those there are of the same run.
+fn places(
+    names: impl IntoIterator<Item = String>,
+    folder: &Path,
+    own: bool,
+    files: &Files,
+) -> Result<BTreeMap<String, Destination>, CliError> {
+    let place = |name: String| {
+        let destination = files.destination_of(&folder.join(&name), own)?;
+        Ok((name, destination))
+    };
+    names.into_iter().map(place).collect()
+}
+
 /// Writes tables, numbers and figures.
-fn keep(outcome: &Outcome, folder: &Path) -> Result<(), CliError> {
-    let name = outcome.name;
-    let write = |file: &str, text: &str| files::write(&folder.join(file), text.as_bytes());
-    write(&format!("{name}.md"), &outcome.tables)?;
-    write(&format!("{name}.json"), &outcome.json)?;
-    write(&format!("{name}.brief.json"), &outcome.brief)?;
-    write(&format!("{name}.csv"), &outcome.csv)?;
-    outcome.figures.iter().try_for_each(|(file, svg)| write(file, svg))
+fn keep(
+    all: &[(String, &str)],
+    mut places: BTreeMap<String, Destination>,
+    folder: &Path,
+    files: &Files,
+) -> Result<(), CliError> {
+    files::make_folder(folder)?;
+    for (name, text) in all {
+        if let Some(destination) = places.remove(name) {
+            files.write(destination, text.as_bytes())?;
+        }
+    }
+    Ok(())
 }
 
 fn printed(outcome: Outcome, json: bool, csv: bool) -> String {

@@ -1,19 +1,20 @@
 //! `boresight image`.
 
 use super::capture::{CaptureFrames, board_array};
-use super::estimate::frame_within;
+use super::frame::frame_within;
 use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
+use crate::destination::Destination;
 use crate::error::CliError;
+use crate::files::{self, Files};
 use crate::output::remark;
 use crate::run::Run;
-use crate::{files, network, picture};
+use crate::{network, picture};
 use boresight_aoa::Method;
 use boresight_core::drive::Mounting;
-use boresight_evaluate::images::{
-    Angles, Content, StreetFrames, chain_options, frame_map, map_grid,
-};
+use boresight_evaluate::images::StreetFrames;
 use boresight_formats::{Capture, RadarConfig};
 use boresight_image::{BirdsEyeView, Outside, ViewGrid, birds_eye_view, sidelobe_measure};
+use boresight_pipeline::image::{Angles, Content, chain_options, frame_map, map_grid};
 use boresight_pipeline::{Chain, FrameSource};
 use boresight_simulate::street::STREET_RADARS;
 use boresight_simulate::{Street, StreetOptions};
@@ -22,14 +23,15 @@ use std::f64::consts::FRAC_PI_3;
 use std::path::{Path, PathBuf};
 
 /// Makes images, writes the pictures and returns what is printed.
-pub fn run(what: &ImageCommand) -> Result<String, CliError> {
+pub fn run(what: &ImageCommand, files: &Files) -> Result<String, CliError> {
     match what {
-        ImageCommand::Street(arguments) => street(arguments),
-        ImageCommand::Capture(arguments) => capture(arguments),
+        ImageCommand::Street(arguments) => street(arguments, files),
+        ImageCommand::Capture(arguments) => capture(arguments, files),
     }
 }
 
-fn street(arguments: &ImageStreetArguments) -> Result<String, CliError> {
+fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, CliError> {
+    let pictures = pictures(&arguments.shared, files)?;
     let grid = ViewGrid::new(arguments.x, arguments.y, arguments.cell)?;
     let asked = |name: &str| {
         arguments.radars.is_empty() || arguments.radars.iter().any(|radar| radar == name)
@@ -47,9 +49,9 @@ fn street(arguments: &ImageStreetArguments) -> Result<String, CliError> {
         "method", "outside_db", "peak_outside_db", "lit_outside", "lit_targets"
     );
     let mut rows = vec![];
-    for name in &shared.method {
+    for (name, picture) in shared.method.iter().zip(pictures) {
         let angles = angles(shared, name)?;
-        let model = network::model_for(angles.method, &shared.model)?;
+        let model = network::model_for(angles.method, &shared.model, files)?;
         let image = frames.image(&angles, model.as_ref().map(|(model, _)| model), grid)?;
         remark(image.warnings.iter().map(|warning| format!("{name}: {warning}")));
         let measure = sidelobe_measure(&image.view, &targets, gate)?;
@@ -69,19 +71,20 @@ fn street(arguments: &ImageStreetArguments) -> Result<String, CliError> {
             "gated": measure.gated,
             "offMap": outside_json(image.outside),
         }));
-        keep(shared, name, &image.view, truth)?;
+        keep(picture, &image.view, truth, files)?;
     }
     remark([format!("cells of each radar: {cells:?}; targets in view of any: {}", targets.len())]);
     Ok(if shared.json { format!("{:#}\n", Value::Array(rows)) } else { text })
 }
 
-fn capture(arguments: &ImageCaptureArguments) -> Result<String, CliError> {
+fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, CliError> {
     let shared = &arguments.shared;
-    let config = RadarConfig::parse(&files::read(&arguments.config)?)?;
-    let bytes = files::read(&arguments.file)?;
+    let config = RadarConfig::parse(&files.read(&arguments.config)?)?;
+    let bytes = files.read(&arguments.file)?;
     let source = CaptureFrames(Capture::new(&bytes, &config)?);
-    let array = board_array(arguments.array.as_deref(), &config)?;
+    let array = board_array(arguments.array.as_deref(), &config, files)?;
     let waveform = config.waveform;
+    let pictures = pictures(shared, files)?;
     let mut chain = Chain::new(&waveform, config.receivers.len(), &array, &chain_options())?;
     let cells = match arguments.frame {
         Some(frame) => {
@@ -100,12 +103,13 @@ fn capture(arguments: &ImageCaptureArguments) -> Result<String, CliError> {
     let grid = ViewGrid::new([0.0, far_m], [-far_m / 2.0, far_m / 2.0], far_m / 500.0)?;
     let mut text = format!("{:<22}{:>8}{:>12}{:>12}\n", "method", "cells", "off_map", "off_map_db");
     let mut rows = vec![];
-    for name in &shared.method {
+    for (name, picture) in shared.method.iter().zip(pictures) {
         let map_grid = map_grid(&waveform, FRAC_PI_3)?;
         let angles = angles(shared, name)?;
-        let model = network::model_for(angles.method, &shared.model)?;
-        let model = model.as_ref().map(|(model, _)| model);
-        let made = frame_map(&cells, &array, &angles, model, map_grid)?;
+        let options = angles.suited(&array);
+        let mut estimator =
+            network::estimator(angles.method, &array, &options, &shared.model, files)?;
+        let made = frame_map(&cells, &mut estimator, angles.content, map_grid)?;
         remark(made.warnings.iter().map(|warning| format!("{name}: {warning}")));
         let here = Mounting { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0 };
         let view = birds_eye_view(&[(&made.map, here)], grid)?;
@@ -116,7 +120,7 @@ fn capture(arguments: &ImageCaptureArguments) -> Result<String, CliError> {
         text += &format!("{name:<22}{count_of:>8}{count:>12}{share_db:>12.1}\n");
         let off_map = outside_json(made.map.outside);
         rows.push(json!({ "method": name, "cells": count_of, "offMap": off_map }));
-        keep(shared, name, &view, &[])?;
+        keep(picture, &view, &[], files)?;
     }
     Ok(if shared.json { format!("{:#}\n", Value::Array(rows)) } else { text })
 }
@@ -135,16 +139,27 @@ fn outside_json(outside: Outside) -> Value {
     json!({ "count": outside.count, "power": outside.power })
 }
 
+/// Where the picture of each method goes, if one is asked for.
+fn pictures(shared: &ImageArguments, files: &Files) -> Result<Vec<Option<Destination>>, CliError> {
+    let several = shared.method.len() > 1;
+    let picture = |method: &String| {
+        let path = shared.out.as_deref();
+        let path = path.map(|path| if several { named(path, method) } else { path.into() });
+        path.map(|path| files.destination(&path)).transpose()
+    };
+    shared.method.iter().map(picture).collect()
+}
+
 /// Writes the picture, if one is asked for.
 fn keep(
-    shared: &ImageArguments,
-    method: &str,
+    picture: Option<Destination>,
     view: &BirdsEyeView,
     truth: &[[f64; 2]],
+    files: &Files,
 ) -> Result<(), CliError> {
-    let Some(path) = &shared.out else { return Ok(()) };
-    let path = if shared.method.len() > 1 { named(path, method) } else { path.clone() };
-    files::write(&path, &picture::png(&path, view, truth)?)
+    let Some(destination) = picture else { return Ok(()) };
+    let png = picture::png(destination.named(), view, truth)?;
+    files.write(destination, &png)
 }
 
 /// `street.png` as `street-iaa.png`.

@@ -1,39 +1,42 @@
 //! `boresight log`: what is in a drive log.
 
 use crate::arguments::LogArguments;
+use crate::destination::Destination;
 use crate::drive::open_path;
 use crate::error::CliError;
-use crate::files;
+use crate::files::{self, Files};
 use crate::output::remark;
 use boresight_core::drive::DriveLog;
 use boresight_formats::drive_log::table::{write_detections, write_motion};
 use boresight_formats::{DriveRead, MountingSource};
 use serde_json::{Map, Value, json};
-use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::Path;
 
 /// What is in a log, as text or JSON.
-pub fn run(arguments: &LogArguments) -> Result<String, CliError> {
-    let read = open_path(&arguments.paths, None, arguments.sequence.as_deref())?;
+pub fn run(arguments: &LogArguments, files: &Files) -> Result<String, CliError> {
+    let read = open_path(&arguments.paths, None, arguments.sequence.as_deref(), files)?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     if let Some(folder) = &arguments.export {
+        let detections = files.destination(&folder.join("detections.csv"))?;
+        let motion = files.destination(&folder.join("motion.csv"))?;
         files::make_folder(folder)?;
-        export(&folder.join("detections.csv"), |out| write_detections(&read.log, out))?;
-        export(&folder.join("motion.csv"), |out| write_motion(&read.log, out))?;
+        export(files, detections, |out| write_detections(&read.log, out))?;
+        export(files, motion, |out| write_motion(&read.log, out))?;
     }
     Ok(if arguments.json { format!("{:#}\n", as_json(&read)) } else { as_text(&read) })
 }
 
 fn export(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<&mut File>) -> std::io::Result<()>,
+    files: &Files,
+    destination: Destination,
+    write: impl FnOnce(&mut BufWriter<&mut dyn Write>) -> std::io::Result<()>,
 ) -> Result<(), CliError> {
-    files::write_with(path, |file| {
+    let path = destination.named().to_owned();
+    files.write_with(destination, |file| {
         let mut out = BufWriter::new(file);
         write(&mut out).and_then(|()| out.flush()).map_err(|error| CliError::File {
             action: "write",
-            path: path.into(),
+            path,
             error,
         })
     })

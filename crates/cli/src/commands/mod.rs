@@ -7,6 +7,7 @@ mod chain;
 mod cube;
 pub mod estimate;
 pub mod evaluate;
+mod frame;
 pub mod image;
 pub mod lists;
 pub mod log;

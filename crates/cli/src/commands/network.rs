@@ -2,11 +2,12 @@
 
 use crate::arguments::TellArguments;
 use crate::error::CliError;
+use crate::files::Files;
 use crate::network;
 
 /// What a model is, by its file and its card.
-pub fn run(arguments: &TellArguments) -> Result<String, CliError> {
-    let model = network::load(&arguments.model, arguments.card.as_deref())?;
+pub fn run(arguments: &TellArguments, files: &Files) -> Result<String, CliError> {
+    let model = network::load(&arguments.model, arguments.card.as_deref(), files)?;
     let mut text = format!("kind        {}\n", model.kind().name());
     for port in model.inputs() {
         text += &format!("input       {port}\n");

@@ -2,8 +2,10 @@
 
 use super::targets::TargetText;
 use crate::arguments::{CubeArguments, SimulateArguments, SimulateCommand, SnapshotArguments};
+use crate::array;
+use crate::destination::Destination;
 use crate::error::CliError;
-use crate::{array, files};
+use crate::files::{self, Files};
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::{Array, Direction, Imperfections};
@@ -13,20 +15,19 @@ use boresight_simulate::{
     SnapshotSimulator, Target, simulate_cube,
 };
 use serde_json::{Value, json};
-use std::path::PathBuf;
 
 /// Runs the command and returns what it prints.
-pub fn run(what: &SimulateCommand) -> Result<String, CliError> {
+pub fn run(what: &SimulateCommand, files: &Files) -> Result<String, CliError> {
     match what {
-        SimulateCommand::Snapshots(arguments) => snapshots(arguments),
-        SimulateCommand::Cube(arguments) => cube(arguments),
-        SimulateCommand::Drive(arguments) => super::simulated_drive::run(arguments),
+        SimulateCommand::Snapshots(arguments) => snapshots(arguments, files),
+        SimulateCommand::Cube(arguments) => cube(arguments, files),
+        SimulateCommand::Drive(arguments) => super::simulated_drive::run(arguments, files),
     }
 }
 
-fn snapshots(arguments: &SnapshotArguments) -> Result<String, CliError> {
+fn snapshots(arguments: &SnapshotArguments, files: &Files) -> Result<String, CliError> {
     let shared = &arguments.shared;
-    let array = array::array(&shared.array)?;
+    let array = array::array(&shared.array, files)?;
     let scene = match arguments.random_targets {
         Some(targets) => {
             check_range("--field-of-view (deg)", arguments.field_of_view, 0.1, 90.0)?;
@@ -56,6 +57,7 @@ fn snapshots(arguments: &SnapshotArguments) -> Result<String, CliError> {
         imperfections: imperfections(shared, &array)?,
         seed: shared.seed,
     };
+    let outputs = Outputs::of(shared, files)?;
     let result = SnapshotSimulator::new(&array, &options)?
         .scenes(arguments.first_scene, arguments.scenes)?;
     let scenes: Vec<Value> = result
@@ -72,13 +74,13 @@ fn snapshots(arguments: &SnapshotArguments) -> Result<String, CliError> {
     });
     let shape = result.values.shape().to_vec();
     let values: Vec<_> = result.values.into_iter().collect();
-    write(shared, &shape, &npy::write(&shape, &values)?, &truth)
+    outputs.write(files, &shape, &npy::write(&shape, &values)?, &truth)
 }
 
-fn cube(arguments: &CubeArguments) -> Result<String, CliError> {
+fn cube(arguments: &CubeArguments, files: &Files) -> Result<String, CliError> {
     let shared = &arguments.shared;
-    let array = array::array(&shared.array)?;
-    let waveform = files::waveform(&arguments.waveform)?;
+    let array = array::array(&shared.array, files)?;
+    let waveform = files::waveform(&arguments.waveform, files)?;
     let targets: Vec<CubeTarget> =
         arguments.targets.iter().map(|t| cube_target(t)).collect::<Result<_, _>>()?;
     let options = CubeOptions {
@@ -88,6 +90,7 @@ fn cube(arguments: &CubeArguments) -> Result<String, CliError> {
         imperfections: imperfections(shared, &array)?,
         seed: shared.seed,
     };
+    let outputs = Outputs::of(shared, files)?;
     let result = simulate_cube(&waveform, &array, &targets, &options)?;
     let truth = json!({
         "waveform": waveform,
@@ -98,32 +101,42 @@ fn cube(arguments: &CubeArguments) -> Result<String, CliError> {
     });
     let shape = result.shape().to_vec();
     let values: Vec<_> = result.into_iter().collect();
-    write(shared, &shape, &npy::write(&shape, &values)?, &truth)
+    outputs.write(files, &shape, &npy::write(&shape, &values)?, &truth)
 }
 
-/// Writes data and truth, and says so.
-fn write(
-    shared: &SimulateArguments,
-    shape: &[usize],
-    data: &[u8],
-    truth: &Value,
-) -> Result<String, CliError> {
-    let truth_path: PathBuf =
-        shared.truth.clone().unwrap_or_else(|| shared.out.with_extension("json"));
-    if truth_path == shared.out {
-        return Err(CliError::Option {
-            option: "--truth",
-            expected: "another file than --out".into(),
-            given: truth_path.display().to_string(),
-        });
+/// Where data and truth go.
+struct Outputs {
+    data: Destination,
+    /// Beside data that go to no file it is written only where it is asked for.
+    truth: Option<Destination>,
+}
+
+impl Outputs {
+    fn of(shared: &SimulateArguments, files: &Files) -> Result<Self, CliError> {
+        let data = files.destination(&shared.out)?;
+        let beside = || data.file().map(|_| shared.out.with_extension("json"));
+        let truth = shared.truth.clone().or_else(beside);
+        let truth = truth.map(|path| files.destination(&path)).transpose()?;
+        Ok(Self { data, truth })
     }
-    files::write(&shared.out, data)?;
-    files::write(&truth_path, format!("{truth:#}\n").as_bytes())?;
-    Ok(format!(
-        "{}: complex numbers of shape {shape:?}\n{}: the truth\n",
-        shared.out.display(),
-        truth_path.display()
-    ))
+
+    /// Writes data and truth, and says so.
+    fn write(
+        self,
+        files: &Files,
+        shape: &[usize],
+        data: &[u8],
+        truth: &Value,
+    ) -> Result<String, CliError> {
+        let mut said =
+            format!("{}: complex numbers of shape {shape:?}\n", self.data.named().display());
+        files.write(self.data, data)?;
+        if let Some(destination) = self.truth {
+            said += &format!("{}: the truth\n", destination.named().display());
+            files.write(destination, format!("{truth:#}\n").as_bytes())?;
+        }
+        Ok(said)
+    }
 }
 
 fn imperfections(

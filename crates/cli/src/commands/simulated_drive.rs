@@ -3,7 +3,7 @@
 use super::targets::TargetText;
 use crate::arguments::DriveArguments;
 use crate::error::CliError;
-use crate::files;
+use crate::files::{self, Files};
 use crate::run::Run;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_formats::radarscenes::{Packing, write};
@@ -15,24 +15,29 @@ use serde_json::{Value, json};
 const SEQUENCE: &str = "sequence_1";
 
 /// Simulates a drive, writes it and says what there is.
-pub fn run(arguments: &DriveArguments) -> Result<String, CliError> {
+pub fn run(arguments: &DriveArguments, files: &Files) -> Result<String, CliError> {
     let options = options(arguments)?;
+    let data = arguments.out.join("data");
+    let folder = data.join(SEQUENCE);
+    let truth_path = arguments.out.join("truth.json");
+    let radar_data = files.destination(&folder.join("radar_data.h5"))?;
+    let scenes = files.destination(&folder.join("scenes.json"))?;
+    let sensors = files.destination(&data.join("sensors.json"))?;
+    let sequences = files.destination(&data.join("sequences.json"))?;
+    let truth_file = files.destination(&truth_path)?;
     let run = Run::start("scans")?;
     let drive =
         simulate_drive_reporting(&options, |done, total| run.report(Progress { done, total }))?;
     run.finish();
-    let data = arguments.out.join("data");
-    let folder = data.join(SEQUENCE);
     files::make_folder(&folder)?;
     let packing = if arguments.packed { Packing::Deflate } else { Packing::Contiguous };
-    let beside = files::write_with(&folder.join("radar_data.h5"), |file| {
+    let beside = files.write_with(radar_data, |file| {
         Ok(write(&drive.log, &drive.tracks, SEQUENCE, packing, file)?)
     })?;
-    files::write(&folder.join("scenes.json"), beside.scenes.as_bytes())?;
-    files::write(&data.join("sensors.json"), beside.sensors.as_bytes())?;
-    files::write(&data.join("sequences.json"), beside.sequences.as_bytes())?;
-    let truth_path = arguments.out.join("truth.json");
-    files::write(&truth_path, format!("{:#}\n", truth(&options, &drive)).as_bytes())?;
+    files.write(scenes, beside.scenes.as_bytes())?;
+    files.write(sensors, beside.sensors.as_bytes())?;
+    files.write(sequences, beside.sequences.as_bytes())?;
+    files.write(truth_file, format!("{:#}\n", truth(&options, &drive)).as_bytes())?;
     let detections: usize = drive.log.scans.iter().map(|scan| scan.detections.len()).sum();
     Ok(format!(
         "{}: {} radars, {} scans, {detections} detections, {:.1} % of them moving\n{}: the truth\n",

@@ -1,8 +1,9 @@
 //! Snapshots of an array.
 
-use super::estimate::frame_within;
+use super::frame::frame_within;
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
+use crate::files::Files;
 use crate::output::{Column, Table, remark};
 use crate::{array, network};
 use boresight_aoa::{Data, Method};
@@ -31,7 +32,11 @@ pub fn scenes(file: &NpyArray) -> Result<Array3<Complex64>, CliError> {
 }
 
 /// Angles in each scene.
-pub fn run(arguments: &EstimateArguments, scenes: &Array3<Complex64>) -> Result<String, CliError> {
+pub fn run(
+    arguments: &EstimateArguments,
+    scenes: &Array3<Complex64>,
+    files: &Files,
+) -> Result<String, CliError> {
     let name = arguments.array.as_ref().ok_or_else(|| CliError::Option {
         option: "--array",
         expected: "the array that took the snapshots".into(),
@@ -39,7 +44,8 @@ pub fn run(arguments: &EstimateArguments, scenes: &Array3<Complex64>) -> Result<
     })?;
     let AngleOptions { method, options } = arguments.angle.flags.options;
     let model = &arguments.angle.model;
-    let mut estimator = network::estimator(method, &array::array(name)?, &options, model)?;
+    let mut estimator =
+        network::estimator(method, &array::array(name, files)?, &options, model, files)?;
     let count = scenes.len_of(Axis(0));
     let chosen = match arguments.frame {
         Some(frame) => {

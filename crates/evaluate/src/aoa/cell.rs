@@ -1,6 +1,6 @@
 //! The snapshots of one condition through every method.
 
-use super::score::{Point, Prediction, Score, Threshold, odds_db};
+use super::score::{Point, Prediction, Score, Threshold, WITHIN_RAD, odds_db};
 use super::{Condition, Options, TARGETS};
 use crate::EvaluateError;
 use crate::entrants::{Entrants, Network, REFINED};
@@ -22,7 +22,10 @@ use serde::{Deserialize, Serialize};
 use std::sync::{Mutex, PoisonError};
 
 /// Half width of the sector of targets, rad (60 deg).
-const FIELD_OF_VIEW_RAD: f64 = 1.047_197_551_196_597_6;
+const TARGETS_WITHIN_RAD: f64 = 1.047_197_551_196_597_6;
+/// Half width of the sector that all methods search, rad: to where predictions are right, since a spectrum's maximum at
+/// the edge of its grid is no peak.
+const FIELD_OF_VIEW_RAD: f64 = TARGETS_WITHIN_RAD + WITHIN_RAD;
 /// Targets with at least this many beamwidths to the next are separated.
 const SEPARATED_BEAMS: f64 = 2.0;
 /// Most predictions of a snapshot, and of networks, which say of each how sure they are.
@@ -351,7 +354,7 @@ impl Plan {
         };
         let sampling = SceneSampling {
             targets: [condition.targets; 2],
-            field_of_view_rad: FIELD_OF_VIEW_RAD,
+            field_of_view_rad: TARGETS_WITHIN_RAD,
             ..SceneSampling::default()
         };
         let simulator = SnapshotSimulator::new(
@@ -402,10 +405,50 @@ impl Plan {
             record.separated_targets += 1;
             let near = found.iter().map(|d| (d.azimuth_rad - target.azimuth_rad).abs());
             let error = near.fold(f64::INFINITY, f64::min);
-            if error <= super::score::WITHIN_RAD {
+            if error <= WITHIN_RAD {
                 record.separated.0 += error.to_degrees().powi(2);
                 record.separated.1 += bound_deg[index].powi(2);
                 record.separated.2 += 1;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// Azimuths that a method finds of one target at the end of the sector, deg.
+    fn found(name: &str, array: &Array, azimuth_rad: f64, trial: u64) -> Vec<f64> {
+        let direction = Direction::azimuth(azimuth_rad);
+        let target = Target { direction, power_db: 0.0, phase_rad: None };
+        let options = SnapshotOptions {
+            scene: Scene::Given(vec![target]),
+            snr_db: 30.0,
+            snapshots: 1,
+            fluctuation: Fluctuation::RandomPhase,
+            imperfections: None,
+            seed: 1,
+        };
+        let (y, _) = SnapshotSimulator::new(array, &options).unwrap().scene(trial).unwrap();
+        let finder = Finder::Method(Method::from_name(name).unwrap());
+        let estimate = finder.estimator(array, 1).unwrap().estimate(Data::Snapshots(y.view()));
+        let sources = estimate.unwrap().sources;
+        sources.iter().map(|source| source.direction.azimuth_rad.to_degrees()).collect()
+    }
+
+    #[test]
+    fn every_method_finds_targets_where_their_sector_ends() {
+        let array = preset("ula16").unwrap();
+        for name in super::super::default_methods(&array) {
+            let name = name.strip_suffix(REFINED).unwrap_or(&name);
+            for end in [-TARGETS_WITHIN_RAD, TARGETS_WITHIN_RAD] {
+                for trial in 0..20 {
+                    let found = found(name, &array, end, trial);
+                    let near = found.iter().any(|f| (f - end.to_degrees()).abs() <= 0.5);
+                    assert!(near, "{name}: {found:?}");
+                }
             }
         }
     }

@@ -71,6 +71,7 @@ impl Condition {
 
 impl Experiment for Options {
     const NAME: &'static str = "aoa";
+    const REVISION: u32 = 1;
     type Plan = cell::Plan;
     type Record = cell::Record;
     type Report = Report;

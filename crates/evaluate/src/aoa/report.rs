@@ -204,11 +204,10 @@ impl crate::experiment::Report for Report {
         brief(all)
     }
 
-    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
-        Ok(vec![
-            ("precision-recall.svg", figures::precision_recall(self)?),
-            ("scores.svg", figures::scores(self)?),
-        ])
+    const FIGURES: &'static [&'static str] = &["precision-recall.svg", "scores.svg"];
+
+    fn figures(&self) -> Result<Vec<String>, EvaluateError> {
+        Ok(vec![figures::precision_recall(self)?, figures::scores(self)?])
     }
 }
 

@@ -150,10 +150,12 @@ impl crate::experiment::Report for Report {
         text
     }
 
-    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
-        let mut drawn = vec![("convergence.svg", figures::convergence(self)?)];
-        for (condition, name) in self.conditions.iter().zip(["angles.svg", "angles-dense.svg"]) {
-            drawn.push((name, figures::angles(condition)?));
+    const FIGURES: &'static [&'static str] = &["convergence.svg", "angles.svg", "angles-dense.svg"];
+
+    fn figures(&self) -> Result<Vec<String>, EvaluateError> {
+        let mut drawn = vec![figures::convergence(self)?];
+        for condition in &self.conditions {
+            drawn.push(figures::angles(condition)?);
         }
         Ok(drawn)
     }

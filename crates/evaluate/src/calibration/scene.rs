@@ -4,7 +4,7 @@ use super::{CANDIDATES, Candidate, DRIVING_TIMES_S, Options};
 use crate::EvaluateError;
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
 use boresight_calibrate::{
-    AngleEstimate, Calibrator, FrameInput, Joint, Method, Options as CalibrationOptions,
+    AngleEstimate, Calibrator, FrameInput, Frames, Joint, Method, Options as CalibrationOptions,
 };
 use boresight_core::Random;
 use boresight_core::drive::{Mounting, Pose, RADARSCENES_SENSORS};
@@ -137,15 +137,17 @@ fn radar(drive: &SimulatedDrive, (sensor, truth): (u8, Mounting)) -> Radar<'_> {
     let log = &drive.log;
     let gap = CalibrationOptions::default().max_gap_s;
     let nominal = log.sensors.iter().find(|s| s.id == sensor).and_then(|s| s.mounting);
-    let scans = || log.scans.iter().filter(move |scan| scan.sensor == sensor);
+    let frames: Vec<FrameInput> =
+        Frames::of(log, |id| id == sensor, gap).map(|(_, frame)| frame).collect();
     Radar {
         sensor,
         truth,
         nominal_rad: nominal.map_or(truth.yaw_rad, |mounting| mounting.yaw_rad),
-        frames: scans().map(|scan| FrameInput::of(log, scan, gap)).collect(),
-        driving: scans()
-            .map(|scan| truth_at(drive, scan.time_s).speed_mps.abs() > DRIVING_MPS)
+        driving: frames
+            .iter()
+            .map(|frame| truth_at(drive, frame.time_s).speed_mps.abs() > DRIVING_MPS)
             .collect(),
+        frames,
     }
 }
 
@@ -202,14 +204,10 @@ fn joint(drive: &SimulatedDrive, radars: &[Radar]) -> Result<Vec<AngleEstimate>,
     };
     let named: Vec<_> = radars.iter().map(|r| (r.sensor, options(candidate, r))).collect();
     let mut joint = Joint::new(&named)?;
-    let mut frames: Vec<_> = radars.iter().map(|radar| radar.frames.iter()).collect();
-    for scan in &drive.log.scans {
-        let Some(index) = radars.iter().position(|radar| radar.sensor == scan.sensor) else {
-            continue;
-        };
-        if let Some(frame) = frames[index].next() {
-            joint.add(scan.sensor, told(candidate, frame))?;
-        }
+    let known = |sensor| radars.iter().any(|radar| radar.sensor == sensor);
+    let gap = CalibrationOptions::default().max_gap_s;
+    for (sensor, frame) in Frames::of(&drive.log, known, gap) {
+        joint.add(sensor, told(candidate, &frame))?;
     }
     Ok(joint.estimate().into_iter().map(|(_, estimate)| estimate).collect())
 }

@@ -8,13 +8,9 @@ use crate::plot::{Axes, Panel, Series, draw};
 
 const SNR: &str = "signal-to-noise ratio of a sample / dB";
 
-pub(super) fn all(report: &Report) -> Result<Vec<(&'static str, String)>, EvaluateError> {
-    Ok(vec![
-        ("doa-counting.svg", counting(report)?),
-        ("doa-rmse.svg", rmse(report)?),
-        ("doa-success.svg", success(report)?),
-        ("doa-deviation.svg", deviation(report)?),
-    ])
+/// In the order of their names.
+pub(super) fn all(report: &Report) -> Result<Vec<String>, EvaluateError> {
+    Ok(vec![counting(report)?, rmse(report)?, success(report)?, deviation(report)?])
 }
 
 /// Methods that are drawn beside the networks; the tables have all.

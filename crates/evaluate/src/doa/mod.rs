@@ -113,6 +113,7 @@ impl Options {
 
 impl Experiment for Options {
     const NAME: &'static str = "doa";
+    const REVISION: u32 = 1;
     type Plan = Plan;
     type Record = Record;
     type Report = Report;

@@ -277,7 +277,10 @@ impl crate::experiment::Report for Report {
         text
     }
 
-    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
+    const FIGURES: &'static [&'static str] =
+        &["doa-counting.svg", "doa-rmse.svg", "doa-success.svg", "doa-deviation.svg"];
+
+    fn figures(&self) -> Result<Vec<String>, EvaluateError> {
         figures::all(self)
     }
 }

@@ -23,6 +23,9 @@ pub const LARGEST_DEG: i32 = 10;
 pub const DEVIATIONS_DEG: [f64; 3] = [0.0, 2.0, 4.0];
 /// Pairs nearer than this are close, deg.
 pub const CLOSE_DEG: i32 = 4;
+/// Far more than the conversion of an angle between radians and degrees rounds, and far less than any estimate is
+/// worth, deg.
+const ROUNDING_DEG: f64 = 1e-9;
 /// Methods are told that targets are within this of boresight, rad (15 deg).
 const FIELD_OF_VIEW_RAD: f64 = 0.261_799_387_799_149_4;
 
@@ -87,7 +90,7 @@ impl Tally {
 
     /// Counts a trial; both in ascending order.
     fn count(&mut self, truth_deg: &[f64], found_rad: &[f64], close: bool) {
-        let found_deg: Vec<f64> = found_rad.iter().map(|azimuth| azimuth.to_degrees()).collect();
+        let found_deg: Vec<f64> = found_rad.iter().map(|&azimuth| in_degrees(azimuth)).collect();
         let end = f64::from(LARGEST_DEG);
         let rounded_deg: Vec<f64> =
             found_deg.iter().map(|angle| angle.round().clamp(-end, end)).collect();
@@ -320,6 +323,12 @@ impl Plan {
     }
 }
 
+/// An angle in degrees, whole where it was a whole number of degrees before it was one of radians.
+fn in_degrees(angle_rad: f64) -> f64 {
+    let (degrees, whole) = (angle_rad.to_degrees(), angle_rad.to_degrees().round());
+    if (degrees - whole).abs() < ROUNDING_DEG { whole } else { degrees }
+}
+
 /// A network answers with the most probable directions.
 fn known(targets: usize) -> Options {
     let (sources, field_of_view_rad) = (SourceCount::Known(targets), FIELD_OF_VIEW_RAD);
@@ -400,6 +409,26 @@ mod tests {
         let mut sum = Tally::default();
         sum.add(&tally);
         assert_eq!(sum, tally);
+    }
+
+    #[test]
+    fn an_error_of_one_degree_is_within_one_degree() {
+        let mut errors = 0;
+        for truth in -LARGEST_DEG..=LARGEST_DEG {
+            for found in [truth - 1, truth + 1] {
+                if found.abs() <= LARGEST_DEG {
+                    let mut tally = Tally::default();
+                    let found = f64::from(found);
+                    tally.count(&[f64::from(truth)], &[found.to_radians()], false);
+                    assert_eq!((tally.success, tally.squared_deg2), (1, 1.0), "{truth} {found}");
+                    errors += 1;
+                }
+            }
+        }
+        assert_eq!(errors, 40);
+        let mut tally = Tally::default();
+        tally.count(&[5.0], &[6.000_001_f64.to_radians()], false);
+        assert_eq!(tally.success, 0);
     }
 
     #[test]

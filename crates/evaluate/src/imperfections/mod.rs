@@ -105,6 +105,7 @@ impl Options {
 
 impl Experiment for Options {
     const NAME: &'static str = "imperfections";
+    const REVISION: u32 = 1;
     /// One a setting.
     type Plan = Vec<cell::Plan>;
     type Record = cell::Record;

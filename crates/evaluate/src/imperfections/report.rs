@@ -233,7 +233,9 @@ impl crate::experiment::Report for Report {
         text
     }
 
-    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
+    const FIGURES: &'static [&'static str] = &["imperfections.svg"];
+
+    fn figures(&self) -> Result<Vec<String>, EvaluateError> {
         type Value = fn(&MethodResult) -> f64;
         let rows: [(&str, Value); 2] =
             [("largest F1", |m| m.f1), ("mean error of angle / deg", |m| m.angle_error_deg)];
@@ -245,7 +247,7 @@ impl crate::experiment::Report for Report {
                 }
             }
         }
-        Ok(vec![("imperfections.svg", draw(&panels, 2)?)])
+        Ok(vec![draw(&panels, 2)?])
     }
 }
 

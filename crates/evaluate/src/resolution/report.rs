@@ -186,8 +186,10 @@ impl crate::experiment::Report for Report {
         text
     }
 
-    fn figures(&self) -> Result<Vec<(&'static str, String)>, EvaluateError> {
-        Ok(vec![("resolution.svg", figures::probabilities(self)?)])
+    const FIGURES: &'static [&'static str] = &["resolution.svg"];
+
+    fn figures(&self) -> Result<Vec<String>, EvaluateError> {
+        Ok(vec![figures::probabilities(self)?])
     }
 }
 

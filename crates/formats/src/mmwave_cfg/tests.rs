@@ -89,7 +89,8 @@ fn missing_commands_are_named() {
         let error = RadarConfig::parse(text.as_bytes()).unwrap_err();
         assert!(error.to_string().contains(command), "{error}");
     }
-    assert!(RadarConfig::parse(b"").is_err());
+    let empty = RadarConfig::parse(b"").unwrap_err();
+    assert!(matches!(empty, FormatError::MissingCommand { .. }), "{empty}");
 }
 
 #[test]

@@ -50,7 +50,8 @@ fn wrong_tables_name_line_and_column() {
         assert_eq!(at, line, "{text:?}: {error}");
         assert!(error.to_string().contains(word), "{text:?}: {error}");
     }
-    assert!(read_detections(b"range_m,azimuth_deg\n\xff,1\n").is_err());
+    let bytes = read_detections(b"range_m,azimuth_deg\n\xff,1\n").unwrap_err();
+    assert!(matches!(bytes, FormatError::Table { line: 2, .. }), "{bytes}");
 }
 
 #[test]

@@ -106,6 +106,7 @@ impl Stencil {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use boresight_core::Diagnose;
 
     fn stencil(axes: CfarAxes) -> Stencil {
         let options =
@@ -152,8 +153,8 @@ mod tests {
         assert!(matches!(Stencil::new(5, 1, &range), Err(SignalError::Window { .. })));
         assert!(Stencil::new(6, 1, &range).is_ok());
         let none = CfarOptions { training: [0, 0], ..base };
-        assert!(Stencil::new(64, 64, &none).is_err());
+        assert_eq!(Stencil::new(64, 64, &none).unwrap_err().details().what, "training cells");
         let huge = CfarOptions { guard: [usize::MAX, 0], ..base };
-        assert!(Stencil::new(64, 64, &huge).is_err());
+        assert_eq!(Stencil::new(64, 64, &huge).unwrap_err().details().what, "range guard cells");
     }
 }

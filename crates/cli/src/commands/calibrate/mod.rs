@@ -6,13 +6,13 @@ mod track;
 use crate::arguments::CalibrateArguments;
 use crate::drive::open_path;
 use crate::error::CliError;
-use crate::files;
+use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_calibrate::{
-    AngleEstimate, CalibrateError, Calibrator, FrameInput, FrameOutcome, Joint, Options,
+    AngleEstimate, CalibrateError, Calibrator, FrameInput, FrameOutcome, Frames, Joint, Options,
 };
-use boresight_core::drive::{DriveLog, Scan, Sensor};
+use boresight_core::drive::{DriveLog, Sensor};
 use boresight_formats::DriveFormat;
 use boresight_pipeline::{PipelineError, Progress};
 use serde_json::Value;
@@ -32,9 +32,9 @@ struct Calibrated {
 }
 
 /// The angles, as text or JSON.
-pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
+pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliError> {
     let format = arguments.format.as_deref().map(DriveFormat::from_name).transpose()?;
-    let read = open_path(&arguments.paths, format, arguments.sequence.as_deref())?;
+    let read = open_path(&arguments.paths, format, arguments.sequence.as_deref(), files)?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     let log = &read.log;
     let shown = chosen(log, arguments.sensor)?;
@@ -45,6 +45,8 @@ pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
             given: "not given".into(),
         });
     }
+    let trajectory =
+        arguments.trajectory.as_deref().map(|path| files.destination(path)).transpose()?;
     let run = Run::start("frames")?;
     let mut results = if arguments.joint {
         jointly(arguments, log, &run)?
@@ -54,7 +56,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
     };
     run.finish();
     results.retain(|result| shown.iter().any(|sensor| sensor.id == result.sensor));
-    if let (Some(path), [result]) = (&arguments.trajectory, &results[..]) {
+    if let (Some(trajectory), [result]) = (trajectory, &results[..]) {
         let csv =
             result.track.csv(result.estimate.angle_rad, &result.options).ok_or_else(|| {
                 CliError::Option {
@@ -64,7 +66,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<String, CliError> {
                     given: format!("radar {}, x {} m", result.sensor, result.options.x_m),
                 }
             })?;
-        files::write(path, csv.as_bytes())?;
+        files.write(trajectory, csv.as_bytes())?;
     }
     Ok(if arguments.json {
         let mut objects: Vec<Value> = results.iter().map(report::json).collect();
@@ -120,22 +122,21 @@ fn options(arguments: &CalibrateArguments, sensor: &Sensor) -> Result<Options, C
     Ok(options)
 }
 
-/// Hands the scans that `wanted` picks to `add`, in order.
+/// Hands the frames of the radars that `wanted` picks to `add`, in order.
 fn feed<'a>(
     log: &'a DriveLog,
     options: &Options,
     run: &Run,
-    wanted: impl Fn(&Scan) -> bool,
+    wanted: impl Fn(u8) -> bool,
     mut add: impl FnMut(u8, FrameInput<'a>) -> Result<(), CalibrateError>,
 ) -> Result<(), CliError> {
-    let scans = || log.scans.iter().filter(|scan| wanted(scan));
-    let total = scans().count();
-    for (done, scan) in scans().enumerate() {
+    let frames = Frames::of(log, wanted, options.max_gap_s);
+    let total = frames.len();
+    for (done, (sensor, frame)) in frames.enumerate() {
         if done % FRAMES_A_REPORT == 0 && run.report(Progress { done, total }).is_break() {
             return Err(PipelineError::Cancelled { done, total }.into());
         }
-        let frame = FrameInput::of(log, scan, options.max_gap_s);
-        add(scan.sensor, frame)?;
+        add(sensor, frame)?;
     }
     Ok(())
 }
@@ -147,7 +148,7 @@ fn alone(log: &DriveLog, sensor: u8, options: Options, run: &Run) -> Result<Cali
         log,
         &options,
         run,
-        |scan| scan.sensor == sensor,
+        |id| id == sensor,
         |_, frame| {
             track.add(log, &options, &frame, &calibrator.add(frame)?);
             Ok(())

@@ -1,0 +1,52 @@
+//! One interface for all that gives a radar's motion.
+
+use super::least_squares::WeightedLeastSquares;
+use super::orthogonal_distance::OrthogonalDistance;
+use super::ransac::Ransac;
+use crate::{CalibrateError, FrameInput, Motion, MotionMethod, Options, Recursive, Verdict};
+use std::fmt::Debug;
+
+/// What each method of motion implements: everything that depends on the options alone is made once, in the method's
+/// own constructor. A network brings one of its own to [`crate::Calibrator::with_motion`].
+pub trait MotionPlan: Debug + Send {
+    /// The radar's motion in a frame that is not older than those before. In `weights`, whatever it held, comes for each
+    /// detection the weight, 0 to 1, with which it was taken as static.
+    ///
+    /// # Errors
+    /// [`CalibrateError`] where the frame is malformed.
+    fn estimate(
+        &mut self,
+        frame: FrameInput<'_>,
+        weights: &mut Vec<f32>,
+    ) -> Result<FrameMotion, CalibrateError>;
+}
+
+/// What a plan makes of a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrameMotion {
+    /// The radar's motion, if one could be found.
+    pub motion: Option<Motion>,
+    /// Why the plan finds the frame of no use for the angle; [`Verdict::Used`] leaves that to the method of the angle.
+    pub verdict: Verdict,
+}
+
+impl FrameMotion {
+    /// A motion whose use is still to be judged.
+    pub fn to_judge(motion: Option<Motion>) -> Self {
+        Self { motion, verdict: Verdict::Used }
+    }
+}
+
+/// The plan of a method.
+pub(crate) fn plan(
+    method: MotionMethod,
+    options: &Options,
+) -> Result<Box<dyn MotionPlan>, CalibrateError> {
+    options.validate()?;
+    Ok(match method {
+        MotionMethod::Ransac => Box::new(Ransac::new(options)),
+        MotionMethod::WeightedLeastSquares => Box::new(WeightedLeastSquares::new(options)),
+        MotionMethod::OrthogonalDistance => Box::new(OrthogonalDistance::new(options)),
+        MotionMethod::Tracked => Box::new(Recursive::new(options)?),
+    })
+}

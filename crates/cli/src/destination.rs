@@ -1,0 +1,191 @@
+//! Where output goes: through links, into devices and pipes, and never by halves onto a file.
+
+use crate::error::CliError;
+use std::fs::{Metadata, OpenOptions};
+use std::io::{Error, ErrorKind, Result, Write};
+use std::path::{Path, PathBuf};
+
+/// Links followed before they are taken for a circle, as on Linux.
+const MOST_LINKS: usize = 40;
+/// Folders of the descriptors of this process, by number.
+const DESCRIPTORS: [&str; 2] = ["/dev/fd", "/proc/self/fd"];
+/// Names of the standard output.
+const STANDARD_OUTPUT: [&str; 3] = ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+
+/// Where one output goes, checked before anything is computed.
+#[derive(Debug)]
+pub struct Destination {
+    /// As the user named it.
+    named: PathBuf,
+    place: Place,
+}
+
+#[derive(Debug)]
+enum Place {
+    /// The standard output, whatever it leads to.
+    StandardOutput,
+    /// A device, a pipe or another descriptor.
+    InPlace { path: PathBuf, descriptor: bool },
+    /// A file, and the one that is there already.
+    File { path: PathBuf, there: Option<Metadata> },
+}
+
+impl Destination {
+    /// The place a path leads to. A folder is none.
+    pub fn new(named: &Path) -> Result<Self> {
+        let path = followed(named)?;
+        let place = if STANDARD_OUTPUT.iter().any(|name| path == Path::new(name)) {
+            Place::StandardOutput
+        } else if is_descriptor(&path) {
+            Place::InPlace { path, descriptor: true }
+        } else {
+            match path.metadata() {
+                Ok(there) if there.is_dir() => return Err(ErrorKind::IsADirectory.into()),
+                Ok(there) if !there.is_file() => Place::InPlace { path, descriptor: false },
+                Ok(there) => Place::File { path: path.canonicalize()?, there: Some(there) },
+                Err(error) if error.kind() == ErrorKind::NotFound => {
+                    Place::File { path: in_its_folder(path), there: None }
+                }
+                Err(error) => return Err(error),
+            }
+        };
+        Ok(Self { named: named.into(), place })
+    }
+
+    /// As the user named it.
+    pub fn named(&self) -> &Path {
+        &self.named
+    }
+
+    /// The file behind all links; `None` for what is no file.
+    pub fn file(&self) -> Option<&Path> {
+        match &self.place {
+            Place::File { path, .. } => Some(path),
+            _ => None,
+        }
+    }
+
+    /// Whether a file is there that would be replaced.
+    pub fn replaces(&self) -> bool {
+        matches!(self.place, Place::File { there: Some(_), .. })
+    }
+
+    /// Whether it is the standard output.
+    pub fn is_standard_output(&self) -> bool {
+        matches!(self.place, Place::StandardOutput)
+    }
+
+    /// Writes a file whole or not at all, with what `fill` puts into it. A file that has come to be there since
+    /// is left as it is.
+    pub fn write_with<T>(
+        self,
+        fill: impl FnOnce(&mut dyn Write) -> std::result::Result<T, CliError>,
+    ) -> std::result::Result<T, CliError> {
+        let Self { named, place } = self;
+        let failed = |error| CliError::File { action: "write", path: named.clone(), error };
+        match place {
+            Place::StandardOutput => {
+                let mut out = std::io::stdout().lock();
+                let value = fill(&mut out)?;
+                out.flush().map_err(failed)?;
+                Ok(value)
+            }
+            Place::InPlace { path, descriptor } => {
+                let mut options = OpenOptions::new();
+                let options = options.write(true).append(descriptor);
+                fill(&mut options.open(path).map_err(failed)?)
+            }
+            Place::File { path, there } => {
+                let mut file = beside(&path).map_err(failed)?;
+                let value = fill(file.as_file_mut())?;
+                match there {
+                    Some(there) => {
+                        file.as_file().set_permissions(there.permissions()).map_err(failed)?;
+                        file.persist(&path).map_err(|error| failed(error.error))?;
+                    }
+                    None => {
+                        file.persist_noclobber(&path).map_err(|error| {
+                            match error.error.kind() {
+                                ErrorKind::AlreadyExists => {
+                                    CliError::Exists { path: named.clone() }
+                                }
+                                _ => failed(error.error),
+                            }
+                        })?;
+                    }
+                }
+                Ok(value)
+            }
+        }
+    }
+}
+
+/// The file behind a path and its links, there or not yet.
+pub fn file_behind(path: &Path) -> Result<PathBuf> {
+    path.canonicalize().or_else(|_| followed(path).map(in_its_folder))
+}
+
+/// What links lead to, there or not yet. A descriptor is not followed: what it is open on need have no name.
+fn followed(path: &Path) -> Result<PathBuf> {
+    let mut path = std::path::absolute(path)?;
+    for _ in 0..MOST_LINKS {
+        if is_descriptor(&path) || STANDARD_OUTPUT.iter().any(|name| path == Path::new(name)) {
+            return Ok(path);
+        }
+        match path.read_link() {
+            Ok(target) => path = path.parent().unwrap_or(Path::new("/")).join(target),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(Error::other("links lead in a circle"))
+}
+
+fn is_descriptor(path: &Path) -> bool {
+    path.parent().is_some_and(|folder| DESCRIPTORS.iter().any(|name| folder == Path::new(name)))
+}
+
+/// The path without links to its folder, if that is there.
+fn in_its_folder(path: PathBuf) -> PathBuf {
+    match (path.parent().map(Path::canonicalize), path.file_name()) {
+        (Some(Ok(folder)), Some(name)) => folder.join(name),
+        _ => path,
+    }
+}
+
+/// A new file under a name of its own in the folder of another, gone unless it takes the other's name.
+fn beside(path: &Path) -> Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".boresight-").suffix(".part");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // Those of any new file: the process's mask is taken off.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(path.parent().unwrap_or(Path::new(".")))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    // Nothing is written here: a fault would cost the machine its devices.
+    #[test]
+    fn devices_are_no_files() {
+        for (name, standard_output) in [
+            ("/dev/null", false),
+            ("/dev/fd/2", false),
+            ("/dev/stdout", true),
+            ("/dev/fd/1", true),
+            ("/proc/self/fd/1", true),
+        ] {
+            let destination = Destination::new(Path::new(name)).unwrap();
+            assert!(destination.file().is_none() && !destination.replaces(), "{name}");
+            assert_eq!(destination.is_standard_output(), standard_output, "{name}");
+        }
+        assert!(
+            Destination::new(Path::new("/dev")).is_err_and(|e| e.kind() == ErrorKind::IsADirectory)
+        );
+    }
+}
