@@ -126,8 +126,9 @@ export interface EstimatorOptions {
     maxSources?: number;
   };
   /**
-   * Refine the sources on the matched model: those that noise explains are dropped, what stands out of the rest is added,
-   * all are taken to the best fit by Gauss-Newton steps. With the false-alarm probability and noise power of `nomp`.
+   * Refine the sources on the matched model: those that noise explains are dropped, what stands out of the rest is
+   * added, all are taken to the best fit by Gauss-Newton steps. With the false-alarm probability and noise power of
+   * `nomp`.
    */
   refine?: boolean;
   maxIterations?: number;
