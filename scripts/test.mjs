@@ -33,6 +33,7 @@ const steps = [
   },
   script('check-dependencies'),
   script('check-licences'),
+  script('check-workflows'),
   { name: 'scripts', command: () => nodeTests('tests/scripts'), counts: nodeCounts },
   { name: 'rust', command: ['cargo', 'test', '--workspace', '--no-fail-fast', '--quiet'], counts: cargoCounts },
   {
