@@ -323,7 +323,10 @@ async function driveRows() {
     ...drive.ransac,
   });
   let timeS = 0;
-  const take = (frame) => calibration.addFrame({ ...frame, timeS: (timeS += 1 / 13.5) });
+  const take = (frame) => {
+    timeS += 1 / 13.5;
+    return calibration.addFrame({ ...frame, timeS });
+  };
   const apart = (ours, theirs) => ours.map((v, k) => Math.hypot(v[0] - theirs[k][0], v[1] - theirs[k][1]));
   const ours = frames.map((frame) => take(frame).motion.velocityMps);
   const own = here(take, frames);

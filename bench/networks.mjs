@@ -36,7 +36,7 @@ function agree(ours, theirs) {
     let [largest, scale] = [0, 1];
     data.forEach((value, i) => {
       const apart = Math.abs(value - other[i]);
-      largest = apart <= largest ? largest : apart;
+      largest = Math.max(largest, apart);
       scale = Math.max(scale, Math.abs(other[i]));
     });
     if (!(largest <= DIFFER * scale))

@@ -1,7 +1,8 @@
 // Everything a fresh checkout needs besides git, rustup and Node. Uses Node built-ins only.
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { root, tool, tools, wasmTarget } from './lib/paths.mjs';
+import { cargoTool } from './lib/cargo-tool.mjs';
+import { root, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, output, run } from './lib/run.mjs';
 import { whenChanged } from './lib/stamp.mjs';
 import { atLeast, lockedVersion } from './lib/versions.mjs';
@@ -52,17 +53,6 @@ async function rustTarget() {
   }
   say(`Rust target ${wasmTarget} (rustup target add)`);
   await run('rustup', ['target', 'add', wasmTarget]);
-}
-
-async function cargoTool(binary, crate, version) {
-  const found = output(tool(binary), ['--version'])?.trim().split(/\s+/)[1];
-  if (found === version) {
-    say(`${binary} ${version} is there`);
-    return;
-  }
-  say(`${crate} ${version} into .tools (about two minutes)`);
-  // Without --locked: the lock file these crates carry may name versions a registry mirror lacks.
-  await run('cargo', ['install', '--quiet', '--root', tools, crate, '--version', `=${version}`]);
 }
 
 export async function setup() {

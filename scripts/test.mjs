@@ -1,6 +1,6 @@
 // Sets up, builds and runs every test. `npm test -- --only rust,node` runs some steps; their names
 // are in the closing table. Nothing is skipped where CI=true.
-import { existsSync, readdirSync } from 'node:fs';
+import { readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { buildDemo, buildPackage } from './build.mjs';
 import { browserMissing, findBrowser } from './lib/browser.mjs';
@@ -25,6 +25,7 @@ function nodeTests(folder, ...options) {
 
 const steps = [
   { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
+  { name: 'lint', command: ['biome', 'check', '--error-on-warnings'], counts: checkCounts },
   {
     name: 'clippy',
     command: ['cargo', 'clippy', '--workspace', '--all-targets', '--quiet', '--', '-D', 'warnings'],
@@ -32,6 +33,7 @@ const steps = [
   },
   script('check-dependencies'),
   script('check-licences'),
+  script('check-workflows'),
   { name: 'scripts', command: () => nodeTests('tests/scripts'), counts: nodeCounts },
   { name: 'rust', command: ['cargo', 'test', '--workspace', '--no-fail-fast', '--quiet'], counts: cargoCounts },
   {

@@ -5,7 +5,7 @@ import numpy as np
 
 class Chain:
     def __init__(self, shape, options):
-        loops, channels, samples = shape
+        loops, _, samples = shape
         self.range_window = normalised(hann(samples)).astype(np.float32)
         self.doppler_window = normalised(hann(loops)).astype(np.float32)[:, None, None]
         self.guard = options["guardCells"]

@@ -51,7 +51,7 @@ class MaximumLikelihood:
 
     def polish(self, r, u):
         cap = 2.0 / self.grid.points
-        for iteration in range(self.iterations):
+        for iteration in range(self.iterations):  # noqa: B007 (read after the loop)
             a = self.grid.steering(u)
             slope = (1j * np.pi * self.positions)[:, None] * a
             adjoint = a.conj().T

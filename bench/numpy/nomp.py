@@ -51,9 +51,7 @@ class Nomp:
             for _ in range(self.cyclic):
                 for i in range(len(phases)):
                     own = residual + vectors[:, i] * amplitudes[i]
-                    phases[i], amplitudes[i], vectors[:, i] = self.refine(
-                        own, phases[i], amplitudes[i], vectors[:, i]
-                    )
+                    phases[i], amplitudes[i], vectors[:, i] = self.refine(own, phases[i], amplitudes[i], vectors[:, i])
                     residual = own - vectors[:, i] * amplitudes[i]
             amplitudes = np.linalg.lstsq(vectors, y, rcond=None)[0]
             residual = y - vectors @ amplitudes

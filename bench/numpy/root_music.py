@@ -21,9 +21,7 @@ class RootMusic:
         projector = np.eye(len(r)) - signal @ signal.conj().T
         flat = projector.reshape(-1)
         count = 2 * len(r) - 1
-        lags = np.bincount(self.diagonal, flat.real, count) + 1j * np.bincount(
-            self.diagonal, flat.imag, count
-        )
+        lags = np.bincount(self.diagonal, flat.real, count) + 1j * np.bincount(self.diagonal, flat.imag, count)
         # a^H P a = sum_m lags[m] z^m with z = exp(j pi u) and m the column minus the row.
         roots = np.roots(lags[::-1])
         inside = roots[np.abs(roots) < 1.0]

@@ -25,7 +25,7 @@ class SparseBayesian:
         noise = 0.01
         active = np.empty(0, dtype=int)
         offsets = np.empty(0)
-        for iteration in range(self.options["maxIterations"]):
+        for iteration in range(self.options["maxIterations"]):  # noqa: B007 (read after the loop)
             b_active = self.b[:, active]
             phi = self.a[:, active] + b_active * offsets
             powers = alpha[active]
@@ -48,16 +48,12 @@ class SparseBayesian:
             alpha = (np.sqrt(snapshots**2 + 4.0 * self.rho * energy) - snapshots) / (2.0 * self.rho)
             old_noise = noise
             error = noise**2 * (z.real**2 + z.imag**2).sum()
-            noise = (error + snapshots * noise * share.sum() + self.d) / (
-                snapshots * elements + self.c - 1.0
-            )
+            noise = (error + snapshots * noise * share.sum() + self.d) / (snapshots * elements + self.c - 1.0)
             moved = b_active * (offsets * powers)
             known = np.zeros(self.grid.points)
             known[active] = offsets
             active = self.active(alpha, elements - 1)
-            offsets = self.offsets(
-                active, known[active], before[active], z, inverse, old_noise, moved, adjoint
-            )
+            offsets = self.offsets(active, known[active], before[active], z, inverse, old_noise, moved, adjoint)
             change = np.linalg.norm(alpha - before) / np.linalg.norm(before)
             if change < self.options["tolerance"]:
                 break

@@ -1,6 +1,7 @@
 """The NumPy methods on simulated data with known answers."""
 
 import unittest
+from typing import ClassVar
 
 import numpy as np
 
@@ -28,6 +29,7 @@ OPTIONS = {
     },
 }
 SINGLE = {"single-snapshot-music", "nomp", "iaa", "iaa-dense"}
+UNIFORM = np.arange(32)
 SPARSE = np.array([0, 3, 4, 5, 7, 8, 13, 14, 18, 21, 22, 23, 25, 26, 31, 32])
 
 
@@ -47,7 +49,7 @@ def scene(positions, snapshots, snr_db=20.0, seed=1):
 
 
 class MethodsFindTheSources(unittest.TestCase):
-    def check(self, name, snapshots, tolerance_deg, options=OPTIONS, positions=np.arange(32)):
+    def check(self, name, snapshots, tolerance_deg, options=OPTIONS, positions=UNIFORM):
         found = METHODS[name](positions, options).estimate(scene(positions, snapshots))
         self.assertEqual(len(found.azimuth_deg), 3, f"{name}: {found.azimuth_deg}")
         error = np.abs(np.sort(found.azimuth_deg) - TRUTH_DEG).max()
@@ -89,7 +91,7 @@ class MethodsFindTheSources(unittest.TestCase):
 
     def test_noise_alone_is_no_source(self):
         rng = np.random.default_rng(5)
-        nomp = METHODS["nomp"](np.arange(32), OPTIONS)
+        nomp = METHODS["nomp"](UNIFORM, OPTIONS)
         hits = 0
         for _ in range(1000):
             y = (rng.standard_normal((32, 1)) + 1j * rng.standard_normal((32, 1))) * np.sqrt(0.005)
@@ -139,7 +141,7 @@ class Transforms(unittest.TestCase):
 
 class IaaForms(unittest.TestCase):
     def test_fast_equals_dense(self):
-        for positions in (np.arange(32), SPARSE):
+        for positions in (UNIFORM, SPARSE):
             y = scene(positions, 1)
             fast = METHODS["iaa"](positions, OPTIONS).estimate(y).spectrum_db
             dense = METHODS["iaa-dense"](positions, OPTIONS).estimate(y).spectrum_db
@@ -148,7 +150,7 @@ class IaaForms(unittest.TestCase):
 
 
 class RangeDoppler(unittest.TestCase):
-    OPTIONS = {"guardCells": [2, 2], "trainingCells": [8, 4], "falseAlarm": 1e-5}
+    OPTIONS: ClassVar = {"guardCells": [2, 2], "trainingCells": [8, 4], "falseAlarm": 1e-5}
 
     def test_finds_the_targets_and_little_else(self):
         rng = np.random.default_rng(4)

@@ -9,13 +9,13 @@ const windows = process.platform === 'win32';
 const python = windows ? 'python' : 'python3';
 
 /**
- * Runs pytest on tests that use the command line, in a virtual environment of exactly the packages of a requirements
- * file, `.tools/NAME`. Needs Python 3.11 or newer with its venv module.
+ * Makes a virtual environment of exactly the packages of a requirements file, `.tools/NAME`; the path of its Python.
+ * Needs Python 3.11 or newer with its venv module.
  */
-export async function pytest(name, requirements, tests, variables = {}) {
+export async function virtualEnvironment(name, requirements) {
   const found = /^Python (\S+)/.exec(output(python, ['--version']) ?? '')?.[1];
   if (!found || !atLeast(found, '3.11.0')) {
-    throw new Error(`Python 3.11 or newer is needed for the ${name} tests; this is ${found ?? 'none'}`);
+    throw new Error(`Python 3.11 or newer is needed; this is ${found ?? 'none'}`);
   }
   const venv = join('.tools', name);
   const venvPython = join(venv, ...(windows ? ['Scripts', 'python.exe'] : ['bin', 'python']));
@@ -32,8 +32,14 @@ export async function pytest(name, requirements, tests, variables = {}) {
       requirements,
     ]);
   });
+  return join(root, venvPython);
+}
+
+/** Runs pytest on tests that use the command line, in a virtual environment of its own. */
+export async function pytest(name, requirements, tests, variables = {}) {
+  const interpreter = await virtualEnvironment(name, requirements);
   const boresight = await commandLine();
-  await run(join(root, venvPython), ['-m', 'pytest', '-q', '-p', 'no:cacheprovider', tests, ...process.argv.slice(2)], {
+  await run(interpreter, ['-m', 'pytest', '-q', '-p', 'no:cacheprovider', tests, ...process.argv.slice(2)], {
     env: { ...environment, BORESIGHT: boresight, PYTHONDONTWRITEBYTECODE: '1', ...variables },
   });
 }

@@ -1,7 +1,9 @@
+import { stripVTControlCharacters } from 'node:util';
+
 /** Adds up every "test result:" line of cargo, as from `cargo test --workspace`. */
 export function cargoCounts(text) {
   const counts = { passed: 0, failed: 0, skipped: 0 };
-  for (const [, passed, failed, ignored] of plain(text).matchAll(
+  for (const [, passed, failed, ignored] of stripVTControlCharacters(text).matchAll(
     /^test result: \S+ (\d+) passed; (\d+) failed; (\d+) ignored/gm,
   )) {
     counts.passed += Number(passed);
@@ -14,7 +16,7 @@ export function cargoCounts(text) {
 /** The closing lines of node:test, whichever reporter wrote them. */
 export function nodeCounts(text) {
   const last = (name) => {
-    const found = [...plain(text).matchAll(new RegExp(`^(?:#|ℹ) ${name} (\\d+)$`, 'gm'))];
+    const found = [...stripVTControlCharacters(text).matchAll(new RegExp(`^(?:#|ℹ) ${name} (\\d+)$`, 'gm'))];
     return Number(found.at(-1)?.[1] ?? 0);
   };
   return {
@@ -26,8 +28,6 @@ export function nodeCounts(text) {
 
 /** A step that is one check: it passed or it failed. */
 export const checkCounts = (_text, ok) => ({ passed: ok ? 1 : 0, failed: ok ? 0 : 1, skipped: 0 });
-
-const plain = (text) => text.replaceAll(/\u001b\[[0-9;]*m/g, '');
 
 /** Table of steps and the closing line. */
 export function summary(results) {

@@ -1,16 +1,6 @@
 import assert from 'node:assert/strict';
 import { root } from '../../scripts/lib/paths.mjs';
-import {
-  assertCsv,
-  assertPng,
-  clickWhenThere,
-  drop,
-  parameters,
-  parametersWith,
-  recording,
-  saved,
-  values,
-} from './demo.mjs';
+import { assertCsv, assertPng, clickWhenThere, drop, parametersWith, recording, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 import { openPage, serve } from './session.mjs';
 

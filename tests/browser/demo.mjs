@@ -49,7 +49,10 @@ export function assertJson({ name, bytes }) {
   return JSON.parse(bytes.toString('utf8'));
 }
 
-/** Clicks the first button that shows up under a selector, at once: how long the work behind it takes is the machine's affair. */
+/**
+ * Clicks the first button that shows up under a selector, at once: how long the work behind it takes is the machine's
+ * affair.
+ */
 export const clickWhenThere = (page, selector) =>
   page.evaluate(
     (wanted) =>

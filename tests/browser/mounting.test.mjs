@@ -76,7 +76,7 @@ browserTest(
     assert.match(await page.locator('[data-facts="counts"]').innerText(), /Without range rate\s*192/);
     assert.match(
       await page.locator('[data-plot="trajectory"] .legend').innerText(),
-      /Angle found, −1\.9\d°, RTE [\d.]+ m[^]*Nominal angle, 0\.00°, RTE [\d.]+ m[^]*Poses of the log/,
+      /Angle found, −1\.9\d°, RTE [\d.]+ m[\s\S]*Nominal angle, 0\.00°, RTE [\d.]+ m[\s\S]*Poses of the log/,
     );
     await page.waitForSelector('[data-plot="doppler-azimuth"] [data-series="recursive"]');
   },
@@ -178,7 +178,7 @@ browserTest(
     await page.locator('[data-input="folder"]').setInputFiles(recordings('delphi'));
     await page.waitForFunction(() => /delphi, delphi/.test(document.querySelector('[data-fact="name"]').textContent));
     await ready(page, 'weighted-mean');
-    assert.match(await page.locator('.files').innerText(), /front_radar\.csv\.gz[^]*pose_10hz\.csv\.gz/);
+    assert.match(await page.locator('.files').innerText(), /front_radar\.csv\.gz[\s\S]*pose_10hz\.csv\.gz/);
     // What a file manager drops cannot be made by a script; its folder is, with the files that are in it.
     await page.evaluate(
       (files) => {

@@ -256,7 +256,8 @@ for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) 
       }
       await page.waitForSelector(`[data-experiment="${name}"] [data-verdict="counted"]`);
       if (name === 'aoa') {
-        // Counted here anew for the F1 at 15 dB: who is more than four standard deviations below any classical method must be named.
+        // Counted here anew for the F1 at 15 dB: who is more than four standard deviations below any classical method
+        // must be named.
         const conditions = report.conditions.filter(({ snrDb }) => snrDb === 15);
         report.methods.forEach((method, i) => {
           if (!isNetwork(method)) return;

@@ -1,4 +1,5 @@
 """The command line under test, and a drive that it simulated."""
+
 import json
 import os
 import subprocess
@@ -27,7 +28,18 @@ def drive(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param)
     packed = ["--packed"] if request.param == "packed" else []
     boresight(
-        "simulate", "drive", "--scenario", "city", "--seed", 1, "--duration", 20,
-        "--misalign", "2=1.5", *packed, "--out", folder,
+        "simulate",
+        "drive",
+        "--scenario",
+        "city",
+        "--seed",
+        1,
+        "--duration",
+        20,
+        "--misalign",
+        "2=1.5",
+        *packed,
+        "--out",
+        folder,
     )
     return folder

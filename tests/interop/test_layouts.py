@@ -1,4 +1,5 @@
 """RadarScenes files in the layouts that h5py writes, read back by the command line."""
+
 import h5py
 import numpy as np
 import pytest

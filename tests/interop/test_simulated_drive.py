@@ -1,10 +1,11 @@
 """What `simulate drive` writes, read by the data set's own package and by h5py."""
+
 import json
 
 import h5py
 import numpy as np
 import pytest
-from conftest import boresight, log
+from conftest import log
 from radar_scenes.sensors import get_mounting
 from radar_scenes.sequence import Sequence, get_training_sequences
 
@@ -13,14 +14,21 @@ RADAR = np.dtype(
     + [
         (name, "<f4")
         for name in (
-            "range_sc", "azimuth_sc", "rcs", "vr", "vr_compensated", "x_cc", "y_cc", "x_seq", "y_seq",
+            "range_sc",
+            "azimuth_sc",
+            "rcs",
+            "vr",
+            "vr_compensated",
+            "x_cc",
+            "y_cc",
+            "x_seq",
+            "y_seq",
         )
     ]
     + [("uuid", "S32"), ("track_id", "S32"), ("label_id", "u1")]
 )
 ODOMETRY = np.dtype(
-    [("timestamp", "<i8")]
-    + [(name, "<f4") for name in ("x_seq", "y_seq", "yaw_seq", "vx", "yaw_rate")]
+    [("timestamp", "<i8")] + [(name, "<f4") for name in ("x_seq", "y_seq", "yaw_seq", "vx", "yaw_rate")]
 )
 
 
@@ -64,7 +72,10 @@ def test_scenes_tell_of_the_same_drive_as_the_log(drive, sequence):
 
 def test_every_number_is_that_of_the_log(drive, sequence, tmp_path):
     log(drive / "data" / "sequence_1", "--export", tmp_path)
-    table = lambda name: np.genfromtxt(tmp_path / name, delimiter=",", names=True)
+
+    def table(name):
+        return np.genfromtxt(tmp_path / name, delimiter=",", names=True)
+
     rows, motion = sequence.radar_data, sequence.odometry_data
     origin = motion["timestamp"][0]
     detections = table("detections.csv")
@@ -117,11 +128,7 @@ def test_places_and_rates_follow_from_mounting_and_motion(drive, sequence):
         mounting = get_mounting(scene.sensor_id, json_path=str(drive / "data" / "sensors.json"))
         x, y, azimuth = mounting["x"], mounting["y"], rows["azimuth_sc"] + mounting["yaw"]
         cos, sin = np.cos(azimuth), np.sin(azimuth)
-        compensated = (
-            rows["vr"]
-            + (motion["vx"] - motion["yaw_rate"] * y) * cos
-            + motion["yaw_rate"] * x * sin
-        )
+        compensated = rows["vr"] + (motion["vx"] - motion["yaw_rate"] * y) * cos + motion["yaw_rate"] * x * sin
         # Single precision at up to 100 m from the car, some hundred m from the start and 20 m/s.
         np.testing.assert_allclose(rows["vr_compensated"], compensated, atol=2e-5)
         np.testing.assert_allclose(rows["x_cc"], x + rows["range_sc"] * cos, atol=5e-5)

@@ -511,7 +511,7 @@ describe('bad drives', () => {
     });
     assert.deepEqual([empty.history.timeS.length, empty.result.sigmaDeg], [0, Infinity]);
     const far = calibrateDrive(
-      { ...drive, scans: { ...drive.scans, timeS: drive.scans.timeS.map((time, i) => (i < 5 ? -1e308 : 1e308)) } },
+      { ...drive, scans: { ...drive.scans, timeS: drive.scans.timeS.map((_, i) => (i < 5 ? -1e308 : 1e308)) } },
       { historyS: 1e-300 },
     );
     assert.equal(far.result.frames.given, drive.scans.timeS.length);

@@ -1,6 +1,5 @@
 // Networks in wasm: PyTorch's numbers, batches, bad input, the module's life, the pool.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
 import { array, estimate, frameCells, init, processCube, simulateCube, simulateSnapshots } from 'boresight';
 import { BoresightError, initNeural, initNeuralSync, Network } from 'boresight/neural';

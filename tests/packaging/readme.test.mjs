@@ -92,13 +92,15 @@ test('the sixth snippet finds the targets with a network', async () => {
 test('the table of methods of mounting angles says what calibrationMethods() says', async () => {
   const [, json] = await printed('methods.mjs');
   const expected = JSON.parse(json).map(({ name, title, reference }) => `| \`${name}\` | ${title} | ${reference} |`);
-  const [, ...rows] = readme.split('\n').filter((line) => /^\| `[a-z-]+` \| [^`|]+ \| [^`|]+ \|$/.test(line)); // without the heading
+  // Without the heading.
+  const [, ...rows] = readme.split('\n').filter((line) => /^\| `[a-z-]+` \| [^`|]+ \| [^`|]+ \|$/.test(line));
   assert.deepEqual(rows, expected);
 });
 
 test('the table of estimators says what methods() says', async () => {
   const [json] = await printed('methods.mjs');
-  const [, ...rows] = readme.split('\n').filter((line) => /^\| .* \| `[a-z0-9-]+` \|/.test(line)); // without the heading
+  // Without the heading.
+  const [, ...rows] = readme.split('\n').filter((line) => /^\| .* \| `[a-z0-9-]+` \|/.test(line));
   const yes = (flag) => (flag ? 'yes' : 'no');
   const expected = JSON.parse(json).map((m) => {
     const needs = [

@@ -50,6 +50,7 @@ def start(device: str) -> Processes:
 def end() -> None:
     """Leaves the other processes."""
     if distributed.is_initialized():
-        # What DistributedDataParallel leaves in cycles still holds the group, whose threads must end before the interpreter.
+        # What DistributedDataParallel leaves in cycles still holds the group, whose threads must end before the
+        # interpreter.
         gc.collect()
         distributed.destroy_process_group()

@@ -68,7 +68,7 @@ class Cubes:
     shift_m: float = 0.0
     """Greatest shift in range by equation 10."""
     near: float = 0.0
-    """Share of cubes whose targets all lie within a range bin of the first, in training alone: these are the hard ones."""
+    """Share of cubes whose targets all lie within a range bin of the first, the hard ones, in training alone."""
 
     def elements(self) -> torch.Tensor:
         """Positions of the 8 virtual elements, transmitter-major."""

@@ -139,7 +139,11 @@ def test_regions_are_around_the_target_with_its_noise():
 
 
 def test_near_targets_are_within_a_bin():
-    apart = draw_reflectors(Cubes(targets=(2, 2), near=0.5), 4000, torch.Generator().manual_seed(8)).range_m.diff(dim=1).abs()
+    apart = (
+        draw_reflectors(Cubes(targets=(2, 2), near=0.5), 4000, torch.Generator().manual_seed(8))
+        .range_m.diff(dim=1)
+        .abs()
+    )
     # Half of them, and of independent ranges over 20 bins nearly a tenth; two standard deviations of a share are 0.016.
     assert abs(float((apart < 1).float().mean()) - (0.5 + 0.5 * 0.0975)) < 0.03
 

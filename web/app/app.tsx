@@ -35,6 +35,7 @@ export function App() {
   }, [page]);
   return (
     <>
+      {/* biome-ignore lint/a11y/useValidAnchor: it is a link, whose hash must not replace the page's route. */}
       <a
         class="skip"
         href="#content"

@@ -188,7 +188,7 @@ function run(view: View, task: Task, report: Report | undefined): DriveCalibrati
           });
         }
         const grid = startS + historyS * (Math.floor((nextS - startS) / historyS) + 1);
-        dueS = grid > nextS ? grid : nextS;
+        dueS = Math.max(grid, nextS);
       }
       if (finished || (next > first && next - told >= step)) {
         told = next;

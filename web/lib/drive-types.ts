@@ -32,7 +32,9 @@ export interface DriveScans {
   offsets: Uint32Array;
 }
 
-/** What calibration needs of a drive. Detections have an entry for each, motion one for each sample in order of time. */
+/**
+ * What calibration needs of a drive. Detections have an entry for each, motion one for each sample in order of time.
+ */
 export interface DriveData {
   sensors: readonly DriveSensor[];
   scans: DriveScans;
@@ -61,8 +63,8 @@ export interface DriveData {
 export type DriveFormat = 'radarscenes' | 'delphi' | 'csv';
 
 /**
- * A file of a drive. Its name, with or without folders before it, tells tables (`.csv`, `.csv.gz`), HDF5 (`.h5`, `.hdf5`)
- * and what stands beside that (`scenes.json`, `sensors.json`, `sequences.json`) from the rest.
+ * A file of a drive. Its name, with or without folders before it, tells tables (`.csv`, `.csv.gz`), HDF5 (`.h5`,
+ * `.hdf5`) and what stands beside that (`scenes.json`, `sensors.json`, `sequences.json`) from the rest.
  */
 export interface DriveFile {
   name: string;
@@ -108,7 +110,10 @@ export interface DriveCounts {
   incompleteDetections: number;
   /** Motion samples kept although their speed or pose is no number. */
   incompleteMotion: number;
-  /** Rows left out, by reason: `not-finite`, `invalid-marker`, `status`, `duplicate`, `motion-not-finite`, `motion-duplicate`. */
+  /**
+   * Rows left out, by reason: `not-finite`, `invalid-marker`, `status`, `duplicate`, `motion-not-finite`,
+   * `motion-duplicate`.
+   */
   dropped: Record<string, number>;
 }
 

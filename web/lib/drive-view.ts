@@ -196,7 +196,10 @@ export function interpolate(times: Floats, values: Floats | undefined, timeS: nu
   return previous * (1 - share) + next * share;
 }
 
-/** A scan of a drive with the car's motion at its time, ready for `Calibration.addFrame`; arrays are views of the drive's. */
+/**
+ * A scan of a drive with the car's motion at its time, ready for `Calibration.addFrame`; arrays are views of the
+ * drive's.
+ */
 export function driveFrame(drive: DriveData, scan: number, gap?: MotionGap): DriveFrame {
   const view = viewOf(drive);
   if (!(Number.isInteger(scan) && scan >= 0 && scan < view.timeS.length)) {

@@ -107,7 +107,9 @@ export interface ImageEstimates {
   powerDb: Float64Array;
   /** Of each source, 0 to 1; 1 where absent. */
   confidence?: Float64Array;
-  /** A pseudo-spectrum tells no power; its peak is given that of the cell. At several elevations the strongest counts. */
+  /**
+   * A pseudo-spectrum tells no power; its peak is given that of the cell. At several elevations the strongest counts.
+   */
   spectra?: Pick<BatchSpectra, 'azimuthDeg' | 'power' | 'kind'>;
 }
 

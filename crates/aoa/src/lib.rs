@@ -3,6 +3,32 @@
 //! [`Estimator::new`] takes a method, an array and options and checks that they go together;
 //! [`Estimator::estimate`] takes snapshots or a covariance and returns an [`Estimate`];
 //! [`Estimator::estimate_batch`] takes the snapshots of many cells and returns a [`BatchEstimate`].
+//!
+//! # Example
+//!
+//! ```
+//! use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+//! use boresight_core::steering::steering_matrix;
+//! use boresight_core::{Array, Complex64, Direction};
+//! use ndarray::array;
+//!
+//! // Two waves in two snapshots, in phase and out of phase.
+//! let array = Array::ula(8)?;
+//! let truth = [-10.0_f64, 15.0].map(|degrees| Direction::azimuth(degrees.to_radians()));
+//! let signals = array![[1.0, 1.0], [1.0, -1.0]].mapv(Complex64::from);
+//! let snapshots = steering_matrix(&array, &truth).dot(&signals);
+//!
+//! let options = Options { sources: SourceCount::Known(2), ..Options::default() };
+//! let mut estimator = Estimator::new(Method::RootMusic, &array, &options)?;
+//! let estimate = estimator.estimate(Data::Snapshots(snapshots.view()))?;
+//! let mut found: Vec<f64> = estimate.sources.iter().map(|s| s.direction.azimuth_rad).collect();
+//! found.sort_by(f64::total_cmp);
+//! for (found, truth) in found.iter().zip(truth) {
+//!     assert!((found - truth.azimuth_rad).abs() < 1e-6);
+//! }
+//! assert_eq!(found.len(), 2);
+//! # Ok::<(), boresight_aoa::AoaError>(())
+//! ```
 
 mod bartlett;
 pub mod batch;

@@ -8,6 +8,41 @@
 //! its direction in its own frame, `beta`, gives the mounting angle:
 //! `|V| sin(beta + theta) = w x_s`. The yaw rate is measured with a scale error and a bias,
 //! `measured = s w + b`; `s' = 1 / s` is what is estimated.
+//!
+//! # Example
+//!
+//! ```
+//! use boresight_calibrate::{Calibrator, FrameInput, Options};
+//! use boresight_core::Detection;
+//!
+//! // A car goes straight at 15 m/s past points that stand; its radar is turned by 2 deg to the left.
+//! let turned_rad = 2_f64.to_radians();
+//! let detections: Vec<Detection> = (-20..=20)
+//!     .map(|k| {
+//!         let azimuth_rad = 0.05 * f64::from(k);
+//!         Detection {
+//!             azimuth_rad: azimuth_rad as f32,
+//!             range_rate_mps: (-15.0 * (azimuth_rad + turned_rad).cos()) as f32,
+//!             range_m: 20.0,
+//!             rcs_dbsm: f32::NAN,
+//!         }
+//!     })
+//!     .collect();
+//!
+//! let mut calibrator = Calibrator::new(Options { x_m: 3.6, ..Options::default() })?;
+//! for frame in 0..50 {
+//!     calibrator.add(FrameInput {
+//!         time_s: 0.05 * f64::from(frame),
+//!         detections: &detections,
+//!         yaw_rate_radps: Some(0.0),
+//!         speed_mps: None,
+//!     })?;
+//! }
+//! let estimate = calibrator.estimate();
+//! assert_eq!(estimate.frames.given, 50);
+//! assert!((estimate.angle_rad - turned_rad).abs() < 1e-4);
+//! # Ok::<(), boresight_calibrate::CalibrateError>(())
+//! ```
 
 mod angle;
 mod batch;

@@ -4,6 +4,20 @@
 //! Conventions (stated in full in `docs/conventions.md`): SI units and radians, with the unit in
 //! the name; the sensor frame has x forward, y left and z up; azimuth is counter-clockwise
 //! positive; range rate is positive when receding; antenna positions are in half wavelengths.
+//!
+//! # Example
+//!
+//! ```
+//! use boresight_core::steering::steering_vector;
+//! use boresight_core::{Array, Direction};
+//!
+//! // A wave from 30 deg on the left turns the phase by half of pi from one element to the next.
+//! let array = Array::ula(8)?;
+//! let response = steering_vector(&array, Direction::azimuth(30_f64.to_radians()));
+//! let turn = (response[1] / response[0]).arg();
+//! assert!((turn - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+//! # Ok::<(), boresight_core::CoreError>(())
+//! ```
 
 // What `Described` derives names the crate from outside.
 #[allow(unused_extern_crates)]

@@ -10,6 +10,22 @@
 //!
 //! All readers work on bytes in memory, take nothing on trust from a header before comparing it
 //! with what is there, and say where a file is wrong.
+//!
+//! # Example
+//!
+//! ```
+//! use boresight_formats::{FormatError, NpyArray, npy};
+//!
+//! let bytes = npy::write(&[2, 3], &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0])?;
+//! let array = NpyArray::parse(&bytes)?;
+//! assert_eq!(array.shape, [2, 3]);
+//! assert_eq!(array.to_f64().map(|numbers| numbers[4]), Some(4.0));
+//!
+//! // A file that ends early is refused, and the error says where.
+//! let cut = NpyArray::parse(&bytes[..bytes.len() - 1]);
+//! assert!(matches!(cut, Err(FormatError::Binary { format: "npy", .. })), "{cut:?}");
+//! # Ok::<(), FormatError>(())
+//! ```
 
 pub mod dca1000;
 pub mod drive_log;

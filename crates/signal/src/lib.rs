@@ -3,6 +3,39 @@
 //!
 //! Powers are per raw sample: a cell that holds a target has the power one sample of that target
 //! has, whatever the windows and the transform lengths.
+//!
+//! # Example
+//!
+//! ```
+//! use boresight_core::{Complex32, Waveform};
+//! use boresight_signal::{RangeDoppler, RangeDopplerOptions};
+//! use ndarray::Array4;
+//! use std::f32::consts::TAU;
+//!
+//! let waveform = Waveform {
+//!     start_frequency_hz: 77e9,
+//!     slope_hz_per_s: 60e12,
+//!     sample_rate_hz: 5e6,
+//!     samples: 64,
+//!     adc_start_s: 2e-6,
+//!     chirp_interval_s: 60e-6,
+//!     transmitters: 1,
+//!     loops: 16,
+//!     frame_interval_s: 40e-3,
+//! };
+//! let mut transform = RangeDoppler::new(&waveform, 1, &RangeDopplerOptions::default())?;
+//! let mut map = transform.output();
+//!
+//! // What stands in range bin 10 gives the same ten turns in each chirp; rate 0 is in the middle.
+//! let frame = Array4::from_shape_fn((16, 1, 1, 64), |(.., n)| {
+//!     Complex32::cis(TAU * 10.0 * n as f32 / 64.0)
+//! });
+//! transform.process(frame.view(), &mut map)?;
+//! assert!((map.power[[10, 8]] - 1.0).abs() < 1e-4);
+//! assert_eq!(transform.rate_mps()[8], 0.0);
+//! assert!((transform.range_m()[10] - 10.0 * waveform.range_resolution_m()).abs() < 1e-9);
+//! # Ok::<(), boresight_signal::SignalError>(())
+//! ```
 
 pub mod cfar;
 pub mod clutter;

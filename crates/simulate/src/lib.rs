@@ -1,6 +1,31 @@
 //! Seeded simulation of what a radar's array receives: snapshots of scenes, and FMCW data cubes;
 //! a street around a car with four radars, and drives as Doppler point clouds.
 //! The same seed gives the same bits natively and in wasm.
+//!
+//! # Example
+//!
+//! ```
+//! use boresight_core::{Array, Direction};
+//! use boresight_simulate::{Fluctuation, Scene, SnapshotOptions, SnapshotSimulator, Target};
+//!
+//! let direction = Direction::azimuth(10_f64.to_radians());
+//! let options = SnapshotOptions {
+//!     scene: Scene::Given(vec![Target { direction, power_db: 0.0, phase_rad: None }]),
+//!     snr_db: 20.0,
+//!     snapshots: 4,
+//!     fluctuation: Fluctuation::ComplexNormal,
+//!     imperfections: None,
+//!     seed: 7,
+//! };
+//! let simulator = SnapshotSimulator::new(&Array::ula(8)?, &options)?;
+//! let (snapshots, truth) = simulator.scene(3)?;
+//! assert_eq!(snapshots.dim(), (8, 4));
+//! assert_eq!(truth[0].direction, direction);
+//!
+//! // A scene is told by the seed and its number, whatever was drawn before.
+//! assert_eq!(simulator.scenes(2, 3)?.values.index_axis(ndarray::Axis(0), 1), snapshots);
+//! # Ok::<(), boresight_simulate::SimulateError>(())
+//! ```
 
 pub mod cube;
 pub mod digest;

@@ -3,6 +3,7 @@
 All hold the same drive, so that a reader must give the same log for each: 3 scans of 2 sensors with
 4 detections, one of them with NaN in the columns that may hold it, one with NaN in vr.
 """
+
 import pathlib
 
 import h5py
@@ -29,7 +30,7 @@ def tables(width=32, order="<", kind="f4", stamp="i8"):
         + [("uuid", f"S{width}"), ("track_id", f"S{width}"), ("label_id", "u1")]
     )
     rows = np.zeros(len(ROWS), radar)
-    for row, (stamp_us, sensor, rng, azimuth, rcs, vr, nan) in zip(rows, ROWS):
+    for row, (stamp_us, sensor, rng, azimuth, rcs, vr, nan) in zip(rows, ROWS, strict=True):
         row["timestamp"], row["sensor_id"], row["range_sc"], row["azimuth_sc"] = stamp_us, sensor, rng, azimuth
         row["rcs"], row["vr"], row["label_id"], row["uuid"] = rcs, vr, 11 if sensor == 1 else 0, b"ab"
         for name in ("vr_compensated", "x_seq", "y_seq"):

@@ -29,7 +29,7 @@ export function difference(given, expected) {
   expected.forEach((value, i) => {
     // Not a number is no small difference.
     const apart = Math.abs(given[i] - value);
-    largest = apart <= largest ? largest : apart;
+    largest = Math.max(largest, apart);
     scale = Math.max(scale, Math.abs(value));
   });
   return largest / scale;

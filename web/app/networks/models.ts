@@ -1,4 +1,7 @@
-/** The networks this site has: their cards, which are part of the page, and the addresses of their files, which load on demand. */
+/**
+ * The networks this site has: their cards, which are part of the page, and the addresses of their files, which load on
+ * demand.
+ */
 import type { ArrayGeometry, ModelCard, NetworkKind } from 'boresight';
 
 /** A card with what ours say beside what every card must. */

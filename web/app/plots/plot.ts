@@ -75,7 +75,10 @@ export interface PlotOptions {
   grid?: boolean;
   /** A unit takes as much room on one axis as on the other: for places. */
   equal?: boolean;
-  /** A drag, two fingers or the arrows move the view, the wheel zooms; else a drag zooms to a region, as it does with Shift here. */
+  /**
+   * A drag, two fingers or the arrows move the view, the wheel zooms; else a drag zooms to a region, as it does with
+   * Shift here.
+   */
   navigate?: boolean;
   onCursor?(position: CursorPosition | null): void;
   onClick?(position: CursorPosition): void;

@@ -13,7 +13,7 @@ export function Licence({ address, summary, remark }: { address: string; summary
     <details class="licence small" onToggle={(event) => event.currentTarget.open && text.value === null && void load()}>
       <summary>{summary}</summary>
       <p class="muted">{remark}</p>
-      <pre tabIndex={0} aria-label="Licence of the recording">
+      <pre tabIndex={0} role="region" aria-label="Licence of the recording">
         {text.value ?? ''}
       </pre>
     </details>

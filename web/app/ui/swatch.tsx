@@ -18,6 +18,7 @@ export function Swatch({ style, line, hollow = false }: { style: SeriesStyle; li
     drawSwatch(ctx, { style, line, hollow }, { x: 0, y: (height / 2) * ratio, ratio }, THEMES[name], name);
   }, [name, style, line, hollow]);
   return (
+    // biome-ignore lint/a11y/noAriaHiddenOnFocusable: a canvas without a tab index takes no focus.
     <canvas
       ref={canvas}
       class="swatch"

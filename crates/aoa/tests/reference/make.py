@@ -73,9 +73,7 @@ def case(name, y, seed):
         "capon": (1.0 / form(inverse)).tolist(),
         "music": (len(y) / form(projector)).tolist(),
         "minNorm": (len(y) / np.abs(a.conj().T @ shortest) ** 2).tolist(),
-        "musicAzimuths": minima(
-            lambda x: (steering(y, [x]).conj().T @ projector @ steering(y, [x])).real.item()
-        ),
+        "musicAzimuths": minima(lambda x: (steering(y, [x]).conj().T @ projector @ steering(y, [x])).real.item()),
     }
     if np.allclose(y, np.arange(len(y))):
         n = len(y)

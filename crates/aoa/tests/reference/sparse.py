@@ -65,12 +65,16 @@ def ogsbi(positions, points, y, iterations):
 def case(positions, points, sines, snapshots, noise, rng):
     positions = np.array(positions, dtype=float)
     y = scene(positions, np.array(sines), snapshots, noise, rng)
-    return positions, y, {
-        "positions": positions.tolist(),
-        "points": points,
-        "re": y.real.tolist(),
-        "im": y.imag.tolist(),
-    }
+    return (
+        positions,
+        y,
+        {
+            "positions": positions.tolist(),
+            "points": points,
+            "re": y.real.tolist(),
+            "im": y.imag.tolist(),
+        },
+    )
 
 
 def main():

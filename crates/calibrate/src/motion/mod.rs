@@ -1,8 +1,8 @@
 //! The radar's own motion from one Doppler point cloud.
 //!
 //! A static point at azimuth `a` has `-range_rate = vx cos a + vy sin a` (equation 2 of Zhu et al.).
-//! [`ransac`] finds the points that agree on one motion; [`least_squares`] and
-//! [`orthogonal_distance`] make the most of them.
+//! `ransac` finds the points that agree on one motion; `least_squares` and
+//! `orthogonal_distance` make the most of them.
 
 mod consensus;
 pub(crate) mod least_squares;

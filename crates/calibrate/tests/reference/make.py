@@ -43,9 +43,7 @@ def drive(rng):
             "speed_mps": round(speed, 4),
             "yaw_rate_radps": round(SCALE * rate + 0.002 * rng.standard_normal(), 6),
             "azimuth_rad": rounded(azimuth + AZIMUTH_SIGMA * rng.standard_normal(DETECTIONS)),
-            "range_rate_mps": rounded(
-                -approach + RANGE_RATE_SIGMA * rng.standard_normal(DETECTIONS)
-            ),
+            "range_rate_mps": rounded(-approach + RANGE_RATE_SIGMA * rng.standard_normal(DETECTIONS)),
         }
 
 
@@ -106,9 +104,7 @@ class Samples:
         self.speed_variance = np.einsum("ti,tij,tj->t", along, c, along)
         self.chi = self.rate * X / self.speed
         self.lever = X / self.speed
-        self.chi_variance = (self.lever * YAW_RATE_SIGMA) ** 2 + (
-            self.chi / self.speed
-        ) ** 2 * self.speed_variance
+        self.chi_variance = (self.lever * YAW_RATE_SIGMA) ** 2 + (self.chi / self.speed) ** 2 * self.speed_variance
 
 
 def weighted_mean(s):
@@ -188,9 +184,7 @@ def main():
         "frames": [
             {
                 **frame,
-                "motions": {
-                    name: {"velocity_mps": v, "covariance": c} for name, (v, c) in frame["motions"].items()
-                },
+                "motions": {name: {"velocity_mps": v, "covariance": c} for name, (v, c) in frame["motions"].items()},
             }
             for frame in frames
         ],
@@ -198,7 +192,10 @@ def main():
     for frame in written["frames"]:
         for name in ("azimuth_rad", "range_rate_mps"):
             frame[name] = [round(x, 5) for x in frame[name]]
-    plain = lambda x: x.tolist() if isinstance(x, np.ndarray) else float(x)
+
+    def plain(x):
+        return x.tolist() if isinstance(x, np.ndarray) else float(x)
+
     path = Path(__file__).with_name("reference.json")
     path.write_text(json.dumps(written, default=plain, separators=(",", ":")) + "\n")
     for name, (solution, covariance) in angles.items():

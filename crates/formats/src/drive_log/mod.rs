@@ -1,5 +1,5 @@
 //! Drives as car makers, data sets and simulators store them, read into one
-//! [`DriveLog`]: which format it is is found from the
+//! [`DriveLog`](boresight_core::DriveLog): which format it is is found from the
 //! files' contents, and every row that is left out is counted.
 
 pub mod delphi;

@@ -34,7 +34,10 @@ export interface RadarFrame {
 
 export interface MethodImage {
   view?: BirdsEyeView;
-  /** Of the view as it is drawn, dB: column by column from the left, each from behind to ahead; not a number where no radar sees. */
+  /**
+   * Of the view as it is drawn, dB: column by column from the left, each from behind to ahead; not a number where no
+   * radar sees.
+   */
   levelsDb?: Float32Array;
   peakDb?: number;
   radars?: readonly Radar[];

@@ -6,7 +6,9 @@ export interface Comparison {
   board?: BoardObject;
 }
 
-/** Rows with the board's objects nearest in range, one to one, none further off than the gate; then objects left over. */
+/**
+ * Rows with the board's objects nearest in range, one to one, none further off than the gate; then objects left over.
+ */
 export function compare(rows: readonly Detection[], objects: readonly BoardObject[], gateM: number): Comparison[] {
   const pairs = rows.flatMap((row, i) =>
     objects.map((object, j) => ({ i, j, apart: Math.abs(row.rangeM - object.rangeM), power: row.powerDb })),

@@ -101,12 +101,11 @@ function Plots({ view }: { view: FrameResult }) {
   const { frame, cell: chosen, board } = captureState.value;
   if (!capture) return null;
   const cell = shownCell(view, chosen);
-  const boardIndex =
-    log && log.frames.length
-      ? board === 'last'
-        ? log.frames.length - 1
-        : Math.min(Number(board), log.frames.length - 1)
-      : -1;
+  const boardIndex = log?.frames.length
+    ? board === 'last'
+      ? log.frames.length - 1
+      : Math.min(Number(board), log.frames.length - 1)
+    : -1;
   const boardFrame = log?.frames[boardIndex];
   const objects = boardFrame?.objects ?? [];
   const gateM = Math.max(2 * capture.info.config.summary.rangeResolutionM, 0.1);

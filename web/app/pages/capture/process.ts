@@ -1,4 +1,6 @@
-/** Processing of the open capture on workers: all frames when files or options change, the chosen cell when it moves. */
+/**
+ * Processing of the open capture on workers: all frames when files or options change, the chosen cell when it moves.
+ */
 import { batch, computed, effect, signal } from '@preact/signals';
 import type { AngleOptions, Cell, ChainOptions, Estimate, FrameResult, Method } from 'boresight';
 import { aborted, api, describeError, type Problem } from '../../data.ts';

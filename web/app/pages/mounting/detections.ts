@@ -45,7 +45,10 @@ export function detectionLegend({ weights, moving }: Pick<FrameView, 'weights' |
   ];
 }
 
-/** Filled circles for what is static, hollow diamonds for the rest; on request, what is beyond top or bottom stands at the edge. */
+/**
+ * Filled circles for what is static, hollow diamonds for the rest; on request, what is beyond top or bottom stands at
+ * the edge.
+ */
 export function detectionLayer(
   px: ArrayLike<number>,
   py: ArrayLike<number>,

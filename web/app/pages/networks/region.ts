@@ -1,4 +1,6 @@
-/** Regions of interest of the 3D-CNN's paper, simulated: a cube's range spectrum cut to the bins around the strongest. */
+/**
+ * Regions of interest of the 3D-CNN's paper, simulated: a cube's range spectrum cut to the bins around the strongest.
+ */
 import type { ComplexData, Waveform } from 'boresight';
 import { api } from '../../data.ts';
 

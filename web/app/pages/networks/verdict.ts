@@ -68,7 +68,9 @@ export interface Summary {
   conditions: number;
 }
 
-/** The classical method that beats a network in most conditions of its main figure; `against` is empty where none does. */
+/**
+ * The classical method that beats a network in most conditions of its main figure; `against` is empty where none does.
+ */
 export function summary({ aoa, doa }: Results, network: string): Summary | null {
   const figures: (Figure | undefined)[] = [
     ...(aoa
