@@ -25,7 +25,7 @@ const crates = (...names) => names.map((name) => `crates/${name}`);
 const shared = crates('aoa', 'calibrate', 'core', 'formats', 'image', 'pipeline', 'signal', 'simulate', 'wasm');
 
 /** The modules: name in dist/wasm, crate, feature, profile, the crates it is made of. */
-const modules = [
+export const modules = [
   { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'release', made: shared },
   { name: 'boresight_drives', crate: 'wasm', feature: 'drives', profile: 'release', made: shared },
   {
@@ -36,25 +36,26 @@ const modules = [
   },
 ];
 
-async function wasmModule({ name, crate, feature, profile, made }) {
+/** Arguments that tell cargo which module is meant. */
+export const cargoArguments = ({ crate, feature, profile }) => [
+  '-p',
+  `boresight-${crate}`,
+  ...(feature ? ['--no-default-features', '--features', feature] : []),
+  '--target',
+  wasmTarget,
+  '--profile',
+  profile,
+];
+
+async function wasmModule(module) {
+  const { name, crate, profile, made } = module;
   const inputs = ['Cargo.toml', 'Cargo.lock', '.cargo/config.toml', ...made, 'scripts/build.mjs'];
   const outputs = ['.js', '.d.ts', '_bg.wasm'].map((end) => `dist/wasm/${name}${end}`);
   const done = await whenChanged(name, { inputs, outputs }, async () => {
     say(`crates/${crate} -> dist/wasm/${name}_bg.wasm (a first build takes minutes)`);
     const file = join(dist, 'wasm', `${name}_bg.wasm`);
-    const features = feature ? ['--no-default-features', '--features', feature] : [];
-    await run('cargo', [
-      'build',
-      '-p',
-      `boresight-${crate}`,
-      ...features,
-      '--profile',
-      profile,
-      '--target',
-      wasmTarget,
-      '--target-dir',
-      join(root, 'target'),
-    ]);
+    const targetDir = join(root, 'target');
+    await run('cargo', ['build', ...cargoArguments(module), '--target-dir', targetDir]);
     // wasm-pack cannot pass on the last flag, which makes the instance replaceable after a trap.
     await run('wasm-bindgen', [
       join(root, 'target', wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`),

@@ -2,9 +2,9 @@
 // are in the closing table. Nothing is skipped where CI=true.
 import { readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { buildDemo, buildPackage } from './build.mjs';
+import { buildDemo, buildPackage, cargoArguments, modules } from './build.mjs';
 import { browserMissing, findBrowser } from './lib/browser.mjs';
-import { root } from './lib/paths.mjs';
+import { environment, root } from './lib/paths.mjs';
 import { main, runTee } from './lib/run.mjs';
 import { cargoCounts, checkCounts, nodeCounts, summary } from './lib/summary.mjs';
 import { setup } from './setup.mjs';
@@ -12,6 +12,7 @@ import { setup } from './setup.mjs';
 const node = process.execPath;
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
+const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
 const script = (name) => ({ name, command: [node, `scripts/${name}.mjs`], counts: checkCounts });
 
 /** Test files of a folder, named one by one: what a folder means to `node --test` depends on its version. */
@@ -26,9 +27,21 @@ function nodeTests(folder, ...options) {
 const steps = [
   { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
   { name: 'lint', command: ['biome', 'check', '--error-on-warnings'], counts: checkCounts },
+  { name: 'clippy', command: clippy('--workspace', '--all-targets'), counts: checkCounts },
+  // The modules of crates/wasm as they are built: with their features, and their profile, so that both share what is
+  // compiled for the host.
+  ...modules
+    .filter(({ feature }) => feature)
+    .map((module) => ({
+      name: `clippy-${module.feature}`,
+      command: clippy(...cargoArguments(module)),
+      counts: checkCounts,
+    })),
   {
-    name: 'clippy',
-    command: ['cargo', 'clippy', '--workspace', '--all-targets', '--quiet', '--', '-D', 'warnings'],
+    // Without libFuzzer, which needs a compiler of C++ and is linked only where fuzzing is done.
+    name: 'fuzz',
+    command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked'),
+    variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a' },
     counts: checkCounts,
   },
   script('check-dependencies'),
@@ -51,7 +64,7 @@ const steps = [
   { name: 'browser', command: () => nodeTests('tests/browser', '--test-concurrency=1'), counts: nodeCounts },
 ];
 
-async function runStep({ command, work, counts }) {
+async function runStep({ command, work, variables, counts }) {
   const started = performance.now();
   let result;
   if (work) {
@@ -64,7 +77,7 @@ async function runStep({ command, work, counts }) {
     );
   } else {
     const [program, ...args] = typeof command === 'function' ? command() : command;
-    result = await runTee(program, args, { timeout: longestStepMs });
+    result = await runTee(program, args, { timeout: longestStepMs, env: { ...environment, ...variables } });
   }
   const counted = counts(result.text, result.ok);
   // A step that fails without a failed test (it did not compile, it was ended) is a failure too;

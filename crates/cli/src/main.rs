@@ -1,6 +1,13 @@
 //! `boresight`: angles from radar captures and snapshots, and simulation, on the command line.
 //!
 //! Angles are in degrees here and in radians behind it.
+//!
+//! # Example
+//!
+//! ```text
+//! boresight estimate cell.npy --array lrr48 --method iaa
+//! boresight calibrate recordings/delphi --min-speed 3
+//! ```
 
 mod arguments;
 mod array;
