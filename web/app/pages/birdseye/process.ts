@@ -247,13 +247,10 @@ async function frameOf(looked: Input, radar: Radar, state: BirdseyeState, signal
   const chain = chainOptions(radar, state);
   const key = detectionKey(looked, radar, state);
   if (looked.capture) {
-    const { bin, cfg, info } = looked.capture;
-    const { frameBytes } = info.config;
+    const { kept, info } = looked.capture;
     const at = Math.min(state.frame, info.frames - 1);
     const { waveform: _, ...options } = chain;
-    const cells = await once(`cells ${key}`, () =>
-      pool().captureCells(bin.subarray(at * frameBytes, (at + 1) * frameBytes), cfg, 0, options, { signal }),
-    );
+    const cells = await once(`cells ${key}`, () => kept.frameCells(at, options, { signal }));
     return { radar, cells, visible: null };
   }
   const { seed, egoSpeedMps } = JSON.parse(looked.key.slice(looked.key.indexOf('{')));
