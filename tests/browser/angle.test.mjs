@@ -118,11 +118,19 @@ browserTest('angle lab: what a method cannot do is said, and a bad position too'
   await page.locator('select[name="array"]').selectOption('at');
   const field = page.locator('input[name="positions"]');
   await typeText(field, '0, 1, x');
-  assert.match(await page.locator('.problem:visible').innerText(), /Element 3/);
+  assert.match(await page.locator('.field .problem:visible').innerText(), /Element 3/);
+  await parametersWith(page, (params) => params.get('array') === 'at:0,1,4,6');
   await typeText(field, '0, 1, 3.5, 6, 9');
   await parametersWith(page, (params) => params.get('array') === 'at:0,1,3.5,6,9');
   await page.waitForSelector('#method-esprit:disabled');
   assert.match(await page.locator('#method-esprit-note').innerText(), /uniform/);
+  // No two of them are one apart, but all stand on a grid of one.
+  await typeText(field, '0, 2, 5');
+  await page.waitForSelector('#method-root-music:enabled');
+  await shown(page, 'root-music');
+  await page.locator('select[name="array"]').selectOption('awr1843');
+  await page.waitForSelector('#method-sparse-bayesian:disabled');
+  assert.match(await page.locator('#method-sparse-bayesian-note').innerText(), /no elevation/);
 });
 
 browserTest(

@@ -1,6 +1,6 @@
 /** Labelled controls but those of numbers. The help text is always there for a screen reader, and shown on request. */
 import type { ComponentChildren } from 'preact';
-import { useEffect, useId, useState } from 'preact/hooks';
+import { useEffect, useId, useRef, useState } from 'preact/hooks';
 import { showHelp } from '../state/settings.ts';
 import { useDraft } from './draft.ts';
 
@@ -108,7 +108,7 @@ export function SliderField(
   );
 }
 
-/** Free text that must pass a check before it is used. */
+/** Free text that must pass a check before it is used; what does not leaves the value as it was before typing began. */
 export function TextField(
   props: FieldProps & {
     value: string;
@@ -118,7 +118,11 @@ export function TextField(
   },
 ) {
   const id = useId();
-  const draft = useDraft(props.value);
+  const before = useRef(props.value);
+  const settle = (): void => {
+    before.current = props.value;
+  };
+  const draft = useDraft(props.value, settle);
   const text = draft.text ?? props.value;
   const problem = props.check(text);
   return (
@@ -136,11 +140,14 @@ export function TextField(
         onInput={(event) => {
           const given = event.currentTarget.value;
           draft.type(given, () => {
-            if (!props.check(given)) props.onChange(given);
+            const next = props.check(given) ? before.current : given;
+            if (next !== props.value) props.onChange(next);
           });
         }}
         onBlur={() => {
-          if (!problem) draft.drop();
+          if (problem) return;
+          settle();
+          draft.drop();
         }}
       />
       <p id={`${id}-problem`} class="problem" role="alert" hidden={!problem}>
