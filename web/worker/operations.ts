@@ -192,6 +192,7 @@ export const operations = {
   methods: api.methods,
   arrayPresets: api.arrayPresets,
   array: api.array,
+  unsuited: api.unsuited,
   loadNetwork,
   countWithNetwork,
   runNetwork,

@@ -37,6 +37,7 @@ export const argumentCounts = {
   calibrationMethods: 0,
   arrayPresets: 0,
   array: 1,
+  unsuited: 2,
   estimate: 2,
   countSources: 2,
   cramerRaoBound: 1,

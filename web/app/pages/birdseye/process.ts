@@ -19,6 +19,7 @@ import type {
 } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
+import { whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
@@ -68,8 +69,12 @@ export const unavailable = computed<ReadonlyMap<Method, string>>(() => {
   for (const info of api.methods()) {
     const problem = info.network ? whyNoNetwork(info.name, geometries) : null;
     if (problem) reasons.set(info.name, problem);
-    else if (info.uniformArray && geometries.some(({ uniform }) => !uniform))
-      reasons.set(info.name, 'needs a uniform linear array');
+    else {
+      const reason = geometries
+        .map(({ positions }) => whyUnsuited({ method: info.name, array: { positions } }, 1))
+        .find((one) => one !== null);
+      if (reason) reasons.set(info.name, reason);
+    }
   }
   return reasons;
 });

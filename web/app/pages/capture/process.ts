@@ -2,6 +2,7 @@
 import { batch, computed, effect, signal } from '@preact/signals';
 import type { AngleOptions, Cell, ChainOptions, Estimate, FrameResult, Method } from 'boresight';
 import { aborted, api, describeError, type Problem } from '../../data.ts';
+import { whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
@@ -74,11 +75,13 @@ export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
   for (const info of api.methods()) {
     const problem = info.network ? whyNoNetwork(info.name, [geometry]) : null;
     if (problem) reasons.set(info.name, problem);
-    else if (info.uniformArray && !geometry.uniform) reasons.set(info.name, 'needs a uniform linear array');
-    else if (snapshots < info.minSnapshots)
-      reasons.set(info.name, `needs ${info.minSnapshots} snapshots: combine frames`);
-    else if (info.maxSnapshots !== null && snapshots > info.maxSnapshots)
-      reasons.set(info.name, 'takes a single snapshot: choose one frame');
+    else {
+      const reason = whyUnsuited({ method: info.name, array: { positions: geometry.positions } }, snapshots, {
+        'few-snapshots': 'needs more snapshots: combine frames',
+        'many-snapshots': 'takes a single snapshot: choose one frame',
+      });
+      if (reason) reasons.set(info.name, reason);
+    }
   }
   return reasons;
 });
