@@ -1,7 +1,18 @@
 // The functions of the package as promises.
-import type * as api from '../lib/api.js';
-import type { Capture } from '../lib/capture.js';
+import type * as arrays from '../lib/arrays.js';
+import type * as board from '../lib/board.js';
+import type * as calibrate from '../lib/calibrate.js';
+import type * as capture from '../lib/capture.js';
+import type * as config from '../lib/config.js';
+import type * as drive from '../lib/drive.js';
+import type * as estimate from '../lib/estimate.js';
+import type * as files from '../lib/files.js';
+import type * as image from '../lib/image.js';
+import type * as simulate from '../lib/simulate.js';
+import type * as theory from '../lib/theory.js';
+import type * as trajectory from '../lib/trajectory.js';
 import type { BytesInput, TextInput } from '../lib/types.js';
+import type * as version from '../lib/version.js';
 import type { JobOptions } from './pool.js';
 
 // biome-ignore lint/suspicious/noExplicitAny: functions of any arguments
@@ -21,13 +32,26 @@ type OfCapture<F> = F extends AnyFunction
   : never;
 
 type OfCaptures<T> = { [K in keyof T]: OfCapture<T[K]> };
-type CaptureFunctions = OfCaptures<Pick<Capture, 'processFrame' | 'cellSnapshots' | 'cellSpectrum'>> & {
+type CaptureFunctions = OfCaptures<Pick<capture.Capture, 'processFrame' | 'cellSnapshots' | 'cellSpectrum'>> & {
   /** Detected cells of one frame of a capture. */
-  captureCells: OfCapture<Capture['frameCells']>;
+  captureCells: OfCapture<capture.Capture['frameCells']>;
 };
 
-/** Functions that have no other form on a pool than here. */
-type Functions = typeof api & CaptureFunctions;
+/** Functions of the package by the modules that document them, which what api.ts exports again does not. */
+type Functions = typeof arrays &
+  typeof board &
+  typeof calibrate &
+  typeof capture &
+  typeof config &
+  typeof drive &
+  typeof estimate &
+  typeof files &
+  typeof image &
+  typeof simulate &
+  typeof theory &
+  typeof trajectory &
+  typeof version &
+  CaptureFunctions;
 type Counts<T> = { readonly [K in keyof T]?: T[K] extends AnyFunction ? Required<Parameters<T[K]>>['length'] : never };
 
 /** The functions that one worker runs as they are, with the number of their arguments: what comes next is the job's. */
