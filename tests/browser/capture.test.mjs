@@ -172,7 +172,7 @@ browserTest('capture: bytes after the last whole frame are counted', { path }, a
     /All 3 frames/.test(document.querySelector('[data-action="all-frames"]').textContent),
   );
   await page.waitForFunction(() =>
-    /Trailing bytes\s*1.?000/.test(document.querySelector('[data-facts="counts"]').innerText),
+    /Trailing bytes\s*1.?000/.test(document.querySelector('[data-facts="counts"]')?.innerText ?? ''),
   );
 });
 
