@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { assertCsv, assertPng, parameters, parametersWith, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
+import { typeNumber, typeText } from './type.mjs';
 
 const path =
   '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=7&methods=bartlett,capon,music,root-music';
@@ -56,9 +57,9 @@ browserTest('angle lab: dragging a target moves its estimates and the address', 
 
 browserTest('angle lab: the address reproduces the numbers', { path }, async ({ page, context }) => {
   await shown(page, 'music');
-  await page.locator('input[name="snr"]').fill('13');
-  await page.locator('input[name="elements"]').fill('16');
-  await page.locator('input[name="azimuth-0"]').fill('-21.5');
+  await typeNumber(page.locator('input[name="snr"]'), '13');
+  await typeNumber(page.locator('input[name="elements"]'), '16');
+  await typeNumber(page.locator('input[name="azimuth-0"]'), '-21.5');
   await parametersWith(
     page,
     (params) =>
@@ -116,12 +117,20 @@ browserTest('angle lab: what a method cannot do is said, and a bad position too'
   assert.match(await page.locator('#method-single-snapshot-music-note').innerText(), /single snapshot/);
   await page.locator('select[name="array"]').selectOption('at');
   const field = page.locator('input[name="positions"]');
-  await field.fill('0, 1, x');
-  assert.match(await page.locator('.problem:visible').innerText(), /Element 3/);
-  await field.fill('0, 1, 3.5, 6, 9');
+  await typeText(field, '0, 1, x');
+  assert.match(await page.locator('.field .problem:visible').innerText(), /Element 3/);
+  await parametersWith(page, (params) => params.get('array') === 'at:0,1,4,6');
+  await typeText(field, '0, 1, 3.5, 6, 9');
   await parametersWith(page, (params) => params.get('array') === 'at:0,1,3.5,6,9');
   await page.waitForSelector('#method-esprit:disabled');
   assert.match(await page.locator('#method-esprit-note').innerText(), /uniform/);
+  // No two of them are one apart, but all stand on a grid of one.
+  await typeText(field, '0, 2, 5');
+  await page.waitForSelector('#method-root-music:enabled');
+  await shown(page, 'root-music');
+  await page.locator('select[name="array"]').selectOption('awr1843');
+  await page.waitForSelector('#method-sparse-bayesian:disabled');
+  assert.match(await page.locator('#method-sparse-bayesian-note').innerText(), /no elevation/);
 });
 
 browserTest(

@@ -3,6 +3,7 @@ import { root } from '../../scripts/lib/paths.mjs';
 import { assertCsv, assertPng, clickWhenThere, drop, parametersWith, recording, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 import { openPage, serve } from './session.mjs';
+import { slideTo, typeNumber } from './type.mjs';
 
 // One radar and a coarse image, where the test needs no more: the machine may be busy.
 const path = '#/birdseye?methods=bartlett,iaa';
@@ -79,7 +80,7 @@ browserTest(
     for (const change of [
       () => page.locator('input[name="truth"]').uncheck(),
       () => page.locator('input[name="fields"]').uncheck(),
-      () => page.locator('input[name="opacity"]').fill('30'),
+      () => slideTo(page.locator('input[name="opacity"]'), 30),
       () => page.locator('select[name="span"]').selectOption('20'),
       () => page.locator('select[name="colors"]').selectOption('magma'),
     ]) {
@@ -196,13 +197,13 @@ browserTest('bird’s-eye view: work is cancelled and taken up again', { path: s
 
 browserTest('bird’s-eye view: what cannot be is said', { path: small }, async ({ page }) => {
   await ready(page);
-  await page.locator('input[name="reach"]').fill('0');
+  await typeNumber(page.locator('input[name="reach"]'), '0');
   assert.match(await page.locator('.problem:visible').innerText(), /from 2 to 300/);
-  await page.locator('input[name="reach"]').fill('300');
+  await typeNumber(page.locator('input[name="reach"]'), '300');
   await page.locator('select[name="cell"]').selectOption('0.1');
   await page.waitForSelector('[role="alert"][data-error="too-large"]');
   assert.match(await page.locator('[role="alert"]').innerText(), /9\.4 million/);
-  await page.locator('input[name="reach"]').fill('20');
+  await typeNumber(page.locator('input[name="reach"]'), '20');
   await ready(page);
   assert.equal(await page.locator('[role="alert"]').count(), 0);
   const single = page.locator('#method-single-snapshot-music');

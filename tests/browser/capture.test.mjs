@@ -125,7 +125,10 @@ browserTest(
     const before = await detections(page);
     const alert = page.locator('[role="alert"][data-error]');
     for (const files of [
-      [{ name: 'cut.bin', bytes: bin.subarray(0, 100_000) }],
+      [
+        { name: 'cut.bin', bytes: bin.subarray(0, 100_000) },
+        { name: 'profile.cfg', bytes: cfg },
+      ],
       [
         { name: 'empty.bin', bytes: Buffer.alloc(0) },
         { name: 'profile.cfg', bytes: cfg },
@@ -169,7 +172,7 @@ browserTest('capture: bytes after the last whole frame are counted', { path }, a
     /All 3 frames/.test(document.querySelector('[data-action="all-frames"]').textContent),
   );
   await page.waitForFunction(() =>
-    /Trailing bytes\s*1.?000/.test(document.querySelector('[data-facts="counts"]').innerText),
+    /Trailing bytes\s*1.?000/.test(document.querySelector('[data-facts="counts"]')?.innerText ?? ''),
   );
 });
 
@@ -190,10 +193,138 @@ browserTest(
     await page.locator('input[name="frame"]').press('ArrowRight');
     await page.waitForFunction(() => /frame 2 of 480/.test(document.querySelector('output').textContent));
     await page.waitForFunction(() =>
-      document.querySelector('[data-plot="range-doppler"] figcaption').textContent.includes('Frame 2 of 480'),
+      document.querySelector('[data-plot="range-doppler"] figcaption')?.textContent.includes('Frame 2 of 480'),
     );
   },
 );
+
+/** Chooses files with the page's button, as a person does. */
+async function choose(page, files) {
+  const [chooser] = await Promise.all([
+    page.waitForEvent('filechooser'),
+    page.getByRole('button', { name: 'Open files' }).click(),
+  ]);
+  await chooser.setFiles(
+    files.map(({ name, bytes }) => ({ name, mimeType: 'application/octet-stream', buffer: bytes })),
+  );
+}
+
+browserTest(
+  'capture: nothing of one capture stands under the name of another that was cancelled or failed',
+  { path: '#/capture?dopplerPadding=8' },
+  async ({ page }) => {
+    await ready(page);
+    await cellReady(page);
+    const nothing = async (state) => {
+      for (const what of ['[data-table]', '[data-plot]', '[data-export]'])
+        assert.equal(await page.locator(what).count(), 0, `${what} ${state}`);
+    };
+    const bar = page.evaluate(
+      () =>
+        new Promise((resolve) => {
+          const look = () => {
+            const button = document.querySelector('[data-progress] [data-action="cancel"]');
+            if (!button) return;
+            observer.disconnect();
+            const shown = document.querySelectorAll('[data-table], [data-plot], [data-export]').length;
+            button.click();
+            resolve(shown);
+          };
+          const observer = new MutationObserver(look);
+          observer.observe(document.body, { childList: true, subtree: true });
+        }),
+    );
+    await drop(page, [
+      { name: 'long.bin', bytes: bin, times: 60 },
+      { name: 'profile.cfg', bytes: cfg },
+    ]);
+    assert.equal(await bar, 0, 'nothing of the former capture while the new one is worked on');
+    await page.waitForSelector('[data-cancelled]');
+    assert.match(await page.locator('.files').innerText(), /long\.bin/);
+    await nothing('after it was cancelled');
+    await page.locator('input[name="frame"]').press('ArrowRight');
+    await ready(page);
+    assert.match(await page.locator('[data-plot="range-doppler"] figcaption').innerText(), /Frame 2 of 480/);
+    await page.locator('select[name="array"]').selectOption('lrr48');
+    await page.waitForSelector('[role="alert"][data-error]');
+    await nothing('after an error');
+    await choose(page, [
+      { name: 'mine.bin', bytes: bin },
+      { name: 'mine.cfg', bytes: cfg },
+    ]);
+    await page.waitForFunction(() => document.querySelector('.files').textContent.includes('mine.bin'));
+    await page.waitForSelector('[role="alert"][data-error]');
+    await nothing('of a capture that the settings do not suit');
+    await page.locator('select[name="array"]').selectOption('auto');
+    await ready(page);
+    await cellReady(page);
+  },
+);
+
+browserTest(
+  'capture: one’s own files wait for each other, and never for the bundled ones',
+  { path },
+  async ({ page }) => {
+    await ready(page);
+    const waits = (missing) => page.waitForSelector(`[data-waiting="${missing}"]`);
+    const files = () => page.locator('.files').innerText();
+    await choose(page, [{ name: 'mine.bin', bytes: bin }]);
+    await waits('cfg');
+    assert.match(
+      await page.locator('[data-waiting]').innerText(),
+      /mine\.bin: the \.cfg that the radar ran with is missing/,
+    );
+    assert.match(await files(), /mine\.bin/);
+    assert.doesNotMatch(await files(), /profile\.cfg|xwr16xx/);
+    assert.equal(await page.locator('[data-table], [data-plot]').count(), 0);
+    await drop(page, [{ name: 'wrong.cfg', bytes: Buffer.from('hello\n') }]);
+    await page.waitForSelector('[role="alert"][data-error]');
+    await waits('cfg');
+    await drop(page, [{ name: 'mine.cfg', bytes: cfg }]);
+    await ready(page);
+    assert.match(await files(), /mine\.bin[^]*mine\.cfg/);
+    await page.getByRole('button', { name: 'Bundled capture' }).click();
+    await page.waitForFunction(() => document.querySelector('.files').textContent.includes('xwr16xx'));
+    // In any order, and none is lost.
+    await drop(page, [{ name: 'mine.dat', bytes: recording('xwr16xx_crw_demo_visualizer_2018_1015v2.dat') }]);
+    await waits('bin,cfg');
+    await drop(page, [{ name: 'mine.cfg', bytes: cfg }]);
+    await waits('bin');
+    await drop(page, [{ name: 'mine.bin', bytes: bin }]);
+    await ready(page);
+    assert.match(await files(), /mine\.bin[^]*mine\.cfg[^]*mine\.dat/);
+    assert.ok((await page.locator('[data-field="boardRangeM"]').count()) > 0, 'the log is beside it');
+  },
+);
+
+browserTest('capture: a click on a cell does not send the capture again', { path }, async ({ page }) => {
+  await ready(page);
+  await page.addInitScript(() => {
+    window.sent = 0;
+    const post = Worker.prototype.postMessage;
+    Worker.prototype.postMessage = function (message, transfer) {
+      for (const buffer of transfer ?? []) window.sent += buffer.byteLength ?? 0;
+      return post.call(this, message, transfer);
+    };
+  });
+  await page.reload();
+  await ready(page);
+  await cellReady(page);
+  const pick = async (nth) => {
+    await page.locator('[data-detection]:not([data-detection="board"]) .cell-button').nth(nth).click();
+    await parametersWith(page, (params) => params.has('cell'));
+    await page.waitForFunction(() => !document.querySelector('[data-table="cell"] tr.stale'));
+  };
+  // A worker that had nothing to do with it yet gets it once.
+  await pick(1);
+  await pick(2);
+  const before = await page.evaluate(() => window.sent);
+  for (const nth of [0, 1, 2]) await pick(nth);
+  const more = (await page.evaluate(() => window.sent)) - before;
+  assert.ok(before >= bin.length, 'what is sent is counted');
+  const workers = 4;
+  assert.ok(more <= workers * bin.length, `${more} bytes for nine estimates`);
+});
 
 browserTest('capture: the table sorts', { path }, async ({ page }) => {
   await ready(page);

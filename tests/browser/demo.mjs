@@ -85,7 +85,12 @@ export const drop = (page, files) =>
       const transfer = new DataTransfer();
       for (const { name, base64, times = 1 } of list) {
         const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
-        transfer.items.add(new File(new Array(times).fill(bytes), name));
+        transfer.items.add(
+          new File(
+            Array.from({ length: times }, () => bytes),
+            name,
+          ),
+        );
       }
       for (const type of ['dragover', 'drop']) {
         window.dispatchEvent(new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }));

@@ -14,6 +14,7 @@ import {
   values,
 } from './demo.mjs';
 import { browserTest } from './harness.mjs';
+import { typeNumber } from './type.mjs';
 
 const path = '#/mounting';
 const golden = (name) => join(root, 'tests', 'golden', name);
@@ -150,14 +151,14 @@ browserTest(
     await drop(page, tables());
     await page.waitForSelector('[data-notice="place"]');
     assert.equal(await page.locator('[data-field="truth"]').count(), 0, 'nothing is known of the true angle');
-    await page.locator('input[name="xM"]').fill('3.5');
+    await typeNumber(page.locator('input[name="xM"]'), '3.5');
     await ready(page, 'weighted-mean');
     for (const method of ['weighted-mean', 'recursive']) {
       const angle = await value(page, method, 'angleDeg');
       assert.ok(Math.abs(angle - 2) < 0.1, `${method}: ${angle}`);
       assert.equal(await page.locator(cell(method, 'misaligned')).innerText(), '–', 'no alarm without a nominal angle');
     }
-    await page.locator('input[name="nominal"]').fill('2');
+    await typeNumber(page.locator('input[name="nominal"]'), '2');
     await page.waitForFunction(
       (selector) => document.querySelector(selector)?.textContent === 'no',
       cell('recursive', 'misaligned'),
@@ -272,7 +273,7 @@ browserTest(
     await page.locator('[data-action="resume"]').click();
     await ready(page, 'least-squares');
     const used = await value(page, 'least-squares', 'used');
-    await page.locator('input[name="minSpeed"]').fill('10');
+    await typeNumber(page.locator('input[name="minSpeed"]'), '10');
     await page.waitForFunction(
       ([selector, before]) => Number(document.querySelector(selector)?.dataset.value) < before,
       [cell('least-squares', 'used'), used],
@@ -288,7 +289,7 @@ browserTest(
     await clickWhenThere(page, '[data-opening] [data-action="cancel-opening"]');
     await page.waitForSelector('[data-interrupted]');
     assert.equal(await page.locator('[data-fact="name"]').count(), 0);
-    await page.locator('input[name="duration"]').fill('10');
+    await typeNumber(page.locator('input[name="duration"]'), '10');
     await page.waitForSelector('[data-fact="name"]');
     await ready(page, 'weighted-mean');
     assert.equal(await page.locator('[data-interrupted]').count(), 0);

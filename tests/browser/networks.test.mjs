@@ -4,6 +4,7 @@ import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
 import { assertCsv, assertPng, drop, parametersWith, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
+import { typeNumber } from './type.mjs';
 
 const path = '#/networks?model=aaetr-small';
 const models = readdirSync(join(root, 'models'))
@@ -308,7 +309,7 @@ browserTest(
     await page.locator('select[name="array"]').selectOption('ula');
     await page.waitForSelector('#method-aaetr-note:not([hidden])');
     assert.match(await page.locator('#method-aaetr-note').innerText(), /lrr48/);
-    await page.locator('input[name="elements"]').fill('8');
+    await typeNumber(page.locator('input[name="elements"]'), '8');
     await page.locator('#method-dnn').check();
     await page.waitForSelector('[data-row="dnn"]:not(.stale)', patient);
     await parametersWith(page, (params) => params.get('methods').split(',').includes('dnn'));

@@ -5,6 +5,7 @@ import { array, estimate, frameCells, init, processCube, simulateCube, simulateS
 import { BoresightError, initNeural, initNeuralSync, Network } from 'boresight/neural';
 import { createPool } from 'boresight/worker';
 import glue from '../../dist/wasm/boresight_neural.js';
+import { forgetNetwork, keepNetwork, networkWith } from '../../dist/worker/networks.js';
 import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 import { difference, model, names, tensor } from './lib/networks.mjs';
@@ -216,6 +217,29 @@ test('after a trap calls say so, and initNeural() gives a fresh instance', async
   const fresh = new Network(onnx, { card });
   assert.equal(fresh.kind, 'aaetr');
   fresh.free();
+});
+
+test('a worker keeps the plans of a network when calls without options come between', () => {
+  keepNetwork('kept', model(aaetr));
+  const { setOptions } = Network.prototype;
+  let rebuilt = 0;
+  Network.prototype.setOptions = function (options) {
+    rebuilt += 1;
+    return setOptions.call(this, options);
+  };
+  try {
+    const options = { array: 'lrr48', refine: true };
+    for (let turn = 0; turn < 3; turn++) {
+      networkWith('kept', { ...options, network: 'kept' });
+      assert.equal(networkWith('kept').kind, 'aaetr');
+    }
+    assert.equal(rebuilt, 1);
+    networkWith('kept', { ...options, refine: false });
+    assert.equal(rebuilt, 2);
+  } finally {
+    Network.prototype.setOptions = setOptions;
+    forgetNetwork('kept');
+  }
 });
 
 describe('a pool', () => {

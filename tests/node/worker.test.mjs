@@ -1,9 +1,10 @@
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { BoresightError, Estimator, estimate, init } from 'boresight';
+import { BoresightError, Capture, Estimator, estimate, init } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { Crew } from '../../dist/worker/pool.js';
 import { batchOf, planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
+import { bin, cfg } from './lib/recording.mjs';
 
 const options = { method: 'bartlett', array: 'ula10' };
 const angles = Array.from({ length: 40 }, (_, i) => -50 + 2.5 * i);
@@ -154,6 +155,40 @@ describe('a pool of worker threads', () => {
     await rejectsTyped(short.version(), 'terminated');
   });
 
+  test('keeps a capture, which then gives what it gives here', async () => {
+    const here = new Capture(bin, cfg);
+    const kept = await pool.loadCapture(bin, cfg);
+    assert.deepEqual(kept.info, here.info);
+    const cell = { rangeBin: 58, dopplerBin: 8 };
+    const angle = { method: 'capon', sources: 1 };
+    const progress = [];
+    assert.deepEqual(await kept.processFrame(3), here.processFrame(3));
+    assert.deepEqual(
+      await kept.processFrames(),
+      Array.from({ length: here.info.frames }, (_, frame) => here.processFrame(frame)),
+    );
+    assert.deepEqual(
+      await kept.combineFrames({ angle }, { onProgress: (done, total) => progress.push([done, total]) }),
+      here.combineFrames({ angle }),
+    );
+    assert.ok(progress.length > 1 && progress.at(-1)[0] === progress.at(-1)[1]);
+    assert.deepEqual(await kept.frameCells(2), here.frameCells(2));
+    for (const one of [cell, { ...cell, frame: 5 }]) {
+      assert.deepEqual(await kept.cellSnapshots(one), here.cellSnapshots(one));
+      assert.deepEqual(await kept.cellSpectrum(one, angle), here.cellSpectrum(one, angle));
+    }
+    for (const frame of [8, -1, 0.5]) {
+      await rejectsTyped(kept.processFrame(frame), 'out-of-range');
+      await rejectsTyped(kept.cellSpectrum({ ...cell, frame }, angle), 'out-of-range');
+    }
+    assert.equal(bin.length, 8 * here.info.config.frameBytes, 'the caller keeps its bytes');
+    here.free();
+    kept.free();
+    await rejectsTyped(kept.combineFrames(), 'unknown-capture', 'capture');
+    await rejectsTyped(pool.loadCapture(bin.subarray(0, 10), cfg));
+    await rejectsTyped(pool.loadCapture('bytes', cfg), 'wrong-type', 'capture');
+  });
+
   test('refuses an impossible number of workers', () => {
     for (const workers of [0, -1, 1.5, 65, Number.NaN, '2'])
       throwsTyped(() => createPool({ workers }), 'out-of-range', 'workers');
@@ -170,12 +205,16 @@ describe('the crew', () => {
       spawn(events) {
         const worker = {
           alive: true,
+          kept: [],
           terminate() {
             this.alive = false;
           },
           keepAlive() {},
         };
-        worker.post = (message) => 'id' in message && queueMicrotask(() => behave(events, message, spawned.length));
+        worker.post = (message) => {
+          if ('keep' in message) worker.kept.push(message.of);
+          if ('id' in message) queueMicrotask(() => behave(events, message, spawned.length));
+        };
         spawned.push(worker);
         return worker;
       },
@@ -194,6 +233,37 @@ describe('the crew', () => {
     assert.deepEqual(
       spawned.map(({ alive }) => alive),
       [false, true],
+    );
+  });
+
+  test('sends a capture to a worker once, and to no more workers than its size allows', async () => {
+    const { crew, spawned } = crewOf((events, { id }) => setImmediate(() => events.reply({ id, result: id })), 4);
+    const copies = (id) => spawned.map(({ kept }) => kept.filter((one) => one === id).length);
+    const small = crew.addCapture({ bytes: new Uint8Array(1000) });
+    // 200 MiB, for all that the crew looks at.
+    const large = crew.addCapture({ bytes: { byteLength: 200 * 2 ** 20 } });
+    const of = (capture) => Array.from({ length: 12 }, () => ({ ...piece, capture }));
+    for (let run = 0; run < 3; run++) {
+      const [all] = await Promise.all([crew.run(of(large)), crew.run(of(small)), crew.run(of(undefined))]);
+      assert.equal(all.length, 12);
+    }
+    assert.deepEqual(copies(large).sort(), [0, 0, 0, 1]);
+    assert.ok(copies(small).every((count) => count <= 1));
+    assert.equal(crew.remove('network', large), false);
+    assert.equal(crew.remove('capture', large), true);
+    await rejectsTyped(crew.run(of(large)), 'unknown-capture', 'capture');
+  });
+
+  test('gives a capture to the worker that replaces one that died', async () => {
+    const { crew, spawned } = crewOf((events, { id }, nth) =>
+      nth === 1 ? events.lost('out of memory') : events.reply({ id, result: nth }),
+    );
+    const capture = crew.addCapture({ bytes: new Uint8Array(10) });
+    await rejectsTyped(crew.run([{ ...piece, capture }]), 'worker-lost', 'worker');
+    assert.deepEqual(await crew.run([{ ...piece, capture }]), [2]);
+    assert.deepEqual(
+      spawned.map(({ kept }) => kept),
+      [[capture], [capture]],
     );
   });
 

@@ -1,5 +1,5 @@
 /** The methods that pages list: those of the package, which is loaded before a page is shown. */
-import type { Method, MethodInfo } from 'boresight';
+import type { EstimatorOptions, Method, MethodInfo, Unsuited } from 'boresight';
 import { api } from './data.ts';
 import { text } from './state/codec.ts';
 
@@ -10,3 +10,22 @@ export const singleSnapshotMethods = (): MethodInfo[] => api.methods().filter(({
 
 /** Names of the networks that methods use, where it is not the best that fits. */
 export const networkNames = text('', (names) => /^[\w.,-]{0,200}$/.test(names));
+
+const WHY: Readonly<Record<Unsuited, string>> = {
+  'one-place': 'needs elements at different places along y',
+  'uniform-array': 'needs a uniform linear array',
+  grid: 'needs elements on an evenly spaced grid',
+  elevation: 'tells no elevation, and the array spans an area',
+  'few-snapshots': 'needs more snapshots, averaging or smoothing',
+  'many-snapshots': 'takes a single snapshot only',
+};
+
+/** Why a method cannot work on an array, or on so many snapshots of it, in words; null where it can. */
+export function whyUnsuited(
+  options: EstimatorOptions,
+  snapshots: number,
+  words: Partial<Record<Unsuited, string>> = {},
+): string | null {
+  const reason = api.unsuited(options, snapshots);
+  return reason && (words[reason] ?? WHY[reason]);
+}

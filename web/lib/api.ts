@@ -9,7 +9,7 @@ export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './driv
 export { calibrateDrive, frameVerdicts, jointCalibration } from './drive-calibration.js';
 export { driveFrame } from './drive-view.js';
 export { BoresightError, type ErrorDetails } from './errors.js';
-export { Estimator, estimate, methods } from './estimate.js';
+export { Estimator, estimate, methods, unsuited } from './estimate.js';
 export {
   readDetectionsCsv,
   readNpy,

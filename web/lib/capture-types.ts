@@ -104,6 +104,12 @@ export interface CaptureInfo {
   warnings: Warning[];
 }
 
+/** A capture as a pool is given it. */
+export interface CaptureFile {
+  /** The `.bin`. */
+  bytes: Uint8Array | ArrayBuffer;
+}
+
 /** An object the board itself detected. */
 export interface BoardObject {
   rangeM: number;

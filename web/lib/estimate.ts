@@ -9,11 +9,17 @@ import type {
   EstimateInput,
   EstimatorOptions,
   MethodInfo,
+  Unsuited,
 } from './types.js';
 
 /** The estimators and what each needs and gives. */
 export function methods(): MethodInfo[] {
   return call(() => glue.methods() as MethodInfo[]);
+}
+
+/** Why an estimator with these options could not work on so many snapshots; null where it can. */
+export function unsuited(options: EstimatorOptions, snapshots: number): Unsuited | null {
+  return call(() => glue.unsuited(options, snapshots) as Unsuited | null);
 }
 
 /** Estimates angles once. To run one method on many cells, keep an {@link Estimator}. */

@@ -45,6 +45,8 @@ export interface ArrayGeometry {
   uniform: boolean;
   /** Half width of the sector without grating lobes; 90 when there is none. */
   unambiguousDeg: number;
+  /** Where the beam at boresight has its first null: from there on two equal targets are told apart; 90 when there is none. */
+  resolutionDeg: number;
 }
 
 export interface Imperfections {
@@ -75,6 +77,9 @@ export interface MethodInfo {
   /** Whether a network estimates: `boresight/neural`, or a pool with a network loaded. */
   network: boolean;
 }
+
+/** Why a method cannot work on an array, or on so many snapshots of it. */
+export type Unsuited = 'one-place' | 'uniform-array' | 'grid' | 'elevation' | 'few-snapshots' | 'many-snapshots';
 
 /** An estimator: its method, the array it works on, and its options. */
 export interface EstimatorOptions extends SharedEstimatorOptions {

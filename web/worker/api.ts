@@ -1,10 +1,13 @@
-// The functions of the package as promises.
+// The pool: the functions of the package as promises, those that are split over workers, and what the pool keeps.
 import { jointTaskOf, taskOf } from '../lib/drive-radars.js';
 import { driveFrame, selected, viewOf } from '../lib/drive-view.js';
+import { wrong } from '../lib/errors.js';
 import { chainOf } from '../lib/image-options.js';
 import type * as lib from '../lib/types.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
+import { type OnKept, PoolCapture } from './capture.js';
 import { Crew, type JobOptions, type Piece, type Runtime } from './pool.js';
+import { argumentCounts, type PromisedFunctions } from './promised.js';
 import type { OperationName, Operations } from './protocol.js';
 import { split } from './split.js';
 import { packed } from './transfer.js';
@@ -15,9 +18,33 @@ export interface PoolOptions {
   workers?: number;
 }
 
+/** What runs a network where options name one. */
+const withNetworks: readonly OperationName[] = [
+  'estimate',
+  'estimateRegion',
+  'processCube',
+  'processFrame',
+  'combineFrames',
+  'cellSpectrum',
+];
+
+// biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the static block below defines what this declares
+export interface Pool extends PromisedFunctions {}
+
 /** A pool of workers with the functions of the package. Workers start when there is work. */
+// biome-ignore lint/suspicious/noUnsafeDeclarationMerging: see above
 export class Pool {
   readonly #crew: Crew;
+
+  static {
+    for (const [name, count] of Object.entries(argumentCounts) as [keyof typeof argumentCounts, number][]) {
+      const value = function (this: Pool, ...given: unknown[]): Promise<unknown> {
+        const args = Array.from({ length: count }, (_, index) => given[index]);
+        return this.#one(name, args as Parameters<Operations[typeof name]>, given[count] as JobOptions);
+      };
+      Object.defineProperty(Pool.prototype, name, { value, configurable: true, writable: true });
+    }
+  }
 
   /** @internal */
   constructor(runtime: Runtime, { workers }: PoolOptions = {}) {
@@ -29,26 +56,6 @@ export class Pool {
     return this.#crew.size;
   }
 
-  version(job?: JobOptions): Promise<string> {
-    return this.#one('version', [], job);
-  }
-
-  methods(job?: JobOptions): Promise<lib.MethodInfo[]> {
-    return this.#one('methods', [], job);
-  }
-
-  calibrationMethods(job?: JobOptions): Promise<lib.CalibrationMethodInfo[]> {
-    return this.#one('calibrationMethods', [], job);
-  }
-
-  arrayPresets(job?: JobOptions): Promise<string[]> {
-    return this.#one('arrayPresets', [], job);
-  }
-
-  array(input: lib.ArrayInput, job?: JobOptions): Promise<lib.ArrayGeometry> {
-    return this.#one('array', [input], job);
-  }
-
   /**
    * Loads a network from its ONNX file: once to see that it is one, then in each worker that comes to need it. Its id
    * is what `network` in options names it by, for the methods `aaetr`, `dnn` and `cnn3d`.
@@ -57,21 +64,21 @@ export class Pool {
     const { value } = packed({ onnx: file.onnx, ...(file.card !== undefined && { card: file.card }) }, false);
     const id = this.#crew.addNetwork(value);
     try {
-      return await this.#one('loadNetwork', [id], job, id);
+      return await this.#one('loadNetwork', [id], job, { network: id });
     } catch (thrown) {
-      this.#crew.removeNetwork(id);
+      this.#crew.remove('network', id);
       throw thrown;
     }
   }
 
   /** Forgets a network and gives its memory back; whether there was one. */
   unloadNetwork(id: string): boolean {
-    return this.#crew.removeNetwork(id);
+    return this.#crew.remove('network', id);
   }
 
   /** Counts sources with a counting network. */
   countWithNetwork(id: string, input: lib.EstimateInput, job?: JobOptions): Promise<lib.SourceProbabilities> {
-    return this.#one('countWithNetwork', [id, input], job, id);
+    return this.#one('countWithNetwork', [id, input], job, { network: id });
   }
 
   /** Runs the graph of a network as it is: named inputs to named outputs. */
@@ -80,7 +87,7 @@ export class Pool {
     inputs: Readonly<Record<string, lib.Tensor>>,
     job?: JobOptions,
   ): Promise<Record<string, lib.Tensor>> {
-    return this.#one('runNetwork', [id, inputs], job, id);
+    return this.#one('runNetwork', [id, inputs], job, { network: id });
   }
 
   /** Estimates from the range bins around a peak, [65 bins, 8 elements, 4 chirps], with a network. */
@@ -89,19 +96,7 @@ export class Pool {
     options: lib.EstimatorOptions & { network: string },
     job?: JobOptions,
   ): Promise<lib.Estimate> {
-    return this.#one('estimateRegion', [region, options], job, options.network);
-  }
-
-  estimate(input: lib.EstimateInput, options: lib.EstimatorOptions, job?: JobOptions): Promise<lib.Estimate> {
-    return this.#one('estimate', [input, options], job, options?.network);
-  }
-
-  countSources(input: lib.EstimateInput, options?: lib.CountOptions, job?: JobOptions): Promise<lib.CountResult> {
-    return this.#one('countSources', [input, options], job);
-  }
-
-  cramerRaoBound(options: lib.BoundOptions, job?: JobOptions): Promise<lib.Bound> {
-    return this.#one('cramerRaoBound', [options], job);
+    return this.#one('estimateRegion', [region, options], job);
   }
 
   /** Scenes are split over the workers; progress counts scenes. */
@@ -118,28 +113,28 @@ export class Pool {
     return joinedScenes(await this.#crew.run(pieces, job));
   }
 
-  simulateCube(options: lib.CubeOptions, job?: JobOptions): Promise<lib.CubeResult> {
-    return this.#one('simulateCube', [options], job);
-  }
-
-  processCube(cube: lib.ComplexData, options: lib.CubeChainOptions, job?: JobOptions): Promise<lib.FrameResult[]> {
-    return this.#one('processCube', [cube, options], job, options?.angle?.network);
+  /**
+   * Keeps a capture, so that jobs on it need not bring its bytes. They are not copied here: they must stay as they are
+   * until the capture is freed.
+   */
+  async loadCapture(bytes: lib.BytesInput, config: lib.TextInput, job?: JobOptions): Promise<PoolCapture> {
+    const own = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
+    if (!(own instanceof Uint8Array)) throw wrong('capture', 'a Uint8Array or an ArrayBuffer', own);
+    const id = this.#crew.addCapture({ bytes: own });
+    const forget = (): void => void this.#crew.remove('capture', id);
+    try {
+      const run: OnKept = (name, args, options) => this.#one(name, args, options, { capture: id });
+      const info = await run('captureInfo', [{ capture: id }, config], { ...job, transfer: false });
+      return new PoolCapture(this, { id, bytes: own, config, info }, { run, forget });
+    } catch (thrown) {
+      forget();
+      throw thrown;
+    }
   }
 
   /** What is known of a capture before any processing. */
   captureInfo(bytes: lib.BytesInput, config: lib.TextInput, job?: JobOptions): Promise<lib.CaptureInfo> {
     return this.#one('captureInfo', [bytes, config], job);
-  }
-
-  /** Detections of one frame. */
-  processFrame(
-    bytes: lib.BytesInput,
-    config: lib.TextInput,
-    frame: number,
-    options?: lib.ChainOptions,
-    job?: JobOptions,
-  ): Promise<lib.FrameResult> {
-    return this.#one('processFrame', [bytes, config, frame, options], job, options?.angle?.network);
   }
 
   /** Detections of every frame, each by itself, split over the workers; progress counts frames. */
@@ -172,44 +167,12 @@ export class Pool {
     options?: lib.CombineOptions,
     job?: JobOptions,
   ): Promise<lib.FrameResult> {
-    return this.#one('combineFrames', [bytes, config, options], job, options?.angle?.network);
-  }
-
-  /** Snapshots of a cell (elements x frames). */
-  cellSnapshots(
-    bytes: lib.BytesInput,
-    config: lib.TextInput,
-    cell: lib.Cell,
-    options?: lib.ChainOptions,
-    job?: JobOptions,
-  ): Promise<lib.ComplexData> {
-    return this.#one('cellSnapshots', [bytes, config, cell, options], job);
-  }
-
-  /** Angles and spectrum of a cell by any method. */
-  cellSpectrum(
-    bytes: lib.BytesInput,
-    config: lib.TextInput,
-    cell: lib.Cell,
-    angle?: lib.AngleOptions,
-    options?: lib.ChainOptions,
-    job?: JobOptions,
-  ): Promise<lib.Estimate> {
-    return this.#one('cellSpectrum', [bytes, config, cell, angle, options], job, angle?.network);
-  }
-
-  /** A drive from its files; progress is told at the end alone. */
-  readDrive(files: readonly lib.DriveFile[], options?: lib.ReadDriveOptions, job?: JobOptions): Promise<lib.Drive> {
-    return this.#one('readDrive', [files, options], job);
+    return this.#one('combineFrames', [bytes, config, options], job);
   }
 
   /** Progress counts scans. */
   simulateDrive(options?: lib.SimulateDriveOptions, job?: JobOptions): Promise<lib.SimulatedDrive> {
     return this.#one('simulateDrive', [options], job);
-  }
-
-  driveScenarios(job?: JobOptions): Promise<lib.DriveScenarioInfo[]> {
-    return this.#one('driveScenarios', [], job);
   }
 
   /** A frame as views of the drive's arrays, made here: it costs less than asking a worker. */
@@ -249,60 +212,6 @@ export class Pool {
     return results.map((result) => numbered(result, part.scans));
   }
 
-  trajectory(
-    frames: lib.CalibratedFrames,
-    mounting: { angleDeg: number; xM: number; yM?: number },
-    options?: lib.TrajectoryOptions,
-    job?: JobOptions,
-  ): Promise<lib.Trajectory | null> {
-    return this.#one('trajectory', [frames, mounting, options], job);
-  }
-
-  relativeTrajectoryError(
-    estimated: lib.Trajectory,
-    truth: lib.Trajectory,
-    segmentM?: number,
-    job?: JobOptions,
-  ): Promise<number | null> {
-    return this.#one('relativeTrajectoryError', [estimated, truth, segmentM], job);
-  }
-
-  waveformSummary(waveform: lib.Waveform, job?: JobOptions): Promise<lib.WaveformSummary> {
-    return this.#one('waveformSummary', [waveform], job);
-  }
-
-  parseConfig(text: lib.TextInput, job?: JobOptions): Promise<lib.RadarConfig> {
-    return this.#one('parseConfig', [text], job);
-  }
-
-  parseBoardLog(bytes: lib.BytesInput, config?: lib.TextInput, job?: JobOptions): Promise<lib.BoardLog> {
-    return this.#one('parseBoardLog', [bytes, config], job);
-  }
-
-  readNpy(bytes: lib.BytesInput, job?: JobOptions): Promise<lib.NpyArray> {
-    return this.#one('readNpy', [bytes], job);
-  }
-
-  writeNpy(array: lib.NpyArray, job?: JobOptions): Promise<Uint8Array> {
-    return this.#one('writeNpy', [array], job);
-  }
-
-  readDetectionsCsv(table: lib.TextInput, job?: JobOptions): Promise<lib.Detection[]> {
-    return this.#one('readDetectionsCsv', [table], job);
-  }
-
-  writeDetectionsCsv(detections: readonly lib.Detection[], job?: JobOptions): Promise<string> {
-    return this.#one('writeDetectionsCsv', [detections], job);
-  }
-
-  readSnapshotsCsv(table: lib.TextInput, job?: JobOptions): Promise<lib.ComplexData> {
-    return this.#one('readSnapshotsCsv', [table], job);
-  }
-
-  writeSnapshotsCsv(snapshots: lib.ComplexData, job?: JobOptions): Promise<string> {
-    return this.#one('writeSnapshotsCsv', [snapshots], job);
-  }
-
   /** Estimates of many inputs, split over the workers; progress counts inputs. */
   async estimateMany(
     inputs: readonly lib.EstimateInput[],
@@ -336,50 +245,6 @@ export class Pool {
     );
     const [first, ...rest] = await this.#crew.run(pieces, job);
     return joinedBatches([first as lib.BatchEstimate, ...rest]);
-  }
-
-  streetScene(options?: lib.StreetOptions, job?: JobOptions): Promise<lib.StreetScene> {
-    return this.#one('streetScene', [options], job);
-  }
-
-  simulateStreet(options: lib.SimulateStreetOptions, job?: JobOptions): Promise<lib.SimulatedStreet> {
-    return this.#one('simulateStreet', [options], job);
-  }
-
-  frameCells(cube: lib.ComplexData, options: lib.CubeChainOptions, job?: JobOptions): Promise<lib.FrameCells> {
-    return this.#one('frameCells', [cube, options], job);
-  }
-
-  /** Detected cells of one frame of a capture. */
-  captureCells(
-    bytes: lib.BytesInput,
-    config: lib.TextInput,
-    frame: number,
-    options?: lib.ChainOptions,
-    job?: JobOptions,
-  ): Promise<lib.FrameCells> {
-    return this.#one('captureCells', [bytes, config, frame, options], job);
-  }
-
-  rangeAzimuthMap(input: lib.RangeAzimuthMapInput, job?: JobOptions): Promise<lib.RangeAzimuthMap> {
-    return this.#one('rangeAzimuthMap', [input], job);
-  }
-
-  birdsEyeView(input: lib.BirdsEyeViewInput, job?: JobOptions): Promise<lib.BirdsEyeView> {
-    return this.#one('birdsEyeView', [input], job);
-  }
-
-  sidelobeMeasure(
-    view: lib.BirdsEyeView,
-    targets: readonly { xM: number; yM: number }[],
-    gate: lib.Gate,
-    job?: JobOptions,
-  ): Promise<lib.SidelobeMeasure> {
-    return this.#one('sidelobeMeasure', [view, targets, gate], job);
-  }
-
-  imagePlan(options: lib.ImageFrameOptions, job?: JobOptions): Promise<lib.ImagePlan> {
-    return this.#one('imagePlan', [options], job);
   }
 
   /**
@@ -419,11 +284,21 @@ export class Pool {
     name: N,
     args: Parameters<Operations[N]>,
     job?: JobOptions,
-    network?: string,
+    kept?: { network?: string; capture?: string },
   ): Promise<ReturnType<Operations[N]>> {
-    const [result] = await this.#crew.run([{ name, args, units: 1, network }], job);
+    const network = withNetworks.includes(name) ? networkIn(args) : undefined;
+    const [result] = await this.#crew.run([{ name, args, units: 1, network, ...kept }], job);
     return result as ReturnType<Operations[N]>;
   }
+}
+
+/** The network that options among the arguments name: those of an estimator, or of the angles of a chain. */
+function networkIn(args: readonly unknown[]): string | undefined {
+  for (const arg of args as ({ network?: string; angle?: { network?: string } } | null | undefined)[]) {
+    const network = arg?.network ?? arg?.angle?.network;
+    if (network !== undefined) return network;
+  }
+  return undefined;
 }
 
 /** A calibration of a part of a drive, its scans by their numbers in the whole. */

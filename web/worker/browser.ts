@@ -4,6 +4,7 @@ import type { Runtime } from './pool.js';
 import type { Reply } from './protocol.js';
 
 export { BoresightError } from '../lib/errors.js';
+export type { PoolCapture } from './capture.js';
 export type { JobOptions } from './pool.js';
 export { Pool, type PoolOptions };
 

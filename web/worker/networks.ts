@@ -25,10 +25,11 @@ export function forgetNetwork(id: string): void {
   loaded.delete(id);
 }
 
-/** A network with the options of its estimates; parsed once, and once more after a trap. */
-export function networkWith(id: string, given: object = {}): Network {
-  const { network: _, ...options } = given as NetworkOptions & { network?: string };
-  const text = keyOf(options);
+/**
+ * A network, parsed once and once more after a trap. Options are those of its estimates; without them it keeps the plans
+ * made for the last ones, for what estimates by others or not at all.
+ */
+export function networkWith(id: string, given?: object): Network {
   let one = loaded.get(id);
   if (one?.instance !== neural.number) {
     const file = files.get(id);
@@ -42,6 +43,9 @@ export function networkWith(id: string, given: object = {}): Network {
     };
     loaded.set(id, one);
   }
+  if (!given) return one.network;
+  const { network: _, ...options } = given as NetworkOptions & { network?: string };
+  const text = keyOf(options);
   if (one.options !== text) {
     one.network.setOptions(options);
     one.options = text;

@@ -30,6 +30,7 @@ import type {
 } from '../lib/api.js';
 import * as api from '../lib/api.js';
 import { core } from '../lib/instance.js';
+import { bytesOf, type CaptureSource, withCapture } from './captures.js';
 import { keyOf, networkWith } from './networks.js';
 
 /** What an operation is called on. */
@@ -110,8 +111,8 @@ function estimateBatch(input: BatchInput, options: EstimatorOptions & BatchOptio
   return kept.estimator.estimateBatch(input, kind);
 }
 
-function captureInfo(bytes: BytesInput, config: TextInput): CaptureInfo {
-  return freeing(new api.Capture(bytes, config), ({ info }) => info);
+function captureInfo(source: CaptureSource, config: TextInput): CaptureInfo {
+  return withCapture(source, config, ({ info }) => info);
 }
 
 function processCube(cube: ComplexData, options: CubeChainOptions): FrameResult[] {
@@ -123,10 +124,10 @@ function frameCells(cube: ComplexData, options: CubeChainOptions): FrameCells {
   return api.frameCells(cube, withoutNetwork(options));
 }
 
-function processFrame(bytes: BytesInput, config: TextInput, frame: number, options?: ChainOptions): FrameResult {
+function processFrame(source: CaptureSource, config: TextInput, frame: number, options?: ChainOptions): FrameResult {
   const id = networkOf(options?.angle);
-  if (id !== undefined) return networkWith(id).processFrames(bytes, config, options, frame)[0] as FrameResult;
-  return freeing(new api.Capture(bytes, config), (capture) => capture.processFrame(frame, options));
+  if (id === undefined) return withCapture(source, config, (capture) => capture.processFrame(frame, options));
+  return networkWith(id).processFrames(bytesOf(source), config, options, frame)[0] as FrameResult;
 }
 
 /** Every frame of a stretch of a capture that begins with frame `first`. */
@@ -135,37 +136,37 @@ function processStretch(bytes: BytesInput, config: TextInput, first: number, opt
   const results =
     id !== undefined
       ? networkWith(id).processFrames(bytes, config, options)
-      : freeing(new api.Capture(bytes, config), (capture) =>
+      : withCapture(bytes, config, (capture) =>
           Array.from({ length: capture.info.frames }, (_, index) => capture.processFrame(index, options)),
         );
   for (const result of results) for (const part of [result, ...result.detections]) part.frame += first;
   return results;
 }
 
-function combineFrames(this: Context, bytes: BytesInput, config: TextInput, options?: CombineOptions): FrameResult {
+function combineFrames(this: Context, source: CaptureSource, config: TextInput, options?: CombineOptions): FrameResult {
   const report = (done: number, total: number): void => this.report(done, total);
   const id = networkOf(options?.angle);
-  if (id !== undefined) return networkWith(id).combineFrames(bytes, config, options, report);
-  return freeing(new api.Capture(bytes, config), (capture) => capture.combineFrames(options, report));
+  if (id !== undefined) return networkWith(id).combineFrames(bytesOf(source), config, options, report);
+  return withCapture(source, config, (capture) => capture.combineFrames(options, report));
 }
 
-function cellSnapshots(bytes: BytesInput, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
-  return freeing(new api.Capture(bytes, config), (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
+function cellSnapshots(source: CaptureSource, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
+  return withCapture(source, config, (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
 
-function captureCells(bytes: BytesInput, config: TextInput, frame: number, options?: ChainOptions): FrameCells {
-  return freeing(new api.Capture(bytes, config), (capture) => capture.frameCells(frame, withoutNetwork(options)));
+function captureCells(source: CaptureSource, config: TextInput, frame: number, options?: ChainOptions): FrameCells {
+  return withCapture(source, config, (capture) => capture.frameCells(frame, withoutNetwork(options)));
 }
 
 function cellSpectrum(
-  bytes: BytesInput,
+  source: CaptureSource,
   config: TextInput,
   cell: Cell,
   angle?: AngleOptions,
   options?: ChainOptions,
 ): Estimate {
   const id = networkOf(angle);
-  return freeing(new api.Capture(bytes, config), (capture) => {
+  return withCapture(source, config, (capture) => {
     if (id === undefined) return capture.cellSpectrum(cell, angle, withoutNetwork(options));
     const snapshots = capture.cellSnapshots(cell, withoutNetwork(options));
     // Without an array the snapshots could not be had.
@@ -191,6 +192,7 @@ export const operations = {
   methods: api.methods,
   arrayPresets: api.arrayPresets,
   array: api.array,
+  unsuited: api.unsuited,
   loadNetwork,
   countWithNetwork,
   runNetwork,

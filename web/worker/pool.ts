@@ -1,7 +1,6 @@
 // A pool of single-thread workers: queue, progress, cancelling, replacement of what died.
 import { BoresightError, failure } from '../lib/errors.js';
-import type { NetworkFile } from '../lib/types.js';
-import type { OperationName, Operations, Reply, WorkerEvents, WorkerLike } from './protocol.js';
+import type { Files, OperationName, Operations, Reply, Setup, WorkerEvents, WorkerLike } from './protocol.js';
 import { packed } from './transfer.js';
 
 /** Options of one job. */
@@ -22,6 +21,8 @@ export interface Piece<N extends OperationName> {
   units: number;
   /** The network it needs. */
   network?: string | undefined;
+  /** The kept capture it needs. */
+  capture?: string | undefined;
 }
 
 /** How a runtime makes workers. */
@@ -38,6 +39,9 @@ export interface Runtime {
 
 /** What needs the module of drives. */
 const ofDrives: readonly OperationName[] = ['readDrive', 'simulateDrive', 'driveScenarios'];
+
+/** Memory that the copies of one capture in the workers may take, bytes; one worker has it in any case. */
+const COPIES_BYTES = 256 * 1024 * 1024;
 
 /** How long a cancelled piece may run on before its worker is replaced, ms. */
 const GRACE_MS = 50;
@@ -71,9 +75,11 @@ interface Member {
   task: Task | undefined;
   hasDrives: boolean;
   hasNeural: boolean;
-  /** Networks whose files it has. */
-  networks: Set<string>;
+  /** Ids of the files it keeps. */
+  kept: Set<string>;
 }
+
+type Kept = { [K in keyof Files]: { kind: K; file: Files[K]; most: number } }[keyof Files];
 
 /** Compiles a module once; after a failure the next call tries again. */
 class Loader {
@@ -109,10 +115,10 @@ export class Crew {
   readonly #core: Loader;
   readonly #drives: Loader;
   readonly #neural: Loader;
-  readonly #networks = new Map<string, NetworkFile>();
+  readonly #kept = new Map<string, Kept>();
   #terminated = false;
   #lastId = 0;
-  #lastNetwork = 0;
+  #lastKept = 0;
 
   constructor(runtime: Runtime, workers: number | undefined) {
     const size = workers ?? runtime.workers();
@@ -131,16 +137,27 @@ export class Crew {
   }
 
   /** Takes a network, whose file each worker gets when it first needs it. */
-  addNetwork(file: NetworkFile): string {
-    const id = `network-${++this.#lastNetwork}`;
-    this.#networks.set(id, file);
+  addNetwork(file: Files['network']): string {
+    return this.#add({ kind: 'network', file, most: this.size });
+  }
+
+  /** Takes a capture, which no more workers get than its size allows: the others leave its jobs to those. */
+  addCapture(file: Files['capture']): string {
+    const most = Math.max(1, Math.floor(COPIES_BYTES / (file.bytes.byteLength || 1)));
+    return this.#add({ kind: 'capture', file, most });
+  }
+
+  #add(kept: Kept): string {
+    const id = `${kept.kind}-${++this.#lastKept}`;
+    this.#kept.set(id, kept);
     return id;
   }
 
-  /** Forgets a network, and makes the workers do so; whether there was one. */
-  removeNetwork(id: string): boolean {
-    for (const member of this.#members) if (member.networks.delete(id)) member.worker.post({ network: id }, []);
-    return this.#networks.delete(id);
+  /** Forgets a network or a capture, and makes the workers do so; whether there was one. */
+  remove(kind: keyof Files, id: string): boolean {
+    if (this.#kept.get(id)?.kind !== kind) return false;
+    for (const member of this.#members) if (member.kept.delete(id)) member.worker.post({ forget: kind, of: id }, []);
+    return this.#kept.delete(id);
   }
 
   /** Runs the pieces on the workers; their results in the order of the pieces. */
@@ -150,11 +167,11 @@ export class Crew {
   ): Promise<ReturnType<Operations[N]>[]> {
     options.signal?.throwIfAborted();
     if (this.#terminated) throw terminated();
-    const network = pieces.find((piece) => piece.network !== undefined)?.network;
-    if (network !== undefined) this.#fileOf(network);
+    const needed = pieces.flatMap(needs);
+    for (const [kind, id] of needed) this.#find(kind, id);
     await this.#core.load();
     if (pieces.some(({ name }) => ofDrives.includes(name))) await this.#drives.load();
-    if (network !== undefined) await this.#neural.load();
+    if (needed.some(([kind]) => kind === 'network')) await this.#neural.load();
     if (this.#terminated) throw terminated();
     options.signal?.throwIfAborted();
     return new Promise((resolve, reject) => {
@@ -224,12 +241,26 @@ export class Crew {
   }
 
   #dispatch(): void {
-    while (this.#queue.length > 0 && !this.#terminated) {
-      const member = [...this.#members].find(({ task }) => task === undefined) ?? this.#hire();
-      const task = member && this.#queue.shift();
-      if (!member || !task) return;
-      this.#give(member, task);
+    for (let at = 0; at < this.#queue.length && !this.#terminated; ) {
+      const task = this.#queue[at] as Task;
+      const member = this.#memberFor(task);
+      if (member) {
+        this.#queue.splice(at, 1);
+        this.#give(member, task);
+      } else at += 1;
     }
+  }
+
+  /** Who is free for a task: one that has what it needs, before others that would have to be given it. */
+  #memberFor({ job, index }: Task): Member | undefined {
+    const idle = [...this.#members].filter(({ task }) => task === undefined);
+    const id = job.pieces[index]?.capture;
+    const kept = id === undefined ? undefined : this.#kept.get(id);
+    if (id === undefined || kept === undefined) return idle[0] ?? this.#hire();
+    const having = idle.find((member) => member.kept.has(id));
+    if (having) return having;
+    const copies = [...this.#members].filter((member) => member.kept.has(id)).length;
+    return copies < kept.most ? (idle[0] ?? this.#hire()) : undefined;
   }
 
   #give(member: Member, task: Task): void {
@@ -244,7 +275,7 @@ export class Crew {
         member.worker.post({ drives: this.#drives.module }, []);
         member.hasDrives = true;
       }
-      if (piece.network !== undefined) this.#giveNetwork(member, piece.network);
+      for (const [kind, id] of needs(piece)) this.#giveKept(member, kind, id);
       member.worker.post({ id: ++this.#lastId, name: piece.name, args: value }, buffers);
     } catch (cause) {
       this.#release(member);
@@ -260,23 +291,23 @@ export class Crew {
     }
   }
 
-  #giveNetwork(member: Member, id: string): void {
-    if (this.#neural.module && !member.hasNeural) {
+  #giveKept(member: Member, kind: keyof Files, id: string): void {
+    if (kind === 'network' && this.#neural.module && !member.hasNeural) {
       member.worker.post({ neural: this.#neural.module }, []);
       member.hasNeural = true;
     }
-    if (member.networks.has(id)) return;
-    const { value, buffers } = packed(this.#fileOf(id), false);
-    member.worker.post({ network: id, file: value }, buffers);
-    member.networks.add(id);
+    if (member.kept.has(id)) return;
+    const { value, buffers } = packed(this.#find(kind, id).file, false);
+    member.worker.post({ keep: kind, of: id, file: value } as Setup, buffers);
+    member.kept.add(id);
   }
 
-  #fileOf(id: string): NetworkFile {
-    const file = this.#networks.get(id);
-    if (file) return file;
-    throw failure('unknown-network', {
-      what: 'network',
-      expected: 'the id of a network that this pool has loaded',
+  #find(kind: keyof Files, id: string): Kept {
+    const kept = this.#kept.get(id);
+    if (kept?.kind === kind) return kept;
+    throw failure(`unknown-${kind}`, {
+      what: kind,
+      expected: `the id of a ${kind} that this pool has loaded`,
       given: String(id),
     });
   }
@@ -292,7 +323,7 @@ export class Crew {
       task: undefined,
       hasDrives: false,
       hasNeural: false,
-      networks: new Set(),
+      kept: new Set(),
     };
     this.#members.add(member);
     member.worker.post({ module: this.#core.module }, []);
@@ -358,4 +389,12 @@ export class Crew {
 
 function terminated(): BoresightError {
   return failure('terminated', { what: 'worker pool', expected: 'a running pool', given: 'terminated' });
+}
+
+/** The kept files that a piece names. */
+function needs({ network, capture }: Piece<OperationName>): [keyof Files, string][] {
+  return [
+    ...(network === undefined ? [] : [['network', network] as [keyof Files, string]]),
+    ...(capture === undefined ? [] : [['capture', capture] as [keyof Files, string]]),
+  ];
 }

@@ -1,20 +1,24 @@
 // What travels between the pool and a worker.
 import type { PlainError } from '../lib/errors.js';
-import type { NetworkFile } from '../lib/types.js';
+import type { CaptureFile, NetworkFile } from '../lib/types.js';
 import type { operations } from './operations.js';
 
 export type Operations = typeof operations;
 export type OperationName = keyof Operations;
 
-/**
- * What a worker is given before it needs it: compiled modules, the core's first, and networks to keep (or, without a
- * file, to forget).
- */
+/** Files that a worker keeps for the jobs that name them. */
+export interface Files {
+  network: NetworkFile;
+  capture: CaptureFile;
+}
+
+/** What a worker is given before it needs it: compiled modules, the core's first, and files to keep or to forget. */
 export type Setup =
   | { module: WebAssembly.Module }
   | { drives: WebAssembly.Module }
   | { neural: WebAssembly.Module }
-  | { network: string; file?: NetworkFile };
+  | { [K in keyof Files]: { keep: K; of: string; file: Files[K] } }[keyof Files]
+  | { forget: keyof Files; of: string };
 
 /** One piece of work. */
 export interface Request {

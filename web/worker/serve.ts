@@ -4,6 +4,7 @@ import { initDrivesSync } from '../lib/drive.js';
 import { BoresightError, failure } from '../lib/errors.js';
 import { initSync } from '../lib/instance.js';
 import { initNeuralSync } from '../lib/neural.js';
+import { forgetCapture, keepCapture } from './captures.js';
 import { forgetNetwork, keepNetwork } from './networks.js';
 import { type Context, operations } from './operations.js';
 import type { Reply, Request, Setup } from './protocol.js';
@@ -27,9 +28,14 @@ export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (
       neural = message.neural;
       return;
     }
-    if ('network' in message) {
-      if (message.file) keepNetwork(message.network, message.file);
-      else forgetNetwork(message.network);
+    if ('keep' in message) {
+      if (message.keep === 'network') keepNetwork(message.of, message.file);
+      else keepCapture(message.of, message.file);
+      return;
+    }
+    if ('forget' in message) {
+      if (message.forget === 'network') forgetNetwork(message.of);
+      else forgetCapture(message.of);
       return;
     }
     const { id, name, args } = message;

@@ -4,6 +4,7 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Spectrum, Warning};
 use crate::method::Method;
 use crate::options::{Options, SourceCount};
+use crate::suits::unsuited_array;
 use boresight_core::steering::unambiguous_sine;
 use boresight_core::{Array, Complex64, CoreError, Direction, Extent, Lattice};
 
@@ -17,30 +18,16 @@ pub(crate) fn check_array(
     array: &Array,
     options: &Options,
 ) -> Result<(), AoaError> {
-    let unsuitable = |expected: &str, given: &str| AoaError::Array {
-        method: method.name(),
-        expected: expected.into(),
-        given: given.into(),
-    };
-    let extent = array.extent();
-    if extent == Extent::Point || array.aperture() < 1e-6 {
-        return Err(unsuitable(
-            "elements at different places along y",
-            "has them all at one place along y",
-        ));
-    }
-    let needs = method.requirements();
-    if needs.uniform_array && !array.is_uniform() {
-        return Err(unsuitable("elements evenly spaced along y, in order", "is not evenly spaced"));
-    }
-    if needs.lattice && array.lattice().is_none() {
-        return Err(unsuitable("elements on a grid along y", "stands on no such grid"));
-    }
-    if extent == Extent::Area && !needs.elevation {
-        return Err(unsuitable("elements along y only", "spans an area"));
+    if let Some(reason) = unsuited_array(method, array) {
+        let (expected, given) = reason.words();
+        return Err(AoaError::Array {
+            method: method.name(),
+            expected: expected.into(),
+            given: given.into(),
+        });
     }
     let points = options.grid_points.saturating_mul(options.elevation_points);
-    if extent == Extent::Area && points > MAX_GRID {
+    if array.extent() == Extent::Area && points > MAX_GRID {
         return Err(AoaError::Argument(CoreError::OutOfRange {
             what: "grid_points times elevation_points".into(),
             expected: format!("at most {MAX_GRID}"),

@@ -5,6 +5,7 @@ use crate::data::Data;
 use crate::error::AoaError;
 use crate::method::Method;
 use crate::options::Options;
+use crate::suits::too_few;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64, CoreError};
 use boresight_signal::{SignalError, forward_backward, load_diagonal, sample_covariance};
@@ -101,7 +102,7 @@ impl CovariancePlan {
         let snapshots = data.snapshots();
         let least = self.method.requirements().min_snapshots;
         let vectors = snapshots.saturating_mul(self.subarrays);
-        if vectors.saturating_mul(if self.forward_backward { 2 } else { 1 }) < least {
+        if too_few(self.method, snapshots, self.subarrays, self.forward_backward) {
             return Err(AoaError::Snapshots {
                 method: self.method.name(),
                 expected: format!("at least {least} snapshots, averaging or smoothing"),

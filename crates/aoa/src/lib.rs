@@ -68,6 +68,7 @@ mod root_music;
 mod single_snapshot_music;
 mod sparse_bayesian;
 mod subspace;
+pub mod suits;
 
 pub use batch::{BatchEstimate, Spectra, WarningCount};
 pub use checks::settle;

@@ -34,6 +34,7 @@ pub mod lattice;
 pub mod linalg;
 pub mod presets;
 pub mod random;
+pub mod resolution;
 pub mod steering;
 pub mod units;
 pub mod waveform;

@@ -5,6 +5,7 @@ use crate::read::{Fields, Read, wrong_type};
 use crate::write::{Record, list};
 use boresight_core::array::Position;
 use boresight_core::presets::{PRESETS, preset};
+use boresight_core::resolution::resolution_rad;
 use boresight_core::steering::unambiguous_sine;
 use boresight_core::{Array, Extent};
 use std::f64::consts::FRAC_PI_2;
@@ -62,6 +63,7 @@ pub fn geometry(array: &Array) -> Record {
         .with("extent", extent_name(array.extent()))
         .with("uniform", array.is_uniform())
         .with("unambiguousDeg", unambiguous_rad.to_degrees())
+        .with("resolutionDeg", resolution_rad(array).to_degrees())
 }
 
 fn extent_name(extent: Extent) -> &'static str {

@@ -58,6 +58,8 @@ pub mod simulate;
 #[cfg(feature = "core")]
 mod street;
 #[cfg(feature = "core")]
+mod suits;
+#[cfg(feature = "core")]
 mod tables;
 #[cfg(feature = "core")]
 mod trajectory;

@@ -1,102 +1,20 @@
-/** Labelled controls. The help text is always there for a screen reader, and shown on request. */
+/** Labelled controls but those of numbers. The help text is always there for a screen reader, and shown on request. */
 import type { ComponentChildren } from 'preact';
-import { useEffect, useId, useState } from 'preact/hooks';
+import { useEffect, useId, useRef, useState } from 'preact/hooks';
 import { showHelp } from '../state/settings.ts';
+import { useDraft } from './draft.ts';
 
-interface FieldProps {
+export interface FieldProps {
   label: string;
   help: string;
   unit?: string;
 }
 
-function Help({ id, children }: { id: string; children: string }) {
+export function Help({ id, children }: { id: string; children: string }) {
   return (
     <p id={id} class={showHelp.value ? 'help' : 'visually-hidden'}>
       {children}
     </p>
-  );
-}
-
-/** Nothing for a number that is not known. */
-const numberText = (value: number): string => (Number.isFinite(value) ? String(value) : '');
-
-export function NumberField(
-  props: FieldProps & {
-    value: number;
-    min: number;
-    max: number;
-    step?: number | 'any';
-    integer?: boolean;
-    disabled?: boolean;
-    name?: string;
-    onChange(value: number): void;
-    /** Where a field may be empty. */
-    onEmpty?(): void;
-  },
-) {
-  const id = useId();
-  const [text, setText] = useState(numberText(props.value));
-  const [problem, setProblem] = useState<string | null>(null);
-  useEffect(() => {
-    if (text.trim() === '' ? Number.isFinite(props.value) : Number(text) !== props.value) {
-      setText(numberText(props.value));
-      setProblem(null);
-    }
-  }, [props.value]);
-  const input = (given: string): void => {
-    setText(given);
-    const value = Number(given);
-    const range = `${props.integer ? 'A whole number' : 'A number'} from ${props.min} to ${props.max}`.replaceAll(
-      '-',
-      '−',
-    );
-    if (given.trim() === '' && props.onEmpty) {
-      setProblem(null);
-      props.onEmpty();
-    } else if (
-      given.trim() === '' ||
-      !Number.isFinite(value) ||
-      value < props.min ||
-      value > props.max ||
-      (props.integer && !Number.isInteger(value))
-    ) {
-      setProblem(range);
-    } else {
-      setProblem(null);
-      props.onChange(value);
-    }
-  };
-  return (
-    <div class="field" title={props.help}>
-      <label for={id}>{props.label}</label>
-      <span class="with-unit">
-        <input
-          id={id}
-          name={props.name}
-          type="number"
-          inputMode="decimal"
-          value={text}
-          min={props.min}
-          max={props.max}
-          step={props.step ?? (props.integer ? 1 : 'any')}
-          disabled={props.disabled}
-          aria-describedby={`${id}-help ${id}-problem`}
-          aria-invalid={problem ? 'true' : undefined}
-          onInput={(event) => input(event.currentTarget.value)}
-          onBlur={() => {
-            if (problem) {
-              setText(numberText(props.value));
-              setProblem(null);
-            }
-          }}
-        />
-        {props.unit && <span class="unit">{props.unit}</span>}
-      </span>
-      <p id={`${id}-problem`} class="problem" hidden={!problem}>
-        {problem}
-      </p>
-      <Help id={`${id}-help`}>{props.help}</Help>
-    </div>
   );
 }
 
@@ -190,7 +108,7 @@ export function SliderField(
   );
 }
 
-/** Free text that must pass a check before it is used. */
+/** Free text that must pass a check before it is used; what does not leaves the value as it was before typing began. */
 export function TextField(
   props: FieldProps & {
     value: string;
@@ -200,8 +118,12 @@ export function TextField(
   },
 ) {
   const id = useId();
-  const [text, setText] = useState(props.value);
-  useEffect(() => setText(props.value), [props.value]);
+  const before = useRef(props.value);
+  const settle = (): void => {
+    before.current = props.value;
+  };
+  const draft = useDraft(props.value, settle);
+  const text = draft.text ?? props.value;
   const problem = props.check(text);
   return (
     <div class="field wide" title={props.help}>
@@ -217,8 +139,15 @@ export function TextField(
         aria-invalid={problem ? 'true' : undefined}
         onInput={(event) => {
           const given = event.currentTarget.value;
-          setText(given);
-          if (!props.check(given)) props.onChange(given);
+          draft.type(given, () => {
+            const next = props.check(given) ? before.current : given;
+            if (next !== props.value) props.onChange(next);
+          });
+        }}
+        onBlur={() => {
+          if (problem) return;
+          settle();
+          draft.drop();
         }}
       />
       <p id={`${id}-problem`} class="problem" role="alert" hidden={!problem}>
@@ -229,6 +158,7 @@ export function TextField(
   );
 }
 
+/** `open` opens a group that is shut, and shuts none: what one types in must not fold away. */
 export function Group({
   title,
   open = true,
@@ -238,8 +168,12 @@ export function Group({
   open?: boolean;
   children: ComponentChildren;
 }) {
+  const [shown, setShown] = useState(open);
+  useEffect(() => {
+    if (open) setShown(true);
+  }, [open]);
   return (
-    <details class="group" open={open}>
+    <details class="group" open={shown} onToggle={(event) => setShown(event.currentTarget.open)}>
       <summary>{title}</summary>
       <div class="group-body">{children}</div>
     </details>

@@ -14,6 +14,7 @@ import type {
 } from 'boresight';
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { cut, highest } from '../../estimates.ts';
+import { whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
@@ -37,8 +38,6 @@ export interface Scene {
   bound?: Float64Array;
   boundKind: 'deterministic' | 'stochastic';
   boundProblem?: Problem;
-  /** Where two equal targets begin to be told apart by a beamformer: lambda over aperture. */
-  beamWidthDeg: number;
 }
 
 export const scene = signal<Scene | null>(null);
@@ -76,26 +75,10 @@ export function whyNot(info: MethodInfo, geometry: ArrayGeometry, state: AngleSt
   const { snapshots } = state;
   const problem = info.network ? whyNoNetwork(info.name, [geometry]) : null;
   if (problem) return problem;
-  if (snapshots < info.minSnapshots) return `needs at least ${info.minSnapshots} snapshots`;
-  if (info.maxSnapshots !== null && snapshots > info.maxSnapshots) {
-    return info.maxSnapshots === 1 ? 'takes a single snapshot only' : `takes at most ${info.maxSnapshots} snapshots`;
-  }
-  if (info.uniformArray && !geometry.uniform) return 'needs a uniform linear array';
-  if (info.lattice && !onLattice(geometry)) return 'needs elements on an evenly spaced grid';
+  const reason = whyUnsuited(arrayOptions(info.name, state), snapshots);
+  if (reason) return reason;
   if (info.sourceCount && state.sources === 'known' && state.targets.length === 0) return 'needs at least one target';
   return null;
-}
-
-/** Multiples of half a wavelength's hundredth count as a grid, as the estimators' own check does. */
-function onLattice({ positions }: ArrayGeometry): boolean {
-  const ys = positions.map(([, y]) => y).sort((a, b) => a - b);
-  const gaps = ys
-    .slice(1)
-    .map((y, i) => y - (ys[i] as number))
-    .filter((gap) => gap > 1e-9);
-  const step = Math.min(...gaps);
-  const flat = positions.every(([x, , z]) => x === positions[0]?.[0] && z === positions[0]?.[2]);
-  return flat && gaps.every((gap) => Math.abs(gap / step - Math.round(gap / step)) < 1e-6);
 }
 
 /** The number of sources that methods are told, or null where they count. */
@@ -106,15 +89,22 @@ export function networkFor(method: Method, geometry: ArrayGeometry, state: Angle
   return modelFor(method, [geometry], known(state), state.networks);
 }
 
-export function estimatorOptions(method: Method, state: AngleState): EstimatorOptions {
+/** The options that say whether a method suits the array. */
+function arrayOptions(method: Method, state: AngleState): EstimatorOptions {
   return {
     method,
     array: arrayInput(state.array),
+    ...(state.average ? { forwardBackward: true } : {}),
+    ...(state.smoothing > 1 ? { smoothing: state.smoothing } : {}),
+  };
+}
+
+export function estimatorOptions(method: Method, state: AngleState): EstimatorOptions {
+  return {
+    ...arrayOptions(method, state),
     sources: state.sources === 'known' ? state.targets.length : state.sources,
     gridPoints: state.grid,
-    ...(state.average ? { forwardBackward: true } : {}),
     ...(state.refine ? { refine: true } : {}),
-    ...(state.smoothing > 1 ? { smoothing: state.smoothing } : {}),
     ...(state.sources === 'known' ? { maxPeaks: Math.max(state.targets.length, 1) } : {}),
   };
 }
@@ -155,7 +145,6 @@ function simulate(state: AngleState): Scene {
     geometry,
     snapshots,
     boundKind: state.snapshots > 1 && state.fluctuation === 'complex-normal' ? 'stochastic' : 'deterministic',
-    beamWidthDeg: geometry.aperture > 0 ? (Math.asin(Math.min(1, 2 / geometry.aperture)) * 180) / Math.PI : 90,
   };
   try {
     made.bound = state.targets.length ? bound(made, array) : new Float64Array(0);

@@ -4,9 +4,10 @@ import { choosing, fitting } from '../../networks/choose.ts';
 import { stopped } from '../../networks/load.ts';
 import { milliseconds } from '../../plots/format.ts';
 import { showHelp } from '../../state/settings.ts';
-import { CheckField, Group, NumberField, SelectField, TextField } from '../../ui/field.tsx';
+import { CheckField, Group, SelectField, TextField } from '../../ui/field.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
+import { NumberCell, NumberField } from '../../ui/number-field.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { networkFor, results, scene, unavailable } from './compute.ts';
 import {
@@ -265,6 +266,9 @@ function ArrayFields() {
   );
 }
 
+/** What is typed counts to this. */
+const TYPED = { azimuthDeg: 0.001, powerDb: 0.001 };
+
 function TargetTable() {
   const { targets } = angleState.value;
   return (
@@ -285,23 +289,25 @@ function TargetTable() {
             <tr key={i}>
               <th scope="row">{i + 1}</th>
               <td>
-                <CellNumber
+                <NumberCell
                   label={`Azimuth of target ${i + 1}, degrees`}
                   name={`azimuth-${i}`}
                   value={target.azimuthDeg}
                   step={0.1}
-                  limits={LIMITS.azimuthDeg}
-                  onChange={(azimuthDeg) => setTarget(i, { azimuthDeg }, { azimuthDeg: 0.001, powerDb: 0.1 })}
+                  min={LIMITS.azimuthDeg[0]}
+                  max={LIMITS.azimuthDeg[1]}
+                  onChange={(azimuthDeg) => setTarget(i, { azimuthDeg }, TYPED)}
                 />
               </td>
               <td>
-                <CellNumber
+                <NumberCell
                   label={`Power of target ${i + 1}, dB`}
                   name={`power-${i}`}
                   value={target.powerDb}
                   step={0.5}
-                  limits={LIMITS.powerDb}
-                  onChange={(powerDb) => setTarget(i, { powerDb }, { azimuthDeg: 0.001, powerDb: 0.1 })}
+                  min={LIMITS.powerDb[0]}
+                  max={LIMITS.powerDb[1]}
+                  onChange={(powerDb) => setTarget(i, { powerDb }, TYPED)}
                 />
               </td>
               <td>
@@ -334,35 +340,6 @@ function TargetTable() {
         minus change its power; Delete removes it.
       </p>
     </div>
-  );
-}
-
-function CellNumber(props: {
-  label: string;
-  name: string;
-  value: number;
-  step: number;
-  limits: readonly [number, number];
-  onChange(value: number): void;
-}) {
-  return (
-    <input
-      type="number"
-      inputMode="decimal"
-      name={props.name}
-      aria-label={props.label}
-      value={props.value}
-      step={props.step}
-      min={props.limits[0]}
-      max={props.limits[1]}
-      onInput={(event) => {
-        const { value } = event.currentTarget;
-        const given = Number(value);
-        const valid = value.trim() !== '' && given >= props.limits[0] && given <= props.limits[1];
-        event.currentTarget.setAttribute('aria-invalid', String(!valid));
-        if (valid) props.onChange(given);
-      }}
-    />
   );
 }
 

@@ -61,7 +61,7 @@ export function AnglePage() {
           <p>
             <b>Signs.</b> Azimuth is positive to the left of boresight, counter-clockwise seen from above. An estimate
             is counted for a target when it lies within one beam width of it
-            {scene.value ? ` (${fixed(scene.value.beamWidthDeg, 1)}° here)` : ''}, nearest pairs first.
+            {scene.value ? ` (${fixed(scene.value.geometry.resolutionDeg, 1)}° here)` : ''}, nearest pairs first.
           </p>
           <p>
             <b>Bounds</b> are Cramér–Rao bounds of an unbiased estimator that knows the array exactly: the stochastic

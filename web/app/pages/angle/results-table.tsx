@@ -16,7 +16,7 @@ export function ResultsTable({ scene }: { scene: Scene }) {
     .map((info) => {
       const result = results.value.get(info.name);
       const sources = result?.estimate?.sources ?? [];
-      return { info, result, sources, assignment: assign(truth, sources, Math.max(scene.beamWidthDeg, 1)) };
+      return { info, result, sources, assignment: assign(truth, sources, Math.max(scene.geometry.resolutionDeg, 1)) };
     });
   const sigma = (i: number): number => scene.bound?.[i] ?? Number.NaN;
   const csv = (): string =>

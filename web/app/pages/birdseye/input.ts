@@ -2,7 +2,7 @@
 import { computed } from '@preact/signals';
 import type { ArrayInput, CubeChainOptions, Mounting, StreetScene, ViewGrid, Waveform } from 'boresight';
 import { api, describeError, type Problem } from '../../data.ts';
-import { boardLog, type Loaded, loaded } from '../capture/files.ts';
+import { boardLog, type Loaded, loaded, waiting } from '../capture/files.ts';
 import { type BirdseyeState, birdseyeState, LIMITS, RADARS } from './state.ts';
 
 export interface Radar {
@@ -63,6 +63,10 @@ let captures = 0;
 const numbers = new WeakMap<Loaded, number>();
 
 const capture = computed<Input | Problem | null>(() => {
+  if (waiting.value) {
+    const missing = waiting.value.missing.map(({ what }) => what).join(' and ');
+    return { code: 'missing', message: `The files opened on the Capture page are not all there yet: ${missing}.` };
+  }
   const open = loaded.value;
   if (!open) return null;
   const { info } = open;

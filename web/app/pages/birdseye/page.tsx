@@ -4,7 +4,7 @@ import { count, fixed } from '../../plots/format.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
-import { fileProblem, loaded, openBundled } from '../capture/files.ts';
+import { fileProblem, loaded, openBundled, waiting } from '../capture/files.ts';
 import { Controls } from './controls.tsx';
 import { ImagePlot, saveAll } from './image-plot.tsx';
 import { gridProblem, input, problemOfInput, shownRadars } from './input.ts';
@@ -26,7 +26,7 @@ export function BirdseyePage() {
     write: () => birdseyeCodec.write({ ...birdseyeState.value, view: zoom.value }),
   });
   useSignalEffect(() => {
-    if (birdseyeState.value.source === 'capture' && !loaded.peek()) void openBundled();
+    if (birdseyeState.value.source === 'capture' && !loaded.peek() && !waiting.peek()) void openBundled();
   });
   useSignalEffect(() => {
     if (working.value) return;

@@ -19,6 +19,7 @@ import type {
 } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
+import { whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
@@ -71,8 +72,12 @@ export const unavailable = computed<ReadonlyMap<Method, string>>(() => {
   for (const info of api.methods()) {
     const problem = info.network ? whyNoNetwork(info.name, geometries) : null;
     if (problem) reasons.set(info.name, problem);
-    else if (info.uniformArray && geometries.some(({ uniform }) => !uniform))
-      reasons.set(info.name, 'needs a uniform linear array');
+    else {
+      const reason = geometries
+        .map(({ positions }) => whyUnsuited({ method: info.name, array: { positions } }, 1))
+        .find((one) => one !== null);
+      if (reason) reasons.set(info.name, reason);
+    }
   }
   return reasons;
 });
@@ -250,13 +255,10 @@ async function frameOf(looked: Input, radar: Radar, state: BirdseyeState, signal
   const chain = chainOptions(radar, state);
   const key = detectionKey(looked, radar, state);
   if (looked.capture) {
-    const { bin, cfg, info } = looked.capture;
-    const { frameBytes } = info.config;
+    const { kept, info } = looked.capture;
     const at = Math.min(state.frame, info.frames - 1);
     const { waveform: _, ...options } = chain;
-    const cells = await once(`cells ${key}`, () =>
-      pool().captureCells(bin.subarray(at * frameBytes, (at + 1) * frameBytes), cfg, 0, options, { signal }),
-    );
+    const cells = await once(`cells ${key}`, () => kept.frameCells(at, options, { signal }));
     return { radar, cells, visible: null };
   }
   const { seed, egoSpeedMps } = JSON.parse(looked.key.slice(looked.key.indexOf('{')));

@@ -8,12 +8,13 @@ import { COLOR_MAPS } from '../../plots/colormap.ts';
 import { byteSize } from '../../plots/format.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
-import { CheckField, Group, NumberField, SelectField } from '../../ui/field.tsx';
+import { CheckField, Group, SelectField } from '../../ui/field.tsx';
 import { Licence } from '../../ui/licence.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
+import { NumberField } from '../../ui/number-field.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { fileProblem, loaded, openBundled, openFiles } from './files.ts';
+import { fileProblem, loaded, openBundled, openFiles, waiting } from './files.ts';
 import { cellUnavailable, networkFor, usedArray } from './process.ts';
 import { CFARS, captureCodec, captureState, FALSE_ALARMS, update, WINDOWS } from './state.ts';
 
@@ -343,7 +344,7 @@ function Network({ method }: { method: Method }) {
 function Files() {
   const over = useFileDrop((transfer) => void openFiles([...transfer.files]));
   const input = useRef<HTMLInputElement>(null);
-  const files = loaded.value?.files ?? [];
+  const { files, missing } = waiting.value ?? { files: loaded.value?.files ?? [], missing: [] };
   return (
     <div class={`drop${over.value ? ' over' : ''}`}>
       <ul class="files" aria-label="Open files">
@@ -352,6 +353,12 @@ function Files() {
             <span class="kind">.{kind}</span>
             <span class="file">{name}</span>
             <span class="muted">{byteSize(bytes)}</span>
+          </li>
+        ))}
+        {missing.map(({ kind }) => (
+          <li key={kind} data-missing={kind}>
+            <span class="kind">.{kind}</span>
+            <span class="problem">missing</span>
           </li>
         ))}
       </ul>

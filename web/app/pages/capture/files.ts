@@ -1,11 +1,12 @@
 /** Files that are open: the bundled capture, or what the user chose or dropped. */
-import { signal } from '@preact/signals';
+import { batch, signal } from '@preact/signals';
 import type { BoardLog, CaptureInfo } from 'boresight';
+import type { PoolCapture } from 'boresight/worker';
 import licenceAddress from '../../../../recordings/awr1642/LICENSE?url';
 import cfgAddress from '../../../../recordings/awr1642/profile.cfg?url';
 import binAddress from '../../../../recordings/awr1642/xwr16xx_crw_dca_module_2018_1015v2.bin?url';
 import datAddress from '../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat?url';
-import { api, describeError, FileProblem, type Problem } from '../../data.ts';
+import { api, describeError, FileProblem, type Problem, pool } from '../../data.ts';
 import { update } from './state.ts';
 
 const KINDS = ['bin', 'cfg', 'dat'] as const;
@@ -23,27 +24,65 @@ export interface Loaded {
   bin: Uint8Array;
   cfg: string;
   info: CaptureInfo;
+  /** The same on the workers. */
+  kept: PoolCapture;
   bundled: { licence: string } | null;
 }
 
+/** Files of the user's own that are not enough for a capture yet. */
+export interface Waiting {
+  files: OpenFile[];
+  missing: { kind: Kind; what: string }[];
+}
+
 export const loaded = signal<Loaded | null>(null);
+export const waiting = signal<Waiting | null>(null);
 export const boardLog = signal<BoardLog | null>(null);
 export const fileProblem = signal<(Problem & { file?: string }) | null>(null);
 
 /** What a tab can hold beside its copies in workers. */
 const LARGEST_BYTES = 512 * 1024 * 1024;
 
+const NEEDED = [
+  { kind: 'bin', what: 'the .bin with the raw samples' },
+  { kind: 'cfg', what: 'the .cfg that the radar ran with' },
+] as const;
+
+/** The user's own files, open or waiting for others: the bundled ones are never among them. */
+let own: Partial<Record<Kind, File>> = {};
+
 /** The latest opening wins, should two overlap. */
 let opening = 0;
 
-async function attempt(work: () => Promise<() => void>): Promise<void> {
+/** What an opening comes to: files of the user's own, and what is shown then. */
+interface Opened {
+  own: typeof own;
+  loaded: Loaded | null;
+  waiting: Waiting | null;
+  log: BoardLog | null;
+}
+
+async function attempt(work: () => Promise<Opened | null>): Promise<void> {
   opening += 1;
   const mine = opening;
   try {
-    const finish = await work();
-    if (mine !== opening) return;
-    finish();
-    fileProblem.value = null;
+    const next = await work();
+    const before = loaded.peek();
+    if (mine !== opening) {
+      if (next?.loaded?.kept !== before?.kept) next?.loaded?.kept.free();
+      return;
+    }
+    batch(() => {
+      fileProblem.value = null;
+      if (!next) return;
+      own = next.own;
+      waiting.value = next.waiting;
+      loaded.value = next.loaded;
+      boardLog.value = next.log;
+      const other = before?.kept !== next.loaded?.kept;
+      if (other && next.loaded && !next.loaded.bundled) update({ frame: 'all', cell: null, board: 'last' });
+      if (other) before?.kept.free();
+    });
   } catch (error) {
     if (mine !== opening) return;
     fileProblem.value =
@@ -59,6 +98,8 @@ export function openBundled(): Promise<void> {
     const text = new TextDecoder().decode(cfg);
     const name = (address: string): string =>
       decodeURIComponent(address.split('/').pop() ?? '').replace(/-[\w-]{8}(?=\.\w+$)/, '');
+    const log = api.parseBoardLog(dat, text);
+    const kept = await pool().loadCapture(bin, text);
     const next: Loaded = {
       files: [
         { kind: 'bin', name: name(binAddress), bytes: bin.length },
@@ -67,14 +108,11 @@ export function openBundled(): Promise<void> {
       ],
       bin,
       cfg: text,
-      info: inspect(bin, text),
+      info: kept.info,
+      kept,
       bundled: { licence: licenceAddress },
     };
-    const log = api.parseBoardLog(dat, text);
-    return () => {
-      loaded.value = next;
-      boardLog.value = log;
-    };
+    return { own: {}, loaded: next, waiting: null, log };
   });
 }
 
@@ -85,56 +123,35 @@ async function fetched(address: string): Promise<Uint8Array> {
   return new Uint8Array(await response.arrayBuffer());
 }
 
-/** Any of a .bin, a .cfg and a .dat; what is missing is kept from what is open. */
+/** Any of a .bin, a .cfg and a .dat, with what is open or waits of the user's own; without both of the first two it waits. */
 export function openFiles(files: readonly File[]): Promise<void> {
   return attempt(async () => {
-    const given = new Map<Kind, File>();
-    for (const file of files) {
-      const kind = kindOf(file.name);
-      if (!kind)
-        throw new FileProblem('unknown-file', file.name, `a .bin, .cfg or .dat file is expected, not “${file.name}”`);
-      if (given.has(kind))
-        throw new FileProblem('ambiguous', file.name, `one .${kind} file is expected, and there are two`);
-      if (file.size > LARGEST_BYTES) {
-        throw new FileProblem(
-          'too-large',
-          file.name,
-          `${Math.round(file.size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected`,
-        );
-      }
-      given.set(kind, file);
-    }
-    if (given.size === 0) return () => {};
-    const before = loaded.peek();
-    const cfgFile = given.get('cfg');
-    const binFile = given.get('bin');
-    const datFile = given.get('dat');
-    const cfg = cfgFile ? await cfgFile.text() : before?.cfg;
-    if (cfg === undefined)
-      throw new FileProblem('missing', binFile?.name ?? '', 'the .cfg that the radar ran with is needed beside it');
-    const bin = binFile ? new Uint8Array(await binFile.arrayBuffer()) : before?.bin;
-    if (!bin) throw new FileProblem('missing', cfgFile?.name ?? '', 'a .bin with raw samples is needed beside it');
-    const blame = binFile ?? cfgFile ?? datFile;
+    const given = chosen(files);
+    if (Object.keys(given).length === 0) return null;
+    const next = { ...own, ...given };
+    // A log belongs to its capture; one that waits has none yet.
+    if (given.bin && !given.dat && own.bin) delete next.dat;
+    const blame = given.bin ?? given.cfg ?? given.dat;
     try {
-      const info = binFile || cfgFile ? inspect(bin, cfg) : before!.info;
-      const log = datFile
-        ? api.parseBoardLog(new Uint8Array(await datFile.arrayBuffer()), cfg)
-        : binFile
-          ? null
-          : boardLog.peek();
-      const entry = (kind: Kind, file: File | undefined): OpenFile | undefined =>
-        file ? { kind, name: file.name, bytes: file.size } : before?.files.find((open) => open.kind === kind);
-      const files = [
-        entry('bin', binFile),
-        entry('cfg', cfgFile),
-        datFile || !binFile ? entry('dat', datFile) : undefined,
-      ].filter((item) => item !== undefined);
-      const next: Loaded = { files, bin, cfg, info, bundled: null };
-      return () => {
-        loaded.value = next;
-        boardLog.value = log;
-        if (binFile || cfgFile) update({ frame: 'all', cell: null, board: 'last' });
-      };
+      const { bin, cfg, dat } = next;
+      const before = own.bin ? loaded.peek() : null;
+      const text = cfg && (before && cfg === own.cfg ? before.cfg : await cfg.text());
+      const opened = KINDS.flatMap((kind): OpenFile[] => {
+        const file = next[kind];
+        return file ? [{ kind, name: file.name, bytes: file.size }] : [];
+      });
+      if (!bin || text === undefined) {
+        if (text !== undefined) api.parseConfig(text);
+        const missing = NEEDED.filter(({ kind }) => !next[kind]);
+        return { own: next, loaded: null, waiting: { files: opened, missing }, log: null };
+      }
+      const log = dat ? api.parseBoardLog(new Uint8Array(await dat.arrayBuffer()), text) : null;
+      const samples = before && bin === own.bin ? before.bin : new Uint8Array(await bin.arrayBuffer());
+      const same = before?.bin === samples && before.cfg === text;
+      const kept = same ? before.kept : await pool().loadCapture(samples, text);
+      const { info } = kept;
+      const complete = { files: opened, bin: samples, cfg: text, info, kept, bundled: null };
+      return { own: next, loaded: complete, waiting: null, log };
     } catch (error) {
       const { code, message } = describeError(error);
       throw new FileProblem(code, blame?.name ?? '', message);
@@ -142,17 +159,27 @@ export function openFiles(files: readonly File[]): Promise<void> {
   });
 }
 
+/** One file of a kind at most, none too large. */
+function chosen(files: readonly File[]): Partial<Record<Kind, File>> {
+  const given: Partial<Record<Kind, File>> = {};
+  for (const file of files) {
+    const kind = kindOf(file.name);
+    if (!kind)
+      throw new FileProblem('unknown-file', file.name, `a .bin, .cfg or .dat file is expected, not “${file.name}”`);
+    if (given[kind]) throw new FileProblem('ambiguous', file.name, `one .${kind} file is expected, and there are two`);
+    if (file.size > LARGEST_BYTES) {
+      throw new FileProblem(
+        'too-large',
+        file.name,
+        `${Math.round(file.size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected`,
+      );
+    }
+    given[kind] = file;
+  }
+  return given;
+}
+
 function kindOf(name: string): Kind | undefined {
   const extension = name.toLowerCase().split('.').pop();
   return KINDS.find((kind) => kind === extension);
-}
-
-/** Checks that the two go together. */
-function inspect(bin: Uint8Array, cfg: string): CaptureInfo {
-  const capture = new api.Capture(bin, cfg);
-  try {
-    return capture.info;
-  } finally {
-    capture.free();
-  }
 }

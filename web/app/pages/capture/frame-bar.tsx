@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { significant } from '../../plots/format.ts';
 import { loaded } from './files.ts';
-import { cancel, progress, restart, wasCancelled } from './process.ts';
+import { cancel, progress, restart, result, wasCancelled } from './process.ts';
 import { captureState, update } from './state.ts';
 
 /** Playback is no faster than one can see. */
@@ -87,6 +87,7 @@ function Progress() {
         <button type="button" data-action="cancel" onClick={cancel}>
           Cancel
         </button>
+        {result.value && <span class="muted">Shown until then: the settings before</span>}
       </div>
     );
   }

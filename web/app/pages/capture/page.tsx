@@ -1,5 +1,4 @@
 import { useSignalEffect } from '@preact/signals';
-import type { FrameResult } from 'boresight';
 import { count, fixed, signed } from '../../plots/format.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
@@ -7,10 +6,10 @@ import { About } from '../../ui/about.tsx';
 import { CellPanel } from './cell-panel.tsx';
 import { Controls } from './controls.tsx';
 import { DetectionTable } from './detection-table.tsx';
-import { boardLog, fileProblem, loaded, openBundled } from './files.ts';
+import { boardLog, fileProblem, loaded, openBundled, type Waiting, waiting } from './files.ts';
 import { FrameBar } from './frame-bar.tsx';
 import { compare } from './match.ts';
-import { cellResults, processProblem, result, start, usedArray, working } from './process.ts';
+import { cellResults, processProblem, result, type Shown, start, usedArray, wasCancelled, working } from './process.ts';
 import { RangeDopplerMap, RangeProfile } from './range-plots.tsx';
 import { captureCodec, captureState, update } from './state.ts';
 import { Summary } from './summary.tsx';
@@ -22,7 +21,7 @@ export function CapturePage() {
       captureState.value = captureCodec.read(params);
     },
     start: () => {
-      if (!loaded.peek()) void openBundled();
+      if (!loaded.peek() && !waiting.peek()) void openBundled();
       return start();
     },
     write: () => captureCodec.write(captureState.value),
@@ -30,7 +29,7 @@ export function CapturePage() {
 
   const capture = loaded.value;
   useSignalEffect(() => {
-    const shown = result.value;
+    const shown = result.value?.view;
     if (shown) {
       announce(
         `${shown.detections.length} detections. ${shown.detections
@@ -52,6 +51,7 @@ export function CapturePage() {
             {capture && ' The capture opened before is still shown.'}
           </p>
         )}
+        {waiting.value && <WaitingFor {...waiting.value} />}
         {processProblem.value && (
           <p class="alert" role="alert" data-error={processProblem.value.code}>
             <strong>Cannot process with these settings.</strong> {processProblem.value.message}{' '}
@@ -60,13 +60,15 @@ export function CapturePage() {
         )}
         {capture && <Summary info={capture.info} geometry={usedArray.value} />}
         {capture && <FrameBar />}
-        {capture && result.value ? (
-          <Plots view={result.value} />
+        {result.value ? (
+          <Plots {...result.value} />
         ) : (
-          !problem &&
-          !processProblem.value && (
+          !waiting.value &&
+          !processProblem.value &&
+          !wasCancelled.value &&
+          (capture || !problem) && (
             <p class="panel loading" role="status">
-              Loading the capture
+              {capture ? 'Processing the capture' : 'Loading the capture'}
             </p>
           )
         )}
@@ -95,11 +97,20 @@ export function CapturePage() {
   );
 }
 
-function Plots({ view }: { view: FrameResult }) {
-  const capture = loaded.value;
+/** One's own files without the other that they need. */
+function WaitingFor({ files, missing }: Waiting) {
+  return (
+    <p class="notice" role="status" data-waiting={missing.map(({ kind }) => kind).join(',')}>
+      <strong>{files.map(({ name }) => name).join(', ')}:</strong> {missing.map(({ what }) => what).join(' and ')}{' '}
+      {missing.length > 1 ? 'are' : 'is'} missing. Open or drop {missing.length > 1 ? 'them' : 'it'}, and processing
+      begins; the bundled capture lends no file to one of your own.
+    </p>
+  );
+}
+
+function Plots({ capture, frame, view }: Shown) {
   const log = boardLog.value;
-  const { frame, cell: chosen, board } = captureState.value;
-  if (!capture) return null;
+  const { cell: chosen, board } = captureState.value;
   const cell = shownCell(view, chosen);
   const boardIndex = log?.frames.length
     ? board === 'last'
@@ -112,10 +123,7 @@ function Plots({ view }: { view: FrameResult }) {
   const here = compare(view.detections, objects, gateM).find(
     ({ row }) => row && Math.abs(row.rangeBin - cell.rangeBin) <= 1 && Math.abs(row.dopplerBin - cell.dopplerBin) <= 1,
   )?.board;
-  const label =
-    frame === 'all'
-      ? `Mean of ${view.frames} frames`
-      : `Frame ${Math.min(frame, capture.info.frames - 1) + 1} of ${capture.info.frames}`;
+  const label = frame === 'all' ? `Mean of ${view.frames} frames` : `Frame ${frame + 1} of ${capture.info.frames}`;
   const fileParts = [
     capture.files[0]?.name.replace(/\.bin$/i, '') ?? 'capture',
     frame === 'all' ? 'all-frames' : `frame${frame + 1}`,
@@ -180,14 +188,13 @@ function Plots({ view }: { view: FrameResult }) {
           )
         }
       />
-      <Remarks view={view} />
+      <Remarks capture={capture} view={view} />
     </>
   );
 }
 
 /** What was dropped on the way, and what the files and the processing had to say. */
-function Remarks({ view }: { view: FrameResult }) {
-  const capture = loaded.value;
+function Remarks({ capture, view }: Pick<Shown, 'capture' | 'view'>) {
   const log = boardLog.value;
   const { counts } = view;
   const facts: [string, number, string][] = [
@@ -197,7 +204,7 @@ function Remarks({ view }: { view: FrameResult }) {
     ['Without angle', counts.withoutAngle, 'Cells in which the method found no direction'],
     ['Beyond the limit', counts.beyondLimit, 'Dropped because there were more than the most that are kept'],
     ['Clipped samples', counts.clippedSamples, 'Samples at the converter’s limits'],
-    ['Trailing bytes', capture?.info.trailingBytes ?? 0, 'After the last whole frame of the .bin'],
+    ['Trailing bytes', capture.info.trailingBytes, 'After the last whole frame of the .bin'],
     ...(log
       ? ([
           ['Skipped log bytes', log.skippedBytes, 'Between the packets of the .dat'],
@@ -206,8 +213,8 @@ function Remarks({ view }: { view: FrameResult }) {
       : []),
   ];
   const warnings = [
-    ...(capture?.info.config.warnings ?? []),
-    ...(capture?.info.warnings ?? []),
+    ...capture.info.config.warnings,
+    ...capture.info.warnings,
     ...view.warnings,
     ...(log?.warnings ?? []),
   ];

@@ -4,6 +4,7 @@
 import { batch, computed, effect, signal } from '@preact/signals';
 import type { AngleOptions, Cell, ChainOptions, Estimate, FrameResult, Method } from 'boresight';
 import { aborted, api, describeError, type Problem } from '../../data.ts';
+import { whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
@@ -18,8 +19,18 @@ export interface CellResult {
   stale: boolean;
 }
 
-/** What is shown: one frame, or all of them combined. */
-export const result = signal<FrameResult | null>(null);
+/** A result with what it is of. */
+export interface Shown {
+  capture: Loaded;
+  /** Options of the chain, as text. */
+  chain: string;
+  /** One frame, or all of them combined. */
+  frame: number | 'all';
+  view: FrameResult;
+}
+
+/** What is shown: always of the open capture; gone when work on it was cancelled or failed. */
+export const result = signal<Shown | null>(null);
 /** Whether what is shown is about to be replaced. */
 export const working = signal(false);
 export const progress = signal<{ done: number; total: number } | null>(null);
@@ -66,11 +77,13 @@ export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
   for (const info of api.methods()) {
     const problem = info.network ? whyNoNetwork(info.name, [geometry]) : null;
     if (problem) reasons.set(info.name, problem);
-    else if (info.uniformArray && !geometry.uniform) reasons.set(info.name, 'needs a uniform linear array');
-    else if (snapshots < info.minSnapshots)
-      reasons.set(info.name, `needs ${info.minSnapshots} snapshots: combine frames`);
-    else if (info.maxSnapshots !== null && snapshots > info.maxSnapshots)
-      reasons.set(info.name, 'takes a single snapshot: choose one frame');
+    else {
+      const reason = whyUnsuited({ method: info.name, array: { positions: geometry.positions } }, snapshots, {
+        'few-snapshots': 'needs more snapshots: combine frames',
+        'many-snapshots': 'takes a single snapshot: choose one frame',
+      });
+      if (reason) reasons.set(info.name, reason);
+    }
   }
   return reasons;
 });
@@ -89,7 +102,7 @@ export function restart(): void {
 }
 
 /** Results of the open capture under the present options, by frame. */
-const known = new Map<number | 'all', FrameResult>();
+const known = new Map<number | 'all', Shown>();
 let knownFor = '';
 let captures = 0;
 const numbers = new WeakMap<Loaded, number>();
@@ -115,15 +128,16 @@ export function start(): () => void {
       const chain = options.value;
       const wanted = frame.value;
       if (capture) void processFrame(capture, chain, wanted);
+      else close();
     }),
     effect(() => {
-      const capture = loaded.value;
       const shown = result.value;
       const { cell, methods } = captureState.value;
       void cellOptions.value;
       void captureState.value.networks;
       void readyNetworks.value;
-      if (capture && shown) scheduleCell(capture, options.peek(), frame.peek(), shownCell(shown, cell), methods);
+      if (shown) scheduleCell(shown, shownCell(shown.view, cell), methods);
+      else forgetCell();
     }),
   ];
   return () => {
@@ -133,6 +147,19 @@ export function start(): () => void {
   };
 }
 
+/** Nothing is open. */
+function close(): void {
+  running?.abort();
+  running = undefined;
+  batch(() => {
+    result.value = null;
+    progress.value = null;
+    wasCancelled.value = null;
+    processProblem.value = null;
+    working.value = false;
+  });
+}
+
 async function processFrame(capture: Loaded, chain: string, frame: number | 'all'): Promise<void> {
   running?.abort();
   const key = keyOf(capture, chain);
@@ -140,13 +167,17 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
     known.clear();
     knownFor = key;
   }
+  if (result.peek()?.capture !== capture) close();
   wasCancelled.value = null;
   const before = known.get(frame);
   if (before) {
     running = undefined;
-    progress.value = null;
-    working.value = false;
-    result.value = before;
+    batch(() => {
+      progress.value = null;
+      processProblem.value = null;
+      working.value = false;
+      result.value = before;
+    });
     return;
   }
   const controller = new AbortController();
@@ -165,8 +196,9 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
     const options = JSON.parse(chain) as ChainOptions;
     const angle = await withNetwork(options.angle ?? {});
     if (running !== controller) return;
-    const made = await runChain(capture, { ...options, angle }, frame, { signal: controller.signal, onProgress });
+    const view = await runChain(capture, { ...options, angle }, frame, { signal: controller.signal, onProgress });
     if (running !== controller) return;
+    const made = { capture, chain, frame, view };
     known.set(frame, made);
     batch(() => {
       processProblem.value = null;
@@ -174,14 +206,19 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
     });
   } catch (error) {
     if (running !== controller) return;
-    if (aborted(error)) wasCancelled.value = last;
-    else processProblem.value = describeError(error);
+    batch(() => {
+      result.value = null;
+      if (aborted(error)) wasCancelled.value = last;
+      else processProblem.value = describeError(error);
+    });
   } finally {
     clearTimeout(timer);
     if (running === controller) {
       running = undefined;
-      progress.value = null;
-      working.value = false;
+      batch(() => {
+        progress.value = null;
+        working.value = false;
+      });
     }
   }
 }
@@ -189,14 +226,15 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
 let cellTimer: ReturnType<typeof setTimeout> | undefined;
 let cellJob: AbortController | undefined;
 
+function forgetCell(): void {
+  clearTimeout(cellTimer);
+  cellJob?.abort();
+  cellJob = undefined;
+  cellResults.value = new Map();
+}
+
 /** Cells come quickly while arrows are held down; estimates follow when they settle. */
-function scheduleCell(
-  capture: Loaded,
-  chain: string,
-  frame: number | 'all',
-  cell: Cell,
-  methods: readonly Method[],
-): void {
+function scheduleCell(shown: Shown, cell: Cell, methods: readonly Method[]): void {
   clearTimeout(cellTimer);
   cellJob?.abort();
   const controller = new AbortController();
@@ -205,14 +243,12 @@ function scheduleCell(
   const before = cellResults.peek();
   cellResults.value = new Map(wanted.map((method) => [method, { ...before.get(method), stale: true }]));
   cellTimer = setTimeout(() => {
-    for (const method of wanted) void estimateOne(capture, chain, frame, cell, method, controller);
+    for (const method of wanted) void estimateOne(shown, cell, method, controller);
   }, 40);
 }
 
 async function estimateOne(
-  capture: Loaded,
-  chain: string,
-  frame: number | 'all',
+  { capture, chain, frame }: Shown,
   cell: Cell,
   method: Method,
   controller: AbortController,

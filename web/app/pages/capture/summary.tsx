@@ -6,10 +6,6 @@ import { captureState } from './state.ts';
 export function Summary({ info, geometry }: { info: CaptureInfo; geometry: ArrayGeometry | null }) {
   const { waveform, summary, platform, array } = info.config;
   const { array: chosen } = captureState.value;
-  const angularDeg =
-    geometry && geometry.aperture > 0
-      ? (Math.asin(Math.min(1, 2 / (geometry.aperture + 1))) * 180) / Math.PI
-      : Number.NaN;
   const facts: [string, string, string, string?][] = [
     [
       'Range resolution',
@@ -37,8 +33,8 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
     ],
     [
       'Angular resolution',
-      `${fixed(angularDeg, 1)}°`,
-      'λ over aperture, at boresight; the aperture includes the outer elements',
+      `${fixed(geometry?.resolutionDeg ?? Number.NaN, 1)}°`,
+      'First null of the beam at boresight: λ over the aperture with half a spacing at either end',
       'angularResolution',
     ],
     ['Bandwidth', engineering(summary.bandwidthHz, 'Hz'), 'Swept while samples are taken', 'bandwidth'],

@@ -3,9 +3,10 @@ import { useRef } from 'preact/hooks';
 import { byteSize } from '../../plots/format.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
-import { CheckField, Group, NumberField, SelectField } from '../../ui/field.tsx';
+import { CheckField, Group, SelectField } from '../../ui/field.tsx';
 import { Licence } from '../../ui/licence.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
+import { NumberField } from '../../ui/number-field.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { chooseSource, loaded, openFiles, sensor } from './drive.ts';
 import { droppedFiles, pickedFiles } from './entries.ts';
@@ -345,6 +346,7 @@ function Simulation() {
         max={LIMITS.movingPercent[1]}
         help="Share of detections from moving road users; empty for what the scenario's traffic gives."
         onChange={(moving) => update({ moving })}
+        onEmpty={() => update({ moving: null })}
       />
       <NumberField
         label="Misalignment"
@@ -407,8 +409,9 @@ function Radar() {
         min={LIMITS.placeM[0]}
         max={LIMITS.placeM[1]}
         step={0.01}
-        help="The radar's place ahead of the axle that does not steer. The log's, unless you change it."
+        help="The radar's place ahead of the axle that does not steer. Empty for the log's."
         onChange={(xM) => update({ xM })}
+        onEmpty={() => update({ xM: null })}
       />
       <NumberField
         label="Left of centre line"
@@ -418,8 +421,9 @@ function Radar() {
         min={LIMITS.placeM[0]}
         max={LIMITS.placeM[1]}
         step={0.01}
-        help="Negative to the right."
+        help="Negative to the right. Empty for the log's."
         onChange={(yM) => update({ yM })}
+        onEmpty={() => update({ yM: null })}
       />
       <NumberField
         label="Nominal angle"
@@ -429,8 +433,9 @@ function Radar() {
         min={LIMITS.angleDeg[0]}
         max={LIMITS.angleDeg[1]}
         step={0.1}
-        help="The angle it should be mounted at, positive to the left: where the search begins, and what the alarm compares with. Empty if not known."
+        help="The angle it should be mounted at, positive to the left: where the search begins, and what the alarm compares with. Empty for the log's, if it has one."
         onChange={(nominal) => update({ nominal })}
+        onEmpty={() => update({ nominal: null })}
       />
     </>
   );

@@ -1,7 +1,8 @@
 /** Which network is looked at, the scene it is tried on, and a user's own. */
 import { models } from '../../networks/load.ts';
 import { showHelp } from '../../state/settings.ts';
-import { CheckField, Group, NumberField, SelectField } from '../../ui/field.tsx';
+import { CheckField, Group, SelectField } from '../../ui/field.tsx';
+import { NumberField } from '../../ui/number-field.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { selected, targetRange, targetsIn } from './attempt.ts';
 import { OwnNetwork } from './own.tsx';

@@ -1,0 +1,114 @@
+//! Whether a method suits an array and a number of snapshots.
+
+use crate::method::Method;
+use crate::options::Options;
+use boresight_core::{Array, Extent};
+
+/// Why a method cannot work on an array, or on so many snapshots of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Unsuited {
+    /// All elements are at one place along y, so no azimuth can be told.
+    OnePlace,
+    /// It needs elements evenly spaced along y, in order.
+    UniformArray,
+    /// It needs elements on a grid along y.
+    Grid,
+    /// It tells no elevation, and the array spans an area.
+    Elevation,
+    /// It needs more snapshots, averaging or smoothing.
+    FewSnapshots,
+    /// It takes fewer snapshots.
+    ManySnapshots,
+}
+
+impl Unsuited {
+    /// Name in JavaScript.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OnePlace => "one-place",
+            Self::UniformArray => "uniform-array",
+            Self::Grid => "grid",
+            Self::Elevation => "elevation",
+            Self::FewSnapshots => "few-snapshots",
+            Self::ManySnapshots => "many-snapshots",
+        }
+    }
+}
+
+impl Unsuited {
+    /// What the method needs, and what the array does instead.
+    pub(crate) fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::OnePlace => {
+                ("elements at different places along y", "has them all at one place along y")
+            }
+            Self::UniformArray => {
+                ("elements evenly spaced along y, in order", "is not evenly spaced")
+            }
+            Self::Grid => ("elements on a grid along y", "stands on no such grid"),
+            Self::Elevation => ("elements along y only", "spans an area"),
+            Self::FewSnapshots => ("more snapshots, averaging or smoothing", "gave too few"),
+            Self::ManySnapshots => ("fewer snapshots", "gave more"),
+        }
+    }
+}
+
+/// Why `method` with these options cannot work on `snapshots` snapshots of an array; nothing where it can.
+///
+/// ```
+/// use boresight_aoa::suits::{Unsuited, unsuited};
+/// use boresight_aoa::{Method, Options};
+/// use boresight_core::Array;
+///
+/// let array = Array::new(&[[0.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 5.0, 0.0]])?;
+/// assert_eq!(unsuited(Method::Esprit, &array, &Options::default(), 10), Some(Unsuited::UniformArray));
+/// assert_eq!(unsuited(Method::Capon, &array, &Options::default(), 10), None);
+/// # Ok::<(), boresight_core::CoreError>(())
+/// ```
+pub fn unsuited(
+    method: Method,
+    array: &Array,
+    options: &Options,
+    snapshots: usize,
+) -> Option<Unsuited> {
+    let most = method.requirements().max_snapshots;
+    let subarrays = (array.len() + 1).saturating_sub(options.smoothing.unwrap_or(array.len()));
+    if let Some(reason) = unsuited_array(method, array) {
+        Some(reason)
+    } else if too_few(method, snapshots, subarrays, options.forward_backward) {
+        Some(Unsuited::FewSnapshots)
+    } else if most.is_some_and(|most| snapshots > most) {
+        Some(Unsuited::ManySnapshots)
+    } else {
+        None
+    }
+}
+
+pub(crate) fn unsuited_array(method: Method, array: &Array) -> Option<Unsuited> {
+    let extent = array.extent();
+    let needs = method.requirements();
+    if extent == Extent::Point || array.aperture() < 1e-6 {
+        Some(Unsuited::OnePlace)
+    } else if needs.uniform_array && !array.is_uniform() {
+        Some(Unsuited::UniformArray)
+    } else if needs.lattice && array.lattice().is_none() {
+        Some(Unsuited::Grid)
+    } else if extent == Extent::Area && !needs.elevation {
+        Some(Unsuited::Elevation)
+    } else {
+        None
+    }
+}
+
+/// Whether a covariance of so many snapshots is of too low a rank: each subarray of smoothing counts as one more, and
+/// averaging forward and backward doubles them.
+pub(crate) fn too_few(
+    method: Method,
+    snapshots: usize,
+    subarrays: usize,
+    forward_backward: bool,
+) -> bool {
+    let copies = if forward_backward { 2 } else { 1 };
+    snapshots.saturating_mul(subarrays).saturating_mul(copies) < method.requirements().min_snapshots
+}

@@ -1,0 +1,97 @@
+// The functions of the package as promises.
+import type * as arrays from '../lib/arrays.js';
+import type * as board from '../lib/board.js';
+import type * as calibrate from '../lib/calibrate.js';
+import type * as capture from '../lib/capture.js';
+import type * as config from '../lib/config.js';
+import type * as drive from '../lib/drive.js';
+import type * as estimate from '../lib/estimate.js';
+import type * as files from '../lib/files.js';
+import type * as image from '../lib/image.js';
+import type * as simulate from '../lib/simulate.js';
+import type * as theory from '../lib/theory.js';
+import type * as trajectory from '../lib/trajectory.js';
+import type { BytesInput, TextInput } from '../lib/types.js';
+import type * as version from '../lib/version.js';
+import type { JobOptions } from './pool.js';
+
+// biome-ignore lint/suspicious/noExplicitAny: functions of any arguments
+type AnyFunction = (...args: any) => unknown;
+
+/** A function of the package on a pool: the options of the job come behind its arguments, and a promise of its result. */
+export type Promised<F> = F extends AnyFunction
+  ? (...args: [...arguments: Parameters<F>, job?: JobOptions]) => Promise<ReturnType<F>>
+  : never;
+
+/** The same of each member, with the documentation of each. */
+export type AllPromised<T> = { [K in keyof T]: Promised<T[K]> };
+
+/** A method of a capture as a function of the capture's bytes and configuration. */
+type OfCapture<F> = F extends AnyFunction
+  ? (bytes: BytesInput, config: TextInput, ...args: Parameters<F>) => ReturnType<F>
+  : never;
+
+type OfCaptures<T> = { [K in keyof T]: OfCapture<T[K]> };
+type CaptureFunctions = OfCaptures<Pick<capture.Capture, 'processFrame' | 'cellSnapshots' | 'cellSpectrum'>> & {
+  /** Detected cells of one frame of a capture. */
+  captureCells: OfCapture<capture.Capture['frameCells']>;
+};
+
+/** Functions of the package by the modules that document them, which what api.ts exports again does not. */
+type Functions = typeof arrays &
+  typeof board &
+  typeof calibrate &
+  typeof capture &
+  typeof config &
+  typeof drive &
+  typeof estimate &
+  typeof files &
+  typeof image &
+  typeof simulate &
+  typeof theory &
+  typeof trajectory &
+  typeof version &
+  CaptureFunctions;
+type Counts<T> = { readonly [K in keyof T]?: T[K] extends AnyFunction ? Required<Parameters<T[K]>>['length'] : never };
+
+/** The functions that one worker runs as they are, with the number of their arguments: what comes next is the job's. */
+export const argumentCounts = {
+  version: 0,
+  methods: 0,
+  calibrationMethods: 0,
+  arrayPresets: 0,
+  array: 1,
+  unsuited: 2,
+  estimate: 2,
+  countSources: 2,
+  cramerRaoBound: 1,
+  simulateCube: 1,
+  processCube: 2,
+  processFrame: 4,
+  cellSnapshots: 4,
+  cellSpectrum: 5,
+  captureCells: 4,
+  readDrive: 2,
+  driveScenarios: 0,
+  trajectory: 3,
+  relativeTrajectoryError: 3,
+  waveformSummary: 1,
+  parseConfig: 1,
+  parseBoardLog: 2,
+  readNpy: 1,
+  writeNpy: 1,
+  readDetectionsCsv: 1,
+  writeDetectionsCsv: 1,
+  readSnapshotsCsv: 1,
+  writeSnapshotsCsv: 1,
+  streetScene: 1,
+  simulateStreet: 1,
+  frameCells: 2,
+  rangeAzimuthMap: 1,
+  birdsEyeView: 1,
+  sidelobeMeasure: 3,
+  imagePlan: 1,
+} as const satisfies Counts<Functions>;
+
+/** They as promises. */
+export type PromisedFunctions = AllPromised<Pick<Functions, keyof typeof argumentCounts>>;
