@@ -37,9 +37,9 @@ fn agrees_with_what_estimators_take() {
                     let data = Array2::from_shape_fn((array.len(), snapshots), |(k, n)| {
                         Complex64::from_polar(1.0 + 0.1 * (k * (n + 1) % 3) as f64, (n * n) as f64)
                     });
-                    let made = Estimator::new(*method, array, &options)
+                    let made = Estimator::new(method, array, &options)
                         .and_then(|mut one| one.estimate(Data::Snapshots(data.view())));
-                    let said = unsuited(*method, array, &options, snapshots);
+                    let said = unsuited(method, array, &options, snapshots);
                     let what =
                         format!("{method:?} {array:?} {kind:?} {snapshots}: {said:?} {made:?}");
                     let code = made.as_ref().err().map(boresight_core::Diagnose::code);

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod support;
+
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::experiment::{Experiment, How, run, run_part};
 use boresight_evaluate::sweep::Part;
@@ -10,6 +12,7 @@ use boresight_evaluate::{
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use support::merged;
 
 fn folder(name: &str) -> PathBuf {
     let path = std::env::temp_dir().join(format!("boresight-merge-{name}-{}", std::process::id()));
@@ -21,16 +24,6 @@ fn part<E: Experiment>(options: &E, number: u64, of: u64, folder: &Path) -> usiz
     let how = How { threads: 2, folder: Some(folder) };
     let part = Part::new(number, of).unwrap();
     run_part(options, how, part, |_| ControlFlow::Continue(())).unwrap()
-}
-
-/// Puts records together, and keeps them in a folder.
-fn merged(sources: &[PathBuf], folder: &Path) -> Outcome {
-    let merged = merge(sources).unwrap();
-    std::fs::create_dir_all(folder).unwrap();
-    for (name, text) in merged.records {
-        std::fs::write(folder.join(name), text).unwrap();
-    }
-    merged.outcome
 }
 
 /// Runs at once and in three parts, two of them in one folder.

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod support;
+
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::aoa::score::Threshold;
 use boresight_evaluate::doa::{Setup, Targets};
@@ -70,9 +72,9 @@ fn a_network_is_scored_as_methods_are_and_its_records_are_its_own() {
         let alone = aoa_options(&[], options.entrants.networks.clone());
         run_part(&alone, how(threads, Some(&networks)), part, go).unwrap();
     }
-    let merged = merge(&[networks.clone(), methods.clone()], &out).unwrap();
+    let merged = support::merged(&[networks.clone(), methods.clone()], &out);
     assert!(merged == Outcome::new::<aoa::Options>(&report).unwrap());
-    assert!(merge(std::slice::from_ref(&out), &out).unwrap() == merged);
+    assert!(support::merged(std::slice::from_ref(&out), &out) == merged);
     assert!(merged.brief.len() < merged.json.len() / 3);
     // The network of another training under the same name needs records of its own; the methods keep theirs.
     let mut other = options.clone();
@@ -84,7 +86,7 @@ fn a_network_is_scored_as_methods_are_and_its_records_are_its_own() {
     run(&other, how(2, Some(&root)), go).unwrap();
     assert_eq!(std::fs::read(root.join("aoa.jsonl")).unwrap(), before);
     // Two trainings of one name cannot stand side by side.
-    let both = merge(&[networks, root.join("aoa-aaetr-small.jsonl")], &out);
+    let both = merge(&[networks, root.join("aoa-aaetr-small.jsonl")]);
     assert!(matches!(both, Err(EvaluateError::OtherRun { .. })), "{both:?}");
     std::fs::remove_dir_all(root).unwrap();
 }

@@ -176,6 +176,7 @@ fn windowed_noise_keeps_the_rate() {
             training_cells: [6, 6],
             looks: 1,
             correlation,
+            ..CfarOptions::default()
         };
         let mut cfar = Cfar::new(32, 32, &options).unwrap();
         let mut random = Random::new(9, 0);

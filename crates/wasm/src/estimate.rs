@@ -2,10 +2,11 @@
 
 use crate::complex::ComplexData;
 use crate::error::{BindingError, Fallible};
+use crate::options::read_estimator;
 use crate::read::{Fields, Read};
 use crate::write::{Record, degrees, finite_db, finite_dbs, float32, float64, list};
 use boresight_aoa::{self as aoa, Data, Method, SpectrumKind};
-use boresight_core::{Array, Complex64, CoreError};
+use boresight_core::{Complex64, CoreError};
 use js_sys::Uint32Array;
 use ndarray::{ArrayView2, ArrayView3};
 use wasm_bindgen::JsValue;
@@ -52,11 +53,7 @@ impl Estimator {
     /// Checks that method, array and options go together, and prepares.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue) -> Fallible<Self> {
-        let mut fields = Fields::new(options, "")?;
-        let method: Method = fields.required("method")?;
-        let array: Array = fields.required("array")?;
-        let options = fields.spread()?;
-        fields.finish()?;
+        let (method, array, options) = read_estimator(options)?;
         Ok(aoa::Estimator::new(method, &array, &options)?.into())
     }
 

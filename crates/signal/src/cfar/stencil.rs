@@ -109,8 +109,12 @@ mod tests {
     use boresight_core::Diagnose;
 
     fn stencil(axes: CfarAxes) -> Stencil {
-        let options =
-            CfarOptions { axes, guard: [1, 2], training: [3, 4], ..CfarOptions::default() };
+        let options = CfarOptions {
+            axes,
+            guard_cells: [1, 2],
+            training_cells: [3, 4],
+            ..CfarOptions::default()
+        };
         Stencil::new(20, 16, &options).unwrap()
     }
 
@@ -145,16 +149,21 @@ mod tests {
 
     #[test]
     fn windows_that_do_not_fit_are_refused() {
-        let base = CfarOptions { guard: [2, 2], training: [4, 4], ..CfarOptions::default() };
+        let base = CfarOptions {
+            axes: CfarAxes::Both,
+            guard_cells: [2, 2],
+            training_cells: [4, 4],
+            ..CfarOptions::default()
+        };
         let narrow = CfarOptions { axes: CfarAxes::Doppler, ..base };
         assert!(matches!(Stencil::new(64, 12, &narrow), Err(SignalError::Window { .. })));
         assert!(Stencil::new(64, 13, &narrow).is_ok());
         let range = CfarOptions { axes: CfarAxes::Range, ..base };
         assert!(matches!(Stencil::new(5, 1, &range), Err(SignalError::Window { .. })));
         assert!(Stencil::new(6, 1, &range).is_ok());
-        let none = CfarOptions { training: [0, 0], ..base };
+        let none = CfarOptions { training_cells: [0, 0], ..base };
         assert_eq!(Stencil::new(64, 64, &none).unwrap_err().details().what, "training cells");
-        let huge = CfarOptions { guard: [usize::MAX, 0], ..base };
+        let huge = CfarOptions { guard_cells: [usize::MAX, 0], ..base };
         assert_eq!(Stencil::new(64, 64, &huge).unwrap_err().details().what, "range guard cells");
     }
 }
