@@ -148,8 +148,8 @@ fn text(field: &Field, value: &Value) -> Option<String> {
     match value {
         Value::Number(number) => {
             let number = number.as_f64()?;
-            let number = if naming::is_angle(field.name) { number.to_degrees() } else { number };
-            Some(format!("{}", format!("{number:.12e}").parse::<f64>().unwrap_or(number)))
+            let is_angle = naming::is_angle(field.name);
+            Some(if is_angle { naming::in_degrees(number) } else { number }.to_string())
         }
         Value::String(text) => Some(text.clone()),
         Value::Array(items) => items
@@ -311,7 +311,7 @@ mod tests {
 
     #[test]
     fn every_flag_sets_its_own_field() {
-        every_flag::<boresight_pipeline::AngleOptions>(30);
+        every_flag::<boresight_pipeline::AngleOptions>(28);
         every_flag::<boresight_pipeline::ChainOptions>(16);
         every_flag::<boresight_calibrate::Options>(19);
         every_flag::<boresight_simulate::DriveOptions>(15);

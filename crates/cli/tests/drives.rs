@@ -222,7 +222,7 @@ fn radars_of_a_simulated_drive_are_chosen() {
         (&["--sensor", "id=1,x=1"], 2, "yaw=NUMBER"),
         (&["--misalign", "2"], 2, "2=1.5"),
         (&["--misalign", "7=1"], 1, "numbers of the sensors"),
-        (&["--moving-share", "0.9"], 1, "moving_share"),
+        (&["--moving-share", "0.9"], 2, "--moving-share is 0.9; expected a number from 0 to 0.8"),
         (&["--scenario", "moon"], 2, "city"),
     ] {
         let output = boresight(&[&base[..], extra, &["--force"]].concat());

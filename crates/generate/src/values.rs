@@ -10,7 +10,11 @@ pub fn in_user_units(field: &Field, value: &Value) -> Option<Value> {
         Value::Null | Value::Object(_) => None,
         Value::Number(number) => {
             let number = number.as_f64()?;
-            Some(plain(if naming::is_angle(field.name) { number.to_degrees() } else { number }))
+            Some(plain(if naming::is_angle(field.name) {
+                naming::in_degrees(number)
+            } else {
+                number
+            }))
         }
         Value::Array(items) => items
             .iter()
@@ -21,13 +25,12 @@ pub fn in_user_units(field: &Field, value: &Value) -> Option<Value> {
     }
 }
 
-/// A number without the rounding of its conversion, whole where it is.
+/// A number, whole where it is.
 pub fn plain(number: f64) -> Value {
-    let rounded = format!("{number:.12e}").parse().unwrap_or(number);
-    if rounded.fract() == 0.0 && rounded.abs() < 1e15 {
-        return Value::from(rounded as i64);
+    if number.fract() == 0.0 && number.abs() < 1e15 {
+        return Value::from(number as i64);
     }
-    Value::from(rounded)
+    Value::from(number)
 }
 
 /// A range in words; nothing without limits.

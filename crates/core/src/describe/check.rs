@@ -114,7 +114,7 @@ impl<'a> At<'a> {
             (false, true) => format!("a number of at least {low}"),
             (false, false) => format!("a number from {low} to {high}"),
         };
-        let given = if in_degrees { given.to_degrees() } else { given };
+        let given = if in_degrees { naming::in_degrees(given) } else { given };
         Err(CoreError::OutOfRange { what: self.path(), expected, given })
     }
 }

@@ -31,6 +31,15 @@ pub fn is_angle(name: &str) -> bool {
     name.ends_with("_rad") || name.ends_with("_radps")
 }
 
+/// An angle in degrees as one would give it: without the last digits, which the conversion to radians
+/// and back changes.
+#[must_use]
+pub fn in_degrees(radians: f64) -> f64 {
+    let degrees = radians.to_degrees();
+    let rounded = (degrees * 1e9).round() / 1e9;
+    if rounded == 0.0 { degrees } else { rounded }
+}
+
 /// The unit outside Rust; empty for none.
 #[must_use]
 pub fn unit(name: &str) -> &'static str {
@@ -45,12 +54,6 @@ pub fn unit(name: &str) -> &'static str {
 pub fn javascript(name: &str) -> String {
     let Some((stem, (_, outside, _))) = entry(name) else { return camel_case(name) };
     camel_case(&format!("{stem}_{outside}"))
-}
-
-/// The name in Rust of one in JavaScript, among the fields of a struct.
-#[must_use]
-pub fn from_javascript(name: &str, fields: &'static [&'static str]) -> Option<&'static str> {
-    fields.iter().copied().find(|field| javascript(field) == name)
 }
 
 /// The flag of the command line without its dashes: `field-of-view` for `field_of_view_rad`.
@@ -96,8 +99,7 @@ mod tests {
             assert_eq!(flag(rust), flagged);
             assert_eq!(unit(rust), units);
         }
-        let fields = &["azimuth_rad", "azimuth_sigma_rad"];
-        assert_eq!(from_javascript("azimuthSigmaDeg", fields), Some("azimuth_sigma_rad"));
-        assert_eq!(from_javascript("azimuth_rad", fields), None);
+        assert_eq!(in_degrees(120.0_f64.to_radians()), 120.0);
+        assert_eq!(in_degrees(0.1_f64.to_radians()), 0.1);
     }
 }
