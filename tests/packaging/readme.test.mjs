@@ -1,4 +1,4 @@
-/** The README's JavaScript runs as pasted into an empty project, and its table is `methods()`. */
+/** The JavaScript of the README and of docs runs as pasted into an empty project, and the tables of methods are `methods()`. */
 import assert from 'node:assert/strict';
 import { copyFileSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -6,13 +6,20 @@ import { after, before, test } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
 import { consumer } from './consumer.mjs';
 
-const readme = readFileSync(join(root, 'README.md'), 'utf8');
-const snippets = [...readme.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
+const page = (path) => readFileSync(join(root, path), 'utf8');
+const snippetsOf = (text) => [...text.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
+const readme = snippetsOf(page('README.md'));
+const javascript = snippetsOf(page('docs/javascript.md'));
+/** Lines of the pages that may hold a table of methods. */
+const lines = ['README.md', 'docs/estimators.md'].flatMap((path) => page(path).split('\n'));
 const recording = (name) => join(root, 'recordings', 'awr1642', name);
 
 let project;
 before(async () => {
-  const files = Object.fromEntries(snippets.map((code, k) => [`snippet-${k}.mjs`, code]));
+  const files = Object.fromEntries([
+    ...readme.map((code, k) => [`readme-${k}.mjs`, code]),
+    ...javascript.map((code, k) => [`javascript-${k}.mjs`, code]),
+  ]);
   files['methods.mjs'] = `
     import { calibrationMethods, init, methods } from 'boresight';
     await init();
@@ -30,10 +37,14 @@ after(() => project?.remove());
 
 const printed = async (script) => (await project.run(process.execPath, [script])).stdout.trim().split('\n');
 
-test('the first snippet finds both targets with the methods that resolve them', async () => {
-  assert.equal(snippets.length, 6);
-  assert.ok(snippets[0].trim().split('\n').length <= 15, 'fifteen lines');
-  const lines = await printed('snippet-0.mjs');
+test('every snippet has a test here', () => {
+  assert.equal(readme.length, 3);
+  assert.equal(javascript.length, 3);
+});
+
+test('the first snippet of the README finds both targets with the methods that resolve them', async () => {
+  assert.ok(readme[0].trim().split('\n').length <= 15, 'fifteen lines');
+  const lines = await printed('readme-0.mjs');
   assert.deepEqual(
     lines.map((line) => line.split(' ')[0]),
     ['bartlett', 'iaa', 'nomp'],
@@ -44,8 +55,8 @@ test('the first snippet finds both targets with the methods that resolve them', 
   assert.ok(Math.abs(nomp[0] + 5) < 0.1 && Math.abs(nomp[1] + 3) < 0.1, lines[2]);
 });
 
-test('the second snippet finds the targets of the capture', async () => {
-  const lines = await printed('snippet-1.mjs');
+test('the second snippet of the README finds the targets of the capture', async () => {
+  const lines = await printed('readme-1.mjs');
   assert.ok(
     lines.some((line) => /^2\.9\d m -1[01]\.\d deg/.test(line)),
     lines.join('\n'),
@@ -56,8 +67,8 @@ test('the second snippet finds the targets of the capture', async () => {
   );
 });
 
-test('the third snippet reports progress and the shape', async () => {
-  const lines = await printed('snippet-2.mjs');
+test('the pool reports progress and the shape', async () => {
+  const lines = await printed('javascript-0.mjs');
   assert.ok(
     lines.some((line) => line.endsWith('of 500')),
     lines.join('\n'),
@@ -65,22 +76,22 @@ test('the third snippet reports progress and the shape', async () => {
   assert.match(lines.at(-1), /500, 48, 1/);
 });
 
-test('the fourth snippet finds the angle of a real radar', async () => {
-  const [last, early] = await printed('snippet-3.mjs');
+test('the third snippet of the README finds the angle of a real radar', async () => {
+  const [last, early] = await printed('readme-2.mjs');
   const [, angle, sigma] = /^(-\d\.\d\d) \+- (0\.\d\d) deg from \d{4} of 12003 frames$/.exec(last) ?? assert.fail(last);
   // Stated: -1.96 deg.
   assert.ok(Math.abs(Number(angle) + 1.96) < 0.15 && Number(sigma) < 0.15, last);
   assert.match(early, /^after 60 s -\d\.\d\d \+- \d\.\d\d deg$/);
 });
 
-test('the fifth snippet finds a misaligned radar', async () => {
-  const [line] = await printed('snippet-4.mjs');
+test('the dashboard finds a misaligned radar', async () => {
+  const [line] = await printed('javascript-1.mjs');
   const [, angle] = /^(\d+\.\d\d) \+- 0\.\d\d deg, misaligned$/.exec(line) ?? assert.fail(line);
   assert.ok(Math.abs(Number(angle) - 30.5) < 0.1, line);
 });
 
-test('the sixth snippet finds the targets with a network', async () => {
-  const lines = await printed('snippet-5.mjs');
+test('the network finds the targets', async () => {
+  const lines = await printed('javascript-2.mjs');
   assert.equal(lines.length, 3);
   for (const line of lines) {
     const [, angle, truth] = /^(-?[\d.]+) deg, (-?[\d.]+) in truth$/.exec(line) ?? assert.fail(line);
@@ -93,14 +104,14 @@ test('the table of methods of mounting angles says what calibrationMethods() say
   const [, json] = await printed('methods.mjs');
   const expected = JSON.parse(json).map(({ name, title, reference }) => `| \`${name}\` | ${title} | ${reference} |`);
   // Without the heading.
-  const [, ...rows] = readme.split('\n').filter((line) => /^\| `[a-z-]+` \| [^`|]+ \| [^`|]+ \|$/.test(line));
+  const [, ...rows] = lines.filter((line) => /^\| `[a-z-]+` \| [^`|]+ \| [^`|]+ \|$/.test(line));
   assert.deepEqual(rows, expected);
 });
 
 test('the table of estimators says what methods() says', async () => {
   const [json] = await printed('methods.mjs');
   // Without the heading.
-  const [, ...rows] = readme.split('\n').filter((line) => /^\| .* \| `[a-z0-9-]+` \|/.test(line));
+  const [, ...rows] = lines.filter((line) => /^\| .* \| `[a-z0-9-]+` \|/.test(line));
   const yes = (flag) => (flag ? 'yes' : 'no');
   const expected = JSON.parse(json).map((m) => {
     const needs = [

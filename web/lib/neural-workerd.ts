@@ -5,7 +5,7 @@ import { neural } from './neural.js';
 
 export * from './neural-api.js';
 
-/** Loads the module of networks once; see the README for where `source` is needed. */
+/** Loads the module of networks once; docs/javascript.md says where `source` is needed. */
 export function initNeural(source?: WasmSource | Promise<WasmSource>): Promise<void> {
   return neural.start(() => source ?? module);
 }

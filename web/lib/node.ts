@@ -6,7 +6,7 @@ import type { WasmSource } from './module.js';
 
 export * from './api.js';
 
-/** Loads the module once; see the README for where `source` is needed. */
+/** Loads the module once; docs/javascript.md says where `source` is needed. */
 export function init(source?: WasmSource | Promise<WasmSource>): Promise<void> {
   return core.start(() => source ?? readFile(new URL('../wasm/boresight_bg.wasm', import.meta.url)));
 }

@@ -2,7 +2,7 @@
 //!
 //! `#[derive(Described)]` turns a struct or an enum into a description: names, documentation,
 //! types, ranges and defaults. From it come the check of an option ([`check`]), what the command
-//! line and JavaScript call it ([`naming`]), and, through `crates/describe`, TypeScript types, JSON
+//! line and JavaScript call it ([`naming`]), and, through `crates/generate`, TypeScript types, JSON
 //! Schemas and the tables of the docs. Values are carried by serde, in the names and units of
 //! Rust; whoever stands between Rust and its users renames and converts by [`naming`].
 //!
