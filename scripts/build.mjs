@@ -22,7 +22,18 @@ const wasmFeatures = [
 
 /** Crates that a module of them only depends on: their changes do not touch the others. */
 const crates = (...names) => names.map((name) => `crates/${name}`);
-const shared = crates('aoa', 'calibrate', 'core', 'formats', 'image', 'pipeline', 'signal', 'simulate', 'wasm');
+const shared = crates(
+  'aoa',
+  'calibrate',
+  'core',
+  'derive',
+  'formats',
+  'image',
+  'pipeline',
+  'signal',
+  'simulate',
+  'wasm',
+);
 
 /** The modules: name in dist/wasm, crate, feature, profile, the crates it is made of. */
 export const modules = [
