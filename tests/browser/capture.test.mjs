@@ -282,7 +282,7 @@ browserTest(
     await waits('cfg');
     await drop(page, [{ name: 'mine.cfg', bytes: cfg }]);
     await ready(page);
-    assert.match(await files(), /mine\.bin[^]*mine\.cfg/);
+    assert.match(await files(), /mine\.bin[\s\S]*mine\.cfg/);
     await page.getByRole('button', { name: 'Bundled capture' }).click();
     await page.waitForFunction(() => document.querySelector('.files').textContent.includes('xwr16xx'));
     // In any order, and none is lost.
@@ -292,7 +292,7 @@ browserTest(
     await waits('bin');
     await drop(page, [{ name: 'mine.bin', bytes: bin }]);
     await ready(page);
-    assert.match(await files(), /mine\.bin[^]*mine\.cfg[^]*mine\.dat/);
+    assert.match(await files(), /mine\.bin[\s\S]*mine\.cfg[\s\S]*mine\.dat/);
     assert.ok((await page.locator('[data-field="boardRangeM"]').count()) > 0, 'the log is beside it');
   },
 );

@@ -35,7 +35,7 @@ for (const { name, path } of tried) {
   });
 }
 
-async function tryField(page, field) {
+async function tryField(_page, field) {
   const { name, min, max, integer } = await field.evaluate((input) => ({
     name: input.name,
     min: Number(input.ariaValueMin),

@@ -28,7 +28,6 @@ const withNetworks: readonly OperationName[] = [
   'cellSpectrum',
 ];
 
-// biome-ignore lint/suspicious/noUnsafeDeclarationMerging: the static block below defines what this declares
 export interface Pool extends PromisedFunctions {}
 
 /** A pool of workers with the functions of the package. Workers start when there is work. */

@@ -5,6 +5,24 @@
 //!
 //! A scene depends on the seed and its own number only, so a run can be stopped and taken up again, spread
 //! over threads, or split by scene numbers over machines.
+//!
+//! # Example
+//!
+//! ```
+//! use boresight_evaluate::experiment::{How, run};
+//! use boresight_evaluate::resolution::{Options, SEPARATIONS};
+//! use std::ops::ControlFlow;
+//!
+//! // Two targets ever farther apart: how often does a method see two?
+//! let options = Options { array: "ula8".into(), snapshots: vec![1], trials: 2, seed: 1 };
+//! let how = How { threads: 1, folder: None };
+//! let report = run(&options, how, |_| ControlFlow::Continue(()))?;
+//! let beams = report.conditions[0].methods.iter().find(|method| method.name == "bartlett");
+//! let resolved = beams.map(|method| method.resolved.clone()).unwrap_or_default();
+//! assert_eq!(resolved.len(), SEPARATIONS.len());
+//! assert_eq!(resolved[0], 0.0, "a twentieth of a beam width apart they are one");
+//! # Ok::<(), boresight_evaluate::EvaluateError>(())
+//! ```
 
 pub mod aoa;
 pub mod calibration;

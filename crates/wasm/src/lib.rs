@@ -34,7 +34,7 @@ mod config;
 #[cfg(feature = "core")]
 mod count;
 #[cfg(feature = "drives")]
-mod drive;
+pub mod drive;
 #[cfg(feature = "core")]
 mod drive_calibrator;
 pub mod error;

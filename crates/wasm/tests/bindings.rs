@@ -1,33 +1,22 @@
 //! The bindings as JavaScript meets them, without the TypeScript around them.
 
-#![cfg(target_arch = "wasm32")]
+#![cfg(all(target_arch = "wasm32", feature = "core"))]
 #![allow(clippy::unwrap_used)]
 
+mod support;
+
 use boresight_wasm::{array, capture, estimate, simulate};
-use js_sys::{JSON, Reflect};
+use support::{get, json, text, with};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::wasm_bindgen_test;
-
-fn json(text: &str) -> JsValue {
-    JSON::parse(text).unwrap()
-}
-
-fn get(value: &JsValue, path: &str) -> JsValue {
-    path.split('.').fold(value.clone(), |value, key| Reflect::get(&value, &key.into()).unwrap())
-}
-
-fn text(value: &JsValue, path: &str) -> String {
-    get(value, path).as_string().unwrap()
-}
 
 /// Snapshots of one target, with their shape cut to one scene's.
 fn snapshots() -> JsValue {
     let options = r#"{ "array": "ula8", "targets": [{ "azimuthDeg": 20 }], "snrDb": 30,
                        "snapshots": 10, "seed": 1 }"#;
     let result = simulate::simulate_snapshots(&json(options)).unwrap();
-    let input = json(r#"{ "snapshots": { "shape": [8, 10] } }"#);
-    Reflect::set(&get(&input, "snapshots"), &"data".into(), &get(&result, "data")).unwrap();
-    input
+    let snapshots = with(json(r#"{ "shape": [8, 10] }"#), "data", get(&result, "data"));
+    with(json("{}"), "snapshots", snapshots)
 }
 
 #[wasm_bindgen_test]
