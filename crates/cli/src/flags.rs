@@ -314,7 +314,7 @@ mod tests {
         every_flag::<boresight_pipeline::AngleOptions>(28);
         every_flag::<boresight_pipeline::ChainOptions>(16);
         every_flag::<boresight_calibrate::Options>(19);
-        every_flag::<boresight_simulate::DriveOptions>(15);
+        every_flag::<boresight_simulate::DriveOptions>(16);
     }
 
     #[test]
