@@ -1,4 +1,4 @@
-// The core .wasm is what a page loads before it can do anything: at most 420 KB with Brotli. That of networks, loaded
+// The core .wasm is what a page loads before it can do anything: at most 425 KB with Brotli. That of networks, loaded
 // when one is asked for, has room for a runtime: at most 3 MB.
 import { readFileSync } from 'node:fs';
 import { coreWasm, drivesWasm, neuralWasm } from './lib/paths.mjs';

@@ -228,7 +228,7 @@ impl MotionPlan for Given {
             inliers: 10,
             detections: 10,
         });
-        let verdict = if self.frames % 10 == 0 { Verdict::Sparse } else { Verdict::Used };
+        let verdict = if self.frames.is_multiple_of(10) { Verdict::Sparse } else { Verdict::Used };
         Ok(FrameMotion { motion, verdict })
     }
 }

@@ -25,7 +25,7 @@ enum Place {
     /// The standard output, whatever it leads to.
     StandardOutput,
     /// A device, a pipe or another descriptor.
-    InPlace { path: PathBuf, descriptor: bool },
+    Direct { path: PathBuf, descriptor: bool },
     /// A file, and the one that is there already.
     File { path: PathBuf, there: Option<Metadata> },
 }
@@ -37,11 +37,11 @@ impl Destination {
         let place = if STANDARD_OUTPUT.iter().any(|name| path == Path::new(name)) {
             Place::StandardOutput
         } else if is_descriptor(&path) {
-            Place::InPlace { path, descriptor: true }
+            Place::Direct { path, descriptor: true }
         } else {
             match path.metadata() {
                 Ok(there) if there.is_dir() => return Err(ErrorKind::IsADirectory.into()),
-                Ok(there) if !there.is_file() => Place::InPlace { path, descriptor: false },
+                Ok(there) if !there.is_file() => Place::Direct { path, descriptor: false },
                 Ok(there) => Place::File { path: path.canonicalize()?, there: Some(there) },
                 Err(error) if error.kind() == ErrorKind::NotFound => {
                     Place::File { path: in_its_folder(path), there: None }
@@ -90,7 +90,7 @@ impl Destination {
                 out.flush().map_err(failed)?;
                 Ok(value)
             }
-            Place::InPlace { path, descriptor } => {
+            Place::Direct { path, descriptor } => {
                 let mut options = OpenOptions::new();
                 let options = options.write(true).append(descriptor);
                 fill(&mut options.open(path).map_err(failed)?)

@@ -1,10 +1,9 @@
-// The fields that web/lib/*types.ts declare, so that tests can hold results against them.
+// The fields that web/lib/*types.ts and the generated types declare, so that tests can hold results against them.
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 
 const folder = new URL('../../../web/lib/', import.meta.url);
-const source = readdirSync(folder)
-  .filter((name) => /^(.+-)?types\.ts$/.test(name))
+const source = [...readdirSync(folder).filter((name) => /^(.+-)?types\.ts$/.test(name)), 'generated/options.ts']
   .map((name) => readFileSync(new URL(name, folder), 'utf8'))
   .join('\n');
 
