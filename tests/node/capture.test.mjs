@@ -108,7 +108,7 @@ describe('a recorded capture', () => {
     const bad = (options, code, what) => throwsTyped(() => capture.processFrame(0, options), code, what);
     bad({ rangeWindow: 'hanning' }, 'unknown-name', 'rangeWindow');
     bad({ rangePadding: 0 }, 'out-of-range');
-    bad({ rangePadding: 1e6 }, 'too-large');
+    bad({ rangePadding: 1e6 }, 'out-of-range', 'rangePadding');
     bad({ cfar: { kind: 'median' } }, 'unknown-name', 'cfar.kind');
     bad({ cfar: { falseAlarm: 2 } }, 'out-of-range');
     bad({ cfar: { guardCells: [1] } }, 'shape', 'cfar.guardCells');

@@ -33,7 +33,7 @@ fn agrees_with_what_estimators_take() {
                     continue;
                 }
                 for snapshots in [1, 2, 9] {
-                    let options = Options { sources: SourceCount::Known(1), ..kind.clone() };
+                    let options = Options { sources: SourceCount::Known(1), ..*kind };
                     let data = Array2::from_shape_fn((array.len(), snapshots), |(k, n)| {
                         Complex64::from_polar(1.0 + 0.1 * (k * (n + 1) % 3) as f64, (n * n) as f64)
                     });

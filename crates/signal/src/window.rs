@@ -5,15 +5,15 @@ use boresight_core::describe::{Choice, Described, Kind};
 use boresight_core::error::check_range;
 use boresight_core::fft::Transforms;
 use boresight_core::{Complex64, CoreError};
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::f64::consts::PI;
 
 /// Longest window, so that a wrong length cannot exhaust memory.
 pub const MAX_LENGTH: usize = 1 << 20;
 
 /// A taper, symmetric about the middle of the data, with a largest value of 1.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "&'static str")]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Window {
     /// All ones: best resolution, sidelobes at -13 dB.
     Rectangular,
@@ -56,17 +56,16 @@ impl Described for Window {
     });
 }
 
-impl TryFrom<String> for Window {
-    type Error = SignalError;
-
-    fn try_from(name: String) -> Result<Self, SignalError> {
-        Self::named(&name)
+impl<'de> Deserialize<'de> for Window {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        Self::named(&name).map_err(|_| D::Error::unknown_variant(&name, &Self::NAMES))
     }
 }
 
-impl From<Window> for &'static str {
-    fn from(window: Window) -> Self {
-        window.name()
+impl Serialize for Window {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
     }
 }
 

@@ -99,6 +99,10 @@ impl<'a> Reader<'a> {
         .into()
     }
 
+    fn is_plain(&self) -> bool {
+        self.value.is_object() && !Array::is_array(&self.value) && !self.value.is_function()
+    }
+
     /// What serde-wasm-bindgen reads of the value.
     fn leaf(&self) -> serde_wasm_bindgen::Deserializer {
         serde_wasm_bindgen::Deserializer::from(self.value.clone())
@@ -124,11 +128,14 @@ impl<'a> Reader<'a> {
     }
 
     fn whole<'de, V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
-        let expected = "a whole number from 0 to 2^53 - 1, or a bigint up to 2^64 - 1";
         let is_number = self.value.as_f64();
-        if is_number.is_none() && !self.value.is_bigint() {
-            return Err(self.wrong_type(expected));
+        // Only what Rust keeps in 64 bits, as seeds, may need more than a number holds.
+        let is_seed = is_number.is_none() && Expected(&visitor).to_string() == "u64";
+        if is_number.is_none() && !(is_seed && self.value.is_bigint()) {
+            let or = if is_seed { " or a bigint" } else { "" };
+            return Err(self.wrong_type(&format!("a whole number{or}")));
         }
+        let expected = "a whole number from 0 to 2^53 - 1, or a bigint up to 2^64 - 1";
         serde::Deserializer::deserialize_u64(self.leaf(), visitor).map_err(|_| match is_number {
             Some(given) => self.out_of_range(expected, given),
             None => self.wrong_type(expected),
@@ -246,6 +253,9 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
+        if !self.is_plain() {
+            return Err(self.wrong_type("an object"));
+        }
         let object: &Object = self.value.unchecked_ref();
         let entries = Entries {
             object,
@@ -263,9 +273,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Reading<V::Value> {
-        let is_plain =
-            self.value.is_object() && !Array::is_array(&self.value) && !self.value.is_function();
-        if !is_plain {
+        if !self.is_plain() {
             return Err(self.wrong_type("an object"));
         }
         let object: &Object = self.value.unchecked_ref();
