@@ -55,14 +55,15 @@ async function rustTarget() {
   await run('rustup', ['target', 'add', wasmTarget]);
 }
 
-export async function setup() {
+/** Only the tests run wasm-pack, which takes minutes to install. */
+export async function setup({ wasmPack = true } = {}) {
   checkNode();
   checkRust();
   await javascriptPackages();
   await rustTarget();
   const lock = readFileSync(join(root, 'Cargo.lock'), 'utf8');
   await cargoTool('wasm-bindgen', 'wasm-bindgen-cli', lockedVersion(lock, 'wasm-bindgen'));
-  await cargoTool('wasm-pack', 'wasm-pack', wasmPackVersion);
+  if (wasmPack) await cargoTool('wasm-pack', 'wasm-pack', wasmPackVersion);
 }
 
 if (isMain(import.meta)) await main(setup);

@@ -8,7 +8,7 @@ await main(async () => {
   const args = process.argv.slice(2);
   const dev = args.includes('--dev');
   const passed = args.filter((argument) => argument !== '--dev');
-  await setup();
+  await setup({ wasmPack: false });
   await buildPackage();
   if (!dev) await buildDemo();
   console.log('start: serving the demo; press Ctrl+C to stop');
