@@ -4,6 +4,7 @@ use crate::write::Record;
 use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
 use boresight_core::describe::At;
+use boresight_core::describe::naming::camel_case;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
@@ -174,19 +175,7 @@ fn in_camel_case(what: &str) -> String {
     if !what.chars().all(is_name) {
         return what.into();
     }
-    let mut name = String::with_capacity(what.len());
-    let mut upper = false;
-    for c in what.chars() {
-        match c {
-            '_' => upper = true,
-            c if upper => {
-                name.push(c.to_ascii_uppercase());
-                upper = false;
-            }
-            c => name.push(c),
-        }
-    }
-    name
+    camel_case(what)
 }
 
 #[cfg(test)]

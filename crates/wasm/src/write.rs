@@ -1,6 +1,7 @@
 //! Plain JavaScript objects, lists and typed arrays out of results.
 
 use crate::carry::property;
+pub use boresight_core::describe::decibels::finite_db;
 use boresight_core::{Complex32, Complex64};
 use boresight_formats::Remark;
 use js_sys::{Array, Float32Array, Float64Array, Object, Reflect};
@@ -82,11 +83,6 @@ pub fn complex32(numbers: &[Complex32]) -> Float32Array {
 /// Radians to a `Float64Array` in degrees.
 pub fn degrees(radians: &[f64]) -> Float64Array {
     float64(&radians.iter().map(|x| x.to_degrees()).collect::<Vec<_>>())
-}
-
-/// Power in dB that stays finite (about -3077 dB) where there is none, for plots and JSON.
-pub fn finite_db(power: f64) -> f64 {
-    boresight_core::units::power_to_db(power.max(f64::MIN_POSITIVE))
 }
 
 /// Powers in dB that stay finite, as [`finite_db`] makes them.

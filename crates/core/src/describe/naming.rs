@@ -62,7 +62,9 @@ pub fn flag(name: &str) -> String {
     entry(name).map_or(name, |(stem, _)| stem).replace('_', "-")
 }
 
-fn camel_case(name: &str) -> String {
+/// Names as JavaScript writes them, their units as they are; points and brackets of paths stay.
+#[must_use]
+pub fn camel_case(name: &str) -> String {
     let mut camel = String::with_capacity(name.len());
     let mut upper = false;
     for c in name.chars() {
