@@ -10,7 +10,7 @@ export default defineConfig({
   resolve: {
     alias: [
       { find: /^boresight$/, replacement: path('dist/lib/browser.js') },
-      { find: /^boresight\/neural$/, replacement: path('dist/lib/neural-browser.js') },
+      { find: /^boresight\/neural$/, replacement: path('dist/lib/neural/browser.js') },
       { find: /^boresight\/worker$/, replacement: path('dist/worker/browser.js') },
     ],
   },

@@ -52,7 +52,7 @@ const say = (text) => process.stderr.write(`${text}\n`);
 const entry = pathToFileURL(join(root, 'dist', 'lib', 'node.js')).href;
 const boresight = await import(entry);
 const workerPools = await import(pathToFileURL(join(root, 'dist', 'worker', 'node.js')).href);
-const neural = await import(pathToFileURL(join(root, 'dist', 'lib', 'neural-node.js')).href);
+const neural = await import(pathToFileURL(join(root, 'dist', 'lib', 'neural', 'node.js')).href);
 await boresight.init();
 await neural.initNeural();
 const shipped = readdirSync(join(root, 'models'))

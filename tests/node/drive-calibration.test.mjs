@@ -18,7 +18,7 @@ import {
   trajectory,
 } from 'boresight';
 import { createPool } from 'boresight/worker';
-import { selected } from '../../dist/lib/drive-view.js';
+import { selected } from '../../dist/lib/drive/view.js';
 import glue from '../../dist/wasm/boresight.js';
 import { commandLine } from '../../scripts/lib/command-line.mjs';
 import { environment, root } from '../../scripts/lib/paths.mjs';

@@ -1,15 +1,15 @@
 // What every runtime's entry offers beside its own init().
 
-export { array, arrayPresets } from './arrays.js';
-export { BoardLogStream, parseBoardLog } from './board.js';
-export { Calibration, calibrationMethods } from './calibrate.js';
-export { Capture, processCube } from './capture.js';
-export { parseConfig, waveformSummary } from './config.js';
-export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive.js';
-export { calibrateDrive, frameVerdicts, jointCalibration } from './drive-calibration.js';
-export { driveFrame } from './drive-view.js';
-export { BoresightError, type ErrorDetails } from './errors.js';
-export { Estimator, estimate, methods, unsuited } from './estimate.js';
+export { Calibration, calibrationMethods } from './calibrate/calibrate.js';
+export { Capture, processCube } from './capture/capture.js';
+export { calibrateDrive, frameVerdicts, jointCalibration } from './drive/calibration.js';
+export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive/drive.js';
+export { relativeTrajectoryError, trajectory } from './drive/trajectory.js';
+export { driveFrame } from './drive/view.js';
+export { Estimator, estimate, methods, unsuited } from './estimate/estimate.js';
+export { countSources, cramerRaoBound } from './estimate/theory.js';
+export { BoardLogStream, parseBoardLog } from './formats/board.js';
+export { parseConfig, waveformSummary } from './formats/config.js';
 export {
   readDetectionsCsv,
   readNpy,
@@ -17,7 +17,7 @@ export {
   writeDetectionsCsv,
   writeNpy,
   writeSnapshotsCsv,
-} from './files.js';
+} from './formats/files.js';
 export {
   birdsEyeView,
   frameCells,
@@ -27,12 +27,12 @@ export {
   sidelobeMeasure,
   simulateStreet,
   streetScene,
-} from './image.js';
-export { initSync } from './instance.js';
-export type { WasmSource } from './module.js';
-export type { Report } from './report.js';
-export { simulateCube, simulateSnapshots } from './simulate.js';
-export { countSources, cramerRaoBound } from './theory.js';
-export { relativeTrajectoryError, trajectory } from './trajectory.js';
+} from './image/image.js';
+export { array, arrayPresets } from './radar/array.js';
+export { BoresightError, type ErrorDetails } from './runtime/errors.js';
+export { initSync } from './runtime/instance.js';
+export type { WasmSource } from './runtime/module.js';
+export type { Report } from './runtime/report.js';
+export { version } from './runtime/version.js';
+export { simulateCube, simulateSnapshots } from './simulate/simulate.js';
 export type * from './types.js';
-export { version } from './version.js';

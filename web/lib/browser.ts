@@ -1,7 +1,7 @@
 // Entry for browsers and bundlers: the wasm is fetched from beside this file.
-import { drives } from './drive.js';
-import { core } from './instance.js';
-import type { WasmSource } from './module.js';
+import { drives } from './drive/drive.js';
+import { core } from './runtime/instance.js';
+import type { WasmSource } from './runtime/module.js';
 
 export * from './api.js';
 

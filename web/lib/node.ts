@@ -1,8 +1,8 @@
 // Entry for Node: the wasm is read from beside this file.
 import { readFile } from 'node:fs/promises';
-import { drives } from './drive.js';
-import { core } from './instance.js';
-import type { WasmSource } from './module.js';
+import { drives } from './drive/drive.js';
+import { core } from './runtime/instance.js';
+import type { WasmSource } from './runtime/module.js';
 
 export * from './api.js';
 

@@ -4,13 +4,13 @@
  */
 import type { Method, SharedEstimatorOptions } from './generated/options.js';
 
-export type * from './calibration-types.js';
-export type * from './capture-types.js';
-export type * from './drive-types.js';
+export type * from './calibrate/types.js';
+export type * from './capture/types.js';
+export type * from './drive/types.js';
 export type * from './generated/options.js';
-export type * from './image-types.js';
-export type * from './neural-types.js';
-export type * from './simulation-types.js';
+export type * from './image/types.js';
+export type * from './neural/types.js';
+export type * from './simulate/types.js';
 
 /** Interleaved [re, im] numbers in C order with their shape (complex numbers, not floats). */
 export interface ComplexData {

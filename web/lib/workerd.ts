@@ -1,8 +1,8 @@
 // Entry for workerd and other edge runtimes that import wasm as a compiled module.
 import module from '../wasm/boresight_bg.wasm';
-import { drives } from './drive.js';
-import { core } from './instance.js';
-import type { WasmSource } from './module.js';
+import { drives } from './drive/drive.js';
+import { core } from './runtime/instance.js';
+import type { WasmSource } from './runtime/module.js';
 
 export * from './api.js';
 

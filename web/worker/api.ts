@@ -1,8 +1,8 @@
 // The pool: the functions of the package as promises, those that are split over workers, and what the pool keeps.
-import { jointTaskOf, taskOf } from '../lib/drive-radars.js';
-import { driveFrame, selected, viewOf } from '../lib/drive-view.js';
-import { wrong } from '../lib/errors.js';
-import { chainOf } from '../lib/image-options.js';
+import { jointTaskOf, taskOf } from '../lib/drive/radars.js';
+import { driveFrame, selected, viewOf } from '../lib/drive/view.js';
+import { chainOf } from '../lib/image/options.js';
+import { wrong } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { type OnKept, PoolCapture } from './capture.js';

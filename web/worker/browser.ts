@@ -3,7 +3,7 @@ import { Pool, type PoolOptions } from './api.js';
 import type { Runtime } from './pool.js';
 import type { Reply } from './protocol.js';
 
-export { BoresightError } from '../lib/errors.js';
+export { BoresightError } from '../lib/runtime/errors.js';
 export type { PoolCapture } from './capture.js';
 export type { JobOptions } from './pool.js';
 export { Pool, type PoolOptions };

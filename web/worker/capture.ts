@@ -1,5 +1,5 @@
 // A capture that the pool keeps.
-import type { Capture } from '../lib/capture.js';
+import type { Capture } from '../lib/capture/capture.js';
 import type * as lib from '../lib/types.js';
 import type { Pool } from './api.js';
 import type { JobOptions } from './pool.js';

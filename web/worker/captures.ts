@@ -1,7 +1,7 @@
 // The captures of a worker: their files as the pool sent them, and in wasm memory those in use.
-import { Capture } from '../lib/capture.js';
-import { failure } from '../lib/errors.js';
-import { core } from '../lib/instance.js';
+import { Capture } from '../lib/capture/capture.js';
+import { failure } from '../lib/runtime/errors.js';
+import { core } from '../lib/runtime/instance.js';
 import type { BytesInput, CaptureFile, TextInput } from '../lib/types.js';
 
 /** Bytes that come with a job, or the id of a capture that the pool keeps. */

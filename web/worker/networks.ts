@@ -1,6 +1,6 @@
 // The networks of a worker: their files as the pool sent them, and in wasm memory those in use.
-import { failure } from '../lib/errors.js';
-import { Network, neural } from '../lib/neural.js';
+import { Network, neural } from '../lib/neural/network.js';
+import { failure } from '../lib/runtime/errors.js';
 import type { NetworkFile, NetworkOptions } from '../lib/types.js';
 
 interface Loaded {

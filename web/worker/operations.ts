@@ -29,7 +29,7 @@ import type {
   TextInput,
 } from '../lib/api.js';
 import * as api from '../lib/api.js';
-import { core } from '../lib/instance.js';
+import { core } from '../lib/runtime/instance.js';
 import { bytesOf, type CaptureSource, withCapture } from './captures.js';
 import { keyOf, networkWith } from './networks.js';
 

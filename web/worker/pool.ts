@@ -1,5 +1,5 @@
 // A pool of single-thread workers: queue, progress, cancelling, replacement of what died.
-import { BoresightError, failure } from '../lib/errors.js';
+import { BoresightError, failure } from '../lib/runtime/errors.js';
 import type { Files, OperationName, Operations, Reply, Setup, WorkerEvents, WorkerLike } from './protocol.js';
 import { packed } from './transfer.js';
 

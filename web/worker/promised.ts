@@ -1,18 +1,18 @@
 // The functions of the package as promises.
-import type * as arrays from '../lib/arrays.js';
-import type * as board from '../lib/board.js';
-import type * as calibrate from '../lib/calibrate.js';
-import type * as capture from '../lib/capture.js';
-import type * as config from '../lib/config.js';
-import type * as drive from '../lib/drive.js';
-import type * as estimate from '../lib/estimate.js';
-import type * as files from '../lib/files.js';
-import type * as image from '../lib/image.js';
-import type * as simulate from '../lib/simulate.js';
-import type * as theory from '../lib/theory.js';
-import type * as trajectory from '../lib/trajectory.js';
+import type * as calibrate from '../lib/calibrate/calibrate.js';
+import type * as capture from '../lib/capture/capture.js';
+import type * as drive from '../lib/drive/drive.js';
+import type * as trajectory from '../lib/drive/trajectory.js';
+import type * as estimate from '../lib/estimate/estimate.js';
+import type * as theory from '../lib/estimate/theory.js';
+import type * as board from '../lib/formats/board.js';
+import type * as config from '../lib/formats/config.js';
+import type * as files from '../lib/formats/files.js';
+import type * as image from '../lib/image/image.js';
+import type * as arrays from '../lib/radar/array.js';
+import type * as version from '../lib/runtime/version.js';
+import type * as simulate from '../lib/simulate/simulate.js';
 import type { BytesInput, TextInput } from '../lib/types.js';
-import type * as version from '../lib/version.js';
 import type { JobOptions } from './pool.js';
 
 // biome-ignore lint/suspicious/noExplicitAny: functions of any arguments

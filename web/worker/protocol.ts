@@ -1,5 +1,5 @@
 // What travels between the pool and a worker.
-import type { PlainError } from '../lib/errors.js';
+import type { PlainError } from '../lib/runtime/errors.js';
 import type { CaptureFile, NetworkFile } from '../lib/types.js';
 import type { operations } from './operations.js';
 

@@ -1,9 +1,9 @@
 // The inside of a worker.
 
-import { initDrivesSync } from '../lib/drive.js';
-import { BoresightError, failure } from '../lib/errors.js';
-import { initSync } from '../lib/instance.js';
-import { initNeuralSync } from '../lib/neural.js';
+import { initDrivesSync } from '../lib/drive/drive.js';
+import { initNeuralSync } from '../lib/neural/network.js';
+import { BoresightError, failure } from '../lib/runtime/errors.js';
+import { initSync } from '../lib/runtime/instance.js';
 import { forgetCapture, keepCapture } from './captures.js';
 import { forgetNetwork, keepNetwork } from './networks.js';
 import { type Context, operations } from './operations.js';

@@ -1,11 +1,11 @@
-// The fields that web/lib/*types.ts and the generated types declare, so that tests can hold results against them.
+// The fields that web/lib/**/types.ts and the generated types declare, so that tests can hold results against them.
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
+import { basename } from 'node:path';
 
 const folder = new URL('../../../web/lib/', import.meta.url);
-const source = [...readdirSync(folder).filter((name) => /^(.+-)?types\.ts$/.test(name)), 'generated/options.ts']
-  .map((name) => readFileSync(new URL(name, folder), 'utf8'))
-  .join('\n');
+const types = readdirSync(folder, { recursive: true }).filter((name) => basename(name) === 'types.ts');
+const source = [...types, 'generated/options.ts'].map((name) => readFileSync(new URL(name, folder), 'utf8')).join('\n');
 
 /** Interface -> { required, optional } field names, with those of the interfaces it extends. */
 export const interfaces = new Map();
@@ -16,11 +16,16 @@ for (const [, name, parent, body] of source.matchAll(
   const of = (mark) => fields.filter(([, , optional]) => optional === mark).map(([, field]) => field);
   interfaces.set(name, { parent, required: of(''), optional: of('?') });
 }
-for (const [, { parent, ...own }] of interfaces) {
-  const { required, optional } = interfaces.get(parent) ?? { required: [], optional: [] };
+/** Adds to an interface the fields of those that it extends, which come first. */
+function extend(name) {
+  const { parent, ...own } = interfaces.get(name);
+  if (!interfaces.has(parent)) return;
+  extend(parent);
+  const { required, optional } = interfaces.get(parent);
   own.required.push(...required.filter((field) => !own.required.includes(field)));
-  own.optional.push(...optional);
+  own.optional.push(...optional.filter((field) => !own.optional.includes(field)));
 }
+for (const name of interfaces.keys()) extend(name);
 
 /** Asserts that an object has the fields of an interface, all required ones and no others. */
 export function assertShape(value, name) {

@@ -1,0 +1,62 @@
+import * as glue from '../../wasm/boresight.js';
+import { Handle } from '../runtime/handle.js';
+import { call, core } from '../runtime/instance.js';
+import type { Report } from '../runtime/report.js';
+import type {
+  AngleOptions,
+  BytesInput,
+  CaptureInfo,
+  Cell,
+  ChainOptions,
+  CombineOptions,
+  ComplexData,
+  CubeChainOptions,
+  Estimate,
+  FrameCells,
+  FrameResult,
+  TextInput,
+} from '../types.js';
+
+/** A raw capture (`.bin` of a DCA1000) with the board's configuration (`.cfg`). */
+export class Capture extends Handle<glue.Capture> {
+  /** What is known before any processing. */
+  readonly info: CaptureInfo;
+
+  constructor(bytes: BytesInput, config: TextInput) {
+    super(core, () => new glue.Capture(bytes, config));
+    this.info = this.use((raw) => raw.info() as CaptureInfo);
+  }
+
+  /** Detections of one frame, from 0. */
+  processFrame(frame: number, options?: ChainOptions): FrameResult {
+    return this.use((raw) => raw.processFrame(frame, options) as FrameResult);
+  }
+
+  /** Detected cells of one frame, with what estimators take; angles are not estimated. */
+  frameCells(frame: number, options?: ChainOptions): FrameCells {
+    return this.use((raw) => raw.frameCells(frame, options) as FrameCells);
+  }
+
+  /**
+   * Detections of all frames, or of some, together: for scenes that stand still, and for methods
+   * that need more than one snapshot. Throws the code `cancelled` if `report` stops it.
+   */
+  combineFrames(options?: CombineOptions, report?: Report): FrameResult {
+    return this.use((raw) => raw.combineFrames(options, report) as FrameResult);
+  }
+
+  /** Snapshots of a cell (elements x frames), compensated for the transmitters' turns. */
+  cellSnapshots(cell: Cell, options?: ChainOptions): ComplexData {
+    return this.use((raw) => raw.cellSnapshots(cell, options) as ComplexData);
+  }
+
+  /** Angles and spectrum of a cell by any method. */
+  cellSpectrum(cell: Cell, angle?: AngleOptions, options?: ChainOptions): Estimate {
+    return this.use((raw) => raw.cellSpectrum(cell, angle, options) as Estimate);
+  }
+}
+
+/** Detections of each frame of a cube (frames x loops x transmitters x receivers x samples). */
+export function processCube(cube: ComplexData, options: CubeChainOptions): FrameResult[] {
+  return call(() => glue.processCube(cube, options) as FrameResult[]);
+}

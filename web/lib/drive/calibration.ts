@@ -1,0 +1,259 @@
+import * as glue from '../../wasm/boresight.js';
+import { failure } from '../runtime/errors.js';
+import { Handle } from '../runtime/handle.js';
+import { core } from '../runtime/instance.js';
+import { type Report, tell } from '../runtime/report.js';
+import type {
+  CalibrateDriveOptions,
+  CalibratedFrames,
+  CalibrationOptions,
+  CalibrationResult,
+  DriveCalibration,
+  DriveData,
+  FrameVerdict,
+  JointCalibrationOptions,
+} from '../types.js';
+import { jointTaskOf, type Task, taskOf } from './radars.js';
+import { checkOrder, extent, interpolate, scansOf, type View, viewOf } from './view.js';
+
+/** What can become of a frame, in the order of its numbers. */
+export const frameVerdicts: readonly FrameVerdict[] = [
+  'used',
+  'standing',
+  'slow',
+  'turning',
+  'sparse',
+  'without-motion',
+];
+
+/** Most frames and detections handed over at a time. */
+const FRAMES = 256;
+const DETECTIONS = 65_535;
+/** Numbers that come back for a frame. */
+const ROW = 7;
+/** Methods that weigh all frames at once are asked after a hundredth of the frames so far at most. */
+const SHARE = 0.01;
+
+/** Finds the angle one radar of a drive is mounted at. Throws the code `cancelled` if `report` stops it. */
+export function calibrateDrive(drive: DriveData, options?: CalibrateDriveOptions, report?: Report): DriveCalibration {
+  const view = viewOf(drive);
+  return run(view, taskOf(view, options), report)[0] as DriveCalibration;
+}
+
+/** Finds the angles of several radars of a drive together: one yaw-rate sensor, one scale and one bias. */
+export function jointCalibration(
+  drive: DriveData,
+  options?: JointCalibrationOptions,
+  report?: Report,
+): DriveCalibration[] {
+  const view = viewOf(drive);
+  return run(view, jointTaskOf(view, options), report);
+}
+
+class DriveCalibrator extends Handle<glue.DriveCalibrator> {
+  constructor(options: CalibrationOptions | CalibrationOptions[], weights: boolean) {
+    super(core, () => new glue.DriveCalibrator(options, weights));
+  }
+
+  add(...args: Parameters<glue.DriveCalibrator['addFrames']>): Float64Array {
+    return this.use((raw) => raw.addFrames(...args));
+  }
+
+  weights(): Float32Array {
+    return this.use((raw) => raw.weights());
+  }
+
+  angles(): Float64Array {
+    return this.use((raw) => raw.angles());
+  }
+
+  estimate(): CalibrationResult[] {
+    return this.use((raw) => raw.estimate() as CalibrationResult[]);
+  }
+}
+
+/** Frames as they are handed over, all arrays used up to a length. */
+class Chunk {
+  readonly radar = new Uint8Array(FRAMES);
+  readonly timeS = new Float64Array(FRAMES);
+  readonly yawRateDegps = new Float64Array(FRAMES);
+  readonly speedMps = new Float64Array(FRAMES);
+  readonly ends = new Uint32Array(FRAMES);
+  readonly azimuthDeg = new Float64Array(DETECTIONS);
+  readonly rangeRateMps = new Float32Array(DETECTIONS);
+  frames = 0;
+  detections = 0;
+
+  clear(): void {
+    this.frames = 0;
+    this.detections = 0;
+  }
+
+  /** Takes a scan unless there is no room. */
+  take(view: View, scan: number, radar: number, maxGapS: number): boolean {
+    const [start, end] = extent(view, scan);
+    const [frame, first] = [this.frames, this.detections];
+    if (frame === FRAMES || first + end - start > DETECTIONS) return false;
+    const timeS = view.timeS[scan] ?? NaN;
+    const { motion } = view;
+    this.radar[frame] = radar;
+    this.timeS[frame] = timeS;
+    this.yawRateDegps[frame] = interpolate(motion.timeS, motion.yawRateDegps, timeS, maxGapS);
+    this.speedMps[frame] = interpolate(motion.timeS, motion.speedMps, timeS, maxGapS);
+    this.azimuthDeg.set(view.azimuthDeg.subarray(start, end), first);
+    this.rangeRateMps.set(view.rangeRateMps.subarray(start, end), first);
+    this.frames = frame + 1;
+    this.detections = first + end - start;
+    this.ends[frame] = this.detections;
+    finite('drive.detections.azimuthDeg', this.azimuthDeg, first, this.detections, start);
+    finite('drive.detections.rangeRateMps', this.rangeRateMps, first, this.detections, start);
+    return true;
+  }
+}
+
+/** Refuses numbers that single precision does not hold; `index` is that of the first in the drive. */
+function finite(what: string, values: Float32Array | Float64Array, start: number, end: number, index: number): void {
+  for (let i = start; i < end; i++) {
+    if (Number.isFinite(Math.fround(values[i] ?? NaN))) continue;
+    throw failure('not-finite', {
+      what,
+      expected: 'finite numbers',
+      given: `${values[i]} at index ${index + i - start}`,
+    });
+  }
+}
+
+function run(view: View, task: Task, report: Report | undefined): DriveCalibration[] {
+  checkOrder(view);
+  const { radars, joint, historyS, maxGapS } = task;
+  const scans = scansOf(
+    view,
+    radars.map(({ sensor }) => sensor),
+  );
+  const places = new Uint8Array(256);
+  radars.forEach(({ sensor }, place) => (places[sensor] = place));
+  const placeOf = (scan: number): number => places[view.sensor[scan] ?? 0] ?? 0;
+  const options = radars.map((radar) => radar.options);
+  const all = options.some(({ method }) => method !== 'recursive');
+  const calibrator = new DriveCalibrator(joint ? options : (options[0] as CalibrationOptions), task.weights);
+  try {
+    const tables = radars.map(({ sensor }) => new Table(view, scansOf(view, [sensor]), task.weights));
+    const histories = radars.map(() => ({ angleDeg: [] as number[], sigmaDeg: [] as number[] }));
+    const historyTimes: number[] = [];
+    const startS = view.timeS[scans[0] ?? 0] ?? 0;
+    const step = Math.max(64, scans.length / 200);
+    const chunk = new Chunk();
+    let [dueS, asked, told, next] = [startS + historyS, 0, 0, 0];
+    while (next < scans.length) {
+      const first = next;
+      chunk.clear();
+      while (next < scans.length && (view.timeS[scans[next] ?? 0] ?? NaN) <= dueS) {
+        if (!chunk.take(view, scans[next] ?? 0, placeOf(scans[next] ?? 0), maxGapS)) break;
+        next += 1;
+      }
+      const { frames, detections } = chunk;
+      if (frames > 0) {
+        const rows = calibrator.add(
+          chunk.radar.subarray(0, frames),
+          chunk.timeS.subarray(0, frames),
+          chunk.yawRateDegps.subarray(0, frames),
+          chunk.speedMps.subarray(0, frames),
+          chunk.ends.subarray(0, frames),
+          chunk.azimuthDeg.subarray(0, detections),
+          chunk.rangeRateMps.subarray(0, detections),
+        );
+        const weights = task.weights ? calibrator.weights() : undefined;
+        for (let frame = 0; frame < frames; frame++) {
+          const values = weights?.subarray(frame ? chunk.ends[frame - 1] : 0, chunk.ends[frame]);
+          tables[chunk.radar[frame] ?? 0]?.add(rows.subarray(frame * ROW, (frame + 1) * ROW), values);
+        }
+      }
+      const nextS = view.timeS[scans[next] ?? 0] ?? NaN;
+      if (frames === 0 && !(nextS > dueS)) {
+        throw failure('wrong-type', {
+          what: 'drive.scans',
+          expected: 'arrays that stay',
+          given: 'arrays given away meanwhile',
+        });
+      }
+      const finished = next === scans.length;
+      if (finished || nextS > dueS) {
+        if (next > asked && (finished || !all || next - asked >= SHARE * next)) {
+          asked = next;
+          historyTimes.push(view.timeS[scans[next - 1] ?? 0] ?? NaN);
+          const angles = calibrator.angles();
+          histories.forEach(({ angleDeg, sigmaDeg }, place) => {
+            angleDeg.push(angles[2 * place] ?? NaN);
+            sigmaDeg.push(angles[2 * place + 1] ?? NaN);
+          });
+        }
+        const grid = startS + historyS * (Math.floor((nextS - startS) / historyS) + 1);
+        dueS = Math.max(grid, nextS);
+      }
+      if (finished || (next > first && next - told >= step)) {
+        told = next;
+        tell(report, next, scans.length);
+      }
+    }
+    const timeS = Float64Array.from(historyTimes);
+    return calibrator.estimate().map((result, place): DriveCalibration => {
+      const { sensor, options } = radars[place] as Task['radars'][number];
+      const { angleDeg, sigmaDeg } = histories[place] as (typeof histories)[number];
+      const { method, xM, yM = 0, nominalDeg = null } = options;
+      return {
+        sensor,
+        method,
+        mounting: { xM, yM, nominalDeg },
+        result,
+        history: { timeS, angleDeg: Float64Array.from(angleDeg), sigmaDeg: Float64Array.from(sigmaDeg) },
+        frames: (tables[place] as Table).frames,
+      };
+    });
+  } finally {
+    calibrator[Symbol.dispose]();
+  }
+}
+
+/** What became of a radar's frames, filled one by one. */
+class Table {
+  readonly frames: CalibratedFrames;
+  #next = 0;
+
+  constructor(view: View, scan: Uint32Array, weights: boolean) {
+    const single = (): Float32Array => new Float32Array(scan.length);
+    this.frames = {
+      scan,
+      timeS: Float64Array.from(scan, (scan) => view.timeS[scan] ?? NaN),
+      verdict: new Uint8Array(scan.length),
+      vxMps: single(),
+      vyMps: single(),
+      angleDeg: single(),
+      angleSigmaDeg: single(),
+      weight: single(),
+      inliers: new Uint16Array(scan.length),
+    };
+    if (!weights) return;
+    const offsets = new Uint32Array(scan.length + 1);
+    scan.forEach((scan, index) => {
+      const [start, end] = extent(view, scan);
+      offsets[index + 1] = (offsets[index] ?? 0) + end - start;
+    });
+    this.frames.weights = { offsets, values: new Float32Array(offsets[scan.length] ?? 0) };
+  }
+
+  add(row: Float64Array, weights: Float32Array | undefined): void {
+    const { frames } = this;
+    const index = this.#next++;
+    const columns = [
+      frames.verdict,
+      frames.vxMps,
+      frames.vyMps,
+      frames.angleDeg,
+      frames.angleSigmaDeg,
+      frames.weight,
+      frames.inliers,
+    ];
+    columns.forEach((column, place) => (column[index] = row[place] ?? NaN));
+    if (weights) frames.weights?.values.set(weights, frames.weights.offsets[index]);
+  }
+}

@@ -1,0 +1,118 @@
+// Neural networks, in a module of their own.
+import instantiate, * as glue from '../../wasm/boresight_neural.js';
+import { own } from '../runtime/errors.js';
+import { Handle } from '../runtime/handle.js';
+import { Instance } from '../runtime/module.js';
+import type { Report } from '../runtime/report.js';
+import type {
+  BatchEstimate,
+  BatchInput,
+  BatchOptions,
+  BytesInput,
+  ChainOptions,
+  CombineOptions,
+  ComplexData,
+  CubeChainOptions,
+  Estimate,
+  EstimateInput,
+  FrameResult,
+  ModelCard,
+  NetworkKind,
+  NetworkMethod,
+  NetworkOptions,
+  NetworkPort,
+  SourceProbabilities,
+  Tensor,
+  TextInput,
+} from '../types.js';
+
+/** The module of this file's functions, loaded by initNeural(). */
+export const neural = new Instance(glue, instantiate, { file: 'boresight_neural_bg.wasm', init: 'initNeural()' });
+
+/** Makes networks ready from a compiled module or its bytes, without waiting. */
+export function initNeuralSync(module: WebAssembly.Module | BufferSource): void {
+  neural.startSync(module);
+}
+
+/** What is known of a network without running it. */
+interface Description {
+  kind: NetworkKind;
+  method: NetworkMethod | null;
+  name: string;
+  inputs: NetworkPort[];
+  outputs: NetworkPort[];
+}
+
+/** A network from an ONNX file, ready to estimate. */
+export class Network extends Handle<glue.Network> {
+  /** What it is. */
+  readonly kind: NetworkKind;
+  /** The method it estimates by; null for a counting network. */
+  readonly method: NetworkMethod | null;
+  readonly name: string;
+  /** The card it was loaded with; null without. */
+  readonly card: ModelCard | null;
+  readonly inputs: NetworkPort[];
+  readonly outputs: NetworkPort[];
+
+  /**
+   * Loads an ONNX file. With a card everything is checked against it, the file's digest too. `array` may be left out:
+   * estimates are then for the array the network was made for.
+   */
+  constructor(onnx: BytesInput, options?: NetworkOptions) {
+    const { card, ...estimator } = own(options, 'options') as NetworkOptions;
+    const text = typeof card === 'object' && card !== null ? JSON.stringify(card) : card;
+    super(neural, () => new glue.Network(onnx, text, estimator));
+    const { kind, method, name, inputs, outputs } = this.use((raw) => raw.describe() as Description);
+    this.kind = kind;
+    this.method = method;
+    this.name = name;
+    this.inputs = inputs;
+    this.outputs = outputs;
+    this.card = text == null ? null : (JSON.parse(text) as ModelCard);
+  }
+
+  /** Changes the options of its estimates. */
+  setOptions(options: Omit<NetworkOptions, 'card'>): void {
+    this.use((raw) => raw.setOptions(options));
+  }
+
+  estimate(input: EstimateInput): Estimate {
+    return this.use((raw) => raw.estimate(input) as Estimate);
+  }
+
+  /** Estimates every cell of a batch; each gives what {@link Network.estimate} gives for it alone. */
+  estimateBatch(input: BatchInput, options?: BatchOptions): BatchEstimate {
+    return this.use((raw) => raw.estimateBatch(input, options) as BatchEstimate);
+  }
+
+  /** Counts the sources in snapshots or a covariance of eight elements: counting networks only. */
+  count(input: EstimateInput): SourceProbabilities {
+    return this.use((raw) => raw.count(input) as SourceProbabilities);
+  }
+
+  /** Estimates from the range bins around a peak: [65 bins, 8 elements, 4 chirps]. */
+  estimateRegion(region: ComplexData): Estimate {
+    return this.use((raw) => raw.estimateRegion(region) as Estimate);
+  }
+
+  /** Runs the graph as it is: named inputs to named outputs. */
+  run(inputs: Readonly<Record<string, Tensor>>): Record<string, Tensor> {
+    return this.use((raw) => raw.run(inputs) as Record<string, Tensor>);
+  }
+
+  /** As `processCube` of the package, angles by this network. */
+  processCube(cube: ComplexData, options: CubeChainOptions): FrameResult[] {
+    return this.use((raw) => raw.processCube(cube, options) as FrameResult[]);
+  }
+
+  /** Detections of frames of a capture, each by itself, angles by this network; all frames, or one. */
+  processFrames(bytes: BytesInput, config: TextInput, options?: ChainOptions, frame?: number): FrameResult[] {
+    return this.use((raw) => raw.processFrames(bytes, config, options, frame) as FrameResult[]);
+  }
+
+  /** As `combineFrames` of a capture, angles by this network. */
+  combineFrames(bytes: BytesInput, config: TextInput, options?: CombineOptions, report?: Report): FrameResult {
+    return this.use((raw) => raw.combineFrames(bytes, config, options, report) as FrameResult);
+  }
+}

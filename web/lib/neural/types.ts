@@ -1,0 +1,81 @@
+/** Neural networks: what `boresight/neural` and the pool take and give. */
+import type { EstimatorOptions } from '../types.js';
+
+/** Networks that estimate angles, as methods of an estimator; they need a model. */
+export type NetworkMethod = 'aaetr' | 'dnn' | 'cnn3d';
+
+/** What a network is: an estimator, or one that counts sources. */
+export type NetworkKind = NetworkMethod | 'counting';
+
+/** An input or output of a network. */
+export interface NetworkPort {
+  name: string;
+  /** Lengths, or names where any length goes. */
+  axes: (number | string)[];
+  meaning?: string;
+}
+
+/** The card beside a model: what it is, how it was trained, how well it does. */
+export interface ModelCard {
+  network: NetworkKind;
+  /** Size, such as `small`. */
+  form?: string;
+  name: string;
+  title?: string;
+  /** The publication. */
+  reference?: string;
+  inputs: NetworkPort[];
+  outputs: NetworkPort[];
+  /** Number of trained numbers. */
+  parameters?: number;
+  /** Confidence from which a source counts unless `confidence` says otherwise. */
+  confidence?: number;
+  /** Digest of the ONNX file, hexadecimal; a file of another digest is refused. */
+  sha256?: string;
+  /** Scores by condition. */
+  metrics?: Record<string, number>[];
+  /** All else the card tells: data, training, hardware. */
+  [name: string]: unknown;
+}
+
+/** Numbers in C order with their shape. */
+export interface Tensor {
+  data: Float32Array;
+  shape: readonly number[];
+}
+
+/** Options of a {@link Network}: its card, and those of its estimates. */
+export interface NetworkOptions extends Partial<Omit<EstimatorOptions, 'method' | 'network'>> {
+  /** The card, or its JSON. Without one what the network is follows from its inputs and outputs. */
+  card?: string | ModelCard;
+}
+
+/** What a counting network says. */
+export interface SourceProbabilities {
+  /** The most probable number of sources. */
+  sources: number;
+  /** Of 0, 1 and 2 sources, each by itself. */
+  probability: Float64Array;
+}
+
+/** A network as a pool is given it. */
+export interface NetworkFile {
+  onnx: Uint8Array | ArrayBuffer;
+  card?: string | ModelCard;
+}
+
+/** A network a pool has loaded. */
+export interface NetworkInfo {
+  /** What `network` in options of the pool's functions names it by. */
+  id: string;
+  kind: NetworkKind;
+  /** The method it is estimated with; null for a counting network. */
+  method: NetworkMethod | null;
+  name: string;
+  /** Null where none was given. */
+  card: ModelCard | null;
+  inputs: NetworkPort[];
+  outputs: NetworkPort[];
+  /** Time from its bytes to being ready, in the worker that loaded it first. */
+  readyMs: number;
+}
