@@ -1,7 +1,7 @@
 // What every runtime's entry offers beside its own init().
 
 export { Calibration, calibrationMethods } from './calibrate/calibrate.js';
-export { Capture, processCube } from './capture/capture.js';
+export { Capture, frameCells, processCube } from './capture/capture.js';
 export { calibrateDrive, frameVerdicts, jointCalibration } from './drive/calibration.js';
 export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive/drive.js';
 export { relativeTrajectoryError, trajectory } from './drive/trajectory.js';
@@ -9,30 +9,17 @@ export { driveFrame } from './drive/view.js';
 export { Estimator, estimate, methods, unsuited } from './estimate/estimate.js';
 export { countSources, cramerRaoBound } from './estimate/theory.js';
 export { BoardLogStream, parseBoardLog } from './formats/board.js';
-export { parseConfig, waveformSummary } from './formats/config.js';
-export {
-  readDetectionsCsv,
-  readNpy,
-  readSnapshotsCsv,
-  writeDetectionsCsv,
-  writeNpy,
-  writeSnapshotsCsv,
-} from './formats/files.js';
-export {
-  birdsEyeView,
-  frameCells,
-  imageFrame,
-  imagePlan,
-  rangeAzimuthMap,
-  sidelobeMeasure,
-  simulateStreet,
-  streetScene,
-} from './image/image.js';
+export { parseConfig } from './formats/config.js';
+export { readDetectionsCsv, readSnapshotsCsv, writeDetectionsCsv, writeSnapshotsCsv } from './formats/csv.js';
+export { readNpy, writeNpy } from './formats/npy.js';
+export { birdsEyeView, imageFrame, imagePlan, rangeAzimuthMap, sidelobeMeasure } from './image/image.js';
 export { array, arrayPresets } from './radar/array.js';
+export { waveformSummary } from './radar/waveform.js';
 export { BoresightError, type ErrorDetails } from './runtime/errors.js';
 export { initSync } from './runtime/instance.js';
 export type { WasmSource } from './runtime/module.js';
 export type { Report } from './runtime/report.js';
 export { version } from './runtime/version.js';
 export { simulateCube, simulateSnapshots } from './simulate/simulate.js';
+export { simulateStreet, streetScene } from './simulate/street.js';
 export type * from './types.js';

@@ -7,11 +7,14 @@ import type * as estimate from '../lib/estimate/estimate.js';
 import type * as theory from '../lib/estimate/theory.js';
 import type * as board from '../lib/formats/board.js';
 import type * as config from '../lib/formats/config.js';
-import type * as files from '../lib/formats/files.js';
+import type * as csv from '../lib/formats/csv.js';
+import type * as npy from '../lib/formats/npy.js';
 import type * as image from '../lib/image/image.js';
-import type * as arrays from '../lib/radar/array.js';
+import type * as array from '../lib/radar/array.js';
+import type * as waveform from '../lib/radar/waveform.js';
 import type * as version from '../lib/runtime/version.js';
 import type * as simulate from '../lib/simulate/simulate.js';
+import type * as street from '../lib/simulate/street.js';
 import type { BytesInput, TextInput } from '../lib/types.js';
 import type { JobOptions } from './pool.js';
 
@@ -38,19 +41,22 @@ type CaptureFunctions = OfCaptures<Pick<capture.Capture, 'processFrame' | 'cellS
 };
 
 /** Functions of the package by the modules that document them, which what api.ts exports again does not. */
-type Functions = typeof arrays &
+type Functions = typeof array &
   typeof board &
   typeof calibrate &
   typeof capture &
   typeof config &
+  typeof csv &
   typeof drive &
   typeof estimate &
-  typeof files &
   typeof image &
+  typeof npy &
   typeof simulate &
+  typeof street &
   typeof theory &
   typeof trajectory &
   typeof version &
+  typeof waveform &
   CaptureFunctions;
 type Counts<T> = { readonly [K in keyof T]?: T[K] extends AnyFunction ? Required<Parameters<T[K]>>['length'] : never };
 

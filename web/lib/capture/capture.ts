@@ -60,3 +60,8 @@ export class Capture extends Handle<glue.Capture> {
 export function processCube(cube: ComplexData, options: CubeChainOptions): FrameResult[] {
   return call(() => glue.processCube(cube, options) as FrameResult[]);
 }
+
+/** Detected cells of a cube of one frame, with what estimators take; angles are not estimated. */
+export function frameCells(cube: ComplexData, options: CubeChainOptions): FrameCells {
+  return call(() => glue.frameCells(cube, options) as FrameCells);
+}

@@ -1,5 +1,13 @@
-/** From frames to detections: the chain, captures and what a board reports. */
-import type { ArrayGeometry, ArrayInput, DetectionOptions, Warning, Waveform, WaveformSummary } from '../types.js';
+/** From frames to detections: captures and the chain. */
+import type {
+  ArrayGeometry,
+  ArrayInput,
+  ComplexData,
+  DetectionOptions,
+  RadarConfig,
+  Warning,
+  Waveform,
+} from '../types.js';
 
 /** Options of the chain from frames to detections. */
 export interface ChainOptions extends DetectionOptions {
@@ -55,6 +63,22 @@ export interface FrameCounts {
   clippedSamples: number;
 }
 
+/** Detected cells of a frame, strongest first, with what estimators take. */
+export interface FrameCells {
+  /** Of each cell; interpolated between bins. */
+  rangeM: Float64Array;
+  rateMps: Float64Array;
+  /** Power at one element, dB relative to full scale (1.0). */
+  powerDb: Float64Array;
+  /** Over the local noise estimate. */
+  snrDb: Float64Array;
+  rangeBin: Uint32Array;
+  dopplerBin: Uint32Array;
+  /** cells x elements; the Doppler phase of the transmitters' turns taken off. */
+  snapshots: ComplexData;
+  counts: FrameCounts;
+}
+
 export interface FrameResult {
   /** The first one where frames were combined. */
   frame: number;
@@ -72,28 +96,6 @@ export interface FrameResult {
   warnings: Warning[];
 }
 
-export interface RadarConfig {
-  waveform: Waveform;
-  summary: WaveformSummary;
-  /** Number of receivers and of transmitters in use. */
-  receivers: number;
-  transmitters: number;
-  /** Their numbers on the chip, from 0; transmitters in order of transmission. */
-  receiverNumbers: number[];
-  transmitterNumbers: number[];
-  /** Preset that fits the platform and channels, if there is one. */
-  array: string | null;
-  platform: string | null;
-  sdkVersion: string | null;
-  sampleBits: number;
-  /** Bytes of one frame of raw samples. */
-  frameBytes: number;
-  /** Frames to record; null until stopped. */
-  frames: number | null;
-  /** Lines that were not understood, and other remarks. */
-  warnings: Warning[];
-}
-
 export interface CaptureInfo {
   config: RadarConfig;
   frames: number;
@@ -108,48 +110,4 @@ export interface CaptureInfo {
 export interface CaptureFile {
   /** The `.bin`. */
   bytes: Uint8Array | ArrayBuffer;
-}
-
-/** An object the board itself detected. */
-export interface BoardObject {
-  rangeM: number;
-  /** Null where the packet holds a Doppler bin only and no configuration tells its width. */
-  rateMps: number | null;
-  azimuthDeg: number;
-  elevationDeg: number;
-  /** Forward, left and up. */
-  xM: number;
-  yM: number;
-  zM: number;
-  /** As sent by SDK 1 and 2. */
-  rangeBin?: number;
-  dopplerBin?: number;
-  peak?: number;
-  /** As sent by SDK 3. */
-  snrDb?: number;
-}
-
-export interface BoardFrame {
-  frameNumber: number;
-  platform: string;
-  sdkVersion: string;
-  objects: BoardObject[];
-  /** Range profile at zero Doppler as sent, where present. */
-  rangeProfileDb?: Float64Array;
-  noiseProfileDb?: Float64Array;
-  /** False for a packet the end of the input cut. */
-  complete: boolean;
-}
-
-/** What was lost of a board's output. */
-export interface BoardLogCounts {
-  /** Bytes that belong to no packet. */
-  skippedBytes: number;
-  /** Packets that were cut or damaged. */
-  damagedPackets: number;
-  warnings: Warning[];
-}
-
-export interface BoardLog extends BoardLogCounts {
-  frames: BoardFrame[];
 }

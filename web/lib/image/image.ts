@@ -1,6 +1,7 @@
 import * as glue from '../../wasm/boresight.js';
+import { frameCells } from '../capture/capture.js';
 import { Estimator, methods } from '../estimate/estimate.js';
-import { waveformSummary } from '../formats/config.js';
+import { waveformSummary } from '../radar/waveform.js';
 import { own, wrong } from '../runtime/errors.js';
 import { call } from '../runtime/instance.js';
 import type {
@@ -8,8 +9,6 @@ import type {
   BirdsEyeView,
   BirdsEyeViewInput,
   ComplexData,
-  CubeChainOptions,
-  FrameCells,
   Gate,
   ImageFrame,
   ImageFrameOptions,
@@ -18,10 +17,6 @@ import type {
   RangeAzimuthMap,
   RangeAzimuthMapInput,
   SidelobeMeasure,
-  SimulatedStreet,
-  SimulateStreetOptions,
-  StreetOptions,
-  StreetScene,
   Waveform,
 } from '../types.js';
 import { chainOf } from './options.js';
@@ -29,21 +24,6 @@ import { chainOf } from './options.js';
 /** Azimuths of a map where none are asked for, and how far to each side. */
 const AZIMUTHS = 512;
 const FIELD_OF_VIEW_DEG = 60;
-
-/** A street with parked and moving cars, a wall, a guard rail, poles and people around a car with four radars. */
-export function streetScene(options?: StreetOptions): StreetScene {
-  return call(() => glue.streetScene(options) as StreetScene);
-}
-
-/** A frame of one radar of the street; the same bits on every platform. */
-export function simulateStreet(options: SimulateStreetOptions): SimulatedStreet {
-  return call(() => glue.simulateStreet(options) as SimulatedStreet);
-}
-
-/** Detected cells of a cube of one frame, with what estimators take; angles are not estimated. */
-export function frameCells(cube: ComplexData, options: CubeChainOptions): FrameCells {
-  return call(() => glue.frameCells(cube, options) as FrameCells);
-}
 
 /** Adds the targets or spectra of a frame's cells to a grid: summation splatting (Niklaus and Liu 2020). */
 export function rangeAzimuthMap(input: RangeAzimuthMapInput): RangeAzimuthMap {

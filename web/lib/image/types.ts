@@ -1,103 +1,12 @@
+/** Maps of range and azimuth, and bird's-eye views. */
 import type {
   BatchEstimate,
   BatchSpectra,
-  ComplexData,
   CubeChainOptions,
-  CubeResult,
   EstimatorOptions,
-  FrameCounts,
-  StreetOptions,
-  Waveform,
+  FrameCells,
+  Mounting,
 } from '../types.js';
-
-/** Where a radar sits in the car's frame (origin at the rear axle, x forward, y left) and which way it looks. */
-export interface Mounting {
-  xM: number;
-  yM: number;
-  /** Direction of boresight, counter-clockwise from the car's x. */
-  yawDeg: number;
-}
-
-export type StreetKind = 'parked-car' | 'guard-rail' | 'wall' | 'pole' | 'pedestrian' | 'vehicle';
-
-/** A point that scatters, in the car's frame. */
-export interface StreetTarget {
-  xM: number;
-  yM: number;
-  /** Over ground. */
-  vxMps: number;
-  vyMps: number;
-  rcsDbsm: number;
-  kind: StreetKind;
-  /** Index of the outline it belongs to. */
-  outline: number;
-}
-
-/** The shape of an object on the ground, for drawing; it also throws the shadows. */
-export interface StreetOutline {
-  kind: StreetKind;
-  /** Corners, m: a polygon, two ends of a line, or one point. */
-  xM: Float64Array;
-  yM: Float64Array;
-}
-
-export interface StreetRadar {
-  /** `right`, `front-right`, `front-left` or `left`: by the way it looks. */
-  name: string;
-  mounting: Mounting;
-  /** A preset's name. */
-  array: string;
-  waveform: Waveform;
-  /** Half width of what it sees. */
-  fieldOfViewDeg: number;
-}
-
-export interface StreetScene {
-  egoSpeedMps: number;
-  radars: StreetRadar[];
-  targets: StreetTarget[];
-  outlines: StreetOutline[];
-}
-
-export interface SimulateStreetOptions extends StreetOptions {
-  /** Name of the radar. */
-  radar: string;
-}
-
-/** A point of the street as a radar sees it. */
-export interface VisibleTarget {
-  /** Index in the scene's targets. */
-  target: number;
-  rangeM: number;
-  rateMps: number;
-  azimuthDeg: number;
-  /** Power of one raw sample at one element, dB. */
-  powerDb: number;
-}
-
-/** One frame of one radar of the street. */
-export interface SimulatedStreet {
-  cube: CubeResult;
-  radar: StreetRadar;
-  /** The points in its field of view and in no deep shadow. */
-  targets: VisibleTarget[];
-}
-
-/** Detected cells of a frame, strongest first, with what estimators take. */
-export interface FrameCells {
-  /** Of each cell; interpolated between bins. */
-  rangeM: Float64Array;
-  rateMps: Float64Array;
-  /** Power at one element, dB relative to full scale (1.0). */
-  powerDb: Float64Array;
-  /** Over the local noise estimate. */
-  snrDb: Float64Array;
-  rangeBin: Uint32Array;
-  dopplerBin: Uint32Array;
-  /** cells x elements; the Doppler phase of the transmitters' turns taken off. */
-  snapshots: ComplexData;
-  counts: FrameCounts;
-}
 
 /** What an image needs of the estimates of a frame's cells: a batch of them, or anybody's own. */
 export interface ImageEstimates {

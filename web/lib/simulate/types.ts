@@ -1,5 +1,16 @@
-/** Simulated snapshots and data cubes. */
-import type { ArrayInput, ComplexData, Imperfections, Waveform } from '../types.js';
+/** Simulated snapshots, data cubes and frames of a street. */
+import type { ArrayInput, ComplexData, Mounting, StreetOptions, Waveform } from '../types.js';
+
+export interface Imperfections {
+  /** Standard deviations drawn from the seed. */
+  gainDb?: number;
+  phaseDeg?: number;
+  /** Along y, half wavelengths. */
+  position?: number;
+  /** Coupling of elements half a wavelength apart, dB; absent for none. */
+  couplingDb?: number;
+  seed?: number | bigint;
+}
 
 export interface SnapshotTarget {
   azimuthDeg: number;
@@ -86,4 +97,69 @@ export interface CubeOptions {
 export interface CubeResult extends ComplexData {
   data: Float32Array;
   shape: [frames: number, loops: number, transmitters: number, receivers: number, samples: number];
+}
+
+export type StreetKind = 'parked-car' | 'guard-rail' | 'wall' | 'pole' | 'pedestrian' | 'vehicle';
+
+/** A point that scatters, in the car's frame. */
+export interface StreetTarget {
+  xM: number;
+  yM: number;
+  /** Over ground. */
+  vxMps: number;
+  vyMps: number;
+  rcsDbsm: number;
+  kind: StreetKind;
+  /** Index of the outline it belongs to. */
+  outline: number;
+}
+
+/** The shape of an object on the ground, for drawing; it also throws the shadows. */
+export interface StreetOutline {
+  kind: StreetKind;
+  /** Corners, m: a polygon, two ends of a line, or one point. */
+  xM: Float64Array;
+  yM: Float64Array;
+}
+
+export interface StreetRadar {
+  /** `right`, `front-right`, `front-left` or `left`: by the way it looks. */
+  name: string;
+  mounting: Mounting;
+  /** A preset's name. */
+  array: string;
+  waveform: Waveform;
+  /** Half width of what it sees. */
+  fieldOfViewDeg: number;
+}
+
+export interface StreetScene {
+  egoSpeedMps: number;
+  radars: StreetRadar[];
+  targets: StreetTarget[];
+  outlines: StreetOutline[];
+}
+
+export interface SimulateStreetOptions extends StreetOptions {
+  /** Name of the radar. */
+  radar: string;
+}
+
+/** A point of the street as a radar sees it. */
+export interface VisibleTarget {
+  /** Index in the scene's targets. */
+  target: number;
+  rangeM: number;
+  rateMps: number;
+  azimuthDeg: number;
+  /** Power of one raw sample at one element, dB. */
+  powerDb: number;
+}
+
+/** One frame of one radar of the street. */
+export interface SimulatedStreet {
+  cube: CubeResult;
+  radar: StreetRadar;
+  /** The points in its field of view and in no deep shadow. */
+  targets: VisibleTarget[];
 }

@@ -1,16 +1,6 @@
 import * as glue from '../../wasm/boresight.js';
 import { call } from '../runtime/instance.js';
-import type { BytesInput, ComplexData, Detection, NpyArray, TextInput } from '../types.js';
-
-/** Reads NumPy's `.npy`. */
-export function readNpy(bytes: BytesInput): NpyArray {
-  return call(() => glue.readNpy(bytes) as NpyArray);
-}
-
-/** The bytes of a `.npy` file, in the precision of the data. */
-export function writeNpy(array: NpyArray): Uint8Array {
-  return call(() => glue.writeNpy(array));
-}
+import type { ComplexData, Detection, TextInput } from '../types.js';
 
 /** Detections as CSV with the columns `frame,range_m,rate_mps,azimuth_deg,...`. */
 export function writeDetectionsCsv(detections: readonly Detection[]): string {
