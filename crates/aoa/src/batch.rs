@@ -5,8 +5,10 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, SpectrumKind, Warning};
 use crate::estimator::Estimator;
 use crate::method::Method;
-use boresight_core::{Complex64, CoreError};
+use boresight_core::describe::{Described, remark};
+use boresight_core::{Complex64, CoreError, Remark};
 use ndarray::{ArrayView3, Axis};
+use serde::Serialize;
 
 /// Results of many cells, flat.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,10 +42,13 @@ pub struct Spectra {
     pub kind: SpectrumKind,
 }
 
-/// A kind of warning.
-#[derive(Debug, Clone, PartialEq)]
+/// A kind of warning, told by the first cell that has one.
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+#[option(name = "BatchWarning")]
 pub struct WarningCount {
     /// That of the first cell it holds for.
+    #[option(described_as = Remark)]
+    #[serde(rename = "..first", serialize_with = "remark::serialize_one")]
     pub first: Warning,
     /// Number of cells it holds for.
     pub cells: usize,

@@ -7,21 +7,26 @@
 //! are Gaussian (stochastic), each repeated for azimuth and elevation.
 
 use crate::error::AoaError;
+use boresight_core::describe::{Described, columns};
 use boresight_core::error::{check_finite, check_positive};
 use boresight_core::linalg::{Cholesky, adjoint, least_squares};
 use boresight_core::steering::{steering_derivatives, steering_matrix};
 use boresight_core::{Array, Complex64, CoreError, Direction, Extent};
 use ndarray::{Array1, Array2, ArrayView2};
+use serde::Serialize;
 
 /// Lower bound of the error of unbiased estimators.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct Bound {
-    /// Standard deviation of each source's azimuth, rad; infinite where the data do not determine
-    /// the angles.
+    /// Standard deviation of each source's azimuth; infinite where the data do not determine the
+    /// angles.
+    #[serde(serialize_with = "columns::serialize")]
     pub azimuth_rad: Vec<f64>,
-    /// Of each elevation, rad, where the array sees elevation.
+    /// Of each elevation; absent where the array sees none.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
     pub elevation_rad: Option<Vec<f64>>,
     /// Covariance of all azimuths, then all elevations, rad^2; infinite where `azimuth_rad` is.
+    #[serde(skip)]
     pub covariance: Array2<f64>,
 }
 

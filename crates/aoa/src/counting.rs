@@ -4,16 +4,30 @@
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::options::SourceCount;
+use boresight_core::describe::Described;
 use boresight_core::linalg::hermitian_eigen;
 use boresight_signal::{forward_backward, sample_covariance};
+use serde::{Deserialize, Serialize};
 
 /// Penalty on the number of free parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Criterion {
     /// Akaike's information criterion: `2 L(k) + 2 p(k)`. Tends to count too many.
     Aic,
     /// Rissanen's and Schwarz's minimum description length: `L(k) + p(k) ln(N) / 2`. Consistent.
+    #[default]
     Mdl,
+}
+
+/// How sources are counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[serde(default)]
+pub struct CountOptions {
+    /// The penalty on the number of sources.
+    pub criterion: Criterion,
+    /// Average the covariance with its reversal, for evenly spaced arrays.
+    pub forward_backward: bool,
 }
 
 /// What the eigenvalues come from.

@@ -1,23 +1,31 @@
 //! What an estimator returns.
 
 use crate::method::Method;
-use boresight_core::{Complex64, Direction};
+use boresight_core::describe::remark::Coded;
+use boresight_core::describe::{Described, columns, decibels, remark};
+use boresight_core::{Complex64, Direction, Remark};
+use serde::Serialize;
 
 /// One source found.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct Source {
     /// Where it is.
+    #[serde(rename = "..direction")]
     pub direction: Direction,
-    /// Its power at one element, linear.
+    /// Its power at one element.
+    #[serde(rename = "power_db", serialize_with = "decibels::serialize")]
     pub power: f64,
-    /// Its complex amplitude at the origin, where a single snapshot determines it.
+    /// Its complex amplitude at the array's origin, where a single snapshot determines it.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<Complex64>,
-    /// How sure a network is of it, from 0 to 1; nothing from other methods.
+    /// How sure a network is of it, from 0 to 1; absent from other methods.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub confidence: Option<f64>,
 }
 
 /// What the values of a spectrum mean.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SpectrumKind {
     /// Power at one element.
     #[default]
@@ -27,13 +35,16 @@ pub enum SpectrumKind {
 }
 
 /// Values over a grid of angles.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Described, Serialize)]
 pub struct Spectrum {
-    /// Azimuths, rad, ascending.
+    /// Azimuths, ascending.
+    #[serde(serialize_with = "columns::serialize")]
     pub azimuth_rad: Vec<f64>,
-    /// Elevations, rad, ascending; one zero where the array sees azimuth only.
+    /// Elevations, ascending; one zero where the array sees azimuth only.
+    #[serde(serialize_with = "columns::serialize")]
     pub elevation_rad: Vec<f64>,
-    /// Linear values, elevation-major: `values[e * azimuth_rad.len() + a]`.
+    /// Values, elevation-major: all azimuths of the first elevation, then those of the next.
+    #[serde(rename = "values_db", serialize_with = "decibels::serialize_column")]
     pub values: Vec<f64>,
     /// What they mean.
     pub kind: SpectrumKind,
@@ -79,9 +90,8 @@ pub enum Warning {
     },
 }
 
-impl Warning {
-    /// A stable name in kebab case.
-    pub fn code(&self) -> &'static str {
+impl Coded for Warning {
+    fn code(&self) -> &'static str {
         match self {
             Self::Unresolved { .. } => "unresolved",
             Self::NotConverged { .. } => "not-converged",
@@ -119,19 +129,22 @@ impl std::fmt::Display for Warning {
 }
 
 /// Result of an estimator.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct Estimate {
     /// The method that made it.
     pub method: Method,
     /// Sources, strongest first.
     pub sources: Vec<Source>,
     /// The spectrum, from methods that have one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub spectrum: Option<Spectrum>,
     /// Whether all sources asked for or counted were found.
     pub resolved: bool,
     /// Iterations done, 0 for closed forms.
     pub iterations: usize,
     /// What a reader should know.
+    #[option(described_as = Vec<Remark>)]
+    #[serde(serialize_with = "remark::serialize")]
     pub warnings: Vec<Warning>,
 }
 

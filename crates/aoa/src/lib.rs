@@ -32,6 +32,7 @@
 
 mod bartlett;
 pub mod batch;
+mod batch_columns;
 pub mod bounds;
 mod capon;
 mod checks;
@@ -71,6 +72,7 @@ mod subspace;
 pub mod suits;
 
 pub use batch::{BatchEstimate, Spectra, WarningCount};
+pub use batch_columns::{BatchColumns, SpectraColumns};
 pub use checks::settle;
 pub use data::Data;
 pub use error::AoaError;

@@ -39,7 +39,7 @@ pub enum Method {
 }
 
 /// What a method needs and gives; the check and the documentation both read it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Requirements {
     /// Name for people.

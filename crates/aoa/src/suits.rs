@@ -2,10 +2,13 @@
 
 use crate::method::Method;
 use crate::options::Options;
+use boresight_core::describe::Described;
 use boresight_core::{Array, Extent};
+use serde::Serialize;
 
 /// Why a method cannot work on an array, or on so many snapshots of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Unsuited {
     /// All elements are at one place along y, so no azimuth can be told.
@@ -20,20 +23,6 @@ pub enum Unsuited {
     FewSnapshots,
     /// It takes fewer snapshots.
     ManySnapshots,
-}
-
-impl Unsuited {
-    /// Name in JavaScript.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::OnePlace => "one-place",
-            Self::UniformArray => "uniform-array",
-            Self::Grid => "grid",
-            Self::Elevation => "elevation",
-            Self::FewSnapshots => "few-snapshots",
-            Self::ManySnapshots => "many-snapshots",
-        }
-    }
 }
 
 impl Unsuited {

@@ -3,7 +3,7 @@
 
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::refinement::Refinement;
-use boresight_aoa::{AoaError, Data, Estimator, Method, Options};
+use boresight_aoa::{AoaError, Data, Estimator, Method, Options, Warning};
 use boresight_core::linalg::adjoint;
 use boresight_core::presets::preset;
 use boresight_core::steering::{cis, steering_matrix};
@@ -138,7 +138,7 @@ fn as_an_option_of_every_method() {
         let mut silent = estimator.estimate(Data::Snapshots((&y * 0.0).view())).unwrap();
         assert!(!silent.resolved && silent.sources.is_empty(), "{}", method.name());
         silent.warnings.dedup();
-        let nothing = silent.warnings.iter().filter(|w| w.code() == "no-sources").count();
+        let nothing = silent.warnings.iter().filter(|w| **w == Warning::NoSources).count();
         assert_eq!(nothing, 1, "{}: {:?}", method.name(), silent.warnings);
     }
 }

@@ -2,6 +2,7 @@
 
 use boresight_aoa::suits::{Unsuited, unsuited};
 use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+use boresight_core::describe::Named;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64};
 use ndarray::Array2;

@@ -63,13 +63,21 @@ impl Batch {
             self.bias.add(yaw_rate_radps);
         }
         self.counts.add(verdict);
-        let mut outcome = FrameOutcome { verdict, motion, angle_rad: None, weight: 0.0, weights };
+        let mut outcome = FrameOutcome {
+            verdict,
+            motion,
+            angle_rad: None,
+            angle_sigma_rad: None,
+            weight: 0.0,
+            weights,
+        };
         if let (Some(sample), Some(motion)) = (sample, motion) {
             self.inliers += motion.inliers as u64;
             self.detections += motion.detections as u64;
             self.samples.push(sample);
             if let Some(alone) = self.solve(&[sample]) {
-                outcome.angle_rad = Some((alone.angle_rad, alone.covariance.xx.sqrt()));
+                outcome.angle_rad = Some(alone.angle_rad);
+                outcome.angle_sigma_rad = Some(alone.covariance.xx.sqrt());
             }
             outcome.weight = 1.0 / sample.beta_variance;
         }

@@ -1,10 +1,14 @@
 //! The estimate of a mounting angle, with all that is needed to judge it.
 
 use crate::Verdict;
+use boresight_core::describe::remark::Coded;
+use boresight_core::describe::{Described, remark};
+use serde::Serialize;
 use std::fmt::{Display, Formatter};
 
 /// How many frames became what; every frame given is counted once.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize)]
+#[option(name = "CalibrationCounts")]
 pub struct FrameCounts {
     /// Frames given.
     pub given: u64,
@@ -57,9 +61,8 @@ pub enum Remark {
     NotConverged,
 }
 
-impl Remark {
-    /// A stable name for programs.
-    pub fn code(self) -> &'static str {
+impl Coded for Remark {
+    fn code(&self) -> &'static str {
         match self {
             Self::NoFrames => "no-frames",
             Self::AngleUndetermined => "angle-undetermined",
@@ -88,33 +91,37 @@ impl Display for Remark {
     }
 }
 
-/// A mounting angle and what it rests on.
-#[derive(Debug, Clone, PartialEq)]
+/// A mounting angle and what it rests on. Standard deviations are infinite where the drive says nothing.
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+#[option(name = "CalibrationResult")]
 pub struct AngleEstimate {
-    /// Mounting angle (yaw of boresight in the car's frame), rad, in `(-pi, pi]`.
+    /// Mounting angle (yaw of boresight in the car's frame), within half a turn.
     pub angle_rad: f64,
-    /// Its standard deviation, rad; infinite where the drive says nothing.
+    /// Its standard deviation.
     pub sigma_rad: f64,
-    /// Scale factor `s` of the yaw rate (measured over true).
+    /// Scale factor of the yaw rate (measured over true).
     pub scale: f64,
-    /// Its standard deviation; infinite where the drive says nothing, 0 where it was not estimated.
+    /// Its standard deviation; 0 where it was not estimated.
     pub scale_sigma: f64,
     /// Covariance of angle (rad) and inverse scale `s'`: `[[tt, ts], [ts, ss]]`.
+    #[serde(skip)]
     pub covariance: [[f64; 2]; 2],
-    /// Bias of the yaw rate, rad/s.
+    /// Bias of the yaw rate.
     pub bias_radps: f64,
-    /// Its standard deviation, rad/s; infinite where nothing is known of it.
+    /// Its standard deviation; infinite where nothing is known of it.
     pub bias_sigma_radps: f64,
-    /// Inliers over detections, of the frames used; 0 without any.
+    /// Static detections over all, of the frames used; 0 without any.
     pub inlier_share: f64,
     /// What became of the frames.
     pub frames: FrameCounts,
     /// The angle has settled: its standard deviation is below the limit of the options and it moved
     /// by no more than that lately.
     pub converged: bool,
-    /// Whether the angle differs from the nominal one beyond limit and chance; `None` without a
+    /// Whether the angle differs from the nominal one beyond limit and chance; none without a
     /// nominal angle.
     pub misaligned: Option<bool>,
     /// What to know of it.
+    #[option(described_as = Vec<boresight_core::Remark>)]
+    #[serde(rename = "warnings", serialize_with = "remark::serialize")]
     pub remarks: Vec<Remark>,
 }

@@ -1,6 +1,8 @@
 //! One radar frame: what goes in and what an estimator makes of it.
 
 use boresight_core::Detection;
+use boresight_core::describe::{Described, columns};
+use serde::Serialize;
 
 /// One scan of the radar with the car's motion at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,9 +19,10 @@ pub struct FrameInput<'a> {
 }
 
 /// The radar's own motion, from one frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
+#[option(name = "RadarMotion")]
 pub struct Motion {
-    /// Velocity `(vx, vy)` in the radar's frame, m/s.
+    /// Velocity ahead and to the left in the radar's frame.
     pub velocity_mps: [f64; 2],
     /// Its covariance `[[xx, xy], [xy, yy]]`, m^2/s^2.
     pub covariance: [[f64; 2]; 2],
@@ -30,7 +33,9 @@ pub struct Motion {
 }
 
 /// What became of a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[option(name = "FrameVerdict")]
 pub enum Verdict {
     /// It went into the angle.
     Used,
@@ -47,16 +52,22 @@ pub enum Verdict {
 }
 
 /// What an estimator made of one frame.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct FrameOutcome {
     /// What became of it.
     pub verdict: Verdict,
     /// The radar's motion, if one could be found.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<Motion>,
-    /// The mounting angle this frame alone gives, rad, and its standard deviation.
-    pub angle_rad: Option<(f64, f64)>,
-    /// Weight of the frame in the estimate, relative to a frame of unit variance (1/rad^2); 0 if unused.
+    /// The mounting angle this frame alone gives, if it gives one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_rad: Option<f64>,
+    /// Its standard deviation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle_sigma_rad: Option<f64>,
+    /// Weight of the frame in the estimate, 1/rad^2; 0 if unused.
     pub weight: f64,
     /// For each detection the weight, 0 to 1, with which it was taken as static.
+    #[serde(serialize_with = "columns::serialize")]
     pub weights: Vec<f32>,
 }

@@ -105,7 +105,7 @@ fn feed(calibrator: &mut Calibrator, frames: &[Frame]) -> Result<f64, TestCaseEr
             prop_assert!(xx * yy >= xy * xy * (1.0 - 1e-9), "{:?}", motion);
             prop_assert!(motion.inliers <= motion.detections, "{:?}", motion);
         }
-        if let Some((angle, sigma)) = outcome.angle_rad {
+        if let (Some(angle), Some(sigma)) = (outcome.angle_rad, outcome.angle_sigma_rad) {
             prop_assert!(angle.abs() <= PI && sigma > 0.0, "{:?}", outcome);
         }
     }

@@ -36,7 +36,7 @@ pub fn open_path(
     }
     found.sort();
     found.dedup();
-    if format.is_none_or(|format| format == DriveFormat::RadarScenes) {
+    if format.is_none_or(|format| format == DriveFormat::Radarscenes) {
         let set = match paths[..] {
             [folder] if folder.is_dir() && !found.iter().any(|path| is_hdf5(&name(path))) => {
                 Sequences::find(folder, files)?
@@ -121,7 +121,7 @@ fn read_sequence(
     })?;
     files.note_input(radar_data);
     let log = read_path(radar_data, companions, &mut report)?;
-    Ok(DriveRead { log, report, format: DriveFormat::RadarScenes })
+    Ok(DriveRead { log, report, format: DriveFormat::Radarscenes })
 }
 
 /// The sequences of a data set.

@@ -17,6 +17,7 @@ mod drive;
 mod error;
 mod files;
 mod flags;
+mod json;
 mod network;
 mod output;
 mod picture;

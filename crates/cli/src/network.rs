@@ -4,6 +4,7 @@ use crate::arguments::ModelArguments;
 use crate::error::CliError;
 use crate::files::Files;
 use boresight_aoa::{Estimator, Method, Options};
+use boresight_core::describe::Named;
 use boresight_core::{Array, Waveform};
 use boresight_neural::{Card, Model, NeuralError};
 use boresight_pipeline::{Chain, ChainOptions};

@@ -1,7 +1,9 @@
 //! Antenna arrays: element positions, real or virtual.
 
+use crate::describe::Described;
 use crate::error::{CoreError, check_finite};
 use crate::lattice::Lattice;
+use serde::Serialize;
 
 /// Position in the sensor frame, half wavelengths: x forward, y left, z up.
 pub type Position = [f64; 3];
@@ -13,7 +15,7 @@ pub const MAX_ELEMENTS: usize = 1024;
 const SAME_POSITION: f64 = 1e-9;
 
 /// Transmitter and receiver a virtual element comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
 pub struct Channel {
     /// Index of the transmitter, in the order of transmission.
     pub tx: usize,
@@ -22,7 +24,8 @@ pub struct Channel {
 }
 
 /// Which angles an array can tell apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Extent {
     /// All elements at one point: no angle at all.
     Point,

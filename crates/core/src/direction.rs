@@ -1,10 +1,12 @@
 //! Directions in the sensor frame.
 
+use crate::describe::Described;
 use crate::error::{CoreError, check_range};
+use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
 /// A direction seen from the sensor: x forward, y left, z up.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
 pub struct Direction {
     /// Azimuth, counter-clockwise from boresight (positive to the left).
     pub azimuth_rad: f64,
@@ -41,7 +43,7 @@ impl Direction {
     ///
     /// # Errors
     /// [`CoreError::OutOfRange`] otherwise, also for NaN.
-    pub fn check(self) -> Result<(), CoreError> {
+    pub fn check(&self) -> Result<(), CoreError> {
         check_range("azimuth_rad", self.azimuth_rad, -FRAC_PI_2, FRAC_PI_2)?;
         check_range("elevation_rad", self.elevation_rad, -FRAC_PI_2, FRAC_PI_2)
     }

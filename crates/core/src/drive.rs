@@ -37,7 +37,7 @@ pub struct Scan {
 }
 
 /// Where the car's frame stands on the ground.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct Pose {
     /// East, or x of the log's global frame, m.
     pub x_m: f64,

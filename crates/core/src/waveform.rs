@@ -1,12 +1,13 @@
 //! The FMCW waveform of a time-division MIMO radar and the numbers that follow from it.
 
+use crate::describe::Described;
 use crate::error::{CoreError, check_positive, check_range};
 use crate::units::SPEED_OF_LIGHT_MPS;
 use serde::{Deserialize, Serialize};
 
 /// Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each,
 /// `samples` complex samples a chirp.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Waveform {
     /// Frequency at the start of the ramp, Hz.
@@ -27,6 +28,27 @@ pub struct Waveform {
     pub loops: usize,
     /// Time from the start of one frame to the start of the next, s.
     pub frame_interval_s: f64,
+}
+
+/// What follows from a waveform: the numbers engineers look for first.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
+pub struct WaveformSummary {
+    /// Bandwidth swept while samples are taken.
+    pub bandwidth_hz: f64,
+    /// Frequency in the middle of the samples.
+    pub centre_frequency_hz: f64,
+    /// Wavelength at the centre frequency.
+    pub wavelength_m: f64,
+    /// Range resolution.
+    pub range_resolution_m: f64,
+    /// Largest unambiguous range.
+    pub max_range_m: f64,
+    /// Range-rate resolution.
+    pub rate_resolution_mps: f64,
+    /// Largest unambiguous range rate of either sign.
+    pub max_rate_mps: f64,
+    /// Time over which the chirps of a frame are sent.
+    pub frame_time_s: f64,
 }
 
 impl Waveform {
@@ -90,6 +112,25 @@ impl Waveform {
     /// Largest unambiguous range rate `lambda / 4 Tloop`, m/s, of either sign.
     pub fn max_rate_mps(&self) -> f64 {
         self.wavelength_m() / (4.0 * self.loop_interval_s())
+    }
+
+    /// Time over which the chirps of a frame are sent, s.
+    pub fn frame_time_s(&self) -> f64 {
+        self.loop_interval_s() * self.loops as f64
+    }
+
+    /// The numbers above together.
+    pub fn summary(&self) -> WaveformSummary {
+        WaveformSummary {
+            bandwidth_hz: self.bandwidth_hz(),
+            centre_frequency_hz: self.centre_frequency_hz(),
+            wavelength_m: self.wavelength_m(),
+            range_resolution_m: self.range_resolution_m(),
+            max_range_m: self.max_range_m(),
+            rate_resolution_mps: self.rate_resolution_mps(),
+            max_rate_mps: self.max_rate_mps(),
+            frame_time_s: self.frame_time_s(),
+        }
     }
 }
 

@@ -83,7 +83,7 @@ pub fn type_name(input: &DeriveInput) -> Result<String> {
     Ok(name)
 }
 
-/// What `#[serde(...)]` says of a field.
+/// What `#[serde(...)]` says of a field or a type.
 #[derive(Default)]
 pub struct Serde {
     pub skip: bool,
@@ -91,6 +91,8 @@ pub struct Serde {
     pub rename: Option<String>,
     /// Whether what is absent is taken from a default.
     pub default: bool,
+    /// Whether the fields are written as JavaScript writes them.
+    pub camel_case: bool,
 }
 
 impl Serde {
@@ -108,6 +110,8 @@ impl Serde {
                     if meta.input.peek(syn::Token![=]) {
                         let _: Expr = meta.value()?.parse()?;
                     }
+                } else if meta.path.is_ident("rename_all") {
+                    serde.camel_case = meta.value()?.parse::<LitStr>()?.value() == "camelCase";
                 } else if meta.path.is_ident("rename") {
                     serde.rename = Some(meta.value()?.parse::<LitStr>()?.value());
                 } else if meta.input.peek(syn::Token![=]) {

@@ -1,19 +1,21 @@
 //! Structs with named fields.
 
 use crate::attributes::{FieldOptions, Range, Serde, doc, type_name};
-use proc_macro2::TokenStream;
-use quote::quote;
-use syn::{DeriveInput, Fields, Result, Type};
+use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
+use syn::{DeriveInput, Fields, GenericParam, Result, Type};
 
 pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
     let Fields::Named(fields) = fields else {
         return Err(syn::Error::new_spanned(input, "the fields of a record have names"));
     };
     let (ident, name, type_doc) = (&input.ident, type_name(input)?, doc(&input.attrs));
-    if !input.generics.params.is_empty() {
+    if input.generics.params.iter().any(|param| !matches!(param, GenericParam::Lifetime(_))) {
         return Err(syn::Error::new_spanned(&input.generics, "a record has no parameters"));
     }
-    let has_defaults = Serde::read(&input.attrs)?.default;
+    let (generics, parameters, _) = input.generics.split_for_impl();
+    let of_all = Serde::read(&input.attrs)?;
+    let has_defaults = of_all.default;
     let (mut described, mut checks, mut defaults, mut has_default) =
         (vec![], vec![], vec![], false);
     for field in &fields.named {
@@ -30,13 +32,17 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
             continue;
         }
         let own = ident.as_ref().map(ToString::to_string).unwrap_or_default();
-        let wire = serde.rename.unwrap_or(own);
+        let wire = match serde.rename {
+            Some(name) => name,
+            None if of_all.camel_case => in_camel_case(&own),
+            None => own,
+        };
         let spread = wire.starts_with("..");
         let required =
             options.required || !(has_defaults || serde.default || spread || is_option(ty));
         let (doc, may_be_absent) = (doc(&field.attrs), serde.may_be_absent);
         let range = range_tokens(options.range.as_ref());
-        let described_as = options.described_as.as_ref().unwrap_or(ty);
+        let described_as = as_static(options.described_as.as_ref().unwrap_or(ty).to_token_stream());
         let place = described.len();
         described.push(quote! {
             ::boresight_core::describe::Field {
@@ -69,7 +75,7 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
         const _: () = {
             const FIELDS: &[::boresight_core::describe::Field] = &[#(#described),*];
 
-            impl ::boresight_core::describe::Described for #ident {
+            impl #generics ::boresight_core::describe::Described for #ident #parameters {
                 const KIND: ::boresight_core::describe::Kind = ::boresight_core::describe::Kind::Record(
                     &::boresight_core::describe::Record { name: #name, doc: #type_doc, fields: FIELDS },
                 );
@@ -86,6 +92,32 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
 
             #default
         };
+    })
+}
+
+/// A type whose references live as long as the program, as a constant needs them.
+fn as_static(tokens: TokenStream) -> TokenStream {
+    let mut is_lifetime = false;
+    let each = tokens.into_iter().map(|token| match token {
+        TokenTree::Group(group) => Group::new(group.delimiter(), as_static(group.stream())).into(),
+        TokenTree::Ident(ident) if std::mem::take(&mut is_lifetime) => {
+            Ident::new("static", ident.span()).into()
+        }
+        other => {
+            is_lifetime = matches!(&other, TokenTree::Punct(mark) if mark.as_char() == '\'');
+            other
+        }
+    });
+    each.collect()
+}
+
+/// As serde's `rename_all = "camelCase"` has it.
+fn in_camel_case(name: &str) -> String {
+    let mut parts = name.split('_');
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |name, part| {
+        let (head, tail) = part.split_at(part.len().min(1));
+        name + &head.to_uppercase() + tail
     })
 }
 

@@ -2,9 +2,10 @@
 //! (xWR16xx, xWR18xx, xWR68xx): little-endian 16-bit numbers in groups `I0 I1 Q0 Q1` of two
 //! samples, the receivers of a chirp one after another.
 
-use crate::error::{FormatError, Remark};
+use crate::error::FormatError;
 use crate::mmwave_cfg::RadarConfig;
 use boresight_core::Complex32;
+use boresight_core::Remark;
 use boresight_core::error::check_range;
 use ndarray::Array4;
 

@@ -180,18 +180,3 @@ impl Diagnose for FormatError {
         }
     }
 }
-
-/// A remark on a file that was read all the same.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Remark {
-    /// A stable name in kebab case.
-    pub code: &'static str,
-    /// What a reader should know.
-    pub message: String,
-}
-
-impl Remark {
-    pub(crate) fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self { code, message: message.into() }
-    }
-}

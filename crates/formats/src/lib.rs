@@ -36,9 +36,10 @@ pub mod radarscenes;
 pub mod tables;
 pub mod ti_uart;
 
+pub use boresight_core::Remark;
 pub use dca1000::{Capture, RawFrame};
 pub use drive_log::{DriveFormat, DriveRead, DropReason, MountingSource, ReadReport};
-pub use error::{FormatError, Remark};
+pub use error::FormatError;
 pub use mmwave_cfg::RadarConfig;
 pub use npy::{NpyArray, NpyData};
-pub use ti_uart::{BoardFrame, BoardLog, BoardObject, UartStream};
+pub use ti_uart::{BoardFrame, BoardLog, BoardLogCounts, BoardObject, UartStream};

@@ -109,9 +109,9 @@ proptest! {
         frames.extend(stream.finish());
         let log = BoardLog::parse(&bytes, None);
         prop_assert_eq!(&frames, &log.frames);
-        prop_assert_eq!(stream.skipped_bytes(), log.skipped_bytes);
+        prop_assert_eq!(stream.counts().skipped_bytes, log.counts.skipped_bytes);
         // What is not skipped is in packets, and a whole one has at least a header.
-        let kept = bytes.len() as u64 - log.skipped_bytes;
+        let kept = bytes.len() as u64 - log.counts.skipped_bytes;
         prop_assert!(kept >= 36 * frames.len() as u64);
         let words = bytes.windows(8).filter(|window| **window == MAGIC).count();
         prop_assert!(frames.iter().filter(|f| f.complete).count() <= words);

@@ -1,6 +1,8 @@
 //! What is generated, in the order in which it is listed.
 
+use boresight_core::describe::shaped::{ComplexArray, ComplexArray32};
 use boresight_core::describe::{Described, Field, Kind, Record};
+use boresight_core::{Geometry, Waveform, WaveformSummary};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -30,7 +32,85 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
             "StreetOptions",
             "The simulated street",
         )?,
+        entry::<boresight_simulate::SceneSampling>("SceneSampling", "Scenes drawn by a rule")?,
+        entry::<boresight_aoa::counting::CountOptions>("CountOptions", "Counting sources")?,
+        entry::<boresight_wasm::drive::ReadDriveOptions>("ReadDriveOptions", "Reading drives")?,
     ])
+}
+
+/// What functions return, by subject.
+pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
+    use boresight_wasm::{
+        calibrate, capture, config, count, drive, estimate, npy, street, trajectory,
+    };
+    vec![
+        ("Arrays and waveforms", vec![Geometry::KIND, Waveform::KIND, WaveformSummary::KIND]),
+        (
+            "Angles",
+            vec![
+                estimate::MethodInfo::KIND,
+                boresight_aoa::suits::Unsuited::KIND,
+                boresight_aoa::Estimate::KIND,
+                boresight_aoa::BatchColumns::KIND,
+                count::CountResult::KIND,
+                boresight_aoa::bounds::Bound::KIND,
+            ],
+        ),
+        (
+            "Simulation",
+            vec![
+                ComplexArray::KIND,
+                ComplexArray32::KIND,
+                boresight_simulate::Snapshots::KIND,
+                boresight_simulate::street::Street::KIND,
+                street::SimulatedStreet::KIND,
+            ],
+        ),
+        (
+            "Captures and their chain",
+            vec![
+                config::ConfigRecord::KIND,
+                capture::CaptureInfo::KIND,
+                boresight_pipeline::FrameResult::KIND,
+                boresight_pipeline::FrameCells::KIND,
+            ],
+        ),
+        (
+            "Images",
+            vec![
+                boresight_image::MapColumns::KIND,
+                boresight_image::ViewColumns::KIND,
+                boresight_image::SidelobeMeasure::KIND,
+            ],
+        ),
+        (
+            "Mounting angles",
+            vec![
+                calibrate::CalibrationMethodInfo::KIND,
+                boresight_calibrate::FrameOutcome::KIND,
+                boresight_calibrate::AngleEstimate::KIND,
+                trajectory::Trajectory::KIND,
+            ],
+        ),
+        (
+            "Drives",
+            vec![
+                boresight_formats::DropReason::KIND,
+                drive::DriveScenarioInfo::KIND,
+                drive::DriveRecord::KIND,
+                drive::SimulatedDriveRecord::KIND,
+            ],
+        ),
+        (
+            "Files and boards",
+            vec![
+                npy::NpyRecord::KIND,
+                boresight_formats::BoardFrame::KIND,
+                boresight_formats::BoardLogCounts::KIND,
+                boresight_formats::BoardLog::KIND,
+            ],
+        ),
+    ]
 }
 
 fn entry<T: Described + Default + Serialize>(

@@ -4,9 +4,10 @@ use crate::catalogue::{Entry, shown};
 use crate::values;
 use boresight_core::describe::{Kind, Record, naming};
 use serde_json::Value;
+use std::collections::BTreeSet;
 
 /// A table for each kind of options.
-pub fn page(entries: &[Entry]) -> String {
+pub fn options(entries: &[Entry]) -> String {
     let mut text = String::from(
         "<!-- Written by `npm run generate` from the descriptions in Rust; not edited by hand. -->\n\n\
          # Options\n\n\
@@ -53,6 +54,70 @@ fn rows(prefix: &str, record: &'static Record, defaults: Option<&Value>) -> Stri
         );
     }
     text
+}
+
+/// A table for each record that functions return, those within records after them.
+pub fn results(results: &[(&str, Vec<Kind>)]) -> String {
+    let mut text = String::from(
+        "<!-- Written by `npm run generate` from the descriptions in Rust; not edited by hand. -->\n\n\
+         # Results\n\n\
+         What functions return, in the names of JavaScript; the command line's `--json` has the same. Angles\n\
+         are in degrees, everything else in SI units: the unit is in the name.\n",
+    );
+    let mut known = BTreeSet::new();
+    for (title, kinds) in results {
+        text += &format!("\n## {title}\n");
+        for kind in kinds {
+            tables(kind, &mut known, &mut text);
+        }
+    }
+    text
+}
+
+fn tables(kind: &Kind, known: &mut BTreeSet<&'static str>, text: &mut String) {
+    match kind {
+        Kind::Optional(inner) | Kind::List(inner) | Kind::Tuple(inner, _) => {
+            tables(inner, known, text);
+        }
+        Kind::Choice(choice) if known.insert(choice.name) => {
+            *text += &format!("\n### {}\n\n{}\n\n", choice.name, choice.doc);
+            *text += "| name | meaning |\n| --- | --- |\n";
+            for (name, doc) in choice.variants {
+                *text += &format!("| `{name}` | {doc} |\n");
+            }
+        }
+        Kind::Record(record) if known.insert(record.name) => {
+            *text += &format!("\n### {}\n\n{}\n\n", record.name, record.doc);
+            *text += "| field | what it is | type |\n| --- | --- | --- |\n";
+            let fields = shown(record, None);
+            for one in &fields {
+                let name = naming::javascript(one.field.name);
+                let absent = if one.field.may_be_absent { ", may be absent" } else { "" };
+                let of = type_of(&one.field.kind);
+                *text += &format!("| `{name}` | {} | {of}{absent} |\n", one.field.doc);
+            }
+            for one in fields {
+                tables(&one.field.kind, known, text);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn type_of(kind: &Kind) -> String {
+    match kind {
+        Kind::Number => "number".into(),
+        Kind::Whole | Kind::Seed => "whole number".into(),
+        Kind::Truth => "true or false".into(),
+        Kind::Text => "text".into(),
+        Kind::Numbers(_) => "numbers".into(),
+        Kind::Choice(choice) => choice.name.into(),
+        Kind::Record(record) => record.name.into(),
+        Kind::Optional(inner) => format!("{} or null", type_of(inner)),
+        Kind::List(inner) => format!("list of {}", type_of(inner)),
+        Kind::Tuple(inner, length) => format!("{length} of {}", type_of(inner)),
+        Kind::Special(special) => special.expected.into(),
+    }
 }
 
 fn choices(variants: &[(&str, &str)]) -> String {

@@ -66,12 +66,16 @@ fn root() -> PathBuf {
 }
 
 /// The files by their place in the checkout, and what they should hold.
-fn files() -> Result<[(&'static str, String); 3], GenerateError> {
+fn files() -> Result<[(&'static str, String); 5], GenerateError> {
     let entries = catalogue::entries()?;
+    let results = catalogue::results();
+    let [options, all_results] = typescript::modules(&entries, &results);
     Ok([
-        ("web/lib/generated/options.ts", typescript::module(&entries)),
+        ("web/lib/generated/options.ts", options),
+        ("web/lib/generated/results.ts", all_results),
         ("web/lib/generated/schema.json", schema::document(&entries)?),
-        ("docs/options.md", docs::page(&entries)),
+        ("docs/options.md", docs::options(&entries)),
+        ("docs/results.md", docs::results(&results)),
     ])
 }
 
@@ -89,7 +93,8 @@ mod tests {
 
     #[test]
     fn one_name_means_one_type() {
-        let module = files().unwrap()[0].1.clone();
+        let module =
+            files().unwrap()[..2].iter().map(|(_, text)| text.as_str()).collect::<String>();
         let mut names: Vec<&str> = module
             .lines()
             .filter_map(|line| line.strip_prefix("export ")?.split_whitespace().nth(1))
@@ -101,6 +106,9 @@ mod tests {
         let mut kinds = vec![];
         for entry in catalogue::entries().unwrap() {
             collect(&Kind::Record(entry.record), &mut kinds);
+        }
+        for kind in catalogue::results().iter().flat_map(|(_, kinds)| kinds) {
+            collect(kind, &mut kinds);
         }
         for (name, kind) in &kinds {
             let same = kinds.iter().filter(|(other, _)| other == name);

@@ -8,21 +8,34 @@ use std::collections::BTreeSet;
 
 const WIDTH: usize = 116;
 
-/// The module of all options.
-pub fn module(entries: &[Entry]) -> String {
-    let mut types = Types::default();
+const HEAD: &str =
+    "// Written by `npm run generate` from the descriptions in Rust; not edited by hand.\n";
+
+/// The module of all options, and that of all results.
+pub fn modules(entries: &[Entry], results: &[(&str, Vec<Kind>)]) -> [String; 2] {
+    let mut options = Types::default();
     for entry in entries {
-        types.record(entry.name, entry.record, Some(&entry.defaults));
+        options.record(entry.name, entry.record, Some(&entry.defaults));
     }
-    let head =
-        "// Written by `npm run generate` from the descriptions in Rust; not edited by hand.\n";
-    format!("{head}{}", types.text)
+    let known: Vec<&str> = options.known.iter().copied().collect();
+    let mut types = Types { known: options.known, is_result: true, ..Types::default() };
+    for kind in results.iter().flat_map(|(_, kinds)| kinds) {
+        types.kind(kind, None);
+    }
+    let names = |text: &str, name: &str| {
+        text.split(|c: char| !c.is_alphanumeric()).any(|word| word == name)
+    };
+    let imported: Vec<&str> = known.into_iter().filter(|name| names(&types.text, name)).collect();
+    let import = format!("import type {{ {} }} from './options.js';\n", imported.join(", "));
+    [HEAD.to_owned() + &options.text, format!("{HEAD}{import}{}", types.text)]
 }
 
 #[derive(Default)]
 struct Types {
     text: String,
     known: BTreeSet<&'static str>,
+    /// Whether fields are there unless they may be absent, and may be changed by who was given them.
+    is_result: bool,
 }
 
 impl Types {
@@ -53,14 +66,19 @@ impl Types {
         if !told.is_empty() {
             doc = format!("{} ({}).", doc.trim_end_matches('.'), told.join("; "));
         }
-        let mark = if field.required { "" } else { "?" };
-        let of = self.kind(&field.kind, *default);
+        let may_be_absent = if self.is_result { field.may_be_absent } else { !field.required };
+        let mark = if may_be_absent { "?" } else { "" };
+        let mut of = self.kind(&field.kind, *default);
+        if self.is_result && !may_be_absent && matches!(field.kind, Kind::Optional(_)) {
+            of += " | null";
+        }
         format!("{}  {}{mark}: {of};\n", comment(&doc, 2), naming::javascript(field.name))
     }
 
     fn kind(&mut self, kind: &Kind, default: Option<&Value>) -> String {
         match kind {
             Kind::Number | Kind::Whole => "number".into(),
+            Kind::Seed if self.is_result => "number".into(),
             Kind::Seed => "number | bigint".into(),
             Kind::Truth => "boolean".into(),
             Kind::Text => "string".into(),
@@ -77,24 +95,33 @@ impl Types {
                 choice.name.into()
             }
             Kind::Record(record) => {
-                let mut inner = Self { known: std::mem::take(&mut self.known), ..Self::default() };
+                let mut inner = Self {
+                    text: String::new(),
+                    known: std::mem::take(&mut self.known),
+                    is_result: self.is_result,
+                };
                 inner.record(record.name, record, default);
                 self.text += &inner.text;
                 self.known = inner.known;
                 record.name.into()
             }
             Kind::Optional(of) => self.kind(of, default),
-            Kind::List(of) => format!("readonly {}[]", self.item(of)),
+            Kind::List(of) => format!("{}{}[]", self.read_only(), self.item(of)),
             Kind::Tuple(of, length) => {
-                format!("readonly [{}]", vec![self.kind(of, None); *length].join(", "))
+                let all = vec![self.kind(of, None); *length].join(", ");
+                format!("{}[{all}]", self.read_only())
             }
             Kind::Special(special) => special.typescript.into(),
         }
     }
 
+    fn read_only(&self) -> &'static str {
+        if self.is_result { "" } else { "readonly " }
+    }
+
     fn item(&mut self, kind: &Kind) -> String {
         let of = self.kind(kind, None);
-        if of.contains(' ') { format!("({of})") } else { of }
+        if of.contains(' ') && !of.starts_with('[') { format!("({of})") } else { of }
     }
 
     fn choice(&mut self, choice: &'static Choice) {

@@ -31,12 +31,14 @@
 //! ```
 
 mod axis;
+mod columns;
 mod error;
 mod sidelobes;
 mod splat;
 mod view;
 
 pub use axis::Axis;
+pub use columns::{MapColumns, ViewColumns};
 pub use error::ImageError;
 pub use sidelobes::{Gate, LIT_DB, SidelobeMeasure, sidelobe_measure};
 pub use splat::{Grid, Outside, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target};

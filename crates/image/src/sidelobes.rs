@@ -3,9 +3,11 @@
 use crate::axis::Axis;
 use crate::error::ImageError;
 use crate::view::{BirdsEyeView, NO_RADAR, Polar};
+use boresight_core::describe::{Described, decibels};
 use boresight_core::error::{check_finite, check_range};
 use boresight_core::units::power_to_db;
 use ndarray::Array2;
+use serde::Serialize;
 
 /// Cells less than this below the strongest of the view count as lit, dB.
 pub const LIT_DB: f64 = 40.0;
@@ -28,13 +30,16 @@ pub enum Gate {
 }
 
 /// How much of a view is not where targets are.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct SidelobeMeasure {
-    /// Energy (the sum of powers) outside the gates over all energy.
+    /// Energy (the sum of powers) outside the gates over all energy; minus infinity if there is none
+    /// outside.
+    #[serde(rename = "outside_db", serialize_with = "decibels::serialize_share")]
     pub outside_share: f64,
     /// Strongest cell outside the gates over the strongest of all.
+    #[serde(rename = "peak_outside_db", serialize_with = "decibels::serialize_share")]
     pub peak_outside: f64,
-    /// Share of the cells outside the gates that are lit: less than [`LIT_DB`] below the strongest.
+    /// Share of the cells outside the gates that are lit: less than 40 dB below the strongest of all.
     pub lit_outside: f64,
     /// Share of the targets in view with a lit cell in their gate.
     pub lit_targets: f64,

@@ -4,8 +4,10 @@
 use crate::axis::Axis;
 use crate::error::ImageError;
 use boresight_core::CoreError;
+use boresight_core::describe::Described;
 use boresight_core::error::{check_finite, check_range};
 use ndarray::{Array2, Array3, Axis as Dimension, s};
+use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
 /// Most cells of a map or cube (256 MiB).
@@ -72,7 +74,8 @@ pub struct Target {
 }
 
 /// What fell, in whole or in part, beside the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
+#[option(name = "OutsideGrid")]
 pub struct Outside {
     /// Targets, or points of spectra.
     pub count: usize,

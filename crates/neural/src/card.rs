@@ -2,12 +2,14 @@
 
 use crate::error::NeuralError;
 use boresight_aoa::Method;
+use boresight_core::describe::{self, Described, Special};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// What a network does, told from the names and shapes of its inputs and outputs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[option(name = "NetworkKind")]
 pub enum Kind {
     /// A set of targets from one snapshot.
     Aaetr,
@@ -20,19 +22,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All kinds.
-    pub const ALL: [Self; 4] = [Self::Aaetr, Self::Counting, Self::Dnn, Self::Cnn3d];
-
-    /// Its name on cards.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Aaetr => "aaetr",
-            Self::Counting => "counting",
-            Self::Dnn => "dnn",
-            Self::Cnn3d => "cnn3d",
-        }
-    }
-
     /// The method of angle estimation; none for the counting network.
     pub fn method(self) -> Option<Method> {
         match self {
@@ -82,6 +71,15 @@ pub enum Axis {
     Named(String),
 }
 
+impl Described for Axis {
+    const KIND: describe::Kind = describe::Kind::Special(&Special {
+        expected: "a length or a name",
+        typescript: "number | string",
+        schema: r#"{ "type": ["integer", "string"] }"#,
+        flag: "",
+    });
+}
+
 impl fmt::Display for Axis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -92,11 +90,12 @@ impl fmt::Display for Axis {
 }
 
 /// An input or output, of 32-bit floating-point numbers.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Described, Serialize, Deserialize)]
+#[option(name = "NetworkPort")]
 pub struct Port {
     /// Its name.
     pub name: String,
-    /// Its shape.
+    /// Its shape: lengths, or names where any length goes.
     pub axes: Vec<Axis>,
 }
 

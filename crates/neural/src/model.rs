@@ -9,10 +9,12 @@ use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
 use boresight_aoa::Plan;
 use boresight_aoa::{Data, Estimate, Estimator, Estimators, Method, Options};
+use boresight_core::describe::{Described, Named, columns};
 use boresight_core::error::{check_finite, check_range};
 use boresight_core::{Array, Complex32, CoreError};
 use boresight_signal::region::{region_covariance, region_snapshots};
 use ndarray::{ArrayD, ArrayView3, ArrayViewD, Axis as NdAxis, Slice};
+use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::sync::{Arc, Mutex, PoisonError};
 use tract_onnx::prelude::{TValue, TVec};
@@ -41,11 +43,13 @@ pub struct Model {
 type Placed = (Vec<f32>, Arc<Engine>);
 
 /// How probable each number of sources is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct SourceProbabilities {
     /// The most probable number.
     pub sources: usize,
-    /// Probability of 0, 1 and 2 sources, each for itself.
+    /// Probability of 0, 1 and 2 sources, each by itself.
+    #[option(described_as = Vec<f64>)]
+    #[serde(serialize_with = "columns::serialize")]
     pub probability: [f64; 3],
 }
 
@@ -61,7 +65,7 @@ impl Model {
         let sha256: String =
             Sha256::digest(onnx).iter().map(|byte| format!("{byte:02x}")).collect();
         let (inputs, outputs) = ports(&proto);
-        let kinds: Vec<Kind> = card.map_or(Kind::ALL.to_vec(), |card| vec![card.kind]);
+        let kinds: Vec<Kind> = card.map_or(Kind::VARIANTS.to_vec(), |card| vec![card.kind]);
         let kinds = kinds_of(&inputs, &outputs, &kinds)?;
         let (wanted, _) = kinds[0].ports();
         // Positions too have an axis of any length, which counts elements.

@@ -2,9 +2,9 @@
 
 use crate::chain::{Chain, Found, frame_cells};
 use crate::error::PipelineError;
-use crate::result::{Detection, FrameCells, FrameResult, Remark};
+use crate::result::{Detection, FrameCells, FrameResult};
 use crate::source::{FrameSource, Progress};
-use boresight_core::{Complex64, CoreError};
+use boresight_core::{Complex64, CoreError, Remark};
 use ndarray::{Array2, Array3, Axis};
 use std::ops::{ControlFlow, Range};
 
@@ -132,7 +132,7 @@ impl Chain {
                 "{count} detections move through more than one range cell in {time_s:.2} s; \
                  frames by themselves suit them better"
             );
-            result.warnings.push(Remark { code: "moving-targets", message });
+            result.warnings.push(Remark::new("moving-targets", message));
         }
     }
 

@@ -3,9 +3,10 @@
 use crate::beam::suited;
 use crate::error::PipelineError;
 use crate::options::{ChainOptions, usable_range_m};
-use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult, Remark};
+use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult};
 use boresight_aoa::{AoaError, Data, Estimate, Estimator, Estimators, Method, Options};
-use boresight_core::{Array, Complex32, Complex64, Direction, Waveform};
+use boresight_core::describe::remark::Coded;
+use boresight_core::{Array, Complex32, Complex64, Direction, Remark, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
 use boresight_signal::{Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, Region, tdm};
@@ -271,14 +272,11 @@ impl Chain {
         detections.sort_by(|a, b| b.power.total_cmp(&a.power));
         counts.beyond_limit += detections.len().saturating_sub(self.options.max_detections);
         detections.truncate(self.options.max_detections);
-        let mut warnings: Vec<Remark> = estimates
-            .warnings
-            .iter()
-            .map(|w| Remark { code: w.first.code(), message: w.to_string() })
-            .collect();
+        let mut warnings: Vec<Remark> =
+            estimates.warnings.iter().map(|w| Remark::new(w.first.code(), w.to_string())).collect();
         if counts.without_angle > 0 {
             let message = format!("{} cells have no angle", counts.without_angle);
-            warnings.push(Remark { code: "cells-without-angle", message });
+            warnings.push(Remark::new("cells-without-angle", message));
         }
         let profile = self.transform.range_profile(&self.map)?;
         Ok(FrameResult {

@@ -47,5 +47,5 @@ pub use beam::suited;
 pub use chain::Chain;
 pub use error::PipelineError;
 pub use options::{AngleOptions, ChainOptions, usable_range_m};
-pub use result::{Counts, DetectedCell, Detection, FrameCells, FrameResult, Remark};
+pub use result::{Counts, DetectedCell, Detection, FrameCells, FrameResult};
 pub use source::{CubeFrames, Frame, FrameSource, Progress};

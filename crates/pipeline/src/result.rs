@@ -1,24 +1,29 @@
 //! What the chain gives.
 
-use boresight_core::Complex64;
+use boresight_core::describe::shaped::ComplexArray;
+use boresight_core::describe::{Described, columns, decibels};
+use boresight_core::{Complex64, Remark};
 use ndarray::{Array2, Array3};
+use serde::{Serialize, Serializer};
 
 /// A target in one frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct Detection {
     /// Frame, from 0; the first one where frames were combined.
     pub frame: usize,
-    /// Range, m, interpolated between bins and corrected for the range rate.
+    /// Range, interpolated between bins and corrected for the range rate.
     pub range_m: f64,
-    /// Range rate, m/s, positive when receding, interpolated between bins.
+    /// Range rate, positive when receding, interpolated between bins.
     pub rate_mps: f64,
-    /// Azimuth, rad, positive to the left.
+    /// Azimuth, positive to the left.
     pub azimuth_rad: f64,
-    /// Elevation, rad, positive upwards; 0 where the array does not see it.
+    /// Elevation, positive upwards; 0 where the array does not see it.
     pub elevation_rad: f64,
-    /// Power of one raw sample at one element, interpolated between bins; 1 is full scale.
+    /// Power of one raw sample at one element over full scale (1.0), interpolated between bins.
+    #[serde(rename = "power_db", serialize_with = "decibels::serialize")]
     pub power: f64,
-    /// Its power in its cell over the noise around the cell, linear.
+    /// Its power in its cell over the noise around the cell.
+    #[serde(rename = "snr_db", serialize_with = "decibels::serialize")]
     pub snr: f64,
     /// Range bin.
     pub range_bin: usize,
@@ -45,18 +50,23 @@ pub struct DetectedCell {
 }
 
 /// Detected cells of a frame, or of several combined, with what estimators take.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct FrameCells {
     /// The cells, strongest first.
+    #[option(described_as = CellColumns)]
+    #[serde(rename = "..cells", serialize_with = "as_columns")]
     pub cells: Vec<DetectedCell>,
-    /// Cells x elements x frames, the transmitters' Doppler phase taken off.
+    /// Cells x elements (x frames where there are several), the transmitters' Doppler phase taken off.
+    #[option(described_as = ComplexArray)]
+    #[serde(serialize_with = "as_snapshots")]
     pub snapshots: Array3<Complex64>,
     /// What became of cells and samples.
     pub counts: Counts,
 }
 
 /// What became of cells and samples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize)]
+#[option(name = "FrameCounts")]
 pub struct Counts {
     /// Cells above their threshold.
     pub cells_over_threshold: usize,
@@ -72,29 +82,25 @@ pub struct Counts {
     pub clipped_samples: usize,
 }
 
-/// Something a reader of the result should know; not an error.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Remark {
-    /// A stable name in kebab case.
-    pub code: &'static str,
-    /// What it says.
-    pub message: String,
-}
-
 /// Result of one frame, or of several combined.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct FrameResult {
     /// Frame, from 0; the first one where frames were combined.
     pub frame: usize,
     /// Frames that went in.
     pub frames: usize,
-    /// Range of each range bin, m.
+    /// Range of each range bin.
+    #[serde(serialize_with = "columns::serialize")]
     pub range_m: Vec<f64>,
-    /// Range rate of each Doppler bin, m/s, ascending.
+    /// Range rate of each Doppler bin, ascending.
+    #[serde(serialize_with = "columns::serialize")]
     pub rate_mps: Vec<f64>,
-    /// Power over range, dB: mean over channels, sum over Doppler.
+    /// Power over range: mean over channels, sum over Doppler.
+    #[serde(serialize_with = "columns::serialize")]
     pub range_profile_db: Vec<f64>,
-    /// Power over range and Doppler, dB: mean over channels.
+    /// Power over range and Doppler: mean over channels.
+    #[option(described_as = RangeDopplerMap<'static>)]
+    #[serde(rename = "..range_doppler_db", serialize_with = "with_shape")]
     pub range_doppler_db: Array2<f32>,
     /// Detections, strongest first.
     pub detections: Vec<Detection>,
@@ -102,4 +108,65 @@ pub struct FrameResult {
     pub counts: Counts,
     /// Remarks of the estimator, each kind once, and of the chain.
     pub warnings: Vec<Remark>,
+}
+
+/// A map with its shape.
+#[derive(Described, Serialize)]
+struct RangeDopplerMap<'a> {
+    /// Power over range and Doppler (Doppler fastest): mean over channels.
+    #[option(described_as = Vec<f32>)]
+    #[serde(serialize_with = "columns::serialize_array")]
+    range_doppler_db: &'a Array2<f32>,
+    /// Range bins, then Doppler bins.
+    shape: [usize; 2],
+}
+
+fn with_shape<S: Serializer>(map: &Array2<f32>, serializer: S) -> Result<S::Ok, S::Error> {
+    RangeDopplerMap { range_doppler_db: map, shape: map.dim().into() }.serialize(serializer)
+}
+
+/// Cells as columns.
+#[derive(Described, Serialize)]
+struct CellColumns {
+    /// Range of each cell, interpolated between bins and corrected for the range rate.
+    #[serde(serialize_with = "columns::serialize")]
+    range_m: Vec<f64>,
+    /// Range rate of each, positive when receding, interpolated between bins.
+    #[serde(serialize_with = "columns::serialize")]
+    rate_mps: Vec<f64>,
+    /// Power of each: one raw sample at one element over full scale (1.0).
+    #[serde(rename = "power_db", serialize_with = "decibels::serialize_column")]
+    power: Vec<f64>,
+    /// Over the noise around the cell.
+    #[serde(rename = "snr_db", serialize_with = "decibels::serialize_column")]
+    snr: Vec<f64>,
+    /// Range bin of each.
+    #[serde(serialize_with = "columns::serialize")]
+    range_bin: Vec<u32>,
+    /// Doppler bin of each.
+    #[serde(serialize_with = "columns::serialize")]
+    doppler_bin: Vec<u32>,
+}
+
+fn as_columns<S: Serializer>(cells: &[DetectedCell], serializer: S) -> Result<S::Ok, S::Error> {
+    let column = |of: fn(&DetectedCell) -> f64| cells.iter().map(of).collect();
+    let bins = |of: fn(&DetectedCell) -> usize| cells.iter().map(|cell| of(cell) as u32).collect();
+    let columns = CellColumns {
+        range_m: column(|cell| cell.range_m),
+        rate_mps: column(|cell| cell.rate_mps),
+        power: column(|cell| cell.power),
+        snr: column(|cell| cell.snr),
+        range_bin: bins(|cell| cell.range_bin),
+        doppler_bin: bins(|cell| cell.doppler_bin),
+    };
+    columns.serialize(serializer)
+}
+
+/// Snapshots of one frame lose the axis of frames.
+fn as_snapshots<S: Serializer>(all: &Array3<Complex64>, serializer: S) -> Result<S::Ok, S::Error> {
+    let mut snapshots = ComplexArray::from(all);
+    if snapshots.shape.last() == Some(&1) {
+        snapshots.shape.pop();
+    }
+    snapshots.serialize(serializer)
 }

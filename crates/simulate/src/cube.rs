@@ -13,6 +13,7 @@
 
 use crate::error::{SimulateError, check_values};
 use boresight_core::array::{MAX_ELEMENTS, Position};
+use boresight_core::describe::Described;
 use boresight_core::error::check_range;
 use boresight_core::steering::cis;
 use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_amplitude, db_to_power};
@@ -20,6 +21,7 @@ use boresight_core::{
     Array, Complex32, Complex64, CoreError, Direction, Imperfections, Random, Waveform,
 };
 use ndarray::{Array1, Array5};
+use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
 /// Most complex values one call returns (1 GiB).
@@ -29,17 +31,20 @@ pub const MAX_VALUES: usize = 1 << 27;
 pub const MAX_TARGETS: usize = 1024;
 
 /// A point target that moves along the line of sight.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
+#[option(name = "Echo")]
 pub struct CubeTarget {
-    /// Distance from the array's origin at the start of the first chirp, m.
+    /// Distance from the array's origin at the start of the first chirp.
     pub range_m: f64,
-    /// Rate at which the range grows, m/s.
+    /// Rate at which the range grows.
     pub rate_mps: f64,
     /// Where it is.
+    #[serde(rename = "..direction")]
     pub direction: Direction,
-    /// Power of one raw sample at one element, dB.
+    /// Power of one raw sample at one element.
     pub power_db: f64,
     /// Phase of its reflection; drawn from the seed if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub phase_rad: Option<f64>,
 }
 

@@ -3,11 +3,14 @@
 
 use crate::error::{SimulateError, check_values};
 use boresight_core::array::Position;
+use boresight_core::describe::Described;
+use boresight_core::describe::shaped::{self, ComplexArray};
 use boresight_core::error::check_range;
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::units::{db_to_amplitude, db_to_power};
 use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections, Random};
 use ndarray::{Array1, Array2, Array3, ArrayViewMut2, Axis};
+use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// Most complex values one call returns (1 GiB).
@@ -17,40 +20,37 @@ pub const MAX_VALUES: usize = 1 << 26;
 pub const MAX_TARGETS: usize = 1024;
 
 /// Something that reflects.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
+#[option(name = "TrueTarget")]
 pub struct Target {
     /// Where it is.
+    #[serde(rename = "..direction")]
     pub direction: Direction,
-    /// Its power at one element, dB: `20 log10 |alpha|`.
+    /// Its power at one element, `20 log10` of its amplitude.
     pub power_db: f64,
     /// Phase of its amplitude in the first snapshot; drawn uniformly if absent. Complex normal
     /// amplitudes have none.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub phase_rad: Option<f64>,
 }
 
 /// Rule by which scenes are drawn: every quantity uniform.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct SceneSampling {
     /// Fewest and most targets.
+    #[option(default = [0, 16])]
+    #[serde(rename = "count")]
     pub targets: [usize; 2],
     /// Azimuths lie within plus and minus this.
+    #[option(default = 60.0_f64.to_radians(), range = 0.0..=90.0)]
     pub field_of_view_rad: f64,
     /// Elevations lie within plus and minus this; 0 keeps targets in the horizontal plane.
+    #[option(default = 0.0, range = 0.0..=90.0)]
     pub elevation_field_of_view_rad: f64,
-    /// Lowest and highest power, dB.
+    /// Lowest and highest power.
+    #[option(default = [-13.0, 0.0])]
     pub power_db: [f64; 2],
-}
-
-impl Default for SceneSampling {
-    /// Up to 16 targets within 60 degrees, powers from -13 to 0 dB.
-    fn default() -> Self {
-        Self {
-            targets: [0, 16],
-            field_of_view_rad: 60.0_f64.to_radians(),
-            elevation_field_of_view_rad: 0.0,
-            power_db: [-13.0, 0.0],
-        }
-    }
 }
 
 /// Where the targets of a scene come from.
@@ -63,7 +63,8 @@ pub enum Scene {
 }
 
 /// How amplitudes change from snapshot to snapshot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Fluctuation {
     /// Constant magnitude, a new phase for each target and snapshot: uncorrelated targets of
     /// exactly the given powers.
@@ -96,9 +97,12 @@ pub struct SnapshotOptions {
 }
 
 /// Snapshots of several scenes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+#[option(name = "SnapshotResult")]
 pub struct Snapshots {
     /// Scenes x elements x snapshots.
+    #[option(described_as = ComplexArray)]
+    #[serde(rename = "..values", serialize_with = "shaped::serialize")]
     pub values: Array3<Complex64>,
     /// Targets of each scene, with their phase in the first snapshot where they have one.
     pub truth: Vec<Vec<Target>>,

@@ -3,21 +3,38 @@
 use crate::constructors::construct;
 use crate::tensors::{read_tensors, tensors_object};
 use boresight_aoa::{Estimators, Method, Options};
+use boresight_core::describe::{Described, Named};
 use boresight_core::presets::preset;
 use boresight_core::{Array, CoreError, Waveform};
-use boresight_neural::{Axis, Card, Kind, Model, Port};
+use boresight_neural::{Card, Kind, Model, Port};
 use boresight_pipeline::{Chain, ChainOptions};
 use boresight_wasm::bytes::Bytes;
 use boresight_wasm::capture::{Capture, process_cube_by};
+use boresight_wasm::carry;
 use boresight_wasm::complex::Cube;
 use boresight_wasm::error::Fallible;
-use boresight_wasm::estimate::{Estimator, Input, estimate_record, shape_error};
+use boresight_wasm::estimate::{Estimator, Input, shape_error};
 use boresight_wasm::read::{Fields, Read};
-use boresight_wasm::write::{Record, float64, list};
 use js_sys::Function;
 use ndarray::ArrayView3;
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// What a network is.
+#[derive(Described, Serialize)]
+pub struct NetworkDescription<'a> {
+    /// An estimator, or one that counts sources.
+    kind: Kind,
+    /// The method it is estimated with; null for a counting network.
+    method: Option<Method>,
+    /// Its name on its card, or that of its kind.
+    name: &'a str,
+    /// What goes in.
+    inputs: &'a [Port],
+    /// What comes out.
+    outputs: &'a [Port],
+}
 
 /// A model, and the estimator its options make of it.
 #[wasm_bindgen]
@@ -63,14 +80,14 @@ impl Network {
 
     /// What it is: kind, method, name, inputs and outputs.
     pub fn describe(&self) -> JsValue {
-        let method = self.model.kind().method().map_or(JsValue::NULL, |m| m.name().into());
-        Record::new()
-            .with("kind", self.model.kind().name())
-            .with("method", method)
-            .with("name", self.model.card().map_or(self.model.kind().name(), |card| &card.name))
-            .with("inputs", list(self.model.inputs().iter().map(port_record)))
-            .with("outputs", list(self.model.outputs().iter().map(port_record)))
-            .into()
+        let kind = self.model.kind();
+        carry::write(&NetworkDescription {
+            kind,
+            method: kind.method(),
+            name: self.model.card().map_or(kind.name(), |card| &card.name),
+            inputs: self.model.inputs(),
+            outputs: self.model.outputs(),
+        })
     }
 
     /// Estimates the angles in `{ snapshots }` or `{ covariance, snapshotCount }`.
@@ -87,11 +104,7 @@ impl Network {
     /// Counts sources.
     pub fn count(&mut self, input: &JsValue) -> Fallible<JsValue> {
         let input = Input::read(input, "input")?;
-        let counted = self.model.count(input.data()?)?;
-        Ok(Record::new()
-            .with("sources", counted.sources)
-            .with("probability", float64(&counted.probability))
-            .into())
+        Ok(carry::write(&self.model.count(input.data()?)?))
     }
 
     /// Estimates from the range bins around a peak: bins x elements x chirps.
@@ -102,8 +115,7 @@ impl Network {
         let [bins, elements, chirps] = shape[..] else { return Err(wrong()) };
         let view = ArrayView3::from_shape((bins, elements, chirps), &data).map_err(|_| wrong())?;
         let array = self.array()?;
-        let estimate = self.model.estimate_region(view, &array, &self.options)?;
-        Ok(estimate_record(&estimate).into())
+        Ok(carry::write(&self.model.estimate_region(view, &array, &self.options)?))
     }
 
     /// Runs the graph as it is: tensors by name to tensors by name.
@@ -201,12 +213,4 @@ impl Network {
         let estimators = Estimators::of(vec![estimator])?;
         Ok(Chain::with_estimators(waveform, receivers, array, options, estimators)?)
     }
-}
-
-fn port_record(port: &Port) -> Record {
-    let axis = |axis: &Axis| match axis {
-        Axis::Length(length) => JsValue::from(*length as f64),
-        Axis::Named(name) => JsValue::from(name),
-    };
-    Record::new().with("name", port.name.as_str()).with("axes", list(port.axes.iter().map(axis)))
 }

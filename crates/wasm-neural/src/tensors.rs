@@ -1,11 +1,13 @@
 //! Named tensors in and out.
 
 use boresight_core::CoreError;
+use boresight_core::describe::columns;
+use boresight_wasm::carry;
 use boresight_wasm::error::Fallible;
 use boresight_wasm::read::{Fields, Read, wrong_type};
-use boresight_wasm::write::{Record, float32, list};
 use js_sys::{Array, Float32Array, Object, Reflect};
 use ndarray::ArrayD;
+use serde::{Serialize, Serializer};
 use wasm_bindgen::{JsCast, JsValue};
 
 /// Numbers in C order with their shape.
@@ -53,14 +55,22 @@ pub fn read_tensors(value: &JsValue) -> Fallible<Vec<(String, ArrayD<f32>)>> {
 
 /// An object of tensors by their names.
 pub fn tensors_object(tensors: &[(String, ArrayD<f32>)]) -> JsValue {
-    let object = Object::new();
-    for (name, array) in tensors {
-        let array = array.as_standard_layout();
-        let record = Record::new()
-            .with("data", float32(array.as_slice().unwrap_or_default()))
-            .with("shape", list(array.shape().iter().copied()));
-        // Setting a property of a fresh plain object cannot fail.
-        let _ = Reflect::set(&object, &name.into(), &record.into());
+    carry::write(&Tensors(tensors))
+}
+
+struct Tensors<'a>(&'a [(String, ArrayD<f32>)]);
+
+impl Serialize for Tensors<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let record = |array| TensorRecord { shape: ArrayD::shape(array), data: array };
+        serializer.collect_map(self.0.iter().map(|(name, array)| (name, record(array))))
     }
-    object.into()
+}
+
+/// Numbers in C order with their shape.
+#[derive(Serialize)]
+struct TensorRecord<'a> {
+    #[serde(serialize_with = "columns::serialize_array")]
+    data: &'a ArrayD<f32>,
+    shape: &'a [usize],
 }

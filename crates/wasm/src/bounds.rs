@@ -1,8 +1,8 @@
 //! Cramer-Rao bounds.
 
+use crate::carry;
 use crate::error::Fallible;
 use crate::read::{Angle, Fields, Read};
-use crate::write::{Record, degrees};
 use boresight_aoa::bounds::{
     Signals, deterministic_bound, single_snapshot, stochastic_bound, uncorrelated,
 };
@@ -59,8 +59,5 @@ pub fn cramer_rao_bound(options: &JsValue) -> Fallible<JsValue> {
     } else {
         deterministic_bound(&array, &directions, &signals)?
     };
-    Ok(Record::new()
-        .with("azimuthDeg", degrees(&bound.azimuth_rad))
-        .with_some("elevationDeg", bound.elevation_rad.as_deref().map(degrees))
-        .into())
+    Ok(carry::write(&bound))
 }

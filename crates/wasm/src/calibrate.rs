@@ -4,24 +4,33 @@ use crate::carry;
 use crate::complex::float_array;
 use crate::error::Fallible;
 use crate::read::{Fields, Read};
-use crate::write::{Record, float32, list};
-use boresight_calibrate::{
-    self as calibrate, AngleEstimate, FrameCounts, FrameInput, FrameOutcome, Method, Motion,
-    Options, Verdict,
-};
+use boresight_calibrate::{self as calibrate, FrameInput, Method, Options};
+use boresight_core::describe::Described;
 use boresight_core::error::check_finite;
 use boresight_core::{CoreError, Detection};
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// A method of mounting angles.
+#[derive(Described, Serialize)]
+pub struct CalibrationMethodInfo {
+    /// Its name.
+    name: Method,
+    /// Name for people.
+    title: &'static str,
+    /// Where it was published.
+    reference: &'static str,
+}
 
 /// The methods that can be asked for.
 #[wasm_bindgen(js_name = calibrationMethods)]
 pub fn calibration_methods() -> js_sys::Array {
-    list(Method::ALL.into_iter().filter(|&method| is_offered(method)).map(|method| {
-        Record::new()
-            .with("name", method.name())
-            .with("title", method.title())
-            .with("reference", method.reference())
+    let offered = Method::ALL.into_iter().filter(|&method| is_offered(method));
+    carry::write_all(offered.map(|name| CalibrationMethodInfo {
+        name,
+        title: name.title(),
+        reference: name.reference(),
     }))
 }
 
@@ -49,18 +58,17 @@ impl Calibration {
     #[wasm_bindgen(js_name = addFrame)]
     pub fn add_frame(&mut self, frame: &JsValue) -> Fallible<JsValue> {
         let frame = Frame::read(frame, "frame")?;
-        let outcome = self.inner.add(FrameInput {
+        Ok(carry::write(&self.inner.add(FrameInput {
             time_s: frame.time_s,
             detections: &frame.detections,
             yaw_rate_radps: frame.yaw_rate_radps,
             speed_mps: frame.speed_mps,
-        })?;
-        Ok(outcome_record(&outcome).into())
+        })?))
     }
 
     /// The angle as far as the frames so far tell.
     pub fn estimate(&self) -> JsValue {
-        estimate_record(&self.inner.estimate()).into()
+        carry::write(&self.inner.estimate())
     }
 }
 
@@ -129,62 +137,4 @@ fn column(fields: &mut Fields, name: &'static str, count: usize) -> Fallible<Vec
     }
     let (what, expected) = (fields.path_of(name), format!("[{count}], as azimuthDeg has"));
     Err(CoreError::Shape { what, expected, given: vec![numbers.len()] }.into())
-}
-
-/// The verdicts in the order of their numbers in JavaScript.
-pub(crate) const VERDICTS: [(Verdict, &str); 6] = [
-    (Verdict::Used, "used"),
-    (Verdict::Standing, "standing"),
-    (Verdict::Slow, "slow"),
-    (Verdict::Turning, "turning"),
-    (Verdict::Sparse, "sparse"),
-    (Verdict::WithoutMotion, "without-motion"),
-];
-
-fn outcome_record(outcome: &FrameOutcome) -> Record {
-    let verdict = VERDICTS.iter().find(|(verdict, _)| *verdict == outcome.verdict);
-    Record::new()
-        .with_some("verdict", verdict.map(|(_, name)| *name))
-        .with_some("motion", outcome.motion.as_ref().map(motion_record))
-        .with_some("angleDeg", outcome.angle_rad.map(|(angle, _)| angle.to_degrees()))
-        .with_some("angleSigmaDeg", outcome.angle_rad.map(|(_, sigma)| sigma.to_degrees()))
-        .with("weight", outcome.weight)
-        .with("weights", float32(&outcome.weights))
-}
-
-fn motion_record(motion: &Motion) -> Record {
-    Record::new()
-        .with("velocityMps", list(motion.velocity_mps))
-        .with("covariance", list(motion.covariance.map(list)))
-        .with("inliers", motion.inliers)
-        .with("detections", motion.detections)
-}
-
-pub(crate) fn estimate_record(estimate: &AngleEstimate) -> Record {
-    let remark = |remark: &calibrate::Remark| {
-        Record::new().with("code", remark.code()).with("message", remark.to_string())
-    };
-    Record::new()
-        .with("angleDeg", estimate.angle_rad.to_degrees())
-        .with("sigmaDeg", estimate.sigma_rad.to_degrees())
-        .with("scale", estimate.scale)
-        .with("scaleSigma", estimate.scale_sigma)
-        .with("biasDegps", estimate.bias_radps.to_degrees())
-        .with("biasSigmaDegps", estimate.bias_sigma_radps.to_degrees())
-        .with("inlierShare", estimate.inlier_share)
-        .with("frames", counts_record(&estimate.frames))
-        .with("converged", estimate.converged)
-        .with("misaligned", estimate.misaligned.map_or(JsValue::NULL, JsValue::from))
-        .with("warnings", list(estimate.remarks.iter().map(remark)))
-}
-
-fn counts_record(counts: &FrameCounts) -> Record {
-    Record::new()
-        .with("given", counts.given as f64)
-        .with("used", counts.used as f64)
-        .with("standing", counts.standing as f64)
-        .with("slow", counts.slow as f64)
-        .with("turning", counts.turning as f64)
-        .with("sparse", counts.sparse as f64)
-        .with("withoutMotion", counts.without_motion as f64)
 }

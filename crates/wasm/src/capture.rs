@@ -1,22 +1,23 @@
 //! Recorded and simulated frames through the chain.
 
-use crate::array::geometry;
 use crate::bytes::Bytes;
+use crate::carry;
 use crate::chain::{read_angle, read_chain, read_cube_chain};
 use crate::complex::Cube;
-use crate::config::{config_record, read_config};
+use crate::config::{ConfigRecord, read_config};
 use crate::error::{BindingError, Fallible};
-use crate::estimate::{estimate_record, shape_error};
-use crate::frames::frame_record;
+use crate::estimate::shape_error;
 use crate::read::{Fields, Read};
 use crate::report::reporter;
-use crate::write::{Record, complex64, list, remarks};
+use boresight_core::describe::Described;
+use boresight_core::describe::shaped::ComplexArray;
 use boresight_core::error::check_range;
-use boresight_core::{Array, Complex64, Waveform};
+use boresight_core::{Array, Complex64, Geometry, Remark, Waveform};
 use boresight_formats::{self as formats, RadarConfig};
 use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameCells, FrameSource};
 use js_sys::Function;
 use ndarray::{Array2, ArrayView5};
+use serde::Serialize;
 use std::ops::{ControlFlow, Range};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -42,6 +43,21 @@ pub struct Capture {
     array: Option<Array>,
     frames: usize,
     chain: Option<Chain>,
+}
+
+/// What is known of a capture before any processing.
+#[derive(Described, Serialize)]
+pub struct CaptureInfo<'a> {
+    /// Its configuration.
+    config: ConfigRecord<'a>,
+    /// Whole frames.
+    frames: usize,
+    /// Bytes after the last whole frame.
+    trailing_bytes: usize,
+    /// Virtual array of the configured channels; null for a platform that is not known.
+    array: Option<Geometry>,
+    /// What is odd about its size.
+    warnings: &'a [Remark],
 }
 
 /// The frames of a capture.
@@ -75,13 +91,13 @@ impl Capture {
     /// What is known before any processing.
     pub fn info(&self) -> Fallible<JsValue> {
         let layout = formats::Capture::new(&self.bytes, &self.config)?;
-        Ok(Record::new()
-            .with("config", config_record(&self.config))
-            .with("frames", layout.frames())
-            .with("trailingBytes", layout.trailing_bytes())
-            .with("array", self.array.as_ref().map_or(JsValue::NULL, |a| geometry(a).into()))
-            .with("warnings", remarks(layout.remarks()))
-            .into())
+        Ok(carry::write(&CaptureInfo {
+            config: ConfigRecord::from(&self.config),
+            frames: layout.frames(),
+            trailing_bytes: layout.trailing_bytes(),
+            array: self.array.as_ref().map(Geometry::from),
+            warnings: layout.remarks(),
+        }))
     }
 
     /// Detections of one frame.
@@ -109,10 +125,7 @@ impl Capture {
         let (array, options) = read_chain(&mut fields)?;
         fields.finish()?;
         let (_, snapshots) = self.snapshots(cell, array, &options)?;
-        Ok(Record::new()
-            .with("data", complex64(&snapshots.iter().copied().collect::<Vec<_>>()))
-            .with("shape", list([snapshots.nrows(), snapshots.ncols()]))
-            .into())
+        Ok(carry::write(&ComplexArray::from(&snapshots)))
     }
 
     /// Angles and spectrum of one cell by any method.
@@ -129,7 +142,7 @@ impl Capture {
         fields.finish()?;
         let (chain, snapshots) = self.snapshots(cell, array, &options)?;
         let estimate = chain.cell_spectrum(snapshots.view(), angle.method, &angle.options)?;
-        Ok(estimate_record(&estimate).into())
+        Ok(carry::write(&estimate))
     }
 }
 
@@ -153,7 +166,7 @@ impl Capture {
         let (chain, recording) = self.planned(planner, array, &options)?;
         let results = js_sys::Array::new();
         let take = |result| {
-            results.push(&frame_record(&result).into());
+            results.push(&carry::write(&result));
         };
         chain.each(&recording, frames, take, &mut |_| ControlFlow::Continue(()))?;
         Ok(results)
@@ -174,7 +187,7 @@ impl Capture {
         let frames = self.frame_range(first, count)?;
         let (chain, recording) = self.planned(planner, array, &options)?;
         let mut report = reporter(report);
-        Ok(frame_record(&chain.combine(&recording, frames, &mut report)?).into())
+        Ok(carry::write(&chain.combine(&recording, frames, &mut report)?))
     }
 
     /// Detected cells of one frame.
@@ -281,7 +294,7 @@ pub fn process_cube_by(
     let mut chain = planner(&waveform, receivers, &array, &options)?;
     let results = js_sys::Array::new();
     let take = |result| {
-        results.push(&frame_record(&result).into());
+        results.push(&carry::write(&result));
     };
     chain.each(&source, 0..frames, take, &mut |_| ControlFlow::Continue(()))?;
     Ok(results)

@@ -1,18 +1,20 @@
 //! Configurations of mmWave boards.
 
 use crate::bytes::Text;
+use crate::carry;
 use crate::error::Fallible;
 use crate::read::Read;
-use crate::waveform::{summary_record, waveform_record};
-use crate::write::{Record, list, remarks};
+use boresight_core::describe::Described;
+use boresight_core::{Remark, Waveform, WaveformSummary};
 use boresight_formats::RadarConfig;
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Reads the text of a `.cfg` file.
 #[wasm_bindgen(js_name = parseConfig)]
 pub fn parse_config(text: &JsValue) -> Fallible<JsValue> {
-    Ok(config_record(&read_config(text, "configuration")?).into())
+    Ok(carry::write(&ConfigRecord::from(&read_config(text, "configuration")?)))
 }
 
 /// A configuration from its text.
@@ -20,24 +22,54 @@ pub fn read_config(text: &JsValue, path: &str) -> Fallible<RadarConfig> {
     Ok(RadarConfig::parse(&Text::read(text, path)?.0)?)
 }
 
-/// A configuration as a plain object.
-pub fn config_record(config: &RadarConfig) -> Record {
-    Record::new()
-        .with("waveform", waveform_record(&config.waveform))
-        .with("summary", summary_record(&config.waveform))
-        .with("receivers", config.receivers.len())
-        .with("transmitters", config.transmitters.len())
-        .with("receiverNumbers", list(config.receivers.iter().copied()))
-        .with("transmitterNumbers", list(config.transmitters.iter().copied()))
-        .with("array", or_null(config.array_preset))
-        .with("platform", or_null(config.platform.as_deref()))
-        .with("sdkVersion", or_null(config.sdk_version.as_deref()))
-        .with("sampleBits", config.adc.bits)
-        .with("frameBytes", config.frame_bytes() as f64)
-        .with("frames", config.frames.map_or(JsValue::NULL, JsValue::from))
-        .with("warnings", remarks(&config.remarks))
+/// What a configuration says of the radar and its samples.
+#[derive(Described, Serialize)]
+#[option(name = "RadarConfig")]
+pub struct ConfigRecord<'a> {
+    /// Timing and frequency plan of a frame.
+    waveform: Waveform,
+    /// What follows from it.
+    summary: WaveformSummary,
+    /// Number of receivers in use.
+    receivers: usize,
+    /// Number of transmitters in use.
+    transmitters: usize,
+    /// Numbers of the receivers on the chip, from 0.
+    receiver_numbers: &'a [usize],
+    /// Numbers of the transmitters on the chip, from 0, in order of transmission.
+    transmitter_numbers: &'a [usize],
+    /// Preset that fits the platform and channels, if there is one.
+    array: Option<&'static str>,
+    /// Platform named in a comment, such as `xWR16xx`.
+    platform: Option<&'a str>,
+    /// Version of the board's software named in a comment, such as `02.00`.
+    sdk_version: Option<&'a str>,
+    /// Bits of a sample.
+    sample_bits: u32,
+    /// Bytes of one frame of raw samples.
+    frame_bytes: u64,
+    /// Frames to record; null until stopped.
+    frames: Option<usize>,
+    /// Lines that were not understood, and other remarks.
+    warnings: &'a [Remark],
 }
 
-fn or_null(text: Option<&str>) -> JsValue {
-    text.map_or(JsValue::NULL, JsValue::from)
+impl<'a> From<&'a RadarConfig> for ConfigRecord<'a> {
+    fn from(config: &'a RadarConfig) -> Self {
+        Self {
+            waveform: config.waveform,
+            summary: config.waveform.summary(),
+            receivers: config.receivers.len(),
+            transmitters: config.transmitters.len(),
+            receiver_numbers: &config.receivers,
+            transmitter_numbers: &config.transmitters,
+            array: config.array_preset,
+            platform: config.platform.as_deref(),
+            sdk_version: config.sdk_version.as_deref(),
+            sample_bits: config.adc.bits,
+            frame_bytes: config.frame_bytes(),
+            frames: config.frames,
+            warnings: &config.remarks,
+        }
+    }
 }

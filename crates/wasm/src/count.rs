@@ -1,27 +1,33 @@
 //! Counting sources.
 
+use crate::carry;
 use crate::error::Fallible;
 use crate::estimate::Input;
-use crate::read::{Fields, Read};
-use crate::write::{Record, float64};
-use boresight_aoa::counting::{Criterion, count_sources_in};
+use crate::read::Read;
+use boresight_aoa::counting::{CountOptions, count_sources_in};
+use boresight_core::describe::{Described, columns};
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// How many sources there are, and why.
+#[derive(Described, Serialize)]
+pub struct CountResult {
+    /// Number of sources.
+    count: usize,
+    /// Eigenvalues of the covariance, largest first.
+    #[serde(serialize_with = "columns::serialize")]
+    eigenvalues: Vec<f64>,
+    /// The criterion for 0, 1, 2, ... sources.
+    #[serde(serialize_with = "columns::serialize")]
+    criterion: Vec<f64>,
+}
 
 /// Counts sources by an information criterion on the eigenvalues of the covariance.
 #[wasm_bindgen(js_name = countSources)]
 pub fn count_sources(input: &JsValue, options: &JsValue) -> Fallible<JsValue> {
     let input = Input::read(input, "input")?;
-    let mut fields = Fields::of_optional(options)?;
-    let mut criterion = Criterion::Mdl;
-    let criteria = [("aic", Criterion::Aic), ("mdl", Criterion::Mdl)];
-    fields.update_choice("criterion", &criteria, &mut criterion)?;
-    let average_reversed = fields.optional("forwardBackward")?.unwrap_or(false);
-    fields.finish()?;
-    let (eigenvalues, count) = count_sources_in(input.data()?, average_reversed, criterion)?;
-    Ok(Record::new()
-        .with("count", count.sources)
-        .with("eigenvalues", float64(&eigenvalues))
-        .with("criterion", float64(&count.values))
-        .into())
+    let CountOptions { criterion, forward_backward } = carry::read_optional(options)?;
+    let (eigenvalues, count) = count_sources_in(input.data()?, forward_backward, criterion)?;
+    Ok(carry::write(&CountResult { count: count.sources, eigenvalues, criterion: count.values }))
 }

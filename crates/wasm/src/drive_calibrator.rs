@@ -1,13 +1,12 @@
 //! Mounting angles from many frames at a time, as flat numbers; for the TypeScript around this
 //! crate, which checks what goes in.
 
-use crate::calibrate::{VERDICTS, estimate_record};
 use crate::carry;
 use crate::error::Fallible;
 use crate::read::items;
-use crate::write::list;
 use boresight_calibrate::{AngleEstimate, Calibrator, FrameInput, Joint};
 use boresight_core::Detection;
+use boresight_core::describe::Named;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -86,15 +85,14 @@ impl DriveCalibrator {
                 Inner::One(calibrator) => calibrator.add(frame)?,
                 Inner::Joint(joint) => joint.add(*radar, frame)?,
             };
-            let verdict = VERDICTS.iter().position(|(verdict, _)| *verdict == outcome.verdict);
             let [vx, vy] = outcome.motion.map_or([f64::NAN; 2], |motion| motion.velocity_mps);
-            let (angle, sigma) = outcome.angle_rad.unwrap_or((f64::NAN, f64::NAN));
+            let degrees = |angle: Option<f64>| angle.map_or(f64::NAN, f64::to_degrees);
             rows.extend([
-                verdict.map_or(f64::NAN, |place| place as f64),
+                outcome.verdict.place() as f64,
                 vx,
                 vy,
-                angle.to_degrees(),
-                sigma.to_degrees(),
+                degrees(outcome.angle_rad),
+                degrees(outcome.angle_sigma_rad),
                 outcome.weight,
                 outcome.motion.map_or(0.0, |motion| motion.inliers as f64),
             ]);
@@ -119,7 +117,7 @@ impl DriveCalibrator {
 
     /// The estimate of each radar.
     pub fn estimate(&self) -> js_sys::Array {
-        list(self.estimates().iter().map(estimate_record))
+        carry::write_all(self.estimates())
     }
 
     fn estimates(&self) -> Vec<AngleEstimate> {

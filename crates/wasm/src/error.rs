@@ -1,6 +1,6 @@
 //! Errors that cross into JavaScript.
 
-use crate::write::Record;
+use crate::carry;
 use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
 use boresight_core::describe::At;
@@ -11,6 +11,7 @@ use boresight_image::ImageError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
+use serde::Serialize;
 use thiserror::Error;
 use wasm_bindgen::JsValue;
 
@@ -151,6 +152,16 @@ impl BindingError {
     }
 }
 
+/// An error on its way to JavaScript.
+#[derive(Serialize)]
+struct PlainError {
+    code: &'static str,
+    message: String,
+    what: String,
+    expected: String,
+    given: String,
+}
+
 impl From<BindingError> for JsValue {
     fn from(error: BindingError) -> Self {
         let Details { what, expected, given } = error.details();
@@ -159,13 +170,8 @@ impl From<BindingError> for JsValue {
             same if same == what => error.to_string(),
             renamed => error.to_string().replace(&what, renamed),
         };
-        Record::new()
-            .with("code", error.code())
-            .with("message", message)
-            .with("what", name)
-            .with("expected", expected)
-            .with("given", given)
-            .into()
+        let code = error.code();
+        carry::write(&PlainError { code, message, what: name, expected, given })
     }
 }
 

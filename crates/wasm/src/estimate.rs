@@ -1,38 +1,34 @@
 //! Angle estimation.
 
+use crate::carry;
 use crate::complex::ComplexData;
 use crate::error::{BindingError, Fallible};
 use crate::options::read_estimator;
 use crate::read::{Fields, Read};
-use crate::write::{Record, degrees, finite_db, finite_dbs, float32, float64, list};
-use boresight_aoa::{self as aoa, Data, Method, SpectrumKind};
+use boresight_aoa::method::Requirements;
+use boresight_aoa::{self as aoa, Data, Method};
+use boresight_core::describe::Described;
 use boresight_core::{Complex64, CoreError};
-use js_sys::Uint32Array;
 use ndarray::{ArrayView2, ArrayView3};
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// What a method needs and gives.
+#[derive(Described, Serialize)]
+pub struct MethodInfo {
+    /// Its name.
+    name: Method,
+    /// What it needs and gives.
+    #[serde(rename = "..requirements")]
+    requirements: Requirements,
+}
 
 /// The estimators and what each needs and gives.
 #[wasm_bindgen]
 pub fn methods() -> js_sys::Array {
-    list(Method::ALL.iter().chain(&Method::NETWORKS).map(|method| {
-        let needs = method.requirements();
-        let max_snapshots = needs.max_snapshots.map_or(JsValue::NULL, JsValue::from);
-        Record::new()
-            .with("name", method.name())
-            .with("title", needs.title)
-            .with("reference", needs.reference)
-            .with("minSnapshots", needs.min_snapshots)
-            .with("maxSnapshots", max_snapshots)
-            .with("takesCovariance", needs.takes_covariance)
-            .with("uniformArray", needs.uniform_array)
-            .with("lattice", needs.lattice)
-            .with("elevation", needs.elevation)
-            .with("sourceCount", needs.source_count)
-            .with("spectrum", needs.spectrum)
-            .with("cost", needs.cost)
-            .with("network", needs.network)
-    }))
+    let all = Method::ALL.into_iter().chain(Method::NETWORKS);
+    carry::write_all(all.map(|name| MethodInfo { name, requirements: name.requirements() }))
 }
 
 /// Estimates angles once. To run one method on many cells keep an [`Estimator`].
@@ -60,7 +56,7 @@ impl Estimator {
     /// Estimates the angles in `{ snapshots }` or `{ covariance, snapshotCount }`.
     pub fn estimate(&mut self, input: &JsValue) -> Fallible<JsValue> {
         let input = Input::read(input, "input")?;
-        Ok(estimate_record(&self.inner.estimate(input.data()?)?).into())
+        Ok(carry::write(&self.inner.estimate(input.data()?)?))
     }
 
     /// Estimates the angles in every cell of `{ snapshots }`: [cells, elements] or
@@ -74,7 +70,7 @@ impl Estimator {
         let spectra = fields.optional("spectra")?.unwrap_or(false);
         fields.finish()?;
         self.inner.estimate_batch_into(cells.view()?, spectra, &mut self.batch)?;
-        Ok(batch_record(&self.batch).into())
+        Ok(carry::write(&self.batch.columns()))
     }
 }
 
@@ -185,84 +181,4 @@ fn matrix<'a>(
 pub fn shape_error(what: &str, expected: &str, given: &[usize]) -> BindingError {
     let given = given.to_vec();
     CoreError::Shape { what: what.into(), expected: expected.into(), given }.into()
-}
-
-/// An estimate as a plain object.
-pub fn estimate_record(estimate: &aoa::Estimate) -> Record {
-    Record::new()
-        .with("method", estimate.method.name())
-        .with("sources", list(estimate.sources.iter().map(source_record)))
-        .with_some("spectrum", estimate.spectrum.as_ref().map(spectrum_record))
-        .with("resolved", estimate.resolved)
-        .with("iterations", estimate.iterations)
-        .with("warnings", warnings(&estimate.warnings))
-}
-
-/// Warnings of an estimator.
-pub fn warnings(warnings: &[aoa::Warning]) -> js_sys::Array {
-    list(
-        warnings
-            .iter()
-            .map(|w| Record::new().with("code", w.code()).with("message", w.to_string())),
-    )
-}
-
-fn source_record(source: &aoa::Source) -> Record {
-    Record::new()
-        .with("azimuthDeg", source.direction.azimuth_rad.to_degrees())
-        .with("elevationDeg", source.direction.elevation_rad.to_degrees())
-        .with("powerDb", finite_db(source.power))
-        .with_some("amplitude", source.amplitude.map(|z| list([z.re, z.im])))
-        .with_some("confidence", source.confidence)
-}
-
-fn spectrum_record(spectrum: &aoa::Spectrum) -> Record {
-    Record::new()
-        .with("azimuthDeg", degrees(&spectrum.azimuth_rad))
-        .with("elevationDeg", degrees(&spectrum.elevation_rad))
-        .with("valuesDb", finite_dbs(&spectrum.values))
-        .with("kind", kind_name(spectrum.kind))
-}
-
-fn kind_name(kind: SpectrumKind) -> &'static str {
-    match kind {
-        SpectrumKind::Power => "power",
-        SpectrumKind::Pseudo => "pseudo",
-    }
-}
-
-fn batch_record(batch: &aoa::BatchEstimate) -> Record {
-    let sources = &batch.sources;
-    let each = |number: fn(&aoa::Source) -> f64| sources.iter().map(number).collect::<Vec<_>>();
-    Record::new()
-        .with("method", batch.method.name())
-        .with("cells", batch.cells as f64)
-        .with("cell", Uint32Array::new_from_slice(&batch.cell))
-        .with("azimuthDeg", degrees(&each(|s| s.direction.azimuth_rad)))
-        .with("elevationDeg", degrees(&each(|s| s.direction.elevation_rad)))
-        .with("powerDb", float64(&each(|s| finite_db(s.power))))
-        .with_some("spectra", batch.spectra.as_ref().map(|s| spectra_record(s, batch.cells)))
-        .with("unresolved", batch.unresolved as f64)
-        .with("warnings", list(batch.warnings.iter().map(warning_count_record)))
-}
-
-fn spectra_record(spectra: &aoa::Spectra, cells: usize) -> Record {
-    let (azimuths, elevations) = (spectra.azimuth_rad.len(), spectra.elevation_rad.len());
-    let shape: Vec<f64> = match elevations {
-        1 => vec![cells as f64, azimuths as f64],
-        _ => vec![cells as f64, elevations as f64, azimuths as f64],
-    };
-    Record::new()
-        .with("azimuthDeg", degrees(&spectra.azimuth_rad))
-        .with("elevationDeg", degrees(&spectra.elevation_rad))
-        .with("power", float32(&spectra.values))
-        .with("shape", list(shape))
-        .with("kind", kind_name(spectra.kind))
-}
-
-fn warning_count_record(count: &aoa::WarningCount) -> Record {
-    Record::new()
-        .with("code", count.first.code())
-        .with("message", count.first.to_string())
-        .with("cells", count.cells as f64)
 }

@@ -1,19 +1,19 @@
 //! Range-azimuth maps, bird's-eye views and the measure of their sidelobes.
 
+use crate::carry;
 use crate::complex::float_array;
 use crate::error::{BindingError, Fallible};
 use crate::estimate::shape_error;
 use crate::read::{Angle, Fields, Read, wrong_type};
-use crate::write::{Record, degrees, float32, float64, list};
 use boresight_core::CoreError;
 use boresight_core::drive::Mounting;
 use boresight_core::error::check_range;
-use boresight_core::units::{db_to_power, power_to_db};
+use boresight_core::units::db_to_power;
 use boresight_image::{
-    Axis, BirdsEyeView, Gate, Grid, NO_RADAR, Outside, RangeAzimuthDoppler, RangeAzimuthMap,
-    SidelobeMeasure, SpectrumPlan, Target, ViewGrid, birds_eye_view, sidelobe_measure,
+    Axis, BirdsEyeView, Gate, Grid, Outside, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan,
+    Target, ViewGrid, birds_eye_view, sidelobe_measure,
 };
-use js_sys::{Int8Array, Uint8Array, Uint32Array};
+use js_sys::{Int8Array, Uint32Array};
 use ndarray::Array2;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
@@ -35,7 +35,7 @@ pub fn range_azimuth_map(input: &JsValue) -> Fallible<JsValue> {
     } else {
         add_targets(&mut image, &cells, &mut estimates)?;
     }
-    Ok(map_record(&image.to_map()).into())
+    Ok(carry::write(&image.to_map().columns()))
 }
 
 /// What a map needs of cells.
@@ -147,17 +147,7 @@ impl Read for Grid {
     }
 }
 
-fn map_record(map: &RangeAzimuthMap) -> Record {
-    let Outside { count, power } = map.outside;
-    Record::new()
-        .with("rangeM", float64(&map.grid.range_m.values()))
-        .with("azimuthDeg", degrees(&map.grid.azimuth_rad()))
-        .with("power", float32(&map.power.iter().copied().collect::<Vec<_>>()))
-        .with("shape", list(map.power.shape().iter().copied()))
-        .with("outside", Record::new().with("count", count).with("power", power))
-}
-
-/// A map as [`map_record`] wrote it.
+/// A map as it was given out.
 struct Map(RangeAzimuthMap);
 
 impl Read for Map {
@@ -196,29 +186,6 @@ fn powers(fields: &mut Fields, shape: (usize, usize)) -> Fallible<Array2<f32>> {
     Array2::from_shape_vec(shape, power).map_err(|_| shape_error(&path, &expected, &given))
 }
 
-/// A mounting in JavaScript.
-struct Placed(Mounting);
-
-impl Read for Placed {
-    const EXPECTED: &'static str = "{ xM, yM, yawDeg }";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let mut fields = Fields::new(value, path)?;
-        let (x_m, y_m) = (fields.required("xM")?, fields.required("yM")?);
-        let yaw: Angle = fields.required("yawDeg")?;
-        fields.finish()?;
-        Ok(Self(Mounting { x_m, y_m, yaw_rad: yaw.rad }))
-    }
-}
-
-/// A mounting as a plain object.
-pub fn mounting_record(mounting: &Mounting) -> Record {
-    Record::new()
-        .with("xM", mounting.x_m)
-        .with("yM", mounting.y_m)
-        .with("yawDeg", mounting.yaw_rad.to_degrees())
-}
-
 /// One of the radars of a view.
 struct Radar {
     map: Map,
@@ -231,7 +198,7 @@ impl Read for Radar {
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
         let mut fields = Fields::new(value, path)?;
         let map = fields.required("map")?;
-        let Placed(mounting) = fields.required("mounting")?;
+        let mounting = fields.described_required("mounting")?;
         fields.finish()?;
         Ok(Self { map, mounting })
     }
@@ -257,21 +224,7 @@ pub fn view(input: &JsValue) -> Fallible<JsValue> {
     let grid: ViewGrid = fields.required("grid")?;
     fields.finish()?;
     let radars: Vec<_> = radars.iter().map(|radar| (&radar.map.0, radar.mounting)).collect();
-    Ok(view_record(&birds_eye_view(&radars, grid)?).into())
-}
-
-fn view_record(view: &BirdsEyeView) -> Record {
-    let radar: Vec<i8> = view.radar.iter().copied().collect();
-    let seen: Vec<u8> = radar.iter().map(|&radar| u8::from(radar != NO_RADAR)).collect();
-    Record::new()
-        .with("xM", float64(&view.grid.x_m.values()))
-        .with("yM", float64(&view.grid.y_m.values()))
-        .with("power", float32(&view.power.iter().copied().collect::<Vec<_>>()))
-        .with("seen", Uint8Array::new_from_slice(&seen))
-        .with("radar", Int8Array::new_from_slice(&radar))
-        .with("shape", list(view.power.shape().iter().copied()))
-        .with("cellM", view.grid.cell_m)
-        .with("mountings", list(view.mountings.iter().map(mounting_record)))
+    Ok(carry::write(&birds_eye_view(&radars, grid)?.columns()))
 }
 
 /// How much of a view is not where targets are.
@@ -281,15 +234,7 @@ pub fn measure(view: &JsValue, targets: &JsValue, gate: &JsValue) -> Fallible<Js
     let targets: Vec<Place> = Vec::read(targets, "targets")?;
     let targets: Vec<[f64; 2]> = targets.into_iter().map(|Place(place)| place).collect();
     let measured = sidelobe_measure(&view, &targets, read_gate(Fields::new(gate, "gate")?)?)?;
-    let SidelobeMeasure { lit_outside, lit_targets, targets, gated, .. } = measured;
-    Ok(Record::new()
-        .with("outsideDb", power_to_db(measured.outside_share))
-        .with("peakOutsideDb", power_to_db(measured.peak_outside))
-        .with("litOutside", lit_outside)
-        .with("litTargets", lit_targets)
-        .with("targets", targets)
-        .with("gated", gated)
-        .into())
+    Ok(carry::write(&measured))
 }
 
 fn read_view(mut fields: Fields) -> Fallible<BirdsEyeView> {
@@ -308,8 +253,7 @@ fn read_view(mut fields: Fields) -> Fallible<BirdsEyeView> {
     let given = [radar.len()];
     let radar = Array2::from_shape_vec(shape, radar)
         .map_err(|_| shape_error("view.radar", "a radar for each cell", &given))?;
-    let mountings: Vec<Placed> = fields.required("mountings")?;
-    let mountings = mountings.into_iter().map(|Placed(mounting)| mounting).collect();
+    let mountings: Vec<Mounting> = fields.described_required("mountings")?;
     Ok(BirdsEyeView { grid: ViewGrid { x_m, y_m, cell_m }, power, radar, mountings })
 }
 

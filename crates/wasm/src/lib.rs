@@ -15,12 +15,12 @@
 #[cfg(feature = "chain")]
 pub mod array;
 #[cfg(feature = "core")]
-mod board;
+pub mod board;
 #[cfg(feature = "core")]
-mod bounds;
+pub mod bounds;
 pub mod bytes;
 #[cfg(feature = "core")]
-mod calibrate;
+pub mod calibrate;
 #[cfg(feature = "chain")]
 pub mod capture;
 pub mod carry;
@@ -30,9 +30,9 @@ mod cells;
 pub mod chain;
 pub mod complex;
 #[cfg(feature = "chain")]
-mod config;
+pub mod config;
 #[cfg(feature = "core")]
-mod count;
+pub mod count;
 #[cfg(feature = "drives")]
 pub mod drive;
 #[cfg(feature = "core")]
@@ -40,14 +40,12 @@ mod drive_calibrator;
 pub mod error;
 #[cfg(feature = "chain")]
 pub mod estimate;
-#[cfg(feature = "chain")]
-pub mod frames;
 #[cfg(feature = "core")]
 mod image;
 #[cfg(feature = "core")]
 mod imperfections;
 #[cfg(feature = "core")]
-mod npy;
+pub mod npy;
 #[cfg(feature = "chain")]
 pub mod options;
 mod panic;
@@ -56,16 +54,15 @@ pub mod report;
 #[cfg(feature = "core")]
 pub mod simulate;
 #[cfg(feature = "core")]
-mod street;
+pub mod street;
 #[cfg(feature = "core")]
 mod suits;
 #[cfg(feature = "core")]
 mod tables;
 #[cfg(feature = "core")]
-mod trajectory;
+pub mod trajectory;
 #[cfg(feature = "chain")]
 mod waveform;
-pub mod write;
 
 #[cfg(feature = "core")]
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -1,33 +1,89 @@
 //! NumPy's array files.
 
 use crate::bytes::Bytes;
+use crate::carry;
 use crate::complex::{ComplexData, RealData};
 use crate::error::Fallible;
 use crate::read::{Fields, Read, choice};
-use crate::write::{Record, complex32, complex64, float32, float64, list};
+use boresight_core::describe::{Described, Kind, Special, columns};
 use boresight_formats::npy::{NpyArray, NpyData, write};
 use js_sys::Uint8Array;
+use serde::{Serialize, Serializer};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// An array of a `.npy` file.
+#[derive(Described, Serialize)]
+#[option(name = "NpyArray")]
+pub struct NpyRecord {
+    /// Complex numbers are interleaved [re, im].
+    #[option(described_as = NumberKind)]
+    kind: &'static str,
+    /// The numbers in C order, in their precision; integers as doubles.
+    data: Numbers,
+    /// Lengths of the axes.
+    shape: Vec<usize>,
+}
+
+struct NumberKind;
+
+impl Described for NumberKind {
+    const KIND: Kind = Kind::Special(&Special {
+        expected: "real or complex",
+        typescript: "'real' | 'complex'",
+        schema: r#"{ "enum": ["real", "complex"] }"#,
+        flag: "",
+    });
+}
+
+enum Numbers {
+    Single(Vec<f32>),
+    Double(Vec<f64>),
+}
+
+impl Described for Numbers {
+    const KIND: Kind = Kind::Special(&Special {
+        expected: "an array",
+        typescript: "Float32Array | Float64Array",
+        schema: r#"{ "type": "array", "items": { "type": "number" } }"#,
+        flag: "",
+    });
+}
+
+impl Serialize for Numbers {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Single(numbers) => columns::serialize(numbers, serializer),
+            Self::Double(numbers) => columns::serialize(numbers, serializer),
+        }
+    }
+}
+
+impl From<NpyArray> for NpyRecord {
+    fn from(array: NpyArray) -> Self {
+        let kind = if array.is_complex() { "complex" } else { "real" };
+        let data = match array.data {
+            NpyData::Float32(numbers) => Numbers::Single(numbers),
+            NpyData::Float64(numbers) => Numbers::Double(numbers),
+            NpyData::Complex32(numbers) => {
+                Numbers::Single(numbers.iter().flat_map(|z| [z.re, z.im]).collect())
+            }
+            NpyData::Complex64(numbers) => {
+                Numbers::Double(numbers.iter().flat_map(|z| [z.re, z.im]).collect())
+            }
+            NpyData::Integer(numbers) => {
+                Numbers::Double(numbers.iter().map(|&n| n as f64).collect())
+            }
+        };
+        Self { kind, data, shape: array.shape }
+    }
+}
 
 /// Reads a `.npy` file; integers become `Float64Array`.
 #[wasm_bindgen(js_name = readNpy)]
 pub fn read_npy(bytes: &JsValue) -> Fallible<JsValue> {
     let array = NpyArray::parse(&Bytes::read(bytes, "npy file")?.0)?;
-    let data: JsValue = match &array.data {
-        NpyData::Float32(numbers) => float32(numbers).into(),
-        NpyData::Float64(numbers) => float64(numbers).into(),
-        NpyData::Complex32(numbers) => complex32(numbers).into(),
-        NpyData::Complex64(numbers) => complex64(numbers).into(),
-        NpyData::Integer(numbers) => {
-            float64(&numbers.iter().map(|&n| n as f64).collect::<Vec<_>>()).into()
-        }
-    };
-    Ok(Record::new()
-        .with("kind", if array.is_complex() { "complex" } else { "real" })
-        .with("data", data)
-        .with("shape", list(array.shape))
-        .into())
+    Ok(carry::write(&NpyRecord::from(array)))
 }
 
 /// The bytes of a `.npy` file of `{ kind, data, shape }`, in the precision of `data`.

@@ -1,6 +1,6 @@
 //! Options out of JavaScript objects, with errors that name the field.
 
-use crate::carry::{Reader, property, refuse_unknown};
+use crate::carry::{Reader, property, read_named, refuse_unknown};
 use crate::error::{BindingError, Fallible};
 use boresight_core::CoreError;
 use boresight_core::describe::{At, Described, Naming};
@@ -81,6 +81,26 @@ impl Fields {
         self.optional(name)?.ok_or_else(|| BindingError::Missing {
             what: self.path_of(name),
             expected: T::EXPECTED.into(),
+        })
+    }
+
+    /// A field of a described type that may be absent.
+    pub fn described<T: DeserializeOwned + Described>(
+        &mut self,
+        name: &'static str,
+    ) -> Fallible<Option<T>> {
+        let path = self.path_of(name);
+        self.raw(name)?.map(|value| read_named(&value, &path)).transpose()
+    }
+
+    /// A field of a described type that must be there.
+    pub fn described_required<T: DeserializeOwned + Described>(
+        &mut self,
+        name: &'static str,
+    ) -> Fallible<T> {
+        self.described(name)?.ok_or_else(|| BindingError::Missing {
+            what: self.path_of(name),
+            expected: T::KIND.expected(),
         })
     }
 

@@ -1,13 +1,14 @@
 //! Simulation of snapshots and data cubes.
 
+use crate::carry;
 use crate::error::Fallible;
 use crate::imperfections::read_imperfections;
 use crate::read::{Angle, Fields, Read};
-use crate::write::{Record, complex32, complex64, list};
+use boresight_core::describe::shaped::ComplexArray32;
 use boresight_core::{Array, Direction, Waveform};
 use boresight_simulate::{
-    CubeOptions, CubeTarget, Field, Fluctuation, Scene, SceneSampling, SnapshotOptions,
-    SnapshotSimulator, Target, simulate_cube,
+    CubeOptions, CubeTarget, Field, Fluctuation, Scene, SnapshotOptions, SnapshotSimulator, Target,
+    simulate_cube,
 };
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -22,25 +23,13 @@ pub fn simulate_snapshots(options: &JsValue) -> Fallible<JsValue> {
     let snapshots = fields.optional("snapshots")?.unwrap_or(1);
     let scenes = fields.optional("scenes")?.unwrap_or(1);
     let first_scene: usize = fields.optional("firstScene")?.unwrap_or(0);
-    let mut fluctuation = Fluctuation::default();
-    let kinds = [
-        ("random-phase", Fluctuation::RandomPhase),
-        ("complex-normal", Fluctuation::ComplexNormal),
-        ("coherent", Fluctuation::Coherent),
-    ];
-    fields.update_choice("fluctuation", &kinds, &mut fluctuation)?;
+    let fluctuation: Fluctuation = fields.described("fluctuation")?.unwrap_or_default();
     let seed = fields.required("seed")?;
     let imperfections = read_imperfections(&mut fields, &array, seed)?;
     fields.finish()?;
     let options = SnapshotOptions { scene, snr_db, snapshots, fluctuation, imperfections, seed };
     let simulator = SnapshotSimulator::new(&array, &options)?;
-    let simulated = simulator.scenes(first_scene as u64, scenes)?;
-    let truth = simulated.truth.iter().map(|targets| list(targets.iter().map(target_record)));
-    Ok(Record::new()
-        .with("data", complex64(&simulated.values.iter().copied().collect::<Vec<_>>()))
-        .with("shape", list(simulated.values.shape().iter().copied()))
-        .with("truth", list(truth))
-        .into())
+    Ok(carry::write(&simulator.scenes(first_scene as u64, scenes)?))
 }
 
 /// The cube of a time-division MIMO radar: frames x loops x transmitters x receivers x samples.
@@ -59,10 +48,7 @@ pub fn simulate_data_cube(options: &JsValue) -> Fallible<JsValue> {
     fields.finish()?;
     let options = CubeOptions { snr_db, frames, field, imperfections, seed };
     let cube = simulate_cube(&waveform, &array, &targets, &options)?;
-    Ok(Record::new()
-        .with("data", complex32(&cube.iter().copied().collect::<Vec<_>>()))
-        .with("shape", list(cube.shape().iter().copied()))
-        .into())
+    Ok(carry::write(&ComplexArray32::from(&cube)))
 }
 
 impl Read for Scene {
@@ -72,18 +58,7 @@ impl Read for Scene {
         if js_sys::Array::is_array(value) {
             return Vec::read(value, path).map(Self::Given);
         }
-        let mut sampling = SceneSampling::default();
-        let mut fields = Fields::new(value, path)?;
-        fields.update("count", &mut sampling.targets)?;
-        if let Some(half) = fields.optional::<Angle>("fieldOfViewDeg")? {
-            sampling.field_of_view_rad = half.rad;
-        }
-        if let Some(half) = fields.optional::<Angle>("elevationFieldOfViewDeg")? {
-            sampling.elevation_field_of_view_rad = half.rad;
-        }
-        fields.update("powerDb", &mut sampling.power_db)?;
-        fields.finish()?;
-        Ok(Self::Sampled(sampling))
+        Ok(Self::Sampled(carry::read_named(value, path)?))
     }
 }
 
@@ -124,12 +99,4 @@ impl Read for CubeTarget {
 fn direction(azimuth: Angle, fields: &mut Fields) -> Fallible<Direction> {
     let elevation = fields.optional("elevationDeg")?.unwrap_or(Angle { rad: 0.0 });
     Ok(Direction::new(azimuth.rad, elevation.rad))
-}
-
-fn target_record(target: &Target) -> Record {
-    Record::new()
-        .with("azimuthDeg", target.direction.azimuth_rad.to_degrees())
-        .with("elevationDeg", target.direction.elevation_rad.to_degrees())
-        .with("powerDb", target.power_db)
-        .with_some("phaseDeg", target.phase_rad.map(f64::to_degrees))
 }

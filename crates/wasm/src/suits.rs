@@ -1,9 +1,10 @@
 //! Whether a method suits an array.
 
+use crate::carry;
 use crate::error::Fallible;
 use crate::options::read_estimator;
 use crate::read::Read;
-use boresight_aoa::suits::{Unsuited, unsuited as why};
+use boresight_aoa::suits::unsuited as why;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -11,6 +12,5 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen]
 pub fn unsuited(options: &JsValue, snapshots: &JsValue) -> Fallible<JsValue> {
     let (method, array, options) = read_estimator(options)?;
-    let reason = why(method, &array, &options, usize::read(snapshots, "snapshots")?);
-    Ok(reason.map_or(JsValue::NULL, |reason: Unsuited| reason.name().into()))
+    Ok(carry::write(&why(method, &array, &options, usize::read(snapshots, "snapshots")?)))
 }

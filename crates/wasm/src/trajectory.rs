@@ -1,11 +1,25 @@
 //! Trajectories from a radar's motion, and how far they stray; for the TypeScript around this
 //! crate, which checks what goes in.
 
-use crate::write::{Record, float64};
+use crate::carry;
 use boresight_calibrate::trajectory::{self, TimedMotion};
+use boresight_core::describe::{Described, columns};
 use boresight_core::drive::Pose;
+use boresight_core::drive_columns::DrivePoses;
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Poses of the rear axle at times.
+#[derive(Described, Serialize)]
+pub struct Trajectory<'a> {
+    /// Time of each.
+    #[serde(serialize_with = "columns::serialize")]
+    time_s: &'a [f64],
+    /// The poses.
+    #[serde(rename = "..poses")]
+    poses: DrivePoses,
+}
 
 /// Poses of the rear axle, or null where they do not follow. Yaw rates are empty or one a motion, NaN for
 /// what follows from the motion.
@@ -31,17 +45,10 @@ pub fn integrate_motion(
             yaw_rate_radps: given(i).map(|rate| rate.to_radians()),
         })
         .collect();
-    trajectory::integrate(&motions, angle_deg.to_radians(), x_m, y_m).map_or(
-        JsValue::NULL,
-        |poses| {
-            let column = |of: fn(&Pose) -> f64| float64(&poses.iter().map(of).collect::<Vec<_>>());
-            Record::new()
-                .with("timeS", float64(time_s))
-                .with("xM", column(|p| p.x_m))
-                .with("yM", column(|p| p.y_m))
-                .with("yawDeg", column(|p| p.yaw_rad.to_degrees()))
-                .into()
-        },
+    let poses = trajectory::integrate(&motions, angle_deg.to_radians(), x_m, y_m);
+    carry::write(
+        &poses
+            .map(|poses| Trajectory { time_s, poses: DrivePoses::of(poses.into_iter().map(Some)) }),
     )
 }
 

@@ -444,3 +444,46 @@ export interface StreetOptions {
   /** Speed of the car along x. What stands still spreads over Doppler with it (-30 to 30 m/s; default 6). */
   egoSpeedMps?: number;
 }
+
+/** Rule by which scenes are drawn: every quantity uniform. */
+export interface SceneSampling {
+  /** Fewest and most targets (default [0, 16]). */
+  count?: readonly [number, number];
+  /** Azimuths lie within plus and minus this (0 to 90 deg; default 60). */
+  fieldOfViewDeg?: number;
+  /** Elevations lie within plus and minus this; 0 keeps targets in the horizontal plane (0 to 90 deg; default 0). */
+  elevationFieldOfViewDeg?: number;
+  /** Lowest and highest power (default [-13, 0]). */
+  powerDb?: readonly [number, number];
+}
+
+/**
+ * Penalty on the number of free parameters.
+ *
+ * - `aic`: Akaike's information criterion: `2 L(k) + 2 p(k)`. Tends to count too many.
+ * - `mdl`: Rissanen's and Schwarz's minimum description length: `L(k) + p(k) ln(N) / 2`. Consistent.
+ */
+export type Criterion = 'aic' | 'mdl';
+
+/** How sources are counted. */
+export interface CountOptions {
+  /** The penalty on the number of sources (default 'mdl'). */
+  criterion?: Criterion;
+  /** Average the covariance with its reversal, for evenly spaced arrays (default false). */
+  forwardBackward?: boolean;
+}
+
+/**
+ * A format of drive logs.
+ *
+ * - `radarscenes`: [`crate::radarscenes`]: `radar_data.h5` of a sequence.
+ * - `delphi`: [`delphi`]: tracks of a Delphi front radar and poses.
+ * - `csv`: [`table`]: the general tables.
+ */
+export type DriveFormat = 'radarscenes' | 'delphi' | 'csv';
+
+/** How a drive is read. */
+export interface ReadDriveOptions {
+  /** The format of the files; found from their contents where none is named. */
+  format?: DriveFormat;
+}

@@ -151,6 +151,7 @@ impl Recursive {
             verdict: Verdict::Sparse,
             motion: None,
             angle_rad: None,
+            angle_sigma_rad: None,
             weight: 0.0,
             weights: vec![0.0; frame.detections.len()],
         };
@@ -384,7 +385,8 @@ impl Recursive {
             self.angle_before = Some(now);
         }
         self.information.add_frame(&scaled, &score.map(|entry| entry * share * student));
-        outcome.angle_rad = Some((wrap(angle), (own + self.excess).sqrt()));
+        outcome.angle_rad = Some(wrap(angle));
+        outcome.angle_sigma_rad = Some((own + self.excess).sqrt());
         outcome.weight = informed * n[0][0];
         self.inliers += fit.inliers as f64;
         self.detections += outcome.weights.len() as f64;

@@ -2,6 +2,7 @@
 
 use crate::flags::{Flags, OnCommandLine};
 use boresight_calibrate::Options;
+use boresight_core::describe::Named;
 use boresight_formats::DriveFormat;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -35,7 +36,7 @@ pub struct CalibrateArguments {
     #[arg(long, value_name = "NAME")]
     pub sequence: Option<String>,
     /// Format of the log, where it is not to be found from the files.
-    #[arg(long, value_parser = PossibleValuesParser::new(DriveFormat::ALL.map(DriveFormat::name)))]
+    #[arg(long, value_parser = PossibleValuesParser::new(DriveFormat::VARIANTS.iter().map(|format| format.name())))]
     pub format: Option<String>,
     /// Only this radar of the log.
     #[arg(long, value_name = "N")]

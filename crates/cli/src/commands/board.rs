@@ -16,7 +16,7 @@ pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result
     let log = BoardLog::parse(bytes, config.as_ref());
     remark(
         std::iter::once(format!("packets: {}", log.frames.len()))
-            .chain(log.remarks.iter().map(|remark| remark.message.clone())),
+            .chain(log.counts.remarks.iter().map(|remark| remark.message.clone())),
     );
     let frames = match arguments.frame {
         Some(frame) => {

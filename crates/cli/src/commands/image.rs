@@ -6,6 +6,7 @@ use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, Imag
 use crate::destination::Destination;
 use crate::error::CliError;
 use crate::files::{self, Files};
+use crate::json;
 use crate::output::remark;
 use crate::run::Run;
 use crate::{network, picture};
@@ -61,16 +62,8 @@ fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, Cli
             100.0 * measure.lit_outside,
             100.0 * measure.lit_targets
         );
-        rows.push(json!({
-            "method": name,
-            "outsideDb": outside_db,
-            "peakOutsideDb": peak_db,
-            "litOutside": measure.lit_outside,
-            "litTargets": measure.lit_targets,
-            "targets": measure.targets,
-            "gated": measure.gated,
-            "offMap": outside_json(image.outside),
-        }));
+        let further = json!({ "method": name, "offMap": json::result(&image.outside) });
+        rows.push(json::beside(&measure, further));
         keep(picture, &image.view, truth, files)?;
     }
     remark([format!("cells of each radar: {cells:?}; targets in view of any: {}", targets.len())]);
@@ -118,7 +111,7 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
         let count_of = cells.cells.len();
         let share_db = 10.0 * (power / all).log10();
         text += &format!("{name:<22}{count_of:>8}{count:>12}{share_db:>12.1}\n");
-        let off_map = outside_json(made.map.outside);
+        let off_map = json::result(&made.map.outside);
         rows.push(json!({ "method": name, "cells": count_of, "offMap": off_map }));
         keep(picture, &view, &[], files)?;
     }
@@ -133,10 +126,6 @@ fn angles(shared: &ImageArguments, name: &str) -> Result<Angles, CliError> {
         None => {}
     }
     Ok(angles)
-}
-
-fn outside_json(outside: Outside) -> Value {
-    json!({ "count": outside.count, "power": outside.power })
 }
 
 /// Where the picture of each method goes, if one is asked for.

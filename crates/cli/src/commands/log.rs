@@ -5,7 +5,9 @@ use crate::destination::Destination;
 use crate::drive::open_path;
 use crate::error::CliError;
 use crate::files::{self, Files};
+use crate::json;
 use crate::output::remark;
+use boresight_core::describe::Named;
 use boresight_core::drive::DriveLog;
 use boresight_formats::drive_log::table::{write_detections, write_motion};
 use boresight_formats::{DriveRead, MountingSource};
@@ -66,15 +68,13 @@ fn as_json(read: &DriveRead) -> Value {
         .iter()
         .zip(by_sensor(log))
         .map(|(sensor, (id, scans, detections))| {
-            let mounting = sensor
-                .mounting
-                .map(|m| json!({ "xM": m.x_m, "yM": m.y_m, "yawDeg": m.yaw_rad.to_degrees() }));
+            let mounting = sensor.mounting.map(|mounting| json::result(&mounting));
             json!({ "id": id, "scans": scans, "detections": detections, "mounting": mounting })
         })
         .collect();
     let [radar, motion] = spans(log).map(|s| s.map(|(a, b)| json!({ "startS": a, "endS": b })));
     let dropped: Map<String, Value> =
-        read.report.drops().map(|(reason, n)| (reason.code().into(), n.into())).collect();
+        read.report.drops().map(|(reason, n)| (reason.name().into(), n.into())).collect();
     let report = &read.report;
     let sequence = report
         .sequence
@@ -83,7 +83,7 @@ fn as_json(read: &DriveRead) -> Value {
     json!({
         "format": read.format.name(),
         "sequence": sequence,
-        "mountings": report.mountings.map(MountingSource::name),
+        "mountings": json::result(&report.mountings),
         "sensors": sensors,
         "scans": log.scans.len(),
         "detections": log.scans.iter().map(|s| s.detections.len()).sum::<usize>(),
@@ -140,7 +140,7 @@ fn as_text(read: &DriveRead) -> String {
         }
     }
     for (reason, count) in report.drops() {
-        text += &format!("dropped     {count} {}\n", reason.code());
+        text += &format!("dropped     {count} {}\n", reason.name());
     }
     text
 }

@@ -6,6 +6,7 @@ use crate::array;
 use crate::destination::Destination;
 use crate::error::CliError;
 use crate::files::{self, Files};
+use crate::json;
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::{Array, Direction, Imperfections};
@@ -60,17 +61,12 @@ fn snapshots(arguments: &SnapshotArguments, files: &Files) -> Result<String, Cli
     let outputs = Outputs::of(shared, files)?;
     let result = SnapshotSimulator::new(&array, &options)?
         .scenes(arguments.first_scene, arguments.scenes)?;
-    let scenes: Vec<Value> = result
-        .truth
-        .iter()
-        .map(|targets| targets.iter().map(target_json).collect::<Value>())
-        .collect();
     let truth = json!({
         "array": positions(&array),
         "snrDb": shared.snr,
         "seed": shared.seed,
         "firstScene": arguments.first_scene,
-        "scenes": scenes,
+        "scenes": json::result(&result.truth),
     });
     let shape = result.values.shape().to_vec();
     let values: Vec<_> = result.values.into_iter().collect();
@@ -97,7 +93,7 @@ fn cube(arguments: &CubeArguments, files: &Files) -> Result<String, CliError> {
         "array": positions(&array),
         "snrDb": shared.snr,
         "seed": shared.seed,
-        "targets": targets.iter().map(cube_target_json).collect::<Value>(),
+        "targets": json::result(&targets),
     });
     let shape = result.shape().to_vec();
     let values: Vec<_> = result.into_iter().collect();
@@ -177,24 +173,6 @@ fn cube_target(text: &str) -> Result<CubeTarget, CliError> {
         direction: direction(&text)?,
         power_db: text.get("power").unwrap_or(0.0),
         phase_rad: text.get("phase").map(f64::to_radians),
-    })
-}
-
-fn target_json(target: &Target) -> Value {
-    json!({
-        "azimuthDeg": target.direction.azimuth_rad.to_degrees(),
-        "elevationDeg": target.direction.elevation_rad.to_degrees(),
-        "powerDb": target.power_db,
-    })
-}
-
-fn cube_target_json(target: &CubeTarget) -> Value {
-    json!({
-        "rangeM": target.range_m,
-        "rateMps": target.rate_mps,
-        "azimuthDeg": target.direction.azimuth_rad.to_degrees(),
-        "elevationDeg": target.direction.elevation_rad.to_degrees(),
-        "powerDb": target.power_db,
     })
 }
 

@@ -4,6 +4,7 @@ use super::targets::TargetText;
 use crate::arguments::DriveArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
+use crate::json;
 use crate::run::Run;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_formats::radarscenes::{Packing, write};
@@ -118,13 +119,8 @@ fn truth(options: &DriveOptions, drive: &SimulatedDrive) -> Value {
         .iter()
         .zip(&drive.log.sensors)
         .map(|((id, mounting), sensor)| {
-            json!({
-                "id": id,
-                "xM": mounting.x_m,
-                "yM": mounting.y_m,
-                "yawDeg": mounting.yaw_rad.to_degrees(),
-                "nominalYawDeg": sensor.mounting.map(|m| m.yaw_rad.to_degrees()),
-            })
+            let nominal = sensor.mounting.map(|m| m.yaw_rad.to_degrees());
+            json::beside(mounting, json!({ "id": id, "nominalYawDeg": nominal }))
         })
         .collect();
     json!({
@@ -132,11 +128,7 @@ fn truth(options: &DriveOptions, drive: &SimulatedDrive) -> Value {
         "seed": options.seed,
         "durationS": options.duration_s,
         "sensors": sensors,
-        "yawRate": {
-            "scale": truth.yaw_rate.scale,
-            "biasDegps": truth.yaw_rate.bias_radps.to_degrees(),
-            "sigmaDegps": truth.yaw_rate.sigma_radps.to_degrees(),
-        },
+        "yawRate": json::result(&truth.yaw_rate),
         "slipDegPerMps2": options.slip_gradient_rad.to_degrees(),
         "movingShare": moving_share(drive),
     })

@@ -4,6 +4,7 @@
 //! list, a binary serializer a newtype named after the type around the numbers' bytes.
 
 use super::NumberType;
+use ndarray::{Array, Dimension};
 use serde::ser::{Serialize, Serializer};
 
 /// A type that columns are made of.
@@ -48,6 +49,34 @@ pub fn serialize<T: Element, S: Serializer>(
     }
     let name = NAMES.iter().find(|(_, of)| *of == T::TYPE).map_or("", |(name, _)| name);
     serializer.serialize_newtype_struct(name, &Bytes(bytemuck::cast_slice(numbers)))
+}
+
+/// Serializes a column where there is one.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn serialize_some<T: Element, S: Serializer>(
+    numbers: &Option<Vec<T>>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match numbers {
+        Some(numbers) => serialize(numbers, serializer),
+        None => serializer.serialize_none(),
+    }
+}
+
+/// Serializes an array of any shape as a column, the last axis fastest.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn serialize_array<T: Element + Clone, D: Dimension, S: Serializer>(
+    array: &Array<T, D>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    match array.as_slice() {
+        Some(numbers) => serialize(numbers, serializer),
+        None => serialize(&array.iter().cloned().collect::<Vec<T>>(), serializer),
+    }
 }
 
 struct Bytes<'a>(&'a [u8]);

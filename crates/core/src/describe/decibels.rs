@@ -17,6 +17,14 @@ pub fn serialize<S: Serializer>(power: &f64, serializer: S) -> Result<S::Ok, S::
     finite_db(*power).serialize(serializer)
 }
 
+/// Serializes a linear share in dB; minus infinity for none.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn serialize_share<S: Serializer>(share: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    power_to_db(*share).serialize(serializer)
+}
+
 /// Serializes a column of linear powers in dB.
 ///
 /// # Errors

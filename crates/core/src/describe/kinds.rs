@@ -2,6 +2,7 @@
 
 use super::{At, Described, Kind, NumberType, Range};
 use crate::error::CoreError;
+use num_complex::Complex64;
 
 impl Described for f64 {
     const KIND: Kind = Kind::Number;
@@ -37,7 +38,9 @@ whole!(
     usize: Kind::List(&Kind::Whole),
     u16: Kind::List(&Kind::Whole),
     u32: Kind::Numbers(NumberType::U32),
-    u8: Kind::Numbers(NumberType::U8)
+    u8: Kind::Numbers(NumberType::U8),
+    i8: Kind::Numbers(NumberType::I8),
+    i32: Kind::List(&Kind::Whole)
 );
 
 impl Described for u64 {
@@ -52,8 +55,20 @@ impl Described for String {
     const KIND: Kind = Kind::Text;
 }
 
-impl Described for &'static str {
+impl Described for str {
     const KIND: Kind = Kind::Text;
+}
+
+impl Described for Complex64 {
+    const KIND: Kind = Kind::Tuple(&Kind::Number, 2);
+}
+
+impl<T: Described + ?Sized> Described for &T {
+    const KIND: Kind = T::KIND;
+}
+
+impl<T: Described> Described for [T] {
+    const KIND: Kind = T::LIST;
 }
 
 impl<T: Described> Described for Option<T> {

@@ -32,11 +32,14 @@ mod difference;
 mod kinds;
 mod named;
 pub mod naming;
+pub mod remark;
+pub mod shaped;
 
 pub use boresight_derive::Described;
 pub use check::{At, Naming, check};
 pub use difference::differing_fields;
 pub use named::Named;
+pub use remark::Remark;
 
 use crate::error::CoreError;
 

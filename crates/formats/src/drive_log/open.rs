@@ -6,16 +6,18 @@ use super::{delphi, table};
 use crate::error::FormatError;
 use crate::radarscenes::{self, Companions};
 use boresight_core::CoreError;
+use boresight_core::describe::{Described, Named};
 use boresight_core::drive::DriveLog;
-use boresight_core::error::named;
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
 /// A format of drive logs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum DriveFormat {
     /// [`crate::radarscenes`]: `radar_data.h5` of a sequence.
-    RadarScenes,
+    Radarscenes,
     /// [`delphi`]: tracks of a Delphi front radar and poses.
     Delphi,
     /// [`table`]: the general tables.
@@ -23,16 +25,9 @@ pub enum DriveFormat {
 }
 
 impl DriveFormat {
-    /// All formats.
-    pub const ALL: [Self; 3] = [Self::RadarScenes, Self::Delphi, Self::Csv];
-
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::RadarScenes => "radarscenes",
-            Self::Delphi => "delphi",
-            Self::Csv => "csv",
-        }
+        Named::name(self)
     }
 
     /// The format of a name.
@@ -40,7 +35,7 @@ impl DriveFormat {
     /// # Errors
     /// [`CoreError::Unknown`] with the names there are.
     pub fn from_name(name: &str) -> Result<Self, CoreError> {
-        named("format", &Self::ALL, Self::name, name)
+        Named::from_name("format", name)
     }
 }
 
@@ -58,7 +53,7 @@ pub struct DriveRead {
 /// What a file holds, by its contents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
-    RadarScenes,
+    Radarscenes,
     Scenes,
     Sensors,
     Sequences,
@@ -70,7 +65,7 @@ enum Role {
 
 fn role(name: &str, bytes: &[u8]) -> Result<Option<Role>, FormatError> {
     if is_hdf5(name) {
-        return Ok(Some(Role::RadarScenes));
+        return Ok(Some(Role::Radarscenes));
     }
     match name.rsplit(['/', '\\']).next() {
         Some("scenes.json") => return Ok(Some(Role::Scenes)),
@@ -187,8 +182,8 @@ fn open_files(
     let mut read = None;
     for (candidate, radar, beside) in [
         (
-            DriveFormat::RadarScenes,
-            Role::RadarScenes,
+            DriveFormat::Radarscenes,
+            Role::Radarscenes,
             &[Role::Scenes, Role::Sensors, Role::Sequences][..],
         ),
         (DriveFormat::Delphi, Role::DelphiRadar, &[Role::DelphiPose]),
@@ -227,7 +222,7 @@ fn open_files(
         Some((files[file].0, &*files[file].1))
     };
     let mut log = match format {
-        DriveFormat::RadarScenes => {
+        DriveFormat::Radarscenes => {
             let beside = Companions {
                 scenes: bytes_beside(0).map(|file| file.1),
                 sensors: bytes_beside(1).map(|file| file.1),
@@ -242,7 +237,7 @@ fn open_files(
     if let Some((name, bytes)) = bytes_beside(0) {
         log.motion = match format {
             DriveFormat::Delphi => delphi::read_poses(bytes, &mut report),
-            DriveFormat::Csv | DriveFormat::RadarScenes => table::read_motion(bytes, &mut report),
+            DriveFormat::Csv | DriveFormat::Radarscenes => table::read_motion(bytes, &mut report),
         }
         .map_err(|error| in_file(error, name))?;
     }
@@ -255,7 +250,7 @@ pub fn no_drive_log<'a>(
     names: impl Iterator<Item = &'a str>,
 ) -> FormatError {
     let one = |format| match format {
-        DriveFormat::RadarScenes => {
+        DriveFormat::Radarscenes => {
             "radar_data.h5 with the datasets radar_data and odometry (a sequence of RadarScenes)"
                 .to_owned()
         }
@@ -268,7 +263,7 @@ pub fn no_drive_log<'a>(
     };
     let expected = match format {
         Some(format) => one(format),
-        None => DriveFormat::ALL.map(one).join("; or "),
+        None => DriveFormat::VARIANTS.iter().copied().map(one).collect::<Vec<_>>().join("; or "),
     };
     let mut shown: Vec<String> = names.map(|name| name.chars().take(60).collect()).collect();
     let count = shown.len();

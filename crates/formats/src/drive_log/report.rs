@@ -1,9 +1,12 @@
 //! What a reader kept of a drive log and what it left out.
 
-use crate::error::Remark;
+use boresight_core::Remark;
+use boresight_core::describe::{Described, Named};
+use serde::Serialize;
 
 /// Why a row of a drive log was left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum DropReason {
     /// A detection with a NaN or an infinity where a number is needed.
@@ -20,48 +23,15 @@ pub enum DropReason {
     MotionDuplicate,
 }
 
-impl DropReason {
-    /// All reasons.
-    pub const ALL: [Self; 6] = [
-        Self::NotFinite,
-        Self::InvalidMarker,
-        Self::Status,
-        Self::Duplicate,
-        Self::MotionNotFinite,
-        Self::MotionDuplicate,
-    ];
-
-    /// A stable name in kebab case.
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::NotFinite => "not-finite",
-            Self::InvalidMarker => "invalid-marker",
-            Self::Status => "status",
-            Self::Duplicate => "duplicate",
-            Self::MotionNotFinite => "motion-not-finite",
-            Self::MotionDuplicate => "motion-duplicate",
-        }
-    }
-}
-
 /// Where the mountings of a log are from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum MountingSource {
     /// `sensors.json` of the recording.
     SensorsJson,
     /// The format's own car, as no file states them.
     Format,
-}
-
-impl MountingSource {
-    /// A stable name in kebab case.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SensorsJson => "sensors-json",
-            Self::Format => "format",
-        }
-    }
 }
 
 /// What a reader found, kept and left out.
@@ -80,7 +50,7 @@ pub struct ReadReport {
     pub sequence: Option<(String, Option<String>)>,
     /// Where the mountings are from, where the log has any.
     pub mountings: Option<MountingSource>,
-    dropped: [u64; DropReason::ALL.len()],
+    dropped: [u64; DropReason::VARIANTS.len()],
     /// What else to know.
     pub remarks: Vec<Remark>,
 }
@@ -105,6 +75,6 @@ impl ReadReport {
 
     /// The reasons that occurred, with the number of rows left out for each.
     pub fn drops(&self) -> impl Iterator<Item = (DropReason, u64)> {
-        DropReason::ALL.into_iter().map(|r| (r, self.dropped(r))).filter(|(_, count)| *count > 0)
+        DropReason::VARIANTS.iter().map(|&r| (r, self.dropped(r))).filter(|(_, count)| *count > 0)
     }
 }

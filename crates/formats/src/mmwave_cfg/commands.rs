@@ -3,7 +3,8 @@
 use super::line::{Line, clipped};
 use super::sequence::{Chirps, transmitters};
 use super::{AdcFormat, RadarConfig, board_preset};
-use crate::error::{FormatError, Remark};
+use crate::error::FormatError;
+use boresight_core::Remark;
 use boresight_core::{CoreError, Waveform, presets};
 
 /// Settings of the board and its own processing: they leave the raw samples as they are.

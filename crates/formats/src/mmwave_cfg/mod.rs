@@ -8,7 +8,8 @@ mod commands;
 mod line;
 mod sequence;
 
-use crate::error::{FormatError, Remark};
+use crate::error::FormatError;
+use boresight_core::Remark;
 use boresight_core::{Array, Waveform, presets};
 use commands::Commands;
 use line::Line;

@@ -20,7 +20,8 @@ pub use write::{Packing, STATIC_LABEL, SequenceFiles, write};
 
 use crate::drive_log::scans::Scans;
 use crate::drive_log::{self, DropReason, MountingSource, ReadReport};
-use crate::error::{FormatError, Remark};
+use crate::error::FormatError;
+use boresight_core::Remark;
 use boresight_core::drive::{
     DriveLog, MotionSample, Mounting, Pose, RADARSCENES_SENSORS, Scan, Sensor,
 };

@@ -84,7 +84,7 @@ fn a_sequence_is_found_among_its_files() {
     let data = bytes("filtered");
     let files = [("notes.json", &b"{}"[..]), ("set/one/radar_data.h5", &data[..])];
     let read = open(&files, None).unwrap();
-    assert_eq!(read.format, DriveFormat::RadarScenes);
+    assert_eq!(read.format, DriveFormat::Radarscenes);
     assert_eq!(read.report.remarks.len(), 1);
     check(&read.log, &read.report, "opened");
     let owned = files.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).to_vec();

@@ -2,23 +2,25 @@
 
 use super::{Columns, field, finite, from_csv};
 use crate::error::FormatError;
+use boresight_core::describe::Described;
+use serde::{Deserialize, Serialize};
 
 /// One detection of a table.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize, Deserialize)]
 pub struct DetectionRow {
     /// Frame, from 0.
     pub frame: usize,
-    /// Range, m.
+    /// Range.
     pub range_m: f64,
-    /// Range rate, m/s, positive when receding.
+    /// Range rate, positive when receding.
     pub rate_mps: f64,
-    /// Azimuth, rad, positive to the left.
+    /// Azimuth, positive to the left.
     pub azimuth_rad: f64,
-    /// Elevation, rad.
+    /// Elevation.
     pub elevation_rad: f64,
-    /// Power at one element, dB over full scale.
+    /// Power at one element over full scale (1.0).
     pub power_db: f64,
-    /// Over the local noise, dB.
+    /// Over the local noise.
     pub snr_db: f64,
     /// Range bin.
     pub range_bin: usize,

@@ -8,9 +8,10 @@ mod packet;
 mod parts;
 mod stream;
 
-use crate::error::Remark;
 use crate::mmwave_cfg::RadarConfig;
-use boresight_core::Complex32;
+use boresight_core::describe::{Described, columns};
+use boresight_core::{Complex32, Remark};
+use serde::{Serialize, Serializer};
 pub use stream::UartStream;
 
 /// What every packet starts with.
@@ -20,28 +21,34 @@ pub const MAGIC: [u8; 8] = [2, 1, 4, 3, 6, 5, 8, 7];
 pub const MAX_PACKET_BYTES: usize = 1 << 18;
 
 /// An object the board detected.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct BoardObject {
-    /// Distance, m.
+    /// Distance.
     pub range_m: f64,
-    /// Range rate, m/s, positive when receding; `None` where the packet holds only a Doppler bin
-    /// and no configuration tells its width.
+    /// Range rate, positive when receding; none where the packet holds only a Doppler bin and no
+    /// configuration tells its width.
     pub rate_mps: Option<f64>,
-    /// Azimuth, rad, positive to the left.
+    /// Azimuth, positive to the left.
     pub azimuth_rad: f64,
-    /// Elevation, rad, positive upwards.
+    /// Elevation, positive upwards.
     pub elevation_rad: f64,
-    /// Position forward, m.
+    /// Position forward.
     pub x_m: f64,
-    /// Position to the left, m.
+    /// Position to the left.
     pub y_m: f64,
-    /// Position upwards, m.
+    /// Position upwards.
     pub z_m: f64,
-    /// Range and signed Doppler bin (SDK 1 and 2).
-    pub bins: Option<(usize, i32)>,
+    /// Range bin (SDK 1 and 2).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range_bin: Option<usize>,
+    /// Doppler bin, signed (SDK 1 and 2).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub doppler_bin: Option<i32>,
     /// Peak value as sent (SDK 1 and 2).
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<f64>,
-    /// Ratio to the noise, dB (side information of SDK 3).
+    /// Ratio to the noise (side information of SDK 3).
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub snr_db: Option<f64>,
 }
 
@@ -63,48 +70,72 @@ pub struct BoardStats {
 }
 
 /// One packet: what the board made of one frame.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct BoardFrame {
     /// Number the board gave the frame.
     pub frame_number: u32,
     /// SDK version: major, minor, bug fix, build.
+    #[option(described_as = String)]
+    #[serde(serialize_with = "with_points")]
     pub sdk_version: [u8; 4],
     /// Platform, such as `xWR16xx`.
     pub platform: String,
     /// Sub-frame, 0 where frames are plain.
+    #[serde(skip)]
     pub sub_frame: u32,
     /// Processor cycles at sending.
+    #[serde(skip)]
     pub cpu_cycles: u32,
     /// Objects.
     pub objects: Vec<BoardObject>,
-    /// Range profile at zero Doppler, dB over the board's own unit.
+    /// Range profile at zero Doppler over the board's own unit, as sent.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
     pub range_profile_db: Option<Vec<f64>>,
     /// Noise profile, likewise.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
     pub noise_profile_db: Option<Vec<f64>>,
     /// Range x virtual antenna at zero Doppler, as sent, receiver fastest.
+    #[serde(skip)]
     pub azimuth_heat_map: Option<Vec<Complex32>>,
     /// Range x Doppler map as sent, Doppler fastest.
+    #[serde(skip)]
     pub range_doppler_map: Option<Vec<u16>>,
     /// Timing.
+    #[serde(skip)]
     pub stats: Option<BoardStats>,
     /// Parts of a type not known here.
+    #[serde(skip)]
     pub unknown_parts: usize,
     /// Whether the whole packet was there; false for one that the end of the input cut, of which
     /// the leading whole parts are given.
     pub complete: bool,
 }
 
-/// All packets of a recording.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BoardLog {
-    /// Packets, in order.
-    pub frames: Vec<BoardFrame>,
+/// A version in the usual writing.
+fn with_points<S: Serializer>(parts: &[u8; 4], serializer: S) -> Result<S::Ok, S::Error> {
+    parts.map(|part| part.to_string()).join(".").serialize(serializer)
+}
+
+/// What was lost of a board's output.
+#[derive(Debug, Clone, PartialEq, Default, Described, Serialize)]
+pub struct BoardLogCounts {
     /// Bytes that belong to no packet.
     pub skipped_bytes: u64,
     /// Packets that were cut or damaged.
     pub damaged_packets: u64,
     /// Remarks on both.
+    #[serde(rename = "warnings")]
     pub remarks: Vec<Remark>,
+}
+
+/// All packets of a recording.
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+pub struct BoardLog {
+    /// Packets, in order.
+    pub frames: Vec<BoardFrame>,
+    /// What was lost.
+    #[serde(rename = "..counts")]
+    pub counts: BoardLogCounts,
 }
 
 impl BoardLog {
@@ -114,12 +145,7 @@ impl BoardLog {
         let mut stream = UartStream::new(config);
         let mut frames = stream.push(bytes);
         frames.extend(stream.finish());
-        Self {
-            frames,
-            skipped_bytes: stream.skipped_bytes(),
-            damaged_packets: stream.damaged_packets(),
-            remarks: stream.remarks(),
-        }
+        Self { frames, counts: stream.counts() }
     }
 }
 

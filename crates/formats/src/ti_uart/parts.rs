@@ -110,7 +110,8 @@ fn objects(bytes: &[u8], scale: Option<Scale>) -> Option<Vec<BoardObject>> {
                 let doppler = i32::from(signed(1));
                 let rate = scale.map(|s| f64::from(doppler) * s.rate_step_mps);
                 BoardObject {
-                    bins: Some((usize::from(word(0)), doppler)),
+                    range_bin: Some(usize::from(word(0))),
+                    doppler_bin: Some(doppler),
                     peak: Some(f64::from(word(2))),
                     ..placed(metres(3), metres(4), metres(5), rate)
                 }
@@ -146,7 +147,8 @@ fn placed(right_m: f64, forward_m: f64, up_m: f64, rate_mps: Option<f64>) -> Boa
         x_m: forward_m,
         y_m: left_m,
         z_m: up_m,
-        bins: None,
+        range_bin: None,
+        doppler_bin: None,
         peak: None,
         snr_db: None,
     }

@@ -2,9 +2,9 @@
 
 use super::packet::{HEADER, Header, SHORT_HEADER, leading_parts, parts};
 use super::parts::{Scale, decode};
-use super::{BoardFrame, MAGIC};
-use crate::error::Remark;
+use super::{BoardFrame, BoardLogCounts, MAGIC};
 use crate::mmwave_cfg::RadarConfig;
+use boresight_core::Remark;
 
 /// Takes the bytes of a board's data port as they come and gives packets as they are complete.
 /// Holds at most one packet, so never more than [`super::MAX_PACKET_BYTES`] beyond what one call
@@ -28,16 +28,6 @@ impl UartStream {
             damaged_packets: 0,
             cut_at_end: false,
         }
-    }
-
-    /// Bytes so far that belong to no packet.
-    pub fn skipped_bytes(&self) -> u64 {
-        self.skipped_bytes
-    }
-
-    /// Packets so far that were cut or damaged.
-    pub fn damaged_packets(&self) -> u64 {
-        self.damaged_packets
     }
 
     /// Takes the next bytes and returns the packets they complete.
@@ -104,8 +94,13 @@ impl UartStream {
         frames
     }
 
-    /// Remarks on what was skipped or damaged so far.
-    pub fn remarks(&self) -> Vec<Remark> {
+    /// What was skipped or damaged so far.
+    pub fn counts(&self) -> BoardLogCounts {
+        let Self { skipped_bytes, damaged_packets, .. } = *self;
+        BoardLogCounts { skipped_bytes, damaged_packets, remarks: self.remarks() }
+    }
+
+    fn remarks(&self) -> Vec<Remark> {
         let mut remarks = vec![];
         if self.skipped_bytes > 0 {
             let text = format!("bytes that belong to no packet: {}", self.skipped_bytes);

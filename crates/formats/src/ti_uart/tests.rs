@@ -17,9 +17,9 @@ fn every_recorded_frame_has_the_two_objects() {
     assert_eq!(log.frames.len(), 250);
     assert!(log.frames.iter().take(249).all(|frame| frame.complete));
     assert!(!log.frames[249].complete);
-    assert_eq!(log.damaged_packets, 1);
+    assert_eq!(log.counts.damaged_packets, 1);
     // Before the first packet, and the part of the last one that is not whole.
-    assert_eq!(log.skipped_bytes, 248 + 132);
+    assert_eq!(log.counts.skipped_bytes, 248 + 132);
     for (frame, number) in log.frames.iter().zip(0x1ce_u32..) {
         assert_eq!((frame.frame_number, frame.platform.as_str()), (number, "xWR16xx"));
         assert_eq!(frame.sdk_version, [2, 0, 0, 4]);
@@ -28,13 +28,20 @@ fn every_recorded_frame_has_the_two_objects() {
         };
         let first = near(2.953);
         assert!((first.azimuth_rad.to_degrees() + 10.79).abs() < 0.1, "{first:?}");
-        assert_eq!((first.bins, first.rate_mps), (Some((58, 0)), Some(0.0)));
+        assert_eq!(
+            (first.range_bin, first.doppler_bin, first.rate_mps),
+            (Some(58), Some(0), Some(0.0))
+        );
         assert!((first.x_m - 1485.0 / 512.0).abs() < 1e-12);
         assert!((first.y_m + 283.0 / 512.0).abs() < 1e-12);
         let second = near(4.938);
         assert!(second.y_m > 0.0 && second.azimuth_rad.to_degrees() < 5.0, "{second:?}");
     }
-    let last = log.frames[249].objects.iter().find(|o| o.bins == Some((97, 0))).unwrap();
+    let last = log.frames[249]
+        .objects
+        .iter()
+        .find(|o| (o.range_bin, o.doppler_bin) == (Some(97), Some(0)))
+        .unwrap();
     assert!((last.azimuth_rad.to_degrees() - 1.79).abs() < 0.3, "{last:?}");
 }
 
@@ -59,8 +66,8 @@ fn any_cut_of_the_stream_gives_the_same_frames() {
         let mut frames: Vec<_> = DAT.chunks(size).flat_map(|piece| stream.push(piece)).collect();
         frames.extend(stream.finish());
         assert_eq!(frames, whole.frames, "{size}");
-        assert_eq!(stream.skipped_bytes(), whole.skipped_bytes);
-        assert_eq!(stream.damaged_packets(), whole.damaged_packets);
+        assert_eq!(stream.counts().skipped_bytes, whole.counts.skipped_bytes);
+        assert_eq!(stream.counts().damaged_packets, whole.counts.damaged_packets);
     }
 }
 
@@ -77,8 +84,8 @@ fn lost_bytes_cost_one_packet() {
         let log = BoardLog::parse(&cut, None);
         let numbers: Vec<u32> = log.frames.iter().map(|f| f.frame_number).collect();
         assert_eq!(numbers, [0x1ce, 0x1d0], "{lost:?}");
-        assert_eq!(log.damaged_packets, 1);
-        assert_eq!(log.skipped_bytes, (PACKET - lost.len()) as u64);
+        assert_eq!(log.counts.damaged_packets, 1);
+        assert_eq!(log.counts.skipped_bytes, (PACKET - lost.len()) as u64);
     }
 }
 
@@ -91,7 +98,10 @@ fn garbage_between_packets_is_skipped() {
     bytes.extend([0xff; 50]);
     bytes.extend(packet);
     let log = BoardLog::parse(&bytes, None);
-    assert_eq!((log.frames.len(), log.skipped_bytes, log.damaged_packets), (2, 1058, 1));
+    assert_eq!(
+        (log.frames.len(), log.counts.skipped_bytes, log.counts.damaged_packets),
+        (2, 1058, 1)
+    );
 }
 
 #[test]
@@ -100,7 +110,7 @@ fn an_endless_stream_of_nothing_keeps_no_memory() {
     for _ in 0..1000 {
         assert!(stream.push(&[2; 1000]).is_empty());
     }
-    assert_eq!(stream.skipped_bytes(), 999_993);
+    assert_eq!(stream.counts().skipped_bytes, 999_993);
 }
 
 fn packet(version: u32, parts: &[(u32, Vec<u8>)], objects: u32, with_sub_frame: bool) -> Vec<u8> {
@@ -139,17 +149,17 @@ fn points_of_sdk_3_come_with_their_side_information() {
     assert_eq!((object.rate_mps, object.snr_db), (Some(-3.0), Some(22.0)));
     assert!((object.azimuth_rad + 0.5_f64.atan()).abs() < 1e-12);
     assert_eq!(log.frames[0].platform, "xWR18xx");
-    assert_eq!(log.damaged_packets, 0);
+    assert_eq!(log.counts.damaged_packets, 0);
 
     let lying = packet(0x0306_0000, &[(1, floats)], 1000, true);
-    assert_eq!(BoardLog::parse(&lying, None).damaged_packets, 1);
+    assert_eq!(BoardLog::parse(&lying, None).counts.damaged_packets, 1);
 }
 
 #[test]
 fn headers_without_sub_frame_number_and_empty_frames_are_read() {
     let empty = packet(0x0101_0000, &[(1, vec![0, 0, 9, 0])], 0, false);
     let log = BoardLog::parse(&empty, None);
-    assert_eq!((log.frames.len(), log.damaged_packets), (1, 0));
+    assert_eq!((log.frames.len(), log.counts.damaged_packets), (1, 0));
     assert_eq!(log.frames[0].objects, []);
     let none = packet(0x0306_0000, &[], 0, true);
     assert_eq!(BoardLog::parse(&none, None).frames.len(), 1);

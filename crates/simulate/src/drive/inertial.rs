@@ -3,16 +3,18 @@
 use super::motion::TrueMotion;
 use super::options::DriveOptions;
 use boresight_core::Random;
+use boresight_core::describe::Described;
 use boresight_core::drive::MotionSample;
+use serde::Serialize;
 
 /// Errors of a yaw-rate sensor.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct YawRateErrors {
     /// Measured over true yaw rate.
     pub scale: f64,
-    /// Yaw rate measured at standstill, rad/s.
+    /// Yaw rate measured at standstill.
     pub bias_radps: f64,
-    /// Standard deviation of a sample's white noise, rad/s.
+    /// Standard deviation of a sample's white noise.
     pub sigma_radps: f64,
 }
 

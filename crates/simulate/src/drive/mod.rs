@@ -4,6 +4,7 @@
 //! A route is drawn for the scenario, a driver follows it, things stand along it and others drive
 //! on it; each radar scans on its own clock. See `docs/simulated-drives.md`.
 
+mod columns;
 mod inertial;
 mod motion;
 mod options;
@@ -17,6 +18,7 @@ mod world;
 #[cfg(test)]
 mod tests;
 
+pub use columns::{TrueMotionColumns, TrueSensor, TruthColumns};
 pub use inertial::YawRateErrors;
 pub use motion::{MOTION_STEP_S, TrueMotion};
 pub use options::{DriveOptions, MAX_DURATION_S, MAX_MOVING_SHARE, MAX_SENSOR_SECONDS, RadarNoise};

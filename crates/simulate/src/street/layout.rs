@@ -77,10 +77,10 @@ impl Layout {
         let (a, b) = (length / 2.0, width / 2.0);
         let corners_m = vec![place(a, b), place(-a, b), place(-a, -b), place(a, -b)];
         let outline = self.outline(kind, corners_m);
-        let velocity_mps = [speed_mps * cos, speed_mps * sin];
+        let (vx_mps, vy_mps) = (speed_mps * cos, speed_mps * sin);
         let mut point = |u: f64, v: f64, rcs_dbsm: f64| {
             let [x_m, y_m] = place(u, v);
-            self.targets.push(StreetTarget { x_m, y_m, velocity_mps, rcs_dbsm, kind, outline });
+            self.targets.push(StreetTarget { x_m, y_m, vx_mps, vy_mps, rcs_dbsm, kind, outline });
         };
         let (a, b) = (a + SKIN_M, b + SKIN_M);
         for side in [-1.0, 1.0] {
@@ -173,10 +173,18 @@ impl Layout {
             // Trunk, and legs that swing.
             for (rcs, swing) in [(-6.0, 0.0), (-11.0, 0.8), (-11.0, -0.8)] {
                 let away = |random: &mut Random| random.uniform(-0.15, 0.15);
-                let velocity_mps = velocity.map(|v: f64| v * (1.0 + swing));
+                let [vx_mps, vy_mps] = velocity.map(|v: f64| v * (1.0 + swing));
                 let (x_m, y_m) = (place[0] + away(random), place[1] + away(random));
                 let rcs_dbsm = rcs + 1.5 * random.normal();
-                self.targets.push(StreetTarget { x_m, y_m, velocity_mps, rcs_dbsm, kind, outline });
+                self.targets.push(StreetTarget {
+                    x_m,
+                    y_m,
+                    vx_mps,
+                    vy_mps,
+                    rcs_dbsm,
+                    kind,
+                    outline,
+                });
             }
         }
     }
@@ -191,7 +199,8 @@ impl Layout {
         self.targets.push(StreetTarget {
             x_m,
             y_m,
-            velocity_mps: [0.0; 2],
+            vx_mps: 0.0,
+            vy_mps: 0.0,
             rcs_dbsm,
             kind,
             outline,

@@ -10,13 +10,13 @@ pub use view::VisibleTarget;
 use crate::cube::{CubeOptions, simulate_cube};
 use crate::error::SimulateError;
 use crate::waveforms::waveform_corner;
-use boresight_core::describe::{self, Described, Naming};
+use boresight_core::describe::{self, Described, Naming, columns};
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Complex32, Random, Waveform};
 use ndarray::Array5;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::f64::consts::FRAC_PI_3;
 
 /// Names of the radars, by the way they look.
@@ -40,7 +40,8 @@ pub struct StreetOptions {
 }
 
 /// What a point belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum StreetKind {
     /// A car at the kerb.
     ParkedCar,
@@ -57,18 +58,6 @@ pub enum StreetKind {
 }
 
 impl StreetKind {
-    /// Its name in kebab case.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ParkedCar => "parked-car",
-            Self::GuardRail => "guard-rail",
-            Self::Wall => "wall",
-            Self::Pole => "pole",
-            Self::Pedestrian => "pedestrian",
-            Self::Vehicle => "vehicle",
-        }
-    }
-
     /// Loss of what lies behind it, dB: under and over a car some power gets through.
     fn loss_db(self) -> Option<f64> {
         match self {
@@ -80,15 +69,17 @@ impl StreetKind {
 }
 
 /// A point that scatters, in the car's frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct StreetTarget {
-    /// Ahead of the rear axle, m.
+    /// Ahead of the rear axle.
     pub x_m: f64,
-    /// Left of the centre line, m.
+    /// Left of the centre line.
     pub y_m: f64,
-    /// Velocity over ground, m/s.
-    pub velocity_mps: [f64; 2],
-    /// Radar cross-section, dBsm.
+    /// Velocity ahead over ground.
+    pub vx_mps: f64,
+    /// Velocity to the left over ground.
+    pub vy_mps: f64,
+    /// Radar cross-section.
     pub rcs_dbsm: f64,
     /// What it belongs to.
     pub kind: StreetKind,
@@ -97,32 +88,53 @@ pub struct StreetTarget {
 }
 
 /// The shape of a thing on the ground.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct StreetOutline {
     /// What it is.
     pub kind: StreetKind,
-    /// Corners in the car's frame, m: of a polygon, the two ends of a line, or one point.
+    /// Corners in the car's frame: of a polygon, the two ends of a line, or one point.
+    #[option(described_as = Corners)]
+    #[serde(rename = "..corners_m", serialize_with = "as_columns")]
     pub corners_m: Vec<[f64; 2]>,
 }
 
+/// Corners as columns.
+#[derive(Described, Serialize)]
+struct Corners {
+    /// Ahead of the rear axle: corners of a polygon, the two ends of a line, or one point.
+    #[serde(serialize_with = "columns::serialize")]
+    x_m: Vec<f64>,
+    /// Left of the centre line.
+    #[serde(serialize_with = "columns::serialize")]
+    y_m: Vec<f64>,
+}
+
+fn as_columns<S: Serializer>(corners: &[[f64; 2]], serializer: S) -> Result<S::Ok, S::Error> {
+    let column = |axis: usize| corners.iter().map(|corner| corner[axis]).collect();
+    Corners { x_m: column(0), y_m: column(1) }.serialize(serializer)
+}
+
 /// A radar on the car.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct StreetRadar {
-    /// One of [`STREET_RADARS`].
+    /// `right`, `front-right`, `front-left` or `left`: by the way it looks.
     pub name: &'static str,
     /// Its place and direction.
     pub mounting: Mounting,
-    /// Name of its array.
+    /// The preset of its array.
     pub array: &'static str,
     /// Its waveform.
     pub waveform: Waveform,
-    /// Half width of what it sees, rad.
+    /// Half width of what it sees.
     pub field_of_view_rad: f64,
 }
 
 /// The street at the start of a frame.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+#[option(name = "StreetScene")]
 pub struct Street {
+    /// What it was made from.
+    #[serde(rename = "..options")]
     options: StreetOptions,
     /// The car's radars, mounted as those of the `RadarScenes` car.
     pub radars: Vec<StreetRadar>,

@@ -3,6 +3,8 @@
 use super::{Street, StreetRadar};
 use crate::cube::CubeTarget;
 use boresight_core::Direction;
+use boresight_core::describe::Described;
+use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
 /// Nearest point that is simulated, m.
@@ -24,11 +26,12 @@ const DEEPEST_SHADOW_DB: f64 = 25.0;
 const WEAKEST_DB: f64 = -90.0;
 
 /// A point of the street as a radar sees it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct VisibleTarget {
-    /// Index in [`Street::targets`].
+    /// Index among the street's targets.
     pub target: usize,
     /// Range, rate, direction and power in the radar's frame.
+    #[serde(rename = "..echo")]
     pub echo: CubeTarget,
 }
 
@@ -60,8 +63,7 @@ pub(super) fn visible(street: &Street, radar: &StreetRadar) -> Vec<VisibleTarget
         if shadow_db > DEEPEST_SHADOW_DB {
             return None;
         }
-        let [vx, vy] = target.velocity_mps;
-        let rate_mps = ((vx - ego_mps) * dx + vy * dy) / range_m;
+        let rate_mps = ((target.vx_mps - ego_mps) * dx + target.vy_mps * dy) / range_m;
         let spreading_db = 40.0 * libm::log10(REFERENCE_M / range_m.max(SATURATION_M));
         let power_db =
             target.rcs_dbsm + spreading_db - EDGE_LOSS_DB * edge * edge - shadow_db + REFERENCE_DB;

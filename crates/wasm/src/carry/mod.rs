@@ -9,4 +9,4 @@ mod write;
 
 pub use names::property;
 pub use read::{Reader, read, read_named, read_optional, refuse_unknown};
-pub use write::write;
+pub use write::{write, write_all};

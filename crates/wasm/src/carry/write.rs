@@ -17,6 +17,11 @@ pub fn write<T: Serialize + ?Sized>(value: &T) -> JsValue {
     value.serialize(Writer::default()).unwrap_or(JsValue::UNDEFINED)
 }
 
+/// Results as a list of plain objects.
+pub fn write_all<T: Serialize>(values: impl IntoIterator<Item = T>) -> Array {
+    values.into_iter().map(|value| write(&value)).collect()
+}
+
 /// How a value is written.
 #[derive(Clone, Copy, Default)]
 struct Writer<'a> {

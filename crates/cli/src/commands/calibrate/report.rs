@@ -2,50 +2,26 @@
 
 use super::Calibrated;
 use super::track::SEGMENT_M;
+use crate::json;
 use serde_json::{Value, json};
 
 /// The result as JSON.
 pub(super) fn json(result: &Calibrated) -> Value {
     let Calibrated { sensor, options, estimate: e, track, joint } = result;
-    let frames = e.frames;
-    let warnings: Vec<Value> = e
-        .remarks
-        .iter()
-        .map(|remark| json!({ "code": remark.code(), "message": remark.to_string() }))
-        .collect();
     let error = track.error_m(e.angle_rad, options).map(|estimated| {
         let nominal = options.nominal_rad.and_then(|angle| track.error_m(angle, options));
         json!({ "segmentM": SEGMENT_M, "estimatedM": estimated, "nominalM": nominal })
     });
-    // What is not finite becomes null.
-    json!({
+    let further = json!({
         "sensor": sensor,
         "joint": joint,
         "method": options.method.name(),
         "motion": options.motion_method().name(),
-        "angleDeg": e.angle_rad.to_degrees(),
-        "sigmaDeg": e.sigma_rad.to_degrees(),
         "nominalDeg": options.nominal_rad.map(f64::to_degrees),
-        "scale": e.scale,
-        "scaleSigma": e.scale_sigma,
         "covariance": e.covariance,
-        "biasDegps": e.bias_radps.to_degrees(),
-        "biasSigmaDegps": e.bias_sigma_radps.to_degrees(),
-        "inlierShare": e.inlier_share,
-        "frames": {
-            "given": frames.given,
-            "used": frames.used,
-            "standing": frames.standing,
-            "slow": frames.slow,
-            "turning": frames.turning,
-            "sparse": frames.sparse,
-            "withoutMotion": frames.without_motion,
-        },
-        "converged": e.converged,
-        "misaligned": e.misaligned,
         "trajectoryError": error,
-        "warnings": warnings,
-    })
+    });
+    json::beside(e, further)
 }
 
 /// The result as text.

@@ -1,0 +1,967 @@
+// Written by `npm run generate` from the descriptions in Rust; not edited by hand.
+import type { CalibrationMethod, DriveFormat, DriveScenario, Method } from './options.js';
+
+/** Transmitter and receiver a virtual element comes from. */
+export interface Channel {
+  /** Index of the transmitter, in the order of transmission. */
+  tx: number;
+  /** Index of the receiver. */
+  rx: number;
+}
+
+/**
+ * Which angles an array can tell apart.
+ *
+ * - `point`: All elements at one point: no angle at all.
+ * - `azimuth`: Elements spread along y alone: azimuth.
+ * - `line`: Elements on one line that is not the y axis: the angle to that line only.
+ * - `area`: Elements spread over an area or a volume: azimuth and elevation.
+ */
+export type Extent = 'point' | 'azimuth' | 'line' | 'area';
+
+/** Where the elements of an array are, and what follows from that. */
+export interface ArrayGeometry {
+  /** Elements, half wavelengths: x forward, y left, z up. */
+  positions: [number, number, number][];
+  /** Transmitters, half wavelengths. */
+  tx: [number, number, number][];
+  /** Receivers, half wavelengths. */
+  rx: [number, number, number][];
+  /** Transmitter and receiver of each element. */
+  channels: Channel[];
+  /** Length along y, half wavelengths. */
+  aperture: number;
+  /** Which angles it can tell apart. */
+  extent: Extent;
+  /** Whether the elements are evenly spaced along y, in order. */
+  uniform: boolean;
+  /** Half width of the sector without grating lobes; 90 deg where there are none. */
+  unambiguousDeg: number;
+  /**
+   * Where the beam at boresight has its first null: from there on two equal targets are told apart; 90 deg where it
+   * has none.
+   */
+  resolutionDeg: number;
+}
+
+/**
+ * Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each, `samples` complex
+ * samples a chirp.
+ */
+export interface Waveform {
+  /** Frequency at the start of the ramp, Hz. */
+  startFrequencyHz: number;
+  /** Slope of the ramp, Hz per second. */
+  slopeHzPerS: number;
+  /** Complex sample rate, Hz. */
+  sampleRateHz: number;
+  /** Samples a chirp. */
+  samples: number;
+  /** Time from the start of the ramp to the first sample, s. */
+  adcStartS: number;
+  /** Time from the start of one chirp to the start of the next, s. */
+  chirpIntervalS: number;
+  /** Number of transmitters, which take turns. */
+  transmitters: number;
+  /** Chirps of each transmitter in a frame. */
+  loops: number;
+  /** Time from the start of one frame to the start of the next, s. */
+  frameIntervalS: number;
+}
+
+/** What follows from a waveform: the numbers engineers look for first. */
+export interface WaveformSummary {
+  /** Bandwidth swept while samples are taken. */
+  bandwidthHz: number;
+  /** Frequency in the middle of the samples. */
+  centreFrequencyHz: number;
+  /** Wavelength at the centre frequency. */
+  wavelengthM: number;
+  /** Range resolution. */
+  rangeResolutionM: number;
+  /** Largest unambiguous range. */
+  maxRangeM: number;
+  /** Range-rate resolution. */
+  rateResolutionMps: number;
+  /** Largest unambiguous range rate of either sign. */
+  maxRateMps: number;
+  /** Time over which the chirps of a frame are sent. */
+  frameTimeS: number;
+}
+
+/** What a method needs and gives. */
+export interface MethodInfo {
+  /** Its name. */
+  name: Method;
+  /** Name for people. */
+  title: string;
+  /** Where it was published. */
+  reference: string;
+  /** Fewest snapshots it is of use with (after smoothing where that applies). */
+  minSnapshots: number;
+  /** Most snapshots it takes, if there is a limit. */
+  maxSnapshots: number | null;
+  /** Whether a covariance will do. */
+  takesCovariance: boolean;
+  /** Whether the elements must be evenly spaced on a line along y. */
+  uniformArray: boolean;
+  /** Whether the elements must stand on a grid along y (gaps allowed). */
+  lattice: boolean;
+  /** Whether it also estimates elevation on arrays that span an area. */
+  elevation: boolean;
+  /** Whether the number of sources must be given or counted beforehand. */
+  sourceCount: boolean;
+  /** Whether it returns a spectrum over angle. */
+  spectrum: boolean;
+  /** Whether it is a trained network, which needs a model's file. */
+  network: boolean;
+  /** Operation count of one estimate, in words. */
+  cost: string;
+}
+
+/**
+ * Why a method cannot work on an array, or on so many snapshots of it.
+ *
+ * - `one-place`: All elements are at one place along y, so no azimuth can be told.
+ * - `uniform-array`: It needs elements evenly spaced along y, in order.
+ * - `grid`: It needs elements on a grid along y.
+ * - `elevation`: It tells no elevation, and the array spans an area.
+ * - `few-snapshots`: It needs more snapshots, averaging or smoothing.
+ * - `many-snapshots`: It takes fewer snapshots.
+ */
+export type Unsuited = 'one-place' | 'uniform-array' | 'grid' | 'elevation' | 'few-snapshots' | 'many-snapshots';
+
+/** One source found. */
+export interface Source {
+  /** Azimuth, counter-clockwise from boresight (positive to the left). */
+  azimuthDeg: number;
+  /** Elevation, positive upwards. */
+  elevationDeg: number;
+  /** Its power at one element. */
+  powerDb: number;
+  /** Its complex amplitude at the array's origin, where a single snapshot determines it. */
+  amplitude?: [number, number];
+  /** How sure a network is of it, from 0 to 1; absent from other methods. */
+  confidence?: number;
+}
+
+/**
+ * What the values of a spectrum mean.
+ *
+ * - `power`: Power at one element.
+ * - `pseudo`: A pseudo-spectrum: its peaks tell angles, its height no power.
+ */
+export type SpectrumKind = 'power' | 'pseudo';
+
+/** Values over a grid of angles. */
+export interface Spectrum {
+  /** Azimuths, ascending. */
+  azimuthDeg: Float64Array;
+  /** Elevations, ascending; one zero where the array sees azimuth only. */
+  elevationDeg: Float64Array;
+  /** Values, elevation-major: all azimuths of the first elevation, then those of the next. */
+  valuesDb: Float64Array;
+  /** What they mean. */
+  kind: SpectrumKind;
+}
+
+/** Something to know of a result; not an error. */
+export interface Warning {
+  /** A stable name for programs, in kebab case. */
+  code: string;
+  /** What a reader should know. */
+  message: string;
+}
+
+/** Result of an estimator. */
+export interface Estimate {
+  /** The method that made it. */
+  method: Method;
+  /** Sources, strongest first. */
+  sources: Source[];
+  /** The spectrum, from methods that have one. */
+  spectrum?: Spectrum;
+  /** Whether all sources asked for or counted were found. */
+  resolved: boolean;
+  /** Iterations done, 0 for closed forms. */
+  iterations: number;
+  /** What a reader should know. */
+  warnings: Warning[];
+}
+
+/** Spectra of many cells over the same angles. */
+export interface BatchSpectra {
+  /** Azimuths, ascending. */
+  azimuthDeg: Float64Array;
+  /** Elevations, ascending; one zero where the array sees azimuth only. */
+  elevationDeg: Float64Array;
+  /** Linear, the last axis of the shape fastest. */
+  power: Float32Array;
+  /** Cells, then elevations where there are several, then azimuths. */
+  shape: number[];
+  /** What the values mean. */
+  kind: SpectrumKind;
+}
+
+/** A kind of warning, told by the first cell that has one. */
+export interface BatchWarning {
+  /** A stable name for programs, in kebab case. */
+  code: string;
+  /** What a reader should know. */
+  message: string;
+  /** Number of cells it holds for. */
+  cells: number;
+}
+
+/** The estimates of many cells, flat: numbers of each source, those of a cell together, strongest first. */
+export interface BatchEstimate {
+  /** The method that made them. */
+  method: Method;
+  /** Number of cells. */
+  cells: number;
+  /** The index of each source's cell, ascending. */
+  cell: Uint32Array;
+  /** Azimuth of each source. */
+  azimuthDeg: Float64Array;
+  /** Elevation of each source. */
+  elevationDeg: Float64Array;
+  /** Power of each source at one element. */
+  powerDb: Float64Array;
+  /** How sure a network is of each source, from 0 to 1; absent from other methods. */
+  confidence?: Float64Array;
+  /** The spectra, where they were asked for and the method has them. */
+  spectra?: BatchSpectra;
+  /** Cells in which not all sources asked for or counted were found. */
+  unresolved: number;
+  /** Each kind once. */
+  warnings: BatchWarning[];
+}
+
+/** How many sources there are, and why. */
+export interface CountResult {
+  /** Number of sources. */
+  count: number;
+  /** Eigenvalues of the covariance, largest first. */
+  eigenvalues: Float64Array;
+  /** The criterion for 0, 1, 2, ... sources. */
+  criterion: Float64Array;
+}
+
+/** Lower bound of the error of unbiased estimators. */
+export interface Bound {
+  /** Standard deviation of each source's azimuth; infinite where the data do not determine the angles. */
+  azimuthDeg: Float64Array;
+  /** Of each elevation; absent where the array sees none. */
+  elevationDeg?: Float64Array;
+}
+
+/** Interleaved [re, im] numbers in C order with their shape (complex numbers, not floats). */
+export interface ComplexArray {
+  /** Real and imaginary parts, one after the other. */
+  data: Float64Array;
+  /** Lengths of the axes. */
+  shape: number[];
+}
+
+/** The same in single precision. */
+export interface ComplexArray32 {
+  /** Real and imaginary parts, one after the other. */
+  data: Float32Array;
+  /** Lengths of the axes. */
+  shape: number[];
+}
+
+/** Something that reflects. */
+export interface TrueTarget {
+  /** Azimuth, counter-clockwise from boresight (positive to the left). */
+  azimuthDeg: number;
+  /** Elevation, positive upwards. */
+  elevationDeg: number;
+  /** Its power at one element, `20 log10` of its amplitude. */
+  powerDb: number;
+  /** Phase of its amplitude in the first snapshot; drawn uniformly if absent. Complex normal amplitudes have none. */
+  phaseDeg?: number;
+}
+
+/** Snapshots of several scenes. */
+export interface SnapshotResult {
+  /** Real and imaginary parts, one after the other. */
+  data: Float64Array;
+  /** Lengths of the axes. */
+  shape: number[];
+  /** Targets of each scene, with their phase in the first snapshot where they have one. */
+  truth: TrueTarget[][];
+}
+
+/** Where a radar sits in the car's frame and which way it looks. */
+export interface Mounting {
+  /** Ahead of the rear axle. */
+  xM: number;
+  /** Left of the centre line. */
+  yM: number;
+  /** Direction of boresight, counter-clockwise from the car's x. */
+  yawDeg: number;
+}
+
+/** A radar on the car. */
+export interface StreetRadar {
+  /** `right`, `front-right`, `front-left` or `left`: by the way it looks. */
+  name: string;
+  /** Its place and direction. */
+  mounting: Mounting;
+  /** The preset of its array. */
+  array: string;
+  /** Its waveform. */
+  waveform: Waveform;
+  /** Half width of what it sees. */
+  fieldOfViewDeg: number;
+}
+
+/**
+ * What a point belongs to.
+ *
+ * - `parked-car`: A car at the kerb.
+ * - `guard-rail`: A rail on posts, over which radars see.
+ * - `wall`: House fronts.
+ * - `pole`: A lamp post or a tree.
+ * - `pedestrian`: Somebody on foot.
+ * - `vehicle`: A car that drives.
+ */
+export type StreetKind = 'parked-car' | 'guard-rail' | 'wall' | 'pole' | 'pedestrian' | 'vehicle';
+
+/** A point that scatters, in the car's frame. */
+export interface StreetTarget {
+  /** Ahead of the rear axle. */
+  xM: number;
+  /** Left of the centre line. */
+  yM: number;
+  /** Velocity ahead over ground. */
+  vxMps: number;
+  /** Velocity to the left over ground. */
+  vyMps: number;
+  /** Radar cross-section. */
+  rcsDbsm: number;
+  /** What it belongs to. */
+  kind: StreetKind;
+  /** Index of that thing's outline. */
+  outline: number;
+}
+
+/** The shape of a thing on the ground. */
+export interface StreetOutline {
+  /** What it is. */
+  kind: StreetKind;
+  /** Ahead of the rear axle: corners of a polygon, the two ends of a line, or one point. */
+  xM: Float64Array;
+  /** Left of the centre line. */
+  yM: Float64Array;
+}
+
+/** The street at the start of a frame. */
+export interface StreetScene {
+  /** The things in it come from stream 0 of this seed, the cube of radar `i` from one that stream `i + 1` gives. */
+  seed: number;
+  /** Speed of the car along x. What stands still spreads over Doppler with it (-30 to 30 m/s). */
+  egoSpeedMps: number;
+  /** The car's radars, mounted as those of the `RadarScenes` car. */
+  radars: StreetRadar[];
+  /** All points. */
+  targets: StreetTarget[];
+  /** All things. */
+  outlines: StreetOutline[];
+}
+
+/** A point of the street as a radar sees it. */
+export interface VisibleTarget {
+  /** Index among the street's targets. */
+  target: number;
+  /** Distance from the array's origin at the start of the first chirp. */
+  rangeM: number;
+  /** Rate at which the range grows. */
+  rateMps: number;
+  /** Azimuth, counter-clockwise from boresight (positive to the left). */
+  azimuthDeg: number;
+  /** Elevation, positive upwards. */
+  elevationDeg: number;
+  /** Power of one raw sample at one element. */
+  powerDb: number;
+  /** Phase of its reflection; drawn from the seed if absent. */
+  phaseDeg?: number;
+}
+
+/** One frame of one radar of the street. */
+export interface SimulatedStreet {
+  /** Frames (one) x loops x transmitters x receivers x samples. */
+  cube: ComplexArray32;
+  /** The radar. */
+  radar: StreetRadar;
+  /** The points in its field of view and in no deep shadow. */
+  targets: VisibleTarget[];
+}
+
+/** What a configuration says of the radar and its samples. */
+export interface RadarConfig {
+  /** Timing and frequency plan of a frame. */
+  waveform: Waveform;
+  /** What follows from it. */
+  summary: WaveformSummary;
+  /** Number of receivers in use. */
+  receivers: number;
+  /** Number of transmitters in use. */
+  transmitters: number;
+  /** Numbers of the receivers on the chip, from 0. */
+  receiverNumbers: number[];
+  /** Numbers of the transmitters on the chip, from 0, in order of transmission. */
+  transmitterNumbers: number[];
+  /** Preset that fits the platform and channels, if there is one. */
+  array: string | null;
+  /** Platform named in a comment, such as `xWR16xx`. */
+  platform: string | null;
+  /** Version of the board's software named in a comment, such as `02.00`. */
+  sdkVersion: string | null;
+  /** Bits of a sample. */
+  sampleBits: number;
+  /** Bytes of one frame of raw samples. */
+  frameBytes: number;
+  /** Frames to record; null until stopped. */
+  frames: number | null;
+  /** Lines that were not understood, and other remarks. */
+  warnings: Warning[];
+}
+
+/** What is known of a capture before any processing. */
+export interface CaptureInfo {
+  /** Its configuration. */
+  config: RadarConfig;
+  /** Whole frames. */
+  frames: number;
+  /** Bytes after the last whole frame. */
+  trailingBytes: number;
+  /** Virtual array of the configured channels; null for a platform that is not known. */
+  array: ArrayGeometry | null;
+  /** What is odd about its size. */
+  warnings: Warning[];
+}
+
+/** A target in one frame. */
+export interface Detection {
+  /** Frame, from 0; the first one where frames were combined. */
+  frame: number;
+  /** Range, interpolated between bins and corrected for the range rate. */
+  rangeM: number;
+  /** Range rate, positive when receding, interpolated between bins. */
+  rateMps: number;
+  /** Azimuth, positive to the left. */
+  azimuthDeg: number;
+  /** Elevation, positive upwards; 0 where the array does not see it. */
+  elevationDeg: number;
+  /** Power of one raw sample at one element over full scale (1.0), interpolated between bins. */
+  powerDb: number;
+  /** Its power in its cell over the noise around the cell. */
+  snrDb: number;
+  /** Range bin. */
+  rangeBin: number;
+  /** Doppler bin. */
+  dopplerBin: number;
+}
+
+/** What became of cells and samples. */
+export interface FrameCounts {
+  /** Cells above their threshold. */
+  cellsOverThreshold: number;
+  /** Of these, cells grouped under a stronger neighbour. */
+  grouped: number;
+  /** Cells and detections outside the region. */
+  outsideRegion: number;
+  /** Cells and detections beyond the most to report. */
+  beyondLimit: number;
+  /** Cells in which the method found no angle. */
+  withoutAngle: number;
+  /** Samples at an end of the converter's range. */
+  clippedSamples: number;
+}
+
+/** Result of one frame, or of several combined. */
+export interface FrameResult {
+  /** Frame, from 0; the first one where frames were combined. */
+  frame: number;
+  /** Frames that went in. */
+  frames: number;
+  /** Range of each range bin. */
+  rangeM: Float64Array;
+  /** Range rate of each Doppler bin, ascending. */
+  rateMps: Float64Array;
+  /** Power over range: mean over channels, sum over Doppler. */
+  rangeProfileDb: Float64Array;
+  /** Power over range and Doppler (Doppler fastest): mean over channels. */
+  rangeDopplerDb: Float32Array;
+  /** Range bins, then Doppler bins. */
+  shape: [number, number];
+  /** Detections, strongest first. */
+  detections: Detection[];
+  /** What became of cells and samples. */
+  counts: FrameCounts;
+  /** Remarks of the estimator, each kind once, and of the chain. */
+  warnings: Warning[];
+}
+
+/** Detected cells of a frame, or of several combined, with what estimators take. */
+export interface FrameCells {
+  /** Range of each cell, interpolated between bins and corrected for the range rate. */
+  rangeM: Float64Array;
+  /** Range rate of each, positive when receding, interpolated between bins. */
+  rateMps: Float64Array;
+  /** Power of each: one raw sample at one element over full scale (1.0). */
+  powerDb: Float64Array;
+  /** Over the noise around the cell. */
+  snrDb: Float64Array;
+  /** Range bin of each. */
+  rangeBin: Uint32Array;
+  /** Doppler bin of each. */
+  dopplerBin: Uint32Array;
+  /** Cells x elements (x frames where there are several), the transmitters' Doppler phase taken off. */
+  snapshots: ComplexArray;
+  /** What became of cells and samples. */
+  counts: FrameCounts;
+}
+
+/** What fell, in whole or in part, beside the grid. */
+export interface OutsideGrid {
+  /** Targets, or points of spectra. */
+  count: number;
+  /** Their power that is not in the image. */
+  power: number;
+}
+
+/** Power over range and azimuth: what the cells' targets or spectra add up to. */
+export interface RangeAzimuthMap {
+  /** Ranges, ascending. */
+  rangeM: Float64Array;
+  /** Azimuths, ascending, evenly spaced in their sine. */
+  azimuthDeg: Float64Array;
+  /** Linear, azimuths fastest. */
+  power: Float32Array;
+  /** Ranges, then azimuths. */
+  shape: [number, number];
+  /** What fell off the grid. */
+  outside: OutsideGrid;
+}
+
+/** Maps of one or several radars on the ground around the car. */
+export interface BirdsEyeView {
+  /** Middles of the cells ahead. */
+  xM: Float64Array;
+  /** Middles of the cells to the left. */
+  yM: Float64Array;
+  /** Linear, y fastest: the maximum over the radars that see the cell, 0 where none does. */
+  power: Float32Array;
+  /** 1 where a radar sees the cell. */
+  seen: Uint8Array;
+  /** Index of the radar whose power it is; -1 where none sees it. */
+  radar: Int8Array;
+  /** Cells ahead, then cells to the left. */
+  shape: [number, number];
+  /** Width of a cell. */
+  cellM: number;
+  /** Of each radar. */
+  mountings: Mounting[];
+}
+
+/** How much of a view is not where targets are. */
+export interface SidelobeMeasure {
+  /** Energy (the sum of powers) outside the gates over all energy; minus infinity if there is none outside. */
+  outsideDb: number;
+  /** Strongest cell outside the gates over the strongest of all. */
+  peakOutsideDb: number;
+  /** Share of the cells outside the gates that are lit: less than 40 dB below the strongest of all. */
+  litOutside: number;
+  /** Share of the targets in view with a lit cell in their gate. */
+  litTargets: number;
+  /** Targets in view. */
+  targets: number;
+  /** Share of the cells seen that lie in gates. */
+  gated: number;
+}
+
+/** A method of mounting angles. */
+export interface CalibrationMethodInfo {
+  /** Its name. */
+  name: CalibrationMethod;
+  /** Name for people. */
+  title: string;
+  /** Where it was published. */
+  reference: string;
+}
+
+/**
+ * What became of a frame.
+ *
+ * - `used`: It went into the angle.
+ * - `standing`: The car stood; it went into the bias of the yaw rate.
+ * - `slow`: The radar moved more slowly than the gate.
+ * - `turning`: The car turned faster than the gate.
+ * - `sparse`: Too few detections or inliers for a motion.
+ * - `without-motion`: No yaw rate (or, for the full-velocity method, no speed) at this time.
+ */
+export type FrameVerdict = 'used' | 'standing' | 'slow' | 'turning' | 'sparse' | 'without-motion';
+
+/** The radar's own motion, from one frame. */
+export interface RadarMotion {
+  /** Velocity ahead and to the left in the radar's frame. */
+  velocityMps: [number, number];
+  /** Its covariance `[[xx, xy], [xy, yy]]`, m^2/s^2. */
+  covariance: [[number, number], [number, number]];
+  /** Detections taken as static. */
+  inliers: number;
+  /** Detections given. */
+  detections: number;
+}
+
+/** What an estimator made of one frame. */
+export interface FrameOutcome {
+  /** What became of it. */
+  verdict: FrameVerdict;
+  /** The radar's motion, if one could be found. */
+  motion?: RadarMotion;
+  /** The mounting angle this frame alone gives, if it gives one. */
+  angleDeg?: number;
+  /** Its standard deviation. */
+  angleSigmaDeg?: number;
+  /** Weight of the frame in the estimate, 1/rad^2; 0 if unused. */
+  weight: number;
+  /** For each detection the weight, 0 to 1, with which it was taken as static. */
+  weights: Float32Array;
+}
+
+/** How many frames became what; every frame given is counted once. */
+export interface CalibrationCounts {
+  /** Frames given. */
+  given: number;
+  /** In the angle. */
+  used: number;
+  /** The car stood. */
+  standing: number;
+  /** Slower than the gate. */
+  slow: number;
+  /** Turning faster than the gate. */
+  turning: number;
+  /** Too few detections or inliers. */
+  sparse: number;
+  /** Without a yaw rate (or speed) at their time. */
+  withoutMotion: number;
+}
+
+/** A mounting angle and what it rests on. Standard deviations are infinite where the drive says nothing. */
+export interface CalibrationResult {
+  /** Mounting angle (yaw of boresight in the car's frame), within half a turn. */
+  angleDeg: number;
+  /** Its standard deviation. */
+  sigmaDeg: number;
+  /** Scale factor of the yaw rate (measured over true). */
+  scale: number;
+  /** Its standard deviation; 0 where it was not estimated. */
+  scaleSigma: number;
+  /** Bias of the yaw rate. */
+  biasDegps: number;
+  /** Its standard deviation; infinite where nothing is known of it. */
+  biasSigmaDegps: number;
+  /** Static detections over all, of the frames used; 0 without any. */
+  inlierShare: number;
+  /** What became of the frames. */
+  frames: CalibrationCounts;
+  /**
+   * The angle has settled: its standard deviation is below the limit of the options and it moved by no more than that
+   * lately.
+   */
+  converged: boolean;
+  /** Whether the angle differs from the nominal one beyond limit and chance; none without a nominal angle. */
+  misaligned: boolean | null;
+  /** What to know of it. */
+  warnings: Warning[];
+}
+
+/** Poses of the rear axle at times. */
+export interface Trajectory {
+  /** Time of each. */
+  timeS: Float64Array;
+  /** East, or x of the log's global frame. */
+  xM: Float64Array;
+  /** North, or y of the log's global frame. */
+  yM: Float64Array;
+  /** Heading, counter-clockwise from x. */
+  yawDeg: Float64Array;
+}
+
+/**
+ * Why a row of a drive log was left out.
+ *
+ * - `not-finite`: A detection with a NaN or an infinity where a number is needed.
+ * - `invalid-marker`: A detection whose range rate marks it as invalid.
+ * - `status`: A detection that its radar's status calls none.
+ * - `duplicate`: A second detection of the same track in one scan.
+ * - `motion-not-finite`: A motion sample with a NaN or an infinity where a number is needed.
+ * - `motion-duplicate`: A second motion sample of the same time.
+ */
+export type DropReason =
+  | 'not-finite'
+  | 'invalid-marker'
+  | 'status'
+  | 'duplicate'
+  | 'motion-not-finite'
+  | 'motion-duplicate';
+
+/** A scenario that can be simulated. */
+export interface DriveScenarioInfo {
+  /** Its name. */
+  name: DriveScenario;
+  /** Name for people. */
+  title: string;
+}
+
+/** A radar of a drive: its place from the rear axle and nominal direction, null where the log does not say. */
+export interface DriveSensor {
+  /** Its number in the log, 0 to 255. */
+  id: number;
+  /** Ahead of the rear axle. */
+  xM: number | null;
+  /** Left of the centre line. */
+  yM: number | null;
+  /** Nominal direction of boresight, counter-clockwise from the car's x. */
+  yawDeg: number | null;
+}
+
+/** Radar scans in order of time; the detections of scan i are those from offsets[i] to before offsets[i + 1]. */
+export interface DriveScans {
+  /** Time of each, on the clock of the log. */
+  timeS: Float64Array;
+  /** Numbers of the radars. */
+  sensor: Uint8Array;
+  /** One more than there are scans. */
+  offsets: Uint32Array;
+}
+
+/** Detections in the frames of their radars. */
+export interface DriveDetections {
+  /** Azimuth, positive to the left. */
+  azimuthDeg: Float64Array;
+  /** Range rate, positive when receding, not compensated for the car's motion. */
+  rangeRateMps: Float32Array;
+  /** Range; NaN where there is none. */
+  rangeM: Float32Array;
+  /** Radar cross-section; NaN where there is none. */
+  rcsDbsm: Float32Array;
+  /** Classes in the numbers of RadarScenes (11 is static), where the log has them. */
+  label: Uint8Array | null;
+}
+
+/** Poses of the rear axle; NaN where one is not known. */
+export interface DrivePoses {
+  /** East, or x of the log's global frame. */
+  xM: Float64Array;
+  /** North, or y of the log's global frame. */
+  yM: Float64Array;
+  /** Heading, counter-clockwise from x. */
+  yawDeg: Float64Array;
+}
+
+/** The car's motion as measured. */
+export interface DriveMotion {
+  /** Time of each sample, on the clock of the log. */
+  timeS: Float64Array;
+  /** Yaw rate. */
+  yawRateDegps: Float64Array;
+  /** Speed of the rear axle, negative in reverse; NaN where there is none. */
+  speedMps: Float64Array;
+  /** Where the rear axle is, where the log says so. */
+  pose: DrivePoses | null;
+}
+
+/**
+ * Where the mountings of a log are from.
+ *
+ * - `sensors-json`: `sensors.json` of the recording.
+ * - `format`: The format's own car, as no file states them.
+ */
+export type MountingSource = 'sensors-json' | 'format';
+
+/** What the files of a drive held. */
+export interface DriveCounts {
+  /** Detections in the files. */
+  detections: number;
+  /** Motion samples in the files. */
+  motion: number;
+  /** Detections kept although their range, cross-section, compensated rate or place is no number. */
+  incompleteDetections: number;
+  /** Motion samples kept although their speed or pose is no number. */
+  incompleteMotion: number;
+  /** Rows left out, by reason. */
+  dropped: Partial<Record<DropReason, number>>;
+}
+
+/** A drive as read or simulated. */
+export interface Drive {
+  /** The format it was read from, or `simulated`. */
+  format: DriveFormat | 'simulated';
+  /** The radars, by ascending number. */
+  sensors: DriveSensor[];
+  /** Radar scans in order of time. */
+  scans: DriveScans;
+  /** An entry for each detection, those of a scan together. */
+  detections: DriveDetections;
+  /** An entry for each sample of the car's motion, in order of time. */
+  motion: DriveMotion;
+  /** Where the radars' places are from, where the log has any. */
+  mountings: MountingSource | null;
+  /** What the files held. */
+  counts: DriveCounts;
+  /** What else to know. */
+  warnings: Warning[];
+}
+
+/** A radar where it truly sits and looks. */
+export interface TrueSensor {
+  /** Its number in the drive. */
+  id: number;
+  /** Ahead of the rear axle. */
+  xM: number;
+  /** Left of the centre line. */
+  yM: number;
+  /** Direction of boresight, counter-clockwise from the car's x. */
+  yawDeg: number;
+}
+
+/** Errors of a yaw-rate sensor. */
+export interface YawRateErrors {
+  /** Measured over true yaw rate. */
+  scale: number;
+  /** Yaw rate measured at standstill. */
+  biasDegps: number;
+  /** Standard deviation of a sample's white noise. */
+  sigmaDegps: number;
+}
+
+/** The car's true motion. */
+export interface TrueMotion {
+  /** Yaw rate. */
+  yawRateDegps: Float64Array;
+  /** Speed of the rear axle, negative in reverse. */
+  speedMps: Float64Array;
+}
+
+/** What really happened in a simulated drive. */
+export interface DriveTruth {
+  /** The radars where they truly sit and look. */
+  sensors: TrueSensor[];
+  /** Errors of the yaw-rate sensor. */
+  yawRate: YawRateErrors;
+  /** The car's motion at the times of the drive's. */
+  motion: TrueMotion;
+  /** For each detection, 1 where it comes from a moving road user. */
+  moving: Uint8Array;
+  /** For each detection, the number of the road user it comes from, or 0. */
+  track: Uint32Array;
+}
+
+/** A simulated drive with the truth behind it; its poses are the true ones. */
+export interface SimulatedDrive {
+  /** The format it was read from, or `simulated`. */
+  format: DriveFormat | 'simulated';
+  /** The radars, by ascending number. */
+  sensors: DriveSensor[];
+  /** Radar scans in order of time. */
+  scans: DriveScans;
+  /** An entry for each detection, those of a scan together. */
+  detections: DriveDetections;
+  /** An entry for each sample of the car's motion, in order of time. */
+  motion: DriveMotion;
+  /** Where the radars' places are from, where the log has any. */
+  mountings: MountingSource | null;
+  /** What the files held. */
+  counts: DriveCounts;
+  /** What else to know. */
+  warnings: Warning[];
+  /** What really happened. */
+  truth: DriveTruth;
+}
+
+/** An array of a `.npy` file. */
+export interface NpyArray {
+  /** Complex numbers are interleaved [re, im]. */
+  kind: 'real' | 'complex';
+  /** The numbers in C order, in their precision; integers as doubles. */
+  data: Float32Array | Float64Array;
+  /** Lengths of the axes. */
+  shape: number[];
+}
+
+/** An object the board detected. */
+export interface BoardObject {
+  /** Distance. */
+  rangeM: number;
+  /**
+   * Range rate, positive when receding; none where the packet holds only a Doppler bin and no configuration tells its
+   * width.
+   */
+  rateMps: number | null;
+  /** Azimuth, positive to the left. */
+  azimuthDeg: number;
+  /** Elevation, positive upwards. */
+  elevationDeg: number;
+  /** Position forward. */
+  xM: number;
+  /** Position to the left. */
+  yM: number;
+  /** Position upwards. */
+  zM: number;
+  /** Range bin (SDK 1 and 2). */
+  rangeBin?: number;
+  /** Doppler bin, signed (SDK 1 and 2). */
+  dopplerBin?: number;
+  /** Peak value as sent (SDK 1 and 2). */
+  peak?: number;
+  /** Ratio to the noise (side information of SDK 3). */
+  snrDb?: number;
+}
+
+/** One packet: what the board made of one frame. */
+export interface BoardFrame {
+  /** Number the board gave the frame. */
+  frameNumber: number;
+  /** SDK version: major, minor, bug fix, build. */
+  sdkVersion: string;
+  /** Platform, such as `xWR16xx`. */
+  platform: string;
+  /** Objects. */
+  objects: BoardObject[];
+  /** Range profile at zero Doppler over the board's own unit, as sent. */
+  rangeProfileDb?: Float64Array;
+  /** Noise profile, likewise. */
+  noiseProfileDb?: Float64Array;
+  /**
+   * Whether the whole packet was there; false for one that the end of the input cut, of which the leading whole parts
+   * are given.
+   */
+  complete: boolean;
+}
+
+/** What was lost of a board's output. */
+export interface BoardLogCounts {
+  /** Bytes that belong to no packet. */
+  skippedBytes: number;
+  /** Packets that were cut or damaged. */
+  damagedPackets: number;
+  /** Remarks on both. */
+  warnings: Warning[];
+}
+
+/** All packets of a recording. */
+export interface BoardLog {
+  /** Packets, in order. */
+  frames: BoardFrame[];
+  /** Bytes that belong to no packet. */
+  skippedBytes: number;
+  /** Packets that were cut or damaged. */
+  damagedPackets: number;
+  /** Remarks on both. */
+  warnings: Warning[];
+}
