@@ -10,7 +10,10 @@ export function init(source?: WasmSource | Promise<WasmSource>): Promise<void> {
   return core.start(() => source ?? new URL('../wasm/boresight_bg.wasm', import.meta.url));
 }
 
-/** Loads what {@link readDrive} and {@link simulateDrive} need, a module of its own. */
+/**
+ * Loads the module of drives and mounting angles: what {@link readDrive}, {@link simulateDrive},
+ * {@link Calibration}, {@link calibrateDrive} and {@link jointCalibration} need.
+ */
 export function initDrives(source?: WasmSource | Promise<WasmSource>): Promise<void> {
   return drives.start(() => source ?? new URL('../wasm/boresight_drives_bg.wasm', import.meta.url));
 }

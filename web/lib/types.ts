@@ -8,8 +8,8 @@ export type * from './calibrate/types.js';
 export type * from './capture/types.js';
 export type * from './drive/types.js';
 export type * from './estimate/types.js';
-export type * from './formats/types.js';
 export type * from './generated/options.js';
+export type * from './generated/results.js';
 export type * from './image/types.js';
 export type * from './neural/types.js';
 export type * from './radar/types.js';
@@ -25,13 +25,6 @@ export interface ComplexData {
 export interface RealData {
   data: Float32Array | Float64Array;
   shape: readonly number[];
-}
-
-/** Something to know of a result; not an error. */
-export interface Warning {
-  /** A stable name for programs. */
-  code: string;
-  message: string;
 }
 
 /** A binary file. */

@@ -30,7 +30,7 @@ export interface Runtime {
   /** Number of workers where the user names none. */
   workers(): number;
   compile(): Promise<WebAssembly.Module>;
-  /** The module that reads and simulates drives. */
+  /** The module of drives and mounting angles. */
   compileDrives(): Promise<WebAssembly.Module>;
   /** The module of networks. */
   compileNeural(): Promise<WebAssembly.Module>;
@@ -38,7 +38,13 @@ export interface Runtime {
 }
 
 /** What needs the module of drives. */
-const ofDrives: readonly OperationName[] = ['readDrive', 'simulateDrive', 'driveScenarios'];
+const ofDrives: readonly OperationName[] = [
+  'readDrive',
+  'simulateDrive',
+  'driveScenarios',
+  'calibrateDrive',
+  'jointCalibration',
+];
 
 /** Memory that the copies of one capture in the workers may take, bytes; one worker has it in any case. */
 const COPIES_BYTES = 256 * 1024 * 1024;

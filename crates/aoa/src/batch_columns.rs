@@ -52,6 +52,9 @@ pub struct SpectraColumns<'a> {
     #[serde(serialize_with = "columns::serialize")]
     pub power: &'a [f32],
     /// Cells, then elevations where there are several, then azimuths.
+    #[option(
+        typescript = "[cells: number, azimuths: number] | [cells: number, elevations: number, azimuths: number]"
+    )]
     pub shape: Vec<usize>,
     /// What the values mean.
     pub kind: SpectrumKind,

@@ -23,8 +23,10 @@ pub struct FrameInput<'a> {
 #[option(name = "RadarMotion")]
 pub struct Motion {
     /// Velocity ahead and to the left in the radar's frame.
+    #[option(typescript = "[x: number, y: number]")]
     pub velocity_mps: [f64; 2],
     /// Its covariance `[[xx, xy], [xy, yy]]`, m^2/s^2.
+    #[option(typescript = "[[xx: number, xy: number], [xy: number, yy: number]]")]
     pub covariance: [[f64; 2]; 2],
     /// Detections taken as static.
     pub inliers: usize,

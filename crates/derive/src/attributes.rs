@@ -22,6 +22,7 @@ pub struct FieldOptions {
     pub default: Option<Expr>,
     pub range: Option<Range>,
     pub described_as: Option<Type>,
+    pub typescript: Option<String>,
     pub required: bool,
 }
 
@@ -44,12 +45,14 @@ impl FieldOptions {
                     options.range = Some(Range::Positive);
                 } else if meta.path.is_ident("described_as") {
                     options.described_as = Some(meta.value()?.parse()?);
+                } else if meta.path.is_ident("typescript") {
+                    options.typescript = Some(meta.value()?.parse::<LitStr>()?.value());
                 } else if meta.path.is_ident("required") {
                     options.required = true;
                 } else {
-                    return Err(
-                        meta.error("expected default, range, positive, required or described_as")
-                    );
+                    return Err(meta.error(
+                        "expected default, range, positive, required, described_as or typescript",
+                    ));
                 }
                 Ok(())
             })?;

@@ -18,6 +18,8 @@ use syn::{Data, DeriveInput, parse_macro_input};
 /// - `#[option(positive)]`: any finite number above zero.
 /// - `#[option(described_as = TYPE)]`: the type that serde carries the field as, by functions of its
 ///   own; such a field's check is written by hand.
+/// - `#[option(typescript = "...")]`: the field's type in TypeScript, of a result that has it more
+///   exactly than its type in Rust.
 /// - `#[option(required)]`: the field has to be given though it has a default in Rust. So has a field
 ///   of a struct without `#[serde(default)]`, unless it is an `Option`.
 /// - `#[serde(skip)]`: the field is not described.

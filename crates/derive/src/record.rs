@@ -43,18 +43,26 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
         let (doc, may_be_absent) = (doc(&field.attrs), serde.may_be_absent);
         let range = range_tokens(options.range.as_ref());
         let described_as = as_static(options.described_as.as_ref().unwrap_or(ty).to_token_stream());
+        let kind = match &options.typescript {
+            Some(text) => quote! {
+                ::boresight_core::describe::Kind::Special(
+                    &::boresight_core::describe::Special::in_typescript(#text),
+                )
+            },
+            None => quote!(<#described_as as ::boresight_core::describe::Described>::KIND),
+        };
         let place = described.len();
         described.push(quote! {
             ::boresight_core::describe::Field {
                 name: #wire,
                 doc: #doc,
-                kind: <#described_as as ::boresight_core::describe::Described>::KIND,
+                kind: #kind,
                 range: #range,
                 may_be_absent: #may_be_absent,
                 required: #required,
             }
         });
-        if options.described_as.is_some() {
+        if options.described_as.is_some() || options.typescript.is_some() {
             continue;
         }
         let at = if spread { quote!(at) } else { quote!(&at.field(FIELDS[#place].name)) };

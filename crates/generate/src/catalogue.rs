@@ -1,6 +1,6 @@
 //! What is generated, in the order in which it is listed.
 
-use boresight_core::describe::shaped::{ComplexArray, ComplexArray32};
+use boresight_core::describe::shaped::ComplexArray;
 use boresight_core::describe::{Described, Field, Kind, Record};
 use boresight_core::{Geometry, Waveform, WaveformSummary};
 use serde::Serialize;
@@ -41,7 +41,7 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
 /// What functions return, by subject.
 pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
     use boresight_wasm::{
-        calibrate, capture, config, count, drive, estimate, npy, street, trajectory,
+        calibration_methods, capture, config, count, drive, estimate, npy, street, trajectory,
     };
     vec![
         ("Arrays and waveforms", vec![Geometry::KIND, Waveform::KIND, WaveformSummary::KIND]),
@@ -60,7 +60,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
             "Simulation",
             vec![
                 ComplexArray::KIND,
-                ComplexArray32::KIND,
+                boresight_simulate::CubeColumns::KIND,
                 boresight_simulate::Snapshots::KIND,
                 boresight_simulate::street::Street::KIND,
                 street::SimulatedStreet::KIND,
@@ -86,7 +86,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
         (
             "Mounting angles",
             vec![
-                calibrate::CalibrationMethodInfo::KIND,
+                calibration_methods::CalibrationMethodInfo::KIND,
                 boresight_calibrate::FrameOutcome::KIND,
                 boresight_calibrate::AngleEstimate::KIND,
                 trajectory::Trajectory::KIND,

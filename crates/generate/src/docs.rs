@@ -116,7 +116,7 @@ fn type_of(kind: &Kind) -> String {
         Kind::Optional(inner) => format!("{} or null", type_of(inner)),
         Kind::List(inner) => format!("list of {}", type_of(inner)),
         Kind::Tuple(inner, length) => format!("{length} of {}", type_of(inner)),
-        Kind::Special(special) => special.expected.into(),
+        Kind::Special(special) => format!("`{}`", special.typescript.replace('|', "\\|")),
     }
 }
 

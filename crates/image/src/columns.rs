@@ -22,6 +22,7 @@ pub struct MapColumns<'a> {
     #[serde(serialize_with = "columns::serialize_array")]
     pub power: &'a Array2<f32>,
     /// Ranges, then azimuths.
+    #[option(typescript = "[ranges: number, azimuths: number]")]
     pub shape: [usize; 2],
     /// What fell off the grid.
     pub outside: Outside,
@@ -49,6 +50,7 @@ pub struct ViewColumns<'a> {
     #[serde(serialize_with = "columns::serialize_array")]
     pub radar: &'a Array2<i8>,
     /// Cells ahead, then cells to the left.
+    #[option(typescript = "[x: number, y: number]")]
     pub shape: [usize; 2],
     /// Width of a cell.
     pub cell_m: f64,

@@ -118,6 +118,7 @@ struct RangeDopplerMap<'a> {
     #[serde(serialize_with = "columns::serialize_array")]
     range_doppler_db: &'a Array2<f32>,
     /// Range bins, then Doppler bins.
+    #[option(typescript = "[range: number, doppler: number]")]
     shape: [usize; 2],
 }
 

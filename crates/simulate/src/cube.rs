@@ -13,7 +13,8 @@
 
 use crate::error::{SimulateError, check_values};
 use boresight_core::array::{MAX_ELEMENTS, Position};
-use boresight_core::describe::Described;
+use boresight_core::describe::shaped::interleaved;
+use boresight_core::describe::{Described, columns};
 use boresight_core::error::check_range;
 use boresight_core::steering::cis;
 use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_amplitude, db_to_power};
@@ -46,6 +47,26 @@ pub struct CubeTarget {
     /// Phase of its reflection; drawn from the seed if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phase_rad: Option<f64>,
+}
+
+/// A cube as results carry it.
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+#[option(name = "CubeResult")]
+pub struct CubeColumns {
+    /// Real and imaginary parts, one after the other.
+    #[serde(serialize_with = "columns::serialize")]
+    pub data: Vec<f32>,
+    /// Lengths of the axes.
+    #[option(
+        typescript = "[frames: number, loops: number, transmitters: number, receivers: number, samples: number]"
+    )]
+    pub shape: [usize; 5],
+}
+
+impl From<&Array5<Complex32>> for CubeColumns {
+    fn from(cube: &Array5<Complex32>) -> Self {
+        Self { data: interleaved(cube), shape: cube.dim().into() }
+    }
 }
 
 /// Shape of the wavefronts.

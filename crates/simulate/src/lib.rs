@@ -35,7 +35,7 @@ pub mod snapshots;
 pub mod street;
 pub mod waveforms;
 
-pub use cube::{CubeOptions, CubeTarget, Field, simulate_cube};
+pub use cube::{CubeColumns, CubeOptions, CubeTarget, Field, simulate_cube};
 pub use drive::{DriveOptions, Scenario, SimulatedDrive, simulate_drive, simulate_drive_reporting};
 pub use error::SimulateError;
 pub use snapshots::{

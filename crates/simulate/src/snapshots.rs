@@ -3,14 +3,14 @@
 
 use crate::error::{SimulateError, check_values};
 use boresight_core::array::Position;
-use boresight_core::describe::Described;
-use boresight_core::describe::shaped::{self, ComplexArray};
+use boresight_core::describe::shaped::interleaved;
+use boresight_core::describe::{Described, columns};
 use boresight_core::error::check_range;
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::units::{db_to_amplitude, db_to_power};
 use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections, Random};
 use ndarray::{Array1, Array2, Array3, ArrayViewMut2, Axis};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::f64::consts::FRAC_PI_2;
 
 /// Most complex values one call returns (1 GiB).
@@ -101,11 +101,26 @@ pub struct SnapshotOptions {
 #[option(name = "SnapshotResult")]
 pub struct Snapshots {
     /// Scenes x elements x snapshots.
-    #[option(described_as = ComplexArray)]
-    #[serde(rename = "..values", serialize_with = "shaped::serialize")]
+    #[option(described_as = SnapshotValues)]
+    #[serde(rename = "..values", serialize_with = "with_shape")]
     pub values: Array3<Complex64>,
     /// Targets of each scene, with their phase in the first snapshot where they have one.
     pub truth: Vec<Vec<Target>>,
+}
+
+/// Interleaved values with their shape.
+#[derive(Described, Serialize)]
+struct SnapshotValues {
+    /// Scenes x elements x snapshots: real and imaginary parts, one after the other.
+    #[serde(serialize_with = "columns::serialize")]
+    data: Vec<f64>,
+    /// Lengths of the axes.
+    #[option(typescript = "[scenes: number, elements: number, snapshots: number]")]
+    shape: [usize; 3],
+}
+
+fn with_shape<S: Serializer>(all: &Array3<Complex64>, serializer: S) -> Result<S::Ok, S::Error> {
+    SnapshotValues { data: interleaved(all), shape: all.dim().into() }.serialize(serializer)
 }
 
 /// A simulator for one array and one set of options.

@@ -4,40 +4,11 @@ use crate::carry;
 use crate::complex::float_array;
 use crate::error::Fallible;
 use crate::read::{Fields, Read};
-use boresight_calibrate::{self as calibrate, FrameInput, Method, Options};
-use boresight_core::describe::Described;
+use boresight_calibrate::{self as calibrate, FrameInput};
 use boresight_core::error::check_finite;
 use boresight_core::{CoreError, Detection};
-use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
-
-/// A method of mounting angles.
-#[derive(Described, Serialize)]
-pub struct CalibrationMethodInfo {
-    /// Its name.
-    name: Method,
-    /// Name for people.
-    title: &'static str,
-    /// Where it was published.
-    reference: &'static str,
-}
-
-/// The methods that can be asked for.
-#[wasm_bindgen(js_name = calibrationMethods)]
-pub fn calibration_methods() -> js_sys::Array {
-    let offered = Method::ALL.into_iter().filter(|&method| is_offered(method));
-    carry::write_all(offered.map(|name| CalibrationMethodInfo {
-        name,
-        title: name.title(),
-        reference: name.reference(),
-    }))
-}
-
-/// Whether a calibration can be made with the method.
-fn is_offered(method: Method) -> bool {
-    calibrate::Calibrator::new(Options { method, ..Options::default() }).is_ok()
-}
 
 /// A calibration in progress.
 #[wasm_bindgen]

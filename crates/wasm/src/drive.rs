@@ -6,7 +6,7 @@ use crate::error::Fallible;
 use crate::read::{Fields, Read};
 use crate::report::reporter;
 use boresight_core::Remark;
-use boresight_core::describe::{Described, Kind, Special};
+use boresight_core::describe::Described;
 use boresight_core::drive::DriveLog;
 use boresight_core::drive_columns::DriveColumns;
 use boresight_formats::drive_log::{self, DriveFormat, DropReason, MountingSource, ReadReport};
@@ -99,7 +99,7 @@ impl Read for File {
 #[option(name = "Drive")]
 pub struct DriveRecord<'a> {
     /// The format it was read from, or `simulated`.
-    #[option(described_as = DriveOrigin)]
+    #[option(typescript = "DriveFormat | 'simulated'")]
     format: &'static str,
     /// Radars, scans, detections and motion.
     #[serde(rename = "..columns")]
@@ -135,30 +135,8 @@ pub struct DriveCounts {
     /// Motion samples kept although their speed or pose is no number.
     incomplete_motion: u64,
     /// Rows left out, by reason.
-    #[option(described_as = Drops)]
+    #[option(typescript = "Partial<Record<DropReason, number>>")]
     dropped: BTreeMap<DropReason, u64>,
-}
-
-struct DriveOrigin;
-
-impl Described for DriveOrigin {
-    const KIND: Kind = Kind::Special(&Special {
-        expected: "the name of a format",
-        typescript: "DriveFormat | 'simulated'",
-        schema: r#"{ "type": "string" }"#,
-        flag: "",
-    });
-}
-
-struct Drops;
-
-impl Described for Drops {
-    const KIND: Kind = Kind::Special(&Special {
-        expected: "counts by reason",
-        typescript: "Partial<Record<DropReason, number>>",
-        schema: r#"{ "type": "object" }"#,
-        flag: "",
-    });
 }
 
 impl<'a> DriveRecord<'a> {

@@ -5,8 +5,9 @@
 //! else. Errors are thrown as objects `{ code, message, what, expected, given }`, which the
 //! TypeScript around this crate turns into a `BoresightError`.
 //!
-//! Two modules come of it, by feature: `core`, and `drives` with the readers and the simulation of
-//! drives, of which HDF5 alone weighs a third of all else. `chain` is the part of the core that
+//! Two modules come of it, by feature: `core` with arrays, estimators, captures and images, and
+//! `drives` with readers and simulation of drives (HDF5 alone weighs a third of all else) and the
+//! calibration of mounting angles. `chain` is the part of the core that
 //! the module of networks (crates/wasm-neural) holds as well: estimators, captures, their chain.
 
 // Each module leaves helpers of the others unused.
@@ -19,8 +20,10 @@ pub mod board;
 #[cfg(feature = "core")]
 pub mod bounds;
 pub mod bytes;
-#[cfg(feature = "core")]
+#[cfg(feature = "drives")]
 pub mod calibrate;
+#[cfg(feature = "core")]
+pub mod calibration_methods;
 #[cfg(feature = "chain")]
 pub mod capture;
 pub mod carry;
@@ -35,13 +38,13 @@ pub mod config;
 pub mod count;
 #[cfg(feature = "drives")]
 pub mod drive;
-#[cfg(feature = "core")]
+#[cfg(feature = "drives")]
 mod drive_calibrator;
 pub mod error;
 #[cfg(feature = "chain")]
 pub mod estimate;
 #[cfg(feature = "core")]
-mod image;
+pub mod image;
 #[cfg(feature = "core")]
 mod imperfections;
 #[cfg(feature = "core")]

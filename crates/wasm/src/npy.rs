@@ -5,7 +5,7 @@ use crate::carry;
 use crate::complex::{ComplexData, RealData};
 use crate::error::Fallible;
 use crate::read::{Fields, Read, choice};
-use boresight_core::describe::{Described, Kind, Special, columns};
+use boresight_core::describe::{Described, columns};
 use boresight_formats::npy::{NpyArray, NpyData, write};
 use js_sys::Uint8Array;
 use serde::{Serialize, Serializer};
@@ -17,37 +17,18 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[option(name = "NpyArray")]
 pub struct NpyRecord {
     /// Complex numbers are interleaved [re, im].
-    #[option(described_as = NumberKind)]
+    #[option(typescript = "'real' | 'complex'")]
     kind: &'static str,
     /// The numbers in C order, in their precision; integers as doubles.
+    #[option(typescript = "Float32Array | Float64Array")]
     data: Numbers,
     /// Lengths of the axes.
     shape: Vec<usize>,
 }
 
-struct NumberKind;
-
-impl Described for NumberKind {
-    const KIND: Kind = Kind::Special(&Special {
-        expected: "real or complex",
-        typescript: "'real' | 'complex'",
-        schema: r#"{ "enum": ["real", "complex"] }"#,
-        flag: "",
-    });
-}
-
 enum Numbers {
     Single(Vec<f32>),
     Double(Vec<f64>),
-}
-
-impl Described for Numbers {
-    const KIND: Kind = Kind::Special(&Special {
-        expected: "an array",
-        typescript: "Float32Array | Float64Array",
-        schema: r#"{ "type": "array", "items": { "type": "number" } }"#,
-        flag: "",
-    });
 }
 
 impl Serialize for Numbers {

@@ -4,11 +4,10 @@ use crate::carry;
 use crate::error::Fallible;
 use crate::imperfections::read_imperfections;
 use crate::read::{Angle, Fields, Read};
-use boresight_core::describe::shaped::ComplexArray32;
 use boresight_core::{Array, Direction, Waveform};
 use boresight_simulate::{
-    CubeOptions, CubeTarget, Field, Fluctuation, Scene, SnapshotOptions, SnapshotSimulator, Target,
-    simulate_cube,
+    CubeColumns, CubeOptions, CubeTarget, Field, Fluctuation, Scene, SnapshotOptions,
+    SnapshotSimulator, Target, simulate_cube,
 };
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -48,7 +47,7 @@ pub fn simulate_data_cube(options: &JsValue) -> Fallible<JsValue> {
     fields.finish()?;
     let options = CubeOptions { snr_db, frames, field, imperfections, seed };
     let cube = simulate_cube(&waveform, &array, &targets, &options)?;
-    Ok(carry::write(&ComplexArray32::from(&cube)))
+    Ok(carry::write(&CubeColumns::from(&cube)))
 }
 
 impl Read for Scene {

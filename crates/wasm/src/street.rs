@@ -4,9 +4,8 @@ use crate::carry;
 use crate::error::Fallible;
 use crate::read::{Fields, choice};
 use boresight_core::describe::Described;
-use boresight_core::describe::shaped::ComplexArray32;
-use boresight_simulate::VisibleTarget;
 use boresight_simulate::street::{STREET_RADARS, Street, StreetRadar};
+use boresight_simulate::{CubeColumns, VisibleTarget};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -24,7 +23,7 @@ pub fn street_scene(options: &JsValue) -> Fallible<JsValue> {
 #[derive(Described, Serialize)]
 pub struct SimulatedStreet {
     /// Frames (one) x loops x transmitters x receivers x samples.
-    cube: ComplexArray32,
+    cube: CubeColumns,
     /// The radar.
     radar: StreetRadar,
     /// The points in its field of view and in no deep shadow.
@@ -43,7 +42,7 @@ pub fn simulate_street(options: &JsValue) -> Fallible<JsValue> {
     fields.finish()?;
     let (cube, targets) = street.cube(radar)?;
     Ok(carry::write(&SimulatedStreet {
-        cube: ComplexArray32::from(&cube),
+        cube: CubeColumns::from(&cube),
         radar: street.radars[radar],
         targets,
     }))

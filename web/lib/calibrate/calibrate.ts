@@ -1,6 +1,8 @@
-import * as glue from '../../wasm/boresight.js';
+import * as core from '../../wasm/boresight.js';
+import * as glue from '../../wasm/boresight_drives.js';
+import { drives } from '../drive/drive.js';
 import { Handle } from '../runtime/handle.js';
-import { call, core } from '../runtime/instance.js';
+import { call } from '../runtime/instance.js';
 import type {
   CalibrationFrame,
   CalibrationMethodInfo,
@@ -11,13 +13,13 @@ import type {
 
 /** The methods that find a mounting angle. */
 export function calibrationMethods(): CalibrationMethodInfo[] {
-  return call(() => glue.calibrationMethods() as CalibrationMethodInfo[]);
+  return call(() => core.calibrationMethods() as CalibrationMethodInfo[]);
 }
 
 /** Finds the angle a radar is mounted at from its frames while the car drives. */
 export class Calibration extends Handle<glue.Calibration> {
   constructor(options: CalibrationOptions) {
-    super(core, () => new glue.Calibration(options));
+    super(drives, () => new glue.Calibration(options));
   }
 
   /** Takes the next frame and says what became of it. A frame that is refused leaves no trace. */

@@ -1,7 +1,6 @@
-import * as glue from '../../wasm/boresight.js';
+import * as glue from '../../wasm/boresight_drives.js';
 import { failure } from '../runtime/errors.js';
 import { Handle } from '../runtime/handle.js';
-import { core } from '../runtime/instance.js';
 import { type Report, tell } from '../runtime/report.js';
 import type {
   CalibrateDriveOptions,
@@ -13,6 +12,7 @@ import type {
   FrameVerdict,
   JointCalibrationOptions,
 } from '../types.js';
+import { drives } from './drive.js';
 import { jointTaskOf, type Task, taskOf } from './radars.js';
 import { checkOrder, extent, interpolate, scansOf, type View, viewOf } from './view.js';
 
@@ -52,7 +52,7 @@ export function jointCalibration(
 
 class DriveCalibrator extends Handle<glue.DriveCalibrator> {
   constructor(options: CalibrationOptions | CalibrationOptions[], weights: boolean) {
-    super(core, () => new glue.DriveCalibrator(options, weights));
+    super(drives, () => new glue.DriveCalibrator(options, weights));
   }
 
   add(...args: Parameters<glue.DriveCalibrator['addFrames']>): Float64Array {

@@ -13,7 +13,7 @@ import type {
 /** The module of this file's functions, loaded by initDrives(). */
 export const drives = new Instance(glue, instantiate, { file: 'boresight_drives_bg.wasm', init: 'initDrives()' });
 
-/** Makes {@link readDrive} and {@link simulateDrive} ready from a compiled module or its bytes, without waiting. */
+/** Makes the module of drives and mounting angles ready from a compiled module or its bytes, without waiting. */
 export function initDrivesSync(module: WebAssembly.Module | BufferSource): void {
   drives.startSync(module);
 }

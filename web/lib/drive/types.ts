@@ -7,30 +7,11 @@ import type {
   CalibrationMethod,
   CalibrationOptions,
   CalibrationResult,
-  DriveScenario,
-  FrameOutcome,
-  Warning,
+  DriveScans,
+  DriveSensor,
 } from '../types.js';
 
 type Floats = Float32Array | Float64Array;
-
-/** A radar of a drive: its place from the rear axle and nominal direction, null where the log does not say. */
-export interface DriveSensor {
-  /** Its number in the log, 0 to 255. */
-  id: number;
-  xM: number | null;
-  yM: number | null;
-  yawDeg: number | null;
-}
-
-/** Radar scans in order of time; the detections of scan i are those from offsets[i] to before offsets[i + 1]. */
-export interface DriveScans {
-  timeS: Float64Array;
-  /** Numbers of the radars. */
-  sensor: Uint8Array;
-  /** One more than there are scans. */
-  offsets: Uint32Array;
-}
 
 /**
  * What calibration needs of a drive. Detections have an entry for each, motion one for each sample in order of time.
@@ -59,9 +40,6 @@ export interface DriveData {
   };
 }
 
-/** A format of drive logs. */
-export type DriveFormat = 'radarscenes' | 'delphi' | 'csv';
-
 /**
  * A file of a drive. Its name, with or without folders before it, tells tables (`.csv`, `.csv.gz`), HDF5 (`.h5`,
  * `.hdf5`) and what stands beside that (`scenes.json`, `sensors.json`, `sequences.json`) from the rest.
@@ -69,75 +47,6 @@ export type DriveFormat = 'radarscenes' | 'delphi' | 'csv';
 export interface DriveFile {
   name: string;
   bytes: Uint8Array | ArrayBuffer;
-}
-
-export interface ReadDriveOptions {
-  /** Default: found from the files' contents. */
-  format?: DriveFormat;
-}
-
-/** A drive as read or simulated. */
-export interface Drive extends DriveData {
-  format: DriveFormat | 'simulated';
-  sensors: DriveSensor[];
-  /** Where the sensors' places are from, if read: `sensors.json` of the files, or the format's own car. */
-  mountings: 'sensors-json' | 'format' | null;
-  detections: {
-    azimuthDeg: Float64Array;
-    rangeRateMps: Float32Array;
-    rangeM: Float32Array;
-    rcsDbsm: Float32Array;
-    /** Classes in the numbers of RadarScenes (11 is static), where the log has them. */
-    label: Uint8Array | null;
-  };
-  motion: {
-    timeS: Float64Array;
-    yawRateDegps: Float64Array;
-    speedMps: Float64Array;
-    pose: { xM: Float64Array; yM: Float64Array; yawDeg: Float64Array } | null;
-  };
-  counts: DriveCounts;
-  warnings: Warning[];
-}
-
-/** What the files held. */
-export interface DriveCounts {
-  /** Detections in the files. */
-  detections: number;
-  /** Motion samples in the files. */
-  motion: number;
-  /** Detections kept although their range, cross-section, compensated rate or place is no number. */
-  incompleteDetections: number;
-  /** Motion samples kept although their speed or pose is no number. */
-  incompleteMotion: number;
-  /**
-   * Rows left out, by reason: `not-finite`, `invalid-marker`, `status`, `duplicate`, `motion-not-finite`,
-   * `motion-duplicate`.
-   */
-  dropped: Record<string, number>;
-}
-
-export interface DriveScenarioInfo {
-  name: DriveScenario;
-  title: string;
-}
-
-/** A simulated drive with the truth behind it; its poses are the true ones. */
-export interface SimulatedDrive extends Drive {
-  truth: DriveTruth;
-}
-
-export interface DriveTruth {
-  /** The radars where they truly sit and look. */
-  sensors: { id: number; xM: number; yM: number; yawDeg: number }[];
-  /** Errors of the yaw-rate sensor. */
-  yawRate: { scale: number; biasDegps: number; sigmaDegps: number };
-  /** At the times of the drive's motion. */
-  motion: { yawRateDegps: Float64Array; speedMps: Float64Array };
-  /** For each detection, 1 where it comes from a moving road user. */
-  moving: Uint8Array;
-  /** For each detection, the number of the road user it comes from, or 0. */
-  track: Uint32Array;
 }
 
 /** A scan of a drive with the car's motion at its time; its arrays are views of the drive's. */
@@ -172,9 +81,6 @@ export interface JointCalibrationOptions
   historyS?: number;
   weights?: boolean;
 }
-
-/** What became of a frame, in the order of the numbers in {@link CalibratedFrames}. */
-export type FrameVerdict = FrameOutcome['verdict'];
 
 /** The angle of a radar of a drive. */
 export interface DriveCalibration {
@@ -222,12 +128,4 @@ export interface CalibratedFrames {
 export interface TrajectoryOptions {
   /** Yaw rate of the car at each frame, NaN where none is known. Default: what the radar's motion implies. */
   yawRateDegps?: Floats;
-}
-
-/** Poses of the rear axle. */
-export interface Trajectory {
-  timeS: Floats;
-  xM: Floats;
-  yM: Floats;
-  yawDeg: Floats;
 }

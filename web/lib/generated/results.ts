@@ -140,7 +140,7 @@ export interface Source {
   /** Its power at one element. */
   powerDb: number;
   /** Its complex amplitude at the array's origin, where a single snapshot determines it. */
-  amplitude?: [number, number];
+  amplitude?: readonly [re: number, im: number];
   /** How sure a network is of it, from 0 to 1; absent from other methods. */
   confidence?: number;
 }
@@ -198,7 +198,7 @@ export interface BatchSpectra {
   /** Linear, the last axis of the shape fastest. */
   power: Float32Array;
   /** Cells, then elevations where there are several, then azimuths. */
-  shape: number[];
+  shape: [cells: number, azimuths: number] | [cells: number, elevations: number, azimuths: number];
   /** What the values mean. */
   kind: SpectrumKind;
 }
@@ -263,12 +263,12 @@ export interface ComplexArray {
   shape: number[];
 }
 
-/** The same in single precision. */
-export interface ComplexArray32 {
+/** A cube as results carry it. */
+export interface CubeResult {
   /** Real and imaginary parts, one after the other. */
   data: Float32Array;
   /** Lengths of the axes. */
-  shape: number[];
+  shape: [frames: number, loops: number, transmitters: number, receivers: number, samples: number];
 }
 
 /** Something that reflects. */
@@ -285,10 +285,10 @@ export interface TrueTarget {
 
 /** Snapshots of several scenes. */
 export interface SnapshotResult {
-  /** Real and imaginary parts, one after the other. */
+  /** Scenes x elements x snapshots: real and imaginary parts, one after the other. */
   data: Float64Array;
   /** Lengths of the axes. */
-  shape: number[];
+  shape: [scenes: number, elements: number, snapshots: number];
   /** Targets of each scene, with their phase in the first snapshot where they have one. */
   truth: TrueTarget[][];
 }
@@ -392,7 +392,7 @@ export interface VisibleTarget {
 /** One frame of one radar of the street. */
 export interface SimulatedStreet {
   /** Frames (one) x loops x transmitters x receivers x samples. */
-  cube: ComplexArray32;
+  cube: CubeResult;
   /** The radar. */
   radar: StreetRadar;
   /** The points in its field of view and in no deep shadow. */
@@ -496,7 +496,7 @@ export interface FrameResult {
   /** Power over range and Doppler (Doppler fastest): mean over channels. */
   rangeDopplerDb: Float32Array;
   /** Range bins, then Doppler bins. */
-  shape: [number, number];
+  shape: [range: number, doppler: number];
   /** Detections, strongest first. */
   detections: Detection[];
   /** What became of cells and samples. */
@@ -542,7 +542,7 @@ export interface RangeAzimuthMap {
   /** Linear, azimuths fastest. */
   power: Float32Array;
   /** Ranges, then azimuths. */
-  shape: [number, number];
+  shape: [ranges: number, azimuths: number];
   /** What fell off the grid. */
   outside: OutsideGrid;
 }
@@ -560,7 +560,7 @@ export interface BirdsEyeView {
   /** Index of the radar whose power it is; -1 where none sees it. */
   radar: Int8Array;
   /** Cells ahead, then cells to the left. */
-  shape: [number, number];
+  shape: [x: number, y: number];
   /** Width of a cell. */
   cellM: number;
   /** Of each radar. */
@@ -608,9 +608,9 @@ export type FrameVerdict = 'used' | 'standing' | 'slow' | 'turning' | 'sparse' |
 /** The radar's own motion, from one frame. */
 export interface RadarMotion {
   /** Velocity ahead and to the left in the radar's frame. */
-  velocityMps: [number, number];
+  velocityMps: [x: number, y: number];
   /** Its covariance `[[xx, xy], [xy, yy]]`, m^2/s^2. */
-  covariance: [[number, number], [number, number]];
+  covariance: [[xx: number, xy: number], [xy: number, yy: number]];
   /** Detections taken as static. */
   inliers: number;
   /** Detections given. */

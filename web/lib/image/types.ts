@@ -6,6 +6,7 @@ import type {
   EstimatorOptions,
   FrameCells,
   Mounting,
+  RangeAzimuthMap,
 } from '../types.js';
 
 /** What an image needs of the estimates of a frame's cells: a batch of them, or anybody's own. */
@@ -44,17 +45,6 @@ export interface RangeAzimuthMapInput {
   grid: MapGrid;
 }
 
-/** Power over range and azimuth: what the cells' targets or spectra add up to. */
-export interface RangeAzimuthMap {
-  rangeM: Float64Array;
-  azimuthDeg: Float64Array;
-  /** ranges x azimuths, linear. */
-  power: Float32Array;
-  shape: [ranges: number, azimuths: number];
-  /** What fell off the grid: how many targets (or points of spectra), and their power. */
-  outside: { count: number; power: number };
-}
-
 /** Grid of a bird's-eye view in the car's frame. */
 export interface ViewGrid {
   /** Edges ahead (positive) and behind. */
@@ -70,44 +60,11 @@ export interface BirdsEyeViewInput {
   grid: ViewGrid;
 }
 
-/** Maps of one or several radars on the ground around the car. */
-export interface BirdsEyeView {
-  /** Middles of the cells. */
-  xM: Float64Array;
-  yM: Float64Array;
-  /** x by y (y fastest), linear: the maximum over the radars that see the cell, 0 where none does. */
-  power: Float32Array;
-  /** 1 where a radar sees the cell. */
-  seen: Uint8Array;
-  /** Index of the radar whose power it is; -1 where none sees it. */
-  radar: Int8Array;
-  shape: [x: number, y: number];
-  cellM: number;
-  /** Of each radar. */
-  mountings: Mounting[];
-}
-
 /**
  * What counts as the target itself: a circle, or as much of range and sine of azimuth to each side
  * as the radars cannot resolve (half widths).
  */
 export type Gate = { gateM: number } | { rangeM: number; sine: number };
-
-/** How much of an image is not where targets are. */
-export interface SidelobeMeasure {
-  /** Energy outside the gates over all energy, dB; -Infinity if there is none outside. */
-  outsideDb: number;
-  /** Strongest cell outside the gates over the strongest of all, dB. */
-  peakOutsideDb: number;
-  /** Share of the cells outside the gates that stand less than 40 dB below the strongest of all. */
-  litOutside: number;
-  /** Share of the targets in view in whose gate a cell stands less than 40 dB below the strongest of all. */
-  litTargets: number;
-  /** Targets in view. */
-  targets: number;
-  /** Share of the cells seen that lie in gates. */
-  gated: number;
-}
 
 /** Options of the chain, of which `peakGrouping` is off here unless asked for: an image takes every detected cell. */
 export interface ImageFrameOptions extends CubeChainOptions {

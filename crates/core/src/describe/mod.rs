@@ -191,3 +191,11 @@ pub struct Special {
     /// What a flag of the command line takes, such as `N|aic|mdl`; empty where no flag can.
     pub flag: &'static str,
 }
+
+impl Special {
+    /// What only TypeScript has a name for.
+    #[must_use]
+    pub const fn in_typescript(typescript: &'static str) -> Self {
+        Self { expected: typescript, typescript, schema: "{}", flag: "" }
+    }
+}
