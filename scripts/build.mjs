@@ -37,8 +37,8 @@ const shared = crates(
 
 /** The modules: name in dist/wasm, crate, feature, profile, the crates it is made of. */
 export const modules = [
-  { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'release', made: shared },
-  { name: 'boresight_drives', crate: 'wasm', feature: 'drives', profile: 'release', made: shared },
+  { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'dist', made: shared },
+  { name: 'boresight_drives', crate: 'wasm', feature: 'drives', profile: 'dist', made: shared },
   {
     name: 'boresight_neural',
     crate: 'wasm-neural',
@@ -80,7 +80,7 @@ async function wasmModule(module) {
       '--experimental-reset-state-function',
     ]);
     // Of the module of networks it would take minutes.
-    if (profile !== 'release') return;
+    if (profile === 'neural') return;
     say('wasm-opt -O3');
     await run(process.execPath, [
       join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt'),
