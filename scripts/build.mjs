@@ -77,8 +77,11 @@ export const isBuilt = (module) => upToDate(module.name, stamp(module));
 
 /** Builds a module as it is published; `runner` runs the commands. */
 export async function buildModule(module, runner) {
-  const done = await whenChanged(module.name, stamp(module), () => compile(module, runner));
-  if (!done) say(`dist/wasm/${module.name}_bg.wasm is up to date`);
+  const done = await whenChanged(module.name, stamp(module), async () => {
+    await compile(module, runner);
+    await bind(module, runner);
+  });
+  if (!done) sayStands(module);
 }
 
 /**
@@ -86,26 +89,31 @@ export async function buildModule(module, runner) {
  * and found compiled when it has come.
  */
 export async function buildQuickly(tools) {
-  const quick = [core, drives].map((module) => ({
-    module: { ...module, ...QUICK },
-    made: stamp({ ...module, ...QUICK }, module),
-  }));
-  for (const { module, made } of quick) if (!upToDate(module.name, made)) await compileCrate(module);
+  const quick = [core, drives].map((published) => {
+    const module = { ...published, ...QUICK };
+    return { module, made: stamp(module, published) };
+  });
+  for (const { module, made } of quick) if (!upToDate(module.name, made)) await compile(module);
   await tools;
   for (const { module, made } of quick) {
-    const done = await whenChanged(module.name, made, () => compile(module));
-    if (!done) say(`dist/wasm/${module.name}_bg.wasm is up to date`);
+    const done = await whenChanged(module.name, made, async () => {
+      // Both are one file of cargo's, which is that of the last one compiled.
+      await run('cargo', cargoBuild(module, '--quiet'));
+      await bind(module);
+    });
+    if (!done) sayStands(module);
   }
 }
 
-function compileCrate(module, runner = run) {
+const sayStands = ({ name }) => say(`dist/wasm/${name}_bg.wasm is up to date`);
+const cargoBuild = (module, ...more) => ['build', ...cargoArguments(module), '--target-dir', targetDir, ...more];
+
+function compile(module, runner = run) {
   say(`crates/${module.crate} -> dist/wasm/${module.name}_bg.wasm (a first build takes minutes)`);
-  return runner('cargo', ['build', ...cargoArguments(module), '--target-dir', targetDir]);
+  return runner('cargo', cargoBuild(module));
 }
 
-async function compile(module, runner = run) {
-  const { name, crate, profile, wasmOpt } = module;
-  await compileCrate(module, runner);
+async function bind({ name, crate, profile, wasmOpt }, runner = run) {
   await runner('wasm-bindgen', [
     join(targetDir, wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`),
     '--target',
