@@ -24,8 +24,8 @@ environment.PATH = process.env.PATH.split(delimiter)
   .filter((path) => !path.includes('node_modules'))
   .join(delimiter);
 
-/** Processes under way, each the head of a group of its own. */
-const heads = new Set();
+/** Commands under way, each the head of a process group of its own. */
+const under = new Set();
 const measured = [];
 
 function freshRegistries() {
@@ -48,28 +48,29 @@ async function clone(name) {
 }
 
 /** Starts a command whose output goes into a log; `done` resolves with what went wrong, if something did. */
-function start(cwd, command, args, variables = {}) {
-  const log = join(folder, `${command}-${heads.size}-${Date.now()}.log`);
+function start(cwd, command, args) {
+  const log = join(folder, `${command}-${Date.now()}.log`);
   const file = openSync(log, 'w');
   const child = spawn(command, args, {
     cwd,
-    env: { ...environment, ...variables },
+    env: environment,
     stdio: ['ignore', file, file],
     detached: true,
   });
   closeSync(file);
-  heads.add(child);
   const done = new Promise((resolve) => {
     child.once('error', ({ message }) => resolve(message));
     child.once('close', (code, signal) => resolve(code === 0 ? undefined : `ended with ${signal ?? `status ${code}`}`));
-  }).finally(() => heads.delete(child));
-  return { child, done, said: () => readFileSync(log, 'utf8') };
+  }).finally(() => under.delete(running));
+  const running = { child, done, said: () => readFileSync(log, 'utf8') };
+  under.add(running);
+  return running;
 }
 
 /** Ends a command with all that it started. */
-async function stop({ child, done }) {
-  if (heads.has(child) && child.pid) process.kill(-child.pid);
-  await done;
+async function stop(running) {
+  if (under.has(running) && running.child.pid) process.kill(-running.child.pid);
+  await running.done;
 }
 
 /** Measures from now on; calling what it gives takes the time, and again with a later time too. */
@@ -85,9 +86,9 @@ function watch() {
   };
 }
 
-async function measureCommand(name, cwd, command, args, variables) {
+async function measureCommand(name, cwd, command, args) {
   const take = watch();
-  const running = start(cwd, command, args, variables);
+  const running = start(cwd, command, args);
   const timer = setTimeout(() => void stop(running), LONGEST_MS);
   const problem = await running.done;
   clearTimeout(timer);
@@ -129,7 +130,7 @@ async function measureStart() {
   const running = start(cwd, 'npm', ['start', '--', '--host', '127.0.0.1', '--port', `${port}`, '--strictPort']);
   const until = async (there) => {
     for (const began = performance.now(); performance.now() - began < LONGEST_MS; await delay(200)) {
-      if (!heads.has(running.child)) return (await running.done) ?? 'it ended';
+      if (!under.has(running)) return (await running.done) ?? 'it ended';
       const found = await there();
       if (found !== undefined) return found;
     }
@@ -173,14 +174,15 @@ async function measureEdit() {
 
 const measures = { start: measureStart, cli: measureCli, test: measureTests, edit: measureEdit };
 
-function cleanUp() {
-  for (const { pid } of heads) if (pid) process.kill(-pid);
-  if (!keep) rmSync(folder, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
+async function cleanUp() {
+  await Promise.all([...under].map(stop));
+  // Those that a command started may end a little later.
+  if (!keep) rmSync(folder, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
 }
 
 for (const signal of ['SIGINT', 'SIGTERM'])
-  process.once(signal, () => {
-    cleanUp();
+  process.once(signal, async () => {
+    await cleanUp();
     process.exit(1);
   });
 
@@ -192,7 +194,7 @@ await main(async () => {
   try {
     for (const part of only) await measures[part]();
   } finally {
-    cleanUp();
+    await cleanUp();
   }
   console.log(`\n${table(measured)}\n`);
   console.log('CPU seconds are those of the whole machine. Targets are for two idle cores.');

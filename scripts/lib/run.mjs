@@ -5,6 +5,7 @@ import { createInterface } from 'node:readline';
 import { pathToFileURL } from 'node:url';
 import { environment, root } from './paths.mjs';
 
+/** Commands that somebody waits for. */
 const running = new Set();
 
 function started(command, args, options) {
@@ -21,7 +22,7 @@ function ended(child, command, args, detail = () => '') {
       reject(new Error(`${command} could not be started: ${error.message}`));
     });
     child.once('close', (code, signal) => {
-      running.delete(child);
+      if (!running.delete(child)) return;
       if (code === 0) resolve();
       else reject(new Error(`${[command, ...args].join(' ')} ended with ${signal ?? `status ${code}`}${detail()}`));
     });
@@ -92,7 +93,9 @@ export async function main(body) {
     console.error(`\n${error.message}`);
     process.exitCode = 1;
   } finally {
-    for (const child of running) child.kill();
+    const rest = [...running];
+    running.clear();
+    for (const child of rest) child.kill();
   }
 }
 

@@ -56,6 +56,7 @@ browserTest(
     await page.waitForSelector('[data-loading] [data-module="waiting"]');
     // Workers that are there before the module are given it too.
     await page.waitForSelector(estimated('iaa'), patient);
+    assert.doesNotMatch(await page.locator('[data-row="aaetr"]').innerText(), /missed/);
     say({ state: 'building', started: Date.now() - 65_000, step: 'Compiling tract-core v0.23.9' });
     await page.waitForSelector('[data-loading] [data-module="building"]');
     assert.match(await page.locator('[data-loading] [data-module]').innerText(), /being built, for 1:\d\d min so far/);

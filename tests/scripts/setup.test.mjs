@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
@@ -73,6 +74,22 @@ test('a command behind gives its lines, and its last ones with its failure', asy
   const error = await runBehind(process.execPath, program(3), () => {}).catch((thrown) => thrown);
   assert.match(error.message, /ended with status 3:\n.*error: two/s);
   assert.equal(reasonOf(error), 'error: two');
+});
+
+test('what runs beside a script that failed ends with it, and is not blamed', () => {
+  const script = `
+    import { main, run } from './scripts/lib/run.mjs';
+    await main(async () => {
+      void run(process.execPath, ['-e', 'setTimeout(() => {}, 600_000)']);
+      throw new Error('broken');
+    });`;
+  const ended = spawnSync(process.execPath, ['--input-type=module', '-e', script], {
+    cwd: root,
+    encoding: 'utf8',
+    timeout: 60_000,
+  });
+  assert.equal(ended.status, 1, 'it ended by itself');
+  assert.equal(ended.stderr.trim(), 'broken');
 });
 
 test('the reason of a failure is its first error, or else its first line', () => {
