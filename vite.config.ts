@@ -1,12 +1,18 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
+import { networksLater } from './web/networks-later.ts';
 
 const path = (name: string) => fileURLToPath(new URL(name, import.meta.url));
+
+/** Set by `npm start` where the module of networks is built while the demo is up: the folder it comes to. */
+const later = process.env.BORESIGHT_NETWORKS;
 
 /** The demo. It imports the built package by its name, as a user's page would. */
 export default defineConfig({
   root: path('web/app'),
   base: './',
+  define: { NETWORKS_LATER: JSON.stringify(later !== undefined) },
+  plugins: later === undefined ? [] : [networksLater(later)],
   resolve: {
     alias: [
       { find: /^boresight$/, replacement: path('dist/lib/browser.js') },

@@ -1,12 +1,12 @@
 // The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist. The demo: web/app/dist.
-import { existsSync, readFileSync, rmSync } from 'node:fs';
-import { join, relative } from 'node:path';
-import { coreWasm, dist, drivesWasm, neuralWasm, root, wasmTarget } from './lib/paths.mjs';
+import { existsSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { dist, environment, root, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, run } from './lib/run.mjs';
-import { describeSize, sizes } from './lib/sizes.mjs';
-import { whenChanged } from './lib/stamp.mjs';
+import { upToDate, whenChanged } from './lib/stamp.mjs';
 import { setup } from './setup.mjs';
 
+const targetDir = join(root, 'target');
 const say = (text) => console.log(`build: ${text}`);
 
 // What rustc's wasm32 target turns on by itself, and SIMD (see .cargo/config.toml).
@@ -35,17 +35,22 @@ const shared = crates(
   'wasm',
 );
 
-/** The modules: name in dist/wasm, crate, feature, profile, the crates it is made of. */
-export const modules = [
-  { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'release', made: shared },
-  { name: 'boresight_drives', crate: 'wasm', feature: 'drives', profile: 'release', made: shared },
-  {
-    name: 'boresight_neural',
-    crate: 'wasm-neural',
-    profile: 'neural',
-    made: [...shared, ...crates('neural', 'wasm-neural')],
-  },
-];
+const core = { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'dist', wasmOpt: true, made: shared };
+const drives = { ...core, name: 'boresight_drives', feature: 'drives' };
+/** Of networks. wasm-opt would take minutes. */
+export const neural = {
+  name: 'boresight_neural',
+  crate: 'wasm-neural',
+  profile: 'neural',
+  wasmOpt: false,
+  made: [...shared, ...crates('neural', 'wasm-neural')],
+};
+
+/** The modules: name in dist/wasm, crate, feature, how it is built, the crates it is made of. */
+export const modules = [core, drives, neural];
+
+/** How `npm start` builds the core and the drives, for which somebody waits: without what makes them a little faster. */
+const QUICK = { profile: 'dist', wasmOpt: false };
 
 /** Arguments that tell cargo which module is meant. */
 export const cargoArguments = ({ crate, feature, profile }) => [
@@ -58,43 +63,77 @@ export const cargoArguments = ({ crate, feature, profile }) => [
   profile,
 ];
 
-async function wasmModule(module) {
-  const { name, crate, profile, made } = module;
-  const inputs = ['Cargo.toml', 'Cargo.lock', '.cargo/config.toml', ...made, 'scripts/build.mjs'];
-  const outputs = ['.js', '.d.ts', '_bg.wasm'].map((end) => `dist/wasm/${name}${end}`);
-  const done = await whenChanged(name, { inputs, outputs }, async () => {
-    say(`crates/${crate} -> dist/wasm/${name}_bg.wasm (a first build takes minutes)`);
-    const file = join(dist, 'wasm', `${name}_bg.wasm`);
-    const targetDir = join(root, 'target');
-    await run('cargo', ['build', ...cargoArguments(module), '--target-dir', targetDir]);
-    // wasm-pack cannot pass on the last flag, which makes the instance replaceable after a trap.
-    await run('wasm-bindgen', [
-      join(root, 'target', wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`),
-      '--target',
-      'web',
-      '--out-dir',
-      join(dist, 'wasm'),
-      '--out-name',
-      name,
-      '--omit-default-module-path',
-      '--experimental-reset-state-function',
-    ]);
-    // Of the module of networks it would take minutes.
-    if (profile !== 'release') return;
-    say('wasm-opt -O3');
-    await run(process.execPath, [
-      join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt'),
-      '-O3',
-      ...wasmFeatures,
-      file,
-      '-o',
-      file,
-    ]);
+const form = ({ profile, wasmOpt }) => `${profile}${wasmOpt ? ', wasm-opt' : ''}`;
+const outputs = ({ name }) => ['.js', '.d.ts', '_bg.wasm'].map((end) => `dist/wasm/${name}${end}`);
+const stamp = (module, ...better) => ({
+  inputs: ['Cargo.toml', 'Cargo.lock', '.cargo/config.toml', ...module.made, 'scripts/build.mjs'],
+  extra: [form(module)],
+  better: better.map((one) => [form(one)]),
+  outputs: outputs(module),
+});
+
+/** Whether a module stands as it is published. */
+export const isBuilt = (module) => upToDate(module.name, stamp(module));
+
+/** Builds a module as it is published; `runner` runs the commands. */
+export async function buildModule(module, runner) {
+  const done = await whenChanged(module.name, stamp(module), async () => {
+    await compile(module, runner);
+    await bind(module, runner);
   });
-  if (!done) say(`dist/wasm/${name}_bg.wasm is up to date`);
+  if (!done) sayStands(module);
 }
 
-async function library() {
+/**
+ * Builds what the page needs at once, quickly. `tools` is a promise of wasm-bindgen: the crates are compiled while it is,
+ * and found compiled when it has come.
+ */
+export async function buildQuickly(tools) {
+  const quick = [core, drives].map((published) => {
+    const module = { ...published, ...QUICK };
+    return { module, made: stamp(module, published) };
+  });
+  for (const { module, made } of quick) if (!upToDate(module.name, made)) await compile(module);
+  await tools;
+  for (const { module, made } of quick) {
+    const done = await whenChanged(module.name, made, async () => {
+      // Both are one file of cargo's, which is that of the last one compiled.
+      await run('cargo', cargoBuild(module, '--quiet'));
+      await bind(module);
+    });
+    if (!done) sayStands(module);
+  }
+}
+
+const sayStands = ({ name }) => say(`dist/wasm/${name}_bg.wasm is up to date`);
+const cargoBuild = (module, ...more) => ['build', ...cargoArguments(module), '--target-dir', targetDir, ...more];
+
+function compile(module, runner = run) {
+  say(`crates/${module.crate} -> dist/wasm/${module.name}_bg.wasm (a first build takes minutes)`);
+  return runner('cargo', cargoBuild(module));
+}
+
+async function bind({ name, crate, profile, wasmOpt }, runner = run) {
+  await runner('wasm-bindgen', [
+    join(targetDir, wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`),
+    '--target',
+    'web',
+    '--out-dir',
+    join(dist, 'wasm'),
+    '--out-name',
+    name,
+    '--omit-default-module-path',
+    // Makes the instance replaceable after a trap (web/lib/module.ts).
+    '--experimental-reset-state-function',
+  ]);
+  if (!wasmOpt) return;
+  say('wasm-opt -O3');
+  const file = join(dist, 'wasm', `${name}_bg.wasm`);
+  const program = join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt');
+  await runner(process.execPath, [program, '-O3', ...wasmFeatures, file, '-o', file]);
+}
+
+export async function buildLibrary() {
   const glue = modules.map(({ name }) => `dist/wasm/${name}.d.ts`);
   const inputs = ['package-lock.json', 'tsconfig.base.json', 'tsconfig.lib.json', 'web/lib', 'web/worker', ...glue];
   const outputs = ['dist/lib/index.js', 'dist/lib/index.d.ts'];
@@ -107,13 +146,12 @@ async function library() {
 }
 
 export async function buildPackage() {
-  for (const one of modules) await wasmModule(one);
-  await library();
-  for (const file of [coreWasm, drivesWasm, neuralWasm])
-    say(describeSize(relative(root, file), sizes(readFileSync(file))));
+  for (const one of modules) await buildModule(one);
+  await buildLibrary();
 }
 
-export async function buildDemo() {
+/** `variables`: of the environment that vite.config.ts reads. */
+export async function buildDemo(variables = {}) {
   const inputs = [
     'package-lock.json',
     'vite.config.ts',
@@ -126,9 +164,9 @@ export async function buildDemo() {
     'dist/worker',
   ];
   const outputs = ['web/app/dist/index.html'];
-  const done = await whenChanged('demo', { inputs, outputs }, async () => {
+  const done = await whenChanged('demo', { inputs, extra: Object.keys(variables), outputs }, async () => {
     say('web/app -> web/app/dist (vite)');
-    await run('vite', ['build', '--logLevel', 'warn']);
+    await run('vite', ['build', '--logLevel', 'warn'], { env: { ...environment, ...variables } });
   });
   if (!done) say('web/app/dist is up to date');
 }

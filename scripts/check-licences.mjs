@@ -9,8 +9,7 @@ import { root } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
 
 await main(async () => {
-  // Its speed does not matter, the time to compile it does: a third without optimisation.
-  await cargoTool('cargo-deny', 'cargo-deny', '0.20.2', { CARGO_PROFILE_RELEASE_OPT_LEVEL: '0' });
+  await cargoTool('cargo-deny', 'cargo-deny', '0.20.2');
   const checks = ['licenses', 'bans', 'sources'];
   if (process.argv.includes('--advisories')) checks.push('advisories');
   else console.log('advisories: not looked up, which needs GitHub; `npm run check:licences -- --advisories` does');

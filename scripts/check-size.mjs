@@ -14,10 +14,10 @@ await main(async () => {
         ['drives wasm, loaded when asked for', drivesWasm, Infinity],
         ['neural wasm, loaded when asked for', neuralWasm, neuralBrotliLimit],
       ];
-  const found = modules.map(([name, file, limit]) => {
-    const size = sizes(readFileSync(file));
-    console.log(describeSize(name, size));
-    const problem = overLimit(size, limit);
+  const measured = await Promise.all(modules.map(([, file]) => sizes(readFileSync(file))));
+  const found = modules.map(([name, , limit], at) => {
+    console.log(describeSize(name, measured[at]));
+    const problem = overLimit(measured[at], limit);
     return problem && `${name}: ${problem}`;
   });
   const problems = found.filter(Boolean);

@@ -32,7 +32,7 @@ function forgetOld(folder, name) {
 await main(async () => {
   const at = process.argv.indexOf('--binary');
   const [command, ...before] =
-    at > 0 ? [process.argv[at + 1]] : ['cargo', 'run', '--release', '-p', 'boresight-cli', '--'];
+    at > 0 ? [process.argv[at + 1]] : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-cli', '--'];
   mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
   for (const { name, kinds, settings, prefix } of EXPERIMENTS) {
     const folder = join(root, 'target', 'experiments', name);

@@ -29,7 +29,7 @@ function checkRust() {
   }
 }
 
-async function javascriptPackages() {
+export async function javascriptPackages() {
   const done = await whenChanged(
     'packages',
     {
@@ -45,6 +45,13 @@ async function javascriptPackages() {
   if (!done) say('JavaScript packages are there');
 }
 
+/** That Node and Rust are new enough, and Rust's target for WebAssembly. */
+export async function rust() {
+  checkNode();
+  checkRust();
+  await rustTarget();
+}
+
 async function rustTarget() {
   const sysroot = output('rustc', ['--print', 'sysroot'])?.trim() ?? '';
   if (existsSync(join(sysroot, 'lib', 'rustlib', wasmTarget, 'lib'))) {
@@ -55,15 +62,24 @@ async function rustTarget() {
   await run('rustup', ['target', 'add', wasmTarget]);
 }
 
-/** Only the tests run wasm-pack, which takes minutes to install. */
-export async function setup({ wasmPack = true } = {}) {
-  checkNode();
-  checkRust();
-  await javascriptPackages();
-  await rustTarget();
+/** The generator of bindings, in the version that the crates are compiled against. */
+export function wasmBindgen() {
   const lock = readFileSync(join(root, 'Cargo.lock'), 'utf8');
-  await cargoTool('wasm-bindgen', 'wasm-bindgen-cli', lockedVersion(lock, 'wasm-bindgen'));
-  if (wasmPack) await cargoTool('wasm-pack', 'wasm-pack', wasmPackVersion);
+  return cargoTool('wasm-bindgen', 'wasm-bindgen-cli', lockedVersion(lock, 'wasm-bindgen'), {
+    // Tests run in Node: connections to browsers elsewhere, and with them TLS, are not needed.
+    features: ['--no-default-features'],
+    computes: ['gimli', 'id-arena', 'walrus', 'wasm-bindgen-cli-support', 'wasm-encoder', 'wasmparser'],
+  });
 }
 
-if (isMain(import.meta)) await main(setup);
+/** For builds; the tests run wasm-pack as well. */
+export async function setup({ wasmPack = false } = {}) {
+  await rust();
+  const cargoTools = async () => {
+    await wasmBindgen();
+    if (wasmPack) await cargoTool('wasm-pack', 'wasm-pack', wasmPackVersion);
+  };
+  await Promise.all([javascriptPackages(), cargoTools()]);
+}
+
+if (isMain(import.meta)) await main(() => setup({ wasmPack: true }));

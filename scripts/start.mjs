@@ -1,16 +1,26 @@
-// Sets up, builds and serves the demo. `--dev` serves its sources with reloading; other arguments
-// go to Vite (for example `npm start -- --port 8000 --open`).
-import { buildDemo, buildPackage } from './build.mjs';
+// Sets up, builds and serves the demo, and then builds the module of networks, which the page takes when it is there.
+// `--dev` serves the demo's sources with reloading; other arguments go to Vite (`npm start -- --port 8000 --open`).
+import { buildDemo, buildLibrary, buildQuickly, isBuilt, neural } from './build.mjs';
+import { buildNetworks, expectNetworks, networksLater } from './lib/networks-behind.mjs';
+import { environment } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
-import { setup } from './setup.mjs';
+import { javascriptPackages, rust, wasmBindgen } from './setup.mjs';
 
 await main(async () => {
   const args = process.argv.slice(2);
   const dev = args.includes('--dev');
   const passed = args.filter((argument) => argument !== '--dev');
-  await setup({ wasmPack: false });
-  await buildPackage();
-  if (!dev) await buildDemo();
+  await rust();
+  // Packages come over the network while crates are compiled.
+  const tools = Promise.all([javascriptPackages(), wasmBindgen()]);
+  await Promise.all([tools, buildQuickly(tools)]);
+  const later = !isBuilt(neural);
+  const variables = later ? networksLater : {};
+  if (later) expectNetworks();
+  await buildLibrary();
+  if (!dev) await buildDemo(variables);
   console.log('start: serving the demo; press Ctrl+C to stop');
-  await run('vite', dev ? passed : ['preview', ...passed]);
+  const serving = run('vite', dev ? passed : ['preview', ...passed], { env: { ...environment, ...variables } });
+  if (later) void buildNetworks();
+  await serving;
 });

@@ -100,7 +100,7 @@ function chosenSteps(args) {
 await main(async () => {
   const chosen = chosenSteps(process.argv.slice(2));
   const inCi = Boolean(process.env.CI);
-  await setup();
+  await setup({ wasmPack: true });
   const results = [];
   for (const step of chosen) {
     console.log(`\n=== ${step.name}`);

@@ -4,6 +4,8 @@ import { fileURLToPath } from 'node:url';
 export const root = fileURLToPath(new URL('../../', import.meta.url));
 export const tools = join(root, '.tools');
 export const toolsBin = join(tools, 'bin');
+/** Digests of what is built, and what `npm start` keeps while it runs. */
+export const cache = join(root, 'node_modules', '.cache', 'boresight');
 export const modulesBin = join(root, 'node_modules', '.bin');
 export const wasmTarget = 'wasm32-unknown-unknown';
 export const dist = join(root, 'dist');

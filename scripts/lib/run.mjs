@@ -1,18 +1,56 @@
 import { spawn, spawnSync } from 'node:child_process';
 import { realpathSync } from 'node:fs';
+import { constants as osConstants, setPriority } from 'node:os';
+import { createInterface } from 'node:readline';
 import { pathToFileURL } from 'node:url';
 import { environment, root } from './paths.mjs';
 
-/** Runs a command in the checkout, showing its output; rejects if it fails. */
-export function run(command, args, options = {}) {
+/** Commands that somebody waits for. */
+const running = new Set();
+
+function started(command, args, options) {
+  const child = spawn(command, args, { cwd: root, env: environment, stdio: 'inherit', ...options });
+  running.add(child);
+  return child;
+}
+
+/** Resolves where a child ends well; `detail` ends the message of the error. */
+function ended(child, command, args, detail = () => '') {
   return new Promise((resolve, reject) => {
-    const child = spawn(command, args, { cwd: root, env: environment, stdio: 'inherit', ...options });
-    child.once('error', (error) => reject(new Error(`${command} could not be started: ${error.message}`)));
+    child.once('error', (error) => {
+      running.delete(child);
+      reject(new Error(`${command} could not be started: ${error.message}`));
+    });
     child.once('close', (code, signal) => {
+      if (!running.delete(child)) return;
       if (code === 0) resolve();
-      else reject(new Error(`${[command, ...args].join(' ')} ended with ${signal ?? `status ${code}`}`));
+      else reject(new Error(`${[command, ...args].join(' ')} ended with ${signal ?? `status ${code}`}${detail()}`));
     });
   });
+}
+
+/** Runs a command in the checkout, showing its output; rejects if it fails. */
+export function run(command, args, options = {}) {
+  return ended(started(command, args, options), command, args);
+}
+
+/** Runs a command at low priority, giving its output line by line; the error has the last of it. */
+export function runBehind(command, args, onLine) {
+  const child = started(command, args, { stdio: ['ignore', 'pipe', 'pipe'] });
+  try {
+    if (child.pid) setPriority(child.pid, osConstants.priority.PRIORITY_BELOW_NORMAL);
+  } catch {
+    // It has ended already, or runs as fast as all else.
+  }
+  const last = [];
+  for (const stream of [child.stdout, child.stderr])
+    createInterface({ input: stream }).on('line', (line) => {
+      if (line.trim() === '') return;
+      last.push(line);
+      if (last.length > 20) last.shift();
+      onLine(line);
+    });
+  return ended(child, command, args, () => `:\n${last.join('\n')}`);
 }
 
 /** Runs a command showing its output and keeping a copy; gives status and text. */
@@ -47,13 +85,17 @@ export function output(command, args, options = {}) {
   return result.status === 0 ? result.stdout : null;
 }
 
-/** Runs the main function of a script: one line and status 1 on failure. */
+/** Runs the main function of a script: one line and status 1 on failure. Commands that still run beside it end with it. */
 export async function main(body) {
   try {
     await body();
   } catch (error) {
     console.error(`\n${error.message}`);
     process.exitCode = 1;
+  } finally {
+    const rest = [...running];
+    running.clear();
+    for (const child of rest) child.kill();
   }
 }
 

@@ -1,9 +1,8 @@
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { root } from './paths.mjs';
+import { cache, root } from './paths.mjs';
 
-const folder = join(root, 'node_modules', '.cache', 'boresight');
 const skipped = new Set(['node_modules', 'target', 'dist', '.git', '.tools']);
 
 /** Files under a path of the checkout, sorted, without build outputs. */
@@ -32,20 +31,27 @@ export function digest(paths, extra = []) {
   return hash.digest('hex');
 }
 
+const stampOf = (name) => join(cache, `${name}.stamp`);
+
+/** Whether outputs stand that were made of the same inputs, or of those with one of `better` for `extra`. */
+export function upToDate(name, { inputs, extra = [], better = [], outputs }) {
+  const stamp = stampOf(name);
+  if (!existsSync(stamp) || !outputs.every((path) => existsSync(join(root, path)))) return false;
+  const found = readFileSync(stamp, 'utf8');
+  return [extra, ...better].some((more) => digest(inputs, more) === found);
+}
+
 /**
  * Does `work` unless it was done for the same inputs and its outputs still stand. The inputs are
  * read before the work, so that an edit made meanwhile is not missed.
  */
-export async function whenChanged(name, { inputs, extra, outputs }, work) {
-  const now = digest(inputs, extra);
-  const stamp = join(folder, `${name}.stamp`);
-  const upToDate =
-    existsSync(stamp) && readFileSync(stamp, 'utf8') === now && outputs.every((path) => existsSync(join(root, path)));
-  if (upToDate) return false;
+export async function whenChanged(name, made, work) {
+  if (upToDate(name, made)) return false;
+  const now = digest(made.inputs, made.extra);
   await work();
-  const missing = outputs.filter((path) => !existsSync(join(root, path)));
+  const missing = made.outputs.filter((path) => !existsSync(join(root, path)));
   if (missing.length > 0) throw new Error(`${name} ended well but did not make ${missing.join(', ')}`);
-  mkdirSync(folder, { recursive: true });
-  writeFileSync(stamp, now);
+  mkdirSync(cache, { recursive: true });
+  writeFileSync(stampOf(name), now);
   return true;
 }

@@ -27,12 +27,13 @@ after(async () => {
 
 /**
  * A test on a page of the demo. Options: `path`, `viewport` (`desktop`, `phone`), `scheme`
- * (`light`, `dark`), and any of Playwright's context options. On failure the page is pictured in
- * tests/.output/screenshots.
+ * (`light`, `dark`), `served` (gives another site than the built demo), and any of Playwright's context
+ * options. On failure the page is pictured in tests/.output/screenshots.
  */
-export function browserTest(name, options, body) {
+export function browserTest(name, { served, ...options }, body) {
   test(name, { skip: skipWithoutBrowser, timeout: 90_000 }, async (context) => {
-    const [browser, server] = await site();
+    const [browser, demo] = await site();
+    const server = served ? await served() : demo;
     const view = await openPage(browser, server.url, options);
     try {
       await body({ ...view, url: server.url, browser, test: context });

@@ -1,18 +1,10 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { createServer } from 'node:net';
 import { test } from 'node:test';
+import { freePort } from '../../scripts/lib/free-port.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
-
-async function freePort() {
-  const server = createServer().listen(0, '127.0.0.1');
-  await once(server, 'listening');
-  const { port } = server.address();
-  server.close();
-  await once(server, 'close');
-  return port;
-}
+import { mainScript } from '../../scripts/lib/setup-measures.mjs';
 
 test('npm start says what it does and serves the demo', { timeout: 120_000 }, async () => {
   const port = await freePort();
@@ -36,8 +28,7 @@ test('npm start says what it does and serves the demo', { timeout: 120_000 }, as
     assert.match(said, /setup: .*\n(.*\n)*build: .*\n(.*\n)*start: serving/);
     const response = await fetch(`http://127.0.0.1:${port}/`);
     assert.equal(response.status, 200);
-    const page = await response.text();
-    const script = /<script[^>]* src="([^"]+)"/.exec(page)?.[1];
+    const script = mainScript(await response.text());
     assert.ok(script, 'the page names its script');
     assert.equal((await fetch(new URL(script, response.url))).status, 200);
   } finally {

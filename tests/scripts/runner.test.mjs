@@ -4,7 +4,7 @@ import { join, relative } from 'node:path';
 import { after, test } from 'node:test';
 import { findBrowser } from '../../scripts/lib/browser.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
-import { digest, filesUnder, whenChanged } from '../../scripts/lib/stamp.mjs';
+import { digest, filesUnder, upToDate, whenChanged } from '../../scripts/lib/stamp.mjs';
 import { cargoCounts, nodeCounts, summary } from '../../scripts/lib/summary.mjs';
 
 const folder = mkdtempSync(join(root, 'tests', '.stamp-'));
@@ -74,6 +74,10 @@ test('work is done when inputs change or outputs are gone, and else not', async 
   rmSync(join(folder, 'output'));
   assert.equal(await go(), true);
   assert.equal(runs, 3);
+  assert.equal(upToDate('runner-test', { ...paths, extra: ['quick'] }), false);
+  assert.equal(upToDate('runner-test', { ...paths, extra: ['quick'], better: [[]] }), true, 'a better one will do');
+  await whenChanged('runner-test', { ...paths, extra: ['quick'] }, () => {});
+  assert.equal(upToDate('runner-test', paths), false, 'a quick one will not');
   await assert.rejects(
     whenChanged('runner-test-empty', { ...paths, outputs: [inside('never')] }, () => {}),
     /did not make .*never/,

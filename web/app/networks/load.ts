@@ -3,9 +3,10 @@ import { computed, signal } from '@preact/signals';
 import type { NetworkInfo } from 'boresight';
 import { aborted, describeError, FileProblem, type Problem, pool } from '../data.ts';
 import { MODELS, type Model } from './models.ts';
+import { moduleBuild, moduleReady } from './module.ts';
 
 export interface Loading {
-  status: 'fetching' | 'starting' | 'ready' | 'failed' | 'cancelled';
+  status: 'fetching' | 'waiting' | 'starting' | 'ready' | 'failed' | 'cancelled';
   /** Bytes that are here, and all of them where that is known. */
   done: number;
   total: number;
@@ -43,10 +44,14 @@ function say(name: string, loading: Loading): void {
  */
 export function load(name: string, signal?: AbortSignal): Promise<NetworkInfo> {
   const loaded = loadOnce(name);
-  if (!signal) return loaded;
+  return signal ? unless(signal, loaded) : loaded;
+}
+
+/** Ends the waiting for a promise. */
+function unless<T>(signal: AbortSignal, promise: Promise<T>): Promise<T> {
   return new Promise((resolve, reject) => {
     signal.addEventListener('abort', () => reject(signal.reason), { once: true });
-    loaded.then(resolve, reject);
+    promise.then(resolve, reject);
   });
 }
 
@@ -81,6 +86,10 @@ async function start(name: string, signal: AbortSignal): Promise<NetworkInfo> {
     bytes.set(name, onnx);
   }
   const total = onnx.byteLength;
+  if (moduleBuild.peek().state !== 'ready') {
+    say(name, { status: 'waiting', done: total, total });
+    await unless(signal, moduleReady());
+  }
   say(name, { status: 'starting', done: total, total });
   const { card } = model;
   const info = await pool().loadNetwork({ onnx, ...(model.hasCard ? { card } : {}) }, { signal });
@@ -115,6 +124,7 @@ async function fetched({ name, address, card }: Model, signal: AbortSignal): Pro
 
 /** Takes a user's own file in; what is wrong with it is thrown, and nothing is kept of it. */
 export async function addModel(name: string, onnx: Uint8Array, card: string | undefined): Promise<Model> {
+  await moduleReady();
   const info = await pool().loadNetwork({ onnx, ...(card === undefined ? {} : { card }) });
   const { kind: network, inputs, outputs } = info;
   const model: Model = {

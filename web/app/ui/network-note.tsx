@@ -1,7 +1,9 @@
 /** Under a network in a list of methods: which one is used, and how far it is loaded. */
 import { cancelLoading, load, loadings } from '../networks/load.ts';
 import { arrayOf, type Model } from '../networks/models.ts';
+import { moduleBuild } from '../networks/module.ts';
 import { byteSize } from '../plots/format.ts';
+import { ModuleNote } from './module-note.tsx';
 
 export function NetworkNote({
   model,
@@ -43,7 +45,8 @@ export function NetworkNote({
       ) : (
         <span>
           for {arrayOf(model.card)}
-          {size}; loads when chosen
+          {size}; loads when chosen{moduleBuild.value.state !== 'ready' && '. '}
+          <ModuleNote />
         </span>
       )}
     </div>
@@ -55,11 +58,16 @@ export function LoadState({ name }: { name: string }) {
   const state = loadings.value.get(name);
   switch (state?.status) {
     case 'fetching':
+    case 'waiting':
     case 'starting': {
       const far =
-        state.status === 'starting'
-          ? 'starting'
-          : `${byteSize(state.done)} of ${state.total ? byteSize(state.total) : 'unknown size'}`;
+        state.status === 'starting' ? (
+          'starting'
+        ) : state.status === 'waiting' ? (
+          <ModuleNote />
+        ) : (
+          `${byteSize(state.done)} of ${state.total ? byteSize(state.total) : 'unknown size'}`
+        );
       return (
         <span class="progress-line" data-loading={name}>
           <progress

@@ -151,13 +151,13 @@ export function ResultsTable({ scene }: { scene: Scene }) {
                           {source ? signed(source.azimuthDeg, 2) : '–'}
                         </td>,
                         <td key={`e${i}`} data-field="error" data-target={i} data-value={error}>
-                          {error === undefined ? 'missed' : signed(error, 3)}
+                          {error !== undefined ? signed(error, 3) : result?.estimate ? 'missed' : '–'}
                         </td>,
                         <td key={`p${i}`}>{source ? signed(source.powerDb, 1) : '–'}</td>,
                       ];
                     })}
                     <td title={assignment.extra.map((k) => `${signed(sources[k]?.azimuthDeg ?? 0, 1)}°`).join(', ')}>
-                      {assignment.extra.length}
+                      {result?.estimate ? assignment.extra.length : '–'}
                     </td>
                     <td>{result?.milliseconds === undefined ? '–' : milliseconds(result.milliseconds)}</td>
                   </>

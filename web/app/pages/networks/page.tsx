@@ -1,6 +1,8 @@
 import { useSignalEffect } from '@preact/signals';
+import { moduleBuild } from '../../networks/module.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
+import { ModuleNote } from '../../ui/module-note.tsx';
 import { AboutNetworks } from './about.tsx';
 import { attempt, selected, start } from './attempt.ts';
 import { AttemptPanel } from './attempt-panel.tsx';
@@ -38,6 +40,11 @@ export function NetworksPage() {
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>{problem.file}: </strong>
             {problem.message} <code>{problem.code}</code>
+          </p>
+        )}
+        {moduleBuild.value.state !== 'ready' && (
+          <p class="notice">
+            <ModuleNote />
           </p>
         )}
         <Overview />
