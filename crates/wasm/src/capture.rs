@@ -49,15 +49,15 @@ pub struct Capture {
 #[derive(Described, Serialize)]
 pub struct CaptureInfo<'a> {
     /// Its configuration.
-    config: ConfigRecord<'a>,
+    pub config: ConfigRecord<'a>,
     /// Whole frames.
-    frames: usize,
+    pub frames: usize,
     /// Bytes after the last whole frame.
-    trailing_bytes: usize,
+    pub trailing_bytes: usize,
     /// Virtual array of the configured channels; null for a platform that is not known.
-    array: Option<Geometry>,
+    pub array: Option<Geometry>,
     /// What is odd about its size.
-    warnings: &'a [Remark],
+    pub warnings: &'a [Remark],
 }
 
 /// The frames of a capture.
