@@ -17,6 +17,7 @@ export default defineConfig({
     alias: [
       { find: /^boresight$/, replacement: path('dist/lib/browser.js') },
       { find: /^boresight\/neural$/, replacement: path('dist/lib/neural/browser.js') },
+      { find: /^boresight\/schema\.json$/, replacement: path('web/lib/generated/schema.json') },
       { find: /^boresight\/worker$/, replacement: path('dist/worker/browser.js') },
     ],
   },

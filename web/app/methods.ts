@@ -11,6 +11,9 @@ export const singleSnapshotMethods = (): MethodInfo[] => api.methods().filter(({
 /** Names of the networks that methods use, where it is not the best that fits. */
 export const networkNames = text('', (names) => /^[\w.,-]{0,200}$/.test(names));
 
+/** What ways to count sources are called. */
+export const COUNTED = { mdl: 'counted, MDL', aic: 'counted, AIC' };
+
 const WHY: Readonly<Record<Unsuited, string>> = {
   'one-place': 'needs elements at different places along y',
   'uniform-array': 'needs a uniform linear array',

@@ -131,7 +131,8 @@ pub struct Options {
     /// Points of the elevation grid (arrays that span an area).
     #[option(default = 61, range = 3..=1024)]
     pub elevation_points: usize,
-    /// Average the covariance with its reversal (evenly spaced arrays).
+    /// Average the covariance with its reversal, which decorrelates coherent sources (evenly spaced
+    /// arrays).
     pub forward_backward: bool,
     /// Length of the subarrays of spatial smoothing (evenly spaced arrays); none if absent.
     #[option(range = 2..=1024)]

@@ -50,7 +50,8 @@ pub struct Options {
     /// How the angle is estimated.
     #[option(required)]
     pub method: Method,
-    /// How the motion is estimated; the way that belongs to the method if absent.
+    /// How the motion is estimated; by default in the way that belongs to the method: RANSAC for
+    /// the mean and Kabsch, its weighted forms for the regressions, tracking for the recursive one.
     pub motion: Option<MotionMethod>,
     /// The radar's place ahead of the rear axle.
     #[option(required, range = -100..=100)]
@@ -62,7 +63,7 @@ pub struct Options {
     /// alarm compares with.
     #[option(range = -180..=180)]
     pub nominal_rad: Option<f64>,
-    /// How far from nominal is a misalignment.
+    /// The alarm is raised where the angle differs from nominal by more than this, beyond chance.
     #[option(default = 1.0_f64.to_radians(), range = 1e-9..=180)]
     pub alarm_rad: f64,
     /// Standard deviation below which the estimate may count as converged.
@@ -83,7 +84,8 @@ pub struct Options {
     /// Frames turning faster than this are left out.
     #[option(default = 140.0_f64.to_radians(), range = 0.1..=180)]
     pub max_yaw_rate_radps: f64,
-    /// Below this residual a detection is an inlier of RANSAC.
+    /// RANSAC takes a detection as an inlier where its range rate is within this of the fitted
+    /// curve.
     #[option(default = 0.3, positive)]
     pub inlier_residual_mps: f64,
     /// Weight from which a detection is an inlier (IT).
@@ -92,7 +94,7 @@ pub struct Options {
     /// Frames with a smaller share of inliers are left out (IRT).
     #[option(default = 0.3, range = 0..=1)]
     pub inlier_ratio_threshold: f64,
-    /// Fewest inliers of a frame.
+    /// Frames with fewer inliers are left out.
     #[option(default = 5, range = 3..=1e6)]
     pub min_inliers: usize,
     /// Probability that RANSAC draws a pair of inliers at least once.

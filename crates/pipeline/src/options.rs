@@ -44,7 +44,7 @@ pub struct ChainOptions {
     pub range_doppler: RangeDopplerOptions,
     /// Detection. Guard and training cells are counted in cells of unpadded transforms.
     pub cfar: CfarOptions,
-    /// Keep one detection a peak.
+    /// Keep one detection a peak: of adjacent cells over the threshold, the strongest.
     #[option(default = true)]
     pub peak_grouping: bool,
     /// Limits outside which detections are dropped, and counted. Where it names no range, that is

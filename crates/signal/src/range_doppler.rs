@@ -20,14 +20,14 @@ const TILE: usize = 16;
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RangeDopplerOptions {
-    /// Window over the samples of a chirp.
+    /// Window over the samples of a chirp: lower sidelobes in range for a wider main lobe.
     pub range_window: Window,
-    /// Window over the loops of a frame.
+    /// Window over the loops of a frame: lower sidelobes in rate for a wider main lobe.
     pub doppler_window: Window,
-    /// Range bins as a multiple of the samples, a power of two.
+    /// Range bins as a multiple of the samples, a power of two: finer bins, the same resolution.
     #[option(default = 1, range = 1..=64)]
     pub range_padding: usize,
-    /// Doppler bins as a multiple of the loops, a power of two.
+    /// Doppler bins as a multiple of the loops, a power of two: finer bins, the same resolution.
     #[option(default = 1, range = 1..=64)]
     pub doppler_padding: usize,
     /// Take the mean over the loops off, which removes what does not move.

@@ -30,6 +30,13 @@ const PREFIXES: [number, string][] = [
   [1e-9, 'n'],
 ];
 
+/** A number as it is, and `1e-6` as a power of ten. */
+export function power(value: number | string): string {
+  const [, sign, digits] = /^1e([+-]?)(\d+)$/.exec(String(value)) ?? [];
+  if (!digits) return String(value).replaceAll('-', '−');
+  return `10${sign === '-' ? '⁻' : ''}${[...digits].map((digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(digit)]).join('')}`;
+}
+
 /** A value with an SI prefix and its unit: `3.07 GHz`. */
 export function engineering(value: number, unit: string, digits = 3): string {
   if (!Number.isFinite(value)) return '–';

@@ -1,4 +1,5 @@
 /** Page state to and from URL parameters. What cannot be read falls back to its default. */
+import { type Range, within } from './range.ts';
 
 export interface Field<T> {
   fallback: T;
@@ -7,21 +8,40 @@ export interface Field<T> {
   write(value: T): string;
 }
 
-export function number(fallback: number, [low, high]: readonly [number, number], step?: 'integer'): Field<number> {
+export interface NumberField extends Field<number> {
+  range: Range;
+}
+
+export interface ChoiceField<T extends string> extends Field<T> {
+  values(): readonly T[];
+}
+
+export function numberIn(fallback: number, range: Range): NumberField {
   return {
     fallback,
+    range,
     read: (text) => {
       const value = Number(text);
-      const valid = text.trim() !== '' && Number.isFinite(value) && value >= low && value <= high;
-      return valid && (step !== 'integer' || Number.isInteger(value)) ? value : undefined;
+      return text.trim() !== '' && within(value, range) ? value : undefined;
     },
     write: (value) => String(value),
   };
 }
 
+export const number = (fallback: number, [min, max]: readonly [number, number], step?: 'integer'): NumberField =>
+  numberIn(fallback, { min, max, integer: step === 'integer' });
+
 /** One of some values; a function gives those that are known only later. */
-export function choice<const T extends string>(fallback: T, values: readonly T[] | (() => readonly T[])): Field<T> {
-  return { fallback, read: (text) => given(values).find((value) => value === text), write: (value) => value };
+export function choice<const T extends string>(
+  fallback: T,
+  values: readonly T[] | (() => readonly T[]),
+): ChoiceField<T> {
+  return {
+    fallback,
+    values: () => given(values),
+    read: (text) => given(values).find((value) => value === text),
+    write: (value) => value,
+  };
 }
 
 const given = <T>(values: readonly T[] | (() => readonly T[])): readonly T[] =>
@@ -40,8 +60,8 @@ export function text(fallback: string, valid: (text: string) => boolean): Field<
 }
 
 /** A value that may be left to what follows from others. */
-export function optional<T>(field: Field<T>): Field<T | null> {
-  return { fallback: null, read: field.read, write: (value) => (value === null ? '' : field.write(value)) };
+export function optional<T, F extends object>(field: F & Field<T>): Omit<F, keyof Field<T>> & Field<T | null> {
+  return { ...field, fallback: null, write: (value) => (value === null ? '' : field.write(value)) };
 }
 
 /** Names from a known set, in the set's order; a dash for none. */
@@ -65,20 +85,22 @@ export function names<T extends string>(
 type Fields = Record<string, Field<never>>;
 export type StateOf<F> = { [K in keyof F]: F[K] extends Field<infer T> ? T : never };
 
-export interface Codec<S> {
-  defaults: S;
-  read(params: URLSearchParams): S;
+export interface Codec<F> {
+  fields: F;
+  defaults: StateOf<F>;
+  read(params: URLSearchParams): StateOf<F>;
   /** Everything but defaults that are not in `always`. */
-  write(state: S): URLSearchParams;
+  write(state: StateOf<F>): URLSearchParams;
 }
 
 export function codec<F extends { [K in keyof F]: Field<F[K] extends Field<infer T> ? T : never> }>(
   fields: F,
   always: readonly (keyof F)[] = [],
-): Codec<StateOf<F>> {
+): Codec<F> {
   type S = StateOf<F>;
   const all = Object.entries(fields as unknown as Fields) as unknown as [keyof F & string, Field<unknown>][];
   return {
+    fields,
     defaults: Object.fromEntries(all.map(([key, field]) => [key, field.fallback])) as S,
     read: (params) =>
       Object.fromEntries(

@@ -7,7 +7,9 @@ import { useDraft } from './draft.ts';
 export interface FieldProps {
   label: string;
   help: string;
-  unit?: string;
+  unit?: string | undefined;
+  /** Which option of the package it sets. */
+  option?: string | undefined;
 }
 
 export function Help({ id, children }: { id: string; children: string }) {
@@ -22,15 +24,15 @@ export function SelectField<T extends string>(
   props: FieldProps & {
     value: T;
     options: readonly (readonly [value: T, label: string])[];
-    disabled?: boolean;
+    disabled?: boolean | undefined;
     name?: string;
-    wide?: boolean;
+    wide?: boolean | undefined;
     onChange(value: T): void;
   },
 ) {
   const id = useId();
   return (
-    <div class={`field${props.wide ? ' wide' : ''}`} title={props.help}>
+    <div class={`field${props.wide ? ' wide' : ''}`} title={props.help} data-option={props.option}>
       <label for={id}>{props.label}</label>
       <select
         id={id}
@@ -52,11 +54,11 @@ export function SelectField<T extends string>(
 }
 
 export function CheckField(
-  props: FieldProps & { value: boolean; disabled?: boolean; name?: string; onChange(value: boolean): void },
+  props: FieldProps & { value: boolean; disabled?: boolean | undefined; name?: string; onChange(value: boolean): void },
 ) {
   const id = useId();
   return (
-    <div class="field check" title={props.help}>
+    <div class="field check" title={props.help} data-option={props.option}>
       <input
         id={id}
         name={props.name}

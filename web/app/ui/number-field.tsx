@@ -1,20 +1,19 @@
 /** Fields of numbers, typed as text: nothing is written into a field while somebody types in it. */
 import { useId, useRef, useState } from 'preact/hooks';
+import { power } from '../plots/format.ts';
+import { type Range, rangeText, within } from '../state/range.ts';
 import { useDraft } from './draft.ts';
 import { type FieldProps, Help } from './field.tsx';
 
-interface NumberProps {
+interface NumberProps extends Range {
   /** NaN for a number that is not known. */
   value: number;
-  min: number;
-  max: number;
-  step?: number;
-  integer?: boolean;
-  disabled?: boolean;
-  name?: string;
+  step?: number | undefined;
+  disabled?: boolean | undefined;
+  name?: string | undefined;
   onChange(value: number): void;
   /** Where a field may be empty. */
-  onEmpty?(): void;
+  onEmpty?: (() => void) | undefined;
 }
 
 const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
@@ -22,16 +21,15 @@ const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 const BEGINNING = /^[+-]?(\d+\.?\d*|\.\d*)?(e[+-]?)?$/i;
 
 const textOf = (value: number): string => (Number.isFinite(value) ? String(value) : '');
-const withMinus = (text: string): string => text.replaceAll('-', '−');
 
 type Reading = { value: number } | 'empty' | 'unfinished' | 'invalid';
 
-function read(text: string, { min, max, integer, onEmpty }: NumberProps): Reading {
+function read(text: string, props: NumberProps): Reading {
   const plain = text.trim().replace('−', '-');
-  if (plain === '' && onEmpty) return 'empty';
+  if (plain === '' && props.onEmpty) return 'empty';
   if (!NUMBER.test(plain)) return BEGINNING.test(plain) ? 'unfinished' : 'invalid';
   const value = Number(plain);
-  return value >= min && value <= max && (!integer || Number.isInteger(value)) ? { value } : 'invalid';
+  return within(value, props) ? { value } : 'invalid';
 }
 
 /**
@@ -76,17 +74,17 @@ function useNumber(props: NumberProps) {
       draft.drop();
     } else if (direction && !event.altKey && !event.ctrlKey && !event.metaKey) {
       event.preventDefault();
-      const from = Number.isFinite(value) ? value : Math.max(min, Math.min(0, max));
+      const from = Number.isFinite(value) ? value : 0;
       const next = Number((from + direction * (props.step ?? 1)).toPrecision(12));
+      const limited = Math.min(Math.max(next, min), max);
       draft.drop();
-      send(Math.min(Math.max(next, min), max));
+      if (within(limited, props)) send(limited);
     }
   };
-  const range = `${integer ? 'A whole number' : 'A number'} from ${min} to ${max}`;
-  const used = Number.isFinite(value) ? `; ${value} is used` : '';
+  const used = Number.isFinite(value) ? `; ${power(value)} is used` : '';
   const comma = draft.text?.includes(',') ? ', decimals after a point' : '';
   return {
-    problem: wrong ? withMinus(`${range}${comma}${used}`) : null,
+    problem: wrong ? `${rangeText(props)}${comma}${used}` : null,
     attributes: {
       type: 'text' as const,
       role: 'spinbutton' as const,
@@ -100,8 +98,8 @@ function useNumber(props: NumberProps) {
       disabled: props.disabled,
       value: draft.text ?? textOf(value),
       'aria-valuenow': Number.isFinite(value) ? value : undefined,
-      'aria-valuemin': min,
-      'aria-valuemax': max,
+      'aria-valuemin': Number.isFinite(min) ? min : undefined,
+      'aria-valuemax': Number.isFinite(max) ? max : undefined,
       'aria-invalid': wrong ? ('true' as const) : undefined,
       onInput: (event: { currentTarget: HTMLInputElement }) => input(event.currentTarget.value),
       onFocus: () => setFocused(true),
@@ -115,7 +113,7 @@ export function NumberField(props: FieldProps & NumberProps) {
   const id = useId();
   const { problem, attributes } = useNumber(props);
   return (
-    <div class="field" title={props.help}>
+    <div class="field" title={props.help} data-option={props.option}>
       <label for={id}>{props.label}</label>
       <span class="with-unit">
         <input id={id} aria-describedby={`${id}-help ${id}-problem`} {...attributes} />

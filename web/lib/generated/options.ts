@@ -82,7 +82,10 @@ export interface SharedEstimatorOptions {
   gridPoints?: number;
   /** Points of the elevation grid (arrays that span an area) (3 to 1024; default 61). */
   elevationPoints?: number;
-  /** Average the covariance with its reversal (evenly spaced arrays) (default false). */
+  /**
+   * Average the covariance with its reversal, which decorrelates coherent sources (evenly spaced arrays) (default
+   * false).
+   */
   forwardBackward?: boolean;
   /** Length of the subarrays of spatial smoothing (evenly spaced arrays); none if absent (2 to 1024). */
   smoothing?: number;
@@ -224,7 +227,10 @@ export interface AngleOptions {
   gridPoints?: number;
   /** Points of the elevation grid (arrays that span an area) (3 to 1024; default 61). */
   elevationPoints?: number;
-  /** Average the covariance with its reversal (evenly spaced arrays) (default false). */
+  /**
+   * Average the covariance with its reversal, which decorrelates coherent sources (evenly spaced arrays) (default
+   * false).
+   */
   forwardBackward?: boolean;
   /** Length of the subarrays of spatial smoothing (evenly spaced arrays); none if absent (2 to 1024). */
   smoothing?: number;
@@ -270,7 +276,7 @@ export interface DetectionOptions {
   staticClutterRemoval?: boolean;
   /** Detection. Guard and training cells are counted in cells of unpadded transforms. */
   cfar?: CfarOptions;
-  /** Keep one detection a peak (default true). */
+  /** Keep one detection a peak: of adjacent cells over the threshold, the strongest (default true). */
   peakGrouping?: boolean;
   /**
    * Limits outside which detections are dropped, and counted. Where it names no range, that is from 4 range
@@ -312,7 +318,10 @@ export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-dis
 export interface CalibrationOptions {
   /** How the angle is estimated (default 'recursive'). */
   method: CalibrationMethod;
-  /** How the motion is estimated; the way that belongs to the method if absent. */
+  /**
+   * How the motion is estimated; by default in the way that belongs to the method: RANSAC for the mean and Kabsch, its
+   * weighted forms for the regressions, tracking for the recursive one.
+   */
   motion?: MotionMethod;
   /** The radar's place ahead of the rear axle (-100 to 100 m; default 0). */
   xM: number;
@@ -323,7 +332,10 @@ export interface CalibrationOptions {
    * (-180 to 180 deg).
    */
   nominalDeg?: number;
-  /** How far from nominal is a misalignment (1e-9 to 180 deg; default 1). */
+  /**
+   * The alarm is raised where the angle differs from nominal by more than this, beyond chance (1e-9 to 180 deg;
+   * default 1).
+   */
   alarmDeg?: number;
   /** Standard deviation below which the estimate may count as converged (1e-9 to 180 deg; default 0.1). */
   convergedDeg?: number;
@@ -337,13 +349,16 @@ export interface CalibrationOptions {
   minSpeedMps?: number;
   /** Frames turning faster than this are left out (0.1 to 180 deg/s; default 140). */
   maxYawRateDegps?: number;
-  /** Below this residual a detection is an inlier of RANSAC (more than 0 m/s; default 0.3). */
+  /**
+   * RANSAC takes a detection as an inlier where its range rate is within this of the fitted curve (more than 0 m/s;
+   * default 0.3).
+   */
   inlierResidualMps?: number;
   /** Weight from which a detection is an inlier (IT) (0 to 1; default 0.5). */
   inlierThreshold?: number;
   /** Frames with a smaller share of inliers are left out (IRT) (0 to 1; default 0.3). */
   inlierRatioThreshold?: number;
-  /** Fewest inliers of a frame (3 to 1000000; default 5). */
+  /** Frames with fewer inliers are left out (3 to 1000000; default 5). */
   minInliers?: number;
   /** Probability that RANSAC draws a pair of inliers at least once (0 to 1; default 0.999). */
   confidence?: number;
@@ -441,7 +456,10 @@ export interface StreetOptions {
    * (default 0).
    */
   seed?: number | bigint;
-  /** Speed of the car along x. What stands still spreads over Doppler with it (-30 to 30 m/s; default 6). */
+  /**
+   * Speed of the car along x. The faster it is, the farther Doppler tells apart what stands at one range in different
+   * directions (-30 to 30 m/s; default 6).
+   */
   egoSpeedMps?: number;
 }
 

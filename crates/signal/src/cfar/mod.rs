@@ -64,7 +64,7 @@ pub enum CfarAxes {
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CfarOptions {
-    /// How noise is estimated from the training cells.
+    /// The detector of constant false-alarm rate: how it takes the noise from the training cells.
     pub kind: CfarKind,
     /// Axes along which training cells lie.
     pub axes: CfarAxes,
@@ -75,10 +75,11 @@ pub struct CfarOptions {
     /// cover the main lobe.
     #[option(default = [4, 2])]
     pub guard_cells: [usize; 2],
-    /// Training cells on each side beyond the guard cells, along range and Doppler.
+    /// Cells on each side beyond the guard cells that the noise level is estimated from, along range
+    /// and Doppler.
     #[option(default = [8, 4])]
     pub training_cells: [usize; 2],
-    /// Rank of the ordered statistic, as a share of the training cells.
+    /// Which of the ordered training cells stands for the noise, as a share of them.
     #[option(default = 0.75, range = 0..=1)]
     pub rank: f64,
     /// Channels averaged in each cell.

@@ -34,7 +34,8 @@ pub struct StreetOptions {
     /// The things in it come from stream 0 of this seed, the cube of radar `i` from one that stream
     /// `i + 1` gives.
     pub seed: u64,
-    /// Speed of the car along x. What stands still spreads over Doppler with it.
+    /// Speed of the car along x. The faster it is, the farther Doppler tells apart what stands at
+    /// one range in different directions.
     #[option(default = 6.0, range = -30..=30)]
     pub ego_speed_mps: f64,
 }

@@ -95,7 +95,7 @@ function arrayOptions(method: Method, state: AngleState): EstimatorOptions {
     method,
     array: arrayInput(state.array),
     ...(state.average ? { forwardBackward: true } : {}),
-    ...(state.smoothing > 1 ? { smoothing: state.smoothing } : {}),
+    ...(state.smoothing === null ? {} : { smoothing: state.smoothing }),
   };
 }
 

@@ -1,51 +1,32 @@
 /** Everything the angle lab can be told. */
 import { api } from '../../data.ts';
+import { COUNTED } from '../../methods.ts';
 import { choosing, fitting } from '../../networks/choose.ts';
 import { stopped } from '../../networks/load.ts';
 import { milliseconds } from '../../plots/format.ts';
-import { showHelp } from '../../state/settings.ts';
-import { CheckField, Group, SelectField, TextField } from '../../ui/field.tsx';
+import { controlOf } from '../../ui/control.tsx';
+import { ControlsHead } from '../../ui/controls-head.tsx';
+import { Group, SelectField, TextField } from '../../ui/field.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
-import { NumberCell, NumberField } from '../../ui/number-field.tsx';
+import { NumberField } from '../../ui/number-field.tsx';
+import { SeedField } from '../../ui/seed-field.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { networkFor, results, scene, unavailable } from './compute.ts';
-import {
-  addTarget,
-  angleCodec,
-  angleState,
-  freeAzimuth,
-  LIMITS,
-  positionsProblem,
-  removeTarget,
-  setTarget,
-  update,
-} from './state.ts';
+import { angleCodec, angleState, LIMITS, positionsProblem, update } from './state.ts';
+import { TargetTable } from './target-table.tsx';
+
+const Control = controlOf(angleCodec, angleState, update);
 
 export function Controls() {
   const state = angleState.value;
   return (
     <Sidebar label="Angle lab settings" button="array, targets and settings">
-      <div class="controls-head">
-        <CheckField
-          label="Explain the controls"
-          value={showHelp.value}
-          help="Shows a sentence below each control."
-          onChange={(on) => {
-            showHelp.value = on;
-          }}
-        />
-        <button
-          type="button"
-          class="plain"
-          title="Back to the settings a fresh visit starts with"
-          onClick={() => {
-            angleState.value = angleCodec.defaults;
-          }}
-        >
-          Defaults
-        </button>
-      </div>
+      <ControlsHead
+        onDefaults={() => {
+          angleState.value = angleCodec.defaults;
+        }}
+      />
       <Group title="Array">
         <ArrayFields />
       </Group>
@@ -53,143 +34,64 @@ export function Controls() {
         <TargetTable />
       </Group>
       <Group title="Signal">
-        <NumberField
+        <Control
           label="SNR"
-          unit="dB"
           name="snr"
-          value={state.snr}
-          min={LIMITS.snrDb[0]}
-          max={LIMITS.snrDb[1]}
-          step={1}
+          unit="dB"
           help="Power of a 0 dB target over the noise power, both at one element and for one snapshot."
-          onChange={(snr) => update({ snr })}
         />
-        <NumberField
+        <Control
           label="Snapshots"
           name="snapshots"
-          integer
-          value={state.snapshots}
-          min={LIMITS.snapshots[0]}
-          max={LIMITS.snapshots[1]}
           help="Independent looks at the scene. Subspace methods need several; automotive radars often have one."
-          onChange={(snapshots) => update({ snapshots })}
         />
-        <NumberField
-          label="Seed"
-          name="seed"
-          integer
-          value={state.seed}
-          min={LIMITS.seed[0]}
-          max={LIMITS.seed[1]}
-          help="Noise, target phases and imperfections are drawn from it: the same seed gives the same numbers."
-          onChange={(seed) => update({ seed })}
-        />
-        <button
-          type="button"
-          class="plain new-seed"
-          title="Draw new noise"
-          onClick={() => update({ seed: (state.seed + 1) % LIMITS.seed[1] })}
-        >
-          Next seed
-        </button>
-        <SelectField
+        <SeedField value={state.seed} what="numbers" title="Draw new noise" onChange={(seed) => update({ seed })} />
+        <Control
           label="Targets"
           name="fluctuation"
-          value={state.fluctuation}
-          options={[
-            ['complex-normal', 'fluctuate'],
-            ['random-phase', 'random phase'],
-            ['coherent', 'coherent'],
-          ]}
+          labels={{ 'complex-normal': 'fluctuate' }}
           help="From snapshot to snapshot: amplitude and phase fluctuate (complex normal), the phase alone, or nothing, as with multipath; coherent targets call for averaging or smoothing. One snapshot keeps the powers given."
-          onChange={(fluctuation) => update({ fluctuation })}
         />
       </Group>
       <Group title="Methods">
         <Methods />
       </Group>
       <Group title="Estimation">
-        <SelectField
+        <Control
           label="Sources"
           name="sources"
-          value={state.sources}
-          options={[
-            ['known', 'known'],
-            ['mdl', 'counted, MDL'],
-            ['aic', 'counted, AIC'],
-          ]}
+          labels={COUNTED}
           help="Whether methods are told the number of targets, or count them from the covariance's eigenvalues."
-          onChange={(sources) => update({ sources })}
         />
-        <SelectField
+        <Control
           label="Grid"
           name="grid"
-          value={String(state.grid)}
-          options={['256', '512', '1024', '2048', '4096'].map((points) => [points, `${points} points`] as const)}
-          help="Points of a spectrum, uniform in the sine of azimuth from -90 to 90 degrees. Peaks are interpolated."
-          onChange={(grid) => update({ grid: Number(grid) })}
+          among={[256, 512, 1024, 2048, 4096]}
+          labels={(points) => `${points} points`}
+          note="Peaks are interpolated."
         />
-        <CheckField
-          label="Forward-backward averaging"
-          name="average"
-          value={state.average}
-          help="Averages the covariance with its mirror image, which decorrelates coherent targets on symmetric arrays."
-          onChange={(average) => update({ average })}
-        />
-        <CheckField
-          label="Refine by Gauss-Newton"
-          name="refine"
-          value={state.refine}
-          help="Fits all angles of a method together to the data: drops those that noise explains, adds what was missed."
-          onChange={(refine) => update({ refine })}
-        />
-        <NumberField
-          label="Smoothing subarray"
-          name="smoothing"
-          integer
-          value={state.smoothing}
-          min={0}
-          max={LIMITS.elements[1]}
-          help="Elements of the subarrays that spatial smoothing averages over; 0 for none. Uniform arrays only."
-          onChange={(smoothing) => update({ smoothing })}
-        />
+        <Control label="Forward-backward averaging" name="average" />
+        <Control label="Refine by Gauss-Newton" name="refine" />
+        <Control label="Smoothing subarray" name="smoothing" />
       </Group>
       <Group
         title="Array imperfections"
         open={state.gain + state.phase + state.position > 0 || state.coupling !== 'off'}
       >
-        <NumberField
+        <Control
           label="Gain error"
-          unit="dB"
           name="gain"
-          value={state.gain}
-          min={0}
-          max={6}
+          unit="dB"
           step={0.1}
           help="Standard deviation of each element's gain. The estimators assume perfect elements."
-          onChange={(gain) => update({ gain })}
         />
-        <NumberField
-          label="Phase error"
-          unit={'°'}
-          name="phase"
-          value={state.phase}
-          min={0}
-          max={60}
-          step={1}
-          help="Standard deviation of each element's phase."
-          onChange={(phase) => update({ phase })}
-        />
-        <NumberField
+        <Control label="Phase error" name="phase" unit="°" help="Standard deviation of each element's phase." />
+        <Control
           label="Position error"
-          unit={'λ/2'}
           name="position"
-          value={state.position}
-          min={0}
-          max={0.5}
+          unit="λ/2"
           step={0.01}
           help="Standard deviation of each element's place along the array, in half wavelengths."
-          onChange={(position) => update({ position })}
         />
         <SelectField
           label="Coupling"
@@ -263,83 +165,6 @@ function ArrayFields() {
         />
       )}
     </>
-  );
-}
-
-/** What is typed counts to this. */
-const TYPED = { azimuthDeg: 0.001, powerDb: 0.001 };
-
-function TargetTable() {
-  const { targets } = angleState.value;
-  return (
-    <div class="targets">
-      <table>
-        <thead>
-          <tr>
-            <th scope="col">No.</th>
-            <th scope="col">Azimuth, {'°'}</th>
-            <th scope="col">Power, dB</th>
-            <th>
-              <span class="visually-hidden">Remove</span>
-            </th>
-          </tr>
-        </thead>
-        <tbody>
-          {targets.map((target, i) => (
-            <tr key={i}>
-              <th scope="row">{i + 1}</th>
-              <td>
-                <NumberCell
-                  label={`Azimuth of target ${i + 1}, degrees`}
-                  name={`azimuth-${i}`}
-                  value={target.azimuthDeg}
-                  step={0.1}
-                  min={LIMITS.azimuthDeg[0]}
-                  max={LIMITS.azimuthDeg[1]}
-                  onChange={(azimuthDeg) => setTarget(i, { azimuthDeg }, TYPED)}
-                />
-              </td>
-              <td>
-                <NumberCell
-                  label={`Power of target ${i + 1}, dB`}
-                  name={`power-${i}`}
-                  value={target.powerDb}
-                  step={0.5}
-                  min={LIMITS.powerDb[0]}
-                  max={LIMITS.powerDb[1]}
-                  onChange={(powerDb) => setTarget(i, { powerDb }, TYPED)}
-                />
-              </td>
-              <td>
-                <button
-                  type="button"
-                  class="plain"
-                  aria-label={`Remove target ${i + 1}`}
-                  title="Remove"
-                  onClick={() => removeTarget(i)}
-                >
-                  {'×'}
-                </button>
-              </td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
-      <button
-        type="button"
-        class="plain"
-        data-action="add-target"
-        disabled={targets.length >= LIMITS.targets}
-        onClick={() => addTarget({ azimuthDeg: freeAzimuth(targets), powerDb: 0 })}
-      >
-        Add target
-      </button>
-      <p class={showHelp.value ? 'help' : 'visually-hidden'}>
-        Drag a target on the plot: sideways its azimuth, up and down its power. Double-click the plot to add one, a
-        target to remove it. With the keyboard: arrows move a focused target by 0.1{'°'}, with Shift by 1{'°'}; plus and
-        minus change its power; Delete removes it.
-      </p>
-    </div>
   );
 }
 

@@ -2,7 +2,9 @@
 import { signal } from '@preact/signals';
 import type { ArrayInput, Method, Position } from 'boresight';
 import { methodNames, networkNames } from '../../methods.ts';
-import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
+import { optionsOf } from '../../options.ts';
+import { choice, codec, type Field, names, number, text } from '../../state/codec.ts';
+import { seed } from '../../state/seed.ts';
 
 export interface Target {
   azimuthDeg: number;
@@ -12,12 +14,8 @@ export interface Target {
 export const LIMITS = {
   azimuthDeg: [-89.9, 89.9],
   powerDb: [-40, 10],
-  snrDb: [-30, 60],
-  snapshots: [1, 2000],
-  seed: [0, 4294967295],
   elements: [2, 128],
   targets: 12,
-  gridPoints: [64, 8192],
 } as const;
 
 export const PRESETS = ['awr1642', 'awr1843', 'cascade86', 'lrr48'] as const;
@@ -54,25 +52,29 @@ function validArray(name: string): boolean {
   return PRESETS.some((preset) => preset === name);
 }
 
+const estimator = optionsOf('SharedEstimatorOptions');
+
 export const angleCodec = codec(
   {
     array: text('ula10', validArray),
     targets,
-    snr: number(20, LIMITS.snrDb),
-    snapshots: number(100, LIMITS.snapshots, 'integer'),
-    seed: number(1, LIMITS.seed, 'integer'),
+    snr: number(20, [-30, 60]),
+    snapshots: number(100, [1, 2000], 'integer'),
+    seed,
     fluctuation: choice('complex-normal', ['complex-normal', 'random-phase', 'coherent']),
     gain: number(0, [0, 6]),
     phase: number(0, [0, 60]),
     position: number(0, [0, 0.5]),
     coupling: text('off', (value) => value === 'off' || (Number(value) >= -60 && Number(value) <= -5)),
-    sources: choice('known', ['known', 'aic', 'mdl']),
+    /** `known`: as many as there are targets. */
+    sources: estimator.picks('sources', ['known', 'mdl', 'aic'], 'known'),
     methods: names<Method>(['bartlett', 'capon', 'music', 'root-music'], methodNames),
-    grid: number(1024, LIMITS.gridPoints, 'integer'),
-    average: flag(false),
-    refine: flag(false),
+    /** At most what quick methods do within a frame. */
+    grid: estimator.field('gridPoints', { max: 8192 }),
+    average: estimator.field('forwardBackward'),
+    refine: estimator.field('refine'),
     networks: networkNames,
-    smoothing: number(0, [0, LIMITS.elements[1]], 'integer'),
+    smoothing: estimator.maybe('smoothing'),
   },
   ['array', 'targets', 'snr', 'snapshots', 'seed', 'methods'],
 );

@@ -3,51 +3,32 @@ import type { Method } from 'boresight';
 import { singleSnapshotMethods } from '../../methods.ts';
 import { choosing, fitting } from '../../networks/choose.ts';
 import { stopped } from '../../networks/load.ts';
-import { COLOR_MAPS } from '../../plots/colormap.ts';
-import { showHelp } from '../../state/settings.ts';
-import { CheckField, Group, SelectField, SliderField } from '../../ui/field.tsx';
+import { power } from '../../plots/format.ts';
+import { controlOf } from '../../ui/control.tsx';
+import { ControlsHead } from '../../ui/controls-head.tsx';
+import { CheckField, Group, SliderField } from '../../ui/field.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
-import { NumberField } from '../../ui/number-field.tsx';
+import { SeedField } from '../../ui/seed-field.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { cellM, input, reachM } from './input.ts';
 import { geometriesOf, images, networkFor, unavailable } from './process.ts';
-import { birdseyeState, CELLS, FALSE_ALARMS, LIMITS, RADARS, restoreDefaults, SPANS, update } from './state.ts';
+import { birdseyeCodec, birdseyeState, RADARS, restoreDefaults, update } from './state.ts';
+
+const Control = controlOf(birdseyeCodec, birdseyeState, update);
 
 export function Controls() {
   const state = birdseyeState.value;
   const street = state.source === 'street';
   return (
     <Sidebar label="Bird’s-eye view settings" button="scene and settings">
-      <div class="controls-head">
-        <CheckField
-          label="Explain the controls"
-          value={showHelp.value}
-          help="Shows a sentence below each control."
-          onChange={(on) => {
-            showHelp.value = on;
-          }}
-        />
-        <button
-          type="button"
-          class="plain"
-          title="Back to the settings a fresh visit starts with"
-          onClick={restoreDefaults}
-        >
-          Defaults
-        </button>
-      </div>
+      <ControlsHead onDefaults={restoreDefaults} />
       <Group title="Scene">
-        <SelectField
+        <Control
           label="Input"
           name="source"
-          value={state.source}
-          options={[
-            ['street', 'simulated street'],
-            ['capture', 'real capture'],
-          ]}
+          labels={{ street: 'simulated street', capture: 'real capture' }}
           help="A street that four radars of a car see, with its truth; or the recording that is open on the page Capture."
-          onChange={(source) => update({ source })}
         />
         {street ? <Street /> : <Frame />}
       </Group>
@@ -86,154 +67,85 @@ export function Controls() {
             detail: info.network && <Network method={info.name} />,
           }))}
         />
-        <SelectField
+        <Control
           label="Images of"
           name="from"
-          value={state.from}
-          options={[
-            ['spectra', 'spectra'],
-            ['targets', 'targets'],
-          ]}
           help="What each cell adds to the image: its whole spectrum over azimuth, or the directions found in it. Methods without a spectrum give targets."
-          onChange={(from) => update({ from })}
         />
-        <SelectField
-          label="Spectrum"
-          name="points"
-          value={state.points}
-          options={(['256', '512', '1024', '2048'] as const).map((points) => [points, `${points} points`] as const)}
-          help="Points of each cell's spectrum, uniform in the sine of azimuth."
-          onChange={(points) => update({ points })}
-        />
-        <SelectField
+        <Control label="Spectrum" name="points" labels={(points) => `${points} points`} />
+        <Control
           label="Sources a cell"
           name="sources"
-          value={state.sources}
-          options={(['1', '2', '3', '4'] as const).map((sources) => [sources, sources] as const)}
           help="Directions that maximum likelihood and MUSIC look for in each cell: one snapshot does not tell how many there are. The others need not know."
-          onChange={(sources) => update({ sources })}
         />
-        <CheckField
-          label="Refine by Gauss-Newton"
-          name="refine"
-          value={state.refine}
-          help="Fits all angles of a method together to each cell: drops those that noise explains, adds what was missed. Of images of targets."
-          onChange={(refine) => update({ refine })}
-        />
-        <SelectField
-          label="False-alarm rate"
-          name="falseAlarm"
-          value={state.falseAlarm}
-          options={FALSE_ALARMS.map(
-            (rate) =>
-              [
-                rate,
-                `10${rate
-                  .slice(2)
-                  .replace('-', '⁻')
-                  .replace(/\d/, (digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(digit)] ?? '')}`,
-              ] as const,
-          )}
-          help="Of the detector: probability that noise alone passes in one cell of range and Doppler. A higher one detects more cells."
-          onChange={(falseAlarm) => update({ falseAlarm })}
-        />
-        <CheckField
+        <Control label="Refine by Gauss-Newton" name="refine" note="Of images of targets." />
+        <Control label="False-alarm rate" name="falseAlarm" labels={power} note="A higher one detects more cells." />
+        <Control
           label="Keep local peaks only"
           name="grouping"
-          value={state.grouping}
           help="Of adjacent cells over the threshold, the strongest alone goes into the image: faster, and less is filled."
-          onChange={(grouping) => update({ grouping })}
         />
       </Group>
       <Group title="Image">
-        <NumberField
+        <Control
           label="Reach"
-          unit="m"
           name="reach"
+          unit="m"
           value={reachM.value}
-          min={LIMITS.reachM[0]}
-          max={LIMITS.reachM[1]}
           step={5}
-          help="How far the images go ahead of the rear axle; to each side it is less."
-          onChange={(reach) => update({ reach })}
+          help="How far the images go ahead of the rear axle; to each side it is less. Empty for what suits the scene."
         />
-        <SelectField
+        <Control
           label="Cell"
           name="cell"
           value={String(cellM.value) as '0.2'}
-          options={CELLS.map((size) => [size, `${size} m`] as const)}
+          labels={(size) => `${size} m`}
           help="Width of a cell of the image."
-          onChange={(cell) => update({ cell })}
         />
         {street && (
-          <NumberField
+          <Control
             label="Gate"
-            unit="m"
             name="gate"
-            value={state.gate ?? Number.NaN}
-            min={LIMITS.gateM[0]}
-            max={LIMITS.gateM[1]}
+            unit="m"
             step={0.5}
             help="The sidelobe measure counts what is farther than this from every true point. Empty for as much as the radars cannot resolve, which grows with range."
-            onChange={(gate) => update({ gate })}
-            onEmpty={() => update({ gate: null })}
           />
         )}
       </Group>
       <Group title="Display">
-        <SelectField
+        <Control
           label="Dynamic range"
           name="span"
-          value={state.span}
-          options={SPANS.map((span) => [span, `${span} dB`] as const)}
+          labels={(span) => `${span} dB`}
           help="From the first colour to the last."
-          onChange={(span) => update({ span })}
         />
-        <NumberField
+        <Control
           label="Last colour"
-          unit="dBFS"
           name="top"
-          value={state.top ?? Number.NaN}
-          min={LIMITS.topDb[0]}
-          max={LIMITS.topDb[1]}
-          step={1}
+          unit="dBFS"
           help="Power of the last colour; the same for all images. Empty for the strongest cell of all."
-          onChange={(top) => update({ top })}
-          onEmpty={() => update({ top: null })}
         />
-        <SelectField
+        <Control
           label="Colour map"
           name="colors"
-          value={state.colors}
-          options={COLOR_MAPS.map((name) => [name, name] as const)}
           help="All three are perceptually uniform; cividis is made for colour-blind readers."
-          onChange={(colors) => update({ colors })}
         />
         <SliderField
           label="Opacity"
           name="opacity"
           value={state.opacity}
-          min={LIMITS.opacity[0]}
-          max={LIMITS.opacity[1]}
+          {...birdseyeCodec.fields.opacity.range}
           step={5}
           text={`${state.opacity} %`}
           help="Of the image over the grid of the plot."
           onChange={(opacity) => update({ opacity })}
         />
-        <CheckField
+        <Control
           label={street ? 'Truth' : 'Objects the board reported'}
           name="truth"
-          value={state.truth}
           help="Draws the things of the street and their points over the images; for the capture what its board reported."
-          onChange={(truth) => update({ truth })}
         />
-        <CheckField
-          label="Fields of view"
-          name="fields"
-          value={state.fields}
-          help="Draws where each radar sits and what it sees."
-          onChange={(fields) => update({ fields })}
-        />
+        <Control label="Fields of view" name="fields" help="Draws where each radar sits and what it sees." />
       </Group>
     </Sidebar>
   );
@@ -254,38 +166,15 @@ function Network({ method }: { method: Method }) {
 }
 
 function Street() {
-  const state = birdseyeState.value;
   return (
     <>
-      <NumberField
-        label="Own speed"
-        unit="m/s"
-        name="speed"
-        value={state.speed}
-        min={LIMITS.speedMps[0]}
-        max={LIMITS.speedMps[1]}
-        step={1}
-        help="The faster the car, the farther Doppler tells apart what stands at one range in different directions."
-        onChange={(speed) => update({ speed })}
-      />
-      <NumberField
-        label="Seed"
-        name="seed"
-        integer
-        value={state.seed}
-        min={LIMITS.seed[0]}
-        max={LIMITS.seed[1]}
-        help="Everything random comes from it: the same seed gives the same street."
+      <Control label="Own speed" name="speed" />
+      <SeedField
+        value={birdseyeState.value.seed}
+        what="street"
+        title="Another street"
         onChange={(seed) => update({ seed })}
       />
-      <button
-        type="button"
-        class="plain new-seed"
-        title="Another street"
-        onClick={() => update({ seed: (state.seed + 1) % LIMITS.seed[1] })}
-      >
-        Next seed
-      </button>
     </>
   );
 }

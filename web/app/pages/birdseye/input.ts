@@ -3,7 +3,7 @@ import { computed } from '@preact/signals';
 import type { ArrayInput, CubeChainOptions, Mounting, StreetScene, ViewGrid, Waveform } from 'boresight';
 import { api, describeError, type Problem } from '../../data.ts';
 import { boardLog, type Loaded, loaded, waiting } from '../capture/files.ts';
-import { type BirdseyeState, birdseyeState, LIMITS, RADARS } from './state.ts';
+import { type BirdseyeState, birdseyeState, MAX_CELLS, MAX_REACH_M, RADARS } from './state.ts';
 
 export interface Radar {
   name: string;
@@ -82,7 +82,7 @@ const capture = computed<Input | Problem | null>(() => {
     key: `capture ${numbers.get(open)}`,
     street: null,
     capture: open,
-    reachM: Math.min(Math.ceil(summary.maxRangeM), LIMITS.reachM[1]),
+    reachM: Math.min(Math.ceil(summary.maxRangeM), MAX_REACH_M),
     cellM: 0.05,
     radars: [
       {
@@ -133,10 +133,10 @@ export const grid = computed<ViewGrid>(() => {
 export const gridProblem = computed<Problem | null>(() => {
   const { xM, yM, cellM: size } = grid.value;
   const cells = ((xM[1] - xM[0]) / size) * ((yM[1] - yM[0]) / size);
-  if (cells <= LIMITS.cells) return null;
+  if (cells <= MAX_CELLS) return null;
   return {
     code: 'too-large',
-    message: `Cells of ${size} m out to ${reachM.value} m would be ${(cells / 1e6).toFixed(1)} million; at most ${LIMITS.cells / 1e6} million are expected. Choose wider cells or a shorter reach.`,
+    message: `Cells of ${size} m out to ${reachM.value} m would be ${(cells / 1e6).toFixed(1)} million; at most ${MAX_CELLS / 1e6} million are expected. Choose wider cells or a shorter reach.`,
   };
 });
 

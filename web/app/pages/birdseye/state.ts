@@ -2,29 +2,19 @@
 import { signal } from '@preact/signals';
 import type { Method } from 'boresight';
 import { networkNames, singleSnapshotMethods } from '../../methods.ts';
+import { optionsOf } from '../../options.ts';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
 import type { View } from '../../plots/plot.ts';
 import { choice, codec, type Field, flag, names, number, optional } from '../../state/codec.ts';
+import { seed } from '../../state/seed.ts';
 
-export const SOURCES = ['street', 'capture'] as const;
 /** Names of the street's radars. */
 export const RADARS = ['left', 'front-left', 'front-right', 'right'] as const;
 export type RadarName = (typeof RADARS)[number];
-export const CELLS = ['0.05', '0.1', '0.2', '0.25', '0.5', '1'] as const;
-export const SPANS = ['20', '30', '40', '50', '60', '80'] as const;
-export const FALSE_ALARMS = ['1e-3', '1e-4', '1e-5', '1e-6', '1e-8'] as const;
 
-export const LIMITS = {
-  seed: [0, 4294967295],
-  speedMps: [-30, 30],
-  reachM: [2, 300],
-  gateM: [0.05, 20],
-  topDb: [-200, 100],
-  opacity: [0, 100],
-  frame: [0, 9_999_999],
-  /** Cells of an image that a page can hold for several methods. */
-  cells: 4_000_000,
-} as const;
+export const MAX_REACH_M = 300;
+/** Cells of an image that a page can hold for several methods. */
+export const MAX_CELLS = 4_000_000;
 
 const place: Field<View> = {
   fallback: { x: [0, 1], y: [0, 1] },
@@ -38,34 +28,39 @@ const place: Field<View> = {
   write: ({ x, y }) => [...x, ...y].map((value) => Number(value.toFixed(2))).join(':'),
 };
 
+const street = optionsOf('StreetOptions');
+const detection = optionsOf('DetectionOptions');
+const estimator = optionsOf('SharedEstimatorOptions');
+
 export const birdseyeCodec = codec(
   {
-    source: choice('street', SOURCES),
-    seed: number(1, LIMITS.seed, 'integer'),
-    speed: number(6, LIMITS.speedMps),
+    source: choice('street', ['street', 'capture']),
+    seed,
+    speed: street.field('egoSpeedMps'),
     radars: names<RadarName>(RADARS, RADARS),
-    frame: number(0, LIMITS.frame, 'integer'),
+    frame: number(0, [0, 9_999_999], 'integer'),
     methods: names<Method>(['bartlett', 'iaa', 'nomp'], () => singleSnapshotMethods().map(({ name }) => name)),
     networks: networkNames,
-    refine: flag(false),
+    refine: estimator.field('refine'),
     from: choice('spectra', ['spectra', 'targets']),
-    falseAlarm: choice('1e-6', FALSE_ALARMS),
-    grouping: flag(false),
+    falseAlarm: detection.picks('cfar.falseAlarm', ['1e-3', '1e-4', '1e-5', '1e-6', '1e-8']),
+    /** Images are of all cells that are detected, not of their peaks. */
+    grouping: detection.field('peakGrouping', { fallback: false }),
     /** Directions in a cell, for methods that must be told. */
-    sources: choice('2', ['1', '2', '3', '4']),
-    points: choice('1024', ['256', '512', '1024', '2048']),
+    sources: estimator.picks('sources', ['1', '2', '3', '4'], '2'),
+    points: estimator.picks('gridPoints', ['256', '512', '1024', '2048']),
     /** How far the images reach, m; null for what suits the input. */
-    reach: optional(number(0, LIMITS.reachM)),
+    reach: optional(number(0, [2, MAX_REACH_M])),
     /** Null for what suits the input. */
-    cell: optional(choice('0.2', CELLS)),
+    cell: optional(choice('0.2', ['0.05', '0.1', '0.2', '0.25', '0.5', '1'])),
     /** Radius of what counts as a target, m; null for what the radars resolve. */
-    gate: optional(number(1, LIMITS.gateM)),
-    span: choice('60', SPANS),
+    gate: optional(number(1, [0.05, 20])),
+    span: choice('60', ['20', '30', '40', '50', '60', '80']),
     /** Power of the last colour, dB; null for the strongest cell's. */
-    top: optional(number(0, LIMITS.topDb)),
+    top: optional(number(0, [-200, 100])),
     colors: choice('viridis', COLOR_MAPS),
     /** Percent. */
-    opacity: number(90, LIMITS.opacity),
+    opacity: number(90, [0, 100]),
     truth: flag(true),
     fields: flag(true),
     view: optional(place),

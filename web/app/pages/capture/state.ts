@@ -1,23 +1,11 @@
 /** State of the capture page: all of it in the address but the files themselves. */
 import { signal } from '@preact/signals';
-import type { Cell, CfarKind, ChainOptions, Method, WindowName } from 'boresight';
+import type { Cell, ChainOptions, Method } from 'boresight';
 import { methodNames, networkNames } from '../../methods.ts';
+import { optionsOf } from '../../options.ts';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
-import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
+import { choice, codec, type Field, names, text } from '../../state/codec.ts';
 import { PRESETS } from '../angle/state.ts';
-
-export const WINDOWS: readonly WindowName[] = [
-  'rectangular',
-  'hann',
-  'hamming',
-  'blackman',
-  'blackman-harris',
-  'chebyshev',
-  'taylor',
-];
-export const CFARS: readonly CfarKind[] = ['cell-averaging', 'greatest-of', 'smallest-of', 'ordered-statistic'];
-
-export const FALSE_ALARMS = ['1e-2', '1e-3', '1e-4', '1e-5', '1e-6', '1e-7', '1e-8'] as const;
 
 /** `all`, or a frame's number. */
 const frame: Field<number | 'all'> = {
@@ -39,33 +27,38 @@ const cell: Field<Cell | null> = {
   write: (value) => (value ? `${value.rangeBin}:${value.dopplerBin}` : ''),
 };
 
+const detection = optionsOf('DetectionOptions');
+
 export const captureCodec = codec(
   {
     frame,
     cell,
     array: choice('auto', ['auto', ...PRESETS]),
-    window: choice<WindowName>('hann', WINDOWS),
-    dopplerWindow: choice<WindowName>('hann', WINDOWS),
-    rangePadding: choice('1', ['1', '2', '4']),
-    dopplerPadding: choice('1', ['1', '2', '4', '8']),
-    clutter: flag(false),
-    cfar: choice<CfarKind>('cell-averaging', CFARS),
-    axes: choice('range', ['range', 'doppler', 'both']),
-    falseAlarm: choice('1e-6', FALSE_ALARMS),
-    guardRange: number(4, [0, 32], 'integer'),
-    guardDoppler: number(2, [0, 32], 'integer'),
-    trainRange: number(8, [1, 64], 'integer'),
-    trainDoppler: number(4, [1, 64], 'integer'),
-    rank: number(0.75, [0.05, 1]),
-    grouping: flag(true),
-    nearest: number(0, [0, 10_000]),
-    farthest: number(0, [0, 10_000]),
-    sector: number(90, [1, 90]),
-    angle: choice<Method>('bartlett', methodNames),
+    window: detection.field('rangeWindow'),
+    dopplerWindow: detection.field('dopplerWindow'),
+    rangePadding: detection.picks('rangePadding', ['1', '2', '4']),
+    dopplerPadding: detection.picks('dopplerPadding', ['1', '2', '4', '8']),
+    clutter: detection.field('staticClutterRemoval'),
+    cfar: detection.field('cfar.kind'),
+    axes: detection.field('cfar.axes'),
+    falseAlarm: detection.picks('cfar.falseAlarm', ['1e-2', '1e-3', '1e-4', '1e-5', '1e-6', '1e-7', '1e-8']),
+    // Wider windows find no room in a frame, and none finds no noise.
+    guardRange: detection.field('cfar.guardCells.0', { max: 32 }),
+    guardDoppler: detection.field('cfar.guardCells.1', { max: 32 }),
+    trainRange: detection.field('cfar.trainingCells.0', { min: 1, max: 64 }),
+    trainDoppler: detection.field('cfar.trainingCells.1', { min: 1, max: 64 }),
+    rank: detection.field('cfar.rank'),
+    grouping: detection.field('peakGrouping'),
+    // 0 for no limit: the package then has its own, or none where only the other is given.
+    nearest: detection.field('region.rangeM.0', { fallback: 0, min: 0, max: 10_000 }),
+    farthest: detection.field('region.rangeM.1', { fallback: 0, min: 0, max: 10_000 }),
+    /** Half of it, to both sides. */
+    sector: detection.field('region.azimuthDeg.1', { fallback: 90, min: 1 }),
+    angle: detection.field('angle.method'),
     methods: names<Method>(['bartlett', 'capon', 'iaa'], methodNames),
-    sources: choice('mdl', ['mdl', 'aic', '1', '2', '3', '4']),
+    sources: detection.picks('angle.sources', ['mdl', 'aic', '1', '2', '3', '4']),
     networks: networkNames,
-    refine: flag(false),
+    refine: detection.field('angle.refine'),
     span: choice('60', ['30', '40', '50', '60', '80']),
     colors: choice('viridis', COLOR_MAPS),
     board: text('last', (value) => value === 'last' || /^\d{1,7}$/.test(value)),

@@ -1,60 +1,47 @@
 /** State of the mounting-angle page: all of it in the address but the files themselves. */
 import { signal } from '@preact/signals';
-import type { CalibrationOptions, DriveSensor, MotionMethod } from 'boresight';
+import type { CalibrationOptions, DriveSensor } from 'boresight';
+import { optionsOf, percent } from '../../options.ts';
 import { choice, codec, flag, names, number, optional } from '../../state/codec.ts';
+import { seed } from '../../state/seed.ts';
 import { WAYS, type Way } from './ways.ts';
 
-export const MOTIONS: readonly MotionMethod[] = ['ransac', 'weighted-least-squares', 'orthogonal-distance', 'tracked'];
-export const SCENARIOS = ['city', 'country-road', 'motorway', 'car-park', 'stop-and-go', 'dense-traffic'] as const;
 export const SPEEDS = ['0.5', '1', '2', '5', '10', '30'] as const;
 
-export const LIMITS = {
-  seed: [0, 4294967295],
-  durationS: [5, 3600],
-  movingPercent: [0, 80],
-  misalignmentDeg: [-20, 20],
-  placeM: [-100, 100],
-  angleDeg: [-180, 180],
-  minSpeedMps: [0, 100],
-  maxYawRateDegps: [0.1, 180],
-  alarmDeg: [0.01, 45],
-  convergedDeg: [0.001, 45],
-  rangeRateSigmaMps: [0.001, 10],
-  azimuthSigmaDeg: [0, 45],
-  inlierResidualMps: [0.001, 10],
-  share: [0, 1],
-  minInliers: [3, 200],
-} as const;
+const drive = optionsOf('SimulateDriveOptions');
+const calibration = optionsOf('CalibrationOptions');
+export const USUAL_SPEED = calibration.field('minSpeedMps').fallback;
 
 export const mountingCodec = codec(
   {
     source: choice('delphi', ['delphi', 'simulated', 'files']),
-    scenario: choice('city', SCENARIOS),
-    seed: number(1, LIMITS.seed, 'integer'),
-    duration: number(60, LIMITS.durationS),
-    /** Percent; null for what the scenario's traffic gives. */
-    moving: optional(number(0, LIMITS.movingPercent)),
-    misalignment: number(1.5, LIMITS.misalignmentDeg),
+    scenario: drive.field('scenario'),
+    seed,
+    /** At most what four radars may last. */
+    duration: drive.field('durationS', { max: 3600 }),
+    moving: percent(drive.maybe('movingShare')),
+    /** Of all radars, and worth finding by default. The recursive method finds back from no farther. */
+    misalignment: drive.field('misalignmentDeg.0', { fallback: 1.5, min: -20, max: 20 }),
     /** The radar's number; null for the first. */
     sensor: optional(number(0, [0, 255], 'integer')),
     methods: names<Way>(['recursive', 'weighted-mean', 'least-squares'], WAYS),
     /** Whose frames are shown. */
     shown: choice<Way>('recursive', WAYS),
-    /** Null for what the drive says. */
-    xM: optional(number(0, LIMITS.placeM)),
-    yM: optional(number(0, LIMITS.placeM)),
-    nominal: optional(number(0, LIMITS.angleDeg)),
-    alarm: number(1, LIMITS.alarmDeg),
-    converged: number(0.1, LIMITS.convergedDeg),
-    motion: choice('auto', ['auto', ...MOTIONS]),
+    // Null for what the drive says.
+    xM: calibration.maybe('xM'),
+    yM: calibration.maybe('yM'),
+    nominal: calibration.maybe('nominalDeg'),
+    alarm: calibration.field('alarmDeg'),
+    converged: calibration.field('convergedDeg'),
+    motion: calibration.or('motion', 'auto'),
     /** Null for what suits the drive. */
-    minSpeed: optional(number(0, LIMITS.minSpeedMps)),
-    maxYawRate: number(140, LIMITS.maxYawRateDegps),
-    rangeRateSigma: number(0.1, LIMITS.rangeRateSigmaMps),
-    azimuthSigma: number(0.5, LIMITS.azimuthSigmaDeg),
-    inlierResidual: number(0.3, LIMITS.inlierResidualMps),
-    inlierRatio: number(0.3, LIMITS.share),
-    minInliers: number(5, LIMITS.minInliers, 'integer'),
+    minSpeed: calibration.maybe('minSpeedMps'),
+    maxYawRate: calibration.field('maxYawRateDegps'),
+    rangeRateSigma: calibration.field('rangeRateSigmaMps'),
+    azimuthSigma: calibration.field('azimuthSigmaDeg'),
+    inlierResidual: calibration.field('inlierResidualMps'),
+    inlierRatio: calibration.field('inlierRatioThreshold'),
+    minInliers: calibration.field('minInliers'),
     band: choice('1', ['1', '2']),
     singles: flag(true),
     residual: flag(false),
@@ -93,8 +80,10 @@ export function place(state: MountingState, sensor: DriveSensor): Place {
 }
 
 /** Slowest frames to use, m/s: tracked objects say little of a slow car. */
+export const TRACKED_SPEED = 3;
+
 export function minSpeed(state: MountingState, format: string): number {
-  return state.minSpeed ?? (format === 'delphi' ? 3 : 1);
+  return state.minSpeed ?? (format === 'delphi' ? TRACKED_SPEED : USUAL_SPEED);
 }
 
 /** The part of the state that the angle depends on, as the package takes it; a method comes with each job. */

@@ -1,17 +1,13 @@
 /** The ways to an angle: the package's methods for one radar, and the joint one for all. */
 import type { CalibrationMethod } from 'boresight';
 import { api } from '../../data.ts';
+import { optionsOf } from '../../options.ts';
 
 export type Way = CalibrationMethod | 'joint';
 
-export const WAYS: readonly Way[] = [
-  'recursive',
-  'weighted-mean',
-  'kabsch',
-  'least-squares',
-  'orthogonal-distance',
-  'joint',
-];
+const { fallback, values } = optionsOf('CalibrationOptions').field('method');
+
+export const WAYS: readonly Way[] = [fallback, ...values().filter((name) => name !== fallback), 'joint'];
 
 let known: ReadonlyMap<Way, { title: string; reference: string }> | undefined;
 

@@ -5,7 +5,7 @@ import { api, describeError, type Problem, pool } from '../../data.ts';
 import { load, loadings, models } from '../../networks/load.ts';
 import { type Card, elementsOf, type Model, targetsOf } from '../../networks/models.ts';
 import { REGION_ARRAY, simulateRegion } from './region.ts';
-import { LIMITS, type NetworksState, networksState } from './state.ts';
+import { type NetworksState, networksState, TARGET_RANGE } from './state.ts';
 
 export interface Row {
   method: Method;
@@ -49,7 +49,7 @@ export const selected = computed<Model | undefined>(() =>
 
 /** How many targets a network can be tried on. */
 export function targetRange(card: Card): readonly [number, number] {
-  if (card.network === 'aaetr') return LIMITS.targets;
+  if (card.network === 'aaetr') return TARGET_RANGE;
   const fixed = targetsOf(card);
   return card.network === 'counting' ? [0, 2] : fixed === null ? [1, 2] : [fixed, fixed];
 }

@@ -1,12 +1,16 @@
 /** Which network is looked at, the scene it is tried on, and a user's own. */
 import { models } from '../../networks/load.ts';
-import { showHelp } from '../../state/settings.ts';
-import { CheckField, Group, SelectField } from '../../ui/field.tsx';
+import { controlOf } from '../../ui/control.tsx';
+import { ControlsHead } from '../../ui/controls-head.tsx';
+import { Group, SelectField } from '../../ui/field.tsx';
 import { NumberField } from '../../ui/number-field.tsx';
+import { SeedField } from '../../ui/seed-field.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { selected, targetRange, targetsIn } from './attempt.ts';
 import { OwnNetwork } from './own.tsx';
-import { LIMITS, networksCodec, networksState, update } from './state.ts';
+import { networksCodec, networksState, update } from './state.ts';
+
+const Control = controlOf(networksCodec, networksState, update);
 
 export function Controls() {
   const state = networksState.value;
@@ -14,26 +18,11 @@ export function Controls() {
   const [fewest, most] = card ? targetRange(card) : [0, 0];
   return (
     <Sidebar label="Networks settings" button="network and scene">
-      <div class="controls-head">
-        <CheckField
-          label="Explain the controls"
-          value={showHelp.value}
-          help="Shows a sentence below each control."
-          onChange={(on) => {
-            showHelp.value = on;
-          }}
-        />
-        <button
-          type="button"
-          class="plain"
-          title="Back to the settings a fresh visit starts with"
-          onClick={() => {
-            networksState.value = networksCodec.defaults;
-          }}
-        >
-          Defaults
-        </button>
-      </div>
+      <ControlsHead
+        onDefaults={() => {
+          networksState.value = networksCodec.defaults;
+        }}
+      />
       <Group title="Network">
         <SelectField
           label="Network"
@@ -58,57 +47,22 @@ export function Controls() {
             onChange={(targets) => update({ targets })}
           />
         )}
-        <NumberField
+        <Control
           label="SNR"
-          unit="dB"
           name="snr"
-          value={state.snr}
-          min={LIMITS.snrDb[0]}
-          max={LIMITS.snrDb[1]}
-          step={1}
+          unit="dB"
           help="Of a snapshot: power of a 0 dB target at one element over the noise there. Of a region: of one sample of one chirp at one element, before any transform."
-          onChange={(snr) => update({ snr })}
         />
         {card && card.network !== 'aaetr' && targetsIn(state, card) === 2 && (
-          <SelectField
+          <Control
             label="Two targets"
             name="range"
-            value={state.range}
-            options={[
-              ['apart', 'own ranges'],
-              ['together', 'one range'],
-            ]}
+            labels={{ apart: 'own ranges', together: 'one range' }}
             help="At one range their echoes are coherent. Also for the experiments’ plots."
-            onChange={(range) => update({ range })}
           />
         )}
-        <NumberField
-          label="Seed"
-          name="seed"
-          integer
-          value={state.seed}
-          min={LIMITS.seed[0]}
-          max={LIMITS.seed[1]}
-          help="Targets and noise are drawn from it: the same seed gives the same scene."
-          onChange={(seed) => update({ seed })}
-        />
-        <button
-          type="button"
-          class="plain new-seed"
-          title="Another scene"
-          onClick={() => update({ seed: (state.seed + 1) % LIMITS.seed[1] })}
-        >
-          Next seed
-        </button>
-        {card?.network === 'aaetr' && (
-          <CheckField
-            label="Refine by Gauss-Newton"
-            name="refine"
-            value={state.refine}
-            help="Fits all angles of a method together to the snapshot: drops those that noise explains, adds what was missed."
-            onChange={(refine) => update({ refine })}
-          />
-        )}
+        <SeedField value={state.seed} what="scene" title="Another scene" onChange={(seed) => update({ seed })} />
+        {card?.network === 'aaetr' && <Control label="Refine by Gauss-Newton" name="refine" />}
         <button
           type="button"
           class={state.run ? '' : 'primary'}

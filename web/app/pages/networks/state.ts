@@ -1,9 +1,11 @@
 /** State of the page Networks: all of it in the address but a user's own files. */
 import { signal } from '@preact/signals';
 import { MODELS } from '../../networks/models.ts';
+import { optionsOf } from '../../options.ts';
 import { choice, codec, flag, number, text } from '../../state/codec.ts';
+import { seed } from '../../state/seed.ts';
 
-export const LIMITS = { targets: [0, 16], snrDb: [-30, 60], seed: [0, 4294967295] } as const;
+export const TARGET_RANGE = [0, 16] as const;
 export const EXPERIMENT_SNRS = ['15', '25', '35'] as const;
 export const TARGETS = ['2', '3', '4', '5', '6', '7', '8', '9', '10'] as const;
 export const REGION_SNRS = ['-10', '-5', '0', '5', '10', '15'] as const;
@@ -13,10 +15,10 @@ const first = MODELS[0]?.name ?? '';
 export const networksCodec = codec(
   {
     model: text(first, (name) => MODELS.some((model) => model.name === name)),
-    targets: number(6, LIMITS.targets, 'integer'),
-    snr: number(15, LIMITS.snrDb),
-    seed: number(1, LIMITS.seed, 'integer'),
-    refine: flag(false),
+    targets: number(6, TARGET_RANGE, 'integer'),
+    snr: number(15, [-30, 60]),
+    seed,
+    refine: optionsOf('SharedEstimatorOptions').field('refine'),
     /** Whether the scene is run, and the network for it loaded. */
     run: flag(false),
     /** Of the experiments' plots. */

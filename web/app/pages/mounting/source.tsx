@@ -1,0 +1,120 @@
+/** Where the drive comes from. */
+import { useRef } from 'preact/hooks';
+import { byteSize } from '../../plots/format.ts';
+import { showHelp } from '../../state/settings.ts';
+import { useFileDrop } from '../../ui/drop.ts';
+import { Licence } from '../../ui/licence.tsx';
+import { SeedField } from '../../ui/seed-field.tsx';
+import { Control } from './control.ts';
+import { chooseSource, loaded, openFiles } from './drive.ts';
+import { droppedFiles, pickedFiles } from './entries.ts';
+import { mountingState, update } from './state.ts';
+
+export function Source() {
+  const files = useRef<HTMLInputElement>(null);
+  const folder = useRef<HTMLInputElement>(null);
+  const over = useFileDrop((transfer) => void openFiles(droppedFiles(transfer)));
+  const state = mountingState.value;
+  const open = loaded.value;
+  const pick = (event: { currentTarget: HTMLInputElement }): void => {
+    const list = pickedFiles(event.currentTarget.files);
+    event.currentTarget.value = '';
+    if (list.length) void openFiles(list);
+  };
+  return (
+    <>
+      <Control
+        label="Drive"
+        name="source"
+        only={['delphi', 'simulated']}
+        labels={{ delphi: 'bundled', files: 'own files' }}
+        help="The bundled drive is a car's front radar in traffic; a simulated one has a truth to compare with."
+        onChange={(source) => {
+          if (source !== 'files') chooseSource(source);
+        }}
+      />
+      {state.source === 'simulated' && <Simulation />}
+      <div class={`drop${over.value ? ' over' : ''}`}>
+        {open && open.files.length > 0 && (
+          <ul class="files own" aria-label="Open files">
+            {open.files.slice(0, 6).map(({ name, bytes }) => (
+              <li key={name}>
+                <span class="file">{name}</span>
+                <span class="muted">{byteSize(bytes)}</span>
+              </li>
+            ))}
+            {open.files.length > 6 && <li class="muted">and {open.files.length - 6} more</li>}
+          </ul>
+        )}
+        {open?.licence && (
+          <Licence
+            address={open.licence}
+            summary="From PJLab-ADG/SensorsCalibration, Apache-2.0"
+            remark="The first 600 s of its drive with a Delphi (Aptiv) ESR. These are tracked objects at 20 Hz, not raw detections; the yaw rate is differentiated from the pose."
+          />
+        )}
+        <div class="row">
+          <button
+            type="button"
+            onClick={() => files.current?.click()}
+            title="Tables (.csv, .csv.gz) of detections and motion, or radar_data.h5"
+          >
+            Open files
+          </button>
+          <button
+            type="button"
+            onClick={() => folder.current?.click()}
+            title="The folder of a RadarScenes sequence, or of tables"
+          >
+            Open a folder
+          </button>
+          <input
+            ref={files}
+            type="file"
+            multiple
+            hidden
+            accept=".csv,.gz,.h5,.hdf5"
+            aria-label="Drive files"
+            data-input="files"
+            onChange={pick}
+          />
+          <input
+            ref={folder}
+            type="file"
+            hidden
+            {...{ webkitdirectory: true }}
+            aria-label="Drive folder"
+            data-input="folder"
+            onChange={pick}
+          />
+        </div>
+        <p class={showHelp.value ? 'help' : 'muted small'}>
+          Or drop the folder of a RadarScenes sequence, Delphi tables or general CSV tables anywhere on the page.
+          Nothing is uploaded.
+        </p>
+      </div>
+    </>
+  );
+}
+
+function Simulation() {
+  return (
+    <>
+      <Control label="Scenario" name="scenario" />
+      <Control label="Duration" name="duration" />
+      <Control label="Moving share" name="moving" />
+      <Control
+        label="Misalignment"
+        name="misalignment"
+        step={0.1}
+        help="By how much the true mounting angle of each radar exceeds its nominal one."
+      />
+      <SeedField
+        value={mountingState.value.seed}
+        what="drive"
+        title="Another drive of the kind"
+        onChange={(seed) => update({ seed })}
+      />
+    </>
+  );
+}
