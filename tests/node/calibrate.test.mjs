@@ -1,13 +1,13 @@
 // The mounting angle out of frames made here: a car on a winding road, a radar that sees standing points.
 import assert from 'node:assert/strict';
 import { before, describe, test } from 'node:test';
-import { Calibration, calibrationMethods, init } from 'boresight';
+import { Calibration, calibrationMethods, init, initDrives } from 'boresight';
 import { createPool } from 'boresight/worker';
 import glue from '../../dist/wasm/boresight.js';
 import { throwsTyped } from './lib/assert.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 
-before(() => init());
+before(() => Promise.all([init(), initDrives()]));
 
 const rad = Math.PI / 180;
 const radar = { method: 'least-squares', xM: 3.86, yM: 0.7 };

@@ -262,10 +262,10 @@ mod tests {
     }
 
     /// Every flag in turn: a legal value that is not the default changes its field, and no other.
-    fn every_flag<T: OnCommandLine + Debug + Send + Sync + 'static>(count: usize) {
+    fn every_flag<T: OnCommandLine + Debug + Send + Sync + 'static>(fewest: usize) {
         let defaults = serde_json::to_value(T::default()).unwrap();
         let all = flags(record::<T>(), Some(&defaults), &[], T::ELSEWHERE);
-        assert_eq!(all.len(), count);
+        assert!(all.len() >= fewest, "{}", all.len());
         for flag in all {
             let name = format!("--{}", flag.name().0);
             let mut has_changed = false;

@@ -24,7 +24,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 const SCANS_A_REPORT: usize = 128;
 
 /// How a drive is read.
-#[derive(Default, Described, Serialize, Deserialize)]
+#[derive(Debug, Default, Described, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ReadDriveOptions {
     /// The format of the files; found from their contents where none is named.

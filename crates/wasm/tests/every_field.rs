@@ -37,19 +37,10 @@ fn options_of_streets() {
 }
 
 #[wasm_bindgen_test]
-fn results_come_back_whole() {
-    let options = boresight_calibrate::Options {
-        nominal_rad: Some(0.25),
-        seed: 7,
-        ..boresight_calibrate::Options::default()
-    };
-    let there = carry::write(&options);
-    let back: boresight_calibrate::Options = carry::read(&there).unwrap();
-    assert!((back.nominal_rad.unwrap() - 0.25).abs() < 1e-15);
-    let field = |name: &str| Reflect::get(&there, &name.into()).unwrap();
-    assert!((field("nominalDeg").as_f64().unwrap() - 0.25_f64.to_degrees()).abs() < 1e-12);
-    assert_eq!(field("motion"), JsValue::NULL);
-    assert_eq!(field("method"), JsValue::from("recursive"));
+fn options_of_scenes_counts_and_readers() {
+    every_field::<boresight_simulate::SceneSampling>(4);
+    every_field::<boresight_aoa::counting::CountOptions>(2);
+    every_field::<boresight_wasm::drive::ReadDriveOptions>(1);
 }
 
 /// A field to set: the names in JavaScript that lead to it, and its description.
@@ -60,11 +51,12 @@ struct Leaf {
     field: &'static Field,
 }
 
-fn every_field<T: Described + DeserializeOwned + Debug + Default>(count: usize) {
+/// `fewest` tells that the description was walked through; fields may be added.
+fn every_field<T: Described + DeserializeOwned + Debug + Default>(fewest: usize) {
     let Kind::Record(record) = T::KIND else { panic!("a record") };
     let mut leaves = vec![];
     collect(record, &[], &[], &mut leaves);
-    assert_eq!(leaves.len(), count, "fields of {}", record.name);
+    assert!(leaves.len() >= fewest, "{} fields of {}", leaves.len(), record.name);
     let plain: T = carry::read(&with_required(record)).unwrap();
     for leaf in leaves {
         let mut has_changed = false;

@@ -56,7 +56,11 @@ fn same(kind: &Kind, here: &Value, there: &JsValue, is_angle: bool, path: &str) 
         }
         Kind::Record(record) => {
             let count = fields(record, here, there, path);
-            assert_eq!(count, Object::keys(there.unchecked_ref()).length(), "fields of {path}");
+            assert_eq!(
+                count,
+                Object::keys(there.unchecked_ref::<Object>()).length(),
+                "fields of {path}"
+            );
         }
         Kind::Optional(_) if here.is_null() => assert!(there.is_null(), "{path}"),
         Kind::Optional(kind) => same(kind, here, there, is_angle, path),
@@ -213,7 +217,8 @@ fn records_of_captures_and_images() {
     whole(&view.columns());
     let gate = Gate::Circle { radius_m: 1.0 };
     whole(&sidelobe_measure(&view, &[[4.0, 0.0]], gate).unwrap());
-    let dat = include_bytes!("../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat");
+    let dat =
+        include_bytes!("../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat");
     let log = BoardLog::parse(&dat[..40_000], None);
     whole(&log);
     whole(&log.counts);

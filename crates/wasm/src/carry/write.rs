@@ -3,13 +3,14 @@
 use super::names::property;
 use boresight_core::describe::NumberType;
 use boresight_core::describe::columns::number_type;
+use boresight_core::describe::naming::is_angle;
 use js_sys::{
     Array, Float32Array, Float64Array, Int8Array, Object, Reflect, Uint8Array, Uint32Array,
 };
 use serde::ser::{
     Serialize, SerializeMap, SerializeSeq, SerializeStruct, SerializeTuple, Serializer,
 };
-use serde_wasm_bindgen::Error;
+use std::fmt::{Display, Formatter};
 use wasm_bindgen::{JsCast, JsValue};
 
 /// A result as a plain object. What serde cannot write, of which there is none, becomes undefined.
@@ -21,6 +22,26 @@ pub fn write<T: Serialize + ?Sized>(value: &T) -> JsValue {
 pub fn write_all<T: Serialize>(values: impl IntoIterator<Item = T>) -> Array {
     values.into_iter().map(|value| write(&value)).collect()
 }
+
+/// What no result is: an enum with data, or what serde_wasm_bindgen refuses.
+#[derive(Debug)]
+struct Unwritable;
+
+impl Display for Unwritable {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.write_str("a value that cannot be written")
+    }
+}
+
+impl std::error::Error for Unwritable {}
+
+impl serde::ser::Error for Unwritable {
+    fn custom<T: Display>(_: T) -> Self {
+        Self
+    }
+}
+
+type Written<T> = Result<T, Unwritable>;
 
 /// How a value is written.
 #[derive(Clone, Copy, Default)]
@@ -35,22 +56,22 @@ const LEAVES: serde_wasm_bindgen::Serializer =
 
 macro_rules! leaves {
     ($($method:ident($type:ty))*) => {$(
-        fn $method(self, value: $type) -> Result<JsValue, Error> {
-            LEAVES.$method(value)
+        fn $method(self, value: $type) -> Written<JsValue> {
+            LEAVES.$method(value).map_err(|_| Unwritable)
         }
     )*};
 }
 
 impl<'a> Serializer for Writer<'a> {
     type Ok = JsValue;
-    type Error = Error;
+    type Error = Unwritable;
     type SerializeSeq = List;
     type SerializeTuple = List;
-    type SerializeTupleStruct = serde::ser::Impossible<JsValue, Error>;
-    type SerializeTupleVariant = serde::ser::Impossible<JsValue, Error>;
+    type SerializeTupleStruct = serde::ser::Impossible<JsValue, Unwritable>;
+    type SerializeTupleVariant = serde::ser::Impossible<JsValue, Unwritable>;
     type SerializeMap = Entries;
     type SerializeStruct = Fields<'a>;
-    type SerializeStructVariant = serde::ser::Impossible<JsValue, Error>;
+    type SerializeStructVariant = serde::ser::Impossible<JsValue, Unwritable>;
 
     leaves! {
         serialize_bool(bool)
@@ -63,24 +84,24 @@ impl<'a> Serializer for Writer<'a> {
         false
     }
 
-    fn serialize_f64(self, value: f64) -> Result<JsValue, Error> {
+    fn serialize_f64(self, value: f64) -> Written<JsValue> {
         Ok(if self.is_angle { value.to_degrees() } else { value }.into())
     }
 
-    fn serialize_none(self) -> Result<JsValue, Error> {
-        LEAVES.serialize_none()
+    fn serialize_none(self) -> Written<JsValue> {
+        Ok(JsValue::NULL)
     }
 
-    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Result<JsValue, Error> {
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Written<JsValue> {
         value.serialize(self)
     }
 
-    fn serialize_unit(self) -> Result<JsValue, Error> {
-        LEAVES.serialize_unit()
+    fn serialize_unit(self) -> Written<JsValue> {
+        Ok(JsValue::NULL)
     }
 
-    fn serialize_unit_struct(self, name: &'static str) -> Result<JsValue, Error> {
-        LEAVES.serialize_unit_struct(name)
+    fn serialize_unit_struct(self, _: &'static str) -> Written<JsValue> {
+        Ok(JsValue::NULL)
     }
 
     fn serialize_unit_variant(
@@ -88,7 +109,7 @@ impl<'a> Serializer for Writer<'a> {
         _: &'static str,
         _: u32,
         variant: &'static str,
-    ) -> Result<JsValue, Error> {
+    ) -> Written<JsValue> {
         Ok(property(variant).key)
     }
 
@@ -96,10 +117,10 @@ impl<'a> Serializer for Writer<'a> {
         self,
         name: &'static str,
         value: &T,
-    ) -> Result<JsValue, Error> {
+    ) -> Written<JsValue> {
         let Some(kind) = number_type(name) else { return value.serialize(self) };
         // The bytes of the numbers, in a buffer of their own.
-        let bytes: Uint8Array = value.serialize(&LEAVES)?.unchecked_into();
+        let bytes: Uint8Array = value.serialize(&LEAVES).map_err(|_| Unwritable)?.unchecked_into();
         let buffer = bytes.buffer();
         Ok(match kind {
             NumberType::F64 if self.is_angle => {
@@ -119,43 +140,43 @@ impl<'a> Serializer for Writer<'a> {
         self,
         _: &'static str,
         _: u32,
-        variant: &'static str,
+        _: &'static str,
         _: &T,
-    ) -> Result<JsValue, Error> {
-        Err(serde::ser::Error::custom(variant))
+    ) -> Written<JsValue> {
+        Err(Unwritable)
     }
 
-    fn serialize_seq(self, _: Option<usize>) -> Result<List, Error> {
+    fn serialize_seq(self, _: Option<usize>) -> Written<List> {
         Ok(List { array: Array::new(), is_angle: self.is_angle })
     }
 
-    fn serialize_tuple(self, _: usize) -> Result<List, Error> {
+    fn serialize_tuple(self, _: usize) -> Written<List> {
         self.serialize_seq(None)
     }
 
     fn serialize_tuple_struct(
         self,
-        name: &'static str,
+        _: &'static str,
         _: usize,
-    ) -> Result<Self::SerializeTupleStruct, Error> {
-        Err(serde::ser::Error::custom(name))
+    ) -> Written<Self::SerializeTupleStruct> {
+        Err(Unwritable)
     }
 
     fn serialize_tuple_variant(
         self,
         _: &'static str,
         _: u32,
-        variant: &'static str,
+        _: &'static str,
         _: usize,
-    ) -> Result<Self::SerializeTupleVariant, Error> {
-        Err(serde::ser::Error::custom(variant))
+    ) -> Written<Self::SerializeTupleVariant> {
+        Err(Unwritable)
     }
 
-    fn serialize_map(self, _: Option<usize>) -> Result<Entries, Error> {
+    fn serialize_map(self, _: Option<usize>) -> Written<Entries> {
         Ok(Entries { object: Object::new(), key: JsValue::NULL, is_angle: self.is_angle })
     }
 
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Fields<'a>, Error> {
+    fn serialize_struct(self, _: &'static str, _: usize) -> Written<Fields<'a>> {
         Ok(Fields { own: self.into.is_none().then(Object::new), into: self.into })
     }
 
@@ -163,10 +184,10 @@ impl<'a> Serializer for Writer<'a> {
         self,
         _: &'static str,
         _: u32,
-        variant: &'static str,
+        _: &'static str,
         _: usize,
-    ) -> Result<Self::SerializeStructVariant, Error> {
-        Err(serde::ser::Error::custom(variant))
+    ) -> Written<Self::SerializeStructVariant> {
+        Err(Unwritable)
     }
 }
 
@@ -177,7 +198,7 @@ struct List {
 }
 
 impl List {
-    fn push<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+    fn push<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
         let writer = Writer { is_angle: self.is_angle, into: None };
         self.array.push(&value.serialize(writer)?);
         Ok(())
@@ -186,26 +207,26 @@ impl List {
 
 impl SerializeSeq for List {
     type Ok = JsValue;
-    type Error = Error;
+    type Error = Unwritable;
 
-    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
         self.push(value)
     }
 
-    fn end(self) -> Result<JsValue, Error> {
+    fn end(self) -> Written<JsValue> {
         Ok(self.array.into())
     }
 }
 
 impl SerializeTuple for List {
     type Ok = JsValue;
-    type Error = Error;
+    type Error = Unwritable;
 
-    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+    fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
         self.push(value)
     }
 
-    fn end(self) -> Result<JsValue, Error> {
+    fn end(self) -> Written<JsValue> {
         Ok(self.array.into())
     }
 }
@@ -222,28 +243,34 @@ impl Fields<'_> {
     }
 }
 
+impl Fields<'_> {
+    // Once for all types of values, which keeps the module small.
+    #[inline(never)]
+    fn set(&self, field: &'static str, value: &JsValue) {
+        // Setting a property of a fresh plain object cannot fail.
+        let _ = self.object().map(|object| Reflect::set(object, &property(field).key, value));
+    }
+}
+
 impl SerializeStruct for Fields<'_> {
     type Ok = JsValue;
-    type Error = Error;
+    type Error = Unwritable;
 
     fn serialize_field<T: Serialize + ?Sized>(
         &mut self,
         field: &'static str,
         value: &T,
-    ) -> Result<(), Error> {
-        let Some(object) = self.object() else { return Ok(()) };
-        if field.starts_with("..") {
+    ) -> Written<()> {
+        if let (true, Some(object)) = (field.starts_with(".."), self.object()) {
             value.serialize(Writer { is_angle: false, into: Some(object) })?;
             return Ok(());
         }
-        let property = property(field);
-        let value = value.serialize(Writer { is_angle: property.is_angle, into: None })?;
-        // Setting a property of a fresh plain object cannot fail.
-        let _ = Reflect::set(object, &property.key, &value);
+        let value = value.serialize(Writer { is_angle: is_angle(field), into: None })?;
+        self.set(field, &value);
         Ok(())
     }
 
-    fn end(self) -> Result<JsValue, Error> {
+    fn end(self) -> Written<JsValue> {
         Ok(self.own.map_or(JsValue::UNDEFINED, Into::into))
     }
 }
@@ -257,20 +284,20 @@ struct Entries {
 
 impl SerializeMap for Entries {
     type Ok = JsValue;
-    type Error = Error;
+    type Error = Unwritable;
 
-    fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Result<(), Error> {
+    fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Written<()> {
         self.key = key.serialize(Writer::default())?;
         Ok(())
     }
 
-    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
+    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
         let value = value.serialize(Writer { is_angle: self.is_angle, into: None })?;
         let _ = Reflect::set(&self.object, &self.key, &value);
         Ok(())
     }
 
-    fn end(self) -> Result<JsValue, Error> {
+    fn end(self) -> Written<JsValue> {
         Ok(self.object.into())
     }
 }
