@@ -13,6 +13,10 @@ const node = process.execPath;
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
 const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
+const wasmPackTest = (crate, ...args) =>
+  ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', crate].concat(
+    args.length > 0 ? ['--', ...args] : [],
+  );
 const script = (name) => ({ name, command: [node, `scripts/${name}.mjs`], counts: checkCounts });
 
 /** Test files of a folder, named one by one: what a folder means to `node --test` depends on its version. */
@@ -28,15 +32,19 @@ const steps = [
   { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
   { name: 'lint', command: ['biome', 'check', '--error-on-warnings'], counts: checkCounts },
   { name: 'clippy', command: clippy('--workspace', '--all-targets'), counts: checkCounts },
-  // The modules of crates/wasm as they are built: with their features, and their profile, so that both share what is
-  // compiled for the host.
-  ...modules
-    .filter(({ feature }) => feature)
-    .map((module) => ({
-      name: `clippy-${module.feature}`,
-      command: clippy(...cargoArguments(module)),
-      counts: checkCounts,
-    })),
+  // The modules as they are built: with their features, and their profile, so that both share what is compiled for the
+  // host.
+  ...modules.map((module) => ({
+    name: `clippy-${module.feature ?? 'neural'}`,
+    command: clippy(...cargoArguments(module)),
+    counts: checkCounts,
+  })),
+  {
+    name: 'doc',
+    command: ['cargo', 'doc', '--workspace', '--no-deps', '--quiet'],
+    variables: { RUSTDOCFLAGS: '-D warnings' },
+    counts: checkCounts,
+  },
   {
     // Without libFuzzer, which needs a compiler of C++ and is linked only where fuzzing is done.
     name: 'fuzz',
@@ -49,12 +57,10 @@ const steps = [
   script('check-workflows'),
   { name: 'scripts', command: () => nodeTests('tests/scripts'), counts: nodeCounts },
   { name: 'rust', command: ['cargo', 'test', '--workspace', '--no-fail-fast', '--quiet'], counts: cargoCounts },
-  {
-    name: 'wasm',
-    command: ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', 'crates/wasm'],
-    counts: cargoCounts,
-  },
+  { name: 'wasm', command: wasmPackTest('crates/wasm'), counts: cargoCounts },
   { name: 'build', work: buildPackage, counts: checkCounts },
+  // By its own profile, so that it shares what the build has compiled.
+  { name: 'wasm-neural', command: wasmPackTest('crates/wasm-neural', '--profile', 'neural'), counts: cargoCounts },
   script('check-size'),
   script('check-simd'),
   { name: 'build-demo', work: buildDemo, counts: checkCounts },

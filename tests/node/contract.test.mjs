@@ -1,5 +1,6 @@
 // What the functions return has exactly the fields that the types declare.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { before, test } from 'node:test';
 import * as boresight from 'boresight';
 import * as workers from 'boresight/worker';
@@ -117,6 +118,15 @@ test('files', () => {
   stream.free();
   const array = { kind: 'real', data: new Float32Array(2), shape: [2] };
   assertShape(boresight.readNpy(boresight.writeNpy(array)), 'NpyArray');
+});
+
+test('the numbers of verdicts are their places in the type', () => {
+  const results = readFileSync(new URL('../../web/lib/generated/results.ts', import.meta.url), 'utf8');
+  const [, union] = /^export type FrameVerdict = (.*);$/m.exec(results) ?? assert.fail('no type FrameVerdict');
+  assert.deepEqual(
+    boresight.frameVerdicts,
+    union.split(' | ').map((name) => name.slice(1, -1)),
+  );
 });
 
 test('the pool has every plain function of the package', () => {

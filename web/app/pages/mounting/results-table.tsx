@@ -78,7 +78,11 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
       title: 'Error (°)',
       csv: 'error_deg',
       help: `Less the angle that is ${open.truth ? 'true' : 'stated by the data set'}`,
-      value: (r) => r.angleDeg - trueDeg,
+      // The shorter way round.
+      value: (r) => {
+        const error = r.angleDeg - trueDeg;
+        return error - 360 * Math.round(error / 360);
+      },
       show: (v) => signed(v, 3),
     });
   }
