@@ -1,13 +1,12 @@
 //! Options out of JavaScript objects, with errors that name the field.
 
-use crate::carry::{Reader, property, read_named, refuse_unknown};
+use crate::carry::{Known, Reader, read_named};
 use crate::error::{BindingError, Fallible};
 use boresight_core::CoreError;
 use boresight_core::describe::{At, Described, Naming};
 use boresight_core::error::check_range;
-use js_sys::{Array, BigInt, Object, Reflect};
+use js_sys::{Array, BigInt, Object};
 use serde::de::DeserializeOwned;
-use std::cell::RefCell;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// Most items of an array: a longer one, which may well be empty, would not fit into memory.
@@ -29,7 +28,7 @@ pub trait Read: Sized {
 pub struct Fields {
     object: Object,
     path: String,
-    known: Vec<&'static str>,
+    known: Known,
 }
 
 impl Fields {
@@ -41,7 +40,11 @@ impl Fields {
             let what = if path.is_empty() { "options" } else { path };
             return Err(wrong_type(what, "an object", value));
         }
-        Ok(Self { object: value.clone().unchecked_into(), path: path.into(), known: vec![] })
+        Ok(Self {
+            object: value.clone().unchecked_into(),
+            path: path.into(),
+            known: Known::default(),
+        })
     }
 
     /// Options that may be left out altogether.
@@ -56,8 +59,7 @@ impl Fields {
 
     /// The raw value of a field; nothing if absent or `undefined`.
     pub fn raw(&mut self, name: &'static str) -> Fallible<Option<JsValue>> {
-        self.known.push(name);
-        match Reflect::get(&self.object, &property(name).key) {
+        match self.known.get(&self.object, name) {
             Ok(value) if value.is_undefined() => Ok(None),
             Ok(value) => Ok(Some(value)),
             Err(_) => Err(BindingError::Type {
@@ -147,11 +149,7 @@ impl Fields {
 
     /// Reads a described struct whose fields stand among those of this object.
     pub fn spread<T: DeserializeOwned + Described>(&mut self) -> Fallible<T> {
-        let known = RefCell::new(std::mem::take(&mut self.known));
-        let at = At::named(Naming::JavaScript, &self.path);
-        let read = Reader::spread(&self.object, at, &known);
-        self.known = known.into_inner();
-        read
+        Reader::spread(&self.object, At::named(Naming::JavaScript, &self.path), &self.known)
     }
 
     /// The fields of an object in a field; nothing if absent.
@@ -164,7 +162,7 @@ impl Fields {
 
     /// Refuses fields that were not asked for, unless they are `undefined`.
     pub fn finish(self) -> Fallible<()> {
-        refuse_unknown(&self.object, &At::named(Naming::JavaScript, &self.path), &self.known)
+        self.known.refuse_others(&self.object, &At::named(Naming::JavaScript, &self.path))
     }
 }
 

@@ -7,10 +7,9 @@ use std::collections::HashMap;
 use wasm_bindgen::JsValue;
 
 /// A property of an object.
-#[derive(Clone)]
 pub struct Property {
     /// Its name in JavaScript.
-    pub name: &'static str,
+    pub name: String,
     /// The same, on the other side.
     pub key: JsValue,
     /// Whether it holds degrees where Rust has radians.
@@ -18,21 +17,19 @@ pub struct Property {
 }
 
 thread_local! {
-    static PROPERTIES: RefCell<HashMap<&'static str, Property>> = RefCell::new(HashMap::new());
+    static PROPERTIES: RefCell<HashMap<&'static str, &'static Property>> =
+        RefCell::new(HashMap::new());
 }
 
 /// The property of a field, by the field's name in Rust.
-pub fn property(field: &'static str) -> Property {
+pub fn property(field: &'static str) -> &'static Property {
     PROPERTIES.with_borrow_mut(|properties| {
-        properties
-            .entry(field)
-            .or_insert_with(|| {
-                let name = naming::javascript(field);
-                let key = JsValue::from_str(&name);
-                // There are as many as the source names fields.
-                let name = if name == field { field } else { String::leak(name) };
-                Property { name, key, is_angle: naming::is_angle(field) }
-            })
-            .clone()
+        let known: &mut &'static Property = properties.entry(field).or_insert_with(|| {
+            let name = naming::javascript(field);
+            let key = JsValue::from_str(&name);
+            // There are as many as the source names fields.
+            Box::leak(Box::new(Property { name, key, is_angle: naming::is_angle(field) }))
+        });
+        *known
     })
 }

@@ -1,5 +1,6 @@
 //! Options out of JavaScript objects.
 
+use super::known::Known;
 use super::names::property;
 use super::refusal::ReadError;
 use crate::error::{BindingError, Fallible};
@@ -13,7 +14,6 @@ use serde::de::{
     Visitor,
 };
 use serde::forward_to_deserialize_any;
-use std::cell::RefCell;
 use std::iter::Zip;
 use std::ops::RangeFrom;
 use std::slice::Iter;
@@ -66,9 +66,6 @@ pub struct Reader<'a> {
     /// Where the value's fields stand among those of another object: all names that this one has.
     known: Option<&'a Known>,
 }
-
-/// Names of fields that were asked for.
-pub type Known = RefCell<Vec<&'static str>>;
 
 impl<'a> Reader<'a> {
     /// Reads a struct whose fields stand among others of an object, which the caller holds against
@@ -283,7 +280,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         let found = FieldsOf { object, fields, at: &self.at, known, next: None };
         let read = visitor.visit_map(found).map_err(|error| error.at(&self.at))?;
         if self.known.is_none() {
-            refuse_unknown(object, &self.at, &own.borrow())?;
+            own.refuse_others(object, &self.at)?;
         }
         Ok(read)
     }
@@ -306,24 +303,6 @@ impl<'de, V: Visitor<'de>> std::fmt::Display for Expected<'_, V> {
     }
 }
 
-/// Refuses fields that were not asked for, unless they are `undefined`.
-pub fn refuse_unknown(object: &Object, at: &At<'_>, known: &[&'static str]) -> Fallible<()> {
-    for key in Object::keys(object).iter() {
-        let name = key.as_string().unwrap_or_default();
-        if known.contains(&name.as_str()) {
-            continue;
-        }
-        let given = Reflect::get(object, &key).unwrap_or(JsValue::NULL);
-        if !given.is_undefined() {
-            let name = if name.is_empty() { "\"\"".into() } else { shortened(&name) };
-            let above = at.path();
-            let what = if above.is_empty() { name } else { format!("{above}.{name}") };
-            return Err(BindingError::UnknownField { what, expected: known.join(", ") });
-        }
-    }
-    Ok(())
-}
-
 /// The fields of a struct out of an object.
 struct FieldsOf<'a> {
     object: &'a Object,
@@ -343,16 +322,13 @@ impl<'de> MapAccess<'de> for FieldsOf<'_> {
                 self.next = Some((field, self.object.clone().into(), false));
                 return seed.deserialize(place.into_deserializer()).map(Some);
             }
-            let property = property(field);
-            self.known.borrow_mut().push(property.name);
-            let value =
-                Reflect::get(self.object, &property.key).map_err(|_| BindingError::Type {
-                    what: self.at.field(field).path(),
-                    expected: "a value".into(),
-                    given: "a property that throws".into(),
-                })?;
+            let value = self.known.get(self.object, field).map_err(|_| BindingError::Type {
+                what: self.at.field(field).path(),
+                expected: "a value".into(),
+                given: "a property that throws".into(),
+            })?;
             if !value.is_undefined() {
-                self.next = Some((field, value, property.is_angle));
+                self.next = Some((field, value, property(field).is_angle));
                 return seed.deserialize(place.into_deserializer()).map(Some);
             }
         }

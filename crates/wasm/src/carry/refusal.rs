@@ -57,7 +57,7 @@ impl serde::de::Error for ReadError {
     }
 
     fn missing_field(field: &'static str) -> Self {
-        let what = super::names::property(field).name.into();
+        let what = super::names::property(field).name.clone();
         BindingError::Missing { what, expected: "a value".into() }.into()
     }
 }

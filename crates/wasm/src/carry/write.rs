@@ -110,7 +110,7 @@ impl<'a> Serializer for Writer<'a> {
         _: u32,
         variant: &'static str,
     ) -> Written<JsValue> {
-        Ok(property(variant).key)
+        Ok(property(variant).key.clone())
     }
 
     fn serialize_newtype_struct<T: Serialize + ?Sized>(
