@@ -152,7 +152,10 @@ export type CfarAxes = 'range' | 'doppler' | 'both';
 
 /** How detection works. */
 export interface CfarOptions {
-  /** How noise is estimated from the training cells (default 'cell-averaging'). */
+  /**
+   * The detector of constant false-alarm rate: how it takes the noise from the training cells (default
+   * 'cell-averaging').
+   */
   kind?: CfarKind;
   /** Axes along which training cells lie (default 'range'). */
   axes?: CfarAxes;
@@ -163,9 +166,12 @@ export interface CfarOptions {
    * (default [4, 2]).
    */
   guardCells?: readonly [number, number];
-  /** Training cells on each side beyond the guard cells, along range and Doppler (default [8, 4]). */
+  /**
+   * Cells on each side beyond the guard cells that the noise level is estimated from, along range and Doppler (default
+   * [8, 4]).
+   */
   trainingCells?: readonly [number, number];
-  /** Rank of the ordered statistic, as a share of the training cells (0 to 1; default 0.75). */
+  /** Which of the ordered training cells stands for the noise, as a share of them (0 to 1; default 0.75). */
   rank?: number;
 }
 
@@ -264,13 +270,13 @@ export interface AngleOptions {
 
 /** How frames become detections. */
 export interface DetectionOptions {
-  /** Window over the samples of a chirp (default 'hann'). */
+  /** Window over the samples of a chirp: lower sidelobes in range for a wider main lobe (default 'hann'). */
   rangeWindow?: WindowName;
-  /** Window over the loops of a frame (default 'hann'). */
+  /** Window over the loops of a frame: lower sidelobes in rate for a wider main lobe (default 'hann'). */
   dopplerWindow?: WindowName;
-  /** Range bins as a multiple of the samples, a power of two (1 to 64; default 1). */
+  /** Range bins as a multiple of the samples, a power of two: finer bins, the same resolution (1 to 64; default 1). */
   rangePadding?: number;
-  /** Doppler bins as a multiple of the loops, a power of two (1 to 64; default 1). */
+  /** Doppler bins as a multiple of the loops, a power of two: finer bins, the same resolution (1 to 64; default 1). */
   dopplerPadding?: number;
   /** Take the mean over the loops off, which removes what does not move (default false). */
   staticClutterRemoval?: boolean;

@@ -361,7 +361,10 @@ export interface StreetOutline {
 export interface StreetScene {
   /** The things in it come from stream 0 of this seed, the cube of radar `i` from one that stream `i + 1` gives. */
   seed: number;
-  /** Speed of the car along x. What stands still spreads over Doppler with it (-30 to 30 m/s). */
+  /**
+   * Speed of the car along x. The faster it is, the farther Doppler tells apart what stands at one range in different
+   * directions (-30 to 30 m/s).
+   */
   egoSpeedMps: number;
   /** The car's radars, mounted as those of the `RadarScenes` car. */
   radars: StreetRadar[];
