@@ -53,7 +53,7 @@ const entry = pathToFileURL(join(root, 'dist', 'lib', 'node.js')).href;
 const boresight = await import(entry);
 const workerPools = await import(pathToFileURL(join(root, 'dist', 'worker', 'node.js')).href);
 const neural = await import(pathToFileURL(join(root, 'dist', 'lib', 'neural', 'node.js')).href);
-await boresight.init();
+await Promise.all([boresight.init(), boresight.initDrives()]);
 await neural.initNeural();
 const shipped = readdirSync(join(root, 'models'))
   .filter((name) => name.endsWith('.onnx'))

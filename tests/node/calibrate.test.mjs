@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { before, describe, test } from 'node:test';
 import { Calibration, calibrationMethods, init, initDrives } from 'boresight';
 import { createPool } from 'boresight/worker';
-import glue from '../../dist/wasm/boresight.js';
+import glue from '../../dist/wasm/boresight_drives.js';
 import { throwsTyped } from './lib/assert.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 

@@ -24,7 +24,7 @@ pub struct BatchColumns<'a> {
     #[serde(serialize_with = "columns::serialize")]
     pub elevation_rad: Vec<f64>,
     /// Power of each source at one element.
-    #[serde(rename = "power_db", serialize_with = "decibels::serialize_column")]
+    #[serde(rename = "power_db", serialize_with = "decibels::serialize_each")]
     pub power: Vec<f64>,
     /// How sure a network is of each source, from 0 to 1; absent from other methods.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]

@@ -136,10 +136,10 @@ struct CellColumns {
     #[serde(serialize_with = "columns::serialize")]
     rate_mps: Vec<f64>,
     /// Power of each: one raw sample at one element over full scale (1.0).
-    #[serde(rename = "power_db", serialize_with = "decibels::serialize_column")]
+    #[serde(rename = "power_db", serialize_with = "decibels::serialize_each")]
     power: Vec<f64>,
     /// Over the noise around the cell.
-    #[serde(rename = "snr_db", serialize_with = "decibels::serialize_column")]
+    #[serde(rename = "snr_db", serialize_with = "decibels::serialize_each")]
     snr: Vec<f64>,
     /// Range bin of each.
     #[serde(serialize_with = "columns::serialize")]

@@ -40,8 +40,7 @@ pub struct Target {
 pub struct SceneSampling {
     /// Fewest and most targets.
     #[option(default = [0, 16])]
-    #[serde(rename = "count")]
-    pub targets: [usize; 2],
+    pub count: [usize; 2],
     /// Azimuths lie within plus and minus this.
     #[option(default = 60.0_f64.to_radians(), range = 0.0..=90.0)]
     pub field_of_view_rad: f64,
@@ -241,7 +240,7 @@ impl SnapshotSimulator {
                 })
                 .collect(),
             Scene::Sampled(s) => {
-                let count = random.integer(s.targets[0] as u64, s.targets[1] as u64);
+                let count = random.integer(s.count[0] as u64, s.count[1] as u64);
                 let symmetric = |random: &mut Random, half: f64| random.uniform(-half, half);
                 (0..count)
                     .map(|_| Target {
@@ -267,7 +266,7 @@ impl SnapshotSimulator {
 }
 
 fn check_sampling(sampling: &SceneSampling) -> Result<(), CoreError> {
-    let [fewest, most] = sampling.targets;
+    let [fewest, most] = sampling.count;
     check_range("most targets", most as f64, 0.0, MAX_TARGETS as f64)?;
     check_range("fewest targets", fewest as f64, 0.0, most as f64)?;
     check_range("field_of_view_rad", sampling.field_of_view_rad, 0.0, FRAC_PI_2)?;

@@ -102,7 +102,7 @@ fn coherent_targets_have_a_covariance_of_rank_one() {
 #[test]
 fn sampled_scenes_follow_the_rule() {
     let sampling = SceneSampling {
-        targets: [1, 5],
+        count: [1, 5],
         field_of_view_rad: 1.0,
         elevation_field_of_view_rad: 0.2,
         power_db: [-13.0, -1.0],
@@ -176,7 +176,7 @@ fn too_much_and_too_little_are_named() {
         SnapshotSimulator::new(&array, &none),
         Err(SimulateError::Argument(CoreError::OutOfRange { .. }))
     ));
-    let backwards = SceneSampling { targets: [3, 2], ..SceneSampling::default() };
+    let backwards = SceneSampling { count: [3, 2], ..SceneSampling::default() };
     let backwards = SnapshotOptions { scene: Scene::Sampled(backwards), ..good };
     let refused = SnapshotSimulator::new(&array, &backwards).err().unwrap();
     assert_eq!(refused.details().what, "fewest targets");
@@ -200,7 +200,7 @@ proptest! {
         let [snr_db, azimuth_rad, elevation_rad, power, other, phase] = numbers;
         let scene = if sampled {
             Scene::Sampled(SceneSampling {
-                targets: counts,
+                count: counts,
                 field_of_view_rad: azimuth_rad,
                 elevation_field_of_view_rad: elevation_rad,
                 power_db: [power, other],

@@ -120,7 +120,7 @@ fn widened<T: Into<f64>>(numbers: Vec<T>) -> Vec<f64> {
 }
 
 fn snapshots(array: &Array, targets: usize) -> Snapshots {
-    let sampling = SceneSampling { targets: [targets; 2], ..SceneSampling::default() };
+    let sampling = SceneSampling { count: [targets; 2], ..SceneSampling::default() };
     let options = SnapshotOptions {
         scene: Scene::Sampled(sampling),
         snr_db: 20.0,
@@ -144,9 +144,11 @@ fn records_of_arrays_and_angles() {
             let mut estimator = Estimator::new(method, &array, &options).unwrap();
             let first = simulated.values.index_axis(Axis(0), 0);
             whole(&estimator.estimate(Data::Snapshots(first)).unwrap());
-            // One snapshot determines amplitudes.
-            let one = simulated.values.slice(s![0, .., ..1]);
-            whole(&estimator.estimate(Data::Snapshots(one)).unwrap());
+            if method != Method::Music {
+                // One snapshot determines amplitudes.
+                let one = simulated.values.slice(s![0, .., ..1]);
+                whole(&estimator.estimate(Data::Snapshots(one)).unwrap());
+            }
             let batch = estimator.estimate_batch(simulated.values.view(), true).unwrap();
             whole(&batch.columns());
             whole(&method.requirements());

@@ -34,7 +34,7 @@ pub fn scene(
 
 /// Single snapshots of targets within 13 dB at random azimuths.
 pub fn random_scenes(array: &Array, targets: usize, snr_db: f64, seed: u64) -> SnapshotSimulator {
-    let sampling = SceneSampling { targets: [targets; 2], ..SceneSampling::default() };
+    let sampling = SceneSampling { count: [targets; 2], ..SceneSampling::default() };
     let options = SnapshotOptions {
         scene: Scene::Sampled(sampling),
         snr_db,

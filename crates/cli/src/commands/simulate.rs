@@ -33,7 +33,11 @@ fn snapshots(arguments: &SnapshotArguments, files: &Files) -> Result<String, Cli
         Some(targets) => {
             check_range("--field-of-view (deg)", arguments.field_of_view, 0.1, 90.0)?;
             let field_of_view_rad = arguments.field_of_view.to_radians();
-            Scene::Sampled(SceneSampling { targets, field_of_view_rad, ..Default::default() })
+            Scene::Sampled(SceneSampling {
+                count: targets,
+                field_of_view_rad,
+                ..Default::default()
+            })
         }
         None if arguments.targets.is_empty() => {
             return Err(CliError::Option {

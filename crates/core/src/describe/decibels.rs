@@ -25,7 +25,16 @@ pub fn serialize_share<S: Serializer>(share: &f64, serializer: S) -> Result<S::O
     power_to_db(*share).serialize(serializer)
 }
 
-/// Serializes a column of linear powers in dB.
+/// Serializes a column of linear powers in dB, each as [`finite_db`] makes it, to the last digit.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn serialize_each<S: Serializer>(powers: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    let powers_db: Vec<f64> = powers.iter().copied().map(finite_db).collect();
+    super::columns::serialize(&powers_db, serializer)
+}
+
+/// Serializes a spectrum's linear powers in dB, many at a time.
 ///
 /// # Errors
 /// Those of the serializer.

@@ -353,7 +353,7 @@ impl Plan {
             false => Some(Imperfections::random(&self.array, self.imperfections, stream)?),
         };
         let sampling = SceneSampling {
-            targets: [condition.targets; 2],
+            count: [condition.targets; 2],
             field_of_view_rad: TARGETS_WITHIN_RAD,
             ..SceneSampling::default()
         };
