@@ -4,13 +4,13 @@ use super::names::property;
 use boresight_core::describe::NumberType;
 use boresight_core::describe::columns::number_type;
 use boresight_core::describe::naming::is_angle;
-use js_sys::{
-    Array, Float32Array, Float64Array, Int8Array, Object, Reflect, Uint8Array, Uint32Array,
-};
+use js_sys::{Array, Float32Array, Float64Array, Int8Array, Object, Uint8Array, Uint32Array};
 use serde::ser::{
     Serialize, SerializeMap, SerializeSeq, SerializeStruct, SerializeTuple, Serializer,
 };
+use std::borrow::Cow;
 use std::fmt::{Display, Formatter};
+use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// A result as a plain object. What serde cannot write, of which there is none, becomes undefined.
@@ -21,6 +21,15 @@ pub fn write<T: Serialize + ?Sized>(value: &T) -> JsValue {
 /// Results as a list of plain objects.
 pub fn write_all<T: Serialize>(values: impl IntoIterator<Item = T>) -> Array {
     values.into_iter().map(|value| write(&value)).collect()
+}
+
+// Setting a property of a fresh plain object cannot fail, and costs half of what `Reflect.set` does.
+#[wasm_bindgen]
+extern "C" {
+    type Plain;
+
+    #[wasm_bindgen(method, structural, indexing_setter)]
+    fn set(this: &Plain, key: &JsValue, value: &JsValue);
 }
 
 /// What no result is: an enum with data, or what serde_wasm_bindgen refuses.
@@ -49,6 +58,8 @@ struct Writer<'a> {
     is_angle: bool,
     /// Where the value's fields stand among those of another object.
     into: Option<&'a Object>,
+    /// Which numbers the bytes are that come next.
+    column: Option<NumberType>,
 }
 
 const LEAVES: serde_wasm_bindgen::Serializer =
@@ -77,7 +88,7 @@ impl<'a> Serializer for Writer<'a> {
         serialize_bool(bool)
         serialize_i8(i8) serialize_i16(i16) serialize_i32(i32) serialize_i64(i64)
         serialize_u8(u8) serialize_u16(u16) serialize_u32(u32) serialize_u64(u64)
-        serialize_f32(f32) serialize_char(char) serialize_str(&str) serialize_bytes(&[u8])
+        serialize_f32(f32) serialize_char(char) serialize_str(&str)
     }
 
     fn is_human_readable(&self) -> bool {
@@ -86,6 +97,22 @@ impl<'a> Serializer for Writer<'a> {
 
     fn serialize_f64(self, value: f64) -> Written<JsValue> {
         Ok(if self.is_angle { value.to_degrees() } else { value }.into())
+    }
+
+    fn serialize_bytes(self, bytes: &[u8]) -> Written<JsValue> {
+        Ok(match self.column {
+            Some(NumberType::F64) if self.is_angle => {
+                let radians: Cow<'_, [f64]> = numbers(bytes);
+                let degrees: Vec<f64> =
+                    radians.iter().map(|radians| radians.to_degrees()).collect();
+                Float64Array::new_from_slice(&degrees).into()
+            }
+            Some(NumberType::F64) => Float64Array::new_from_slice(&numbers(bytes)).into(),
+            Some(NumberType::F32) => Float32Array::new_from_slice(&numbers(bytes)).into(),
+            Some(NumberType::U32) => Uint32Array::new_from_slice(&numbers(bytes)).into(),
+            Some(NumberType::I8) => Int8Array::new_from_slice(&numbers(bytes)).into(),
+            Some(NumberType::U8) | None => Uint8Array::new_from_slice(bytes).into(),
+        })
     }
 
     fn serialize_none(self) -> Written<JsValue> {
@@ -118,22 +145,8 @@ impl<'a> Serializer for Writer<'a> {
         name: &'static str,
         value: &T,
     ) -> Written<JsValue> {
-        let Some(kind) = number_type(name) else { return value.serialize(self) };
-        // The bytes of the numbers, in a buffer of their own.
-        let bytes: Uint8Array = value.serialize(&LEAVES).map_err(|_| Unwritable)?.unchecked_into();
-        let buffer = bytes.buffer();
-        Ok(match kind {
-            NumberType::F64 if self.is_angle => {
-                let mut numbers = Float64Array::new(&buffer).to_vec();
-                numbers.iter_mut().for_each(|number| *number = number.to_degrees());
-                Float64Array::new_from_slice(&numbers).into()
-            }
-            NumberType::F64 => Float64Array::new(&buffer).into(),
-            NumberType::F32 => Float32Array::new(&buffer).into(),
-            NumberType::U32 => Uint32Array::new(&buffer).into(),
-            NumberType::U8 => bytes.into(),
-            NumberType::I8 => Int8Array::new(&buffer).into(),
-        })
+        // The bytes of the numbers come next.
+        value.serialize(Writer { column: number_type(name).or(self.column), ..self })
     }
 
     fn serialize_newtype_variant<T: Serialize + ?Sized>(
@@ -191,6 +204,13 @@ impl<'a> Serializer for Writer<'a> {
     }
 }
 
+/// Bytes as what they were.
+fn numbers<T: bytemuck::Pod>(bytes: &[u8]) -> Cow<'_, [T]> {
+    let unaligned =
+        || bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect();
+    bytemuck::try_cast_slice(bytes).map_or_else(|_| Cow::Owned(unaligned()), Cow::Borrowed)
+}
+
 /// A list of values.
 struct List {
     array: Array,
@@ -199,7 +219,7 @@ struct List {
 
 impl List {
     fn push<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
-        let writer = Writer { is_angle: self.is_angle, into: None };
+        let writer = Writer { is_angle: self.is_angle, ..Writer::default() };
         self.array.push(&value.serialize(writer)?);
         Ok(())
     }
@@ -247,8 +267,9 @@ impl Fields<'_> {
     // Once for all types of values, which keeps the module small.
     #[inline(never)]
     fn set(&self, field: &'static str, value: &JsValue) {
-        // Setting a property of a fresh plain object cannot fail.
-        let _ = self.object().map(|object| Reflect::set(object, &property(field).key, value));
+        if let Some(object) = self.object() {
+            object.unchecked_ref::<Plain>().set(&property(field).key, value);
+        }
     }
 }
 
@@ -262,10 +283,10 @@ impl SerializeStruct for Fields<'_> {
         value: &T,
     ) -> Written<()> {
         if let (true, Some(object)) = (field.starts_with(".."), self.object()) {
-            value.serialize(Writer { is_angle: false, into: Some(object) })?;
+            value.serialize(Writer { into: Some(object), ..Writer::default() })?;
             return Ok(());
         }
-        let value = value.serialize(Writer { is_angle: is_angle(field), into: None })?;
+        let value = value.serialize(Writer { is_angle: is_angle(field), ..Writer::default() })?;
         self.set(field, &value);
         Ok(())
     }
@@ -292,8 +313,8 @@ impl SerializeMap for Entries {
     }
 
     fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
-        let value = value.serialize(Writer { is_angle: self.is_angle, into: None })?;
-        let _ = Reflect::set(&self.object, &self.key, &value);
+        let value = value.serialize(Writer { is_angle: self.is_angle, ..Writer::default() })?;
+        self.object.unchecked_ref::<Plain>().set(&self.key, &value);
         Ok(())
     }
 
