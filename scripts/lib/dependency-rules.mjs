@@ -11,14 +11,14 @@ const allowed = {
   neural: ['core', 'signal', 'aoa'],
   pipeline: ['core', 'signal', 'aoa', 'image'],
   evaluate: ['core', 'signal', 'aoa', 'calibrate', 'simulate', 'image', 'neural', 'pipeline'],
-  generate: ['core', 'aoa', 'calibrate', 'pipeline', 'simulate'],
+  generate: ['core', 'aoa', 'calibrate', 'formats', 'image', 'pipeline', 'simulate', 'wasm'],
   cli: null,
   wasm: null,
   'wasm-neural': null,
 };
 const bindings = ['wasm', 'wasm-neural'];
-/** The module of networks holds part of the other bindings. */
-const buildsOn = { 'wasm-neural': 'wasm' };
+/** The module of networks holds part of the other bindings; what the bindings describe is written out too. */
+const buildsOn = { 'wasm-neural': 'wasm', generate: 'wasm' };
 
 /** Outside crates that only some crates may name, as a pattern and those crates. */
 const confined = [
