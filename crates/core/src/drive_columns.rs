@@ -30,7 +30,7 @@ pub struct DriveSensor {
     pub yaw_rad: Option<f64>,
 }
 
-/// Radar scans in order of time; the detections of scan i are those from offsets[i] to before offsets[i + 1].
+/// Radar scans in order of time; the detections of scan `i` are those from the `i`-th offset to before the next.
 #[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct DriveScans {
     /// Time of each, on the clock of the log.

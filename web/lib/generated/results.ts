@@ -733,7 +733,7 @@ export interface DriveSensor {
   yawDeg: number | null;
 }
 
-/** Radar scans in order of time; the detections of scan i are those from offsets[i] to before offsets[i + 1]. */
+/** Radar scans in order of time; the detections of scan `i` are those from the `i`-th offset to before the next. */
 export interface DriveScans {
   /** Time of each, on the clock of the log. */
   timeS: Float64Array;
