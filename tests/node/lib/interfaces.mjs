@@ -5,7 +5,9 @@ import { basename } from 'node:path';
 
 const folder = new URL('../../../web/lib/', import.meta.url);
 const types = readdirSync(folder, { recursive: true }).filter((name) => basename(name) === 'types.ts');
-const source = [...types, 'generated/options.ts', 'generated/results.ts'].map((name) => readFileSync(new URL(name, folder), 'utf8')).join('\n');
+const source = [...types, 'generated/options.ts', 'generated/results.ts']
+  .map((name) => readFileSync(new URL(name, folder), 'utf8'))
+  .join('\n');
 
 /** Interface -> { required, optional } field names, with those of the interfaces it extends. */
 export const interfaces = new Map();
