@@ -13,10 +13,7 @@ const node = process.execPath;
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
 const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
-const wasmPackTest = (crate, ...args) =>
-  ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', crate].concat(
-    args.length > 0 ? ['--', ...args] : [],
-  );
+const wasmPackTest = (crate) => ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', crate];
 const script = (name) => ({ name, command: [node, `scripts/${name}.mjs`], counts: checkCounts });
 
 /** Test files of a folder, named one by one: what a folder means to `node --test` depends on its version. */
@@ -58,9 +55,8 @@ const steps = [
   { name: 'scripts', command: () => nodeTests('tests/scripts'), counts: nodeCounts },
   { name: 'rust', command: ['cargo', 'test', '--workspace', '--no-fail-fast', '--quiet'], counts: cargoCounts },
   { name: 'wasm', command: wasmPackTest('crates/wasm'), counts: cargoCounts },
+  { name: 'wasm-neural', command: wasmPackTest('crates/wasm-neural'), counts: cargoCounts },
   { name: 'build', work: buildPackage, counts: checkCounts },
-  // By its own profile, so that it shares what the build has compiled.
-  { name: 'wasm-neural', command: wasmPackTest('crates/wasm-neural', '--profile', 'neural'), counts: cargoCounts },
   script('check-size'),
   script('check-simd'),
   { name: 'build-demo', work: buildDemo, counts: checkCounts },
