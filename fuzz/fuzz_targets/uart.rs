@@ -15,8 +15,8 @@ fuzz_target!(|bytes: &[u8]| {
     let mut frames: Vec<_> = bytes.chunks(size).flat_map(|piece| stream.push(piece)).collect();
     frames.extend(stream.finish());
     assert_eq!(frames.len(), log.frames.len());
-    assert_eq!(stream.skipped_bytes(), log.skipped_bytes);
-    assert_eq!(stream.damaged_packets(), log.damaged_packets);
-    assert!(log.skipped_bytes <= bytes.len() as u64);
-    assert!(log.skipped_bytes + 36 * frames.len() as u64 <= bytes.len() as u64);
+    assert_eq!(stream.counts().skipped_bytes, log.counts.skipped_bytes);
+    assert_eq!(stream.counts().damaged_packets, log.counts.damaged_packets);
+    assert!(log.counts.skipped_bytes <= bytes.len() as u64);
+    assert!(log.counts.skipped_bytes + 36 * frames.len() as u64 <= bytes.len() as u64);
 });

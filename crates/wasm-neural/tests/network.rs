@@ -11,7 +11,7 @@ use boresight_core::steering::steering_vector;
 use boresight_core::{Array, Complex64, Direction};
 use boresight_wasm_neural::Network;
 use js_sys::{Float64Array, Uint8Array};
-use support::{get, json, numbers, text, with};
+use support::{get, json, text, with};
 use wasm_bindgen::JsValue;
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -60,5 +60,5 @@ fn a_file_that_is_cut_or_none_is_refused_and_the_next_one_loads() {
     let mut network = load(ONNX, "{}").unwrap();
     let error: JsValue = network.estimate(&json(r#"{ "snapshots": 1 }"#)).unwrap_err().into();
     assert!(!text(&error, "what").is_empty() && !text(&error, "expected").is_empty());
-    assert_eq!(numbers(&network.describe(), "inputs.0.axes").len(), 3);
+    assert!(!text(&network.describe(), "inputs.0.name").is_empty());
 }
