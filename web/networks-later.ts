@@ -1,4 +1,4 @@
-import { createReadStream, existsSync } from 'node:fs';
+import { createReadStream, existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Connect, Plugin } from 'vite';
@@ -33,7 +33,7 @@ export function networksLater(folder: string): Plugin {
     name: 'networks-later',
     enforce: 'pre',
     config: () => ({
-      resolve: { alias: [{ find: /^\.\.\/wasm\/boresight_neural\.js$/, replacement: standIn }] },
+      resolve: { alias: [{ find: /^(\.\.\/)+wasm\/boresight_neural\.js$/, replacement: standIn }] },
     }),
     transform: {
       filter: { id: /\/dist\/worker\/browser\.js$/ },
@@ -42,6 +42,10 @@ export function networksLater(folder: string): Plugin {
         if (!code.includes(before)) this.error(`web/worker/browser.ts no longer has ${before}`);
         return code.replace(before, "new URL('/later/boresight_neural_bg.wasm', location.href)");
       },
+    },
+    writeBundle({ dir = '' }) {
+      const held = readdirSync(dir, { recursive: true }).find((name) => /boresight_neural/.test(String(name)));
+      if (held) this.error(`the demo that comes before the networks holds ${held}`);
     },
     configureServer: ({ middlewares }) => void middlewares.use(serve),
     configurePreviewServer: ({ middlewares }) => void middlewares.use(serve),
