@@ -1,9 +1,11 @@
-import { createReadStream, existsSync, readdirSync } from 'node:fs';
+import { createReadStream, existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import type { Connect, Plugin } from 'vite';
 
 const standIn = fileURLToPath(new URL('app/networks/stand-in.ts', import.meta.url));
+/** What the bindings call themselves in the imports of their module. */
+const BINDINGS = './boresight_neural_bg.js';
 const TYPES: Record<string, string> = {
   'state.json': 'application/json',
   'boresight_neural.js': 'text/javascript',
@@ -44,8 +46,9 @@ export function networksLater(folder: string): Plugin {
       },
     },
     writeBundle({ dir = '' }) {
-      const held = readdirSync(dir, { recursive: true }).find((name) => /boresight_neural/.test(String(name)));
-      if (held) this.error(`the demo that comes before the networks holds ${held}`);
+      const scripts = readdirSync(join(dir, 'assets')).filter((name) => name.endsWith('.js'));
+      const holder = scripts.find((name) => readFileSync(join(dir, 'assets', name), 'utf8').includes(BINDINGS));
+      if (holder) this.error(`the demo that comes before the networks holds their bindings, in ${holder}`);
     },
     configureServer: ({ middlewares }) => void middlewares.use(serve),
     configurePreviewServer: ({ middlewares }) => void middlewares.use(serve),
