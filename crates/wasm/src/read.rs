@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// Most items of an array: a longer one, which may well be empty, would not fit into memory.
-const MOST_ITEMS: u32 = 1 << 22;
+pub const MOST_ITEMS: u32 = 1 << 22;
 
 /// Largest integer a JavaScript number holds exactly.
 const MAX_SAFE_INTEGER: f64 = 9_007_199_254_740_991.0;
@@ -106,35 +106,7 @@ impl Fields {
         })
     }
 
-    /// Puts the field's value into `target` if there is one.
-    pub fn update<T: Read>(&mut self, name: &'static str, target: &mut T) -> Fallible<()> {
-        if let Some(value) = self.optional(name)? {
-            *target = value;
-        }
-        Ok(())
-    }
-
-    /// An angle or a rate of turn, given in degrees within a range, in radians.
-    pub fn degrees(&mut self, name: &'static str, range: [f64; 2]) -> Fallible<Option<f64>> {
-        let Some(degrees) = self.optional::<f64>(name)? else { return Ok(None) };
-        check_range(&self.path_of(name), degrees, range[0], range[1])?;
-        Ok(Some(degrees.to_radians()))
-    }
-
-    /// Like [`Fields::update`] for what [`Fields::degrees`] reads.
-    pub fn update_degrees(
-        &mut self,
-        name: &'static str,
-        range: [f64; 2],
-        target: &mut f64,
-    ) -> Fallible<()> {
-        if let Some(radians) = self.degrees(name, range)? {
-            *target = radians;
-        }
-        Ok(())
-    }
-
-    /// Like [`Fields::update`] for a name out of a fixed list.
+    /// Puts what a field names out of a fixed list into `target`, if there is such a field.
     pub fn update_choice<T: Copy>(
         &mut self,
         name: &'static str,

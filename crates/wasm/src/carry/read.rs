@@ -4,7 +4,7 @@ use super::known::Known;
 use super::names::property;
 use super::refusal::ReadError;
 use crate::error::{BindingError, Fallible};
-use crate::read::{shortened, wrong_type};
+use crate::read::{MOST_ITEMS, shortened, wrong_type};
 use boresight_core::CoreError;
 use boresight_core::describe::{At, Described, Kind, Naming, Record};
 use js_sys::{Array, Object, Reflect};
@@ -18,9 +18,6 @@ use std::iter::Zip;
 use std::ops::RangeFrom;
 use std::slice::Iter;
 use wasm_bindgen::{JsCast, JsValue};
-
-/// Most items of an array: a longer one, which may well be empty, would not fit into memory.
-const MOST_ITEMS: u32 = 1 << 22;
 
 /// Reads an argument and checks it against its description. Fields that it does not know are
 /// refused; those that are `undefined` count as absent.
