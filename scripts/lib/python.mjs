@@ -1,6 +1,6 @@
 import { join } from 'node:path';
-import { commandLine } from './command-line.mjs';
 import { environment, root } from './paths.mjs';
+import { program } from './programs.mjs';
 import { output, run } from './run.mjs';
 import { whenChanged } from './stamp.mjs';
 import { atLeast } from './versions.mjs';
@@ -38,7 +38,7 @@ export async function virtualEnvironment(name, requirements) {
 /** Runs pytest on tests that use the command line, in a virtual environment of its own. */
 export async function pytest(name, requirements, tests, variables = {}) {
   const interpreter = await virtualEnvironment(name, requirements);
-  const boresight = await commandLine();
+  const boresight = await program('boresight');
   await run(interpreter, ['-m', 'pytest', '-q', '-p', 'no:cacheprovider', tests, ...process.argv.slice(2)], {
     env: { ...environment, BORESIGHT: boresight, PYTHONDONTWRITEBYTECODE: '1', ...variables },
   });

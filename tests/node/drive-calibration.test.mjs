@@ -20,8 +20,8 @@ import {
 import { createPool } from 'boresight/worker';
 import { selected } from '../../dist/lib/drive/view.js';
 import glue from '../../dist/wasm/boresight.js';
-import { commandLine } from '../../scripts/lib/command-line.mjs';
 import { environment, root } from '../../scripts/lib/paths.mjs';
+import { program } from '../../scripts/lib/programs.mjs';
 import { rejectsTyped, throwsTyped } from './lib/assert.mjs';
 import { delphi } from './lib/drives.mjs';
 import { assertShape } from './lib/interfaces.mjs';
@@ -122,7 +122,7 @@ describe('calibrateDrive', () => {
   });
 
   test('gives what the command line gives', async () => {
-    const boresight = await commandLine();
+    const boresight = await program('boresight');
     const command = ['calibrate', 'recordings/delphi', '--json', '--min-speed', '3'];
     for (const { name: method } of calibrationMethods()) {
       const { stdout } = await promisify(execFile)(boresight, [...command, '--method', method], {

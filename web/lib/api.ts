@@ -2,6 +2,7 @@
 
 export { Calibration, calibrationMethods } from './calibrate/calibrate.js';
 export { Capture, frameCells, processCube } from './capture/capture.js';
+export { strongestRegion } from './capture/region.js';
 export { calibrateDrive, frameVerdicts, jointCalibration } from './drive/calibration.js';
 export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive/drive.js';
 export { relativeTrajectoryError, trajectory } from './drive/trajectory.js';
@@ -14,7 +15,7 @@ export { readDetectionsCsv, readSnapshotsCsv, writeDetectionsCsv, writeSnapshots
 export { readNpy, writeNpy } from './formats/npy.js';
 export { birdsEyeView, imageFrame, imagePlan, rangeAzimuthMap, sidelobeMeasure } from './image/image.js';
 export { array, arrayPresets } from './radar/array.js';
-export { waveformSummary } from './radar/waveform.js';
+export { waveformPreset, waveformPresets, waveformSummary } from './radar/waveform.js';
 export { BoresightError, type ErrorDetails } from './runtime/errors.js';
 export { initSync } from './runtime/instance.js';
 export type { WasmSource } from './runtime/module.js';

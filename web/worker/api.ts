@@ -1,7 +1,6 @@
 // The pool: the functions of the package as promises, those that are split over workers, and what the pool keeps.
 import { jointTaskOf, taskOf } from '../lib/drive/radars.js';
 import { driveFrame, selected, viewOf } from '../lib/drive/view.js';
-import { chainOf } from '../lib/image/options.js';
 import { wrong } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
@@ -256,7 +255,8 @@ export class Pool {
     job: JobOptions = {},
   ): Promise<lib.ImageFrame> {
     const { onProgress: _, ...quiet } = job;
-    const cells = await this.frameCells(cube, chainOf(options), quiet);
+    const { chain } = await this.imagePlan(options, quiet);
+    const cells = await this.frameCells(cube, chain, quiet);
     return this.imageCells(cells, options, { ...job, transfer: false });
   }
 

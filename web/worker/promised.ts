@@ -1,6 +1,7 @@
 // The functions of the package as promises.
 import type * as calibrate from '../lib/calibrate/calibrate.js';
 import type * as capture from '../lib/capture/capture.js';
+import type * as region from '../lib/capture/region.js';
 import type * as drive from '../lib/drive/drive.js';
 import type * as trajectory from '../lib/drive/trajectory.js';
 import type * as estimate from '../lib/estimate/estimate.js';
@@ -51,6 +52,7 @@ type Functions = typeof array &
   typeof estimate &
   typeof image &
   typeof npy &
+  typeof region &
   typeof simulate &
   typeof street &
   typeof theory &
@@ -81,6 +83,8 @@ export const argumentCounts = {
   driveScenarios: 0,
   trajectory: 3,
   relativeTrajectoryError: 3,
+  waveformPresets: 0,
+  waveformPreset: 1,
   waveformSummary: 1,
   parseConfig: 1,
   parseBoardLog: 2,
@@ -93,6 +97,7 @@ export const argumentCounts = {
   streetScene: 1,
   simulateStreet: 1,
   frameCells: 2,
+  strongestRegion: 2,
   rangeAzimuthMap: 1,
   birdsEyeView: 1,
   sidelobeMeasure: 3,

@@ -10,10 +10,11 @@ use crate::error::AoaError;
 use boresight_core::describe::{Described, columns};
 use boresight_core::error::{check_finite, check_positive};
 use boresight_core::linalg::{Cholesky, adjoint, least_squares};
-use boresight_core::steering::{steering_derivatives, steering_matrix};
+use boresight_core::steering::{cis, steering_derivatives, steering_matrix};
+use boresight_core::units::{db_to_amplitude, db_to_power};
 use boresight_core::{Array, Complex64, CoreError, Direction, Extent};
 use ndarray::{Array1, Array2, ArrayView2};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Lower bound of the error of unbiased estimators.
 #[derive(Debug, Clone, PartialEq, Described, Serialize)]
@@ -28,6 +29,68 @@ pub struct Bound {
     /// Covariance of all azimuths, then all elevations, rad^2; infinite where `azimuth_rad` is.
     #[serde(skip)]
     pub covariance: Array2<f64>,
+}
+
+/// A target of a bound.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+pub struct BoundTarget {
+    /// Where it is.
+    #[serde(rename = "..direction", default)]
+    pub direction: Direction,
+    /// Its power over that of the noise, at one element.
+    #[option(range = -300..=300)]
+    pub snr_db: f64,
+    /// Phase of its amplitude; counts for the deterministic bound of a single snapshot.
+    #[serde(default)]
+    pub phase_rad: f64,
+}
+
+/// What a bound holds the signals for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[option(name = "BoundKind")]
+#[serde(rename_all = "kebab-case")]
+pub enum Model {
+    /// Unknown constants.
+    #[default]
+    Deterministic,
+    /// Gaussian, of unknown covariance.
+    Stochastic,
+}
+
+/// Data that a bound is of, beside array and targets.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
+pub struct BoundRequest {
+    /// Snapshots.
+    #[option(default = 1, range = 1.., required)]
+    pub snapshots: usize,
+    /// What it holds the signals for.
+    pub kind: Model,
+}
+
+/// Bound of the angles of uncorrelated targets; the deterministic one of a single snapshot is of just
+/// these phases.
+///
+/// # Errors
+/// As [`deterministic_bound`].
+pub fn target_bound(
+    array: &Array,
+    targets: &[BoundTarget],
+    options: &BoundRequest,
+) -> Result<Bound, AoaError> {
+    let directions: Vec<Direction> = targets.iter().map(|target| target.direction).collect();
+    let BoundRequest { snapshots, kind } = *options;
+    let covariance = if snapshots == 1 && kind == Model::Deterministic {
+        let amplitude = |t: &BoundTarget| cis(t.phase_rad) * db_to_amplitude(t.snr_db);
+        single_snapshot(&targets.iter().map(amplitude).collect::<Vec<_>>())
+    } else {
+        uncorrelated(&targets.iter().map(|t| db_to_power(t.snr_db)).collect::<Vec<_>>())
+    };
+    let signals = Signals { covariance: covariance.view(), noise_power: 1.0, snapshots };
+    match kind {
+        Model::Deterministic => deterministic_bound(array, &directions, &signals),
+        Model::Stochastic => stochastic_bound(array, &directions, &signals),
+    }
 }
 
 /// What is known of the signals.

@@ -4,7 +4,7 @@ use crate::method::Method;
 use boresight_core::describe::remark::Coded;
 use boresight_core::describe::{Described, columns, decibels, remark};
 use boresight_core::{Complex64, Direction, Remark};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// One source found.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
@@ -25,7 +25,7 @@ pub struct Source {
 }
 
 /// What the values of a spectrum mean.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SpectrumKind {
     /// Power at one element.

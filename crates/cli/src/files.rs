@@ -4,7 +4,7 @@ use crate::destination::{Destination, file_behind};
 use crate::error::CliError;
 use boresight_core::Waveform;
 use boresight_formats::RadarConfig;
-use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated, waveform_awr1642};
+use boresight_simulate::{waveform_preset, waveform_presets};
 use serde::Deserialize;
 use std::cell::{Cell, RefCell};
 use std::io::Write;
@@ -128,13 +128,15 @@ enum WaveformFile {
     Alone(Waveform),
 }
 
+/// Names of the waveforms known by name.
+pub fn known_waveforms() -> String {
+    waveform_presets().collect::<Vec<_>>().join(", ")
+}
+
 /// A waveform by its name, from a board's configuration, or from a JSON file.
 pub fn waveform(text: &str, files: &Files) -> Result<Waveform, CliError> {
-    match text {
-        "awr1642" => return Ok(waveform_awr1642()),
-        "3dcnn-simulated" => return Ok(waveform_3dcnn_simulated()),
-        "3dcnn-experiment" => return Ok(waveform_3dcnn_experiment()),
-        _ => {}
+    if let Ok(waveform) = waveform_preset(text) {
+        return Ok(waveform);
     }
     let path = PathBuf::from(text);
     match ending(&path).as_str() {
@@ -153,7 +155,7 @@ pub fn waveform(text: &str, files: &Files) -> Result<Waveform, CliError> {
         }
         _ => Err(CliError::Option {
             option: "--waveform",
-            expected: "awr1642, 3dcnn-simulated, 3dcnn-experiment, a .json or a .cfg file".into(),
+            expected: format!("{}, a .json or a .cfg file", known_waveforms()),
             given: format!("{text:?}"),
         }),
     }

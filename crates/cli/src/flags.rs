@@ -1,6 +1,6 @@
 //! Options that describe themselves as flags: `iaa.threshold_db` is `--iaa-threshold DB`.
 
-use boresight_core::describe::{At, Described, Field, Kind, Naming, Record, naming};
+use boresight_core::describe::{At, Choice, Described, Field, Kind, Naming, Record, naming};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
@@ -12,6 +12,8 @@ use serde_json::{Map, Number, Value};
 pub trait OnCommandLine: Described + Default + Serialize + DeserializeOwned + Clone {
     /// Where they stand in the help.
     const HEADING: &'static str;
+    /// What the names of their flags begin with; empty for nothing.
+    const PREFIX: &'static str = "";
     /// Fields that a command fills by other means, by their name in Rust.
     const ELSEWHERE: &'static [&'static str] = &[];
 }
@@ -29,42 +31,43 @@ impl<T> Flags<T> {
     pub fn given(&self, field: &str) -> bool {
         self.given.contains(&field)
     }
+
+    /// Whether any field that stands directly in the options was given.
+    pub fn is_given(&self) -> bool {
+        !self.given.is_empty()
+    }
 }
 
 /// One flag and the field it sets.
-struct Flag<'a> {
+pub struct Flag<'a> {
+    prefix: &'static str,
     /// Names in Rust of the fields that lead to it.
     path: Vec<&'static str>,
-    field: &'static Field,
+    /// The field.
+    pub field: &'static Field,
     default: Option<&'a Value>,
 }
 
 impl Flag<'_> {
     /// Its name without the dashes, and whether giving it says no to what is true by default.
-    fn name(&self) -> (String, bool) {
-        let shown: Vec<String> = self
-            .path
-            .iter()
-            .filter(|name| !name.starts_with(".."))
-            .map(|name| naming::flag(name))
-            .collect();
-        let name = shown.join("-");
+    pub fn name(&self) -> (String, bool) {
+        let own =
+            self.path.iter().filter(|name| !name.starts_with("..")).map(|name| naming::flag(name));
+        let prefix = (!self.prefix.is_empty()).then(|| self.prefix.to_owned());
+        let name = prefix.into_iter().chain(own).collect::<Vec<_>>().join("-");
         let says_no = self.default == Some(&Value::Bool(true));
         (if says_no { format!("no-{name}") } else { name }, says_no)
     }
 
     fn arg(&self, heading: &'static str) -> Arg {
         let (name, _) = self.name();
-        let arg = Arg::new(name.clone()).long(name).help_heading(heading);
+        let arg =
+            Arg::new(name.clone()).long(name).help_heading(heading).required(self.field.required);
         let help = self.help();
         match self.kind() {
             Kind::Truth => arg.action(ArgAction::SetTrue).help(help),
             Kind::Choice(choice) => {
-                let variants = choice.variants.iter();
-                let values = variants.map(|(name, doc)| PossibleValue::new(*name).help(*doc));
-                arg.value_parser(PossibleValuesParser::new(values))
-                    .hide_possible_values(false)
-                    .help(help)
+                arg.value_parser(names_of(choice)).hide_possible_values(false).help(help)
             }
             kind => arg.value_name(self.value_name(&kind)).allow_hyphen_values(true).help(help),
         }
@@ -114,14 +117,8 @@ impl Flag<'_> {
             let what = format!("--{name} is {given:?}; expected {expected}\n");
             clap::Error::raw(ErrorKind::ValueValidation, what)
         };
-        let one = |text: &str, kind: &Kind| match kind {
-            Kind::Number => self.number(text).ok_or_else(|| wrong("a number")),
-            Kind::Whole | Kind::Seed => {
-                text.trim().parse::<u64>().map(Value::from).map_err(|_| wrong("a whole number"))
-            }
-            Kind::Special(_) => Ok(text.parse::<u64>().map_or_else(|_| text.into(), Value::from)),
-            _ => Ok(text.into()),
-        };
+        let one =
+            |text: &str, kind: &Kind| self.read(text, kind).ok_or_else(|| wrong(&kind.expected()));
         if let Kind::Tuple(of, length) = kind {
             let parts: Vec<&str> = given.split(',').collect();
             if parts.len() != length {
@@ -136,11 +133,47 @@ impl Flag<'_> {
         one(given, &kind).map(Some)
     }
 
-    fn number(&self, text: &str) -> Option<Value> {
-        let number: f64 = text.trim().parse().ok()?;
-        let number = if naming::is_angle(self.field.name) { number.to_radians() } else { number };
-        Number::from_f64(number).map(Value::Number)
+    /// A value in the units of Rust.
+    fn read(&self, text: &str, kind: &Kind) -> Option<Value> {
+        Some(match kind {
+            Kind::Number => {
+                let number: f64 = text.trim().parse().ok()?;
+                let is_angle = naming::is_angle(self.field.name);
+                Value::Number(Number::from_f64(if is_angle {
+                    number.to_radians()
+                } else {
+                    number
+                })?)
+            }
+            Kind::Whole | Kind::Seed => text.trim().parse::<u64>().ok()?.into(),
+            Kind::Special(_) => text.parse::<u64>().map_or_else(|_| text.into(), Value::from),
+            _ => text.into(),
+        })
     }
+
+    /// Puts a value, given as text, where it belongs; nothing if it cannot be read.
+    pub fn put(&self, values: &mut Value, text: &str) -> Option<()> {
+        set(values, &self.path, self.read(text, &self.kind())?);
+        Some(())
+    }
+}
+
+/// The names of a choice, with their meaning.
+pub fn names<T: Described>() -> PossibleValuesParser {
+    match T::KIND {
+        Kind::Choice(choice) => names_of(choice),
+        _ => PossibleValuesParser::new(Vec::<PossibleValue>::new()),
+    }
+}
+
+fn names_of(choice: &Choice) -> PossibleValuesParser {
+    let variants = choice.variants.iter();
+    PossibleValuesParser::new(variants.map(|(name, doc)| PossibleValue::new(*name).help(*doc)))
+}
+
+/// What stands on the command line for each field of a record, without defaults.
+pub fn fields_of<T: Described>() -> Vec<Flag<'static>> {
+    flags(record::<T>(), None, &Place::default())
 }
 
 /// A default as one would give it; nothing where there is none.
@@ -161,24 +194,36 @@ fn text(field: &Field, value: &Value) -> Option<String> {
     }
 }
 
+/// Where a record stands among the flags.
+#[derive(Clone, Default)]
+struct Place {
+    prefix: &'static str,
+    /// Names in Rust of the fields that lead to it.
+    above: Vec<&'static str>,
+    elsewhere: &'static [&'static str],
+}
+
 /// The flags of a record.
-fn flags<'a>(
-    record: &'static Record,
-    defaults: Option<&'a Value>,
-    above: &[&'static str],
-    elsewhere: &[&str],
-) -> Vec<Flag<'a>> {
+fn flags<'a>(record: &'static Record, defaults: Option<&'a Value>, place: &Place) -> Vec<Flag<'a>> {
     let mut all = vec![];
-    for field in record.fields.iter().filter(|field| !elsewhere.contains(&field.name)) {
-        let path = [above, &[field.name]].concat();
+    for field in record.fields.iter().filter(|field| !place.elsewhere.contains(&field.name)) {
+        let path = [&place.above[..], &[field.name]].concat();
         let default = defaults.and_then(|defaults| defaults.get(field.name));
         match field.kind {
-            Kind::Record(inner) => all.extend(flags(inner, default, &path, elsewhere)),
+            Kind::Record(inner) => {
+                all.extend(flags(inner, default, &Place { above: path, ..place.clone() }));
+            }
             Kind::List(_) | Kind::Numbers(_) => {}
-            _ => all.push(Flag { path, field, default }),
+            _ => all.push(Flag { prefix: place.prefix, path, field, default }),
         }
     }
     all
+}
+
+/// All flags of options.
+fn flags_of<T: OnCommandLine>(defaults: Option<&Value>) -> Vec<Flag<'_>> {
+    let place = Place { prefix: T::PREFIX, above: vec![], elsewhere: T::ELSEWHERE };
+    flags(record::<T>(), defaults, &place)
 }
 
 fn record<T: Described>() -> &'static Record {
@@ -191,8 +236,7 @@ fn record<T: Described>() -> &'static Record {
 impl<T: OnCommandLine> Args for Flags<T> {
     fn augment_args(command: Command) -> Command {
         let defaults = serde_json::to_value(T::default()).ok();
-        let flags = flags(record::<T>(), defaults.as_ref(), &[], T::ELSEWHERE);
-        command.args(flags.iter().map(|flag| flag.arg(T::HEADING)))
+        command.args(flags_of::<T>(defaults.as_ref()).iter().map(|flag| flag.arg(T::HEADING)))
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -208,7 +252,7 @@ impl<T: OnCommandLine> FromArgMatches for Flags<T> {
         let defaults = serde_json::to_value(T::default()).map_err(|error| raw(&error))?;
         let mut values = defaults.clone();
         let mut given = vec![];
-        for flag in flags(record::<T>(), Some(&defaults), &[], T::ELSEWHERE) {
+        for flag in flags_of::<T>(Some(&defaults)) {
             if let Some(value) = flag.value(matches)? {
                 set(&mut values, &flag.path, value);
                 if let [own] = flag.path[..] {
@@ -217,7 +261,9 @@ impl<T: OnCommandLine> FromArgMatches for Flags<T> {
             }
         }
         let options: T = serde_json::from_value(values).map_err(|error| raw(&error))?;
-        options.check(None, &At::top(Naming::CommandLine)).map_err(|error| raw(&error))?;
+        let above = if T::PREFIX.is_empty() { String::new() } else { format!("--{}", T::PREFIX) };
+        let at = At::named(Naming::CommandLine, &above);
+        options.check(None, &at).map_err(|error| raw(&error))?;
         Ok(Self { options, given })
     }
 
@@ -244,7 +290,7 @@ fn set(values: &mut Value, path: &[&'static str], value: Value) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use boresight_core::describe::differing_fields;
+    use boresight_core::describe::{differing_fields, lies_in};
     use clap::Parser;
     use std::fmt::Debug;
 
@@ -264,31 +310,38 @@ mod tests {
     /// Every flag in turn: a legal value that is not the default changes its field, and no other.
     fn every_flag<T: OnCommandLine + Debug + Send + Sync + 'static>(fewest: usize) {
         let defaults = serde_json::to_value(T::default()).unwrap();
-        let all = flags(record::<T>(), Some(&defaults), &[], T::ELSEWHERE);
+        let all = flags_of::<T>(Some(&defaults));
         assert!(all.len() >= fewest, "{}", all.len());
-        for flag in all {
-            let name = format!("--{}", flag.name().0);
+        let required: Vec<String> =
+            all.iter().filter(|flag| flag.field.required).map(dashed).collect();
+        for flag in &all {
+            let name = dashed(flag);
+            let others = required.iter().filter(|other| **other != name);
+            let others: Vec<&str> = others.flat_map(|other| [&**other, "0"]).collect();
             let mut has_changed = false;
-            for value in values(&flag) {
+            for value in values(flag) {
                 let given = if value.is_empty() { vec![&*name] } else { vec![&*name, &*value] };
-                let changed: T = parse(&given).unwrap_or_else(|error| panic!("{given:?}: {error}"));
+                let line = [&others[..], &given].concat();
+                let changed: T = parse(&line).unwrap_or_else(|error| panic!("{line:?}: {error}"));
                 let differing = differing_fields(&T::default(), &changed);
                 // One of the names of a choice is the default.
                 if !differing.is_empty() {
                     let path: Vec<&str> =
                         flag.path.iter().map(|name| name.trim_start_matches("..")).collect();
                     let own = path.join(".");
-                    let is_own = |field: &String| {
-                        field
-                            .strip_prefix(&own)
-                            .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-                    };
-                    assert!(differing.iter().all(is_own), "{given:?}: {differing:?}");
+                    assert!(
+                        differing.iter().all(|field| lies_in(field, &own)),
+                        "{line:?}: {differing:?}"
+                    );
                     has_changed = true;
                 }
             }
             assert!(has_changed, "{name} changes nothing");
         }
+    }
+
+    fn dashed(flag: &Flag<'_>) -> String {
+        format!("--{}", flag.name().0)
     }
 
     fn values(flag: &Flag<'_>) -> Vec<String> {
@@ -315,6 +368,10 @@ mod tests {
         every_flag::<boresight_pipeline::ChainOptions>(16);
         every_flag::<boresight_calibrate::Options>(19);
         every_flag::<boresight_simulate::DriveOptions>(16);
+        every_flag::<boresight_simulate::SnapshotRequest>(10);
+        every_flag::<boresight_simulate::SceneSampling>(4);
+        every_flag::<boresight_simulate::CubeRequest>(8);
+        every_flag::<boresight_image::ViewGridOptions>(3);
     }
 
     #[test]

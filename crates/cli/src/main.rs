@@ -20,6 +20,7 @@ mod flags;
 mod json;
 mod network;
 mod output;
+mod pairs;
 mod picture;
 mod run;
 

@@ -2,15 +2,18 @@
 
 use crate::describe::Described;
 use crate::error::{CoreError, check_range};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// A direction seen from the sensor: x forward, y left, z up.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Direction {
     /// Azimuth, counter-clockwise from boresight (positive to the left).
+    #[option(range = -90..=90)]
     pub azimuth_rad: f64,
     /// Elevation, positive upwards.
+    #[option(range = -90..=90)]
     pub elevation_rad: f64,
 }
 

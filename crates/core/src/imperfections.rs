@@ -1,6 +1,7 @@
 //! What makes a real array differ from its drawing: gain, phase, position and coupling.
 
 use crate::array::{Array, Position};
+use crate::describe::Described;
 use crate::direction::Direction;
 use crate::error::{CoreError, check_finite, check_range};
 use crate::random::Random;
@@ -25,18 +26,47 @@ pub struct Imperfections {
 }
 
 /// Standard deviations from which [`Imperfections::random`] draws, and the coupling of neighbours.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct ImperfectionSpread {
-    /// Standard deviation of the gain, dB.
+    /// Standard deviation of the gain of the elements.
+    #[option(range = 0..=100)]
     pub gain_db: f64,
-    /// Standard deviation of the phase, rad.
+    /// Standard deviation of the phase of the elements.
+    #[option(range = 0..=3600)]
     pub phase_rad: f64,
-    /// Standard deviation of the displacement along y, half wavelengths.
+    /// Standard deviation of the displacement of the elements along y, half wavelengths.
+    #[option(range = 0..=100)]
     pub position: f64,
-    /// Coupling between elements half a wavelength apart, dB; falls with the square of the
-    /// distance, with the phase of its travel. `None` for no coupling.
+    /// Coupling between elements half a wavelength apart; falls with the square of the distance,
+    /// with the phase of its travel. No coupling if absent.
+    #[option(range = -200..=0)]
     pub coupling_db: Option<f64>,
+}
+
+/// Errors of an array's elements, drawn from normal distributions.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize, Deserialize)]
+#[option(name = "Imperfections")]
+#[serde(default)]
+pub struct ImperfectionOptions {
+    /// How large they are.
+    #[serde(rename = "..spread")]
+    pub spread: ImperfectionSpread,
+    /// Seed they are drawn from; that of the simulation if absent.
+    pub seed: Option<u64>,
+}
+
+impl ImperfectionOptions {
+    /// Draws the errors for `array`; none where nothing is asked for.
+    ///
+    /// # Errors
+    /// As [`Imperfections::random`].
+    pub fn draw(&self, array: &Array, seed: u64) -> Result<Option<Imperfections>, CoreError> {
+        if self.spread == ImperfectionSpread::default() {
+            return Ok(None);
+        }
+        Imperfections::random(array, self.spread, self.seed.unwrap_or(seed)).map(Some)
+    }
 }
 
 impl Imperfections {

@@ -5,13 +5,12 @@ use crate::EvaluateError;
 use boresight_aoa::{Estimator, WarningCount};
 use boresight_core::Array;
 use boresight_core::presets::preset;
-use boresight_image::{BirdsEyeView, Gate, Outside, ViewGrid, birds_eye_view};
+use boresight_image::{BirdsEyeView, Gate, Grid, GridOptions, Outside, ViewGrid, birds_eye_view};
 use boresight_neural::Model;
 use boresight_pipeline::image::{Angles, frame_map, map_grid};
 use boresight_pipeline::{Chain, ChainOptions, FrameCells};
 use boresight_simulate::{Street, VisibleTarget};
 use ndarray::Axis;
-use std::f64::consts::FRAC_PI_3;
 
 /// The estimator of an image's angles; `model` is that of a network.
 fn estimator(
@@ -95,7 +94,9 @@ impl StreetFrames {
         let (mut maps, mut warnings, mut outside) = (vec![], vec![], Outside::default());
         for frame in &self.frames {
             let radar = &self.street.radars[frame.radar];
-            let map_grid = map_grid(&radar.waveform, radar.field_of_view_rad)?;
+            let field_of_view_rad = radar.field_of_view_rad;
+            let map_grid =
+                Grid::of(&GridOptions { field_of_view_rad, ..map_grid(&radar.waveform) })?;
             let mut estimator = estimator(angles, &preset(radar.array)?, model)?;
             let made = frame_map(&frame.cells, &mut estimator, angles.content, map_grid)?;
             outside.count += made.map.outside.count;
@@ -124,7 +125,7 @@ impl StreetFrames {
     /// None for the radars of a street.
     pub fn gate(&self) -> Result<Gate, EvaluateError> {
         let radar = &self.street.radars[0];
-        let cell = map_grid(&radar.waveform, FRAC_PI_3)?;
+        let cell = Grid::of(&map_grid(&radar.waveform))?;
         Ok(Gate::Resolution {
             range_m: 2.0 * radar.waveform.range_resolution_m(),
             sine: 2.0 / (preset(radar.array)?.aperture() + 1.0) + cell.sine.step(),

@@ -28,11 +28,20 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
         )?,
         entry::<boresight_calibrate::Options>("CalibrationOptions", "Mounting angles")?,
         entry::<boresight_simulate::DriveOptions>("SimulateDriveOptions", "Simulated drives")?,
+        entry::<boresight_wasm::region::RegionOptions>("RegionOptions", "Regions of interest")?,
         entry::<boresight_simulate::street::StreetOptions>(
             "StreetOptions",
             "The simulated street",
         )?,
+        entry::<boresight_simulate::SnapshotRequest>("SnapshotRequest", "Simulated snapshots")?,
+        entry::<boresight_simulate::Target>("SnapshotTarget", "Targets of snapshots")?,
         entry::<boresight_simulate::SceneSampling>("SceneSampling", "Scenes drawn by a rule")?,
+        entry::<boresight_simulate::CubeRequest>("CubeRequest", "Simulated data cubes")?,
+        plain("CubeTarget", "Targets of data cubes", boresight_simulate::CubeTarget::KIND),
+        entry::<boresight_aoa::bounds::BoundRequest>("BoundRequest", "Cramer-Rao bounds")?,
+        plain("BoundTarget", "Targets of bounds", boresight_aoa::bounds::BoundTarget::KIND),
+        plain("MapGrid", "Range-azimuth maps", boresight_image::GridOptions::KIND),
+        entry::<boresight_image::ViewGridOptions>("ViewGrid", "Bird's-eye views")?,
         entry::<boresight_aoa::counting::CountOptions>("CountOptions", "Counting sources")?,
         entry::<boresight_wasm::drive::ReadDriveOptions>("ReadDriveOptions", "Reading drives")?,
     ])
@@ -41,7 +50,8 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
 /// What functions return, by subject.
 pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
     use boresight_wasm::{
-        calibration_methods, capture, config, count, drive, estimate, npy, street, trajectory,
+        calibration_methods, capture, config, count, drive, estimate, image, npy, region, street,
+        trajectory,
     };
     vec![
         ("Arrays and waveforms", vec![Geometry::KIND, Waveform::KIND, WaveformSummary::KIND]),
@@ -70,6 +80,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
             "Captures and their chain",
             vec![
                 config::ConfigRecord::KIND,
+                region::RegionOfInterest::KIND,
                 capture::CaptureInfo::KIND,
                 boresight_pipeline::FrameResult::KIND,
                 boresight_pipeline::FrameCells::KIND,
@@ -78,6 +89,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
         (
             "Images",
             vec![
+                image::ImageDefaults::KIND,
                 boresight_image::MapColumns::KIND,
                 boresight_image::ViewColumns::KIND,
                 boresight_image::SidelobeMeasure::KIND,
@@ -117,11 +129,17 @@ fn entry<T: Described + Default + Serialize>(
     name: &'static str,
     title: &'static str,
 ) -> Result<Entry, serde_json::Error> {
-    let record = match T::KIND {
+    let defaults = serde_json::to_value(T::default())?;
+    Ok(Entry { defaults, ..plain(name, title, T::KIND) })
+}
+
+/// Options that mean nothing until they are given.
+fn plain(name: &'static str, title: &'static str, kind: Kind) -> Entry {
+    let record = match kind {
         Kind::Record(record) => record,
         _ => &Record { name: "", doc: "", fields: &[] },
     };
-    Ok(Entry { name, title, record, defaults: serde_json::to_value(T::default())? })
+    Entry { name, title, record, defaults: Value::Null }
 }
 
 /// A field as users see it, where those of spread fields stand among the others.
@@ -134,7 +152,8 @@ pub struct Shown<'a> {
 pub fn shown<'a>(record: &'static Record, defaults: Option<&'a Value>) -> Vec<Shown<'a>> {
     let mut all = vec![];
     for field in record.fields {
-        let default = defaults.and_then(|defaults| defaults.get(field.name));
+        let default =
+            defaults.and_then(|defaults| defaults.get(field.name)).filter(|_| !field.required);
         match (field.name.starts_with(".."), field.kind) {
             (true, Kind::Record(inner)) => all.extend(shown(inner, default)),
             _ => all.push(Shown { field, default }),

@@ -33,6 +33,7 @@
 mod axis;
 mod columns;
 mod error;
+mod options;
 mod sidelobes;
 mod splat;
 mod view;
@@ -40,6 +41,7 @@ mod view;
 pub use axis::Axis;
 pub use columns::{MapColumns, ViewColumns};
 pub use error::ImageError;
+pub use options::{GridOptions, ViewGridOptions};
 pub use sidelobes::{Gate, LIT_DB, SidelobeMeasure, sidelobe_measure};
 pub use splat::{Grid, Outside, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target};
 pub use view::{BirdsEyeView, NO_RADAR, ViewGrid, birds_eye_view};

@@ -2,14 +2,24 @@
 
 use crate::{ChainOptions, FrameCells, PipelineError, suited};
 use boresight_aoa::{BatchEstimate, Estimator, Method, Options, SpectrumKind, WarningCount};
+use boresight_core::describe::Described;
 use boresight_core::{Array, CoreError, Waveform};
-use boresight_image::{Grid, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target};
+use boresight_image::{
+    Grid, GridOptions, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target,
+};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_PI_3;
 
 /// Azimuths of a map.
 const AZIMUTHS: usize = 512;
 
+/// Half width of the field of view of a map.
+const FIELD_OF_VIEW_RAD: f64 = FRAC_PI_3;
+
 /// What of the estimates goes into an image.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[option(name = "ImageFrom")]
+#[serde(rename_all = "kebab-case")]
 pub enum Content {
     /// The sources found in each cell.
     Targets,
@@ -57,14 +67,15 @@ pub fn chain_options() -> ChainOptions {
     ChainOptions { peak_grouping: false, max_detections: 4096, ..ChainOptions::default() }
 }
 
-/// The grid of a map: the range bins of a waveform, and 512 azimuths over `field_of_view_rad` to
-/// each side.
-///
-/// # Errors
-/// [`CoreError::OutOfRange`] for a field of view beyond 90 deg.
-pub fn map_grid(waveform: &Waveform, field_of_view_rad: f64) -> Result<Grid, PipelineError> {
-    let last_m = (waveform.samples - 1) as f64 * waveform.range_resolution_m();
-    Ok(Grid::new([0.0, last_m], waveform.samples, field_of_view_rad, AZIMUTHS)?)
+/// The grid of a map unless another is asked for: the range bins of a waveform, and 512 azimuths
+/// over 60 deg to each side.
+pub fn map_grid(waveform: &Waveform) -> GridOptions {
+    GridOptions {
+        range_m: [0.0, (waveform.samples - 1) as f64 * waveform.range_resolution_m()],
+        ranges: waveform.samples,
+        field_of_view_rad: FIELD_OF_VIEW_RAD,
+        azimuths: AZIMUTHS,
+    }
 }
 
 /// Estimates the angles in the cells of a frame and adds them up to a map.

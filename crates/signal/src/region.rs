@@ -6,7 +6,7 @@ use crate::window::Window;
 use boresight_core::describe::Described;
 use boresight_core::error::check_range;
 use boresight_core::{Complex32, Complex64, CoreError};
-use ndarray::{Array2, Array3, Array4, ArrayView3, ArrayView4, s};
+use ndarray::{Array2, Array3, Array4, ArrayView2, ArrayView3, ArrayView4, Axis, s};
 use serde::{Deserialize, Serialize};
 
 /// Limits, both ends inside; absent ones hold nothing back.
@@ -101,6 +101,14 @@ pub fn range_spectrum(
     })
 }
 
+/// The range bin with the most power over all loops and channels of a [`range_spectrum`].
+pub fn strongest_range(spectrum: ArrayView3<Complex32>) -> usize {
+    let bins = spectrum.axis_iter(Axis(2));
+    let powers = bins.map(|cells| cells.iter().map(|z| f64::from(z.norm_sqr())).sum::<f64>());
+    let strongest = powers.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
+    strongest.map_or(0, |(bin, _)| bin)
+}
+
 /// The region of interest of the 3D-CNN paper (Sang et al. 2021): the `length` range bins around
 /// `centre`, all channels, the first `chirps` loops, as range x channels x chirps. Range bins wrap,
 /// as the transform's do.
@@ -143,6 +151,20 @@ pub fn region_snapshots(region: ArrayView3<Complex32>) -> Array2<Complex64> {
 /// the middle of a bin gives its power of one raw sample where the window was rectangular.
 pub fn region_covariance(region: ArrayView3<Complex32>) -> Array2<Complex64> {
     crate::covariance::sample_covariance(region_snapshots(region).view())
+}
+
+/// A covariance as the dense networks of the paper take it (its equation 8): the upper triangle by rows
+/// without the diagonal, real and imaginary parts, over the largest diagonal entry; zeros for a
+/// covariance of zeros. Any scale will do.
+pub fn covariance_features(covariance: ArrayView2<Complex64>) -> Vec<f32> {
+    let largest = covariance.diag().iter().map(|z| z.re).fold(0.0, f64::max);
+    let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
+    let elements = covariance.nrows();
+    let entries = (0..elements).flat_map(|i| (i + 1..elements).map(move |k| [i, k]));
+    entries
+        .flat_map(|at| [covariance[at].re * scale, covariance[at].im * scale])
+        .map(|x| x as f32)
+        .collect()
 }
 
 /// The three real channels in which the 3D-CNN takes a region: magnitude, real and imaginary part,
@@ -193,6 +215,7 @@ mod tests {
     #[test]
     fn the_region_is_centred_on_the_target_and_wraps() {
         let spectrum = range_spectrum(frame().view(), Window::Rectangular).unwrap();
+        assert_eq!(strongest_range(spectrum.view()), 20);
         let region = crop_region(spectrum.view(), 20, 9, 3).unwrap();
         assert_eq!(region.dim(), (9, 6, 3));
         assert!((region[[4, 0, 2]].norm() - 2.0).abs() < 1e-5);
@@ -211,6 +234,12 @@ mod tests {
         let covariance = region_covariance(region.view());
         assert!((covariance[[0, 0]].re - 4.0).abs() < 1e-4);
         assert!((covariance[[3, 1]] - Complex64::cis(1.0) * 4.0).norm() < 1e-4);
+        let features = covariance_features(covariance.view());
+        assert_eq!(features.len(), 6 * 5);
+        // The first row's last entry: elements 0 and 5.
+        let angle = features[9].atan2(features[8]);
+        assert!((angle + 2.5).abs() < 1e-4, "{angle}");
+        assert!(covariance_features(Array2::zeros((6, 6)).view()).iter().all(|x| *x == 0.0));
     }
 
     #[test]

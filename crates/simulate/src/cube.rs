@@ -22,7 +22,7 @@ use boresight_core::{
     Array, Complex32, Complex64, CoreError, Direction, Imperfections, Random, Waveform,
 };
 use ndarray::{Array1, Array5};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// Most complex values one call returns (1 GiB).
@@ -32,17 +32,21 @@ pub const MAX_VALUES: usize = 1 << 27;
 pub const MAX_TARGETS: usize = 1024;
 
 /// A point target that moves along the line of sight.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize, Deserialize)]
 #[option(name = "Echo")]
 pub struct CubeTarget {
     /// Distance from the array's origin at the start of the first chirp.
     pub range_m: f64,
     /// Rate at which the range grows.
+    #[serde(default)]
+    #[option(range = -100_000..=100_000)]
     pub rate_mps: f64,
     /// Where it is.
-    #[serde(rename = "..direction")]
+    #[serde(rename = "..direction", default)]
     pub direction: Direction,
     /// Power of one raw sample at one element.
+    #[serde(default)]
+    #[option(range = -200..=200)]
     pub power_db: f64,
     /// Phase of its reflection; drawn from the seed if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -80,26 +84,26 @@ pub enum Field {
 }
 
 /// How to simulate.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct CubeOptions {
-    /// Power of a 0 dB target over noise power, both of one raw sample, dB.
+    /// Power of a 0 dB target over noise power, both of one raw sample.
+    #[option(default = 20.0, range = -200..=300)]
     pub snr_db: f64,
     /// Frames.
+    #[option(default = 1, range = 1..)]
     pub frames: usize,
     /// Plane or spherical waves.
+    #[serde(skip)]
     pub field: Field,
     /// Errors of the virtual elements, transmitter-major, all transmitters x all receivers.
     /// Coupling acts on the response of the virtual array.
+    #[serde(skip)]
     pub imperfections: Option<Imperfections>,
-    /// Reflection phases come from stream 0 of this seed, the noise of frame `i` from stream
-    /// `i + 1`.
+    /// Seed; the same one gives the same numbers on every machine. Reflection phases come from stream
+    /// 0 of it, the noise of frame `i` from stream `i + 1`.
+    #[option(required)]
     pub seed: u64,
-}
-
-impl Default for CubeOptions {
-    fn default() -> Self {
-        Self { snr_db: 20.0, frames: 1, field: Field::Far, imperfections: None, seed: 0 }
-    }
 }
 
 /// Simulates frames x loops x transmitters x receivers x samples. Transmitters and receivers are

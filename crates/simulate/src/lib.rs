@@ -31,6 +31,7 @@ pub mod cube;
 pub mod digest;
 pub mod drive;
 pub mod error;
+pub mod request;
 pub mod snapshots;
 pub mod street;
 pub mod waveforms;
@@ -38,10 +39,12 @@ pub mod waveforms;
 pub use cube::{CubeColumns, CubeOptions, CubeTarget, Field, simulate_cube};
 pub use drive::{DriveOptions, Scenario, SimulatedDrive, simulate_drive, simulate_drive_reporting};
 pub use error::SimulateError;
+pub use request::{CubeRequest, SnapshotRequest};
 pub use snapshots::{
     Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Snapshots, Target,
 };
 pub use street::{Street, StreetOptions, StreetRadar, VisibleTarget};
 pub use waveforms::{
     waveform_3dcnn_experiment, waveform_3dcnn_simulated, waveform_awr1642, waveform_corner,
+    waveform_preset, waveform_presets,
 };

@@ -20,13 +20,15 @@ pub const MAX_VALUES: usize = 1 << 26;
 pub const MAX_TARGETS: usize = 1024;
 
 /// Something that reflects.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize, Deserialize)]
 #[option(name = "TrueTarget")]
+#[serde(default)]
 pub struct Target {
     /// Where it is.
     #[serde(rename = "..direction")]
     pub direction: Direction,
     /// Its power at one element, `20 log10` of its amplitude.
+    #[option(range = -300..=300)]
     pub power_db: f64,
     /// Phase of its amplitude in the first snapshot; drawn uniformly if absent. Complex normal
     /// amplitudes have none.
@@ -78,20 +80,28 @@ pub enum Fluctuation {
 }
 
 /// What to simulate.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
 pub struct SnapshotOptions {
     /// The targets.
+    #[serde(skip)]
+    #[option(default = Scene::Given(vec![]))]
     pub scene: Scene,
-    /// Power of a 0 dB target at one element over noise power at one element, dB: noise power is
+    /// Power of a 0 dB target at one element over noise power at one element: noise power is
     /// `10^(-snr_db / 10)`.
+    #[option(default = 20.0, range = -300..=300)]
     pub snr_db: f64,
     /// Snapshots a scene.
+    #[option(default = 1, range = 1..)]
     pub snapshots: usize,
     /// How amplitudes change between them.
     pub fluctuation: Fluctuation,
     /// What is wrong with the array.
+    #[serde(skip)]
     pub imperfections: Option<Imperfections>,
-    /// Scene `i` draws from stream `i` of this seed, whatever else is simulated.
+    /// Seed; the same one gives the same numbers on every machine. Scene `i` draws from stream `i` of
+    /// it, whatever else is simulated.
+    #[option(required)]
     pub seed: u64,
 }
 

@@ -1,6 +1,35 @@
 //! Waveforms of the literature and of boards.
 
-use boresight_core::Waveform;
+use boresight_core::{CoreError, Waveform};
+
+/// A waveform's name, and the function that makes it.
+type Preset = (&'static str, fn() -> Waveform);
+
+/// The waveforms known by name.
+const PRESETS: [Preset; 4] = [
+    ("awr1642", waveform_awr1642),
+    ("corner", waveform_corner),
+    ("3dcnn-simulated", waveform_3dcnn_simulated),
+    ("3dcnn-experiment", waveform_3dcnn_experiment),
+];
+
+/// The names of the waveforms known by name.
+pub fn waveform_presets() -> impl Iterator<Item = &'static str> {
+    PRESETS.iter().map(|(name, _)| *name)
+}
+
+/// The waveform of a name.
+///
+/// # Errors
+/// [`CoreError::Unknown`], listing the known names.
+pub fn waveform_preset(name: &str) -> Result<Waveform, CoreError> {
+    let preset = PRESETS.iter().find(|(known, _)| *known == name);
+    preset.map(|(_, make)| make()).ok_or_else(|| CoreError::Unknown {
+        what: "waveform".into(),
+        expected: waveform_presets().collect::<Vec<_>>().join(", "),
+        given: name.into(),
+    })
+}
 
 /// Table 3 of the 3D-CNN paper (Sang et al. 2021): 150 MHz in 256 samples at 3.476 MHz/us, so
 /// range bins of 1 m, one transmitter; 4 chirps, as its network takes. The paper names no chirp

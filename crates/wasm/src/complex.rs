@@ -4,6 +4,7 @@ use crate::error::{BindingError, Fallible};
 use crate::read::{Fields, Read, wrong_type};
 use boresight_core::{Complex32, Complex64, CoreError};
 use js_sys::{Float32Array, Float64Array};
+use ndarray::ArrayView4;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// Complex numbers in C order with their shape.
@@ -53,6 +54,20 @@ pub struct Cube {
     pub data: Vec<Complex32>,
     /// Their shape; its product is the number of them.
     pub shape: Vec<usize>,
+}
+
+impl Cube {
+    /// The cube of one frame: loops x transmitters x receivers x samples, with or without an axis of
+    /// frames before.
+    pub fn one_frame(&self) -> Fallible<ArrayView4<'_, Complex32>> {
+        let wrong = || CoreError::Shape {
+            what: "cube".into(),
+            expected: "[loops, transmitters, receivers, samples], or that after one frame".into(),
+            given: self.shape.clone(),
+        };
+        let ([a, b, c, d] | [1, a, b, c, d]) = self.shape[..] else { return Err(wrong().into()) };
+        ArrayView4::from_shape((a, b, c, d), &self.data).map_err(|_| wrong().into())
+    }
 }
 
 impl Read for Cube {

@@ -4,17 +4,22 @@ use crate::carry;
 use crate::complex::float_array;
 use crate::error::{BindingError, Fallible};
 use crate::estimate::shape_error;
-use crate::read::{Angle, Fields, Read, wrong_type};
-use boresight_core::CoreError;
+use crate::read::{Fields, Read, wrong_type};
+use boresight_aoa::{self as aoa, Method, SpectrumKind};
+use boresight_core::describe::Described;
 use boresight_core::drive::Mounting;
 use boresight_core::error::check_range;
 use boresight_core::units::db_to_power;
+use boresight_core::{Array, CoreError, Waveform};
 use boresight_image::{
-    Axis, BirdsEyeView, Gate, Grid, Outside, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan,
-    Target, ViewGrid, birds_eye_view, sidelobe_measure,
+    Axis, BirdsEyeView, Gate, Grid, GridOptions, Outside, RangeAzimuthDoppler, RangeAzimuthMap,
+    SpectrumPlan, Target, ViewGrid, birds_eye_view, sidelobe_measure,
 };
+use boresight_pipeline::image::{Angles, Content, chain_options, map_grid};
+use boresight_pipeline::{AngleOptions, ChainOptions, suited};
 use js_sys::{Int8Array, Uint32Array};
 use ndarray::Array2;
+use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -25,15 +30,13 @@ pub fn range_azimuth_map(input: &JsValue) -> Fallible<JsValue> {
     let cells = Cells::read(fields.object("cells")?)?;
     let estimates = fields.object("estimates")?;
     let mut estimates = estimates.ok_or_else(|| missing("estimates", "estimates of the cells"))?;
-    let mut of_spectra = false;
-    fields.update_choice("from", &[("targets", false), ("spectra", true)], &mut of_spectra)?;
-    let grid: Grid = fields.required("grid")?;
+    let from = fields.described("from")?.unwrap_or(Content::Targets);
+    let grid = Grid::of(&fields.described_required("grid")?)?;
     fields.finish()?;
     let mut image = RangeAzimuthDoppler::new(grid, None)?;
-    if of_spectra {
-        add_spectra(&mut image, &cells, &mut estimates)?;
-    } else {
-        add_targets(&mut image, &cells, &mut estimates)?;
+    match from {
+        Content::Spectra => add_spectra(&mut image, &cells, &mut estimates)?,
+        Content::Targets => add_targets(&mut image, &cells, &mut estimates)?,
     }
     Ok(carry::write(&image.to_map().columns()))
 }
@@ -121,8 +124,7 @@ fn add_spectra(
     let azimuth_rad: Vec<f64> = azimuth_deg.iter().map(|azimuth| azimuth.to_radians()).collect();
     let power: Vec<f32> =
         float_array(&mut spectra, "power")?.0.into_iter().map(|power| power as f32).collect();
-    let mut is_pseudo = false;
-    spectra.update_choice("kind", &[("power", false), ("pseudo", true)], &mut is_pseudo)?;
+    let is_pseudo = spectra.described("kind")? == Some(SpectrumKind::Pseudo);
     let plan = SpectrumPlan::new(&azimuth_rad, &image.grid)?;
     let each = power.len() / cells.range_m.len();
     check_length("estimates.spectra.power", cells.range_m.len() * each.max(1), power.len())?;
@@ -131,20 +133,6 @@ fn add_spectra(
         image.add_spectrum(&plan, cells.range_m[index], 0.0, power, level)?;
     }
     Ok(())
-}
-
-impl Read for Grid {
-    const EXPECTED: &'static str = "{ rangeM, ranges, fieldOfViewDeg, azimuths }";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let mut fields = Fields::new(value, path)?;
-        let range_m = fields.required("rangeM")?;
-        let ranges = fields.required("ranges")?;
-        let field_of_view: Angle = fields.required("fieldOfViewDeg")?;
-        let azimuths = fields.required("azimuths")?;
-        fields.finish()?;
-        Ok(Self::new(range_m, ranges, field_of_view.rad, azimuths)?)
-    }
 }
 
 /// A map as it was given out.
@@ -204,24 +192,12 @@ impl Read for Radar {
     }
 }
 
-impl Read for ViewGrid {
-    const EXPECTED: &'static str = "{ xM, yM, cellM }";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let mut fields = Fields::new(value, path)?;
-        let (x_m, y_m) = (fields.required("xM")?, fields.required("yM")?);
-        let cell_m = fields.required("cellM")?;
-        fields.finish()?;
-        Ok(Self::new(x_m, y_m, cell_m)?)
-    }
-}
-
 /// Maps of several radars on the ground around the car.
 #[wasm_bindgen(js_name = birdsEyeView)]
 pub fn view(input: &JsValue) -> Fallible<JsValue> {
     let mut fields = Fields::new(input, "")?;
     let radars: Vec<Radar> = fields.required("radars")?;
-    let grid: ViewGrid = fields.required("grid")?;
+    let grid = ViewGrid::of(&fields.described_required("grid")?)?;
     fields.finish()?;
     let radars: Vec<_> = radars.iter().map(|radar| (&radar.map.0, radar.mounting)).collect();
     Ok(carry::write(&birds_eye_view(&radars, grid)?.columns()))
@@ -278,4 +254,46 @@ fn read_gate(mut fields: Fields) -> Fallible<Gate> {
     };
     fields.finish()?;
     Ok(gate)
+}
+
+/// How an image is made unless something else is asked for.
+#[derive(Described, Serialize)]
+pub struct ImageDefaults {
+    /// Of the chain: an image takes every detected cell.
+    #[serde(rename = "..chain")]
+    chain: ImageChain,
+    /// The method.
+    method: Method,
+    /// What the chain makes of the method's own, so that a cell gives sources only.
+    dynamic_range_db: f64,
+    /// The same.
+    loading: f64,
+    /// Spectra where the method has them.
+    from: Content,
+    /// The waveform's range bins, and azimuths over the field of view.
+    grid: GridOptions,
+}
+
+#[derive(Described, Serialize)]
+struct ImageChain {
+    peak_grouping: bool,
+    max_detections: usize,
+}
+
+/// How an image is made of a cube unless something else is asked for.
+#[wasm_bindgen(js_name = imageDefaults)]
+pub fn image_defaults(waveform: &JsValue, array: &JsValue, angle: &JsValue) -> Fallible<JsValue> {
+    let waveform = Waveform::read(waveform, "waveform")?;
+    let array = Array::read(array, "array")?;
+    let AngleOptions { method, options } = carry::read_named(angle, "angle")?;
+    let aoa::Options { dynamic_range_db, loading, .. } = suited(method, &array, &options);
+    let ChainOptions { peak_grouping, max_detections, .. } = chain_options();
+    Ok(carry::write(&ImageDefaults {
+        chain: ImageChain { peak_grouping, max_detections },
+        method,
+        dynamic_range_db,
+        loading,
+        from: Angles::of(method).content,
+        grid: map_grid(&waveform),
+    }))
 }

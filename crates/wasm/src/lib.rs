@@ -46,13 +46,13 @@ pub mod estimate;
 #[cfg(feature = "core")]
 pub mod image;
 #[cfg(feature = "core")]
-mod imperfections;
-#[cfg(feature = "core")]
 pub mod npy;
 #[cfg(feature = "chain")]
 pub mod options;
 mod panic;
 pub mod read;
+#[cfg(feature = "core")]
+pub mod region;
 pub mod report;
 #[cfg(feature = "core")]
 pub mod simulate;

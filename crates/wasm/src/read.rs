@@ -4,7 +4,6 @@ use crate::carry::{Known, Reader, read_named};
 use crate::error::{BindingError, Fallible};
 use boresight_core::CoreError;
 use boresight_core::describe::{At, Described, Naming};
-use boresight_core::error::check_range;
 use js_sys::{Array, BigInt, Object};
 use serde::de::DeserializeOwned;
 use wasm_bindgen::{JsCast, JsValue};
@@ -104,19 +103,6 @@ impl Fields {
             what: self.path_of(name),
             expected: T::KIND.expected(),
         })
-    }
-
-    /// Puts what a field names out of a fixed list into `target`, if there is such a field.
-    pub fn update_choice<T: Copy>(
-        &mut self,
-        name: &'static str,
-        choices: &[(&str, T)],
-        target: &mut T,
-    ) -> Fallible<()> {
-        if let Some(value) = self.raw(name)? {
-            *target = choice(&value, &self.path_of(name), choices)?;
-        }
-        Ok(())
     }
 
     /// Reads a described struct whose fields stand among those of this object.
@@ -288,21 +274,5 @@ impl<T: Read> Read for Vec<T> {
 
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
         items(value, path)?.iter().map(|(item, path)| T::read(item, path)).collect()
-    }
-}
-/// An angle given in degrees, within a quarter turn of boresight.
-#[derive(Debug, Clone, Copy)]
-pub struct Angle {
-    /// The angle, rad.
-    pub rad: f64,
-}
-
-impl Read for Angle {
-    const EXPECTED: &'static str = "an angle in degrees";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let degrees = f64::read(value, path)?;
-        check_range(path, degrees, -90.0, 90.0)?;
-        Ok(Self { rad: degrees.to_radians() })
     }
 }

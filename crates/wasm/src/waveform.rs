@@ -22,3 +22,18 @@ impl Read for Waveform {
 pub fn waveform_summary(waveform: &JsValue) -> Fallible<JsValue> {
     Ok(carry::write(&Waveform::read(waveform, "waveform")?.summary()))
 }
+
+/// Names of the waveforms known by name.
+#[cfg(feature = "core")]
+#[wasm_bindgen(js_name = waveformPresets)]
+pub fn presets() -> Vec<String> {
+    boresight_simulate::waveform_presets().map(Into::into).collect()
+}
+
+/// The waveform of a name.
+#[cfg(feature = "core")]
+#[wasm_bindgen(js_name = waveformPreset)]
+pub fn preset(name: &JsValue) -> Fallible<JsValue> {
+    let name = String::read(name, "name")?;
+    Ok(carry::write(&boresight_simulate::waveform_preset(&name)?))
+}

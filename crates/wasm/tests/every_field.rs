@@ -3,7 +3,7 @@
 
 #![cfg(target_arch = "wasm32")]
 
-use boresight_core::describe::{Described, Field, Kind, Record, differing_fields, naming};
+use boresight_core::describe::{Described, Field, Kind, Record, differing_fields, lies_in, naming};
 use boresight_wasm::carry;
 use js_sys::{Array, Object, Reflect};
 use serde::de::DeserializeOwned;
@@ -43,6 +43,23 @@ fn options_of_scenes_counts_and_readers() {
     every_field::<boresight_wasm::drive::ReadDriveOptions>(1);
 }
 
+#[wasm_bindgen_test]
+fn requests_of_simulations_and_their_targets() {
+    every_field::<boresight_simulate::SnapshotRequest>(11);
+    every_field::<boresight_simulate::Target>(4);
+    every_field::<boresight_simulate::CubeRequest>(9);
+    every_field::<boresight_simulate::CubeTarget>(6);
+}
+
+#[wasm_bindgen_test]
+fn options_of_bounds_and_images() {
+    every_field::<boresight_aoa::bounds::BoundRequest>(2);
+    every_field::<boresight_aoa::bounds::BoundTarget>(4);
+    every_field::<boresight_image::GridOptions>(4);
+    every_field::<boresight_image::ViewGridOptions>(3);
+    every_field::<boresight_wasm::region::RegionOptions>(2);
+}
+
 /// A field to set: the names in JavaScript that lead to it, and its description.
 struct Leaf {
     path: Vec<String>,
@@ -52,7 +69,7 @@ struct Leaf {
 }
 
 /// `fewest` tells that the description was walked through; fields may be added.
-fn every_field<T: Described + DeserializeOwned + Debug + Default>(fewest: usize) {
+fn every_field<T: Described + DeserializeOwned + Debug>(fewest: usize) {
     let Kind::Record(record) = T::KIND else { panic!("a record") };
     let mut leaves = vec![];
     collect(record, &[], &[], &mut leaves);
@@ -69,12 +86,8 @@ fn every_field<T: Described + DeserializeOwned + Debug + Default>(fewest: usize)
             // One of the names of a choice is the default.
             if !differing.is_empty() {
                 let own = leaf.rust.join(".");
-                let is_own = |field: &String| {
-                    field
-                        .strip_prefix(&own)
-                        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-                };
-                assert!(differing.iter().all(is_own), "{}: {differing:?}", leaf.path.join("."));
+                let is_own = differing.iter().all(|field| lies_in(field, &own));
+                assert!(is_own, "{}: {differing:?}", leaf.path.join("."));
                 has_changed = true;
             }
         }
@@ -100,17 +113,30 @@ fn collect(record: &Record, above: &[String], rust: &[String], leaves: &mut Vec<
 /// An object with the fields that options have to name.
 fn with_required(record: &Record) -> JsValue {
     let object = Object::new();
-    for field in record.fields.iter().filter(|field| field.required) {
-        let value = first_value(&field.kind);
-        Reflect::set(&object, &naming::javascript(field.name).into(), &value).unwrap();
-    }
+    add_required(&object, record);
     object.into()
+}
+
+fn add_required(object: &Object, record: &Record) {
+    for field in record.fields {
+        match field.kind {
+            Kind::Record(inner) if field.name.starts_with("..") => add_required(object, inner),
+            kind if field.required => {
+                let value = first_value(&kind);
+                Reflect::set(object, &naming::javascript(field.name).into(), &value).unwrap();
+            }
+            _ => {}
+        }
+    }
 }
 
 fn first_value(kind: &Kind) -> JsValue {
     match kind {
         Kind::Choice(choice) => choice.variants[0].0.into(),
-        _ => 1.0.into(),
+        Kind::Tuple(of, length) => {
+            std::iter::repeat_n(first_value(of), *length).collect::<Array>().into()
+        }
+        _ => 2.0.into(),
     }
 }
 

@@ -1,5 +1,5 @@
 /** Estimators, alone and over batches; source counting and bounds. */
-import type { Method, SharedEstimatorOptions } from '../generated/options.js';
+import type { BoundRequest, BoundTarget, Method, SharedEstimatorOptions } from '../generated/options.js';
 import type { ArrayInput, ComplexData } from '../types.js';
 
 /** An estimator: its method, the array it works on, and its options. */
@@ -21,11 +21,8 @@ export interface BatchOptions {
   spectra?: boolean;
 }
 
-export interface BoundOptions {
+export interface BoundOptions extends BoundRequest {
   array: ArrayInput;
   /** Uncorrelated targets; their phases matter to the deterministic bound of one snapshot only. */
-  targets: readonly { azimuthDeg: number; elevationDeg?: number; snrDb: number; phaseDeg?: number }[];
-  snapshots: number;
-  /** Default `deterministic`. */
-  kind?: 'deterministic' | 'stochastic';
+  targets: readonly BoundTarget[];
 }

@@ -322,14 +322,14 @@ export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-dis
  * forward, y left; angles are positive to the left.
  */
 export interface CalibrationOptions {
-  /** How the angle is estimated (default 'recursive'). */
+  /** How the angle is estimated. */
   method: CalibrationMethod;
   /**
    * How the motion is estimated; by default in the way that belongs to the method: RANSAC for the mean and Kabsch, its
    * weighted forms for the regressions, tracking for the recursive one.
    */
   motion?: MotionMethod;
-  /** The radar's place ahead of the rear axle (-100 to 100 m; default 0). */
+  /** The radar's place ahead of the rear axle (-100 to 100 m). */
   xM: number;
   /** The radar's place left of the centre line (-100 to 100 m; default 0). */
   yM?: number;
@@ -455,6 +455,14 @@ export interface SimulateDriveOptions {
   slipGradientDeg?: number;
 }
 
+/** How much a region of interest holds; what the 3D-CNN paper (Sang et al. 2021) takes unless said otherwise. */
+export interface RegionOptions {
+  /** Range bins, the strongest in their middle (at least 1; default 65). */
+  bins?: number;
+  /** Chirps of each transmitter, from the first of the frame (at least 1; default 4). */
+  chirps?: number;
+}
+
 /** What a street is made from. */
 export interface StreetOptions {
   /**
@@ -469,6 +477,70 @@ export interface StreetOptions {
   egoSpeedMps?: number;
 }
 
+/**
+ * How amplitudes change from snapshot to snapshot.
+ *
+ * - `random-phase`: Constant magnitude, a new phase for each target and snapshot: uncorrelated targets of exactly the
+ * given powers.
+ * - `complex-normal`: A new complex normal amplitude of the given mean power for each target and snapshot: the
+ * stochastic model of the bounds.
+ * - `coherent`: Constant magnitude, a new phase for each snapshot that all targets share: fully correlated targets.
+ */
+export type Fluctuation = 'random-phase' | 'complex-normal' | 'coherent';
+
+/** Errors of an array's elements, drawn from normal distributions. */
+export interface Imperfections {
+  /** Standard deviation of the gain of the elements (0 to 100 dB; default 0). */
+  gainDb?: number;
+  /** Standard deviation of the phase of the elements (0 to 3600 deg; default 0). */
+  phaseDeg?: number;
+  /** Standard deviation of the displacement of the elements along y, half wavelengths (0 to 100; default 0). */
+  position?: number;
+  /**
+   * Coupling between elements half a wavelength apart; falls with the square of the distance, with the phase of its
+   * travel. No coupling if absent (-200 to 0 dB).
+   */
+  couplingDb?: number;
+  /** Seed they are drawn from; that of the simulation if absent. */
+  seed?: number | bigint;
+}
+
+/** Snapshots of scenes, whose array and targets are given beside it. */
+export interface SnapshotRequest {
+  /**
+   * Power of a 0 dB target at one element over noise power at one element: noise power is `10^(-snr_db / 10)` (-300 to
+   * 300 dB; default 20).
+   */
+  snrDb?: number;
+  /** Snapshots a scene (at least 1; default 1). */
+  snapshots?: number;
+  /** How amplitudes change between them (default 'random-phase'). */
+  fluctuation?: Fluctuation;
+  /**
+   * Seed; the same one gives the same numbers on every machine. Scene `i` draws from stream `i` of it, whatever else
+   * is simulated.
+   */
+  seed: number | bigint;
+  /** Scenes (default 1). */
+  scenes?: number;
+  /** Number of the first scene, to split a sweep (default 0). */
+  firstScene?: number;
+  /** Errors of the array's elements. */
+  imperfections?: Imperfections;
+}
+
+/** Something that reflects. */
+export interface SnapshotTarget {
+  /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg; default 0). */
+  azimuthDeg?: number;
+  /** Elevation, positive upwards (-90 to 90 deg; default 0). */
+  elevationDeg?: number;
+  /** Its power at one element, `20 log10` of its amplitude (-300 to 300 dB; default 0). */
+  powerDb?: number;
+  /** Phase of its amplitude in the first snapshot; drawn uniformly if absent. Complex normal amplitudes have none. */
+  phaseDeg?: number;
+}
+
 /** Rule by which scenes are drawn: every quantity uniform. */
 export interface SceneSampling {
   /** Fewest and most targets (default [0, 16]). */
@@ -479,6 +551,89 @@ export interface SceneSampling {
   elevationFieldOfViewDeg?: number;
   /** Lowest and highest power (default [-13, 0]). */
   powerDb?: readonly [number, number];
+}
+
+/** A data cube, whose waveform, array and targets are given beside it. */
+export interface CubeRequest {
+  /** Power of a 0 dB target over noise power, both of one raw sample (-200 to 300 dB; default 20). */
+  snrDb?: number;
+  /** Frames (at least 1; default 1). */
+  frames?: number;
+  /**
+   * Seed; the same one gives the same numbers on every machine. Reflection phases come from stream 0 of it, the noise
+   * of frame `i` from stream `i + 1`.
+   */
+  seed: number | bigint;
+  /** Spherical wavefronts instead of plane ones (default false). */
+  nearField?: boolean;
+  /** Errors of the array's elements. */
+  imperfections?: Imperfections;
+}
+
+/** A point target that moves along the line of sight. */
+export interface CubeTarget {
+  /** Distance from the array's origin at the start of the first chirp. */
+  rangeM: number;
+  /** Rate at which the range grows (-100000 to 100000 m/s). */
+  rateMps?: number;
+  /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg). */
+  azimuthDeg?: number;
+  /** Elevation, positive upwards (-90 to 90 deg). */
+  elevationDeg?: number;
+  /** Power of one raw sample at one element (-200 to 200 dB). */
+  powerDb?: number;
+  /** Phase of its reflection; drawn from the seed if absent. */
+  phaseDeg?: number;
+}
+
+/**
+ * What a bound holds the signals for.
+ *
+ * - `deterministic`: Unknown constants.
+ * - `stochastic`: Gaussian, of unknown covariance.
+ */
+export type BoundKind = 'deterministic' | 'stochastic';
+
+/** Data that a bound is of, beside array and targets. */
+export interface BoundRequest {
+  /** Snapshots (at least 1). */
+  snapshots: number;
+  /** What it holds the signals for (default 'deterministic'). */
+  kind?: BoundKind;
+}
+
+/** A target of a bound. */
+export interface BoundTarget {
+  /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg). */
+  azimuthDeg?: number;
+  /** Elevation, positive upwards (-90 to 90 deg). */
+  elevationDeg?: number;
+  /** Its power over that of the noise, at one element (-300 to 300 dB). */
+  snrDb: number;
+  /** Phase of its amplitude; counts for the deterministic bound of a single snapshot. */
+  phaseDeg?: number;
+}
+
+/** Grid of a range-azimuth map. */
+export interface MapGrid {
+  /** First and last range (0 to 1000000 m). */
+  rangeM: readonly [number, number];
+  /** Points in range (2 to 16384). */
+  ranges: number;
+  /** Half width of the field of view (0.1 to 90 deg). */
+  fieldOfViewDeg: number;
+  /** Points in azimuth, uniform in its sine (2 to 16384). */
+  azimuths: number;
+}
+
+/** Grid of a bird's-eye view in the car's frame. */
+export interface ViewGrid {
+  /** Edges ahead (positive) and behind (default [-20, 80]). */
+  xM?: readonly [number, number];
+  /** Edges right (negative) and left (default [-25, 25]). */
+  yM?: readonly [number, number];
+  /** Width of a cell, and so of a pixel (0.001 to 1000 m; default 0.2). */
+  cellM?: number;
 }
 
 /**

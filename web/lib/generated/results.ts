@@ -1,5 +1,5 @@
 // Written by `npm run generate` from the descriptions in Rust; not edited by hand.
-import type { CalibrationMethod, DriveFormat, DriveScenario, Method } from './options.js';
+import type { CalibrationMethod, DriveFormat, DriveScenario, MapGrid, Method } from './options.js';
 
 /** Transmitter and receiver a virtual element comes from. */
 export interface Channel {
@@ -133,9 +133,9 @@ export type Unsuited = 'one-place' | 'uniform-array' | 'grid' | 'elevation' | 'f
 
 /** One source found. */
 export interface Source {
-  /** Azimuth, counter-clockwise from boresight (positive to the left). */
+  /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg). */
   azimuthDeg: number;
-  /** Elevation, positive upwards. */
+  /** Elevation, positive upwards (-90 to 90 deg). */
   elevationDeg: number;
   /** Its power at one element. */
   powerDb: number;
@@ -273,11 +273,11 @@ export interface CubeResult {
 
 /** Something that reflects. */
 export interface TrueTarget {
-  /** Azimuth, counter-clockwise from boresight (positive to the left). */
+  /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg). */
   azimuthDeg: number;
-  /** Elevation, positive upwards. */
+  /** Elevation, positive upwards (-90 to 90 deg). */
   elevationDeg: number;
-  /** Its power at one element, `20 log10` of its amplitude. */
+  /** Its power at one element, `20 log10` of its amplitude (-300 to 300 dB). */
   powerDb: number;
   /** Phase of its amplitude in the first snapshot; drawn uniformly if absent. Complex normal amplitudes have none. */
   phaseDeg?: number;
@@ -380,13 +380,13 @@ export interface VisibleTarget {
   target: number;
   /** Distance from the array's origin at the start of the first chirp. */
   rangeM: number;
-  /** Rate at which the range grows. */
+  /** Rate at which the range grows (-100000 to 100000 m/s). */
   rateMps: number;
-  /** Azimuth, counter-clockwise from boresight (positive to the left). */
+  /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg). */
   azimuthDeg: number;
-  /** Elevation, positive upwards. */
+  /** Elevation, positive upwards (-90 to 90 deg). */
   elevationDeg: number;
-  /** Power of one raw sample at one element. */
+  /** Power of one raw sample at one element (-200 to 200 dB). */
   powerDb: number;
   /** Phase of its reflection; drawn from the seed if absent. */
   phaseDeg?: number;
@@ -430,6 +430,22 @@ export interface RadarConfig {
   frames: number | null;
   /** Lines that were not understood, and other remarks. */
   warnings: Warning[];
+}
+
+/** The range bins around the strongest of a frame. */
+export interface RegionOfInterest {
+  /** The strongest range bin. */
+  rangeBin: number;
+  /** Bins x elements x chirps, with the power of raw samples: no window. */
+  region: ComplexArray;
+  /** Covariance of the region, elements x elements. */
+  covariance: ComplexArray;
+  /** The strongest bin alone, elements x chirps. */
+  snapshots: ComplexArray;
+  /** What the 3D-CNN takes of it: magnitude, real and imaginary part of each number of the region. */
+  channels: Float32Array;
+  /** What networks on the covariance take of it (the paper's equation 8). */
+  features: Float32Array;
 }
 
 /** What is known of a capture before any processing. */
@@ -526,6 +542,30 @@ export interface FrameCells {
   snapshots: ComplexArray;
   /** What became of cells and samples. */
   counts: FrameCounts;
+}
+
+/**
+ * What of the estimates goes into an image.
+ *
+ * - `targets`: The sources found in each cell.
+ * - `spectra`: The spectrum of each cell.
+ */
+export type ImageFrom = 'targets' | 'spectra';
+
+/** How an image is made unless something else is asked for. */
+export interface ImageDefaults {
+  peakGrouping: boolean;
+  maxDetections: number;
+  /** The method. */
+  method: Method;
+  /** What the chain makes of the method's own, so that a cell gives sources only. */
+  dynamicRangeDb: number;
+  /** The same. */
+  loading: number;
+  /** Spectra where the method has them. */
+  from: ImageFrom;
+  /** The waveform's range bins, and azimuths over the field of view. */
+  grid: MapGrid;
 }
 
 /** What fell, in whole or in part, beside the grid. */

@@ -1,7 +1,6 @@
 import * as glue from '../../wasm/boresight.js';
 import { frameCells } from '../capture/capture.js';
-import { Estimator, methods } from '../estimate/estimate.js';
-import { waveformSummary } from '../radar/waveform.js';
+import { Estimator } from '../estimate/estimate.js';
 import { own, wrong } from '../runtime/errors.js';
 import { call } from '../runtime/instance.js';
 import type {
@@ -10,20 +9,14 @@ import type {
   BirdsEyeViewInput,
   ComplexData,
   Gate,
+  ImageDefaults,
   ImageFrame,
   ImageFrameOptions,
   ImagePlan,
-  MapGrid,
   RangeAzimuthMap,
   RangeAzimuthMapInput,
   SidelobeMeasure,
-  Waveform,
 } from '../types.js';
-import { chainOf } from './options.js';
-
-/** Azimuths of a map where none are asked for, and how far to each side. */
-const AZIMUTHS = 512;
-const FIELD_OF_VIEW_DEG = 60;
 
 /** Adds the targets or spectra of a frame's cells to a grid: summation splatting (Niklaus and Liu 2020). */
 export function rangeAzimuthMap(input: RangeAzimuthMapInput): RangeAzimuthMap {
@@ -44,32 +37,28 @@ export function sidelobeMeasure(
   return call(() => glue.sidelobeMeasure(view, targets, gate) as SidelobeMeasure);
 }
 
-/** What options of an image mean: the estimator, what of it goes into the map, and the map's grid. */
+/** What options of an image mean: the chain, the estimator, what of it goes into the map, and the map's grid. */
 export function imagePlan(options: ImageFrameOptions): ImagePlan {
-  const given = own(options, 'options') as unknown as ImageFrameOptions;
-  const { array, from } = given;
-  const waveform = own(given.waveform, 'waveform') as unknown as Waveform;
-  const angle = own(given.angle ?? undefined, 'angle') as AngleOptions;
-  const grid = own(given.grid ?? undefined, 'grid') as Partial<MapGrid>;
+  const { from, grid, ...chain } = own(options, 'options') as unknown as ImageFrameOptions;
+  const waveform = own(chain.waveform, 'waveform');
+  const angle = own(chain.angle ?? undefined, 'angle') as AngleOptions;
+  const asked = own(grid ?? undefined, 'grid');
   if (from != null && from !== 'spectra' && from !== 'targets') throw wrong('from', "'spectra' or 'targets'", from);
-  const method = angle.method ?? 'bartlett';
-  const suited = call(() => glue.suitedAngle(array, angle) as { dynamicRangeDb: number; loading: number });
-  const { rangeResolutionM } = waveformSummary(waveform);
-  const hasSpectrum = methods().some(({ name, spectrum }) => name === method && spectrum);
-  const field = { fieldOfViewDeg: FIELD_OF_VIEW_DEG, azimuths: AZIMUTHS };
-  const ranges = { rangeM: [0, (waveform.samples - 1) * rangeResolutionM] as const, ranges: waveform.samples };
+  const usual = call(() => glue.imageDefaults(waveform, chain.array, angle) as ImageDefaults);
+  const { peakGrouping, maxDetections, method, dynamicRangeDb, loading } = usual;
   return {
-    estimator: { ...angle, ...suited, method, array },
-    from: from ?? (hasSpectrum ? 'spectra' : 'targets'),
-    grid: { ...ranges, ...field, ...grid },
+    chain: { peakGrouping, maxDetections, ...chain },
+    estimator: { ...angle, method, dynamicRangeDb, loading, array: chain.array },
+    from: from ?? usual.from,
+    grid: { ...usual.grid, ...asked },
   };
 }
 
 /** From a cube of one frame to its map: cells, their estimates, splatting. */
 export function imageFrame(cube: ComplexData, options: ImageFrameOptions): ImageFrame {
-  const { estimator: own, from, grid } = imagePlan(options);
-  const cells = frameCells(cube, chainOf(options));
-  const estimator = new Estimator(own);
+  const { chain, estimator: chosen, from, grid } = imagePlan(options);
+  const cells = frameCells(cube, chain);
+  const estimator = new Estimator(chosen);
   try {
     const estimates = estimator.estimateBatch({ snapshots: cells.snapshots }, { spectra: from === 'spectra' });
     return { cells, estimates, map: rangeAzimuthMap({ cells, estimates, from, grid }) };

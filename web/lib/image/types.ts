@@ -5,8 +5,11 @@ import type {
   CubeChainOptions,
   EstimatorOptions,
   FrameCells,
+  ImageFrom,
+  MapGrid,
   Mounting,
   RangeAzimuthMap,
+  ViewGrid,
 } from '../types.js';
 
 /** What an image needs of the estimates of a frame's cells: a batch of them, or anybody's own. */
@@ -23,36 +26,11 @@ export interface ImageEstimates {
   spectra?: Pick<BatchSpectra, 'azimuthDeg' | 'power' | 'kind'>;
 }
 
-/** Angles of each cell as points, or the spectrum of each cell. */
-export type ImageFrom = 'targets' | 'spectra';
-
-/** Grid of a range-azimuth map. */
-export interface MapGrid {
-  /** First and last range. */
-  rangeM: readonly [from: number, to: number];
-  /** Points in range. */
-  ranges: number;
-  /** Half width of the field of view, at most 90. */
-  fieldOfViewDeg: number;
-  /** Points in azimuth, uniform in its sine. */
-  azimuths: number;
-}
-
 export interface RangeAzimuthMapInput {
   cells: Pick<FrameCells, 'rangeM' | 'powerDb'>;
   estimates: ImageEstimates;
   from: ImageFrom;
   grid: MapGrid;
-}
-
-/** Grid of a bird's-eye view in the car's frame. */
-export interface ViewGrid {
-  /** Edges ahead (positive) and behind. */
-  xM: readonly [from: number, to: number];
-  /** Edges right (negative) and left. */
-  yM: readonly [from: number, to: number];
-  /** Width of a cell. */
-  cellM: number;
 }
 
 export interface BirdsEyeViewInput {
@@ -66,7 +44,10 @@ export interface BirdsEyeViewInput {
  */
 export type Gate = { gateM: number } | { rangeM: number; sine: number };
 
-/** Options of the chain, of which `peakGrouping` is off here unless asked for: an image takes every detected cell. */
+/**
+ * Options of the chain, of which `peakGrouping` is off here unless asked for: an image takes every detected cell, and up
+ * to 4096 of them.
+ */
 export interface ImageFrameOptions extends CubeChainOptions {
   /** Default `spectra` where the method of `angle` has them. */
   from?: ImageFrom;
@@ -76,6 +57,8 @@ export interface ImageFrameOptions extends CubeChainOptions {
 
 /** What {@link ImageFrameOptions} come to. */
 export interface ImagePlan {
+  /** Of the chain that finds the cells. */
+  chain: CubeChainOptions;
   estimator: EstimatorOptions;
   from: ImageFrom;
   grid: MapGrid;

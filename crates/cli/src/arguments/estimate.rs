@@ -23,7 +23,7 @@ pub struct EstimateArguments {
     /// The board's configuration (.cfg).
     #[arg(long, value_name = "CFG")]
     pub config: Option<PathBuf>,
-    /// Waveform of a data cube: awr1642, 3dcnn-simulated, 3dcnn-experiment, or a JSON file, such as
+    /// Waveform of a data cube: awr1642, corner, 3dcnn-simulated, 3dcnn-experiment, or a JSON file, such as
     /// the truth that `simulate cube` writes.
     #[arg(long, value_name = "NAME|JSON", conflicts_with = "config")]
     pub waveform: Option<String>,

@@ -1,6 +1,7 @@
 //! What `evaluate` takes.
 
-use super::ImperfectionArguments;
+use crate::flags::{Flags, OnCommandLine};
+use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::sweep::Part;
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -102,7 +103,12 @@ pub struct EvaluateAoaArguments {
     pub times: bool,
     /// What is wrong with the array.
     #[command(flatten)]
-    pub imperfections: ImperfectionArguments,
+    pub imperfections: Flags<ImperfectionSpread>,
+}
+
+impl OnCommandLine for ImperfectionSpread {
+    const HEADING: &'static str = "What is wrong with the array";
+    const PREFIX: &'static str = "imperfections";
 }
 
 /// Arguments of `evaluate doa`.

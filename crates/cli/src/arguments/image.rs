@@ -1,7 +1,10 @@
 //! What `image` takes.
 
 use super::estimate::{ModelArguments, methods};
-use super::pair;
+use crate::flags::{Flags, OnCommandLine, names};
+use boresight_image::ViewGridOptions;
+use boresight_pipeline::image::Content;
+use boresight_simulate::StreetOptions;
 use boresight_simulate::street::STREET_RADARS;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Subcommand};
@@ -28,7 +31,7 @@ pub struct ImageArguments {
     pub model: ModelArguments,
     /// What goes into the image: the angles found in each cell, or the spectrum of each cell;
     /// without it spectra where the method has them.
-    #[arg(long, value_name = "WHAT", value_parser = ["targets", "spectra"])]
+    #[arg(long, value_name = "WHAT", value_parser = names::<Content>())]
     pub from: Option<String>,
     /// Picture to write; of several methods, each has the method's name before the ending.
     #[arg(long, value_name = "OUT.png")]
@@ -44,9 +47,9 @@ pub struct ImageStreetArguments {
     /// Shared arguments.
     #[command(flatten)]
     pub shared: ImageArguments,
-    /// Seed.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub seed: u64,
+    /// The street.
+    #[command(flatten)]
+    pub street: Flags<StreetOptions>,
     /// Radars, with commas between; without it all four.
     #[arg(long, value_name = "NAMES", value_delimiter = ',',
           value_parser = PossibleValuesParser::new(STREET_RADARS))]
@@ -54,17 +57,17 @@ pub struct ImageStreetArguments {
     /// Mark the true targets in the picture.
     #[arg(long)]
     pub truth: bool,
-    /// Ground ahead that is shown, m.
-    #[arg(long, value_name = "FROM,TO", default_value = "-20,80", value_parser = pair::<f64>,
-          allow_hyphen_values = true)]
-    pub x: [f64; 2],
-    /// Ground to the left that is shown, m.
-    #[arg(long, value_name = "FROM,TO", default_value = "-25,25", value_parser = pair::<f64>,
-          allow_hyphen_values = true)]
-    pub y: [f64; 2],
-    /// Width of a cell, and so of a pixel, m.
-    #[arg(long, value_name = "M", default_value_t = 0.2)]
-    pub cell: f64,
+    /// What is shown.
+    #[command(flatten)]
+    pub grid: Flags<ViewGridOptions>,
+}
+
+impl OnCommandLine for StreetOptions {
+    const HEADING: &'static str = "The street";
+}
+
+impl OnCommandLine for ViewGridOptions {
+    const HEADING: &'static str = "What is shown";
 }
 
 /// Arguments of `image capture`.

@@ -16,7 +16,6 @@ pub use simulate::{
     CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,
 };
 
-use boresight_core::imperfections::ImperfectionSpread;
 use clap::{ArgGroup, Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -112,41 +111,4 @@ pub struct OutputFormat {
     /// Print comma-separated values with a header line.
     #[arg(long)]
     pub csv: bool,
-}
-
-/// Errors of the array's elements.
-#[derive(Debug, Args)]
-pub struct ImperfectionArguments {
-    /// Standard deviation of the elements' gain, dB.
-    #[arg(long, value_name = "DB", default_value_t = 0.0)]
-    pub gain_error: f64,
-    /// Standard deviation of the elements' phase, deg.
-    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
-    pub phase_error: f64,
-    /// Standard deviation of the elements' position, half wavelengths.
-    #[arg(long, value_name = "HALF-WAVELENGTHS", default_value_t = 0.0)]
-    pub position_error: f64,
-    /// Coupling of elements half a wavelength apart, dB.
-    #[arg(long, value_name = "DB", allow_hyphen_values = true)]
-    pub coupling: Option<f64>,
-}
-
-impl ImperfectionArguments {
-    /// The spread that errors are drawn from.
-    pub fn spread(&self) -> ImperfectionSpread {
-        ImperfectionSpread {
-            gain_db: self.gain_error,
-            phase_rad: self.phase_error.to_radians(),
-            position: self.position_error,
-            coupling_db: self.coupling,
-        }
-    }
-}
-
-/// Two numbers with a comma between.
-fn pair<T: std::str::FromStr>(text: &str) -> Result<[T; 2], String> {
-    let number = |part: &str| part.trim().parse::<T>().ok();
-    text.split_once(',')
-        .and_then(|(a, b)| Some([number(a)?, number(b)?]))
-        .ok_or_else(|| "expected two numbers with a comma between, such as 4,2".into())
 }

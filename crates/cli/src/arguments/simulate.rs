@@ -1,8 +1,7 @@
 //! What `simulate` takes.
 
-use super::{ImperfectionArguments, pair};
 use crate::flags::{Flags, OnCommandLine};
-use boresight_simulate::DriveOptions;
+use boresight_simulate::{CubeRequest, DriveOptions, SceneSampling, SnapshotRequest};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -60,21 +59,25 @@ pub struct SimulateArguments {
     /// Array: a name (see `boresight arrays`), ulaN, or a JSON file.
     #[arg(long, value_name = "NAME|JSON")]
     pub array: String,
-    /// Power of a 0 dB target at one element over the noise power there, dB.
-    #[arg(long, value_name = "DB", default_value_t = 20.0, allow_hyphen_values = true)]
-    pub snr: f64,
-    /// Seed; the same one gives the same numbers on every machine.
-    #[arg(long, value_name = "S")]
-    pub seed: u64,
     /// File to write, .npy.
     #[arg(long, value_name = "F.npy")]
     pub out: PathBuf,
     /// File for the truth, JSON; without it beside the data, ending in .json.
     #[arg(long, value_name = "F.json")]
     pub truth: Option<PathBuf>,
-    /// What is wrong with the array.
-    #[command(flatten)]
-    pub imperfections: ImperfectionArguments,
+}
+
+impl OnCommandLine for SnapshotRequest {
+    const HEADING: &'static str = "Snapshots";
+}
+
+impl OnCommandLine for SceneSampling {
+    const HEADING: &'static str = "Targets drawn anew for each scene, in place of --target";
+    const PREFIX: &'static str = "random";
+}
+
+impl OnCommandLine for CubeRequest {
+    const HEADING: &'static str = "Data cube";
 }
 
 /// Arguments of `simulate snapshots`.
@@ -87,25 +90,12 @@ pub struct SnapshotArguments {
     /// deg. Repeat for more.
     #[arg(long = "target", value_name = "KEY=VALUE,...", allow_hyphen_values = true)]
     pub targets: Vec<String>,
-    /// Draw the number of targets between these, and their angles and powers, for each scene.
-    #[arg(long, value_name = "FEWEST,MOST", value_parser = pair::<usize>, conflicts_with = "targets")]
-    pub random_targets: Option<[usize; 2]>,
-    /// Half width of the sector random targets are drawn from, deg.
-    #[arg(long, value_name = "DEG", default_value_t = 60.0)]
-    pub field_of_view: f64,
-    /// Snapshots a scene.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub snapshots: usize,
-    /// Scenes.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub scenes: usize,
-    /// Number of the first scene, to split a sweep.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub first_scene: u64,
-    /// How targets change from snapshot to snapshot.
-    #[arg(long, default_value = "random-phase",
-          value_parser = ["random-phase", "complex-normal", "coherent"])]
-    pub fluctuation: String,
+    /// What is simulated.
+    #[command(flatten)]
+    pub flags: Flags<SnapshotRequest>,
+    /// How targets are drawn.
+    #[command(flatten)]
+    pub random: Flags<SceneSampling>,
 }
 
 /// Arguments of `simulate cube`.
@@ -114,7 +104,7 @@ pub struct CubeArguments {
     /// Shared arguments.
     #[command(flatten)]
     pub shared: SimulateArguments,
-    /// Waveform: awr1642, 3dcnn-simulated, 3dcnn-experiment, a JSON file or a board's .cfg.
+    /// Waveform: awr1642, corner, 3dcnn-simulated, 3dcnn-experiment, a JSON file or a board's .cfg.
     #[arg(long, value_name = "NAME|FILE", default_value = "awr1642")]
     pub waveform: String,
     /// A target, such as range=5,rate=-1.5,azimuth=10,power=-3: range in m, rate in m/s, azimuth,
@@ -126,10 +116,7 @@ pub struct CubeArguments {
         allow_hyphen_values = true
     )]
     pub targets: Vec<String>,
-    /// Frames.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub frames: usize,
-    /// Spherical wavefronts instead of plane ones.
-    #[arg(long)]
-    pub near_field: bool,
+    /// What is simulated.
+    #[command(flatten)]
+    pub flags: Flags<CubeRequest>,
 }

@@ -27,7 +27,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                 array: arguments.array.clone(),
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
-                imperfections: arguments.imperfections.spread(),
+                imperfections: arguments.imperfections.options,
                 entrants: entrants(
                     &arguments.methods,
                     &arguments.array,

@@ -11,16 +11,16 @@ use crate::output::remark;
 use crate::run::Run;
 use crate::{network, picture};
 use boresight_aoa::Method;
+use boresight_core::describe::Named;
 use boresight_core::drive::Mounting;
 use boresight_evaluate::images::StreetFrames;
 use boresight_formats::{Capture, RadarConfig};
-use boresight_image::{BirdsEyeView, Outside, ViewGrid, birds_eye_view, sidelobe_measure};
+use boresight_image::{BirdsEyeView, Grid, Outside, ViewGrid, birds_eye_view, sidelobe_measure};
 use boresight_pipeline::image::{Angles, Content, chain_options, frame_map, map_grid};
 use boresight_pipeline::{Chain, FrameSource};
+use boresight_simulate::Street;
 use boresight_simulate::street::STREET_RADARS;
-use boresight_simulate::{Street, StreetOptions};
 use serde_json::{Value, json};
-use std::f64::consts::FRAC_PI_3;
 use std::path::{Path, PathBuf};
 
 /// Makes images, writes the pictures and returns what is printed.
@@ -33,13 +33,13 @@ pub fn run(what: &ImageCommand, files: &Files) -> Result<String, CliError> {
 
 fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, CliError> {
     let pictures = pictures(&arguments.shared, files)?;
-    let grid = ViewGrid::new(arguments.x, arguments.y, arguments.cell)?;
+    let grid = ViewGrid::of(&arguments.grid.options)?;
     let asked = |name: &str| {
         arguments.radars.is_empty() || arguments.radars.iter().any(|radar| radar == name)
     };
     let radars: Vec<usize> =
         (0..STREET_RADARS.len()).filter(|&index| asked(STREET_RADARS[index])).collect();
-    let street = Street::new(StreetOptions { seed: arguments.seed, ..StreetOptions::default() })?;
+    let street = Street::new(arguments.street.options)?;
     let frames = StreetFrames::new(street, &radars, &chain_options())?;
     let cells: Vec<usize> = frames.frames.iter().map(|frame| frame.cells.cells.len()).collect();
     let (targets, gate) = (frames.targets_m(), frames.gate()?);
@@ -97,7 +97,7 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
     let mut text = format!("{:<22}{:>8}{:>12}{:>12}\n", "method", "cells", "off_map", "off_map_db");
     let mut rows = vec![];
     for (name, picture) in shared.method.iter().zip(pictures) {
-        let map_grid = map_grid(&waveform, FRAC_PI_3)?;
+        let map_grid = Grid::of(&map_grid(&waveform))?;
         let angles = angles(shared, name)?;
         let options = angles.suited(&array);
         let mut estimator =
@@ -120,10 +120,8 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
 
 fn angles(shared: &ImageArguments, name: &str) -> Result<Angles, CliError> {
     let mut angles = Angles::of(Method::from_name(name)?);
-    match shared.from.as_deref() {
-        Some("targets") => angles.content = Content::Targets,
-        Some(_) => angles.content = Content::Spectra,
-        None => {}
+    if let Some(from) = shared.from.as_deref() {
+        angles.content = Content::from_name("--from", from)?;
     }
     Ok(angles)
 }

@@ -15,4 +15,3 @@ pub mod network;
 pub mod simulate;
 mod simulated_drive;
 mod snapshots;
-mod targets;

@@ -1,14 +1,14 @@
 //! `boresight simulate drive`.
 
-use super::targets::TargetText;
 use crate::arguments::DriveArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
-use crate::json;
 use crate::run::Run;
+use crate::{json, pairs};
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_formats::radarscenes::{Packing, write};
 use boresight_pipeline::Progress;
+use boresight_simulate::drive::PlacedRadar;
 use boresight_simulate::{DriveOptions, SimulatedDrive, simulate_drive_reporting};
 use serde_json::{Value, json};
 
@@ -86,17 +86,8 @@ fn sensor(text: &str) -> Result<(u8, Mounting), CliError> {
             }
         });
     }
-    let text = TargetText::parse("--sensor", text, &["id", "x", "y", "yaw"])?;
-    let id = text.need("id")?;
-    if id.fract() != 0.0 || !(0.0..=255.0).contains(&id) {
-        return Err(CliError::Option {
-            option: "--sensor",
-            expected: "an id from 0 to 255".into(),
-            given: id.to_string(),
-        });
-    }
-    let yaw_rad = text.need("yaw")?.to_radians();
-    Ok((id as u8, Mounting { x_m: text.need("x")?, y_m: text.need("y")?, yaw_rad }))
+    let PlacedRadar { id, mounting } = pairs::read("--sensor", text)?;
+    Ok((id, mounting))
 }
 
 fn misalignment(text: &str) -> Result<(u8, f64), CliError> {

@@ -15,6 +15,12 @@ pub fn differing_fields<T: Debug>(a: &T, b: &T) -> Vec<String> {
     names
 }
 
+/// Whether a field, such as [`differing_fields`] names it, is `own` or lies inside it.
+#[must_use]
+pub fn lies_in(field: &str, own: &str) -> bool {
+    field.strip_prefix(own).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 /// The text of each field of a struct, and of the structs in it.
 fn fields(debug: &str) -> BTreeMap<String, String> {
     let mut values = BTreeMap::<String, String>::new();

@@ -37,7 +37,7 @@ pub mod shaped;
 
 pub use boresight_derive::Described;
 pub use check::{At, Naming, check};
-pub use difference::differing_fields;
+pub use difference::{differing_fields, lies_in};
 pub use named::Named;
 pub use remark::Remark;
 

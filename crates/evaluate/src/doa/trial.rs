@@ -11,7 +11,7 @@ use boresight_core::linalg::hermitian_eigen;
 use boresight_core::units::db_to_power;
 use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Random, Waveform};
 use boresight_neural::{Kind, Model};
-use boresight_signal::region::{crop_region, range_spectrum, region_snapshots};
+use boresight_signal::region::{crop_region, range_spectrum, region_snapshots, strongest_range};
 use boresight_signal::{Window, sample_covariance};
 use boresight_simulate::cube::{CubeOptions, CubeTarget, simulate_cube};
 use ndarray::{Array2, Array3, Axis};
@@ -283,13 +283,7 @@ impl Plan {
         let options = CubeOptions { snr_db, seed: random.bits(), ..CubeOptions::default() };
         let cube = simulate_cube(&self.waveform, &self.array, &echoes, &options)?;
         let spectrum = range_spectrum(cube.index_axis(Axis(0), 0), Window::Rectangular)?;
-        let power = |range: usize| {
-            let cells = spectrum.index_axis(Axis(2), range);
-            cells.iter().map(|z| f64::from(z.norm_sqr())).sum::<f64>()
-        };
-        let strongest = (0..spectrum.len_of(Axis(2)))
-            .max_by(|&a, &b| power(a).total_cmp(&power(b)))
-            .unwrap_or(0);
+        let strongest = strongest_range(spectrum.view());
         Ok(crop_region(spectrum.view(), strongest, REGION[0], REGION[1])?)
     }
 

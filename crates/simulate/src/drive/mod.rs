@@ -24,6 +24,7 @@ pub use motion::{MOTION_STEP_S, TrueMotion};
 pub use options::{DriveOptions, MAX_DURATION_S, MAX_MOVING_SHARE, MAX_SENSOR_SECONDS, RadarNoise};
 pub use radar::{CYCLE_S, FIELD_OF_VIEW_RAD, MAX_DETECTIONS, RANGE_M, STATIC_CLASS};
 pub use scenario::Scenario;
+pub use wire::PlacedRadar;
 
 use crate::error::SimulateError;
 use boresight_core::Random;

@@ -6,7 +6,7 @@ use super::refusal::ReadError;
 use crate::error::{BindingError, Fallible};
 use crate::read::{MOST_ITEMS, shortened, wrong_type};
 use boresight_core::CoreError;
-use boresight_core::describe::{At, Described, Kind, Naming, Record};
+use boresight_core::describe::{At, Described, Kind, Naming};
 use js_sys::{Array, Object, Reflect};
 use serde::de::value::StringDeserializer;
 use serde::de::{
@@ -33,8 +33,8 @@ pub fn read_optional<T: DeserializeOwned + Described + Default>(value: &JsValue)
 /// The same for a value that has a name in errors.
 pub fn read_named<T: DeserializeOwned + Described>(value: &JsValue, name: &str) -> Fallible<T> {
     let at = At::named(Naming::JavaScript, name);
-    if let (Kind::Record(record), Some(object)) = (T::KIND, value.dyn_ref::<Object>()) {
-        check_required(object, record, &at)?;
+    if let Some(object) = value.dyn_ref::<Object>() {
+        check_required(object, &T::KIND, &at)?;
     }
     let read = T::deserialize(Reader { value: value.clone(), at, is_angle: false, known: None })?;
     read.check(None, &at)?;
@@ -42,12 +42,17 @@ pub fn read_named<T: DeserializeOwned + Described>(value: &JsValue, name: &str) 
 }
 
 /// Refuses an object without the fields that options have to name.
-fn check_required(object: &Object, record: &Record, at: &At<'_>) -> Fallible<()> {
-    for field in record.fields.iter().filter(|field| field.required) {
-        let value = Reflect::get(object, &property(field.name).key);
-        if value.is_ok_and(|value| value.is_undefined()) {
-            let expected = field.kind.expected();
-            return Err(BindingError::Missing { what: at.field(field.name).path(), expected });
+fn check_required(object: &Object, kind: &Kind, at: &At<'_>) -> Fallible<()> {
+    let Kind::Record(record) = kind else { return Ok(()) };
+    for field in record.fields {
+        if field.name.starts_with("..") {
+            check_required(object, &field.kind, at)?;
+        } else if field.required {
+            let value = Reflect::get(object, &property(field.name).key);
+            if value.is_ok_and(|value| value.is_undefined()) {
+                let expected = field.kind.expected();
+                return Err(BindingError::Missing { what: at.field(field.name).path(), expected });
+            }
         }
     }
     Ok(())
@@ -72,6 +77,7 @@ impl<'a> Reader<'a> {
         at: At<'a>,
         known: &'a Known,
     ) -> Fallible<T> {
+        check_required(object, &T::KIND, &at)?;
         let value = object.clone().into();
         let read = T::deserialize(Reader { value, at, is_angle: false, known: Some(known) })?;
         read.check(None, &at)?;

@@ -5,7 +5,7 @@ import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
 import { load } from '../../networks/load.ts';
 import type { Card, Model } from '../../networks/models.ts';
 import { arrayFor, targetRange } from './attempt.ts';
-import { covarianceFeatures, REGION_ARRAY, type RegionScene, regionChannels, simulateRegion } from './region.ts';
+import { REGION_ARRAY, type RegionScene, simulateRegion } from './region.ts';
 
 export const BATCHES = [1, 32] as const;
 export type Batch = (typeof BATCHES)[number];
@@ -196,7 +196,10 @@ function ofRegions(model: Model, info: NetworkInfo): Subject[] {
   const tensors = new Map(
     BATCHES.map((batch) => [
       batch,
-      { data: Float32Array.from(scenes.slice(0, batch).flatMap(features)), shape: shapeOf(input?.axes ?? [], batch) },
+      {
+        data: Float32Array.from(scenes.slice(0, batch).flatMap((scene) => [...features(scene)])),
+        shape: shapeOf(input?.axes ?? [], batch),
+      },
     ]),
   );
   const cells = scenes.map(({ covariance, vectors }): EstimateInput => ({ covariance, snapshotCount: vectors }));
@@ -231,11 +234,10 @@ function ofRegions(model: Model, info: NetworkInfo): Subject[] {
   ];
 }
 
-function featuresOf({ network }: Card): (scene: RegionScene) => number[] {
-  return network === 'cnn3d'
-    ? ({ region }) => regionChannels(region)
-    : ({ covariance }) => covarianceFeatures(covariance);
-}
+const featuresOf =
+  ({ network }: Card) =>
+  ({ channels, features }: RegionScene): Float32Array =>
+    network === 'cnn3d' ? channels : features;
 
 /** A batch's shape: names stand for the batch. */
 const shapeOf = (axes: readonly (number | string)[], batch: number): number[] =>
