@@ -127,10 +127,10 @@ async function bind({ name, crate, profile, wasmOpt }, runner = run) {
     '--experimental-reset-state-function',
   ]);
   if (!wasmOpt) return;
-  say('wasm-opt -O3');
+  say('wasm-opt -Os');
   const file = join(dist, 'wasm', `${name}_bg.wasm`);
   const program = join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt');
-  await runner(process.execPath, [program, '-O3', ...wasmFeatures, file, '-o', file]);
+  await runner(process.execPath, [program, '-Os', ...wasmFeatures, file, '-o', file]);
 }
 
 export async function buildLibrary() {

@@ -168,11 +168,7 @@ test('what is wrong is refused by name, and the next call works', () => {
   const input = { cells, estimates, from: 'spectra', grid };
   const { spectra: _, ...without } = estimates;
   throwsTyped(() => rangeAzimuthMap({ ...input, estimates: without }), 'missing', 'estimates.spectra');
-  throwsTyped(
-    () => rangeAzimuthMap({ ...input, grid: { ...grid, azimuths: 1 } }),
-    'out-of-range',
-    'points of azimuths',
-  );
+  throwsTyped(() => rangeAzimuthMap({ ...input, grid: { ...grid, azimuths: 1 } }), 'out-of-range', 'grid.azimuths');
   throwsTyped(
     () =>
       rangeAzimuthMap({ ...input, from: 'targets', estimates: { ...estimates, cell: estimates.cell.map(() => 99) } }),

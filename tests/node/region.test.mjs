@@ -101,5 +101,5 @@ test('what is no cube of one frame, or has too few bins, is refused', () => {
 test('waveforms are known by name', () => {
   for (const name of waveformPresets()) assert.ok(waveformPreset(name).samples > 0, name);
   assert.equal(waveformPreset('3dcnn-simulated').samples, 256);
-  throwsTyped(() => waveformPreset('3dcnn'), 'unknown', 'waveform');
+  throwsTyped(() => waveformPreset('3dcnn'), 'unknown-name', 'waveform');
 });

@@ -36,7 +36,7 @@ test('what has no bound is refused', () => {
   bad({ targets: [{ azimuthDeg: 91, snrDb: 0 }] }, 'out-of-range', 'targets[0].azimuthDeg');
   bad({ targets: [{ azimuthDeg: 0 }] }, 'missing', 'targets[0].snrDb');
   bad({ targets: [{ azimuthDeg: 0, snrDb: 1e9 }] }, 'out-of-range', 'targets[0].snrDb');
-  bad({ snapshots: 0 }, 'empty');
+  bad({ snapshots: 0 }, 'out-of-range', 'snapshots');
   bad({ kind: 'bayesian' }, 'unknown-name', 'kind');
 });
 

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use boresight_aoa::options::{IaaForm, IaaOptions};
-use boresight_aoa::{Data, Estimator, Estimators, Method, Options, SourceCount};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Estimators, Method, SourceCount};
 use boresight_core::presets::preset;
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Direction, Random};
@@ -17,7 +17,8 @@ fn estimators(criterion: &mut Criterion) {
     let directions = [-20.3f64, 5.2, 24.1].map(|deg| Direction::azimuth(deg.to_radians()));
     let steering = steering_matrix(&array, &directions);
     let mut random = Random::new(1, 0);
-    let options = Options { sources: SourceCount::Known(3), ..Options::default() };
+    let options =
+        EstimatorOptions { sources: SourceCount::Known(3), ..EstimatorOptions::default() };
     for method in Method::ALL {
         let single = [Method::SingleSnapshotMusic, Method::Iaa, Method::Nomp];
         let snapshots = if single.contains(&method) { 1 } else { 64 };
@@ -47,7 +48,7 @@ fn iaa_batch(criterion: &mut Criterion) {
     }
     for threads in [1, 2] {
         let mut estimators =
-            Estimators::new(Method::Iaa, &array, &Options::default(), threads).unwrap();
+            Estimators::new(Method::Iaa, &array, &EstimatorOptions::default(), threads).unwrap();
         criterion.bench_function(&format!("iaa, lrr48, 64 cells, {threads} threads"), |bencher| {
             bencher.iter(|| estimators.estimate_batch(black_box(cells.view()), false).unwrap());
         });
@@ -64,8 +65,8 @@ fn iaa_forms(criterion: &mut Criterion) {
     let noise = Array2::from_shape_fn((48, 1), |_| random.complex_normal(0.01));
     let y = steering_matrix(&array, &directions).dot(&signals) + noise;
     for (name, form) in [("iaa fast, lrr48", IaaForm::Fast), ("iaa dense, lrr48", IaaForm::Dense)] {
-        let iaa = IaaOptions { form, ..Options::default().iaa };
-        let options = Options { iaa, ..Options::default() };
+        let iaa = IaaOptions { form, ..EstimatorOptions::default().iaa };
+        let options = EstimatorOptions { iaa, ..EstimatorOptions::default() };
         let mut estimator = Estimator::new(Method::Iaa, &array, &options).unwrap();
         criterion.bench_function(name, |bencher| {
             bencher.iter(|| estimator.estimate(Data::Snapshots(black_box(y.view()))).unwrap());

@@ -7,7 +7,7 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Spectrum, SpectrumKind, Warning};
 use crate::grid::Grid;
 use crate::method::Method;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::peaks::PeakFinder;
 use crate::plan::Plan;
 use crate::quadratic::{QuadraticSpectrum, Towards};
@@ -24,7 +24,7 @@ pub(crate) struct Bartlett {
 }
 
 impl Bartlett {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(Method::Bartlett, array, options)?;
         let covariance = CovariancePlan::new(Method::Bartlett, array, options)?;
         let grid = Grid::new(array, options);
@@ -98,7 +98,7 @@ mod tests {
         ] {
             let array = boresight_core::presets::preset(name).unwrap();
             let y = (steering_vector(&array, at) * truth).insert_axis(Axis(1));
-            let mut plan = Bartlett::new(&array, &Options::default()).unwrap();
+            let mut plan = Bartlett::new(&array, &EstimatorOptions::default()).unwrap();
             let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
             let first = estimate.sources[0];
             assert!((first.direction.azimuth_rad - at.azimuth_rad).abs() < 1e-7, "{name}");
@@ -113,7 +113,7 @@ mod tests {
     fn silence_has_no_source() {
         let array = Array::ula(4).unwrap();
         let y = ndarray::Array2::zeros((4, 3));
-        let mut plan = Bartlett::new(&array, &Options::default()).unwrap();
+        let mut plan = Bartlett::new(&array, &EstimatorOptions::default()).unwrap();
         let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
         assert!(!estimate.resolved && estimate.sources.is_empty());
         assert_eq!(estimate.warnings, [Warning::NoSources]);

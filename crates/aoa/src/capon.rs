@@ -7,7 +7,7 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Spectrum, SpectrumKind, Warning};
 use crate::grid::Grid;
 use crate::method::Method;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::peaks::PeakFinder;
 use crate::plan::Plan;
 use crate::quadratic::{QuadraticSpectrum, Towards};
@@ -32,7 +32,7 @@ pub(crate) struct Capon {
 }
 
 impl Capon {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(Method::Capon, array, options)?;
         let covariance = CovariancePlan::new(Method::Capon, array, options)?;
         let grid = Grid::new(array, options);

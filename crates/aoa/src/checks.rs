@@ -3,7 +3,7 @@
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Spectrum, Warning};
 use crate::method::Method;
-use crate::options::{Options, SourceCount};
+use crate::options::{EstimatorOptions, SourceCount};
 use crate::suits::unsuited_array;
 use boresight_core::steering::unambiguous_sine;
 use boresight_core::{Array, Complex64, CoreError, Direction, Extent, Lattice};
@@ -16,7 +16,7 @@ const MAX_GRID: usize = 1 << 22;
 pub(crate) fn check_array(
     method: Method,
     array: &Array,
-    options: &Options,
+    options: &EstimatorOptions,
 ) -> Result<(), AoaError> {
     if let Some(reason) = unsuited_array(method, array) {
         let (expected, given) = reason.words();
@@ -52,7 +52,7 @@ pub(crate) fn check_sources(
 }
 
 /// A warning where the field of view is wider than the sector without grating lobes.
-pub(crate) fn ambiguity(array: &Array, options: &Options) -> Option<Warning> {
+pub(crate) fn ambiguity(array: &Array, options: &EstimatorOptions) -> Option<Warning> {
     let sine = unambiguous_sine(&array.lattice()?);
     (sine < options.field_of_view_rad.sin() - 1e-9)
         .then(|| Warning::Ambiguous { unambiguous_rad: sine.asin() })
@@ -66,7 +66,7 @@ pub(crate) struct LatticeAngles {
 }
 
 impl LatticeAngles {
-    pub fn new(lattice: &Lattice, options: &Options) -> Self {
+    pub fn new(lattice: &Lattice, options: &EstimatorOptions) -> Self {
         Self { spacing: lattice.spacing, limit: options.field_of_view_rad.sin() + 1e-12 }
     }
 

@@ -4,7 +4,7 @@ use crate::counting::CountSizes;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::method::Method;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::suits::too_few;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64, CoreError};
@@ -67,7 +67,11 @@ impl Prepared {
 
 impl CovariancePlan {
     /// Checks forward-backward averaging and smoothing against the array.
-    pub fn new(method: Method, array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(
+        method: Method,
+        array: &Array,
+        options: &EstimatorOptions,
+    ) -> Result<Self, AoaError> {
         let averaged = options.forward_backward || options.smoothing.is_some();
         if averaged && !array.is_uniform() {
             return Err(AoaError::Array {

@@ -6,7 +6,7 @@ use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Warning};
 use crate::method::Method;
-use crate::options::{EspritForm, Options};
+use crate::options::{EspritForm, EstimatorOptions};
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::subspace::SubspacePlan;
@@ -26,7 +26,7 @@ pub(crate) struct Esprit {
 }
 
 impl Esprit {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(Method::Esprit, array, options)?;
         let subspace = SubspacePlan::new(Method::Esprit, array, options)?;
         let lattice = array.lattice().ok_or_else(|| AoaError::Array {

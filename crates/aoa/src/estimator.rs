@@ -4,7 +4,7 @@ use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::Estimate;
 use crate::method::Method;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::plan::{Plan, plan};
 use crate::refinement::Refinement;
 use boresight_core::{Array, Complex64};
@@ -26,7 +26,11 @@ impl Estimator {
     ///
     /// # Errors
     /// [`AoaError`] naming what does not fit.
-    pub fn new(method: Method, array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(
+        method: Method,
+        array: &Array,
+        options: &EstimatorOptions,
+    ) -> Result<Self, AoaError> {
         options.check()?;
         Self::with_plan(method, array, plan(method, array, options)?, options)
     }
@@ -39,7 +43,7 @@ impl Estimator {
         method: Method,
         array: &Array,
         plan: Box<dyn Plan>,
-        options: &Options,
+        options: &EstimatorOptions,
     ) -> Result<Self, AoaError> {
         options.check()?;
         let refinement = options.refine.then(|| Refinement::new(array, options)).transpose()?;

@@ -4,7 +4,7 @@ use crate::batch::BatchEstimate;
 use crate::error::AoaError;
 use crate::estimator::Estimator;
 use crate::method::Method;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64};
 use ndarray::{ArrayView3, s};
@@ -30,7 +30,7 @@ impl Estimators {
     pub fn new(
         method: Method,
         array: &Array,
-        options: &Options,
+        options: &EstimatorOptions,
         threads: usize,
     ) -> Result<Self, AoaError> {
         check_range("threads", threads as f64, 1.0, 1024.0)?;

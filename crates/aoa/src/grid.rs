@@ -1,6 +1,6 @@
 //! The grid of angles a spectrum is computed on.
 
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use boresight_core::{Array, Direction, Extent};
 
 /// Azimuths uniform in `u = sin(azimuth)` over `[-1, 1)`, which is where an FFT puts them, crossed
@@ -21,7 +21,7 @@ pub struct Grid {
 
 impl Grid {
     /// The grid `options` ask for, for `array`.
-    pub fn new(array: &Array, options: &Options) -> Self {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Self {
         let full_points = options.grid_points;
         let limit = options.field_of_view_rad.sin();
         let step = 2.0 / full_points as f64;

@@ -7,7 +7,7 @@
 //! # Example
 //!
 //! ```
-//! use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+//! use boresight_aoa::{Data, Estimator, Method, EstimatorOptions, SourceCount};
 //! use boresight_core::steering::steering_matrix;
 //! use boresight_core::{Array, Complex64, Direction};
 //! use ndarray::array;
@@ -18,7 +18,7 @@
 //! let signals = array![[1.0, 1.0], [1.0, -1.0]].mapv(Complex64::from);
 //! let snapshots = steering_matrix(&array, &truth).dot(&signals);
 //!
-//! let options = Options { sources: SourceCount::Known(2), ..Options::default() };
+//! let options = EstimatorOptions { sources: SourceCount::Known(2), ..EstimatorOptions::default() };
 //! let mut estimator = Estimator::new(Method::RootMusic, &array, &options)?;
 //! let estimate = estimator.estimate(Data::Snapshots(snapshots.view()))?;
 //! let mut found: Vec<f64> = estimate.sources.iter().map(|s| s.direction.azimuth_rad).collect();
@@ -81,6 +81,6 @@ pub use estimator::Estimator;
 pub use estimators::Estimators;
 pub use grid::Grid;
 pub use method::{Method, Requirements};
-pub use options::{Options, SourceCount};
+pub use options::{EstimatorOptions, SourceCount};
 pub use plan::Plan;
 pub use powers::sources_at;

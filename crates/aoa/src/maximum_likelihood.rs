@@ -15,7 +15,7 @@ use crate::estimate::{Estimate, Warning};
 use crate::gauss_newton::{Limits, refine_points};
 use crate::grid::Grid;
 use crate::method::Method;
-use crate::options::{Options, SourceCount};
+use crate::options::{EstimatorOptions, SourceCount};
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::quadratic::QuadraticSpectrum;
@@ -50,7 +50,7 @@ pub(crate) struct MaximumLikelihood {
 }
 
 impl MaximumLikelihood {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         let method = Method::MaximumLikelihood;
         check_array(method, array, options)?;
         let covariance = CovariancePlan::new(method, array, options)?;
@@ -234,8 +234,8 @@ mod tests {
     use boresight_core::steering::steering_matrix;
     use boresight_core::{Direction, Random};
 
-    fn known(sources: usize) -> Options {
-        Options { sources: SourceCount::Known(sources), ..Options::default() }
+    fn known(sources: usize) -> EstimatorOptions {
+        EstimatorOptions { sources: SourceCount::Known(sources), ..EstimatorOptions::default() }
     }
 
     #[test]
@@ -252,7 +252,7 @@ mod tests {
                 [Complex64::new(-0.5, 0.0)]
             ];
             let y = steering_matrix(&array, &wanted).dot(&s);
-            let options = Options { grid_points: 256, elevation_points: 31, ..known(3) };
+            let options = EstimatorOptions { grid_points: 256, elevation_points: 31, ..known(3) };
             let mut plan = MaximumLikelihood::new(&array, &options).unwrap();
             let result = plan.estimate(Data::Snapshots(y.view())).unwrap();
             assert!(result.resolved && result.warnings.is_empty(), "{name} {result:?}");
@@ -290,7 +290,7 @@ mod tests {
         let y = steering_matrix(&array, &at).dot(&s)
             + Array2::from_shape_fn((8, 40), |_| random.complex_normal(0.01));
         let r = boresight_signal::sample_covariance(y.view());
-        let options = Options { sources: SourceCount::Mdl, ..Options::default() };
+        let options = EstimatorOptions { sources: SourceCount::Mdl, ..EstimatorOptions::default() };
         let mut plan = MaximumLikelihood::new(&array, &options).unwrap();
         let one = plan.estimate(Data::Snapshots(y.view())).unwrap();
         let other = plan.estimate(Data::Covariance { matrix: r.view(), snapshots: 40 }).unwrap();

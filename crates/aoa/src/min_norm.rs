@@ -6,7 +6,7 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Warning};
 use crate::method::Method;
 use crate::null_spectrum::NullSpectrum;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::subspace::SubspacePlan;
@@ -23,7 +23,7 @@ pub(crate) struct MinNorm {
 }
 
 impl MinNorm {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(Method::MinNorm, array, options)?;
         let subspace = SubspacePlan::new(Method::MinNorm, array, options)?;
         Ok(Self {

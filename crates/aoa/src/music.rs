@@ -6,7 +6,7 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Warning};
 use crate::method::Method;
 use crate::null_spectrum::NullSpectrum;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::subspace::{SubspacePlan, noise_projector};
@@ -23,7 +23,7 @@ pub(crate) struct Music {
 }
 
 impl Music {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(Method::Music, array, options)?;
         let subspace = SubspacePlan::new(Method::Music, array, options)?;
         Ok(Self {

@@ -2,7 +2,7 @@
 
 use crate::estimate::{Spectrum, SpectrumKind};
 use crate::grid::Grid;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::peaks::PeakFinder;
 use crate::quadratic::{QuadraticSpectrum, Towards};
 use boresight_core::{Array, Complex64, Direction};
@@ -16,7 +16,7 @@ pub(crate) struct NullSpectrum {
 }
 
 impl NullSpectrum {
-    pub fn new(array: &Array, options: &Options) -> Self {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Self {
         let grid = Grid::new(array, options);
         Self {
             finder: PeakFinder::new(array, &grid, options),

@@ -115,7 +115,7 @@ pub struct NompOptions {
 /// Options of all estimators. Those a method has no use for are ignored.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Options {
+pub struct EstimatorOptions {
     /// Number of sources, or how they are counted, for methods that need it.
     #[option(default = SourceCount::Mdl, range = 1..=1024)]
     pub sources: SourceCount,
@@ -170,7 +170,7 @@ pub struct Options {
     pub tolerance: f64,
 }
 
-impl Options {
+impl EstimatorOptions {
     /// Checks every option's range.
     ///
     /// # Errors

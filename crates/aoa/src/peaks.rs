@@ -1,7 +1,7 @@
 //! Peaks of a spectrum on the grid.
 
 use crate::grid::Grid;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use boresight_core::{Array, Direction};
 
 /// A local maximum.
@@ -29,7 +29,7 @@ pub(crate) struct PeakFinder {
 }
 
 impl PeakFinder {
-    pub fn new(array: &Array, grid: &Grid, options: &Options) -> Self {
+    pub fn new(array: &Array, grid: &Grid, options: &EstimatorOptions) -> Self {
         let spacing = array.lattice().map(|lattice| lattice.spacing);
         let whole = grid.sines.len() == grid.full_points;
         Self {
@@ -193,14 +193,14 @@ pub(crate) fn parabola_top(left: f64, middle: f64, right: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn finder(array: &Array, options: &Options) -> (PeakFinder, Grid) {
+    fn finder(array: &Array, options: &EstimatorOptions) -> (PeakFinder, Grid) {
         let grid = Grid::new(array, options);
         (PeakFinder::new(array, &grid, options), grid)
     }
 
     #[test]
     fn a_gaussian_lobe_is_found_between_grid_points() {
-        let options = Options { grid_points: 128, ..Options::default() };
+        let options = EstimatorOptions { grid_points: 128, ..EstimatorOptions::default() };
         let (finder, grid) = finder(&Array::ula(4).unwrap(), &options);
         // In dB a Gaussian is a parabola, so interpolation is exact.
         let lobe = |u: f64, at: f64| (-((u - at) / 0.05).powi(2)).exp();
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn the_grid_of_a_half_wavelength_lattice_is_a_circle() {
-        let options = Options { grid_points: 64, ..Options::default() };
+        let options = EstimatorOptions { grid_points: 64, ..EstimatorOptions::default() };
         let (finder, grid) = finder(&Array::ula(4).unwrap(), &options);
         let values: Vec<f64> =
             grid.sines.iter().map(|&u| (-(wrap(u - 0.995, 2.0) / 0.1).powi(2)).exp()).collect();
@@ -225,7 +225,7 @@ mod tests {
 
     #[test]
     fn grating_lobes_count_once() {
-        let options = Options { grid_points: 100, ..Options::default() };
+        let options = EstimatorOptions { grid_points: 100, ..EstimatorOptions::default() };
         let array = Array::new(&[[0.0; 3], [0.0, 3.0, 0.0]]).unwrap();
         let (finder, grid) = finder(&array, &options);
         let period = 2.0 / 3.0;
@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn slopes_toward_the_edge_and_flat_spectra_have_no_peak() {
-        let options = Options { field_of_view_rad: 0.5, ..Options::default() };
+        let options = EstimatorOptions { field_of_view_rad: 0.5, ..EstimatorOptions::default() };
         let (finder, grid) = finder(&Array::ula(4).unwrap(), &options);
         let rising: Vec<f64> = grid.sines.iter().map(|&u| u.exp()).collect();
         assert!(finder.find(&grid, &rising).is_empty());
@@ -250,7 +250,7 @@ mod tests {
     #[test]
     fn a_lobe_over_two_angles() {
         let array = boresight_core::presets::preset("awr1843").unwrap();
-        let (finder, grid) = finder(&array, &Options::default());
+        let (finder, grid) = finder(&array, &EstimatorOptions::default());
         let values: Vec<f64> = (0..grid.len())
             .map(|g| {
                 let at = grid.direction(g);

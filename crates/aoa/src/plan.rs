@@ -12,7 +12,7 @@ use crate::method::Method;
 use crate::min_norm::MinNorm;
 use crate::music::Music;
 use crate::nomp::Nomp;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::root_music::RootMusic;
 use crate::single_snapshot_music::SingleSnapshotMusic;
 use crate::sparse_bayesian::SparseBayesian;
@@ -63,7 +63,7 @@ pub trait Plan: Send {
 pub(crate) fn plan(
     method: Method,
     array: &Array,
-    options: &Options,
+    options: &EstimatorOptions,
 ) -> Result<Box<dyn Plan>, AoaError> {
     Ok(match method {
         Method::Bartlett => Box::new(Bartlett::new(array, options)?),

@@ -344,7 +344,7 @@ fn derivatives(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::options::Options;
+    use crate::options::EstimatorOptions;
     use boresight_core::Random;
     use boresight_core::linalg::adjoint;
     use boresight_core::presets::preset;
@@ -371,11 +371,11 @@ mod tests {
             preset("awr1642").unwrap(),
             preset("awr1843").unwrap(),
         ];
-        let options = Options {
+        let options = EstimatorOptions {
             grid_points: 180,
             elevation_points: 5,
             field_of_view_rad: 1.2,
-            ..Options::default()
+            ..EstimatorOptions::default()
         };
         for array in arrays {
             let grid = Grid::new(&array, &options);
@@ -419,7 +419,7 @@ mod tests {
     #[test]
     fn refinement_ends_on_the_source() {
         let array = preset("awr1843").unwrap();
-        let options = Options::default();
+        let options = EstimatorOptions::default();
         let grid = Grid::new(&array, &options);
         let truth = Direction::new(0.1234, 0.0567);
         let a = steering_vector(&array, truth).insert_axis(ndarray::Axis(1));

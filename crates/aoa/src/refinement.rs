@@ -16,7 +16,7 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Warning};
 use crate::nomp::Nomp;
 use crate::normalised::Normalised;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use boresight_core::{Array, Direction};
 
 /// A refinement prepared for one array.
@@ -29,7 +29,7 @@ impl Refinement {
     ///
     /// # Errors
     /// As [`crate::Estimator::new`] for NOMP.
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         options.check()?;
         Ok(Self { nomp: Nomp::new(array, options)? })
     }

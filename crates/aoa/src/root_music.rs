@@ -5,11 +5,12 @@ use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Warning};
 use crate::method::Method;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::subspace::{SubspacePlan, noise_projector};
 use boresight_core::linalg::polynomial_roots;
+use boresight_core::order::sort_descending;
 use boresight_core::{Array, Complex64, Direction, Lattice};
 use ndarray::Array2;
 
@@ -27,7 +28,7 @@ pub(crate) struct RootMusic {
 }
 
 impl RootMusic {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         let method = Method::RootMusic;
         check_array(method, array, options)?;
         let subspace = SubspacePlan::new(method, array, options)?;
@@ -92,7 +93,7 @@ impl Plan for RootMusic {
 fn pairs_near_circle(mut roots: Vec<Complex64>) -> Vec<Complex64> {
     let distance = |z: &Complex64| z.norm().ln().abs();
     roots.retain(|z| z.norm_sqr() > 0.0);
-    roots.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+    sort_descending(&mut roots, distance);
     let mut pairs = Vec::with_capacity(roots.len() / 2);
     while let Some(z) = roots.pop() {
         let mirrored = z.conj().inv();

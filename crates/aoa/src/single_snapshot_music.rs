@@ -8,7 +8,7 @@ use crate::error::AoaError;
 use crate::estimate::{Estimate, Warning};
 use crate::method::Method;
 use crate::null_spectrum::NullSpectrum;
-use crate::options::{Options, SourceCount};
+use crate::options::{EstimatorOptions, SourceCount};
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::subspace::{noise_projector, signal_basis};
@@ -19,7 +19,7 @@ use ndarray::{Array2, ArrayView1};
 
 /// The windows of `L` neighbouring elements of `K` are the columns of a Hankel matrix whose
 /// column space is spanned by the sources' steering vectors of length `L`. `L` is half the array
-/// and one more, or [`Options::smoothing`]; at most `min(L - 1, K - L + 1)` sources are found,
+/// and one more, or [`EstimatorOptions::smoothing`]; at most `min(L - 1, K - L + 1)` sources are found,
 /// `min(L - 1, 2 (K - L + 1))` with forward-backward averaging.
 pub(crate) struct SingleSnapshotMusic {
     array: Array,
@@ -32,7 +32,7 @@ pub(crate) struct SingleSnapshotMusic {
 }
 
 impl SingleSnapshotMusic {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         let method = Method::SingleSnapshotMusic;
         check_array(method, array, options)?;
         let elements = array.len();

@@ -26,12 +26,13 @@ use crate::iaa::fourier::{LagTransforms, LatticeFourier};
 use crate::iaa::inverse::hermitian_inverse;
 use crate::method::Method;
 use crate::normalised::Normalised;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use crate::peaks::{PeakFinder, wrap};
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::quadratic::QuadraticSpectrum;
 use boresight_core::linalg::{Cholesky, adjoint, hermitian_eigen};
+use boresight_core::order::sort_descending;
 use boresight_core::{Array, Complex64, Direction, Lattice};
 use ndarray::{Array1, Array2};
 use std::f64::consts::FRAC_PI_2;
@@ -106,10 +107,11 @@ struct State {
 }
 
 impl SparseBayesian {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(Method::SparseBayesian, array, options)?;
         let grid = Grid::new(array, options);
-        let whole = Grid::new(array, &Options { field_of_view_rad: FRAC_PI_2, ..*options });
+        let whole =
+            Grid::new(array, &EstimatorOptions { field_of_view_rad: FRAC_PI_2, ..*options });
         let lattice = array.lattice();
         let period = lattice.as_ref().map(|l| 2.0 / l.spacing).filter(|&p| p < 2.0 - 1e-9);
         let model = match lattice {
@@ -321,7 +323,7 @@ fn highest_peaks(alpha: &[f64], most: usize) -> Vec<usize> {
     let mut peaks: Vec<usize> = (0..n)
         .filter(|&g| alpha[g] > alpha[(g + n - 1) % n] && alpha[g] >= alpha[(g + 1) % n])
         .collect();
-    peaks.sort_by(|&g, &h| alpha[h].total_cmp(&alpha[g]));
+    sort_descending(&mut peaks, |&g| alpha[g]);
     peaks.truncate(most);
     peaks.sort_unstable();
     peaks
@@ -401,7 +403,11 @@ mod tests {
             // 0.4 and -0.3 steps off the grid of 1 / 32.
             let sines = [(-6.0 + 0.4) / 32.0, (9.0 - 0.3) / 32.0];
             let y = scene(&array, &sines, 20, 1e-3);
-            let options = Options { grid_points: 64, tolerance: 1e-4, ..Options::default() };
+            let options = EstimatorOptions {
+                grid_points: 64,
+                tolerance: 1e-4,
+                ..EstimatorOptions::default()
+            };
             let mut plan = SparseBayesian::new(&array, &options).unwrap();
             let result = plan.estimate(Data::Snapshots(y.view())).unwrap();
             let mut found: Vec<f64> =
@@ -419,7 +425,8 @@ mod tests {
     #[test]
     fn silence_single_snapshots_and_wrong_data() {
         let array = preset("ula8").unwrap();
-        let options = Options { grid_points: 64, max_iterations: 5, ..Options::default() };
+        let options =
+            EstimatorOptions { grid_points: 64, max_iterations: 5, ..EstimatorOptions::default() };
         let mut plan = SparseBayesian::new(&array, &options).unwrap();
         let silence = Array2::zeros((8, 2));
         let result = plan.estimate(Data::Snapshots(silence.view())).unwrap();

@@ -6,7 +6,7 @@ use crate::covariance::{CovariancePlan, Prepared};
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::method::Method;
-use crate::options::{Options, SourceCount};
+use crate::options::{EstimatorOptions, SourceCount};
 use boresight_core::linalg::{adjoint, leading_hermitian_eigen_by};
 use boresight_core::{Array, Complex64};
 use ndarray::Array2;
@@ -26,7 +26,11 @@ impl SubspacePlan {
     ///
     /// # Errors
     /// [`AoaError::TooManySources`] above that, and the errors of [`CovariancePlan::new`].
-    pub fn new(method: Method, array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(
+        method: Method,
+        array: &Array,
+        options: &EstimatorOptions,
+    ) -> Result<Self, AoaError> {
         let covariance = CovariancePlan::new(method, array, options)?;
         let most = covariance.array().len() - 1;
         check_sources(method, options.sources, most)?;

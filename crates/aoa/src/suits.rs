@@ -1,7 +1,7 @@
 //! Whether a method suits an array and a number of snapshots.
 
 use crate::method::Method;
-use crate::options::Options;
+use crate::options::EstimatorOptions;
 use boresight_core::describe::Described;
 use boresight_core::{Array, Extent};
 use serde::Serialize;
@@ -47,18 +47,18 @@ impl Unsuited {
 ///
 /// ```
 /// use boresight_aoa::suits::{Unsuited, unsuited};
-/// use boresight_aoa::{Method, Options};
+/// use boresight_aoa::{Method, EstimatorOptions};
 /// use boresight_core::Array;
 ///
 /// let array = Array::new(&[[0.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 5.0, 0.0]])?;
-/// assert_eq!(unsuited(Method::Esprit, &array, &Options::default(), 10), Some(Unsuited::UniformArray));
-/// assert_eq!(unsuited(Method::Capon, &array, &Options::default(), 10), None);
+/// assert_eq!(unsuited(Method::Esprit, &array, &EstimatorOptions::default(), 10), Some(Unsuited::UniformArray));
+/// assert_eq!(unsuited(Method::Capon, &array, &EstimatorOptions::default(), 10), None);
 /// # Ok::<(), boresight_core::CoreError>(())
 /// ```
 pub fn unsuited(
     method: Method,
     array: &Array,
-    options: &Options,
+    options: &EstimatorOptions,
     snapshots: usize,
 ) -> Option<Unsuited> {
     let most = method.requirements().max_snapshots;

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, unsafe_code)]
 
 use boresight_aoa::batch::BatchEstimate;
-use boresight_aoa::{Estimator, Method, Options, SourceCount};
+use boresight_aoa::{Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::presets::preset;
 use boresight_core::{Array, Random};
 use ndarray::Array3;
@@ -47,7 +47,8 @@ fn allocations(method: Method, array: &Array, spectra: bool) -> usize {
     let shape = (40, array.len(), snapshots);
     let mut random = Random::new(91, 0);
     let cells = Array3::from_shape_fn(shape, |_| random.complex_normal(1.0));
-    let options = Options { sources: SourceCount::Known(2), ..Options::default() };
+    let options =
+        EstimatorOptions { sources: SourceCount::Known(2), ..EstimatorOptions::default() };
     let mut estimator = Estimator::new(method, array, &options).unwrap();
     let mut out = BatchEstimate::new(method);
     estimator.estimate_batch_into(cells.view(), spectra, &mut out).unwrap();

@@ -6,7 +6,8 @@ mod support;
 
 use boresight_aoa::Plan;
 use boresight_aoa::{
-    AoaError, BatchEstimate, Data, Estimate, Estimator, Estimators, Method, Options, Source,
+    AoaError, BatchEstimate, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method,
+    Source,
 };
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64, Diagnose, Direction, Random};
@@ -30,7 +31,12 @@ fn cells(array: &Array, snapshots: usize) -> Array3<Complex64> {
 }
 
 /// The spectrum in the batch is single precision.
-fn assert_same_cells(method: Method, array: &Array, options: &Options, y: &Array3<Complex64>) {
+fn assert_same_cells(
+    method: Method,
+    array: &Array,
+    options: &EstimatorOptions,
+    y: &Array3<Complex64>,
+) {
     let name = method.name();
     let mut warm = Estimator::new(method, array, options).unwrap();
     let mut batch = BatchEstimate::new(method);
@@ -65,7 +71,8 @@ fn assert_same_cells(method: Method, array: &Array, options: &Options, y: &Array
 
 #[test]
 fn every_method_gives_the_same_cell_by_cell() {
-    let options = Options { grid_points: 256, max_iterations: 20, ..Options::default() };
+    let options =
+        EstimatorOptions { grid_points: 256, max_iterations: 20, ..EstimatorOptions::default() };
     let uniform = Array::ula(12).unwrap();
     for method in Method::ALL {
         let needs = method.requirements();
@@ -78,7 +85,7 @@ fn every_method_gives_the_same_cell_by_cell() {
         }
     }
     let planar = preset("awr1843").unwrap();
-    let options = Options { elevation_points: 9, grid_points: 64, ..options };
+    let options = EstimatorOptions { elevation_points: 9, grid_points: 64, ..options };
     for method in [Method::Bartlett, Method::Iaa] {
         assert_same_cells(method, &planar, &options, &cells(&planar, 2));
     }
@@ -87,7 +94,7 @@ fn every_method_gives_the_same_cell_by_cell() {
 #[test]
 fn threads_change_nothing() {
     let array = Array::ula(12).unwrap();
-    let options = Options { grid_points: 256, ..Options::default() };
+    let options = EstimatorOptions { grid_points: 256, ..EstimatorOptions::default() };
     let few = cells(&array, 1);
     let many = ndarray::concatenate(Axis(0), &[few.view(); 5]).unwrap();
     let mut one = Estimator::new(Method::Capon, &array, &options).unwrap();
@@ -109,7 +116,8 @@ fn threads_change_nothing() {
 #[test]
 fn no_cells_are_an_empty_result() {
     let array = Array::ula(4).unwrap();
-    let mut estimator = Estimator::new(Method::Bartlett, &array, &Options::default()).unwrap();
+    let mut estimator =
+        Estimator::new(Method::Bartlett, &array, &EstimatorOptions::default()).unwrap();
     let batch = estimator.estimate_batch(Array3::zeros((0, 4, 1)).view(), true).unwrap();
     assert_eq!(batch, BatchEstimate::new(Method::Bartlett));
     assert_eq!(batch.sources_of(0), &[] as &[Source]);
@@ -118,7 +126,8 @@ fn no_cells_are_an_empty_result() {
 #[test]
 fn what_is_malformed_is_refused_whole() {
     let array = Array::ula(4).unwrap();
-    let mut estimator = Estimator::new(Method::Bartlett, &array, &Options::default()).unwrap();
+    let mut estimator =
+        Estimator::new(Method::Bartlett, &array, &EstimatorOptions::default()).unwrap();
     for shape in [(2, 5, 1), (2, 4, 0)] {
         let refused = estimator.estimate_batch(Array3::zeros(shape).view(), false).unwrap_err();
         assert_eq!(refused.code(), "shape");
@@ -170,7 +179,7 @@ impl Plan for Portions {
 fn a_plan_made_elsewhere_gets_cells_in_portions() {
     let array = Array::ula(12).unwrap();
     let y = cells(&array, 1);
-    let options = Options::default();
+    let options = EstimatorOptions::default();
     let estimator = || {
         let plan = Box::new(Portions(vec![]));
         Estimator::with_plan(Method::Aaetr, &array, plan, &options).unwrap()

@@ -5,7 +5,7 @@ mod support;
 use boresight_aoa::bounds::{
     Signals, deterministic_bound, single_snapshot, stochastic_bound, uncorrelated,
 };
-use boresight_aoa::{Data, Estimator, Method, Options};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
 use boresight_core::presets::preset;
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::{Array, Direction, Random};
@@ -48,7 +48,7 @@ fn nomp_reaches_the_deterministic_bound() {
     let array = preset("lrr48").unwrap();
     let noise_power = 0.01;
     for known_noise in [true, false] {
-        let mut options = Options::default();
+        let mut options = EstimatorOptions::default();
         options.nomp.noise_power = known_noise.then_some(noise_power);
         let mut estimator = Estimator::new(Method::Nomp, &array, &options).unwrap();
         let mut squares = 0.0;

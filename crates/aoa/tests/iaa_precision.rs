@@ -5,7 +5,7 @@
 mod support;
 
 use boresight_aoa::options::{IaaOptions, IaaPrecision};
-use boresight_aoa::{BatchEstimate, Estimator, Method, Options};
+use boresight_aoa::{BatchEstimate, Estimator, EstimatorOptions, Method};
 use boresight_core::presets::preset;
 
 const SCENES: usize = 40;
@@ -13,8 +13,8 @@ const SCENES: usize = 40;
 fn estimates(precision: IaaPrecision, targets: usize, snr_db: f64) -> BatchEstimate {
     let array = preset("lrr48").unwrap();
     let simulator = support::random_scenes(&array, targets, snr_db, 92);
-    let iaa = IaaOptions { precision, ..Options::default().iaa };
-    let options = Options { iaa, ..Options::default() };
+    let iaa = IaaOptions { precision, ..EstimatorOptions::default().iaa };
+    let options = EstimatorOptions { iaa, ..EstimatorOptions::default() };
     let mut estimator = Estimator::new(Method::Iaa, &array, &options).unwrap();
     let scenes = simulator.scenes(0, SCENES).unwrap();
     estimator.estimate_batch(scenes.values.view(), false).unwrap()

@@ -4,7 +4,7 @@
 
 mod support;
 
-use boresight_aoa::{Data, Estimator, Method, Options};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
 use boresight_core::presets::preset;
 
 const SCENES: u64 = 200;
@@ -16,12 +16,12 @@ const WITHIN_RAD: f64 = 0.5 * std::f64::consts::PI / 180.0;
 fn best_f1(targets: usize, snr_db: f64) -> f64 {
     let array = preset("lrr48").unwrap();
     let simulator = support::random_scenes(&array, targets, snr_db, 91);
-    let options = Options {
+    let options = EstimatorOptions {
         grid_points: 2048,
         field_of_view_rad: 60.0_f64.to_radians(),
         dynamic_range_db: 40.0,
         max_peaks: 64,
-        ..Options::default()
+        ..EstimatorOptions::default()
     };
     let mut iaa = Estimator::new(Method::Iaa, &array, &options).unwrap();
     // Power of each prediction and whether it is right; power up to which each target is found.

@@ -4,7 +4,7 @@
 
 mod support;
 
-use boresight_aoa::{Data, Estimator, Method, Options, SourceCount, Warning};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount, Warning};
 use boresight_core::presets::preset;
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Direction, Random};
@@ -29,7 +29,7 @@ fn subspace_methods_are_exact_without_noise() {
         let y = scene(&array, &wanted, &[1.0, 0.5, 2.0, 0.1], 0.0, 12, &mut random);
         for method in SUBSPACE {
             for sources in [SourceCount::Known(4), SourceCount::Mdl, SourceCount::Aic] {
-                let options = Options { sources, ..Options::default() };
+                let options = EstimatorOptions { sources, ..EstimatorOptions::default() };
                 let result = estimate(method, &array, &options, &y);
                 let what = format!("{} on {name}, {sources:?}", method.name());
                 assert_close(&found(&result), &wanted, 1e-6, &what);
@@ -65,7 +65,7 @@ fn both_forms_of_esprit_agree_without_noise() {
             boresight_aoa::options::EspritForm::LeastSquares,
             boresight_aoa::options::EspritForm::TotalLeastSquares,
         ] {
-            let options = Options { esprit, ..known(2) };
+            let options = EstimatorOptions { esprit, ..known(2) };
             let result = estimate(Method::Esprit, &array, &options, &y);
             assert_close(&found(&result), &wanted, 1e-9, &format!("{esprit:?} on {name}"));
         }
@@ -79,7 +79,7 @@ fn a_single_snapshot_is_enough_for_its_own_music() {
     let mut random = Random::new(24, 0);
     let y = scene(&array, &wanted, &[1.0, 0.3, 0.6], 0.0, 1, &mut random);
     for forward_backward in [false, true] {
-        let options = Options { forward_backward, ..known(3) };
+        let options = EstimatorOptions { forward_backward, ..known(3) };
         let result = estimate(Method::SingleSnapshotMusic, &array, &options, &y);
         assert_close(&found(&result), &wanted, 1e-6, "single snapshot");
         let power: f64 = result.sources.iter().map(|s| s.amplitude.unwrap().norm_sqr()).sum();
@@ -94,11 +94,11 @@ fn capon_says_that_it_loaded_a_covariance_without_noise() {
     let wanted = azimuths(&[-25.0, 10.0]);
     let mut random = Random::new(25, 0);
     let y = scene(&array, &wanted, &[1.0, 1.0], 0.0, 40, &mut random);
-    let result = estimate(Method::Capon, &array, &Options::default(), &y);
+    let result = estimate(Method::Capon, &array, &EstimatorOptions::default(), &y);
     assert_close(&found(&result), &wanted, 1e-5, "capon");
     assert!(matches!(result.warnings[..], [Warning::Loaded { share }] if share < 1e-7));
     let few = y.slice(ndarray::s![.., ..3]).to_owned();
-    let result = estimate(Method::Capon, &array, &Options::default(), &few);
+    let result = estimate(Method::Capon, &array, &EstimatorOptions::default(), &few);
     assert_close(&found(&result), &wanted, 5e-3, "capon, three snapshots");
     assert!(matches!(result.warnings[..], [Warning::Loaded { share }] if share >= 1e-2));
 }
@@ -130,7 +130,8 @@ fn azimuth_and_elevation_on_a_planar_array() {
     }
     let one = scene(&array, &wanted[..1], &[1.0], 1e-3, 50, &mut random);
     for method in [Method::Bartlett, Method::Capon] {
-        let first = estimate(method, &array, &Options::default(), &one).sources[0].direction;
+        let first =
+            estimate(method, &array, &EstimatorOptions::default(), &one).sources[0].direction;
         assert!((first.azimuth_rad - wanted[0].azimuth_rad).abs() < 0.01, "{first:?}");
         assert!((first.elevation_rad - wanted[0].elevation_rad).abs() < 0.02, "{first:?}");
     }
@@ -151,8 +152,8 @@ fn coherent_sources_need_smoothing() {
         let right = plain.len() == 2
             && plain.iter().zip(&wanted).all(|(f, w)| (f - w.azimuth_rad).abs() < 0.005);
         assert!(!right, "{} cannot separate them: {plain:?}", method.name());
-        let smoothing = Options { smoothing: Some(9), ..known(2) };
-        let both = Options { forward_backward: true, smoothing: Some(10), ..known(2) };
+        let smoothing = EstimatorOptions { smoothing: Some(9), ..known(2) };
+        let both = EstimatorOptions { forward_backward: true, smoothing: Some(10), ..known(2) };
         for options in [smoothing, both] {
             let result = estimate(method, &array, &options, &y);
             assert_close(&found(&result), &wanted, 0.005, method.name());
@@ -177,7 +178,7 @@ fn wide_spacing_is_ambiguous_and_says_so() {
             continue;
         };
         assert!((unambiguous_rad - 30.0_f64.to_radians()).abs() < 1e-9);
-        let narrow = Options { field_of_view_rad: 0.5, ..known(2) };
+        let narrow = EstimatorOptions { field_of_view_rad: 0.5, ..known(2) };
         let quiet = estimate(method, &array, &narrow, &y);
         assert!(!quiet.warnings.iter().any(|w| matches!(w, Warning::Ambiguous { .. })));
     }

@@ -5,7 +5,7 @@
 mod support;
 
 use boresight_aoa::options::EspritForm;
-use boresight_aoa::{Method, Options};
+use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::{Array, Complex64};
 use boresight_signal::sample_covariance;
@@ -58,7 +58,7 @@ fn assert_equal(found: &[f64], wanted: &[f64], tolerance: f64, what: &str) {
 
 #[test]
 fn eigenvalues_and_spectra_equal_those_of_numpy() {
-    let options = Options { grid_points: 64, ..known(2) };
+    let options = EstimatorOptions { grid_points: 64, ..known(2) };
     for case in cases() {
         let r = sample_covariance(case.y.view());
         let values = hermitian_eigen(r.view()).unwrap().values.to_vec();
@@ -85,7 +85,7 @@ fn angles_equal_those_of_numpy() {
             assert!((f - w).abs() < 1e-7, "MUSIC: {f} for {w}");
         }
         if case.array.is_uniform() {
-            let form = |esprit| Options { esprit, ..known(2) };
+            let form = |esprit| EstimatorOptions { esprit, ..known(2) };
             for (method, options, key) in [
                 (Method::RootMusic, known(2), "rootMusicAzimuths"),
                 (Method::Esprit, form(EspritForm::LeastSquares), "espritAzimuths"),

@@ -3,7 +3,7 @@
 
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::refinement::Refinement;
-use boresight_aoa::{AoaError, Data, Estimator, Method, Options, Warning};
+use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, Warning};
 use boresight_core::linalg::adjoint;
 use boresight_core::presets::preset;
 use boresight_core::steering::{cis, steering_matrix};
@@ -38,7 +38,8 @@ fn scene(
 #[test]
 fn peaks_of_iaa_and_nomp_come_to_the_bound_and_sidelobes_go() {
     let array = preset("lrr48").unwrap();
-    let options = Options { dynamic_range_db: 40.0, max_peaks: 64, ..Options::default() };
+    let options =
+        EstimatorOptions { dynamic_range_db: 40.0, max_peaks: 64, ..EstimatorOptions::default() };
     let mut refinement = Refinement::new(&array, &options).unwrap();
     for method in [Method::Bartlett, Method::Iaa, Method::Nomp] {
         let mut estimator = Estimator::new(method, &array, &options).unwrap();
@@ -78,7 +79,7 @@ fn a_covariance_is_refined_without_additions() {
     let (truth, _, y) = scene(&array, 3, 1e-4, &mut random);
     let r = y.dot(&adjoint(y.view()));
     let data = Data::Covariance { matrix: r.view(), snapshots: 1 };
-    let mut refinement = Refinement::new(&array, &Options::default()).unwrap();
+    let mut refinement = Refinement::new(&array, &EstimatorOptions::default()).unwrap();
     let near = |d: &Direction| Direction::azimuth(d.azimuth_rad + 2e-3);
     let found = refinement.refine(&[near(&truth[0]), near(&truth[1])], data).unwrap();
     assert_eq!(found.len(), 2);
@@ -94,7 +95,7 @@ fn a_covariance_is_refined_without_additions() {
 #[test]
 fn nothing_one_place_and_wrong_data() {
     let array = preset("ula8").unwrap();
-    let mut refinement = Refinement::new(&array, &Options::default()).unwrap();
+    let mut refinement = Refinement::new(&array, &EstimatorOptions::default()).unwrap();
     let silence = Array2::zeros((8, 1));
     let one = [Direction::azimuth(0.2)];
     assert!(refinement.refine(&one, Data::Snapshots(silence.view())).unwrap().is_empty());
@@ -112,7 +113,7 @@ fn nothing_one_place_and_wrong_data() {
     assert!(matches!(refused, Err(AoaError::Argument(_))), "{refused:?}");
     let behind = refinement.refine(&[Direction::azimuth(2.0)], Data::Snapshots(y.view()));
     assert_eq!(behind.unwrap_err().details().what, "azimuth_rad");
-    let wrong = Options { dynamic_range_db: -1.0, ..Options::default() };
+    let wrong = EstimatorOptions { dynamic_range_db: -1.0, ..EstimatorOptions::default() };
     assert_eq!(Refinement::new(&array, &wrong).err().unwrap().details().what, "dynamic_range_db");
 }
 
@@ -125,7 +126,8 @@ fn as_an_option_of_every_method() {
     for method in Method::ALL {
         let snapshots = method.requirements().max_snapshots.unwrap_or(40);
         let y = many.slice(ndarray::s![.., ..snapshots]);
-        let options = Options { refine: true, grid_points: 256, ..Options::default() };
+        let options =
+            EstimatorOptions { refine: true, grid_points: 256, ..EstimatorOptions::default() };
         let mut estimator = Estimator::new(method, &array, &options).unwrap();
         let estimate = estimator.estimate(Data::Snapshots(y)).unwrap();
         let mut found: Vec<f64> =
@@ -147,7 +149,7 @@ fn as_an_option_of_every_method() {
 #[test]
 fn no_source_is_stronger_than_the_data_allow() {
     let array = preset("lrr48").unwrap();
-    let mut nomp = Estimator::new(Method::Nomp, &array, &Options::default()).unwrap();
+    let mut nomp = Estimator::new(Method::Nomp, &array, &EstimatorOptions::default()).unwrap();
     for trial in 0..100 {
         let mut random = Random::new(83, trial);
         let at = [0.3, 0.3 + 0.25 * 2.0 / 92.0].map(|sine: f64| Direction::azimuth(sine.asin()));
@@ -171,7 +173,7 @@ fn no_source_is_stronger_than_the_data_allow() {
 #[test]
 fn no_group_within_half_a_beam_cancels() {
     let array = preset("lrr48").unwrap();
-    let mut nomp = Estimator::new(Method::Nomp, &array, &Options::default()).unwrap();
+    let mut nomp = Estimator::new(Method::Nomp, &array, &EstimatorOptions::default()).unwrap();
     let beam = 2.0 / 92.0;
     for trial in 0..200 {
         let mut random = Random::new(84, trial);

@@ -6,14 +6,14 @@
 mod support;
 
 use boresight_aoa::options::{EspritForm, IaaForm, Thresholding};
-use boresight_aoa::{AoaError, Data, Estimator, Method, Options, SourceCount};
+use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64, CoreError, Diagnose, Random};
 use ndarray::Array2;
 use proptest::prelude::*;
 use support::{azimuths, known, scene};
 
-fn error(method: Method, array: &Array, options: &Options) -> AoaError {
+fn error(method: Method, array: &Array, options: &EstimatorOptions) -> AoaError {
     Estimator::new(method, array, options).err().unwrap()
 }
 
@@ -44,15 +44,15 @@ fn arrays_that_do_not_suit_are_refused_by_name() {
 fn too_many_sources_are_refused_with_the_limit() {
     let array = Array::ula(8).unwrap();
     let limits = [
-        (Method::Music, Options::default(), 7),
-        (Method::RootMusic, Options::default(), 7),
-        (Method::Esprit, Options::default(), 7),
-        (Method::MinNorm, Options::default(), 7),
-        (Method::SingleSnapshotMusic, Options::default(), 4),
-        (Method::Music, Options { smoothing: Some(5), ..Options::default() }, 4),
+        (Method::Music, EstimatorOptions::default(), 7),
+        (Method::RootMusic, EstimatorOptions::default(), 7),
+        (Method::Esprit, EstimatorOptions::default(), 7),
+        (Method::MinNorm, EstimatorOptions::default(), 7),
+        (Method::SingleSnapshotMusic, EstimatorOptions::default(), 4),
+        (Method::Music, EstimatorOptions { smoothing: Some(5), ..EstimatorOptions::default() }, 4),
     ];
     for (method, options, limit) in limits {
-        let wanted = |n| Options { sources: SourceCount::Known(n), ..options };
+        let wanted = |n| EstimatorOptions { sources: SourceCount::Known(n), ..options };
         assert!(Estimator::new(method, &array, &wanted(limit)).is_ok(), "{}", method.name());
         let given = error(method, &array, &wanted(limit + 1));
         assert_eq!(
@@ -66,20 +66,24 @@ fn too_many_sources_are_refused_with_the_limit() {
 fn averaging_and_smoothing_need_a_uniform_array() {
     let sparse = preset("lrr48").unwrap();
     for options in [
-        Options { forward_backward: true, ..Options::default() },
-        Options { smoothing: Some(8), ..Options::default() },
+        EstimatorOptions { forward_backward: true, ..EstimatorOptions::default() },
+        EstimatorOptions { smoothing: Some(8), ..EstimatorOptions::default() },
     ] {
         let error = error(Method::Music, &sparse, &options);
         assert!(matches!(error, AoaError::Array { .. }), "{error}");
     }
-    let long = Options { smoothing: Some(9), ..Options::default() };
+    let long = EstimatorOptions { smoothing: Some(9), ..EstimatorOptions::default() };
     let error = error(Method::Capon, &Array::ula(8).unwrap(), &long);
     assert!(matches!(error, AoaError::Argument(CoreError::OutOfRange { .. })), "{error}");
 }
 
 #[test]
 fn a_field_of_view_between_grid_points_is_refused() {
-    let narrow = Options { field_of_view_rad: 0.01, grid_points: 21, ..Options::default() };
+    let narrow = EstimatorOptions {
+        field_of_view_rad: 0.01,
+        grid_points: 21,
+        ..EstimatorOptions::default()
+    };
     for method in [Method::Bartlett, Method::Iaa] {
         let error = error(method, &Array::ula(8).unwrap(), &narrow);
         assert!(
@@ -104,7 +108,7 @@ fn the_number_of_snapshots_is_checked() {
         let mut five = Estimator::new(method, &array, &known(5)).unwrap();
         let error = five.estimate(Data::Snapshots(three.view())).unwrap_err();
         assert!(matches!(error, AoaError::Snapshots { given: 3, .. }), "{error}");
-        let smoothed = Options { smoothing: Some(6), ..known(1) };
+        let smoothed = EstimatorOptions { smoothing: Some(6), ..known(1) };
         let mut estimator = Estimator::new(method, &array, &smoothed).unwrap();
         assert!(estimator.estimate(Data::Snapshots(one.view())).unwrap().resolved);
     }
@@ -175,7 +179,7 @@ fn positions() -> impl Strategy<Value = Vec<[f64; 3]>> {
     prop_oneof![anywhere, line, plane, sparse]
 }
 
-fn options() -> impl Strategy<Value = Options> {
+fn options() -> impl Strategy<Value = EstimatorOptions> {
     let sources = prop_oneof![
         (1usize..12).prop_map(SourceCount::Known),
         Just(SourceCount::Aic),
@@ -187,7 +191,7 @@ fn options() -> impl Strategy<Value = Options> {
     let peaks = (1.0..100.0f64, 1usize..8, any::<bool>());
     let iaa = (1usize..4, 0usize..3, 0usize..3);
     (shape, averaging, peaks, iaa).prop_map(|(shape, averaging, peaks, iaa)| {
-        let mut options = Options {
+        let mut options = EstimatorOptions {
             sources: shape.0,
             field_of_view_rad: shape.1,
             grid_points: shape.2,
@@ -199,7 +203,7 @@ fn options() -> impl Strategy<Value = Options> {
             max_peaks: peaks.1,
             esprit: if peaks.2 { EspritForm::LeastSquares } else { EspritForm::TotalLeastSquares },
             max_iterations: 5,
-            ..Options::default()
+            ..EstimatorOptions::default()
         };
         options.iaa.iterations = iaa.0;
         options.iaa.thresholding =

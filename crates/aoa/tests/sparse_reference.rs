@@ -2,7 +2,7 @@
 //! (`reference/sparse.py`).
 
 use boresight_aoa::options::{IaaForm, IaaPrecision};
-use boresight_aoa::{Data, Estimator, Method, Options};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
 use boresight_core::{Array, Complex64};
 use ndarray::Array2;
 use serde::Deserialize;
@@ -29,11 +29,11 @@ fn spectra_agree_with_the_reference() {
         let y = Array2::from_shape_fn((case.re.len(), case.re[0].len()), |(k, n)| {
             Complex64::new(case.re[k][n], case.im[k][n])
         });
-        let mut options = Options {
+        let mut options = EstimatorOptions {
             grid_points: case.points,
             max_iterations: case.iterations,
             tolerance: 1e-15,
-            ..Options::default()
+            ..EstimatorOptions::default()
         };
         options.iaa.iterations = case.iterations;
         options.iaa.precision = IaaPrecision::Double;

@@ -1,7 +1,7 @@
 //! Sparse and gridless methods on whatever arrays, options and data there are: no panic, no NaN.
 
 use boresight_aoa::options::{IaaForm, IaaOptions, NompOptions, Thresholding};
-use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::{Array, Complex64};
 use ndarray::Array2;
 use proptest::prelude::*;
@@ -23,7 +23,7 @@ fn arrays() -> impl Strategy<Value = Vec<[f64; 3]>> {
     ]
 }
 
-fn options() -> impl Strategy<Value = Options> {
+fn options() -> impl Strategy<Value = EstimatorOptions> {
     let iaa = (
         1..20usize,
         prop_oneof![Just(Thresholding::None), Just(Thresholding::Hard), Just(Thresholding::Soft)],
@@ -45,7 +45,7 @@ fn options() -> impl Strategy<Value = Options> {
         Just(SourceCount::Mdl)
     ];
     (iaa, nomp, sources, 16..150usize, 0.1..1.57, 1..8usize).prop_map(
-        |(iaa, nomp, sources, grid_points, field_of_view_rad, max_iterations)| Options {
+        |(iaa, nomp, sources, grid_points, field_of_view_rad, max_iterations)| EstimatorOptions {
             sources,
             grid_points,
             field_of_view_rad,
@@ -57,7 +57,7 @@ fn options() -> impl Strategy<Value = Options> {
                 threshold_db: iaa.2,
                 regularisation: iaa.3,
                 form: iaa.4,
-                ..Options::default().iaa
+                ..EstimatorOptions::default().iaa
             },
             nomp: NompOptions {
                 false_alarm: nomp.0,
@@ -67,7 +67,7 @@ fn options() -> impl Strategy<Value = Options> {
                 cyclic_refinements: nomp.4,
                 max_sources: nomp.5,
             },
-            ..Options::default()
+            ..EstimatorOptions::default()
         },
     )
 }

@@ -1,7 +1,7 @@
 //! What is said to suit, an estimator takes, and nothing else.
 
 use boresight_aoa::suits::{Unsuited, unsuited};
-use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::describe::Named;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64};
@@ -21,9 +21,9 @@ fn agrees_with_what_estimators_take() {
         preset("awr1843").unwrap(),
     ];
     let kinds = [
-        Options::default(),
-        Options { forward_backward: true, ..Options::default() },
-        Options { smoothing: Some(4), ..Options::default() },
+        EstimatorOptions::default(),
+        EstimatorOptions { forward_backward: true, ..EstimatorOptions::default() },
+        EstimatorOptions { smoothing: Some(4), ..EstimatorOptions::default() },
     ];
     let mut seen = vec![];
     for method in Method::ALL {
@@ -34,7 +34,7 @@ fn agrees_with_what_estimators_take() {
                     continue;
                 }
                 for snapshots in [1, 2, 9] {
-                    let options = Options { sources: SourceCount::Known(1), ..*kind };
+                    let options = EstimatorOptions { sources: SourceCount::Known(1), ..*kind };
                     let data = Array2::from_shape_fn((array.len(), snapshots), |(k, n)| {
                         Complex64::from_polar(1.0 + 0.1 * (k * (n + 1) % 3) as f64, (n * n) as f64)
                     });
@@ -71,7 +71,7 @@ fn elements_at_0_2_and_5_stand_on_a_grid() {
     let array = Array::new(&[[0.0; 3], [0.0, 2.0, 0.0], [0.0, 5.0, 0.0]]).unwrap();
     for method in Method::ALL.iter().filter(|method| method.requirements().lattice) {
         assert_ne!(
-            unsuited(*method, &array, &Options::default(), 1),
+            unsuited(*method, &array, &EstimatorOptions::default(), 1),
             Some(Unsuited::Grid),
             "{method:?}"
         );

@@ -10,7 +10,7 @@ use boresight_aoa::bounds::{
 use boresight_aoa::counting::{CountSizes, Criterion, count_sources};
 use boresight_aoa::esprit_error::esprit_error;
 use boresight_aoa::options::EspritForm;
-use boresight_aoa::{AoaError, Data, Estimator, Method, Options};
+use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method};
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::presets::preset;
 use boresight_core::steering::{steering_matrix, steering_vector};
@@ -27,7 +27,7 @@ const NOISE: f64 = 0.01;
 
 /// Root mean square error over both sources of the standard scene: 10 elements, 100 snapshots,
 /// sources of 20 dB at -5 and 12 degrees.
-fn rms_error(method: Method, options: &Options) -> f64 {
+fn rms_error(method: Method, options: &EstimatorOptions) -> f64 {
     let array = Array::ula(10).unwrap();
     let truth = azimuths(&[-5.0, 12.0]);
     let mut estimator = Estimator::new(method, &array, options).unwrap();
@@ -85,7 +85,7 @@ fn esprit_has_the_error_theory_gives_it() {
     println!("ESPRIT's asymptotic error is {:.3} of the bound", theory / bound);
     assert!(theory > bound);
     for esprit in [EspritForm::LeastSquares, EspritForm::TotalLeastSquares] {
-        let error = rms_error(Method::Esprit, &Options { esprit, ..known(2) });
+        let error = rms_error(Method::Esprit, &EstimatorOptions { esprit, ..known(2) });
         assert_ratio(&format!("ESPRIT, {esprit:?}"), error, theory);
     }
 }
@@ -283,6 +283,6 @@ fn steering_of_the_bound_is_that_of_the_estimators() {
     let array = preset("awr1642").unwrap();
     let a = steering_vector(&array, Direction::azimuth(0.3));
     let y = a.insert_axis(ndarray::Axis(1));
-    let result = support::estimate(Method::Bartlett, &array, &Options::default(), &y);
+    let result = support::estimate(Method::Bartlett, &array, &EstimatorOptions::default(), &y);
     assert!((result.sources[0].direction.azimuth_rad - 0.3).abs() < 1e-8);
 }

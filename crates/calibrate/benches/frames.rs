@@ -3,7 +3,9 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use boresight_calibrate::{Calibrator, FrameInput, Method, MotionEstimator, MotionMethod, Options};
+use boresight_calibrate::{
+    CalibrationOptions, Calibrator, FrameInput, Method, MotionEstimator, MotionMethod,
+};
 use boresight_core::{Detection, Random};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -40,7 +42,7 @@ fn frames() -> Vec<(f64, Vec<Detection>)> {
 fn motions(criterion: &mut Criterion) {
     let frames = frames();
     for method in &MotionMethod::ALL[..3] {
-        let mut estimator = MotionEstimator::new(&Options::default(), *method).unwrap();
+        let mut estimator = MotionEstimator::new(&CalibrationOptions::default(), *method).unwrap();
         let mut next = frames.iter().cycle();
         criterion.bench_function(method.name(), |bencher| {
             bencher.iter(|| estimator.estimate(black_box(&next.next().unwrap().1)).unwrap());
@@ -51,7 +53,12 @@ fn motions(criterion: &mut Criterion) {
 fn calibrations(criterion: &mut Criterion) {
     let frames = frames();
     for method in [Method::WeightedMean, Method::Recursive] {
-        let options = Options { method, x_m: 3.9, nominal_rad: Some(0.38), ..Options::default() };
+        let options = CalibrationOptions {
+            method,
+            x_m: 3.9,
+            nominal_rad: Some(0.38),
+            ..CalibrationOptions::default()
+        };
         let mut calibrator = Calibrator::new(options).unwrap();
         let (mut next, mut time_s) = (frames.iter().cycle(), 0.0);
         criterion.bench_function(&format!("a frame of {}", method.name()), |bencher| {

@@ -6,8 +6,8 @@ use crate::angle::{
 };
 use crate::calibrator::check_time;
 use crate::{
-    AngleEstimate, CalibrateError, FrameCounts, FrameInput, FrameMotion, FrameOutcome, Method,
-    Motion, MotionPlan, Options, Remark, Verdict,
+    AngleEstimate, CalibrateError, CalibrationOptions, FrameCounts, FrameInput, FrameMotion,
+    FrameOutcome, Method, Motion, MotionPlan, Remark, Verdict,
 };
 
 /// A radar slower than this stands, m/s, if its detections allow for that.
@@ -26,7 +26,7 @@ const SETTLING_S: f64 = 10.0;
 /// The methods that weigh all frames at once; they keep 56 bytes of each.
 #[derive(Debug)]
 pub(crate) struct Batch {
-    options: Options,
+    options: CalibrationOptions,
     motion: Box<dyn MotionPlan>,
     samples: Vec<Sample>,
     bias: Bias,
@@ -37,7 +37,7 @@ pub(crate) struct Batch {
 }
 
 impl Batch {
-    pub(crate) fn new(options: Options, motion: Box<dyn MotionPlan>) -> Self {
+    pub(crate) fn new(options: CalibrationOptions, motion: Box<dyn MotionPlan>) -> Self {
         Self {
             motion,
             options,

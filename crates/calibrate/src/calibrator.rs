@@ -3,8 +3,8 @@
 use crate::batch::Batch;
 use crate::motion::plan::plan;
 use crate::{
-    AngleEstimate, CalibrateError, FrameInput, FrameOutcome, Method, MotionMethod, MotionPlan,
-    Options, Recursive,
+    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Method,
+    MotionMethod, MotionPlan, Recursive,
 };
 use boresight_core::CoreError;
 
@@ -24,9 +24,9 @@ impl Calibrator {
     /// A calibration without frames.
     ///
     /// # Errors
-    /// Those of [`Options::validate`], and [`CoreError::Unknown`] for the recursive method with another
+    /// Those of [`CalibrationOptions::validate`], and [`CoreError::Unknown`] for the recursive method with another
     /// motion than its own.
-    pub fn new(options: Options) -> Result<Self, CalibrateError> {
+    pub fn new(options: CalibrationOptions) -> Result<Self, CalibrateError> {
         options.validate()?;
         let motion = options.motion_method();
         if options.method == Method::Recursive {
@@ -45,9 +45,9 @@ impl Calibrator {
     /// not looked at.
     ///
     /// # Errors
-    /// Those of [`Options::validate`], and [`CoreError::Unknown`] for the recursive method, which finds the motion itself.
+    /// Those of [`CalibrationOptions::validate`], and [`CoreError::Unknown`] for the recursive method, which finds the motion itself.
     pub fn with_motion(
-        options: Options,
+        options: CalibrationOptions,
         motion: Box<dyn MotionPlan>,
     ) -> Result<Self, CalibrateError> {
         options.validate()?;

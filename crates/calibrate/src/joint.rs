@@ -2,7 +2,9 @@
 
 use crate::recursive::information::{Matrix, UNKNOWNS, Vector};
 use crate::small::{inverse, times};
-use crate::{AngleEstimate, CalibrateError, FrameInput, FrameOutcome, Options, Recursive};
+use crate::{
+    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Recursive,
+};
 use boresight_core::CoreError;
 
 /// Unknowns that belong to the car: inverse scale, bias, slip gradient, and the delay of its radars, taken to
@@ -42,7 +44,7 @@ impl Joint {
     /// # Errors
     /// Those of [`Recursive::new`]; [`CoreError::Empty`] without radars, [`CoreError::OutOfRange`] for
     /// a number given twice.
-    pub fn new(radars: &[(u8, Options)]) -> Result<Self, CalibrateError> {
+    pub fn new(radars: &[(u8, CalibrationOptions)]) -> Result<Self, CalibrateError> {
         if radars.is_empty() {
             return Err(CoreError::Empty {
                 what: "radars".into(),

@@ -12,7 +12,7 @@
 //! # Example
 //!
 //! ```
-//! use boresight_calibrate::{Calibrator, FrameInput, Options};
+//! use boresight_calibrate::{Calibrator, FrameInput, CalibrationOptions};
 //! use boresight_core::Detection;
 //!
 //! // A car goes straight at 15 m/s past points that stand; its radar is turned by 2 deg to the left.
@@ -29,7 +29,7 @@
 //!     })
 //!     .collect();
 //!
-//! let mut calibrator = Calibrator::new(Options { x_m: 3.6, ..Options::default() })?;
+//! let mut calibrator = Calibrator::new(CalibrationOptions { x_m: 3.6, ..CalibrationOptions::default() })?;
 //! for frame in 0..50 {
 //!     calibrator.add(FrameInput {
 //!         time_s: 0.05 * f64::from(frame),
@@ -66,5 +66,5 @@ pub use estimate::{AngleEstimate, FrameCounts, Remark};
 pub use frame::{FrameInput, FrameOutcome, Motion, Verdict};
 pub use joint::Joint;
 pub use motion::{FrameMotion, MotionEstimator, MotionPlan};
-pub use options::{Method, MotionMethod, Options};
+pub use options::{CalibrationOptions, Method, MotionMethod};
 pub use recursive::Recursive;

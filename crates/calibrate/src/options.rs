@@ -46,7 +46,7 @@ pub enum MotionMethod {
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(default)]
 #[option(name = "CalibrationOptions")]
-pub struct Options {
+pub struct CalibrationOptions {
     /// How the angle is estimated.
     #[option(required)]
     pub method: Method,
@@ -107,7 +107,7 @@ pub struct Options {
     pub seed: u64,
 }
 
-impl Options {
+impl CalibrationOptions {
     /// Checks every option.
     ///
     /// # Errors

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
-use boresight_calibrate::{AngleEstimate, Calibrator, Frames, Method, Options};
+use boresight_calibrate::{AngleEstimate, CalibrationOptions, Calibrator, Frames, Method};
 use boresight_core::DriveLog;
 use boresight_formats::drive_log;
 use std::path::Path;
@@ -20,12 +20,12 @@ fn log() -> DriveLog {
 
 fn calibrate(log: &DriveLog, method: Method, from_s: f64, to_s: f64) -> AngleEstimate {
     let mounting = log.sensors[0].mounting.unwrap();
-    let options = Options {
+    let options = CalibrationOptions {
         method,
         x_m: mounting.x_m,
         nominal_rad: Some(mounting.yaw_rad),
         min_speed_mps: 3.0,
-        ..Options::default()
+        ..CalibrationOptions::default()
     };
     let mut calibrator = Calibrator::new(options).unwrap();
     let frames = Frames::of(log, |_| true, options.max_gap_s).map(|(_, frame)| frame);
@@ -113,8 +113,11 @@ fn the_angle_found_takes_the_car_where_it_went() {
     let log = log();
     let estimate = calibrate(&log, Method::Recursive, 0.0, 600.0);
     let mounting = log.sensors[0].mounting.unwrap();
-    let options =
-        Options { x_m: mounting.x_m, nominal_rad: Some(mounting.yaw_rad), ..Options::default() };
+    let options = CalibrationOptions {
+        x_m: mounting.x_m,
+        nominal_rad: Some(mounting.yaw_rad),
+        ..CalibrationOptions::default()
+    };
     let mut calibrator = Calibrator::new(options).unwrap();
     let (mut motions, mut truth) = (vec![], vec![]);
     for (_, frame) in Frames::of(&log, |_| true, options.max_gap_s) {

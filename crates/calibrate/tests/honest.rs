@@ -4,7 +4,7 @@
 
 mod common;
 
-use boresight_calibrate::{Calibrator, Method, MotionMethod, Options, Remark};
+use boresight_calibrate::{CalibrationOptions, Calibrator, Method, MotionMethod, Remark};
 use boresight_core::Random;
 use common::{BATCH, Drive};
 
@@ -16,8 +16,12 @@ fn ways() -> Vec<Way> {
     Method::ALL.map(|method| (method, None)).into_iter().chain(tracked).collect()
 }
 
-fn options(drive: &Drive, (method, motion): Way) -> Options {
-    Options { motion, nominal_rad: Some(drive.angle_rad + 0.02), ..drive.options(method) }
+fn options(drive: &Drive, (method, motion): Way) -> CalibrationOptions {
+    CalibrationOptions {
+        motion,
+        nominal_rad: Some(drive.angle_rad + 0.02),
+        ..drive.options(method)
+    }
 }
 
 #[derive(Default)]

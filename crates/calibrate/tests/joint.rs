@@ -4,7 +4,7 @@
 
 mod support;
 
-use boresight_calibrate::{CalibrateError, FrameInput, Joint, Options, Recursive};
+use boresight_calibrate::{CalibrateError, CalibrationOptions, FrameInput, Joint, Recursive};
 use boresight_core::{Diagnose, Random};
 use support::Drive;
 
@@ -18,17 +18,17 @@ fn radars(seed: u64) -> [Drive; 3] {
     })
 }
 
-fn options(drive: &Drive) -> Options {
-    Options {
+fn options(drive: &Drive) -> CalibrationOptions {
+    CalibrationOptions {
         x_m: drive.x_m,
         y_m: drive.y_m,
         nominal_rad: Some(drive.angle_rad + 0.03),
-        ..Options::default()
+        ..CalibrationOptions::default()
     }
 }
 
 fn run(drives: &[Drive]) -> (Joint, Vec<Recursive>) {
-    let named: Vec<(u8, Options)> =
+    let named: Vec<(u8, CalibrationOptions)> =
         drives.iter().enumerate().map(|(id, drive)| (id as u8, options(drive))).collect();
     let mut joint = Joint::new(&named).unwrap();
     let mut alone = Vec::new();
@@ -92,7 +92,7 @@ fn together_they_share_one_scale_and_know_it_better() {
 fn radars_are_named_once_and_frames_belong_to_one() {
     let what = |error: CalibrateError| (error.code(), error.details().what);
     assert_eq!(what(Joint::new(&[]).unwrap_err()), ("empty", "radars".into()));
-    let options = Options::default();
+    let options = CalibrationOptions::default();
     let twice = Joint::new(&[(1, options), (1, options)]).unwrap_err();
     assert_eq!(what(twice), ("out-of-range", "sensor".into()));
     let mut joint = Joint::new(&[(1, options)]).unwrap();

@@ -5,8 +5,8 @@
 mod common;
 
 use boresight_calibrate::{
-    CalibrateError, Calibrator, FrameInput, FrameMotion, Method, Motion, MotionEstimator,
-    MotionMethod, MotionPlan, Options, Verdict,
+    CalibrateError, CalibrationOptions, Calibrator, FrameInput, FrameMotion, Method, Motion,
+    MotionEstimator, MotionMethod, MotionPlan, Verdict,
 };
 use boresight_core::{Detection, Diagnose, Random};
 use common::{Drive, detection};
@@ -53,12 +53,12 @@ fn the_motion_reaches_the_cramer_rao_bound_and_its_covariance_says_so() {
         (MotionMethod::OrthogonalDistance, [0.1, 0.01]),
         (MotionMethod::OrthogonalDistance, [0.02, 0.02]),
     ] {
-        let options = Options {
+        let options = CalibrationOptions {
             range_rate_sigma_mps: noise[0],
             azimuth_sigma_rad: noise[1],
             // Six standard deviations: no static detection is lost.
             inlier_residual_mps: 6.0 * noise[0].hypot(VELOCITY[0] * noise[1]),
-            ..Options::default()
+            ..CalibrationOptions::default()
         };
         let mut random = Random::new(11, 0);
         let azimuths: Vec<f64> = (0..60).map(|_| random.uniform(-1.0, 1.0)).collect();
@@ -93,11 +93,11 @@ fn azimuth_noise_bends_least_squares_as_theory_has_it_and_orthogonal_distance_fa
     let trials = 2000;
     let mut random = Random::new(12, 0);
     let azimuths: Vec<f64> = (0..100).map(|_| random.uniform(0.1, 1.0)).collect();
-    let options = Options {
+    let options = CalibrationOptions {
         range_rate_sigma_mps: noise[0],
         azimuth_sigma_rad: noise[1],
         inlier_residual_mps: 3.0,
-        ..Options::default()
+        ..CalibrationOptions::default()
     };
     let [xx, xy, yy] = information(&azimuths, [1.0, 0.0]);
     let determinant = xx * yy - xy * xy;
@@ -133,11 +133,11 @@ fn azimuth_noise_bends_least_squares_as_theory_has_it_and_orthogonal_distance_fa
 /// Share of frames whose motion is found, of 100 detections of which some scatter over 40 m/s.
 fn found(outliers: usize, confidence: f64) -> f64 {
     let trials = 1000;
-    let options = Options {
+    let options = CalibrationOptions {
         confidence,
         inlier_ratio_threshold: 0.3,
         azimuth_sigma_rad: 0.0,
-        ..Options::default()
+        ..CalibrationOptions::default()
     };
     let mut random = Random::new(14, 0);
     let mut estimator = MotionEstimator::new(&options, MotionMethod::Ransac).unwrap();
@@ -240,7 +240,7 @@ fn motions_from_elsewhere_give_the_angle() {
     drive.run(|_, velocity| truth.push(velocity));
     let given = || Box::new(Given { velocities: truth.clone().into_iter(), frames: 0 });
     for method in common::BATCH {
-        let options = Options { max_yaw_rate_radps: 1.0, ..drive.options(method) };
+        let options = CalibrationOptions { max_yaw_rate_radps: 1.0, ..drive.options(method) };
         let mut calibrator = Calibrator::with_motion(options, given()).unwrap();
         drive.run(|frame, velocity| {
             // One detection: no motion comes from it.

@@ -4,20 +4,22 @@
 
 mod support;
 
-use boresight_calibrate::{AngleEstimate, CalibrateError, FrameInput, Options, Recursive, Remark};
+use boresight_calibrate::{
+    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, Recursive, Remark,
+};
 use boresight_core::{Diagnose, Random};
 use support::{Drive, detection};
 
-fn options(drive: &Drive) -> Options {
-    Options {
+fn options(drive: &Drive) -> CalibrationOptions {
+    CalibrationOptions {
         x_m: drive.x_m,
         y_m: drive.y_m,
         nominal_rad: Some(drive.angle_rad + 0.05),
-        ..Options::default()
+        ..CalibrationOptions::default()
     }
 }
 
-fn run(drive: &Drive, options: &Options) -> AngleEstimate {
+fn run(drive: &Drive, options: &CalibrationOptions) -> AngleEstimate {
     let mut recursive = Recursive::new(options).unwrap();
     for frame in drive.frames() {
         recursive
@@ -65,7 +67,7 @@ fn scale_and_bias_are_found_with_the_angle() {
 fn without_a_nominal_angle_a_vote_finds_where_to_begin() {
     for angle_rad in [-2.5, -0.4, 1.484] {
         let drive = Drive { angle_rad, moving: 0.4, ..Drive::default() };
-        let result = run(&drive, &Options { nominal_rad: None, ..options(&drive) });
+        let result = run(&drive, &CalibrationOptions { nominal_rad: None, ..options(&drive) });
         let error = result.angle_rad - angle_rad;
         assert!(error.abs() < 4.0 * result.sigma_rad, "{angle_rad} {result:?}");
         assert!(result.converged && result.misaligned.is_none(), "{result:?}");
@@ -133,7 +135,8 @@ fn what_the_drive_cannot_tell_is_flagged() {
 
 #[test]
 fn poor_frames_are_counted_and_change_nothing() {
-    let options = Options { x_m: 3.0, nominal_rad: Some(0.1), ..Options::default() };
+    let options =
+        CalibrationOptions { x_m: 3.0, nominal_rad: Some(0.1), ..CalibrationOptions::default() };
     let mut recursive = Recursive::new(&options).unwrap();
     let one = [detection(0.1, -10.0)];
     let bad = [detection(f32::NAN, 1.0); 20];

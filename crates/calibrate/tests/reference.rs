@@ -2,7 +2,9 @@
 //! (`reference/make.py`).
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use boresight_calibrate::{AngleEstimate, Calibrator, FrameInput, Method, Motion, Options};
+use boresight_calibrate::{
+    AngleEstimate, CalibrationOptions, Calibrator, FrameInput, Method, Motion,
+};
 use boresight_core::Detection;
 use serde_json::Value;
 
@@ -22,14 +24,14 @@ fn reference() -> Value {
 /// Each frame's motion, and the estimate from all.
 fn calibrate(reference: &Value, method: Method) -> (Vec<Motion>, AngleEstimate) {
     let number = |name: &str| reference[name].as_f64().unwrap();
-    let options = Options {
+    let options = CalibrationOptions {
         method,
         x_m: number("x_m"),
         y_m: number("y_m"),
         range_rate_sigma_mps: number("range_rate_sigma_mps"),
         azimuth_sigma_rad: number("azimuth_sigma_rad"),
         inlier_residual_mps: number("inlier_residual_mps"),
-        ..Options::default()
+        ..CalibrationOptions::default()
     };
     let mut calibrator = Calibrator::new(options).unwrap();
     let motions = reference["frames"].as_array().unwrap().iter().map(|frame| {

@@ -4,7 +4,7 @@
 
 mod common;
 
-use boresight_calibrate::{Calibrator, FrameInput, Method, MotionMethod, Options};
+use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput, Method, MotionMethod};
 use boresight_core::Detection;
 use common::{BATCH, Drive};
 use proptest::prelude::*;
@@ -136,13 +136,13 @@ proptest! {
         nominal in prop::option::of(-PI..PI),
         min_speed_mps in prop::sample::select(vec![0.0, 1.0]),
     ) {
-        let options = Options {
+        let options = CalibrationOptions {
             method: way.0,
             motion: Some(way.1),
             x_m,
             nominal_rad: nominal,
             min_speed_mps,
-            ..Options::default()
+            ..CalibrationOptions::default()
         };
         feed(&mut Calibrator::new(options).unwrap(), &frames)?;
     }
@@ -150,7 +150,7 @@ proptest! {
     #[test]
     fn what_was_odd_before_does_not_make_the_drive_after_confidently_wrong(way in way(), frames in frames(1)) {
         let drive = Drive { frames: 300, detections: 40, ..Drive::default() };
-        let options = Options {
+        let options = CalibrationOptions {
             motion: Some(way.1),
             nominal_rad: Some(drive.angle_rad + 0.02),
             ..drive.options(way.0)

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use boresight_calibrate::{Calibrator, Frames, Method, MotionMethod, Options};
+use boresight_calibrate::{CalibrationOptions, Calibrator, Frames, Method, MotionMethod};
 use boresight_core::DriveLog;
 use boresight_core::drive::RADARSCENES_SENSORS;
 use boresight_simulate::drive::{DriveOptions, Scenario, simulate_drive};
@@ -11,13 +11,13 @@ use boresight_simulate::drive::{DriveOptions, Scenario, simulate_drive};
 /// Error and standard deviation, deg.
 fn calibrate(log: &DriveLog, sensor: u8, method: Method, motion: MotionMethod) -> (f64, f64) {
     let mounting = RADARSCENES_SENSORS.iter().find(|(id, _)| *id == sensor).unwrap().1;
-    let options = Options {
+    let options = CalibrationOptions {
         method,
         motion: Some(motion),
         x_m: mounting.x_m,
         y_m: mounting.y_m,
         nominal_rad: Some(mounting.yaw_rad + 0.02),
-        ..Options::default()
+        ..CalibrationOptions::default()
     };
     let mut calibrator = Calibrator::new(options).unwrap();
     for (_, frame) in Frames::of(log, |id| id == sensor, options.max_gap_s) {

@@ -3,12 +3,14 @@
 
 mod common;
 
-use boresight_calibrate::{CalibrateError, Calibrator, Method, MotionMethod, Options, Verdict};
+use boresight_calibrate::{
+    CalibrateError, CalibrationOptions, Calibrator, Method, MotionMethod, Verdict,
+};
 use boresight_core::CoreError;
 use common::{BATCH, Drive};
 
-fn tracked(drive: &Drive, method: Method) -> Options {
-    Options {
+fn tracked(drive: &Drive, method: Method) -> CalibrationOptions {
+    CalibrationOptions {
         motion: Some(MotionMethod::Tracked),
         nominal_rad: Some(drive.angle_rad + 0.02),
         ..drive.options(method)
@@ -72,7 +74,7 @@ fn every_method_finds_the_angle_on_it_in_traffic() {
 fn it_gives_the_bias_from_standstill_and_without_a_nominal_angle_begins_with_a_vote() {
     let drive = Drive { moving: 0.3, bias_radps: 0.005, ..Drive::default() };
     for method in BATCH {
-        let options = Options { nominal_rad: None, ..tracked(&drive, method) };
+        let options = CalibrationOptions { nominal_rad: None, ..tracked(&drive, method) };
         let e = drive.calibrate(options).estimate();
         assert_eq!(e.frames.standing, 50, "{method:?} {e:?}");
         assert!((e.bias_radps - 0.005).abs() < 4.0 * e.bias_sigma_radps, "{method:?} {e:?}");
@@ -85,7 +87,7 @@ fn it_gives_the_bias_from_standstill_and_without_a_nominal_angle_begins_with_a_v
 #[test]
 fn the_recursive_method_takes_no_other_motion() {
     for motion in MotionMethod::ALL {
-        let options = Options { motion: Some(motion), ..Options::default() };
+        let options = CalibrationOptions { motion: Some(motion), ..CalibrationOptions::default() };
         match Calibrator::new(options) {
             Ok(_) => assert_eq!(motion, MotionMethod::Tracked),
             Err(error) => assert!(

@@ -14,6 +14,8 @@ pub trait OnCommandLine: Described + Default + Serialize + DeserializeOwned + Cl
     const HEADING: &'static str;
     /// What the names of their flags begin with; empty for nothing.
     const PREFIX: &'static str = "";
+    /// Fields that have to be given, by their name in Rust.
+    const REQUIRED: &'static [&'static str] = &[];
     /// Fields that a command fills by other means, by their name in Rust.
     const ELSEWHERE: &'static [&'static str] = &[];
 }
@@ -59,10 +61,15 @@ impl Flag<'_> {
         (if says_no { format!("no-{name}") } else { name }, says_no)
     }
 
+    /// Whether it stands directly in the options, under one of these names.
+    fn is_one_of(&self, names: &[&str]) -> bool {
+        let mut own = self.path.iter().filter(|name| !name.starts_with(".."));
+        own.next().is_some_and(|name| names.contains(name)) && own.next().is_none()
+    }
+
     fn arg(&self, heading: &'static str) -> Arg {
         let (name, _) = self.name();
-        let arg =
-            Arg::new(name.clone()).long(name).help_heading(heading).required(self.field.required);
+        let arg = Arg::new(name.clone()).long(name).help_heading(heading);
         let help = self.help();
         match self.kind() {
             Kind::Truth => arg.action(ArgAction::SetTrue).help(help),
@@ -236,7 +243,11 @@ fn record<T: Described>() -> &'static Record {
 impl<T: OnCommandLine> Args for Flags<T> {
     fn augment_args(command: Command) -> Command {
         let defaults = serde_json::to_value(T::default()).ok();
-        command.args(flags_of::<T>(defaults.as_ref()).iter().map(|flag| flag.arg(T::HEADING)))
+        command.args(
+            flags_of::<T>(defaults.as_ref())
+                .iter()
+                .map(|flag| flag.arg(T::HEADING).required(flag.is_one_of(T::REQUIRED))),
+        )
     }
 
     fn augment_args_for_update(command: Command) -> Command {
@@ -313,7 +324,7 @@ mod tests {
         let all = flags_of::<T>(Some(&defaults));
         assert!(all.len() >= fewest, "{}", all.len());
         let required: Vec<String> =
-            all.iter().filter(|flag| flag.field.required).map(dashed).collect();
+            all.iter().filter(|flag| flag.is_one_of(T::REQUIRED)).map(dashed).collect();
         for flag in &all {
             let name = dashed(flag);
             let others = required.iter().filter(|other| **other != name);
@@ -366,7 +377,7 @@ mod tests {
     fn every_flag_sets_its_own_field() {
         every_flag::<boresight_pipeline::AngleOptions>(28);
         every_flag::<boresight_pipeline::ChainOptions>(16);
-        every_flag::<boresight_calibrate::Options>(19);
+        every_flag::<boresight_calibrate::CalibrationOptions>(19);
         every_flag::<boresight_simulate::DriveOptions>(16);
         every_flag::<boresight_simulate::SnapshotRequest>(10);
         every_flag::<boresight_simulate::SceneSampling>(4);

@@ -3,7 +3,7 @@
 use crate::arguments::ModelArguments;
 use crate::error::CliError;
 use crate::files::Files;
-use boresight_aoa::{Estimator, Method, Options};
+use boresight_aoa::{Estimator, EstimatorOptions, Method};
 use boresight_core::describe::Named;
 use boresight_core::{Array, Waveform};
 use boresight_neural::{Card, Model, NeuralError};
@@ -53,7 +53,7 @@ pub fn model_for(
 pub fn estimator(
     method: Method,
     array: &Array,
-    options: &Options,
+    options: &EstimatorOptions,
     arguments: &ModelArguments,
     files: &Files,
 ) -> Result<Estimator, CliError> {

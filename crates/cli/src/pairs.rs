@@ -18,16 +18,19 @@ pub fn read<T: Described + DeserializeOwned>(
     let mut values = Value::Object(Map::new());
     let mut known: Vec<usize> = vec![];
     for pair in text.split(',') {
-        let place = pair.split_once('=').and_then(|(key, value)| {
+        let given = || format!("{pair:?} in {text:?}");
+        let found = pair.split_once('=').and_then(|(key, value)| {
             let place = keys.iter().position(|own| own == key.trim())?;
-            let is_new = !known.contains(&place);
-            is_new.then(|| fields[place].put(&mut values, value))?.map(|()| place)
+            (!known.contains(&place)).then_some((place, value))
         });
-        known.push(place.ok_or_else(|| {
-            let expected =
-                format!("key=number pairs with commas, keys {}, each once", keys.join(", "));
-            wrong(expected, format!("{pair:?} in {text:?}"))
-        })?);
+        let (place, value) = found.ok_or_else(|| {
+            let keys = keys.join(", ");
+            wrong(format!("key=number pairs with commas, keys {keys}, each once"), given())
+        })?;
+        fields[place].put(&mut values, value).ok_or_else(|| {
+            wrong(format!("{} for {}", fields[place].field.kind.expected(), keys[place]), given())
+        })?;
+        known.push(place);
     }
     let lacking =
         (0..fields.len()).find(|place| fields[*place].field.required && !known.contains(place));
@@ -64,7 +67,7 @@ mod tests {
         for (text, words) in [
             ("azimuth=5,azimuth=6", "each once"),
             ("azimut=5", "keys azimuth, elevation, power, phase"),
-            ("azimuth=five", "azimuth=five"),
+            ("azimuth=five", "expected a number for azimuth"),
             ("azimuth", "key=number pairs"),
             ("azimuth=100", "for azimuth a number from -90 to 90"),
         ] {

@@ -218,8 +218,9 @@ fn radars_of_a_simulated_drive_are_chosen() {
     assert!((truth["sensors"][1]["yawDeg"].as_f64().unwrap() + 30.0).abs() < 1e-9);
     for (extra, status, words) in [
         (&["--sensor", "5"][..], 2, "1 to 4"),
-        (&["--sensor", "id=1.5,x=1,y=1,yaw=1"], 2, "0 to 255"),
-        (&["--sensor", "id=1,x=1"], 2, "yaw=NUMBER"),
+        (&["--sensor", "id=1.5,x=1,y=1,yaw=1"], 2, "a whole number for id"),
+        (&["--sensor", "id=300,x=1,y=1,yaw=1"], 2, "fit their keys"),
+        (&["--sensor", "id=1,x=1"], 2, "y=NUMBER"),
         (&["--misalign", "2"], 2, "2=1.5"),
         (&["--misalign", "7=1"], 1, "numbers of the sensors"),
         (&["--moving-share", "0.9"], 2, "--moving-share is 0.9; expected a number from 0 to 0.8"),

@@ -34,6 +34,7 @@ pub mod geometry;
 pub mod imperfections;
 pub mod lattice;
 pub mod linalg;
+pub mod order;
 pub mod presets;
 pub mod random;
 pub mod resolution;

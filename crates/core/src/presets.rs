@@ -2,6 +2,7 @@
 
 use crate::array::{Array, Position};
 use crate::error::CoreError;
+use crate::order::descending;
 
 /// Names [`preset`] knows, beside `ula<N>`.
 pub const PRESETS: [&str; 4] = ["awr1642", "awr1843", "cascade86", "lrr48"];
@@ -49,9 +50,7 @@ fn cascade86() -> Result<Array, CoreError> {
     let rx = [0, 1, 2, 3, 11, 12, 13, 14, 46, 47, 48, 49, 50, 51, 52, 53];
     let array =
         Array::mimo(&along_y(&tx), &along_y(&rx.map(|k| -f64::from(k))))?.without_duplicates();
-    let mut order: Vec<usize> = (0..array.len()).collect();
-    order.sort_by(|&a, &b| array.positions()[b][1].total_cmp(&array.positions()[a][1]));
-    array.select(&order)
+    array.select(&descending(array.positions().iter().map(|position| position[1])))
 }
 
 /// A sparse long-range array of 6 transmitters and 8 receivers: 48 distinct virtual elements over

@@ -15,7 +15,7 @@ pub fn expand(input: &DeriveInput, data: &DataEnum) -> Result<TokenStream> {
             return Err(syn::Error::new_spanned(variant, "a choice holds no data"));
         }
         let (name, doc) = (in_kebab_case(&variant.ident.to_string()), doc(&variant.attrs));
-        described.push(quote!((#name, #doc)));
+        described.push(quote!((#name, ::boresight_core::describe::doc(#doc))));
         idents.push(&variant.ident);
     }
     Ok(quote! {
@@ -23,7 +23,7 @@ pub fn expand(input: &DeriveInput, data: &DataEnum) -> Result<TokenStream> {
             const KIND: ::boresight_core::describe::Kind = ::boresight_core::describe::Kind::Choice(
                 &::boresight_core::describe::Choice {
                     name: #name,
-                    doc: #type_doc,
+                    doc: ::boresight_core::describe::doc(#type_doc),
                     variants: &[#(#described),*],
                 },
             );

@@ -55,7 +55,7 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
         described.push(quote! {
             ::boresight_core::describe::Field {
                 name: #wire,
-                doc: #doc,
+                doc: ::boresight_core::describe::doc(#doc),
                 kind: #kind,
                 range: #range,
                 may_be_absent: #may_be_absent,
@@ -85,7 +85,11 @@ pub fn expand(input: &DeriveInput, fields: &Fields) -> Result<TokenStream> {
 
             impl #generics ::boresight_core::describe::Described for #ident #parameters {
                 const KIND: ::boresight_core::describe::Kind = ::boresight_core::describe::Kind::Record(
-                    &::boresight_core::describe::Record { name: #name, doc: #type_doc, fields: FIELDS },
+                    &::boresight_core::describe::Record {
+                        name: #name,
+                        doc: ::boresight_core::describe::doc(#type_doc),
+                        fields: FIELDS,
+                    },
                 );
 
                 fn check(

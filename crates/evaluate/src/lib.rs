@@ -10,11 +10,11 @@
 //!
 //! ```
 //! use boresight_evaluate::experiment::{How, run};
-//! use boresight_evaluate::resolution::{Options, SEPARATIONS};
+//! use boresight_evaluate::resolution::{ResolutionExperiment, SEPARATIONS};
 //! use std::ops::ControlFlow;
 //!
 //! // Two targets ever farther apart: how often does a method see two?
-//! let options = Options { array: "ula8".into(), snapshots: vec![1], trials: 2, seed: 1 };
+//! let options = ResolutionExperiment { array: "ula8".into(), snapshots: vec![1], trials: 2, seed: 1 };
 //! let how = How { threads: 1, folder: None };
 //! let report = run(&options, how, |_| ControlFlow::Continue(()))?;
 //! let beams = report.conditions[0].methods.iter().find(|method| method.name == "bartlett");

@@ -96,11 +96,17 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
     let first = &gathered[0];
     let name = first.setup["experiment"].as_str().unwrap_or_default();
     match name {
-        aoa::Options::NAME => merge_as::<aoa::Options>(gathered, sources),
-        calibration::Options::NAME => merge_as::<calibration::Options>(gathered, sources),
-        doa::Options::NAME => merge_as::<doa::Options>(gathered, sources),
-        imperfections::Options::NAME => merge_as::<imperfections::Options>(gathered, sources),
-        resolution::Options::NAME => merge_as::<resolution::Options>(gathered, sources),
+        aoa::AoaExperiment::NAME => merge_as::<aoa::AoaExperiment>(gathered, sources),
+        calibration::CalibrationExperiment::NAME => {
+            merge_as::<calibration::CalibrationExperiment>(gathered, sources)
+        }
+        doa::DoaExperiment::NAME => merge_as::<doa::DoaExperiment>(gathered, sources),
+        imperfections::ImperfectionsExperiment::NAME => {
+            merge_as::<imperfections::ImperfectionsExperiment>(gathered, sources)
+        }
+        resolution::ResolutionExperiment::NAME => {
+            merge_as::<resolution::ResolutionExperiment>(gathered, sources)
+        }
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", first.first.display()),
             expected: "aoa, calibration, doa, imperfections, resolution".into(),

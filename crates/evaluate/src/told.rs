@@ -1,7 +1,7 @@
 //! Methods that are told the number of targets.
 
 use boresight_aoa::options::NompOptions;
-use boresight_aoa::{AoaError, Data, Estimator, Method, Options, Source, SourceCount};
+use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, Source, SourceCount};
 use boresight_core::Array;
 
 /// A method with its options.
@@ -10,7 +10,7 @@ pub struct Candidate {
     /// Name in records, tables and figures.
     pub name: String,
     method: Method,
-    options: Options,
+    options: EstimatorOptions,
 }
 
 impl Candidate {
@@ -39,24 +39,28 @@ pub fn candidates(
     field_of_view_rad: f64,
     coherent: bool,
 ) -> Vec<Candidate> {
-    let options = Options {
+    let options = EstimatorOptions {
         sources: SourceCount::Known(sources),
         field_of_view_rad,
         grid_points: 2048,
         dynamic_range_db: 40.0,
         max_peaks: sources,
         // Its own stop comes into play only where a target is no more than noise would be every other time.
-        nomp: NompOptions { false_alarm: 0.5, max_sources: sources, ..Options::default().nomp },
-        ..Options::default()
+        nomp: NompOptions {
+            false_alarm: 0.5,
+            max_sources: sources,
+            ..EstimatorOptions::default().nomp
+        },
+        ..EstimatorOptions::default()
     };
     // Sparse Bayesian learning converges the more slowly the finer its grid is; it and maximum likelihood go on
     // between the points.
     let span = array.aperture() as usize + 1;
-    let coarse = |points: usize| Options {
+    let coarse = |points: usize| EstimatorOptions {
         grid_points: (points * span).next_power_of_two().min(options.grid_points),
         ..options
     };
-    let smoothed = Options {
+    let smoothed = EstimatorOptions {
         forward_backward: true,
         smoothing: Some(array.len() - array.len() / 3),
         ..options

@@ -5,17 +5,17 @@
 use boresight_core::Diagnose;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
-use boresight_evaluate::aoa::{Options, Report, SNRS_DB, TARGETS, default_methods};
+use boresight_evaluate::aoa::{AoaExperiment, AoaReport, SNRS_DB, TARGETS, default_methods};
 use boresight_evaluate::experiment::{self, How, Report as _};
 use boresight_evaluate::{Entrants, EvaluateError};
 use std::ops::ControlFlow;
 
-fn run(options: &Options, threads: usize) -> Result<Report, EvaluateError> {
+fn run(options: &AoaExperiment, threads: usize) -> Result<AoaReport, EvaluateError> {
     experiment::run(options, How { threads, folder: None }, |_| ControlFlow::Continue(()))
 }
 
-fn options(array: &str) -> Options {
-    Options {
+fn options(array: &str) -> AoaExperiment {
+    AoaExperiment {
         array: array.into(),
         trials: 8,
         seed: 1,
@@ -69,7 +69,7 @@ fn uniform_arrays_add_what_needs_one_and_unknown_ones_are_refused() {
     assert!(report.methods.iter().any(|name| name == "single-snapshot-music"));
     let named = |array: &str, methods: &[&str]| {
         let entrants = Entrants::new(methods.iter().map(|&name| name.into()).collect(), vec![]);
-        run(&Options { array: array.into(), entrants, ..options("lrr48") }, 1)
+        run(&AoaExperiment { array: array.into(), entrants, ..options("lrr48") }, 1)
     };
     for (array, methods, code, what) in [
         ("nothing", &["iaa"][..], "unknown-name", "array preset"),
@@ -81,6 +81,6 @@ fn uniform_arrays_add_what_needs_one_and_unknown_ones_are_refused() {
         let refused = named(array, methods).unwrap_err();
         assert_eq!((refused.code(), &*refused.details().what), (code, what));
     }
-    let none = Options { trials: 0, ..options("lrr48") };
+    let none = AoaExperiment { trials: 0, ..options("lrr48") };
     assert_eq!(run(&none, 1).unwrap_err().details().what, "trials");
 }

@@ -2,13 +2,13 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_evaluate::calibration::{CANDIDATES, Options, figures};
+use boresight_evaluate::calibration::{CANDIDATES, CalibrationExperiment, figures};
 use boresight_evaluate::experiment::{How, Report as _, run};
 use std::ops::ControlFlow;
 
 #[test]
 fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn() {
-    let options = Options { scenes: 2, seed: 3, duration_s: 30.0 };
+    let options = CalibrationExperiment { scenes: 2, seed: 3, duration_s: 30.0 };
     let how = |threads| How { threads, folder: None };
     let report = run(&options, how(2), |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(report, run(&options, how(1), |_| ControlFlow::Continue(())).unwrap());

@@ -4,17 +4,17 @@
 
 use boresight_evaluate::Entrants;
 use boresight_evaluate::doa::report::MethodResult;
-use boresight_evaluate::doa::{Options, Report, SNRS_DB, Setup, Targets, default_methods};
+use boresight_evaluate::doa::{DoaExperiment, DoaReport, SNRS_DB, Setup, Targets, default_methods};
 use boresight_evaluate::experiment::{How, Report as _, run};
 use std::ops::ControlFlow;
 
-fn report(setup: Setup, trials: u64) -> Report {
+fn report(setup: Setup, trials: u64) -> DoaReport {
     let entrants = Entrants::new(default_methods(setup).unwrap(), vec![]);
-    let options = Options { setup, trials, seed: 5, entrants };
+    let options = DoaExperiment { setup, trials, seed: 5, entrants };
     run(&options, How { threads: 2, folder: None }, |_| ControlFlow::Continue(())).unwrap()
 }
 
-fn of(report: &Report, targets: Targets, snr_db: f64, method: usize) -> &MethodResult {
+fn of(report: &DoaReport, targets: Targets, snr_db: f64, method: usize) -> &MethodResult {
     report.at(targets, snr_db).unwrap().methods[method].as_ref().unwrap()
 }
 

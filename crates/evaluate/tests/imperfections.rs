@@ -5,7 +5,7 @@
 use boresight_core::Diagnose;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::experiment::{How, Report as _, run};
-use boresight_evaluate::imperfections::{Kind, NUMBERS, Options};
+use boresight_evaluate::imperfections::{ImperfectionsExperiment, Kind, NUMBERS};
 use boresight_evaluate::{Entrants, aoa};
 use std::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ const HOW: How = How { threads: 2, folder: None };
 #[test]
 fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them() {
     let entrants = Entrants::new(["bartlett", "iaa", "nomp"].map(String::from).to_vec(), vec![]);
-    let options = Options {
+    let options = ImperfectionsExperiment {
         array: "lrr48".into(),
         snr_db: 25.0,
         trials: 10,
@@ -22,7 +22,7 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
         entrants: entrants.clone(),
     };
     let report = run(&options, HOW, |_| ControlFlow::Continue(())).unwrap();
-    let plain = aoa::Options {
+    let plain = aoa::AoaExperiment {
         array: "lrr48".into(),
         trials: 10,
         seed: 3,
@@ -59,7 +59,7 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
     assert!(report.tables().contains("keeps 95 %"));
     assert_eq!(report.csv().lines().count(), 1 + 25 * report.methods.len());
     assert!(report.figures().unwrap()[0].contains("deviation of phase"));
-    let between = Options { snr_db: 26.0, ..options };
+    let between = ImperfectionsExperiment { snr_db: 26.0, ..options };
     let refused = run(&between, HOW, |_| ControlFlow::Continue(())).unwrap_err();
     assert_eq!(refused.details().what, "snrDb");
 }

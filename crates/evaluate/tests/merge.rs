@@ -50,23 +50,29 @@ fn check<E: Experiment>(options: &E) {
     std::fs::remove_dir_all(root).unwrap();
 }
 
-fn aoa_options(seed: u64) -> aoa::Options {
+fn aoa_options(seed: u64) -> aoa::AoaExperiment {
     let imperfections = ImperfectionSpread { phase_rad: 0.1, ..ImperfectionSpread::default() };
     let entrants = Entrants::new(vec!["iaa".into(), "nomp+refined".into()], vec![]);
-    aoa::Options { array: "ula8".into(), trials: 3, seed, imperfections, entrants }
+    aoa::AoaExperiment { array: "ula8".into(), trials: 3, seed, imperfections, entrants }
 }
 
 #[test]
 fn parts_make_the_whole() {
     check(&aoa_options(1));
-    check(&calibration::Options { scenes: 2, seed: 3, duration_s: 12.0 });
+    check(&calibration::CalibrationExperiment { scenes: 2, seed: 3, duration_s: 12.0 });
     let setup = doa::Setup::Simulation;
     let entrants = Entrants::new(doa::default_methods(setup).unwrap(), vec![]);
-    check(&doa::Options { setup, trials: 1, seed: 1, entrants });
+    check(&doa::DoaExperiment { setup, trials: 1, seed: 1, entrants });
     let (array, snapshots) = ("ula4".into(), vec![1, 3]);
-    check(&resolution::Options { array, snapshots, trials: 1, seed: 1 });
+    check(&resolution::ResolutionExperiment { array, snapshots, trials: 1, seed: 1 });
     let (array, entrants) = ("ula8".into(), Entrants::new(vec!["iaa".into()], vec![]));
-    check(&imperfections::Options { array, snr_db: 15.0, trials: 1, seed: 1, entrants });
+    check(&imperfections::ImperfectionsExperiment {
+        array,
+        snr_db: 15.0,
+        trials: 1,
+        seed: 1,
+        entrants,
+    });
 }
 
 #[test]

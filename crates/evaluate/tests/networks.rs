@@ -34,10 +34,10 @@ fn how(threads: usize, folder: Option<&Path>) -> How<'_> {
     How { threads, folder }
 }
 
-fn aoa_options(methods: &[&str], networks: Vec<Network>) -> aoa::Options {
+fn aoa_options(methods: &[&str], networks: Vec<Network>) -> aoa::AoaExperiment {
     let entrants = Entrants::new(methods.iter().map(|&name| name.into()).collect(), networks);
     let imperfections = ImperfectionSpread::default();
-    aoa::Options { array: "lrr48".into(), trials: 2, seed: 1, imperfections, entrants }
+    aoa::AoaExperiment { array: "lrr48".into(), trials: 2, seed: 1, imperfections, entrants }
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn a_network_is_scored_as_methods_are_and_its_records_are_its_own() {
         run_part(&alone, how(threads, Some(&networks)), part, go).unwrap();
     }
     let merged = support::merged(&[networks.clone(), methods.clone()], &out);
-    assert!(merged == Outcome::new::<aoa::Options>(&report).unwrap());
+    assert!(merged == Outcome::new::<aoa::AoaExperiment>(&report).unwrap());
     assert!(support::merged(std::slice::from_ref(&out), &out) == merged);
     assert!(merged.brief.len() < merged.json.len() / 3);
     // The network of another training under the same name needs records of its own; the methods keep theirs.
@@ -95,7 +95,7 @@ fn a_network_is_scored_as_methods_are_and_its_records_are_its_own() {
 fn what_a_network_cannot_do_is_refused_before_anything_runs() {
     let go = |_| ControlFlow::Continue(());
     let aoa = |array: &str, networks: Vec<Network>| {
-        let options = aoa::Options { array: array.into(), ..aoa_options(&["iaa"], networks) };
+        let options = aoa::AoaExperiment { array: array.into(), ..aoa_options(&["iaa"], networks) };
         run(&options, how(1, None), go).unwrap_err()
     };
     let aaetr = network("aaetr-small");
@@ -106,7 +106,7 @@ fn what_a_network_cannot_do_is_refused_before_anything_runs() {
     name_only.model = None;
     assert!(matches!(aoa("lrr48", vec![name_only]), EvaluateError::NoModel { .. }));
     let entrants = Entrants::new(vec![], vec![aaetr]);
-    let doa = doa::Options { setup: Setup::Simulation, trials: 1, seed: 1, entrants };
+    let doa = doa::DoaExperiment { setup: Setup::Simulation, trials: 1, seed: 1, entrants };
     assert!(matches!(run(&doa, how(1, None), go), Err(EvaluateError::Core(_))));
 }
 
@@ -116,7 +116,7 @@ fn networks_of_regions_count_and_estimate_beside_the_rules() {
     let networks = vec![network("dnn-small-2"), network("counting")];
     let methods = vec!["MDL".into(), "maximum-likelihood".into()];
     let entrants = Entrants::new(methods, networks);
-    let options = doa::Options { setup: Setup::Simulation, trials: 21, seed: 2, entrants };
+    let options = doa::DoaExperiment { setup: Setup::Simulation, trials: 21, seed: 2, entrants };
     let report = run(&options, how(2, None), go).unwrap();
     assert_eq!(report.counters, ["MDL", "counting"]);
     assert_eq!(report.methods, ["maximum-likelihood", "dnn-small-2"]);

@@ -5,12 +5,18 @@
 use boresight_core::Diagnose;
 use boresight_evaluate::EvaluateError;
 use boresight_evaluate::experiment::{Experiment, How, Report as _, run};
-use boresight_evaluate::resolution::{Options, Report, SEPARATIONS, SNRS_DB};
+use boresight_evaluate::resolution::{
+    ResolutionExperiment, ResolutionReport, SEPARATIONS, SNRS_DB,
+};
 use std::ops::ControlFlow;
 
-fn report(array: &str, snapshots: &[usize], trials: u64) -> Result<Report, EvaluateError> {
+fn report(
+    array: &str,
+    snapshots: &[usize],
+    trials: u64,
+) -> Result<ResolutionReport, EvaluateError> {
     let snapshots = snapshots.to_vec();
-    let options = Options { array: array.into(), snapshots, trials, seed: 2 };
+    let options = ResolutionExperiment { array: array.into(), snapshots, trials, seed: 2 };
     run(&options, How { threads: 2, folder: None }, |_| ControlFlow::Continue(()))
 }
 
@@ -62,8 +68,9 @@ fn far_targets_are_resolved_near_ones_are_not_and_the_limit_lies_between() {
 
 #[test]
 fn sparse_arrays_leave_out_what_needs_a_uniform_one_and_bad_options_are_refused() {
-    let sparse = Options { array: "lrr48".into(), snapshots: vec![1], trials: 1, seed: 0 };
-    let names = Options::methods(&sparse.plan().unwrap());
+    let sparse =
+        ResolutionExperiment { array: "lrr48".into(), snapshots: vec![1], trials: 1, seed: 0 };
+    let names = ResolutionExperiment::methods(&sparse.plan().unwrap());
     assert!(names.iter().any(|name| name == "1: nomp"), "{names:?}");
     assert!(!names.iter().any(|name| name.contains("smoothed")), "{names:?}");
     for (array, snapshots, trials, what) in [

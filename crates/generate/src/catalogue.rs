@@ -21,12 +21,12 @@ pub struct Entry {
 /// All options.
 pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
     Ok(vec![
-        entry::<boresight_aoa::Options>("SharedEstimatorOptions", "Estimators of angle")?,
+        entry::<boresight_aoa::EstimatorOptions>("SharedEstimatorOptions", "Estimators of angle")?,
         entry::<boresight_pipeline::ChainOptions>(
             "DetectionOptions",
             "The chain from frames to detections",
         )?,
-        entry::<boresight_calibrate::Options>("CalibrationOptions", "Mounting angles")?,
+        entry::<boresight_calibrate::CalibrationOptions>("CalibrationOptions", "Mounting angles")?,
         entry::<boresight_simulate::DriveOptions>("SimulateDriveOptions", "Simulated drives")?,
         entry::<boresight_wasm::region::RegionOptions>("RegionOptions", "Regions of interest")?,
         entry::<boresight_simulate::street::StreetOptions>(

@@ -1,7 +1,7 @@
 //! Time of a run of each model at batches of 1 and 32, and of an AAETR estimate.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use boresight_aoa::{Data, Options};
+use boresight_aoa::{Data, EstimatorOptions};
 use boresight_core::Complex64;
 use boresight_core::presets::preset;
 use boresight_neural::{Axis, Card, Model};
@@ -50,7 +50,7 @@ fn models(criterion: &mut Criterion) {
         }
         if card.kind == boresight_neural::Kind::Aaetr {
             let array = preset("lrr48").unwrap();
-            let mut estimator = model.estimator(&array, &Options::default()).unwrap();
+            let mut estimator = model.estimator(&array, &EstimatorOptions::default()).unwrap();
             let y = Array2::from_shape_fn((48, 1), |(k, _)| Complex64::cis(0.3 * k as f64));
             criterion.bench_function(&format!("{} estimate", card.name), |bencher| {
                 bencher.iter(|| estimator.estimate(Data::Snapshots(black_box(y.view()))).unwrap());

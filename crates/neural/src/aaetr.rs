@@ -4,7 +4,7 @@ use crate::engine::{Runners, filled};
 use crate::error::{NeuralError, network_failed};
 use crate::model::Model;
 use boresight_aoa::Plan;
-use boresight_aoa::{AoaError, Data, Estimate, Method, Options, Source, Warning, settle};
+use boresight_aoa::{AoaError, Data, Estimate, EstimatorOptions, Method, Source, Warning, settle};
 use boresight_core::{Array, Complex64, Direction, presets};
 use ndarray::{Array2, ArrayView3, ArrayViewD, Axis};
 
@@ -28,7 +28,11 @@ pub(crate) struct Aaetr {
 }
 
 impl Aaetr {
-    pub fn new(model: &Model, array: &Array, options: &Options) -> Result<Self, NeuralError> {
+    pub fn new(
+        model: &Model,
+        array: &Array,
+        options: &EstimatorOptions,
+    ) -> Result<Self, NeuralError> {
         let elements = model.inputs().iter().find_map(|port| match port.axes[..] {
             [crate::Axis::Length(elements), _] => Some(elements),
             _ => None,
@@ -142,7 +146,7 @@ impl Plan for Aaetr {
 }
 
 /// A warning where array or field of view are not what the network was trained on.
-fn outside_training(model: &Model, array: &Array, options: &Options) -> Option<Warning> {
+fn outside_training(model: &Model, array: &Array, options: &EstimatorOptions) -> Option<Warning> {
     let card = model.card()?;
     let mut differences = Vec::new();
     if let Some(name) = &card.data.array

@@ -6,7 +6,7 @@ use crate::features::{ELEMENTS, covariance_features};
 use crate::model::Model;
 use boresight_aoa::Plan;
 use boresight_aoa::{
-    AoaError, Data, Estimate, Method, Options, SourceCount, Warning, settle, sources_at,
+    AoaError, Data, Estimate, EstimatorOptions, Method, SourceCount, Warning, settle, sources_at,
 };
 use boresight_core::{Array, Complex64, Direction};
 use ndarray::{ArrayView2, ArrayView3, ArrayViewD};
@@ -44,7 +44,7 @@ impl Classifier {
         model: &Model,
         method: Method,
         array: &Array,
-        options: &Options,
+        options: &EstimatorOptions,
     ) -> Result<Self, NeuralError> {
         let Some(rises) = rises(array) else {
             return Err(AoaError::Array {
@@ -206,7 +206,11 @@ fn region_features(snapshots: ArrayView2<Complex64>) -> Vec<f32> {
     features
 }
 
-fn outside_training(model: &Model, options: &Options, known: Option<usize>) -> Option<Warning> {
+fn outside_training(
+    model: &Model,
+    options: &EstimatorOptions,
+    known: Option<usize>,
+) -> Option<Warning> {
     let degrees = f64::from(DEGREES);
     let mut differences = Vec::new();
     if options.field_of_view_rad.to_degrees() > degrees + 1e-6 {

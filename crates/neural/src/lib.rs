@@ -7,7 +7,7 @@
 //! # Example
 //!
 //! ```
-//! use boresight_aoa::{Data, Options};
+//! use boresight_aoa::{Data, EstimatorOptions};
 //! use boresight_core::presets::preset;
 //! use boresight_core::steering::steering_matrix;
 //! use boresight_core::{Complex64, Direction};
@@ -20,7 +20,7 @@
 //! let array = preset("lrr48")?;
 //! let truth = Direction::azimuth(12_f64.to_radians());
 //! let snapshot = steering_matrix(&array, &[truth]).dot(&Array2::from_elem((1, 1), Complex64::ONE));
-//! let options = Options { field_of_view_rad: 60_f64.to_radians(), ..Options::default() };
+//! let options = EstimatorOptions { field_of_view_rad: 60_f64.to_radians(), ..EstimatorOptions::default() };
 //! let estimate = model.estimator(&array, &options)?.estimate(Data::Snapshots(snapshot.view()))?;
 //! assert_eq!(estimate.sources.len(), 1);
 //! let error_rad = estimate.sources[0].direction.azimuth_rad - truth.azimuth_rad;

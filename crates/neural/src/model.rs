@@ -8,7 +8,7 @@ use crate::error::NeuralError;
 use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
 use boresight_aoa::Plan;
-use boresight_aoa::{Data, Estimate, Estimator, Estimators, Method, Options};
+use boresight_aoa::{Data, Estimate, Estimator, EstimatorOptions, Estimators, Method};
 use boresight_core::describe::{Described, Named, columns};
 use boresight_core::error::{check_finite, check_range};
 use boresight_core::{Array, Complex32, CoreError};
@@ -232,7 +232,11 @@ impl Model {
     /// # Errors
     /// [`NeuralError::WrongKind`] for the counting network; [`NeuralError::Angle`] where the array does not suit the
     /// network or options are out of range.
-    pub fn estimator(&self, array: &Array, options: &Options) -> Result<Estimator, NeuralError> {
+    pub fn estimator(
+        &self,
+        array: &Array,
+        options: &EstimatorOptions,
+    ) -> Result<Estimator, NeuralError> {
         let (method, plan) = self.plan(array, options)?;
         Ok(Estimator::with_plan(method, array, plan.boxed(), options)?)
     }
@@ -244,7 +248,7 @@ impl Model {
     pub fn estimators(
         &self,
         array: &Array,
-        options: &Options,
+        options: &EstimatorOptions,
         threads: usize,
     ) -> Result<Estimators, NeuralError> {
         check_range("threads", threads as f64, 1.0, 1024.0)?;
@@ -253,7 +257,11 @@ impl Model {
         Ok(Estimators::of((0..threads).map(one).collect::<Result<_, _>>()?)?)
     }
 
-    fn plan(&self, array: &Array, options: &Options) -> Result<(Method, Network), NeuralError> {
+    fn plan(
+        &self,
+        array: &Array,
+        options: &EstimatorOptions,
+    ) -> Result<(Method, Network), NeuralError> {
         options.check()?;
         let Some(method) = self.kind.method() else {
             return Err(self.wrong_kind("aaetr, dnn or cnn3d"));
@@ -274,7 +282,7 @@ impl Model {
         &self,
         region: ArrayView3<'_, Complex32>,
         array: &Array,
-        options: &Options,
+        options: &EstimatorOptions,
     ) -> Result<Estimate, NeuralError> {
         let mut estimator = self.estimator(array, options)?;
         Ok(match self.kind {

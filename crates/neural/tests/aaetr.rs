@@ -4,7 +4,7 @@
 mod support;
 
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
-use boresight_aoa::{Data, Estimate, Options, Source, Warning};
+use boresight_aoa::{Data, Estimate, EstimatorOptions, Source, Warning};
 use boresight_core::presets::preset;
 use boresight_core::steering::{cis, steering_matrix};
 use boresight_core::{Array, Complex64, Direction, Random};
@@ -15,8 +15,8 @@ use support::model;
 const SCENES: u64 = 40;
 const TARGETS: usize = 4;
 
-fn options() -> Options {
-    Options { field_of_view_rad: FRAC_PI_3, ..Options::default() }
+fn options() -> EstimatorOptions {
+    EstimatorOptions { field_of_view_rad: FRAC_PI_3, ..EstimatorOptions::default() }
 }
 
 struct Scene {
@@ -86,7 +86,7 @@ fn targets_are_found_where_they_are_and_as_strong() {
 #[test]
 fn refined_angles_reach_the_bound() {
     let array = preset("lrr48").unwrap();
-    let options = Options { refine: true, ..options() };
+    let options = EstimatorOptions { refine: true, ..options() };
     let mut estimator = model("aaetr-small").estimator(&array, &options).unwrap();
     let noise_power = 10f64.powf(-2.5);
     let (mut errors, mut bounds) = (0.0, 0.0);
@@ -144,7 +144,7 @@ fn a_batch_gives_what_its_cells_give_alone() {
 fn what_the_network_was_not_trained_on_is_told() {
     let array = preset("lrr48").unwrap();
     let network = model("aaetr-small");
-    let warnings = |array: &Array, options: &Options| {
+    let warnings = |array: &Array, options: &EstimatorOptions| {
         let mut estimator = network.estimator(array, options).unwrap();
         let snapshot = scene(array, 1e-2, 0).snapshot;
         estimator.estimate(Data::Snapshots(snapshot.view())).unwrap().warnings
@@ -153,7 +153,7 @@ fn what_the_network_was_not_trained_on_is_told() {
         warnings.iter().any(|warning| matches!(warning, Warning::OutsideTraining { .. }))
     };
     assert!(!outside(&warnings(&array, &options())));
-    assert!(outside(&warnings(&array, &Options::default())), "beyond 60 deg");
+    assert!(outside(&warnings(&array, &EstimatorOptions::default())), "beyond 60 deg");
     let shifted: Vec<[f64; 3]> =
         array.positions().iter().map(|p| [p[0], p[1] + 7.0, p[2]]).collect();
     assert!(!outside(&warnings(&Array::new(&shifted).unwrap(), &options())));
@@ -168,7 +168,7 @@ fn confidence_is_the_threshold_asked_for() {
     let network = model("aaetr-small");
     let snapshot = scene(&array, 10f64.powf(-1.5), 3).snapshot;
     let count = |confidence| {
-        let options = Options { confidence, max_peaks: 1000, ..options() };
+        let options = EstimatorOptions { confidence, max_peaks: 1000, ..options() };
         let mut estimator = network.estimator(&array, &options).unwrap();
         estimator.estimate(Data::Snapshots(snapshot.view())).unwrap().sources.len()
     };
@@ -189,7 +189,7 @@ fn on_displaced_arrays(name: &str, deviation: f64) -> (usize, usize, f64) {
         let positions: Vec<[f64; 3]> =
             exact.positions().iter().map(|p| p.map(&mut moved)).collect();
         let array = Array::new(&positions).unwrap();
-        let options = Options { confidence: Some(0.4), ..options() };
+        let options = EstimatorOptions { confidence: Some(0.4), ..options() };
         let mut estimator = network.estimator(&array, &options).unwrap();
         for number in 100 * number..100 * number + SCENES {
             let scene = scene(&array, 10f64.powf(-2.5), number);

@@ -3,7 +3,7 @@
 
 mod support;
 
-use boresight_aoa::{AoaError, Data, Options};
+use boresight_aoa::{AoaError, Data, EstimatorOptions};
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64, CoreError, Diagnose, Random};
 use boresight_neural::{Card, Kind, Model, NeuralError};
@@ -225,7 +225,7 @@ fn nan_in_weights_and_in_outputs() {
     assert!((good[0].1[[1, 20]] - 56f32.ln()).abs() < 1e-5);
     // The estimator's error names the method, and the next estimate is right again.
     let array = Array::ula(8).unwrap();
-    let mut estimator = model.estimator(&array, &Options::default()).unwrap();
+    let mut estimator = model.estimator(&array, &EstimatorOptions::default()).unwrap();
     let minus = Array2::from_shape_fn((8, 1), |(k, _)| Complex64::new((-1f64).powi(k as i32), 0.0));
     let bad = estimator.estimate(Data::Snapshots(minus.view()));
     assert!(matches!(bad, Err(AoaError::Network { method: "dnn", .. })), "{bad:?}");
@@ -280,10 +280,10 @@ fn inputs_of_a_run_and_arrays_are_checked() {
     assert_eq!(refused(&[("snapshots", &none), ("positions", &positions)]).code(), "out-of-range");
 
     let lrr48 = preset("lrr48").unwrap();
-    let options = Options::default();
+    let options = EstimatorOptions::default();
     let array = network.estimator(&Array::ula(8).unwrap(), &options).err().unwrap();
     assert_eq!(array.code(), "unsuitable-array");
-    let range = Options { confidence: Some(2.0), ..options };
+    let range = EstimatorOptions { confidence: Some(2.0), ..options };
     assert_eq!(network.estimator(&lrr48, &range).err().unwrap().code(), "out-of-range");
     assert_eq!(
         network.count(Data::Snapshots(Array2::zeros((8, 1)).view())).err().unwrap().code(),

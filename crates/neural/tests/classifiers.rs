@@ -3,7 +3,7 @@
 
 mod support;
 
-use boresight_aoa::{Data, Options, SourceCount, Warning};
+use boresight_aoa::{Data, EstimatorOptions, SourceCount, Warning};
 use boresight_core::steering::{cis, steering_matrix};
 use boresight_core::{Array, Complex32, Complex64, Diagnose, Direction, Random};
 use boresight_neural::{Kind, covariance_features};
@@ -82,10 +82,10 @@ fn two_targets_are_found_to_a_degree_and_mirrored_by_a_mirrored_array() {
     let left = Array::ula(8).unwrap();
     let mirrored: Vec<[f64; 3]> = (0..8).map(|k| [0.0, -f64::from(k), 0.0]).collect();
     let right = Array::new(&mirrored).unwrap();
-    let options = Options {
+    let options = EstimatorOptions {
         field_of_view_rad: 10.0_f64.to_radians(),
         sources: SourceCount::Known(2),
-        ..Options::default()
+        ..EstimatorOptions::default()
     };
     for kind in [Kind::Dnn, Kind::Cnn3d] {
         for name in of_kind(kind, Some(2)) {
@@ -128,18 +128,22 @@ fn limits_and_other_numbers_of_targets_are_told() {
     let network = model("dnn-small-2");
     let region = region(&array, &[-6.0, 4.0], 1e-2, 0);
     let snapshots = region_snapshots(region.view());
-    let run = |options: &Options| {
+    let run = |options: &EstimatorOptions| {
         let mut estimator = network.estimator(&array, options).unwrap();
         estimator.estimate(Data::Snapshots(snapshots.view())).unwrap()
     };
-    let wide = run(&Options::default());
+    let wide = run(&EstimatorOptions::default());
     assert!(matches!(wide.warnings[..], [Warning::OutsideTraining { .. }]), "{:?}", wide.warnings);
-    let known = run(&Options { sources: SourceCount::Known(5), ..Options::default() });
+    let known =
+        run(&EstimatorOptions { sources: SourceCount::Known(5), ..EstimatorOptions::default() });
     assert_eq!(known.sources.len(), 5);
-    let narrow =
-        run(&Options { field_of_view_rad: 0.05, confidence: Some(0.0), ..Options::default() });
+    let narrow = run(&EstimatorOptions {
+        field_of_view_rad: 0.05,
+        confidence: Some(0.0),
+        ..EstimatorOptions::default()
+    });
     assert!(narrow.sources.iter().all(|s| s.direction.azimuth_rad.abs() <= 0.051));
-    let wrong = network.estimator(&Array::ula(7).unwrap(), &Options::default());
+    let wrong = network.estimator(&Array::ula(7).unwrap(), &EstimatorOptions::default());
     assert_eq!(wrong.err().unwrap().code(), "unsuitable-array");
 }
 

@@ -1,6 +1,6 @@
 //! Sidelobes of the conventional beam.
 
-use boresight_aoa::{Grid, Method, Options};
+use boresight_aoa::{EstimatorOptions, Grid, Method};
 use boresight_core::steering::steering_vector;
 use boresight_core::{Array, Direction};
 
@@ -16,7 +16,7 @@ const CAPON_LOADING: f64 = 0.1;
 /// Options under which a cell's spectrum gives sources only. The conventional beamformer, and
 /// Capon's with its loading, show each source with the sidelobes of the array; what lies below the
 /// highest of them, and a margin, is not reported. Other methods keep their dynamic range.
-pub fn suited(method: Method, array: &Array, options: &Options) -> Options {
+pub fn suited(method: Method, array: &Array, options: &EstimatorOptions) -> EstimatorOptions {
     let mut options = *options;
     if method == Method::Capon && options.loading == 0.0 {
         options.loading = CAPON_LOADING;
@@ -30,7 +30,7 @@ pub fn suited(method: Method, array: &Array, options: &Options) -> Options {
 
 /// Depth of the highest sidelobe below the main lobe of a beam to boresight, dB (positive);
 /// infinite if there is none in the field of view.
-fn highest_sidelobe_db(array: &Array, options: &Options) -> f64 {
+fn highest_sidelobe_db(array: &Array, options: &EstimatorOptions) -> f64 {
     let grid = Grid::new(array, options);
     let (azimuths, elevations) = (grid.azimuth_rad.len(), grid.elevation_rad.len());
     let ahead = steering_vector(array, Direction::azimuth(0.0));
@@ -72,7 +72,8 @@ mod tests {
 
     #[test]
     fn sidelobes_are_those_of_the_array() {
-        let depth = |name: &str| highest_sidelobe_db(&preset(name).unwrap(), &Options::default());
+        let depth =
+            |name: &str| highest_sidelobe_db(&preset(name).unwrap(), &EstimatorOptions::default());
         // A uniform array of 8: the first sidelobe of sin(8x) / 8 sin(x) lies at -12.8 dB.
         assert!((depth("awr1642") - 12.8).abs() < 0.05, "{}", depth("awr1642"));
         assert!((depth("lrr48") - 14.5).abs() < 0.1, "{}", depth("lrr48"));
@@ -81,13 +82,13 @@ mod tests {
     #[test]
     fn only_beams_are_limited() {
         let array = preset("awr1642").unwrap();
-        let given = Options::default();
+        let given = EstimatorOptions::default();
         for method in [Method::Bartlett, Method::Capon] {
             let beam = suited(method, &array, &given);
             assert!((beam.dynamic_range_db - 6.8).abs() < 0.1);
         }
         assert_eq!(suited(Method::Iaa, &array, &given), given);
-        let asked = Options { dynamic_range_db: 3.0, loading: 0.5, ..given };
+        let asked = EstimatorOptions { dynamic_range_db: 3.0, loading: 0.5, ..given };
         assert_eq!(suited(Method::Capon, &array, &asked), asked);
     }
 }

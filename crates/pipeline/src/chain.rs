@@ -4,8 +4,9 @@ use crate::beam::suited;
 use crate::error::PipelineError;
 use crate::options::{ChainOptions, usable_range_m};
 use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult};
-use boresight_aoa::{AoaError, Data, Estimate, Estimator, Estimators, Method, Options};
+use boresight_aoa::{AoaError, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method};
 use boresight_core::describe::remark::Coded;
+use boresight_core::order::sort_descending;
 use boresight_core::{Array, Complex32, Complex64, Direction, Remark, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
@@ -188,7 +189,7 @@ impl Chain {
         &self,
         snapshots: ArrayView2<'_, Complex64>,
         method: Method,
-        options: &Options,
+        options: &EstimatorOptions,
     ) -> Result<Estimate, PipelineError> {
         let options = suited(method, &self.array, options);
         let mut estimator = Estimator::new(method, &self.array, &options)?;
@@ -212,7 +213,7 @@ impl Chain {
         let region = &self.region;
         counts.outside_region =
             Region::retain(&mut cells, |cell| region.contains(cell.range_m, cell.rate_mps));
-        cells.sort_by(|a, b| b.peak.power.total_cmp(&a.peak.power));
+        sort_descending(&mut cells, |cell| cell.peak.power);
         counts.beyond_limit = cells.len().saturating_sub(self.options.max_detections);
         cells.truncate(self.options.max_detections);
         Ok(Found { cells, counts })
@@ -269,7 +270,7 @@ impl Chain {
         }
         counts.outside_region +=
             Region::retain(&mut detections, |d| self.region.contains_azimuth(d.azimuth_rad));
-        detections.sort_by(|a, b| b.power.total_cmp(&a.power));
+        sort_descending(&mut detections, |detection| detection.power);
         counts.beyond_limit += detections.len().saturating_sub(self.options.max_detections);
         detections.truncate(self.options.max_detections);
         let mut warnings: Vec<Remark> =

@@ -1,7 +1,9 @@
 //! From the cells of a frame to a range-azimuth map.
 
 use crate::{ChainOptions, FrameCells, PipelineError, suited};
-use boresight_aoa::{BatchEstimate, Estimator, Method, Options, SpectrumKind, WarningCount};
+use boresight_aoa::{
+    BatchEstimate, Estimator, EstimatorOptions, Method, SpectrumKind, WarningCount,
+};
 use boresight_core::describe::Described;
 use boresight_core::{Array, CoreError, Waveform};
 use boresight_image::{
@@ -34,7 +36,7 @@ pub struct Angles {
     /// The method.
     pub method: Method,
     /// Its options.
-    pub options: Options,
+    pub options: EstimatorOptions,
     /// What goes into the image.
     pub content: Content,
 }
@@ -44,11 +46,11 @@ impl Angles {
     pub fn of(method: Method) -> Self {
         let content =
             if method.requirements().spectrum { Content::Spectra } else { Content::Targets };
-        Self { method, options: Options::default(), content }
+        Self { method, options: EstimatorOptions::default(), content }
     }
 
     /// The options adjusted as the chain does it (see [`suited`]).
-    pub fn suited(&self, array: &Array) -> Options {
+    pub fn suited(&self, array: &Array) -> EstimatorOptions {
         suited(self.method, array, &self.options)
     }
 }

@@ -1,7 +1,7 @@
 //! Options of the chain.
 
 use crate::error::PipelineError;
-use boresight_aoa::{Method, Options};
+use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Waveform;
 use boresight_core::describe::{self, Described, Naming};
 use boresight_signal::{CfarOptions, RangeDopplerOptions, Region};
@@ -32,7 +32,7 @@ pub struct AngleOptions {
     /// between main lobe and sidelobes of the array less 6 dB; Capon's is loaded by 0.1 of the
     /// mean element power where no loading is asked for.
     #[serde(rename = "..options")]
-    pub options: Options,
+    pub options: EstimatorOptions,
 }
 
 /// How frames become detections.

@@ -5,8 +5,9 @@ use crate::range::RowTransform;
 use crate::window::Window;
 use boresight_core::describe::Described;
 use boresight_core::error::check_range;
+use boresight_core::order::descending;
 use boresight_core::{Complex32, Complex64, CoreError};
-use ndarray::{Array2, Array3, Array4, ArrayView2, ArrayView3, ArrayView4, Axis, s};
+use ndarray::{Array2, Array3, Array4, ArrayView2, ArrayView3, ArrayView4, Axis};
 use serde::{Deserialize, Serialize};
 
 /// Limits, both ends inside; absent ones hold nothing back.
@@ -103,10 +104,13 @@ pub fn range_spectrum(
 
 /// The range bin with the most power over all loops and channels of a [`range_spectrum`].
 pub fn strongest_range(spectrum: ArrayView3<Complex32>) -> usize {
-    let bins = spectrum.axis_iter(Axis(2));
-    let powers = bins.map(|cells| cells.iter().map(|z| f64::from(z.norm_sqr())).sum::<f64>());
-    let strongest = powers.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
-    strongest.map_or(0, |(bin, _)| bin)
+    let mut powers = vec![0.0; spectrum.len_of(Axis(2))];
+    for row in spectrum.rows() {
+        for (power, z) in powers.iter_mut().zip(row) {
+            *power += f64::from(z.norm_sqr());
+        }
+    }
+    descending(powers).first().copied().unwrap_or(0)
 }
 
 /// The region of interest of the 3D-CNN paper (Sang et al. 2021): the `length` range bins around
@@ -137,13 +141,10 @@ pub fn crop_region(
 pub fn region_snapshots(region: ArrayView3<Complex32>) -> Array2<Complex64> {
     let (length, channels, chirps) = region.dim();
     let scale = (length as f64).sqrt();
-    let mut snapshots = Array2::zeros((channels, length * chirps));
-    for (j, plane) in region.outer_iter().enumerate() {
-        snapshots
-            .slice_mut(s![.., j * chirps..(j + 1) * chirps])
-            .zip_mut_with(&plane, |out, z| *out = Complex64::new(z.re.into(), z.im.into()) * scale);
-    }
-    snapshots
+    Array2::from_shape_fn((channels, length * chirps), |(channel, at)| {
+        let z = region[[at / chirps, channel, at % chirps]];
+        Complex64::new(z.re.into(), z.im.into()) * scale
+    })
 }
 
 /// Covariance of what passes a band-pass filter around a region of interest, channels x channels:
@@ -157,14 +158,17 @@ pub fn region_covariance(region: ArrayView3<Complex32>) -> Array2<Complex64> {
 /// without the diagonal, real and imaginary parts, over the largest diagonal entry; zeros for a
 /// covariance of zeros. Any scale will do.
 pub fn covariance_features(covariance: ArrayView2<Complex64>) -> Vec<f32> {
-    let largest = covariance.diag().iter().map(|z| z.re).fold(0.0, f64::max);
-    let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
     let elements = covariance.nrows();
-    let entries = (0..elements).flat_map(|i| (i + 1..elements).map(move |k| [i, k]));
-    entries
-        .flat_map(|at| [covariance[at].re * scale, covariance[at].im * scale])
-        .map(|x| x as f32)
-        .collect()
+    let largest = (0..elements).fold(0.0, |most, i| covariance[[i, i]].re.max(most));
+    let scale = if largest > 0.0 { 1.0 / largest } else { 0.0 };
+    let mut features = Vec::with_capacity(elements * elements);
+    for i in 0..elements {
+        for k in i + 1..elements {
+            let z = covariance[[i, k]] * scale;
+            features.extend([z.re as f32, z.im as f32]);
+        }
+    }
+    features
 }
 
 /// The three real channels in which the 3D-CNN takes a region: magnitude, real and imaginary part,

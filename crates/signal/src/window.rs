@@ -1,7 +1,7 @@
 //! Windows for the range and Doppler transforms.
 
 use crate::error::SignalError;
-use boresight_core::describe::{Choice, Described, Kind};
+use boresight_core::describe::{Choice, Described, Kind, doc};
 use boresight_core::error::check_range;
 use boresight_core::fft::Transforms;
 use boresight_core::{Complex64, CoreError};
@@ -43,15 +43,18 @@ pub enum Window {
 impl Described for Window {
     const KIND: Kind = Kind::Choice(&Choice {
         name: "WindowName",
-        doc: "A taper.",
+        doc: doc("A taper."),
         variants: &[
-            ("rectangular", "All ones: best resolution, sidelobes at -13 dB."),
-            ("hann", "Raised cosine, sidelobes from -31 dB falling 18 dB an octave."),
-            ("hamming", "Raised cosine on a pedestal, sidelobes at -43 dB."),
-            ("blackman", "Three terms, sidelobes at -58 dB."),
-            ("blackman-harris", "Four terms, sidelobes at -92 dB."),
-            ("chebyshev", "Dolph-Chebyshev: the narrowest main lobe for sidelobes all at -80 dB."),
-            ("taylor", "Taylor: three sidelobes near -40 dB, the others falling."),
+            ("rectangular", doc("All ones: best resolution, sidelobes at -13 dB.")),
+            ("hann", doc("Raised cosine, sidelobes from -31 dB falling 18 dB an octave.")),
+            ("hamming", doc("Raised cosine on a pedestal, sidelobes at -43 dB.")),
+            ("blackman", doc("Three terms, sidelobes at -58 dB.")),
+            ("blackman-harris", doc("Four terms, sidelobes at -92 dB.")),
+            (
+                "chebyshev",
+                doc("Dolph-Chebyshev: the narrowest main lobe for sidelobes all at -80 dB."),
+            ),
+            ("taylor", doc("Taylor: three sidelobes near -40 dB, the others falling.")),
         ],
     });
 }

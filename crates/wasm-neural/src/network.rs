@@ -2,7 +2,7 @@
 
 use crate::constructors::construct;
 use crate::tensors::{read_tensors, tensors_object};
-use boresight_aoa::{Estimators, Method, Options};
+use boresight_aoa::{EstimatorOptions, Estimators, Method};
 use boresight_core::describe::{Described, Named};
 use boresight_core::presets::preset;
 use boresight_core::{Array, CoreError, Waveform};
@@ -40,7 +40,7 @@ pub struct NetworkDescription<'a> {
 #[wasm_bindgen]
 pub struct Network {
     model: Model,
-    options: Options,
+    options: EstimatorOptions,
     array: Option<Array>,
     /// Made when it is first asked for.
     estimator: Option<Estimator>,
@@ -59,7 +59,8 @@ impl Network {
             false => Some(Card::from_json(String::read(card, "card")?.as_bytes())?),
         };
         let model = Model::load(&onnx, card.as_ref())?;
-        let mut network = Self { model, options: Options::default(), array: None, estimator: None };
+        let mut network =
+            Self { model, options: EstimatorOptions::default(), array: None, estimator: None };
         network.set_options(options)?;
         Ok(network)
     }
@@ -70,7 +71,7 @@ impl Network {
         let mut fields = Fields::of_optional(options)?;
         let method = fields.optional("method")?;
         let array = fields.optional("array")?;
-        let options: Options = fields.spread()?;
+        let options: EstimatorOptions = fields.spread()?;
         fields.finish()?;
         options.check()?;
         self.check_method(method)?;

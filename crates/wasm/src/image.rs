@@ -5,7 +5,7 @@ use crate::complex::float_array;
 use crate::error::{BindingError, Fallible};
 use crate::estimate::shape_error;
 use crate::read::{Fields, Read, wrong_type};
-use boresight_aoa::{self as aoa, Method, SpectrumKind};
+use boresight_aoa::{Method, SpectrumKind};
 use boresight_core::describe::Described;
 use boresight_core::drive::Mounting;
 use boresight_core::error::check_range;
@@ -280,20 +280,29 @@ struct ImageChain {
     max_detections: usize,
 }
 
+impl ImageDefaults {
+    /// Those of a radar and a method of angle estimation.
+    #[must_use]
+    pub fn of(waveform: &Waveform, array: &Array, angle: &AngleOptions) -> Self {
+        let AngleOptions { method, options } = angle;
+        let suited = suited(*method, array, options);
+        let ChainOptions { peak_grouping, max_detections, .. } = chain_options();
+        Self {
+            chain: ImageChain { peak_grouping, max_detections },
+            method: *method,
+            dynamic_range_db: suited.dynamic_range_db,
+            loading: suited.loading,
+            from: Angles::of(*method).content,
+            grid: map_grid(waveform),
+        }
+    }
+}
+
 /// How an image is made of a cube unless something else is asked for.
 #[wasm_bindgen(js_name = imageDefaults)]
 pub fn image_defaults(waveform: &JsValue, array: &JsValue, angle: &JsValue) -> Fallible<JsValue> {
     let waveform = Waveform::read(waveform, "waveform")?;
     let array = Array::read(array, "array")?;
-    let AngleOptions { method, options } = carry::read_named(angle, "angle")?;
-    let aoa::Options { dynamic_range_db, loading, .. } = suited(method, &array, &options);
-    let ChainOptions { peak_grouping, max_detections, .. } = chain_options();
-    Ok(carry::write(&ImageDefaults {
-        chain: ImageChain { peak_grouping, max_detections },
-        method,
-        dynamic_range_db,
-        loading,
-        from: Angles::of(method).content,
-        grid: map_grid(&waveform),
-    }))
+    let angle = carry::read_named(angle, "angle")?;
+    Ok(carry::write(&ImageDefaults::of(&waveform, &array, &angle)))
 }

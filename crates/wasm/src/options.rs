@@ -2,7 +2,7 @@
 
 use crate::error::Fallible;
 use crate::read::{Fields, Read, choice};
-use boresight_aoa::{Method, Options};
+use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Array;
 use boresight_core::describe::Named;
 use wasm_bindgen::JsValue;
@@ -17,7 +17,7 @@ impl Read for Method {
 }
 
 /// Reads an estimator: its method, the array it works on, and its options.
-pub fn read_estimator(options: &JsValue) -> Fallible<(Method, Array, Options)> {
+pub fn read_estimator(options: &JsValue) -> Fallible<(Method, Array, EstimatorOptions)> {
     let mut fields = Fields::new(options, "")?;
     let estimator = (fields.required("method")?, fields.required("array")?, fields.spread()?);
     fields.finish()?;

@@ -4,15 +4,15 @@ use crate::carry;
 use crate::complex::Cube;
 use crate::error::Fallible;
 use crate::read::Read;
-use boresight_core::Complex64;
 use boresight_core::describe::shaped::ComplexArray;
 use boresight_core::describe::{Described, columns};
-use boresight_signal::Window;
+use boresight_core::{Complex32, Complex64};
 use boresight_signal::region::{
     covariance_features, crop_region, range_spectrum, region_channels, region_covariance,
     strongest_range,
 };
-use ndarray::Axis;
+use boresight_signal::{SignalError, Window};
+use ndarray::{ArrayView4, Axis};
 use serde::{Deserialize, Serialize};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -48,23 +48,34 @@ pub struct RegionOfInterest {
     features: Vec<f32>,
 }
 
+impl RegionOfInterest {
+    /// The region of interest of a frame: loops x transmitters x receivers x samples.
+    ///
+    /// # Errors
+    /// As [`range_spectrum`] and [`crop_region`].
+    pub fn of(frame: ArrayView4<Complex32>, options: RegionOptions) -> Result<Self, SignalError> {
+        let RegionOptions { bins, chirps } = options;
+        let spectrum = range_spectrum(frame, Window::Rectangular)?;
+        let range_bin = strongest_range(spectrum.view());
+        let region = crop_region(spectrum.view(), range_bin, bins, chirps)?;
+        let covariance = region_covariance(region.view());
+        let double = region.mapv(|z| Complex64::new(z.re.into(), z.im.into()));
+        let middle = double.index_axis(Axis(0), bins / 2).to_owned();
+        Ok(Self {
+            range_bin,
+            region: ComplexArray::from(&double),
+            snapshots: ComplexArray::from(&middle),
+            channels: region_channels(region.view()).into_iter().collect(),
+            features: covariance_features(covariance.view()),
+            covariance: ComplexArray::from(&covariance),
+        })
+    }
+}
+
 /// The region of interest of a cube of one frame.
 #[wasm_bindgen(js_name = strongestRegion)]
 pub fn strongest_region(cube: &JsValue, options: &JsValue) -> Fallible<JsValue> {
     let cube = Cube::read(cube, "cube")?;
-    let RegionOptions { bins, chirps } = carry::read_optional(options)?;
-    let spectrum = range_spectrum(cube.one_frame()?, Window::Rectangular)?;
-    let range_bin = strongest_range(spectrum.view());
-    let region = crop_region(spectrum.view(), range_bin, bins, chirps)?;
-    let covariance = region_covariance(region.view());
-    let double = region.mapv(|z| Complex64::new(z.re.into(), z.im.into()));
-    let middle = double.index_axis(Axis(0), bins / 2).to_owned();
-    Ok(carry::write(&RegionOfInterest {
-        range_bin,
-        region: ComplexArray::from(&double),
-        snapshots: ComplexArray::from(&middle),
-        channels: region_channels(region.view()).into_iter().collect(),
-        features: covariance_features(covariance.view()),
-        covariance: ComplexArray::from(&covariance),
-    }))
+    let options = carry::read_optional(options)?;
+    Ok(carry::write(&RegionOfInterest::of(cube.one_frame()?, options)?))
 }

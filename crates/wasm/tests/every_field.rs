@@ -13,7 +13,7 @@ use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
 fn options_of_estimators() {
-    every_field::<boresight_aoa::Options>(28);
+    every_field::<boresight_aoa::EstimatorOptions>(28);
 }
 
 #[wasm_bindgen_test]
@@ -23,7 +23,7 @@ fn options_of_the_chain() {
 
 #[wasm_bindgen_test]
 fn options_of_calibration() {
-    every_field::<boresight_calibrate::Options>(19);
+    every_field::<boresight_calibrate::CalibrationOptions>(19);
 }
 
 #[wasm_bindgen_test]

@@ -6,7 +6,7 @@
 
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
 use boresight_aoa::suits::unsuited;
-use boresight_aoa::{Data, Estimator, Method, Options};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
 use boresight_calibrate::{Calibrator, FrameInput, Method as Calibration};
 use boresight_core::describe::{Described, Kind, NumberType, Record, naming};
 use boresight_core::drive_columns::DriveColumns;
@@ -16,7 +16,7 @@ use boresight_formats::{BoardLog, RadarConfig};
 use boresight_image::{
     Gate, Grid, RangeAzimuthDoppler, Target, ViewGrid, birds_eye_view, sidelobe_measure,
 };
-use boresight_pipeline::{Chain, ChainOptions};
+use boresight_pipeline::{AngleOptions, Chain, ChainOptions};
 use boresight_simulate::street::{Street, StreetOptions};
 use boresight_simulate::{
     CubeColumns, CubeOptions, CubeTarget, DriveOptions, Fluctuation, Scene, SceneSampling,
@@ -25,6 +25,8 @@ use boresight_simulate::{
 use boresight_wasm::capture::CaptureInfo;
 use boresight_wasm::carry;
 use boresight_wasm::config::ConfigRecord;
+use boresight_wasm::image::ImageDefaults;
+use boresight_wasm::region::{RegionOfInterest, RegionOptions};
 use js_sys::{Float32Array, Float64Array, Int8Array, Object, Reflect, Uint8Array, Uint32Array};
 use ndarray::{Axis, s};
 use serde::Serialize;
@@ -140,7 +142,7 @@ fn records_of_arrays_and_angles() {
         let simulated = snapshots(&array, 2);
         whole(&simulated);
         for method in [Method::Music, Method::Iaa, Method::Nomp] {
-            let options = Options::default();
+            let options = EstimatorOptions::default();
             let mut estimator = Estimator::new(method, &array, &options).unwrap();
             let first = simulated.values.index_axis(Axis(0), 0);
             whole(&estimator.estimate(Data::Snapshots(first)).unwrap());
@@ -157,7 +159,7 @@ fn records_of_arrays_and_angles() {
         let covariance = uncorrelated(&[1.0, 2.0]);
         let signals = Signals { covariance: covariance.view(), noise_power: 1.0, snapshots: 4 };
         whole(&deterministic_bound(&array, &directions, &signals).unwrap());
-        whole(&unsuited(Method::Esprit, &array, &Options::default(), 1));
+        whole(&unsuited(Method::Esprit, &array, &EstimatorOptions::default(), 1));
     }
 }
 
@@ -165,7 +167,7 @@ fn records_of_arrays_and_angles() {
 #[wasm_bindgen_test]
 fn a_batch_carries_the_confidence_of_its_sources() {
     let array = preset("ula8").unwrap();
-    let mut estimator = Estimator::new(Method::Iaa, &array, &Options::default()).unwrap();
+    let mut estimator = Estimator::new(Method::Iaa, &array, &EstimatorOptions::default()).unwrap();
     let mut batch = estimator.estimate_batch(snapshots(&array, 2).values.view(), false).unwrap();
     assert!(batch.columns().confidence.is_none());
     for (index, source) in batch.sources.iter_mut().enumerate() {
@@ -202,6 +204,8 @@ fn records_of_captures_and_images() {
     let frame = cube.index_axis(Axis(0), 0);
     whole(&chain.process(frame).unwrap());
     whole(&chain.cells(frame).unwrap());
+    whole(&RegionOfInterest::of(frame, RegionOptions { bins: 5, chirps: 2 }).unwrap());
+    whole(&ImageDefaults::of(&waveform, &array, &AngleOptions::default()));
     let grid = Grid::new([0.0, 10.0], 20, FRAC_PI_3, 16).unwrap();
     let mut image = RangeAzimuthDoppler::new(grid, None).unwrap();
     for range_m in [4.0, 40.0] {
@@ -233,11 +237,11 @@ fn records_of_drives_and_mounting_angles() {
     whole(&DriveColumns::from(&drive.log));
     whole(&drive.truth_columns());
     let Some(mounting) = drive.log.sensors[0].mounting else { panic!("a mounting") };
-    let options = boresight_calibrate::Options {
+    let options = boresight_calibrate::CalibrationOptions {
         method: Calibration::Recursive,
         x_m: mounting.x_m,
         y_m: mounting.y_m,
-        ..boresight_calibrate::Options::default()
+        ..boresight_calibrate::CalibrationOptions::default()
     };
     let mut calibrator = Calibrator::new(options).unwrap();
     for scan in drive.log.scans.iter().filter(|scan| scan.sensor == drive.log.sensors[0].id) {

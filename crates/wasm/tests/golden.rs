@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use boresight_aoa::{Data, Estimator, Method, Options, SourceCount};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::fft::Transforms;
 use boresight_core::presets::preset;
 use boresight_core::steering::cis;
@@ -44,7 +44,8 @@ fn snapshots(array: &str, count: usize) -> Array2<Complex64> {
 fn angles(method: Method, array: &str) -> Vec<f64> {
     let needs = method.requirements();
     let count = needs.max_snapshots.unwrap_or(50);
-    let options = Options { sources: SourceCount::Known(2), ..Options::default() };
+    let options =
+        EstimatorOptions { sources: SourceCount::Known(2), ..EstimatorOptions::default() };
     let mut estimator = Estimator::new(method, &preset(array).unwrap(), &options).unwrap();
     let estimate = estimator.estimate(Data::Snapshots(snapshots(array, count).view())).unwrap();
     estimate.sources.iter().take(2).map(|s| s.direction.azimuth_rad.to_degrees()).collect()

@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use boresight_aoa::{Estimator, Method, Options};
+use boresight_aoa::{Estimator, EstimatorOptions, Method};
 use boresight_core::presets::preset;
 use boresight_image::{
     Grid, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, ViewGrid, birds_eye_view,
@@ -29,7 +29,7 @@ fn map(street: &Street, index: usize, method: Method) -> RangeAzimuthMap {
     let options = ChainOptions { peak_grouping: false, ..ChainOptions::default() };
     let mut chain = Chain::new(&radar.waveform, 8, &array, &options).unwrap();
     let cells = chain.cells(cube.index_axis(Axis(0), 0)).unwrap();
-    let mut estimator = Estimator::new(method, &array, &Options::default()).unwrap();
+    let mut estimator = Estimator::new(method, &array, &EstimatorOptions::default()).unwrap();
     let batch = estimator.estimate_batch(cells.snapshots.view(), true).unwrap();
     let spectra = batch.spectra.unwrap();
     let mut image =

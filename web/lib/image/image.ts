@@ -13,6 +13,7 @@ import type {
   ImageFrame,
   ImageFrameOptions,
   ImagePlan,
+  MapGrid,
   RangeAzimuthMap,
   RangeAzimuthMapInput,
   SidelobeMeasure,
@@ -42,7 +43,7 @@ export function imagePlan(options: ImageFrameOptions): ImagePlan {
   const { from, grid, ...chain } = own(options, 'options') as unknown as ImageFrameOptions;
   const waveform = own(chain.waveform, 'waveform');
   const angle = own(chain.angle ?? undefined, 'angle') as AngleOptions;
-  const asked = own(grid ?? undefined, 'grid');
+  const asked = own(grid ?? undefined, 'grid') as Partial<MapGrid>;
   if (from != null && from !== 'spectra' && from !== 'targets') throw wrong('from', "'spectra' or 'targets'", from);
   const usual = call(() => glue.imageDefaults(waveform, chain.array, angle) as ImageDefaults);
   const { peakGrouping, maxDetections, method, dynamicRangeDb, loading } = usual;

@@ -3,6 +3,7 @@
 use super::fourier::{LagTransforms, real};
 use super::inverse::{HermitianTiles, Real, Singular, TILE};
 use super::kernel::{Kernel, weighted_power};
+use boresight_core::order::ascending;
 use boresight_core::{Complex64, Lattice};
 use ndarray::ArrayView2;
 use rustfft::num_complex::Complex;
@@ -62,8 +63,7 @@ impl<T: Real, F: LagTransforms<T>> FastKernel<T, F> {
     pub fn new(lattice: &Lattice, grid: usize, fourier: F, least_share: T) -> Self {
         let elements = lattice.indices.len();
         let span = lattice.span();
-        let mut order: Vec<usize> = (0..elements).collect();
-        order.sort_by_key(|&k| lattice.indices[k]);
+        let order = ascending(lattice.indices.iter().map(|&index| index as f64));
         let indices: Vec<usize> = order.iter().map(|&k| lattice.indices[k]).collect();
         let matrix = HermitianTiles::new(elements);
         let (zero_slot, one_slot) = (2 * span - 1, 2 * span);

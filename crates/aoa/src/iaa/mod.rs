@@ -21,7 +21,7 @@ use crate::estimate::{Estimate, Source, Warning};
 use crate::grid::Grid;
 use crate::method::Method;
 use crate::normalised::{power_out, scale_of};
-use crate::options::{IaaForm, IaaOptions, IaaPrecision, Options, Thresholding};
+use crate::options::{EstimatorOptions, IaaForm, IaaOptions, IaaPrecision, Thresholding};
 use crate::peaks::{Peak, PeakFinder};
 use crate::plan::Plan;
 use adaptive::AdaptiveKernel;
@@ -47,7 +47,7 @@ pub(crate) struct Iaa {
 }
 
 impl Iaa {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(Method::Iaa, array, options)?;
         let grid = Grid::new(array, options);
         let kernel: Box<dyn Kernel> = match (options.iaa.form, array.lattice()) {
@@ -188,8 +188,8 @@ impl Iaa {
 }
 
 /// Directions over all azimuths, elevation-major.
-fn all_directions(array: &Array, options: &Options) -> Vec<Direction> {
-    let whole = Options { field_of_view_rad: FRAC_PI_2, ..*options };
+fn all_directions(array: &Array, options: &EstimatorOptions) -> Vec<Direction> {
+    let whole = EstimatorOptions { field_of_view_rad: FRAC_PI_2, ..*options };
     let whole = Grid::new(array, &whole);
     (0..whole.len()).map(|g| whole.direction(g)).collect()
 }

@@ -22,9 +22,9 @@ fn scene(
     y
 }
 
-fn with_form(form: IaaForm, options: &Options) -> Options {
+fn with_form(form: IaaForm, options: &EstimatorOptions) -> EstimatorOptions {
     let precision = IaaPrecision::Double;
-    Options { iaa: IaaOptions { form, precision, ..options.iaa }, ..*options }
+    EstimatorOptions { iaa: IaaOptions { form, precision, ..options.iaa }, ..*options }
 }
 
 fn spaced(ys: &[f64]) -> Array {
@@ -53,10 +53,14 @@ fn fast_equals_dense() {
             [(1, Thresholding::None), (3, Thresholding::None), (1, Thresholding::Soft)]
         {
             let y = scene(array, &at, 1e-2, snapshots);
-            let base = Options {
+            let base = EstimatorOptions {
                 grid_points: 360,
-                iaa: IaaOptions { thresholding, regularisation: 1e-4, ..Options::default().iaa },
-                ..Options::default()
+                iaa: IaaOptions {
+                    thresholding,
+                    regularisation: 1e-4,
+                    ..EstimatorOptions::default().iaa
+                },
+                ..EstimatorOptions::default()
             };
             let spectrum = |form| {
                 let mut plan = Iaa::new(array, &with_form(form, &base)).unwrap();
@@ -79,7 +83,7 @@ fn two_close_sources_and_their_powers() {
     let array = preset("lrr48").unwrap();
     let at = [(Direction::azimuth(0.2), 1.0), (Direction::azimuth(0.225), 0.5)];
     let y = scene(&array, &at, 1e-4, 1);
-    let mut plan = Iaa::new(&array, &Options::default()).unwrap();
+    let mut plan = Iaa::new(&array, &EstimatorOptions::default()).unwrap();
     let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
     assert_eq!(estimate.sources.len(), 2, "{:?}", estimate.sources);
     for (source, (direction, amplitude)) in estimate.sources.iter().zip(at) {
@@ -95,7 +99,8 @@ fn planes_see_elevation() {
     let array = preset("awr1843").unwrap();
     let at = [(Direction::new(0.3, 0.12), 1.0)];
     let y = scene(&array, &at, 1e-3, 2);
-    let options = Options { grid_points: 128, elevation_points: 31, ..Options::default() };
+    let options =
+        EstimatorOptions { grid_points: 128, elevation_points: 31, ..EstimatorOptions::default() };
     let mut plan = Iaa::new(&array, &options).unwrap();
     let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
     let first = estimate.sources[0].direction;
@@ -115,9 +120,10 @@ fn singular_covariances_are_loaded_and_said() {
             threshold_db: 3.0,
             iterations: 30,
             form,
-            ..Options::default().iaa
+            ..EstimatorOptions::default().iaa
         };
-        let mut plan = Iaa::new(&array, &Options { iaa, ..Options::default() }).unwrap();
+        let mut plan =
+            Iaa::new(&array, &EstimatorOptions { iaa, ..EstimatorOptions::default() }).unwrap();
         let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
         assert!(estimate.warnings.iter().any(|w| matches!(w, Warning::Loaded { .. })));
         assert!((estimate.sources[0].direction.azimuth_rad.sin() - 0.25).abs() < 1e-3);
@@ -128,7 +134,7 @@ fn singular_covariances_are_loaded_and_said() {
 #[test]
 fn silence_has_no_source_and_covariances_are_refused() {
     let array = Array::ula(8).unwrap();
-    let mut plan = Iaa::new(&array, &Options::default()).unwrap();
+    let mut plan = Iaa::new(&array, &EstimatorOptions::default()).unwrap();
     let estimate = plan.estimate(Data::Snapshots(Array2::zeros((8, 2)).view())).unwrap();
     assert_eq!(estimate.warnings, [Warning::NoSources]);
     assert!(estimate.sources.is_empty() && !estimate.resolved);
@@ -142,7 +148,7 @@ fn extreme_amplitudes_stay_finite() {
     let array = Array::ula(8).unwrap();
     let a = steering_vector(&array, Direction::azimuth(0.3)).insert_axis(Axis(1));
     for scale in [1e-160, 1e-120, 1e140, 1e300] {
-        let mut plan = Iaa::new(&array, &Options::default()).unwrap();
+        let mut plan = Iaa::new(&array, &EstimatorOptions::default()).unwrap();
         let y = a.mapv(|z| z * scale);
         let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();
         assert!(estimate.spectrum.unwrap().values.iter().all(|v| v.is_finite() && *v >= 0.0));

@@ -28,7 +28,7 @@ use crate::false_alarm::{Shares, Volumes};
 use crate::grid::Grid;
 use crate::method::Method;
 use crate::normalised::Normalised;
-use crate::options::{NompOptions, Options};
+use crate::options::{EstimatorOptions, NompOptions};
 use crate::plan::Plan;
 use crate::quadratic::QuadraticSpectrum;
 use boresight_core::linalg::least_squares;
@@ -79,7 +79,7 @@ struct Fitted {
 }
 
 impl Nomp {
-    pub fn new(array: &Array, options: &Options) -> Result<Self, AoaError> {
+    pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         let method = Method::Nomp;
         check_array(method, array, options)?;
         let geometry = Geometry::new(array);
@@ -93,7 +93,7 @@ impl Nomp {
             let wanted = options.nomp.oversampling.saturating_mul(extent(axis));
             wanted.clamp(least, most).next_power_of_two().min(most)
         };
-        let coarse = Options {
+        let coarse = EstimatorOptions {
             field_of_view_rad: FRAC_PI_2,
             grid_points: points(1, 16, MAX_POINTS),
             elevation_points: points(2, 4, MAX_ELEVATIONS) + 1,

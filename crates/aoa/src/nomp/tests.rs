@@ -7,8 +7,8 @@ fn noise(elements: usize, snapshots: usize, power: f64, random: &mut Random) -> 
     Array2::from_shape_fn((elements, snapshots), |_| random.complex_normal(power))
 }
 
-fn with(nomp: impl Fn(&mut NompOptions)) -> Options {
-    let mut options = Options::default();
+fn with(nomp: impl Fn(&mut NompOptions)) -> EstimatorOptions {
+    let mut options = EstimatorOptions::default();
     nomp(&mut options.nomp);
     options
 }
@@ -67,7 +67,7 @@ fn sources_and_amplitudes_without_noise() {
 #[test]
 fn counts_sources_in_noise_of_unknown_power() {
     let array = preset("lrr48").unwrap();
-    let mut plan = Nomp::new(&array, &Options::default()).unwrap();
+    let mut plan = Nomp::new(&array, &EstimatorOptions::default()).unwrap();
     let (mut right, trials) = (0, 100);
     for trial in 0..trials {
         let mut random = Random::new(72, trial);
@@ -85,7 +85,7 @@ fn counts_sources_in_noise_of_unknown_power() {
 #[test]
 fn sources_that_hide_each_other_are_found() {
     let array = preset("lrr48").unwrap();
-    let mut plan = Nomp::new(&array, &Options::default()).unwrap();
+    let mut plan = Nomp::new(&array, &EstimatorOptions::default()).unwrap();
     let (mut right, trials) = (0, 60);
     for trial in 0..trials {
         let mut random = Random::new(73, trial);
@@ -105,7 +105,7 @@ fn sources_that_hide_each_other_are_found() {
 #[test]
 fn silence_limits_and_wrong_data() {
     let array = preset("ula8").unwrap();
-    let mut plan = Nomp::new(&array, &Options::default()).unwrap();
+    let mut plan = Nomp::new(&array, &EstimatorOptions::default()).unwrap();
     let silence = Array2::zeros((8, 2));
     let result = plan.estimate(Data::Snapshots(silence.view())).unwrap();
     assert_eq!(result.warnings, [Warning::NoSources]);

@@ -2,7 +2,7 @@
 
 #![allow(dead_code, clippy::unwrap_used)] // each test file uses its part
 
-use boresight_aoa::{Estimate, Estimator, Method, Options, SourceCount};
+use boresight_aoa::{Estimate, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Direction, Random};
 use boresight_simulate::snapshots::{
@@ -47,15 +47,15 @@ pub fn random_scenes(array: &Array, targets: usize, snr_db: f64, seed: u64) -> S
 }
 
 /// Options for a known number of sources.
-pub fn known(sources: usize) -> Options {
-    Options { sources: SourceCount::Known(sources), ..Options::default() }
+pub fn known(sources: usize) -> EstimatorOptions {
+    EstimatorOptions { sources: SourceCount::Known(sources), ..EstimatorOptions::default() }
 }
 
 /// One estimate.
 pub fn estimate(
     method: Method,
     array: &Array,
-    options: &Options,
+    options: &EstimatorOptions,
     y: &Array2<Complex64>,
 ) -> Estimate {
     let mut estimator = Estimator::new(method, array, options).unwrap();

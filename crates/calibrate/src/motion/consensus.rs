@@ -4,7 +4,7 @@
 use super::Columns;
 use super::least_squares::{Fit, select};
 use super::ransac::Search;
-use crate::{Motion, Options};
+use crate::{CalibrationOptions, Motion};
 use boresight_core::{Detection, Random};
 
 /// How often inliers are selected anew by the noise model.
@@ -13,14 +13,14 @@ const RESELECTIONS: usize = 3;
 /// The search with its buffers.
 #[derive(Debug, Clone)]
 pub(crate) struct Consensus {
-    options: Options,
+    options: CalibrationOptions,
     random: Random,
     columns: Columns,
     inliers: Vec<u32>,
 }
 
 impl Consensus {
-    pub fn new(options: &Options) -> Self {
+    pub fn new(options: &CalibrationOptions) -> Self {
         Self {
             options: *options,
             random: Random::new(options.seed, 0),

@@ -3,7 +3,7 @@
 use super::consensus::Consensus;
 use super::{Columns, FrameMotion, MotionPlan};
 use crate::symmetric::Symmetric;
-use crate::{CalibrateError, FrameInput, Options};
+use crate::{CalibrateError, CalibrationOptions, FrameInput};
 
 /// RANSAC, then least squares weighted by each detection's noise.
 #[derive(Debug)]
@@ -12,7 +12,7 @@ pub(crate) struct WeightedLeastSquares {
 }
 
 impl WeightedLeastSquares {
-    pub fn new(options: &Options) -> Self {
+    pub fn new(options: &CalibrationOptions) -> Self {
         Self { consensus: Consensus::new(options) }
     }
 }

@@ -12,7 +12,7 @@ pub(crate) mod ransac;
 
 pub use plan::{FrameMotion, MotionPlan};
 
-use crate::{CalibrateError, FrameInput, Motion, MotionMethod, Options};
+use crate::{CalibrateError, CalibrationOptions, FrameInput, Motion, MotionMethod};
 use boresight_core::{CoreError, Detection};
 use plan::plan;
 
@@ -68,9 +68,9 @@ impl MotionEstimator {
     /// An estimator with the thresholds, noises and seed of the options.
     ///
     /// # Errors
-    /// Those of [`Options::validate`]; [`CoreError::Unknown`] for [`MotionMethod::Tracked`], which
+    /// Those of [`CalibrationOptions::validate`]; [`CoreError::Unknown`] for [`MotionMethod::Tracked`], which
     /// needs more than one frame: ask a [`crate::Calibrator`] for it.
-    pub fn new(options: &Options, method: MotionMethod) -> Result<Self, CalibrateError> {
+    pub fn new(options: &CalibrationOptions, method: MotionMethod) -> Result<Self, CalibrateError> {
         options.validate()?;
         if method == MotionMethod::Tracked {
             return Err(CoreError::Unknown {

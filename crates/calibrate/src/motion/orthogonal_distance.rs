@@ -10,7 +10,7 @@ use super::consensus::Consensus;
 use super::least_squares::{Fit, ITERATIONS, SETTLED_MPS, inflation};
 use super::{Columns, FrameMotion, MotionPlan};
 use crate::symmetric::Symmetric;
-use crate::{CalibrateError, FrameInput, Options};
+use crate::{CalibrateError, CalibrationOptions, FrameInput};
 
 /// RANSAC, then orthogonal distance regression.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub(crate) struct OrthogonalDistance {
 }
 
 impl OrthogonalDistance {
-    pub fn new(options: &Options) -> Self {
+    pub fn new(options: &CalibrationOptions) -> Self {
         Self { consensus: Consensus::new(options), lines: Vec::new() }
     }
 }

@@ -3,7 +3,9 @@
 use super::least_squares::WeightedLeastSquares;
 use super::orthogonal_distance::OrthogonalDistance;
 use super::ransac::Ransac;
-use crate::{CalibrateError, FrameInput, Motion, MotionMethod, Options, Recursive, Verdict};
+use crate::{
+    CalibrateError, CalibrationOptions, FrameInput, Motion, MotionMethod, Recursive, Verdict,
+};
 use std::fmt::Debug;
 
 /// What each method of motion implements: everything that depends on the options alone is made once, in the method's
@@ -40,7 +42,7 @@ impl FrameMotion {
 /// The plan of a method.
 pub(crate) fn plan(
     method: MotionMethod,
-    options: &Options,
+    options: &CalibrationOptions,
 ) -> Result<Box<dyn MotionPlan>, CalibrateError> {
     options.validate()?;
     Ok(match method {

@@ -3,7 +3,7 @@
 
 use super::consensus::Consensus;
 use super::{Columns, FrameMotion, MotionPlan, least_squares};
-use crate::{CalibrateError, FrameInput, Motion, Options};
+use crate::{CalibrateError, CalibrationOptions, FrameInput, Motion};
 use boresight_core::{Detection, Random};
 
 /// Draws are bounded by this whatever share of inliers is asked for.
@@ -29,7 +29,7 @@ pub(crate) struct Ransac {
 }
 
 impl Ransac {
-    pub fn new(options: &Options) -> Self {
+    pub fn new(options: &CalibrationOptions) -> Self {
         let least_mps = LEAST_NOISE * options.range_rate_sigma_mps;
         Self { consensus: Consensus::new(options), least_mps }
     }

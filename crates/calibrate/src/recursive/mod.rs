@@ -28,7 +28,7 @@ use crate::estimate::{AngleEstimate, FrameCounts, Remark};
 use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
 use crate::motion::ransac::Ransac;
 use crate::motion::{FrameMotion, MotionPlan};
-use crate::options::Options;
+use crate::options::CalibrationOptions;
 use boresight_core::Detection;
 use information::{Information, Matrix, UNKNOWNS, Vector};
 use tracked::{Cloud, Fit, Limits, Prediction};
@@ -61,7 +61,7 @@ const SPEED_LIFE_S: f64 = 2.0;
 /// The recursive estimator.
 #[derive(Debug, Clone)]
 pub struct Recursive {
-    options: Options,
+    options: CalibrationOptions,
     limits: Limits,
     information: Information,
     cloud: Cloud,
@@ -104,8 +104,8 @@ impl Recursive {
     /// angle.
     ///
     /// # Errors
-    /// Those of [`Options::validate`].
-    pub fn new(options: &Options) -> Result<Self, CalibrateError> {
+    /// Those of [`CalibrationOptions::validate`].
+    pub fn new(options: &CalibrationOptions) -> Result<Self, CalibrateError> {
         options.validate()?;
         let bias_sigma = options.bias_sigma_radps;
         let start = options.nominal_rad.unwrap_or(0.0);

@@ -1,7 +1,7 @@
 //! Drives for the tests: a car without side slip and the point clouds of one of its radars.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
-use boresight_calibrate::{Calibrator, FrameInput, Method, Options};
+use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput, Method};
 use boresight_core::{Detection, Random};
 
 #[derive(Debug, Clone, Copy)]
@@ -112,12 +112,12 @@ impl Drive {
         }
     }
 
-    pub fn options(&self, method: Method) -> Options {
-        Options { method, x_m: self.x_m, y_m: self.y_m, ..Options::default() }
+    pub fn options(&self, method: Method) -> CalibrationOptions {
+        CalibrationOptions { method, x_m: self.x_m, y_m: self.y_m, ..CalibrationOptions::default() }
     }
 
     /// A calibration that has seen the drive.
-    pub fn calibrate(&self, options: Options) -> Calibrator {
+    pub fn calibrate(&self, options: CalibrationOptions) -> Calibrator {
         let mut calibrator = Calibrator::new(options).unwrap();
         self.run(|frame, _| {
             calibrator.add(frame).unwrap();

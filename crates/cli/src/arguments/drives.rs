@@ -1,7 +1,7 @@
 //! What `log` and `calibrate` take.
 
 use crate::flags::{Flags, OnCommandLine};
-use boresight_calibrate::Options;
+use boresight_calibrate::CalibrationOptions;
 use boresight_core::describe::Named;
 use boresight_formats::DriveFormat;
 use clap::Args;
@@ -47,7 +47,7 @@ pub struct CalibrateArguments {
     pub joint: bool,
     /// How it is calibrated.
     #[command(flatten)]
-    pub flags: Flags<Options>,
+    pub flags: Flags<CalibrationOptions>,
     /// Write the car's trajectory by the radar's motion and the estimated angle: time_s, x_m, y_m,
     /// yaw_deg of the rear axle, from the origin along x, and where the log has poses
     /// logged_x_m, logged_y_m, logged_yaw_deg in the same frame.
@@ -58,6 +58,6 @@ pub struct CalibrateArguments {
     pub json: bool,
 }
 
-impl OnCommandLine for Options {
+impl OnCommandLine for CalibrationOptions {
     const HEADING: &'static str = "Calibration";
 }

@@ -69,6 +69,7 @@ pub struct SimulateArguments {
 
 impl OnCommandLine for SnapshotRequest {
     const HEADING: &'static str = "Snapshots";
+    const REQUIRED: &'static [&'static str] = &["seed"];
 }
 
 impl OnCommandLine for SceneSampling {
@@ -78,6 +79,7 @@ impl OnCommandLine for SceneSampling {
 
 impl OnCommandLine for CubeRequest {
     const HEADING: &'static str = "Data cube";
+    const REQUIRED: &'static [&'static str] = &["seed"];
 }
 
 /// Arguments of `simulate snapshots`.

@@ -23,7 +23,7 @@ use std::time::Instant;
 pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
     match what {
         EvaluateCommand::Aoa(arguments) => {
-            let options = aoa::Options {
+            let options = aoa::AoaExperiment {
                 array: arguments.array.clone(),
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
@@ -41,7 +41,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Calibration(arguments) => {
-            let options = calibration::Options {
+            let options = calibration::CalibrationExperiment {
                 scenes: arguments.scenes,
                 seed: arguments.shared.seed,
                 duration_s: arguments.duration,
@@ -56,11 +56,11 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             let seed = arguments.shared.seed;
             let networks = networks(&arguments.networks, files)?;
             let entrants = Entrants::new(doa::default_methods(setup)?, networks);
-            let options = doa::Options { setup, trials: arguments.trials, seed, entrants };
+            let options = doa::DoaExperiment { setup, trials: arguments.trials, seed, entrants };
             evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Resolution(arguments) => {
-            let options = resolution::Options {
+            let options = resolution::ResolutionExperiment {
                 array: arguments.array.clone(),
                 snapshots: arguments.snapshots.clone(),
                 trials: arguments.trials,
@@ -69,7 +69,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Imperfections(arguments) => {
-            let options = imperfections::Options {
+            let options = imperfections::ImperfectionsExperiment {
                 array: arguments.array.clone(),
                 snr_db: arguments.snr,
                 trials: arguments.trials,
@@ -110,7 +110,7 @@ fn networks(arguments: &NetworkArguments, files: &Files) -> Result<Vec<Network>,
 }
 
 /// Times of a snapshot, as a table.
-fn times(options: &aoa::Options) -> Result<String, CliError> {
+fn times(options: &aoa::AoaExperiment) -> Result<String, CliError> {
     let mut text = "| method | us a snapshot |\n|---|---|\n".to_owned();
     for (name, seconds) in aoa::times(options)? {
         text += &format!("| {name} | {:.0} |\n", 1e6 * seconds);

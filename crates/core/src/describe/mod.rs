@@ -43,6 +43,13 @@ pub use remark::Remark;
 
 use crate::error::CoreError;
 
+/// What a description says in words. WebAssembly has none of it: whoever uses a module finds it in what
+/// is generated, and it would be a tenth of what is downloaded.
+#[must_use]
+pub const fn doc(text: &'static str) -> &'static str {
+    if cfg!(target_family = "wasm") { "" } else { text }
+}
+
 /// A type that says what it is.
 pub trait Described {
     /// What values of it look like.

@@ -52,8 +52,7 @@ pub fn leading_hermitian_eigen_by(
     let mut reduced = Tridiagonal::new(matrix);
     let rotations = ql(&mut reduced.diagonal, &mut reduced.off_diagonal);
     let values = &reduced.diagonal;
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+    let order = crate::order::descending(values.iter().copied());
     let sorted: Vec<f64> = order.iter().map(|&i| values[i] * reduced.scale).collect();
     let count = count(&sorted).min(n);
     let mut vectors = Array2::zeros((n, count));

@@ -1,13 +1,13 @@
 //! The snapshots of one condition through every method.
 
 use super::score::{Point, Prediction, Score, Threshold, WITHIN_RAD, odds_db};
-use super::{Condition, Options, TARGETS};
+use super::{AoaExperiment, Condition, TARGETS};
 use crate::EvaluateError;
 use crate::entrants::{Entrants, Network, REFINED};
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{
-    AoaError, BatchEstimate, Data, Estimator, Method, Options as AngleOptions, Source, SourceCount,
+    AoaError, BatchEstimate, Data, Estimator, EstimatorOptions, Method, Source, SourceCount,
 };
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
@@ -73,8 +73,8 @@ impl Finder {
     fn estimator(&self, array: &Array, targets: usize) -> Result<Estimator, EvaluateError> {
         Ok(match self {
             Self::Network(network) => {
-                let sources = AngleOptions::default().sources;
-                let options = AngleOptions {
+                let sources = EstimatorOptions::default().sources;
+                let options = EstimatorOptions {
                     sources,
                     confidence: Some(0.0),
                     max_peaks: MOST_OF_NETWORKS,
@@ -129,14 +129,14 @@ impl Candidate {
 }
 
 /// All predictions, so that their power can be swept.
-fn angle_options(targets: usize) -> AngleOptions {
-    AngleOptions {
+fn angle_options(targets: usize) -> EstimatorOptions {
+    EstimatorOptions {
         grid_points: 2048,
         field_of_view_rad: FIELD_OF_VIEW_RAD,
         dynamic_range_db: 40.0,
         max_peaks: MOST,
         sources: SourceCount::Known(targets),
-        ..AngleOptions::default()
+        ..EstimatorOptions::default()
     }
 }
 
@@ -169,7 +169,7 @@ fn prediction(source: &Source, threshold: Threshold) -> Prediction {
 
 /// Some snapshots of one condition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct AoaRecord {
     /// Index of the condition.
     pub condition: usize,
     /// Methods in order.
@@ -224,7 +224,7 @@ impl Plan {
     ///
     /// # Errors
     /// An array that is not known.
-    pub fn new(options: &Options) -> Result<Self, EvaluateError> {
+    pub fn new(options: &AoaExperiment) -> Result<Self, EvaluateError> {
         let array = preset(&options.array)?;
         options.entrants.check()?;
         let candidates = Candidate::all(&options.entrants)?;
@@ -260,7 +260,7 @@ impl Plan {
         condition: Condition,
         first: u64,
         trials: u64,
-    ) -> Result<Record, EvaluateError> {
+    ) -> Result<AoaRecord, EvaluateError> {
         let noise_power = db_to_power(-condition.snr_db);
         let (scenes, truths) = self.scenes(index, condition, first, trials)?;
         let mut found: Vec<(&Finder, BatchEstimate)> = vec![];
@@ -300,7 +300,7 @@ impl Plan {
                 self.separated(record, &points, &sure, &bound);
             }
         }
-        Ok(Record { condition: index, methods })
+        Ok(AoaRecord { condition: index, methods })
     }
 
     /// Snapshots `first` to `first + trials - 1` of a condition, each with its targets.

@@ -1,6 +1,6 @@
 //! Figures 4 and 5 of the AAETR paper, as SVG.
 
-use super::report::{MethodResult, Report};
+use super::report::{AoaReport, MethodResult};
 use super::{SNRS_DB, TARGETS};
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
@@ -9,7 +9,7 @@ use crate::plot::{Axes, Panel, Series, draw};
 ///
 /// # Errors
 /// [`EvaluateError::Figure`].
-pub fn precision_recall(report: &Report) -> Result<String, EvaluateError> {
+pub fn precision_recall(report: &AoaReport) -> Result<String, EvaluateError> {
     let snr_db = SNRS_DB[SNRS_DB.len() - 1];
     let panels: Vec<Panel> = [2, 4, 6, 8, 9, 10]
         .into_iter()
@@ -32,7 +32,7 @@ pub fn precision_recall(report: &Report) -> Result<String, EvaluateError> {
 ///
 /// # Errors
 /// [`EvaluateError::Figure`].
-pub fn scores(report: &Report) -> Result<String, EvaluateError> {
+pub fn scores(report: &AoaReport) -> Result<String, EvaluateError> {
     type Value = fn(&MethodResult) -> Option<f64>;
     let rows: [(&str, Value); 3] = [
         ("1 - largest F1", |m| m.best.map(|best| 1.0 - best.f1)),
@@ -61,7 +61,7 @@ pub fn scores(report: &Report) -> Result<String, EvaluateError> {
     draw(&panels, 2)
 }
 
-fn lines(report: &Report, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<Series> {
+fn lines(report: &AoaReport, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<Series> {
     let line = |(k, name): (usize, &String)| Series {
         name: name.clone(),
         points: points(k),

@@ -6,7 +6,7 @@ pub mod report;
 pub mod score;
 pub mod times;
 
-pub use report::Report;
+pub use report::AoaReport;
 pub use score::Score;
 pub use times::times;
 
@@ -28,7 +28,7 @@ const CHUNK: u64 = 250;
 /// What to run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Options {
+pub struct AoaExperiment {
     /// Name of the array.
     pub array: String,
     /// Snapshots a condition.
@@ -69,12 +69,12 @@ impl Condition {
     }
 }
 
-impl Experiment for Options {
+impl Experiment for AoaExperiment {
     const NAME: &'static str = "aoa";
     const REVISION: u32 = 1;
     type Plan = cell::Plan;
-    type Record = cell::Record;
-    type Report = Report;
+    type Record = cell::AoaRecord;
+    type Report = AoaReport;
 
     fn plan(&self) -> Result<cell::Plan, EvaluateError> {
         check_range("trials", self.trials as f64, 1.0, 1e7)?;
@@ -89,7 +89,7 @@ impl Experiment for Options {
         Some(&mut self.entrants)
     }
 
-    fn join(record: &mut cell::Record, other: cell::Record) {
+    fn join(record: &mut cell::AoaRecord, other: cell::AoaRecord) {
         record.methods.extend(other.methods);
     }
 
@@ -97,17 +97,21 @@ impl Experiment for Options {
         self.split().scenes(TARGETS.len() * SNRS_DB.len())
     }
 
-    fn scene(&self, plan: &cell::Plan, number: u64) -> Result<cell::Record, EvaluateError> {
+    fn scene(&self, plan: &cell::Plan, number: u64) -> Result<cell::AoaRecord, EvaluateError> {
         let (index, first, trials) = self.split().of(number);
         plan.run(index, Condition::all()[index], first, trials)
     }
 
-    fn report(&self, plan: &cell::Plan, records: impl Iterator<Item = cell::Record>) -> Report {
-        Report::new(self, &plan.names(), records)
+    fn report(
+        &self,
+        plan: &cell::Plan,
+        records: impl Iterator<Item = cell::AoaRecord>,
+    ) -> AoaReport {
+        AoaReport::new(self, &plan.names(), records)
     }
 }
 
-impl Options {
+impl AoaExperiment {
     fn split(&self) -> Trials {
         Trials { each: self.trials, chunk: CHUNK }
     }

@@ -1,8 +1,8 @@
 //! From records to curves and tables.
 
-use super::cell::{MethodRecord, Record};
+use super::cell::{AoaRecord, MethodRecord};
 use super::score::Operating;
-use super::{Condition, Options, SNRS_DB, TARGETS, figures};
+use super::{AoaExperiment, Condition, SNRS_DB, TARGETS, figures};
 use crate::EvaluateError;
 use crate::entrants::Network;
 use crate::experiment::brief;
@@ -16,7 +16,7 @@ const DRAWN_DB: [f64; 3] = [SNRS_DB[0], SNRS_DB[2], SNRS_DB[4]];
 /// The experiment's result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Report {
+pub struct AoaReport {
     /// Array.
     pub array: String,
     /// Snapshots a condition.
@@ -72,16 +72,16 @@ pub struct Separated {
     pub targets: u32,
 }
 
-impl Report {
+impl AoaReport {
     /// From the records.
     pub fn new(
-        options: &Options,
+        options: &AoaExperiment,
         methods: &[String],
-        records: impl Iterator<Item = Record>,
+        records: impl Iterator<Item = AoaRecord>,
     ) -> Self {
         let conditions = Condition::all();
         let mut sums: Vec<Vec<MethodRecord>> = vec![vec![]; conditions.len()];
-        for Record { condition, methods } in records {
+        for AoaRecord { condition, methods } in records {
             let Some(sum) = sums.get_mut(condition) else { continue };
             if sum.is_empty() {
                 *sum = methods;
@@ -118,7 +118,7 @@ impl Report {
     }
 }
 
-impl crate::experiment::Report for Report {
+impl crate::experiment::Report for AoaReport {
     fn tables(&self) -> String {
         let mut text = format!("Array {}, {} snapshots a condition.\n", self.array, self.trials);
         let none = f64::NAN;

@@ -1,7 +1,7 @@
 //! What a snapshot takes by method.
 
 use super::cell::Plan;
-use super::{Condition, Options};
+use super::{AoaExperiment, Condition};
 use crate::EvaluateError;
 
 /// Snapshots that are timed together.
@@ -16,7 +16,7 @@ const CONDITION: Condition = Condition { targets: 6, snr_db: 25.0 };
 ///
 /// # Errors
 /// Those of the methods.
-pub fn times(options: &Options) -> Result<Vec<(String, f64)>, EvaluateError> {
+pub fn times(options: &AoaExperiment) -> Result<Vec<(String, f64)>, EvaluateError> {
     let plan = Plan::new(options)?;
     let (scenes, _) = plan.scenes(0, CONDITION, 0, SNAPSHOTS)?;
     let mut all = vec![];

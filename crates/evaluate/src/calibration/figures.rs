@@ -1,7 +1,7 @@
 //! Figures 5 and 6, as SVG.
 
 use super::CANDIDATES;
-use super::report::{Condition, Convergence, Report};
+use super::report::{CalibrationReport, Condition, Convergence};
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
 use crate::statistics::Summary;
@@ -53,7 +53,7 @@ pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
 ///
 /// # Errors
 /// [`EvaluateError::Figure`].
-pub fn convergence(report: &Report) -> Result<String, EvaluateError> {
+pub fn convergence(report: &CalibrationReport) -> Result<String, EvaluateError> {
     let panel = |condition: &Condition, what: &str, value: fn(&Summary) -> f64| Panel {
         title: condition.name.into(),
         x: "driving time / s".into(),

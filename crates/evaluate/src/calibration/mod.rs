@@ -8,7 +8,7 @@ pub mod figures;
 pub mod report;
 pub mod scene;
 
-pub use report::Report;
+pub use report::CalibrationReport;
 pub use scene::SceneRecord;
 
 use crate::EvaluateError;
@@ -86,7 +86,7 @@ pub const CANDIDATES: [Candidate; 11] = [
 /// What to run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Options {
+pub struct CalibrationExperiment {
     /// Drives of each kind.
     pub scenes: u64,
     /// Everything random comes from it.
@@ -95,11 +95,11 @@ pub struct Options {
     pub duration_s: f64,
 }
 
-impl Experiment for Options {
+impl Experiment for CalibrationExperiment {
     const NAME: &'static str = "calibration";
     type Plan = ();
     type Record = SceneRecord;
-    type Report = Report;
+    type Report = CalibrationReport;
 
     fn plan(&self) -> Result<(), EvaluateError> {
         check_range("scenes", self.scenes as f64, 1.0, 1e5)?;
@@ -118,7 +118,7 @@ impl Experiment for Options {
         scene::run(self, number)
     }
 
-    fn report(&self, (): &(), records: impl Iterator<Item = SceneRecord>) -> Report {
-        Report::new(self, records)
+    fn report(&self, (): &(), records: impl Iterator<Item = SceneRecord>) -> CalibrationReport {
+        CalibrationReport::new(self, records)
     }
 }

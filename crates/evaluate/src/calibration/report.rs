@@ -1,7 +1,7 @@
 //! From records to the tables.
 
 use super::scene::{EstimateRecord, PartRecord, RadarRecord, SEGMENT_M, SceneRecord};
-use super::{CANDIDATES, DRIVING_TIMES_S, Options, figures};
+use super::{CANDIDATES, CalibrationExperiment, DRIVING_TIMES_S, figures};
 use crate::EvaluateError;
 use crate::statistics::Summary;
 use crate::table::table;
@@ -10,7 +10,7 @@ use serde::Serialize;
 /// The experiment's result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Report {
+pub struct CalibrationReport {
     /// Seed.
     pub seed: u64,
     /// Length of each drive, s.
@@ -103,9 +103,12 @@ pub struct Convergence {
     pub without: Vec<usize>,
 }
 
-impl Report {
+impl CalibrationReport {
     /// From the records, in order.
-    pub fn new(options: &Options, records: impl Iterator<Item = SceneRecord>) -> Self {
+    pub fn new(
+        options: &CalibrationExperiment,
+        records: impl Iterator<Item = SceneRecord>,
+    ) -> Self {
         let (dense, mixed): (Vec<_>, Vec<_>) = records.partition(|record| record.dense);
         Self {
             seed: options.seed,
@@ -118,7 +121,7 @@ impl Report {
     }
 }
 
-impl crate::experiment::Report for Report {
+impl crate::experiment::Report for CalibrationReport {
     fn tables(&self) -> String {
         self.conditions.iter().map(Condition::tables).collect::<Vec<_>>().join("\n")
     }
@@ -410,10 +413,10 @@ mod tests {
 
     #[test]
     fn tables_are_those_of_the_records() {
-        let options = Options { scenes: 4, seed: 0, duration_s: 120.0 };
+        let options = CalibrationExperiment { scenes: 4, seed: 0, duration_s: 120.0 };
         let errors = [Some(0.1), None, Some(-0.3), None, Some(0.5), None, None, None];
         let records = errors.iter().zip(0..).map(|(error, number)| scene(number, *error));
-        let report = Report::new(&options, records);
+        let report = CalibrationReport::new(&options, records);
         let [mixed, dense] = &report.conditions[..] else { panic!("two conditions") };
         assert_eq!((mixed.scenes, dense.scenes), (4, 4));
         assert!((mixed.driven_km - 2.0).abs() < 1e-12 && (mixed.driven_h - 0.1).abs() < 1e-12);

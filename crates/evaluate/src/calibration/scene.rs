@@ -1,10 +1,10 @@
 //! One drive: every method on every radar.
 
-use super::{CANDIDATES, Candidate, DRIVING_TIMES_S, Options};
+use super::{CANDIDATES, CalibrationExperiment, Candidate, DRIVING_TIMES_S};
 use crate::EvaluateError;
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
 use boresight_calibrate::{
-    AngleEstimate, Calibrator, FrameInput, Frames, Joint, Method, Options as CalibrationOptions,
+    AngleEstimate, CalibrationOptions, Calibrator, FrameInput, Frames, Joint, Method,
 };
 use boresight_core::Random;
 use boresight_core::drive::{Mounting, Pose, RADARSCENES_SENSORS};
@@ -95,7 +95,7 @@ struct Radar<'a> {
 ///
 /// # Errors
 /// Those of the simulation and the calibration.
-pub fn run(options: &Options, number: u64) -> Result<SceneRecord, EvaluateError> {
+pub fn run(options: &CalibrationExperiment, number: u64) -> Result<SceneRecord, EvaluateError> {
     let mut random = Random::new(options.seed, number);
     let dense = number % 2 == 1;
     let kinds = Scenario::ALL.len() as u64;

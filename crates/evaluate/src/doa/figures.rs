@@ -1,6 +1,6 @@
 //! Figures 6 to 9 of the 3D-CNN paper, as SVG.
 
-use super::report::{BOUNDS, PAIRS, Report};
+use super::report::{BOUNDS, DoaReport, PAIRS};
 use super::trial::DEVIATIONS_DEG;
 use super::{SNRS_DB, Targets};
 use crate::EvaluateError;
@@ -9,7 +9,7 @@ use crate::plot::{Axes, Panel, Series, draw};
 const SNR: &str = "signal-to-noise ratio of a sample / dB";
 
 /// In the order of their names.
-pub(super) fn all(report: &Report) -> Result<Vec<String>, EvaluateError> {
+pub(super) fn all(report: &DoaReport) -> Result<Vec<String>, EvaluateError> {
     Ok(vec![counting(report)?, rmse(report)?, success(report)?, deviation(report)?])
 }
 
@@ -26,7 +26,7 @@ const SHOWN: [&str; 7] = [
 
 /// A line for each of those drawn, the same ones in the same colours in every figure; without points where there are
 /// none.
-fn lines(report: &Report, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<Series> {
+fn lines(report: &DoaReport, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<Series> {
     let network = |name: &str| report.networks.iter().any(|network| network.name == *name);
     let drawn = report.methods.iter().enumerate();
     drawn
@@ -36,7 +36,7 @@ fn lines(report: &Report, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<Seri
 }
 
 /// Figure 6: scenes counted rightly.
-fn counting(report: &Report) -> Result<String, EvaluateError> {
+fn counting(report: &DoaReport) -> Result<String, EvaluateError> {
     let panels = PAIRS.map(|(two, which)| Panel {
         title: format!("0, 1 and 2 targets, the two {which}"),
         y_limits: Some([0.0, 1.02]),
@@ -53,7 +53,7 @@ fn counting(report: &Report) -> Result<String, EvaluateError> {
 }
 
 /// Figure 7: error of one target's angle. Where an angle in whole degrees is never wrong there is no point.
-fn rmse(report: &Report) -> Result<String, EvaluateError> {
+fn rmse(report: &DoaReport) -> Result<String, EvaluateError> {
     let methods = lines(report, |k| {
         report.over_snr(Targets::One, k, |m| m.rmse_deg).filter(|(_, rmse)| *rmse > 0.0).collect()
     });
@@ -71,7 +71,7 @@ fn rmse(report: &Report) -> Result<String, EvaluateError> {
 }
 
 /// Figure 8: both angles within 1 deg.
-fn success(report: &Report) -> Result<String, EvaluateError> {
+fn success(report: &DoaReport) -> Result<String, EvaluateError> {
     let panels = PAIRS.map(|(two, which)| Panel {
         title: format!("two targets {which}"),
         y_limits: Some([0.0, 1.02]),
@@ -85,7 +85,7 @@ fn success(report: &Report) -> Result<String, EvaluateError> {
 }
 
 /// Figure 9: accuracy of rounded angles by allowed deviation, all pairs and close ones.
-fn deviation(report: &Report) -> Result<String, EvaluateError> {
+fn deviation(report: &DoaReport) -> Result<String, EvaluateError> {
     let snr_db = SNRS_DB[2];
     let mut panels = vec![];
     for close in [false, true] {

@@ -11,7 +11,7 @@ pub mod figures;
 pub mod report;
 pub mod trial;
 
-pub use report::Report;
+pub use report::DoaReport;
 
 use crate::EvaluateError;
 use crate::entrants::Entrants;
@@ -21,7 +21,7 @@ use boresight_core::presets::preset;
 use boresight_core::{Array, Waveform};
 use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated};
 use serde::{Deserialize, Serialize};
-use trial::{COUNTERS, Plan, Record};
+use trial::{COUNTERS, DoaRecord, Plan};
 
 /// Signal-to-noise ratios, dB: power of one target over noise power, of one sample of one chirp at one element,
 /// before any transform.
@@ -82,7 +82,7 @@ impl Targets {
 /// What to run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Options {
+pub struct DoaExperiment {
     /// The radar.
     pub setup: Setup,
     /// Trials a condition. Angles go through all whole degrees within 10, or all pairs of them, in turn.
@@ -105,18 +105,18 @@ pub fn default_methods(setup: Setup) -> Result<Vec<String>, EvaluateError> {
     Ok(counters.chain(methods).collect())
 }
 
-impl Options {
+impl DoaExperiment {
     fn split(&self) -> Trials {
         Trials { each: self.trials, chunk: CHUNK }
     }
 }
 
-impl Experiment for Options {
+impl Experiment for DoaExperiment {
     const NAME: &'static str = "doa";
     const REVISION: u32 = 1;
     type Plan = Plan;
-    type Record = Record;
-    type Report = Report;
+    type Record = DoaRecord;
+    type Report = DoaReport;
 
     fn plan(&self) -> Result<Plan, EvaluateError> {
         check_range("trials", self.trials as f64, 1.0, 1e6)?;
@@ -131,7 +131,7 @@ impl Experiment for Options {
         Some(&mut self.entrants)
     }
 
-    fn join(record: &mut Record, other: Record) {
+    fn join(record: &mut DoaRecord, other: DoaRecord) {
         record.counted.extend(other.counted);
         record.methods.extend(other.methods);
     }
@@ -140,13 +140,13 @@ impl Experiment for Options {
         self.split().scenes(Targets::ALL.len() * SNRS_DB.len())
     }
 
-    fn scene(&self, plan: &Plan, number: u64) -> Result<Record, EvaluateError> {
+    fn scene(&self, plan: &Plan, number: u64) -> Result<DoaRecord, EvaluateError> {
         let (condition, first, trials) = self.split().of(number);
         plan.run(condition, first, trials)
     }
 
-    fn report(&self, plan: &Plan, records: impl Iterator<Item = Record>) -> Report {
-        Report::new(self, plan, records)
+    fn report(&self, plan: &Plan, records: impl Iterator<Item = DoaRecord>) -> DoaReport {
+        DoaReport::new(self, plan, records)
     }
 }
 

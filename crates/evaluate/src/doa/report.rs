@@ -1,7 +1,7 @@
 //! From records to tables.
 
-use super::trial::{CLOSE_DEG, DEVIATIONS_DEG, Plan, Record, Tally, conditions};
-use super::{Options, SNRS_DB, Setup, Targets, figures};
+use super::trial::{CLOSE_DEG, DEVIATIONS_DEG, DoaRecord, Plan, Tally, conditions};
+use super::{DoaExperiment, SNRS_DB, Setup, Targets, figures};
 use crate::EvaluateError;
 use crate::entrants::Network;
 use crate::table::table;
@@ -10,7 +10,7 @@ use serde::Serialize;
 /// The experiment's result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Report {
+pub struct DoaReport {
     /// The radar.
     pub setup: Setup,
     /// Trials a condition.
@@ -69,14 +69,15 @@ pub struct MethodResult {
     pub close_within: [f64; 3],
 }
 
-impl Report {
+impl DoaReport {
     pub(super) fn new(
-        options: &Options,
+        options: &DoaExperiment,
         plan: &Plan,
-        records: impl Iterator<Item = Record>,
+        records: impl Iterator<Item = DoaRecord>,
     ) -> Self {
-        let empty = Record { condition: 0, trials: 0, close: 0, counted: vec![], methods: vec![] };
-        let mut sums: Vec<Record> = conditions().map(|_| empty.clone()).collect();
+        let empty =
+            DoaRecord { condition: 0, trials: 0, close: 0, counted: vec![], methods: vec![] };
+        let mut sums: Vec<DoaRecord> = conditions().map(|_| empty.clone()).collect();
         for record in records {
             let Some(sum) = sums.get_mut(record.condition) else { continue };
             sum.trials += record.trials;
@@ -168,7 +169,7 @@ fn share(count: u32, of: u32) -> f64 {
 }
 
 impl MethodResult {
-    fn new(tally: &Tally, targets: Targets, of: &Record) -> Self {
+    fn new(tally: &Tally, targets: Targets, of: &DoaRecord) -> Self {
         let angles = targets.count() as f64 * f64::from(tally.found);
         Self {
             found: share(tally.found, of.trials),
@@ -182,7 +183,7 @@ impl MethodResult {
     }
 }
 
-impl crate::experiment::Report for Report {
+impl crate::experiment::Report for DoaReport {
     fn tables(&self) -> String {
         let heads = SNRS_DB.map(|snr_db| format!("{snr_db} dB"));
         let heads: Vec<&str> = heads.iter().map(String::as_str).collect();

@@ -6,7 +6,7 @@ use crate::entrants::{Entrants, Network};
 use crate::told::{self, Candidate};
 use boresight_aoa::bounds::{Signals, deterministic_bound, stochastic_bound, uncorrelated};
 use boresight_aoa::counting::{Criterion, count_sources_in};
-use boresight_aoa::{Data, Estimator, Options, SourceCount};
+use boresight_aoa::{Data, Estimator, EstimatorOptions, SourceCount};
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::units::db_to_power;
 use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Random, Waveform};
@@ -42,7 +42,7 @@ pub const COUNTERS: [Counter; 4] = [
 
 /// Some trials of one condition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct DoaRecord {
     /// Index of the condition.
     pub condition: usize,
     /// Trials.
@@ -133,7 +133,7 @@ pub(super) fn candidates(array: &Array, targets: usize) -> Vec<Candidate> {
 }
 
 impl Plan {
-    pub(super) fn new(options: &super::Options) -> Result<Self, EvaluateError> {
+    pub(super) fn new(options: &super::DoaExperiment) -> Result<Self, EvaluateError> {
         let (waveform, array, range_m) = options.setup.radar()?;
         options.entrants.check()?;
         let Entrants { methods, networks } = &options.entrants;
@@ -187,7 +187,7 @@ impl Plan {
     ///
     /// # Errors
     /// Those of the simulation and the estimators.
-    pub fn run(&self, index: usize, first: u64, trials: u64) -> Result<Record, EvaluateError> {
+    pub fn run(&self, index: usize, first: u64, trials: u64) -> Result<DoaRecord, EvaluateError> {
         let (targets, snr_db) = condition(index);
         let count = targets.count();
         let candidates: &[Candidate] = if count > 0 { &self.candidates[count - 1] } else { &[] };
@@ -208,7 +208,7 @@ impl Plan {
             networks.push(suits.then(estimator).transpose()?);
         }
         let tallies = networks.iter().map(|network| network.as_ref().map(|_| Tally::default()));
-        let mut record = Record {
+        let mut record = DoaRecord {
             condition: index,
             trials: trials as u32,
             close: 0,
@@ -324,9 +324,9 @@ fn in_degrees(angle_rad: f64) -> f64 {
 }
 
 /// A network answers with the most probable directions.
-fn known(targets: usize) -> Options {
+fn known(targets: usize) -> EstimatorOptions {
     let (sources, field_of_view_rad) = (SourceCount::Known(targets), FIELD_OF_VIEW_RAD);
-    Options { sources, field_of_view_rad, ..Options::default() }
+    EstimatorOptions { sources, field_of_view_rad, ..EstimatorOptions::default() }
 }
 
 /// Angles of a trial, deg, ascending: all single ones, or all pairs, in turn.

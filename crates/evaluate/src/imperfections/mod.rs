@@ -5,7 +5,7 @@
 
 pub mod report;
 
-pub use report::Report;
+pub use report::ImperfectionsReport;
 
 use crate::EvaluateError;
 use crate::aoa::{self, Condition, SNRS_DB, cell};
@@ -83,7 +83,7 @@ pub fn settings() -> Vec<Setting> {
 /// What to run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Options {
+pub struct ImperfectionsExperiment {
     /// Name of the array.
     pub array: String,
     /// Signal-to-noise ratio, dB, one of those of [`crate::aoa`].
@@ -92,24 +92,24 @@ pub struct Options {
     pub trials: u64,
     /// Everything random comes from it.
     pub seed: u64,
-    /// Methods and networks, as in [`aoa::Options`].
+    /// Methods and networks, as in [`aoa::AoaExperiment`].
     #[serde(flatten)]
     pub entrants: Entrants,
 }
 
-impl Options {
+impl ImperfectionsExperiment {
     fn split(&self) -> Trials {
         Trials { each: self.trials, chunk: CHUNK }
     }
 }
 
-impl Experiment for Options {
+impl Experiment for ImperfectionsExperiment {
     const NAME: &'static str = "imperfections";
     const REVISION: u32 = 1;
     /// One a setting.
     type Plan = Vec<cell::Plan>;
-    type Record = cell::Record;
-    type Report = Report;
+    type Record = cell::AoaRecord;
+    type Report = ImperfectionsReport;
 
     fn plan(&self) -> Result<Self::Plan, EvaluateError> {
         check_range("trials", self.trials as f64, 1.0, 1e7)?;
@@ -124,7 +124,7 @@ impl Experiment for Options {
         settings()
             .into_iter()
             .map(|setting| {
-                cell::Plan::new(&aoa::Options {
+                cell::Plan::new(&aoa::AoaExperiment {
                     array: self.array.clone(),
                     trials: self.trials,
                     seed: self.seed,
@@ -144,7 +144,7 @@ impl Experiment for Options {
         Some(&mut self.entrants)
     }
 
-    fn join(record: &mut cell::Record, other: cell::Record) {
+    fn join(record: &mut cell::AoaRecord, other: cell::AoaRecord) {
         record.methods.extend(other.methods);
     }
 
@@ -153,15 +153,19 @@ impl Experiment for Options {
     }
 
     /// The condition of a record counts settings, then numbers of targets.
-    fn scene(&self, plan: &Self::Plan, number: u64) -> Result<cell::Record, EvaluateError> {
+    fn scene(&self, plan: &Self::Plan, number: u64) -> Result<cell::AoaRecord, EvaluateError> {
         let (index, first, trials) = self.split().of(number);
         let condition = Condition { targets: NUMBERS[index % NUMBERS.len()], snr_db: self.snr_db };
         let there = Condition::all().iter().position(|c| *c == condition).unwrap_or(0);
         let record = plan[index / NUMBERS.len()].run(there, condition, first, trials)?;
-        Ok(cell::Record { condition: index, ..record })
+        Ok(cell::AoaRecord { condition: index, ..record })
     }
 
-    fn report(&self, plan: &Self::Plan, records: impl Iterator<Item = cell::Record>) -> Report {
-        Report::new(self, &Self::methods(plan), records)
+    fn report(
+        &self,
+        plan: &Self::Plan,
+        records: impl Iterator<Item = cell::AoaRecord>,
+    ) -> ImperfectionsReport {
+        ImperfectionsReport::new(self, &Self::methods(plan), records)
     }
 }

@@ -1,9 +1,9 @@
 //! From records to tables and figures.
 
-use super::{Kind, NUMBERS, Options, settings};
+use super::{ImperfectionsExperiment, Kind, NUMBERS, settings};
 use crate::EvaluateError;
 use crate::aoa::Score;
-use crate::aoa::cell::Record;
+use crate::aoa::cell::AoaRecord;
 use crate::plot::{Axes, Panel, Series, draw};
 use crate::statistics::Summary;
 use crate::table::table;
@@ -15,7 +15,7 @@ pub const SURVIVES: f64 = 0.95;
 /// The experiment's result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Report {
+pub struct ImperfectionsReport {
     /// Array.
     pub array: String,
     /// Signal-to-noise ratio, dB.
@@ -67,15 +67,15 @@ pub struct Tolerance {
     pub methods: Vec<(f64, bool)>,
 }
 
-impl Report {
+impl ImperfectionsReport {
     pub(super) fn new(
-        options: &Options,
+        options: &ImperfectionsExperiment,
         methods: &[String],
-        records: impl Iterator<Item = Record>,
+        records: impl Iterator<Item = AoaRecord>,
     ) -> Self {
         let all = settings();
         let mut sums: Vec<Vec<Score>> = vec![vec![]; all.len() * NUMBERS.len()];
-        for Record { condition, methods } in records {
+        for AoaRecord { condition, methods } in records {
             let Some(sum) = sums.get_mut(condition) else { continue };
             if sum.is_empty() {
                 *sum = methods.into_iter().map(|m| m.score).collect();
@@ -150,7 +150,7 @@ impl Report {
     }
 }
 
-impl crate::experiment::Report for Report {
+impl crate::experiment::Report for ImperfectionsReport {
     fn tables(&self) -> String {
         let mut text = format!(
             "Array {}, {} dB, {} snapshots a condition; means over {NUMBERS:?} targets.\n",
@@ -251,7 +251,7 @@ impl crate::experiment::Report for Report {
     }
 }
 
-impl Report {
+impl ImperfectionsReport {
     fn panel(&self, kind: Kind, label: &str, value: fn(&MethodResult) -> f64) -> Panel {
         let line = |(k, name): (usize, &String)| Series {
             name: name.clone(),

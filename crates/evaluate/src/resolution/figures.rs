@@ -1,12 +1,12 @@
 //! Probability of resolution against separation, as SVG.
 
 use super::SNRS_DB;
-use super::report::{Report, counted};
+use super::report::{ResolutionReport, counted};
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
 
 /// A panel a condition: a row a signal-to-noise ratio, a column a number of snapshots.
-pub(super) fn probabilities(report: &Report) -> Result<String, EvaluateError> {
+pub(super) fn probabilities(report: &ResolutionReport) -> Result<String, EvaluateError> {
     let rows = SNRS_DB.iter().flat_map(|snr_db| {
         report.conditions.iter().filter(move |condition| condition.snr_db == *snr_db)
     });
@@ -43,7 +43,7 @@ pub(super) fn probabilities(report: &Report) -> Result<String, EvaluateError> {
 const SMOOTHED: &str = ", smoothed";
 
 /// Methods of any condition.
-fn names(report: &Report) -> Vec<&str> {
+fn names(report: &ResolutionReport) -> Vec<&str> {
     let mut names: Vec<&str> = vec![];
     for method in report.conditions.iter().flat_map(|condition| &condition.methods) {
         let name = method.name.trim_end_matches(SMOOTHED);

@@ -10,13 +10,13 @@ pub mod limit;
 pub mod report;
 pub mod trial;
 
-pub use report::Report;
+pub use report::ResolutionReport;
 
 use crate::EvaluateError;
 use crate::experiment::{Experiment, Trials};
 use boresight_core::error::check_range;
 use serde::{Deserialize, Serialize};
-use trial::{Plan, Record};
+use trial::{Plan, ResolutionRecord};
 
 /// Separations, widths of the beam at half power.
 pub const SEPARATIONS: [f64; 12] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0];
@@ -28,7 +28,7 @@ const CHUNK: u64 = 100;
 /// What to run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Options {
+pub struct ResolutionExperiment {
     /// Name of the array.
     pub array: String,
     /// Numbers of snapshots.
@@ -39,7 +39,7 @@ pub struct Options {
     pub seed: u64,
 }
 
-impl Options {
+impl ResolutionExperiment {
     fn split(&self) -> Trials {
         Trials { each: self.trials, chunk: CHUNK }
     }
@@ -57,7 +57,7 @@ impl Options {
 /// What trials have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
-    /// Index in [`Options::snapshots`].
+    /// Index in [`ResolutionExperiment::snapshots`].
     pub snapshots: usize,
     /// Signal-to-noise ratio, dB.
     pub snr_db: f64,
@@ -65,11 +65,11 @@ pub struct Condition {
     pub separation: f64,
 }
 
-impl Experiment for Options {
+impl Experiment for ResolutionExperiment {
     const NAME: &'static str = "resolution";
     type Plan = Plan;
-    type Record = Record;
-    type Report = Report;
+    type Record = ResolutionRecord;
+    type Report = ResolutionReport;
 
     fn plan(&self) -> Result<Plan, EvaluateError> {
         check_range("trials", self.trials as f64, 1.0, 1e6)?;
@@ -88,12 +88,16 @@ impl Experiment for Options {
         self.split().scenes(self.conditions().count())
     }
 
-    fn scene(&self, plan: &Plan, number: u64) -> Result<Record, EvaluateError> {
+    fn scene(&self, plan: &Plan, number: u64) -> Result<ResolutionRecord, EvaluateError> {
         let (condition, first, trials) = self.split().of(number);
         plan.run(condition, first, trials)
     }
 
-    fn report(&self, plan: &Plan, records: impl Iterator<Item = Record>) -> Report {
-        Report::new(self, plan, records)
+    fn report(
+        &self,
+        plan: &Plan,
+        records: impl Iterator<Item = ResolutionRecord>,
+    ) -> ResolutionReport {
+        ResolutionReport::new(self, plan, records)
     }
 }

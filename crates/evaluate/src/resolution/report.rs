@@ -1,8 +1,8 @@
 //! From records to tables.
 
 use super::limit::{resolution_limit, separation_sigma};
-use super::trial::{Plan, Record};
-use super::{Options, SEPARATIONS, SNRS_DB, figures};
+use super::trial::{Plan, ResolutionRecord};
+use super::{ResolutionExperiment, SEPARATIONS, SNRS_DB, figures};
 use crate::EvaluateError;
 use crate::table::table;
 use serde::Serialize;
@@ -10,7 +10,7 @@ use serde::Serialize;
 /// The experiment's result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Report {
+pub struct ResolutionReport {
     /// Array.
     pub array: String,
     /// Trials a condition.
@@ -56,11 +56,11 @@ pub struct MethodResult {
     pub half: Option<f64>,
 }
 
-impl Report {
+impl ResolutionReport {
     pub(super) fn new(
-        options: &Options,
+        options: &ResolutionExperiment,
         plan: &Plan,
-        records: impl Iterator<Item = Record>,
+        records: impl Iterator<Item = ResolutionRecord>,
     ) -> Self {
         let mut sums: Vec<(u32, Vec<u32>)> = options.conditions().map(|_| (0, vec![])).collect();
         for record in records {
@@ -138,7 +138,7 @@ fn crossing(shares: &[f64]) -> Option<f64> {
     Some(from + (to - from) * (0.5 - low) / (high - low))
 }
 
-impl crate::experiment::Report for Report {
+impl crate::experiment::Report for ResolutionReport {
     fn tables(&self) -> String {
         let mut text = format!(
             "Array {}, beam of {:.2} deg at half power on boresight, {} trials a condition.\n",

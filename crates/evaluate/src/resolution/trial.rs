@@ -1,7 +1,7 @@
 //! Trials of one condition.
 
 use super::limit::beam_width;
-use super::{Condition, Options};
+use super::{Condition, ResolutionExperiment};
 use crate::EvaluateError;
 use crate::told::{self, Candidate};
 use boresight_aoa::{Data, Estimator};
@@ -19,7 +19,7 @@ const MIDDLE_RAD: f64 = 0.261_799_387_799_149_4;
 
 /// Some trials of one condition.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct ResolutionRecord {
     /// Index of the condition.
     pub condition: usize,
     /// Trials.
@@ -41,7 +41,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    pub(super) fn new(options: &Options) -> Result<Self, EvaluateError> {
+    pub(super) fn new(options: &ResolutionExperiment) -> Result<Self, EvaluateError> {
         let array = preset(&options.array)?;
         let of =
             |&snapshots: &usize| told::candidates(&array, snapshots, 2, FIELD_OF_VIEW_RAD, false);
@@ -70,14 +70,22 @@ impl Plan {
     ///
     /// # Errors
     /// Those of the simulation and the estimators.
-    pub fn run(&self, index: usize, first: u64, trials: u64) -> Result<Record, EvaluateError> {
+    pub fn run(
+        &self,
+        index: usize,
+        first: u64,
+        trials: u64,
+    ) -> Result<ResolutionRecord, EvaluateError> {
         let condition = self.conditions[index];
         let mut estimators: Vec<Estimator> = vec![];
         for candidate in &self.candidates[condition.snapshots] {
             estimators.push(candidate.estimator(&self.array)?);
         }
-        let mut record =
-            Record { condition: index, trials: trials as u32, resolved: vec![0; estimators.len()] };
+        let mut record = ResolutionRecord {
+            condition: index,
+            trials: trials as u32,
+            resolved: vec![0; estimators.len()],
+        };
         let separation = condition.separation * self.beam;
         for trial in first..first + trials {
             let stream = ((index as u64) << 40) + trial;

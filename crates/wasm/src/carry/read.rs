@@ -127,6 +127,51 @@ impl<'a> Reader<'a> {
         Ok(array)
     }
 
+    // What follows is no part of the functions that read each struct, which there are many of.
+    #[inline(never)]
+    fn fields<'b>(
+        &'b self,
+        names: &'static [&'static str],
+        own: &'b Known,
+    ) -> Reading<FieldsOf<'b>> {
+        if !self.is_plain() {
+            return Err(self.wrong_type("an object"));
+        }
+        Ok(FieldsOf {
+            object: self.value.unchecked_ref(),
+            fields: (0_u64..).zip(names),
+            at: &self.at,
+            known: self.known.unwrap_or(own),
+            next: None,
+        })
+    }
+
+    #[inline(never)]
+    fn name(&self, names: &[&str]) -> Reading<StringDeserializer<ReadError>> {
+        match self.value.as_string() {
+            Some(name) => Ok(shortened(&name).into_deserializer()),
+            None => Err(self.wrong_type(&format!("one of {}", names.join(", ")))),
+        }
+    }
+
+    #[inline(never)]
+    fn check_length(&self, expected: usize) -> Reading<()> {
+        let given = self.items()?.length() as usize;
+        if given == expected {
+            return Ok(());
+        }
+        let (what, expected) = (self.at.path(), format!("[{expected}]"));
+        Err(BindingError::from(CoreError::Shape { what, expected, given: vec![given] }).into())
+    }
+
+    #[inline(never)]
+    fn refuse_others(&self, own: &Known) -> Reading<()> {
+        if self.known.is_none() {
+            own.refuse_others(self.value.unchecked_ref(), &self.at)?;
+        }
+        Ok(())
+    }
+
     fn whole<'de, V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         let is_number = self.value.as_f64();
         // Only what Rust keeps in 64 bits, as seeds, may need more than a number holds.
@@ -211,10 +256,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         variants: &'static [&'static str],
         visitor: V,
     ) -> Reading<V::Value> {
-        let Some(name) = self.value.as_string() else {
-            return Err(self.wrong_type(&format!("one of {}", variants.join(", "))));
-        };
-        let name: StringDeserializer<ReadError> = shortened(&name).into_deserializer();
+        let name = self.name(variants)?;
         visitor.visit_enum(name).map_err(|error| error.at(&self.at))
     }
 
@@ -239,16 +281,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Reading<V::Value> {
-        let given = self.items()?.length() as usize;
-        if given != len {
-            let (what, expected) = (self.at.path(), format!("[{len}]"));
-            return Err(BindingError::from(CoreError::Shape {
-                what,
-                expected,
-                given: vec![given],
-            })
-            .into());
-        }
+        self.check_length(len)?;
         self.deserialize_seq(visitor)
     }
 
@@ -273,18 +306,10 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Reading<V::Value> {
-        if !self.is_plain() {
-            return Err(self.wrong_type("an object"));
-        }
-        let object: &Object = self.value.unchecked_ref();
         let own = Known::default();
-        let known = self.known.unwrap_or(&own);
-        let fields = (0_u64..).zip(fields);
-        let found = FieldsOf { object, fields, at: &self.at, known, next: None };
+        let found = self.fields(fields, &own)?;
         let read = visitor.visit_map(found).map_err(|error| error.at(&self.at))?;
-        if self.known.is_none() {
-            own.refuse_others(object, &self.at)?;
-        }
+        self.refuse_others(&own)?;
         Ok(read)
     }
 
@@ -316,14 +341,14 @@ struct FieldsOf<'a> {
     next: Option<(&'static str, JsValue, bool)>,
 }
 
-impl<'de> MapAccess<'de> for FieldsOf<'_> {
-    type Error = ReadError;
-
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
+impl<'a> FieldsOf<'a> {
+    /// The place of the next field that the object has.
+    #[inline(never)]
+    fn advance(&mut self) -> Reading<Option<u64>> {
         for (place, &field) in self.fields.by_ref() {
             if field.starts_with("..") {
                 self.next = Some((field, self.object.clone().into(), false));
-                return seed.deserialize(place.into_deserializer()).map(Some);
+                return Ok(Some(place));
             }
             let value = self.known.get(self.object, field).map_err(|_| BindingError::Type {
                 what: self.at.field(field).path(),
@@ -332,19 +357,35 @@ impl<'de> MapAccess<'de> for FieldsOf<'_> {
             })?;
             if !value.is_undefined() {
                 self.next = Some((field, value, property(field).is_angle));
-                return seed.deserialize(place.into_deserializer()).map(Some);
+                return Ok(Some(place));
             }
         }
         Ok(None)
     }
 
-    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
+    #[inline(never)]
+    fn value(&mut self) -> Reader<'a> {
         let (field, value, is_angle) = self.next.take().unwrap_or(("", JsValue::UNDEFINED, false));
         let spread = field.starts_with("..");
-        let inner = self.at.field(field);
-        let at = if spread { *self.at } else { inner };
-        let known = spread.then_some(self.known);
-        seed.deserialize(Reader { value, at, is_angle, known }).map_err(|error| error.at(&at))
+        let at = if spread { *self.at } else { self.at.field(field) };
+        Reader { value, at, is_angle, known: spread.then_some(self.known) }
+    }
+}
+
+impl<'de> MapAccess<'de> for FieldsOf<'_> {
+    type Error = ReadError;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
+        match self.advance()? {
+            Some(place) => seed.deserialize(place.into_deserializer()).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
+        let reader = self.value();
+        let at = reader.at;
+        seed.deserialize(reader).map_err(|error| error.at(&at))
     }
 }
 

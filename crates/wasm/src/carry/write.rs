@@ -261,10 +261,14 @@ impl Fields<'_> {
     fn object(&self) -> Option<&Object> {
         self.own.as_ref().or(self.into)
     }
-}
 
-impl Fields<'_> {
-    // Once for all types of values, which keeps the module small.
+    // These are once for all types of values, which keeps the module small.
+    #[inline(never)]
+    fn writer(&self, field: &'static str) -> Writer<'_> {
+        let into = self.object().filter(|_| field.starts_with(".."));
+        Writer { into, is_angle: is_angle(field), column: None }
+    }
+
     #[inline(never)]
     fn set(&self, field: &'static str, value: &JsValue) {
         if let Some(object) = self.object() {
@@ -282,12 +286,12 @@ impl SerializeStruct for Fields<'_> {
         field: &'static str,
         value: &T,
     ) -> Written<()> {
-        if let (true, Some(object)) = (field.starts_with(".."), self.object()) {
-            value.serialize(Writer { into: Some(object), ..Writer::default() })?;
-            return Ok(());
+        let writer = self.writer(field);
+        let is_spread = writer.into.is_some();
+        let value = value.serialize(writer)?;
+        if !is_spread {
+            self.set(field, &value);
         }
-        let value = value.serialize(Writer { is_angle: is_angle(field), ..Writer::default() })?;
-        self.set(field, &value);
         Ok(())
     }
 

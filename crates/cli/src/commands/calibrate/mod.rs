@@ -10,7 +10,8 @@ use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_calibrate::{
-    AngleEstimate, CalibrateError, Calibrator, FrameInput, FrameOutcome, Frames, Joint, Options,
+    AngleEstimate, CalibrateError, CalibrationOptions, Calibrator, FrameInput, FrameOutcome,
+    Frames, Joint,
 };
 use boresight_core::drive::{DriveLog, Sensor};
 use boresight_formats::DriveFormat;
@@ -24,7 +25,7 @@ const FRAMES_A_REPORT: usize = 64;
 /// What is known of one radar.
 struct Calibrated {
     sensor: u8,
-    options: Options,
+    options: CalibrationOptions,
     estimate: AngleEstimate,
     track: Track,
     /// With the other radars of the log.
@@ -95,7 +96,10 @@ fn chosen(log: &DriveLog, sensor: Option<u8>) -> Result<Vec<&Sensor>, CliError> 
     Ok(found)
 }
 
-fn options(arguments: &CalibrateArguments, sensor: &Sensor) -> Result<Options, CliError> {
+fn options(
+    arguments: &CalibrateArguments,
+    sensor: &Sensor,
+) -> Result<CalibrationOptions, CliError> {
     let flags = &arguments.flags;
     let mut options = flags.options;
     match sensor.mounting {
@@ -125,7 +129,7 @@ fn options(arguments: &CalibrateArguments, sensor: &Sensor) -> Result<Options, C
 /// Hands the frames of the radars that `wanted` picks to `add`, in order.
 fn feed<'a>(
     log: &'a DriveLog,
-    options: &Options,
+    options: &CalibrationOptions,
     run: &Run,
     wanted: impl Fn(u8) -> bool,
     mut add: impl FnMut(u8, FrameInput<'a>) -> Result<(), CalibrateError>,
@@ -141,7 +145,12 @@ fn feed<'a>(
     Ok(())
 }
 
-fn alone(log: &DriveLog, sensor: u8, options: Options, run: &Run) -> Result<Calibrated, CliError> {
+fn alone(
+    log: &DriveLog,
+    sensor: u8,
+    options: CalibrationOptions,
+    run: &Run,
+) -> Result<Calibrated, CliError> {
     let mut calibrator = Calibrator::new(options)?;
     let mut track = Track::default();
     feed(
@@ -167,7 +176,7 @@ fn jointly(
         .sensors
         .iter()
         .map(|sensor| Ok((sensor.id, options(arguments, sensor)?)))
-        .collect::<Result<Vec<(u8, Options)>, CliError>>()?;
+        .collect::<Result<Vec<(u8, CalibrationOptions)>, CliError>>()?;
     let mut joint = Joint::new(&radars)?;
     let mut tracks = vec![Track::default(); radars.len()];
     feed(

@@ -1,7 +1,7 @@
 //! The car's way as a radar saw it, held against the poses of the log.
 
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
-use boresight_calibrate::{FrameInput, FrameOutcome, Options};
+use boresight_calibrate::{CalibrationOptions, FrameInput, FrameOutcome};
 use boresight_core::drive::{DriveLog, Pose};
 
 /// Length of the segments that trajectories are compared over, m.
@@ -19,7 +19,7 @@ impl Track {
     pub(super) fn add(
         &mut self,
         log: &DriveLog,
-        options: &Options,
+        options: &CalibrationOptions,
         frame: &FrameInput,
         outcome: &FrameOutcome,
     ) {
@@ -33,13 +33,13 @@ impl Track {
         self.logged.push(log.pose_at(time_s, options.max_gap_s));
     }
 
-    fn poses(&self, angle_rad: f64, options: &Options) -> Option<Vec<Pose>> {
+    fn poses(&self, angle_rad: f64, options: &CalibrationOptions) -> Option<Vec<Pose>> {
         integrate(&self.motions, angle_rad, options.x_m, options.y_m)
     }
 
     /// Relative error of the trajectory with an angle, m; `None` without poses or a trajectory, or
     /// where the car drove less than a segment.
-    pub(super) fn error_m(&self, angle_rad: f64, options: &Options) -> Option<f64> {
+    pub(super) fn error_m(&self, angle_rad: f64, options: &CalibrationOptions) -> Option<f64> {
         let poses = self.poses(angle_rad, options)?;
         let (estimated, logged): (Vec<Pose>, Vec<Pose>) = poses
             .into_iter()
@@ -51,7 +51,7 @@ impl Track {
 
     /// The trajectory with an angle as CSV, from the origin along x, and beside it the logged one,
     /// moved to where the first has its first logged pose.
-    pub(super) fn csv(&self, angle_rad: f64, options: &Options) -> Option<String> {
+    pub(super) fn csv(&self, angle_rad: f64, options: &CalibrationOptions) -> Option<String> {
         let poses = self.poses(angle_rad, options).filter(|poses| !poses.is_empty())?;
         let anchor = poses.iter().zip(&self.logged).find_map(|(a, b)| Some((*a, (*b)?)));
         let mut text = "time_s,x_m,y_m,yaw_deg".to_owned();
