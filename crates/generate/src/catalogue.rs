@@ -152,8 +152,7 @@ pub struct Shown<'a> {
 pub fn shown<'a>(record: &'static Record, defaults: Option<&'a Value>) -> Vec<Shown<'a>> {
     let mut all = vec![];
     for field in record.fields {
-        let default =
-            defaults.and_then(|defaults| defaults.get(field.name)).filter(|_| !field.required);
+        let default = defaults.and_then(|defaults| defaults.get(field.name));
         match (field.name.starts_with(".."), field.kind) {
             (true, Kind::Record(inner)) => all.extend(shown(inner, default)),
             _ => all.push(Shown { field, default }),

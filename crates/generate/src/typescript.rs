@@ -55,7 +55,9 @@ impl Types {
         let mut doc = field.doc.to_owned();
         let unit = naming::unit(field.name);
         let range = field.range.map(values::range);
-        let default_value = default.and_then(|value| values::in_user_units(field, value));
+        let default_value = default
+            .filter(|_| !field.required)
+            .and_then(|value| values::in_user_units(field, value));
         let told: Vec<String> = [
             range.map(|range| format!("{range}{}{unit}", if unit.is_empty() { "" } else { " " })),
             default_value.map(|value| format!("default {}", literal(&value))),

@@ -142,16 +142,16 @@ fn first_value(kind: &Kind) -> JsValue {
 
 /// Legal values, of which one at least is not the default.
 fn other_values(field: &Field, kind: &Kind) -> Vec<JsValue> {
-    let number = |whole: bool| {
-        let (low, high) = field.range.map_or((0.0, 10.0), |range| (range.low, range.high));
-        let high = if high.is_finite() { high } else { low + 10.0 };
-        // Not the middle, which may well be the default.
-        let number = low + 0.37 * (high - low);
-        JsValue::from(if whole { number.max(low + 1.0).floor() } else { number })
+    let (low, high) = field.range.map_or((0.0, 10.0), |range| (range.low, range.high));
+    let high = if high.is_finite() { high } else { low + 10.0 };
+    // One of them may be the default.
+    let numbers = |whole: bool| {
+        let all = [0.37, 0.73].map(|share| low + share * (high - low)).into_iter();
+        all.map(|x| JsValue::from(if whole { x.max(low + 1.0).floor() } else { x })).collect()
     };
     match kind {
-        Kind::Number => vec![number(false)],
-        Kind::Whole | Kind::Seed => vec![number(true)],
+        Kind::Number => numbers(false),
+        Kind::Whole | Kind::Seed => numbers(true),
         Kind::Truth => vec![true.into(), false.into()],
         Kind::Choice(choice) => choice.variants.iter().map(|(name, _)| (*name).into()).collect(),
         Kind::Optional(inner) => other_values(field, inner),
