@@ -26,6 +26,7 @@ environment.PATH = process.env.PATH.split(delimiter)
 
 /** Commands under way, each the head of a process group of its own. */
 const under = new Set();
+let isEnding = false;
 const measured = [];
 
 function freshRegistries() {
@@ -49,6 +50,7 @@ async function clone(name) {
 
 /** Starts a command whose output goes into a log; `done` resolves with what went wrong, if something did. */
 function start(cwd, command, args) {
+  if (isEnding) throw new Error('interrupted');
   const log = join(folder, `${command}-${Date.now()}.log`);
   const file = openSync(log, 'w');
   const child = spawn(command, args, {
@@ -182,6 +184,7 @@ async function cleanUp() {
 
 for (const signal of ['SIGINT', 'SIGTERM'])
   process.once(signal, async () => {
+    isEnding = true;
     await cleanUp();
     process.exit(1);
   });

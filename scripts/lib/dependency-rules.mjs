@@ -11,14 +11,14 @@ const allowed = {
   neural: ['core', 'signal', 'aoa'],
   pipeline: ['core', 'signal', 'aoa', 'image'],
   evaluate: ['core', 'signal', 'aoa', 'calibrate', 'simulate', 'image', 'neural', 'pipeline'],
-  generate: ['core', 'aoa', 'calibrate', 'formats', 'image', 'pipeline', 'simulate', 'wasm'],
+  generate: ['core', 'aoa', 'calibrate', 'formats', 'image', 'neural', 'pipeline', 'simulate', 'wasm', 'wasm-neural'],
   cli: null,
   wasm: null,
   'wasm-neural': null,
 };
 const bindings = ['wasm', 'wasm-neural'];
 /** The module of networks holds part of the other bindings; what the bindings describe is written out too. */
-const buildsOn = { 'wasm-neural': 'wasm', generate: 'wasm' };
+const buildsOn = { 'wasm-neural': ['wasm'], generate: bindings };
 
 /** Outside crates that only some crates may name, as a pattern and those crates. */
 const confined = [
@@ -58,7 +58,7 @@ export function problems(graph) {
           .map(({ to }) => `${crate} names ${name}, which only ${to.join(' and ')} may`);
       }
       const target = short(name);
-      if (bindings.includes(target) && buildsOn[crate] !== target)
+      if (bindings.includes(target) && !buildsOn[crate]?.includes(target))
         return [`${crate} depends on the binding crate ${target}`];
       const list = allowed[crate];
       if (kind === 'dev' || list === null || list.includes(target)) return [];

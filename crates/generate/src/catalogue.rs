@@ -105,6 +105,13 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
             ],
         ),
         (
+            "Networks",
+            vec![
+                boresight_wasm_neural::NetworkDescription::KIND,
+                boresight_neural::SourceProbabilities::KIND,
+            ],
+        ),
+        (
             "Drives",
             vec![
                 boresight_formats::DropReason::KIND,

@@ -7,4 +7,4 @@ mod constructors;
 mod network;
 mod tensors;
 
-pub use network::Network;
+pub use network::{Network, NetworkDescription};

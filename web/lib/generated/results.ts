@@ -736,6 +736,46 @@ export interface Trajectory {
 }
 
 /**
+ * What a network does, told from the names and shapes of its inputs and outputs.
+ *
+ * - `aaetr`: A set of targets from one snapshot.
+ * - `counting`: The number of targets, 0 to 2, from a covariance.
+ * - `dnn`: Whole degrees from a covariance.
+ * - `cnn3d`: Whole degrees from a region of the range spectrum.
+ */
+export type NetworkKind = 'aaetr' | 'counting' | 'dnn' | 'cnn3d';
+
+/** An input or output, of 32-bit floating-point numbers. */
+export interface NetworkPort {
+  /** Its name. */
+  name: string;
+  /** Its shape: lengths, or names where any length goes. */
+  axes: (number | string)[];
+}
+
+/** What a network is. */
+export interface NetworkDescription {
+  /** An estimator, or one that counts sources. */
+  kind: NetworkKind;
+  /** The method it is estimated with; null for a counting network. */
+  method: Method | null;
+  /** Its name on its card, or that of its kind. */
+  name: string;
+  /** What goes in. */
+  inputs: NetworkPort[];
+  /** What comes out. */
+  outputs: NetworkPort[];
+}
+
+/** How probable each number of sources is. */
+export interface SourceProbabilities {
+  /** The most probable number. */
+  sources: number;
+  /** Probability of 0, 1 and 2 sources, each by itself. */
+  probability: Float64Array;
+}
+
+/**
  * Why a row of a drive log was left out.
  *
  * - `not-finite`: A detection with a NaN or an infinity where a number is needed.

@@ -17,6 +17,7 @@ import type {
   EstimateInput,
   FrameResult,
   ModelCard,
+  NetworkDescription,
   NetworkKind,
   NetworkMethod,
   NetworkOptions,
@@ -32,15 +33,6 @@ export const neural = new Instance(glue, instantiate, { file: 'boresight_neural_
 /** Makes networks ready from a compiled module or its bytes, without waiting. */
 export function initNeuralSync(module: WebAssembly.Module | BufferSource): void {
   neural.startSync(module);
-}
-
-/** What is known of a network without running it. */
-interface Description {
-  kind: NetworkKind;
-  method: NetworkMethod | null;
-  name: string;
-  inputs: NetworkPort[];
-  outputs: NetworkPort[];
 }
 
 /** A network from an ONNX file, ready to estimate. */
@@ -63,9 +55,9 @@ export class Network extends Handle<glue.Network> {
     const { card, ...estimator } = own(options, 'options') as NetworkOptions;
     const text = typeof card === 'object' && card !== null ? JSON.stringify(card) : card;
     super(neural, () => new glue.Network(onnx, text, estimator));
-    const { kind, method, name, inputs, outputs } = this.use((raw) => raw.describe() as Description);
+    const { kind, method, name, inputs, outputs } = this.use((raw) => raw.describe() as NetworkDescription);
     this.kind = kind;
-    this.method = method;
+    this.method = method as NetworkMethod | null;
     this.name = name;
     this.inputs = inputs;
     this.outputs = outputs;

@@ -1,17 +1,12 @@
 /** Neural networks: what `boresight/neural` and the pool take and give. */
-import type { EstimatorOptions } from '../types.js';
+import type { EstimatorOptions, NetworkDescription, NetworkKind, NetworkPort } from '../types.js';
 
 /** Networks that estimate angles, as methods of an estimator; they need a model. */
 export type NetworkMethod = 'aaetr' | 'dnn' | 'cnn3d';
 
-/** What a network is: an estimator, or one that counts sources. */
-export type NetworkKind = NetworkMethod | 'counting';
-
-/** An input or output of a network. */
-export interface NetworkPort {
-  name: string;
-  /** Lengths, or names where any length goes. */
-  axes: (number | string)[];
+/** An input or output as a card has it. */
+export interface CardPort extends NetworkPort {
+  /** What it holds, in words. */
   meaning?: string;
 }
 
@@ -24,8 +19,8 @@ export interface ModelCard {
   title?: string;
   /** The publication. */
   reference?: string;
-  inputs: NetworkPort[];
-  outputs: NetworkPort[];
+  inputs: CardPort[];
+  outputs: CardPort[];
   /** Number of trained numbers. */
   parameters?: number;
   /** Confidence from which a source counts unless `confidence` says otherwise. */
@@ -50,14 +45,6 @@ export interface NetworkOptions extends Partial<Omit<EstimatorOptions, 'method' 
   card?: string | ModelCard;
 }
 
-/** What a counting network says. */
-export interface SourceProbabilities {
-  /** The most probable number of sources. */
-  sources: number;
-  /** Of 0, 1 and 2 sources, each by itself. */
-  probability: Float64Array;
-}
-
 /** A network as a pool is given it. */
 export interface NetworkFile {
   onnx: Uint8Array | ArrayBuffer;
@@ -65,17 +52,13 @@ export interface NetworkFile {
 }
 
 /** A network a pool has loaded. */
-export interface NetworkInfo {
+export interface NetworkInfo extends NetworkDescription {
   /** What `network` in options of the pool's functions names it by. */
   id: string;
-  kind: NetworkKind;
   /** The method it is estimated with; null for a counting network. */
   method: NetworkMethod | null;
-  name: string;
   /** Null where none was given. */
   card: ModelCard | null;
-  inputs: NetworkPort[];
-  outputs: NetworkPort[];
   /** Time from its bytes to being ready, in the worker that loaded it first. */
   readyMs: number;
 }

@@ -1,6 +1,6 @@
 /** One network's card: what it takes and gives, how it was trained, how well it does. */
 
-import type { NetworkPort } from 'boresight';
+import type { CardPort } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import type { Card, Model } from '../../networks/models.ts';
 import { count, fixed } from '../../plots/format.ts';
@@ -93,9 +93,9 @@ function Pairs({ title, pairs }: { title: string; pairs: readonly [string, strin
 }
 
 function Ports({ card }: { card: Card }) {
-  const rows: [string, NetworkPort][] = [
-    ...card.inputs.map((port): [string, NetworkPort] => ['Input', port]),
-    ...card.outputs.map((port): [string, NetworkPort] => ['Output', port]),
+  const rows: [string, CardPort][] = [
+    ...card.inputs.map((port): [string, CardPort] => ['Input', port]),
+    ...card.outputs.map((port): [string, CardPort] => ['Output', port]),
   ];
   return (
     <div class="table-scroll" tabIndex={0} role="region" aria-label="Inputs and outputs, scrollable">
