@@ -120,7 +120,7 @@ export const cellM = computed(() =>
 );
 
 /** The grid of the images, the same for all: they are taller than wide, as a street seen by a driver. */
-export const grid = computed<ViewGrid>(() => {
+export const grid = computed<Required<ViewGrid>>(() => {
   const reach = reachM.value;
   return {
     xM: [-reach * (input.value?.capture ? 0.05 : 0.3), reach],
