@@ -14,6 +14,7 @@ import {
   jointCalibration,
   readDrive,
   relativeTrajectoryError,
+  scanMotion,
   simulateDrive,
   trajectory,
 } from 'boresight';
@@ -93,9 +94,10 @@ describe('calibrateDrive', () => {
       }
       const { frames, history } = found;
       const next = { history: 0 };
+      const motion = scanMotion(drive);
       for (const [index, scan] of frames.scan.entries()) {
         assert.equal(index, scan);
-        const outcome = calibration.addFrame(driveFrame(drive, scan));
+        const outcome = calibration.addFrame(driveFrame(drive, scan, motion));
         assert.equal(frameVerdicts[frames.verdict[index]], outcome.verdict);
         assert.equal(frames.timeS[index], drive.scans.timeS[scan]);
         const [vx, vy] = outcome.motion?.velocityMps ?? [NaN, NaN];
@@ -161,8 +163,8 @@ describe('calibrateDrive', () => {
     const total = sizes.reduce((a, b) => a + b);
     assert.deepEqual([drive.detections.azimuthDeg.length, drive.scans.offsets.at(-1)], [total, total]);
     assert.ok(total < four.detections.azimuthDeg.length / 2);
-    const frame = driveFrame(drive, 7);
-    const { azimuthDeg, rangeRateMps, yawRateDegps, speedMps } = driveFrame(four, scans[7]);
+    const frame = driveFrame(drive, 7, scanMotion(drive));
+    const { azimuthDeg, rangeRateMps, yawRateDegps, speedMps } = driveFrame(four, scans[7], scanMotion(four));
     assert.deepEqual(
       [frame.azimuthDeg, frame.rangeRateMps, frame.yawRateDegps, frame.speedMps],
       [azimuthDeg, rangeRateMps, yawRateDegps, speedMps],
@@ -285,10 +287,8 @@ describe('trajectories', () => {
   test('turn by a yaw rate where one is given', async () => {
     const { frames, mounting, result } = calibrateDrive(four, { sensor: 2 });
     const truth = { timeS: four.motion.timeS, ...four.motion.pose };
-    const yawRateDegps = Float64Array.from(
-      frames.scan,
-      (scan) => (driveFrame(four, scan).yawRateDegps ?? NaN) - result.biasDegps,
-    );
+    const motion = scanMotion(four);
+    const yawRateDegps = Float64Array.from(frames.scan, (scan) => motion.yawRateDegps[scan] - result.biasDegps);
     const path = (angleDeg, options) => trajectory(frames, { ...mounting, angleDeg }, options);
     const error = (angleDeg, options) => relativeTrajectoryError(path(angleDeg, options), truth);
     // A wrong angle then moves the car sideways, 3 deg of 50 m being 2.6 m, where it bent the way before.

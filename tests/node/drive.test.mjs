@@ -2,7 +2,16 @@
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
-import { Calibration, driveFrame, driveScenarios, init, initDrives, readDrive, simulateDrive } from 'boresight';
+import {
+  Calibration,
+  driveFrame,
+  driveScenarios,
+  init,
+  initDrives,
+  readDrive,
+  scanMotion,
+  simulateDrive,
+} from 'boresight';
 import { createPool } from 'boresight/worker';
 import { rejectsTyped, throwsTyped } from './lib/assert.mjs';
 import { delphi, golden } from './lib/drives.mjs';
@@ -224,15 +233,18 @@ describe('simulateDrive', () => {
 describe('driveFrame', () => {
   test('gives views with the motion at its time, ready for addFrame', async () => {
     const drive = readDrive(csv());
-    const frame = driveFrame(drive, 1);
+    const motion = scanMotion(drive);
+    const frame = driveFrame(drive, 1, motion);
     assertShape(frame, 'DriveFrame');
     assert.equal(frame.sensor, 1);
     assert.equal(frame.azimuthDeg.buffer, drive.detections.azimuthDeg.buffer);
     assert.deepEqual([frame.azimuthDeg.length, frame.rangeRateMps[0]], [1, -4]);
     assert.ok(Math.abs(frame.yawRateDegps - 1.5) < 1e-12);
     assert.equal(frame.speedMps, null);
-    assert.equal(driveFrame(drive, 1, { maxGapS: 0.05 }).yawRateDegps, null);
-    assert.deepEqual(await pool.driveFrame(drive, 1), frame);
+    assert.equal(driveFrame(drive, 1, scanMotion(drive, { maxGapS: 0.05 })).yawRateDegps, null);
+    assertShape(motion, 'ScanMotion');
+    assert.deepEqual(await pool.scanMotion(drive), motion);
+    assert.deepEqual(await pool.driveFrame(drive, 1, motion), frame);
     const calibration = new Calibration({ method: 'recursive', xM: 3 });
     assert.equal(calibration.addFrame(frame).verdict, 'sparse');
     calibration.free();
@@ -240,9 +252,17 @@ describe('driveFrame', () => {
 
   test('refuses what is no scan', () => {
     const drive = readDrive(csv());
+    const motion = scanMotion(drive);
     for (const scan of [-1, 2, 0.5, Number.NaN, '0', undefined])
-      throwsTyped(() => driveFrame(drive, scan), 'out-of-range', 'scan');
-    throwsTyped(() => driveFrame(drive, 0, { maxGapS: -1 }), 'wrong-type', 'maxGapS');
-    throwsTyped(() => driveFrame(null, 0), 'wrong-type', 'drive');
+      throwsTyped(() => driveFrame(drive, scan, motion), 'out-of-range', 'scan');
+    throwsTyped(() => driveFrame(null, 0, motion), 'wrong-type', 'drive');
+    throwsTyped(() => driveFrame(drive, 0), 'wrong-type', 'motion');
+    throwsTyped(() => driveFrame(drive, 0, { maxGapS: 1 }), 'missing', 'motion.yawRateDegps');
+    const short = { ...motion, speedMps: new Float64Array(1) };
+    throwsTyped(() => driveFrame(drive, 0, short), 'shape', 'motion.speedMps');
+    throwsTyped(() => scanMotion(drive, { maxGapS: -1 }), 'wrong-type', 'maxGapS');
+    throwsTyped(() => scanMotion(null), 'wrong-type', 'drive');
+    const backwards = { ...drive, motion: { ...drive.motion, timeS: drive.motion.timeS.slice().reverse() } };
+    throwsTyped(() => scanMotion(backwards), 'time-backwards', 'drive.motion.timeS');
   });
 });

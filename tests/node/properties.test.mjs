@@ -293,7 +293,7 @@ describe('drives', () => {
       fc.property(drive, options, (drive, options) => {
         const found = answered(() => boresight.calibrateDrive(drive, options));
         answered(() => boresight.jointCalibration(drive));
-        answered(() => boresight.driveFrame(drive, 3));
+        answered(() => boresight.driveFrame(drive, 3, boresight.scanMotion(drive)));
         if (!found) return;
         assert.equal(found.result.frames.given, found.frames.scan.length);
         assert.ok(

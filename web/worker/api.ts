@@ -1,6 +1,7 @@
 // The pool: the functions of the package as promises, those that are split over workers, and what the pool keeps.
+import { driveFrame } from '../lib/drive/frame.js';
 import { jointTaskOf, taskOf } from '../lib/drive/radars.js';
-import { driveFrame, selected, viewOf } from '../lib/drive/view.js';
+import { selected, viewOf } from '../lib/drive/view.js';
 import { wrong } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
@@ -174,8 +175,19 @@ export class Pool {
   }
 
   /** A frame as views of the drive's arrays, made here: it costs less than asking a worker. */
-  async driveFrame(drive: lib.DriveData, scan: number, gap?: lib.MotionGap): Promise<lib.DriveFrame> {
-    return driveFrame(drive, scan, gap);
+  async driveFrame(drive: lib.DriveData, scan: number, motion: lib.ScanMotion): Promise<lib.DriveFrame> {
+    return driveFrame(drive, scan, motion);
+  }
+
+  /** The car's motion at each scan, for which the detections are not sent. */
+  async scanMotion(
+    drive: Pick<lib.DriveData, 'scans' | 'motion'>,
+    gap?: lib.MotionGap,
+    job?: JobOptions,
+  ): Promise<lib.ScanMotion> {
+    job?.signal?.throwIfAborted();
+    const { scans, motion } = drive;
+    return this.#one('scanMotion', [{ scans, motion }, gap], job);
   }
 
   /** The angle of one radar of a drive, of which only that radar's scans are sent; progress counts frames. */

@@ -209,6 +209,7 @@ export const operations = {
   readDrive: api.readDrive,
   simulateDrive,
   driveScenarios: api.driveScenarios,
+  scanMotion: api.scanMotion,
   calibrateDrive,
   jointCalibration,
   trajectory: api.trajectory,

@@ -42,6 +42,7 @@ const ofDrives: readonly OperationName[] = [
   'readDrive',
   'simulateDrive',
   'driveScenarios',
+  'scanMotion',
   'calibrateDrive',
   'jointCalibration',
 ];

@@ -132,7 +132,7 @@ fn the_angle_found_takes_the_car_where_it_went() {
     }
     let error = |angle_rad: f64| {
         let poses = integrate(&motions, angle_rad, mounting.x_m, 0.0).unwrap();
-        relative_error(&poses, &truth, 50.0).unwrap()
+        relative_error(poses.into_iter().zip(truth.iter().copied()), 50.0).unwrap()
     };
     let (found, nominal) = (error(estimate.angle_rad), error(0.0));
     println!(

@@ -103,52 +103,67 @@ impl DriveLog {
     /// Yaw rate at a time by linear interpolation between the neighbouring samples; `None` before
     /// the first, after the last, and in gaps longer than `max_gap_s`.
     pub fn yaw_rate_at(&self, time_s: f64, max_gap_s: f64) -> Option<f64> {
-        interpolate(&self.motion, time_s, max_gap_s, |s| Some(s.yaw_rate_radps))
+        self.around(time_s, max_gap_s)?.mix(|at| Some(self.motion[at].yaw_rate_radps))
     }
 
     /// Forward speed at a time, as [`Self::yaw_rate_at`].
     pub fn speed_at(&self, time_s: f64, max_gap_s: f64) -> Option<f64> {
-        interpolate(&self.motion, time_s, max_gap_s, |s| s.speed_mps)
+        self.around(time_s, max_gap_s)?.mix(|at| self.motion[at].speed_mps)
     }
 
     /// Pose at a time, as [`Self::yaw_rate_at`]; the heading turns the shorter way.
     pub fn pose_at(&self, time_s: f64, max_gap_s: f64) -> Option<Pose> {
-        let (previous, next, share) = neighbours(&self.motion, time_s, max_gap_s)?;
-        let (a, b) = (previous.pose?, next.pose?);
+        let around = self.around(time_s, max_gap_s)?;
+        let pose = |at: usize| self.motion[at].pose;
+        let (a, b) = (pose(around.previous)?, pose(around.next)?);
         let turn = b.yaw_rad - a.yaw_rad;
-        let mix = |a: f64, b: f64| a * (1.0 - share) + b * share;
         Some(Pose {
-            x_m: mix(a.x_m, b.x_m),
-            y_m: mix(a.y_m, b.y_m),
-            yaw_rad: a.yaw_rad + share * (turn - TAU * (turn / TAU).round()),
+            x_m: around.mix(|at| pose(at).map(|pose| pose.x_m))?,
+            y_m: around.mix(|at| pose(at).map(|pose| pose.y_m))?,
+            yaw_rad: a.yaw_rad + around.share * (turn - TAU * (turn / TAU).round()),
         })
     }
-}
 
-/// The samples before and after a time, and its share of the way between them.
-fn neighbours(
-    samples: &[MotionSample],
-    time_s: f64,
-    max_gap_s: f64,
-) -> Option<(&MotionSample, &MotionSample, f64)> {
-    let after = samples.partition_point(|s| s.time_s < time_s);
-    let next = samples.get(after)?;
-    if next.time_s == time_s {
-        return Some((next, next, 0.0));
+    fn around(&self, time_s: f64, max_gap_s: f64) -> Option<Neighbours> {
+        neighbours(&self.motion, |sample| sample.time_s, time_s, max_gap_s)
     }
-    let previous = samples.get(after.checked_sub(1)?)?;
-    let gap = next.time_s - previous.time_s;
-    (gap <= max_gap_s).then(|| (previous, next, (time_s - previous.time_s) / gap))
 }
 
-fn interpolate(
-    samples: &[MotionSample],
+/// The value at a time by linear interpolation, of values at times in order; `None` before the first, after the last, in
+/// gaps longer than `max_gap_s`, and where there is no value for a neighbouring time.
+pub fn interpolated(times_s: &[f64], values: &[f64], time_s: f64, max_gap_s: f64) -> Option<f64> {
+    let at = neighbours(times_s, |time_s| *time_s, time_s, max_gap_s)?;
+    at.mix(|index| values.get(index).copied())
+}
+
+/// The entries before and after a time, and its share of the way between them.
+struct Neighbours {
+    previous: usize,
+    next: usize,
+    share: f64,
+}
+
+fn neighbours<T>(
+    entries: &[T],
+    time_of: impl Fn(&T) -> f64,
     time_s: f64,
     max_gap_s: f64,
-    value: impl Fn(&MotionSample) -> Option<f64>,
-) -> Option<f64> {
-    let (previous, next, share) = neighbours(samples, time_s, max_gap_s)?;
-    Some(value(previous)? * (1.0 - share) + value(next)? * share)
+) -> Option<Neighbours> {
+    let next = entries.partition_point(|entry| time_of(entry) < time_s);
+    let after = time_of(entries.get(next)?);
+    if after == time_s {
+        return Some(Neighbours { previous: next, next, share: 0.0 });
+    }
+    let previous = next.checked_sub(1)?;
+    let before = time_of(&entries[previous]);
+    let gap = after - before;
+    (gap <= max_gap_s).then(|| Neighbours { previous, next, share: (time_s - before) / gap })
+}
+
+impl Neighbours {
+    fn mix(&self, value: impl Fn(usize) -> Option<f64>) -> Option<f64> {
+        Some(value(self.previous)? * (1.0 - self.share) + value(self.next)? * self.share)
+    }
 }
 
 #[cfg(test)]

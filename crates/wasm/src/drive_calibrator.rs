@@ -7,6 +7,7 @@ use crate::read::items;
 use boresight_calibrate::{AngleEstimate, Calibrator, FrameInput, Joint};
 use boresight_core::Detection;
 use boresight_core::describe::Named;
+use boresight_core::drive::interpolated;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -14,9 +15,32 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[wasm_bindgen]
 pub struct DriveCalibrator {
     inner: Inner,
+    motion: MotionSamples,
     detections: Vec<Detection>,
     /// Of the detections of the frames that came last.
     weights: Option<Vec<f32>>,
+}
+
+/// The car's motion as measured.
+struct MotionSamples {
+    time_s: Vec<f64>,
+    yaw_rate_degps: Vec<f64>,
+    speed_mps: Vec<f64>,
+    max_gap_s: f64,
+}
+
+impl MotionSamples {
+    fn yaw_rate_radps(&self, time_s: f64) -> Option<f64> {
+        self.at(&self.yaw_rate_degps, time_s).map(f64::to_radians)
+    }
+
+    fn speed_mps(&self, time_s: f64) -> Option<f64> {
+        self.at(&self.speed_mps, time_s)
+    }
+
+    fn at(&self, values: &[f64], time_s: f64) -> Option<f64> {
+        interpolated(&self.time_s, values, time_s, self.max_gap_s).filter(|value| value.is_finite())
+    }
 }
 
 enum Inner {
@@ -27,9 +51,17 @@ enum Inner {
 #[wasm_bindgen]
 impl DriveCalibrator {
     /// For one radar, of which the options are given, or for several with a list of them, which
-    /// are then numbered by their place.
+    /// are then numbered by their place. The car's motion is samples in order of time, without speeds or one each,
+    /// interpolated over gaps of at most `max_gap_s`.
     #[wasm_bindgen(constructor)]
-    pub fn new(options: &JsValue, weights: bool) -> Fallible<Self> {
+    pub fn new(
+        options: &JsValue,
+        weights: bool,
+        time_s: Vec<f64>,
+        yaw_rate_degps: Vec<f64>,
+        speed_mps: Vec<f64>,
+        max_gap_s: f64,
+    ) -> Fallible<Self> {
         let inner = if js_sys::Array::is_array(options) {
             let mut radars = vec![];
             for (place, (item, _)) in (0..=u8::MAX).zip(items(options, "sensors")?) {
@@ -39,11 +71,11 @@ impl DriveCalibrator {
         } else {
             Inner::One(Box::new(Calibrator::new(carry::read(options)?)?))
         };
-        Ok(Self { inner, detections: vec![], weights: weights.then(Vec::new) })
+        let motion = MotionSamples { time_s, yaw_rate_degps, speed_mps, max_gap_s };
+        Ok(Self { inner, motion, detections: vec![], weights: weights.then(Vec::new) })
     }
 
-    /// Takes frames in order of time; NaN where there is no yaw rate or speed. Detections of frame
-    /// `i` are those from `ends[i - 1]` to before `ends[i]`, `radars` places in the list of options.
+    /// Takes frames in order of time. Detections of frame `i` are those from `ends[i - 1]` to before `ends[i]`, `radars` places in the list of options.
     ///
     /// Gives for each frame the place of its verdict, the motion (m/s), the angle it gives alone and
     /// its standard deviation (deg), its weight, and its inliers; NaN where there is none.
@@ -52,8 +84,6 @@ impl DriveCalibrator {
         &mut self,
         radars: &[u8],
         time_s: &[f64],
-        yaw_rate_degps: &[f64],
-        speed_mps: &[f64],
         ends: &[u32],
         azimuth_deg: &[f64],
         range_rate_mps: &[f32],
@@ -64,8 +94,7 @@ impl DriveCalibrator {
         let mut rows = Vec::with_capacity(7 * time_s.len());
         let mut points = azimuth_deg.iter().zip(range_rate_mps);
         let mut start = 0;
-        let frames = radars.iter().zip(time_s).zip(ends).zip(yaw_rate_degps.iter().zip(speed_mps));
-        for (((radar, time_s), end), (yaw_rate_degps, speed_mps)) in frames {
+        for ((radar, time_s), end) in radars.iter().zip(time_s).zip(ends) {
             let count = end.saturating_sub(start) as usize;
             start = *end;
             self.detections.clear();
@@ -78,8 +107,8 @@ impl DriveCalibrator {
             let frame = FrameInput {
                 time_s: *time_s,
                 detections: &self.detections,
-                yaw_rate_radps: Some(yaw_rate_degps.to_radians()).filter(|rate| rate.is_finite()),
-                speed_mps: Some(*speed_mps).filter(|speed| speed.is_finite()),
+                yaw_rate_radps: self.motion.yaw_rate_radps(*time_s),
+                speed_mps: self.motion.speed_mps(*time_s),
             };
             let outcome = match &mut self.inner {
                 Inner::One(calibrator) => calibrator.add(frame)?,

@@ -54,6 +54,8 @@ pub mod read;
 #[cfg(feature = "core")]
 pub mod region;
 pub mod report;
+#[cfg(feature = "drives")]
+mod scan_motion;
 #[cfg(feature = "core")]
 pub mod simulate;
 #[cfg(feature = "core")]

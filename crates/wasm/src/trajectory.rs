@@ -4,7 +4,7 @@
 use crate::carry;
 use boresight_calibrate::trajectory::{self, TimedMotion};
 use boresight_core::describe::{Described, columns};
-use boresight_core::drive::Pose;
+use boresight_core::drive::{DriveLog, MotionSample, Pose};
 use boresight_core::drive_columns::DrivePoses;
 use serde::Serialize;
 use wasm_bindgen::JsValue;
@@ -52,12 +52,34 @@ pub fn integrate_motion(
     )
 }
 
-/// Relative trajectory error of poses `[x, y, yaw (deg), ...]` at the same times, m.
+/// Longest gap of a true trajectory that is bridged, s.
+const TRUTH_GAP_S: f64 = 1.0;
+
+/// Relative trajectory error of poses `[x, y, yaw (deg), ...]` at times, m, where they and the true ones are known.
 #[wasm_bindgen(js_name = relativeTrajectoryError)]
-pub fn relative_trajectory_error(estimated: &[f64], truth: &[f64], segment_m: f64) -> Option<f64> {
-    let poses = |numbers: &[f64]| -> Vec<Pose> {
-        let pose = |p: &[f64]| Pose { x_m: p[0], y_m: p[1], yaw_rad: p[2].to_radians() };
-        numbers.chunks_exact(3).map(pose).collect()
-    };
-    trajectory::relative_error(&poses(estimated), &poses(truth), segment_m)
+pub fn relative_trajectory_error(
+    times_s: &[f64],
+    estimated: &[f64],
+    true_times_s: &[f64],
+    truth: &[f64],
+    segment_m: f64,
+) -> Option<f64> {
+    let motion = true_times_s.iter().zip(poses(truth)).map(|(&time_s, pose)| MotionSample {
+        time_s,
+        yaw_rate_radps: f64::NAN,
+        speed_mps: None,
+        pose,
+    });
+    let log = DriveLog { motion: motion.collect(), ..DriveLog::default() };
+    let both = times_s.iter().zip(poses(estimated));
+    let known = both.filter_map(|(&time_s, pose)| Some((pose?, log.pose_at(time_s, TRUTH_GAP_S)?)));
+    trajectory::relative_error(known, segment_m)
+}
+
+/// Poses of which all numbers are known.
+fn poses(numbers: &[f64]) -> impl Iterator<Item = Option<Pose>> {
+    numbers.chunks_exact(3).map(|p| {
+        let pose = Pose { x_m: p[0], y_m: p[1], yaw_rad: p[2].to_radians() };
+        p.iter().all(|number| number.is_finite()).then_some(pose)
+    })
 }

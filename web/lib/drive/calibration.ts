@@ -5,7 +5,6 @@ import { type Report, tell } from '../runtime/report.js';
 import type {
   CalibrateDriveOptions,
   CalibratedFrames,
-  CalibrationOptions,
   CalibrationResult,
   DriveCalibration,
   DriveData,
@@ -14,7 +13,7 @@ import type {
 } from '../types.js';
 import { drives } from './drive.js';
 import { jointTaskOf, type Task, taskOf } from './radars.js';
-import { checkOrder, extent, interpolate, scansOf, type View, viewOf } from './view.js';
+import { checkOrder, doubles, extent, scansOf, type View, viewOf } from './view.js';
 
 /** What can become of a frame, in the order of its numbers. */
 export const frameVerdicts: readonly FrameVerdict[] = [
@@ -51,8 +50,14 @@ export function jointCalibration(
 }
 
 class DriveCalibrator extends Handle<glue.DriveCalibrator> {
-  constructor(options: CalibrationOptions | CalibrationOptions[], weights: boolean) {
-    super(drives, () => new glue.DriveCalibrator(options, weights));
+  constructor({ radars, joint, maxGapS, weights }: Task, { motion }: View) {
+    const options = radars.map((radar) => radar.options);
+    const [timeS, yawRateDegps] = [motion.timeS, doubles(motion.yawRateDegps)];
+    const speedMps = doubles(motion.speedMps ?? new Float64Array());
+    super(
+      drives,
+      () => new glue.DriveCalibrator(joint ? options : options[0], weights, timeS, yawRateDegps, speedMps, maxGapS),
+    );
   }
 
   add(...args: Parameters<glue.DriveCalibrator['addFrames']>): Float64Array {
@@ -76,8 +81,6 @@ class DriveCalibrator extends Handle<glue.DriveCalibrator> {
 class Chunk {
   readonly radar = new Uint8Array(FRAMES);
   readonly timeS = new Float64Array(FRAMES);
-  readonly yawRateDegps = new Float64Array(FRAMES);
-  readonly speedMps = new Float64Array(FRAMES);
   readonly ends = new Uint32Array(FRAMES);
   readonly azimuthDeg = new Float64Array(DETECTIONS);
   readonly rangeRateMps = new Float32Array(DETECTIONS);
@@ -90,16 +93,12 @@ class Chunk {
   }
 
   /** Takes a scan unless there is no room. */
-  take(view: View, scan: number, radar: number, maxGapS: number): boolean {
+  take(view: View, scan: number, radar: number): boolean {
     const [start, end] = extent(view, scan);
     const [frame, first] = [this.frames, this.detections];
     if (frame === FRAMES || first + end - start > DETECTIONS) return false;
-    const timeS = view.timeS[scan] ?? NaN;
-    const { motion } = view;
     this.radar[frame] = radar;
-    this.timeS[frame] = timeS;
-    this.yawRateDegps[frame] = interpolate(motion.timeS, motion.yawRateDegps, timeS, maxGapS);
-    this.speedMps[frame] = interpolate(motion.timeS, motion.speedMps, timeS, maxGapS);
+    this.timeS[frame] = view.timeS[scan] ?? NaN;
     this.azimuthDeg.set(view.azimuthDeg.subarray(start, end), first);
     this.rangeRateMps.set(view.rangeRateMps.subarray(start, end), first);
     this.frames = frame + 1;
@@ -125,7 +124,7 @@ function finite(what: string, values: Float32Array | Float64Array, start: number
 
 function run(view: View, task: Task, report: Report | undefined): DriveCalibration[] {
   checkOrder(view);
-  const { radars, joint, historyS, maxGapS } = task;
+  const { radars, historyS } = task;
   const scans = scansOf(
     view,
     radars.map(({ sensor }) => sensor),
@@ -133,9 +132,8 @@ function run(view: View, task: Task, report: Report | undefined): DriveCalibrati
   const places = new Uint8Array(256);
   radars.forEach(({ sensor }, place) => (places[sensor] = place));
   const placeOf = (scan: number): number => places[view.sensor[scan] ?? 0] ?? 0;
-  const options = radars.map((radar) => radar.options);
-  const all = options.some(({ method }) => method !== 'recursive');
-  const calibrator = new DriveCalibrator(joint ? options : (options[0] as CalibrationOptions), task.weights);
+  const all = radars.some(({ options }) => options.method !== 'recursive');
+  const calibrator = new DriveCalibrator(task, view);
   try {
     const tables = radars.map(({ sensor }) => new Table(view, scansOf(view, [sensor]), task.weights));
     const histories = radars.map(() => ({ angleDeg: [] as number[], sigmaDeg: [] as number[] }));
@@ -148,7 +146,7 @@ function run(view: View, task: Task, report: Report | undefined): DriveCalibrati
       const first = next;
       chunk.clear();
       while (next < scans.length && (view.timeS[scans[next] ?? 0] ?? NaN) <= dueS) {
-        if (!chunk.take(view, scans[next] ?? 0, placeOf(scans[next] ?? 0), maxGapS)) break;
+        if (!chunk.take(view, scans[next] ?? 0, placeOf(scans[next] ?? 0))) break;
         next += 1;
       }
       const { frames, detections } = chunk;
@@ -156,8 +154,6 @@ function run(view: View, task: Task, report: Report | undefined): DriveCalibrati
         const rows = calibrator.add(
           chunk.radar.subarray(0, frames),
           chunk.timeS.subarray(0, frames),
-          chunk.yawRateDegps.subarray(0, frames),
-          chunk.speedMps.subarray(0, frames),
           chunk.ends.subarray(0, frames),
           chunk.azimuthDeg.subarray(0, detections),
           chunk.rangeRateMps.subarray(0, detections),

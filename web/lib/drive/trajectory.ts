@@ -3,11 +3,9 @@ import { failure, wrong } from '../runtime/errors.js';
 import { call } from '../runtime/instance.js';
 import type { CalibratedFrames, Trajectory, TrajectoryOptions } from '../types.js';
 import { frameVerdicts } from './calibration.js';
-import { ascending, type Floats, floats, interpolate, positive, Reader } from './view.js';
+import { ascending, doubles, type Floats, floats, positive, Reader } from './view.js';
 
 const MOST_POSES = 1 << 22;
-/** Longest gap of a true trajectory that is bridged, s. */
-const TRUTH_GAP_S = 1;
 
 /**
  * Where the car went by the motion of one radar's frames, taken as mounted at this angle and place: from the
@@ -54,39 +52,26 @@ export function trajectory(
 }
 
 /**
- * Relative trajectory error, m: the true trajectory, interpolated at the estimated one's times, is cut into
- * segments of a length; both are aligned at each segment's start, and the distances of the ends are
+ * Relative trajectory error, m: the true trajectory, interpolated at the estimated one's times over gaps of at most a
+ * second, is cut into segments of a length; both are aligned at each segment's start, and the distances of the ends are
  * averaged. Null where the true one is shorter than a segment.
  */
 export function relativeTrajectoryError(estimated: Trajectory, truth: Trajectory, segmentM = 50): number | null {
   positive('segmentM', segmentM);
   const [ours, theirs] = [posesOf(estimated, 'estimated'), posesOf(truth, 'truth')];
-  const [a, b]: [number[], number[]] = [[], []];
-  for (const [index, timeS] of ours.timeS.entries()) {
-    const pose = [ours.xM[index] ?? NaN, ours.yM[index] ?? NaN, ours.yawDeg[index] ?? NaN];
-    const at = (values: Floats): number => interpolate(theirs.timeS, values, timeS, TRUTH_GAP_S);
-    const truePose = [at(theirs.xM), at(theirs.yM), at(theirs.yawDeg)];
-    if (![...pose, ...truePose].every(Number.isFinite)) continue;
-    a.push(...pose);
-    b.push(...truePose);
-  }
-  const result = call(() => glue.relativeTrajectoryError(Float64Array.from(a), Float64Array.from(b), segmentM));
+  const result = call(() => glue.relativeTrajectoryError(ours.timeS, ours.poses, theirs.timeS, theirs.poses, segmentM));
   return result ?? null;
 }
 
-/** The parts of a trajectory, its heading without jumps of a turn. */
-function posesOf(value: Trajectory, name: string): { timeS: Floats; xM: Floats; yM: Floats; yawDeg: Floats } {
+/** Times, and the numbers of the pose at each one after the other. */
+function posesOf(value: Trajectory, name: string): { timeS: Float64Array; poses: Float64Array } {
   const reader = new Reader(value, name);
   const timeS = counted(`${name}.timeS`, reader.array('timeS', floats));
   ascending(`${name}.timeS`, timeS);
-  const yawDeg = Float64Array.from(reader.array('yawDeg', floats, timeS.length));
-  let last = NaN;
-  for (const [index, yaw] of yawDeg.entries()) {
-    if (!Number.isFinite(yaw)) continue;
-    if (Number.isFinite(last)) yawDeg[index] = yaw - 360 * Math.round((yaw - last) / 360);
-    last = yawDeg[index] ?? NaN;
-  }
-  return { timeS, xM: reader.array('xM', floats, timeS.length), yM: reader.array('yM', floats, timeS.length), yawDeg };
+  const columns = ['xM', 'yM', 'yawDeg'].map((column) => reader.array(column, floats, timeS.length));
+  const poses = new Float64Array(3 * timeS.length);
+  columns.forEach((column, place) => column.forEach((number, index) => (poses[3 * index + place] = number)));
+  return { timeS: doubles(timeS), poses };
 }
 
 function counted<T extends Floats>(what: string, values: T): T {

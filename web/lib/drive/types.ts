@@ -56,6 +56,13 @@ export interface DriveFrame extends CalibrationFrame {
   label?: Uint8Array;
 }
 
+/** The car's motion at the times of a drive's scans, an entry for each; NaN where it is not known. */
+export interface ScanMotion {
+  yawRateDegps: Floats;
+  /** Of the rear axle, negative in reverse. */
+  speedMps: Floats;
+}
+
 /** How far the motion is interpolated. */
 export interface MotionGap {
   /** Longest gap between samples of the motion that is bridged, default 0.25. */

@@ -1,6 +1,6 @@
 // The parts of a drive, checked: drives come from anywhere.
 import { failure, wrong } from '../runtime/errors.js';
-import type { DriveData, DriveFrame, DriveSensor, MotionGap } from '../types.js';
+import type { DriveData, DriveSensor, MotionGap } from '../types.js';
 
 export type Floats = Float32Array | Float64Array;
 
@@ -80,15 +80,17 @@ export class Reader {
 
 export const floats: readonly (new (length: number) => Floats)[] = [Float64Array, Float32Array];
 
+/** Numbers in double precision. */
+export const doubles = (values: Floats): Float64Array =>
+  values instanceof Float64Array ? values : Float64Array.from(values);
+
 /** The parts of a drive; throws where a type or a length is wrong. */
 export function viewOf(drive: DriveData): View {
   const root = new Reader(drive, 'drive');
-  const [scans, detections, motion] = [root.part('scans'), root.part('detections'), root.part('motion')];
+  const [scans, detections] = [root.part('scans'), root.part('detections')];
   const timeS = scans.array('timeS', [Float64Array]);
   const azimuthDeg = detections.array('azimuthDeg', floats);
   const count = azimuthDeg.length;
-  const motionS = motion.array('timeS', [Float64Array]);
-  const samples = motionS.length;
   return {
     sensors: sensorsOf(root.get('sensors')),
     timeS,
@@ -99,11 +101,17 @@ export function viewOf(drive: DriveData): View {
     rangeM: detections.maybe('rangeM', floats, count),
     rcsDbsm: detections.maybe('rcsDbsm', floats, count),
     label: detections.maybe('label', [Uint8Array], count),
-    motion: {
-      timeS: motionS,
-      yawRateDegps: motion.array('yawRateDegps', floats, samples),
-      speedMps: motion.maybe('speedMps', floats, samples),
-    },
+    motion: motionOf(root.part('motion')),
+  };
+}
+
+/** The car's motion as measured. */
+export function motionOf(motion: Reader): View['motion'] {
+  const timeS = motion.array('timeS', [Float64Array]);
+  return {
+    timeS,
+    yawRateDegps: motion.array('yawRateDegps', floats, timeS.length),
+    speedMps: motion.maybe('speedMps', floats, timeS.length),
   };
 }
 
@@ -177,56 +185,6 @@ export function positive(what: string, given: unknown): number {
 /** The longest gap that is bridged. */
 export function gapOf(gap: MotionGap | undefined): number {
   return positive('maxGapS', gap?.maxGapS ?? MAX_GAP_S);
-}
-
-/** The motion at a time by linear interpolation; NaN before the first sample, after the last, and in gaps. */
-export function interpolate(times: Floats, values: Floats | undefined, timeS: number, maxGapS: number): number {
-  let [low, high] = [0, times.length];
-  while (low < high) {
-    const middle = (low + high) >>> 1;
-    if ((times[middle] ?? NaN) < timeS) low = middle + 1;
-    else high = middle;
-  }
-  const [after, next] = [times[low] ?? NaN, values?.[low] ?? NaN];
-  if (after === timeS) return next;
-  const [before, previous] = [times[low - 1] ?? NaN, values?.[low - 1] ?? NaN];
-  const gap = after - before;
-  if (!(gap <= maxGapS)) return NaN;
-  const share = (timeS - before) / gap;
-  return previous * (1 - share) + next * share;
-}
-
-/**
- * A scan of a drive with the car's motion at its time, ready for `Calibration.addFrame`; arrays are views of the
- * drive's.
- */
-export function driveFrame(drive: DriveData, scan: number, gap?: MotionGap): DriveFrame {
-  const view = viewOf(drive);
-  if (!(Number.isInteger(scan) && scan >= 0 && scan < view.timeS.length)) {
-    throw failure('out-of-range', {
-      what: 'scan',
-      expected: `a whole number below ${view.timeS.length}`,
-      given: String(scan),
-    });
-  }
-  const [start, end] = extent(view, scan);
-  const timeS = view.timeS[scan] ?? NaN;
-  const { motion, rangeM, rcsDbsm, label } = view;
-  const at = (values: Floats | undefined): number | null => {
-    const value = interpolate(motion.timeS, values, timeS, gapOf(gap));
-    return Number.isFinite(value) ? value : null;
-  };
-  return {
-    timeS,
-    sensor: view.sensor[scan] ?? 0,
-    azimuthDeg: view.azimuthDeg.subarray(start, end),
-    rangeRateMps: view.rangeRateMps.subarray(start, end),
-    ...(rangeM && { rangeM: rangeM.subarray(start, end) }),
-    ...(rcsDbsm && { rcsDbsm: rcsDbsm.subarray(start, end) }),
-    ...(label && { label: label.subarray(start, end) }),
-    yawRateDegps: at(motion.yawRateDegps),
-    speedMps: at(motion.speedMps),
-  };
 }
 
 /** The scans of some radars in arrays of their own, with what calibration reads, and their numbers in the drive. */

@@ -309,6 +309,6 @@ impl Track {
 
     fn error_m(&self, angle_rad: f64) -> Option<f64> {
         let poses = integrate(&self.motions, angle_rad, self.mounting.x_m, self.mounting.y_m)?;
-        relative_error(&poses, &self.truth, SEGMENT_M)
+        relative_error(poses.into_iter().zip(self.truth.iter().copied()), SEGMENT_M)
     }
 }

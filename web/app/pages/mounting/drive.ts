@@ -1,6 +1,6 @@
 /** The drive that is open: the bundled one, files that were chosen or dropped, or a simulated one. */
 import { computed, effect, signal } from '@preact/signals';
-import type { Drive, DriveSensor, DriveTruth, SimulateDriveOptions } from 'boresight';
+import type { Drive, DriveSensor, DriveTruth, ScanMotion, SimulateDriveOptions } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import radarAddress from '../../../../recordings/delphi/front_radar.csv.gz?url';
 import licenceAddress from '../../../../recordings/delphi/LICENSE?url';
@@ -15,6 +15,8 @@ export interface Loaded {
   source: MountingState['source'];
   files: { name: string; bytes: number }[];
   drive: Drive;
+  /** The car's motion at each scan. */
+  motion: ScanMotion;
   truth: DriveTruth | null;
   /** The angle stated by those who recorded it, by radar. */
   statedDeg: ReadonlyMap<number, number>;
@@ -57,7 +59,7 @@ let controller: AbortController | undefined;
 
 async function open(
   what: string,
-  work: (signal: AbortSignal, job: JobOptions) => Promise<Loaded>,
+  work: (signal: AbortSignal, job: JobOptions) => Promise<Omit<Loaded, 'motion'>>,
   opened: () => void = () => {},
 ): Promise<void> {
   controller?.abort();
@@ -71,9 +73,10 @@ async function open(
   };
   try {
     const next = await work(mine.signal, { signal: mine.signal, onProgress });
+    const motion = await pool().scanMotion(next.drive, {}, { signal: mine.signal });
     if (controller !== mine) return;
     opened();
-    loaded.value = next;
+    loaded.value = { ...next, motion };
     driveProblem.value = null;
   } catch (error) {
     if (controller !== mine || aborted(error)) return;

@@ -47,11 +47,11 @@ export function expectedMotion({ speedMps, yawRateDegps }: DriveFrame): Motion |
 }
 
 export const frameView = computed<FrameView | null>(() => {
-  const { drive, truth } = loaded.value ?? {};
+  const { drive, motion, truth } = loaded.value ?? {};
   const { scan } = scans.value;
   const index = frame.value;
   const at = scan[index];
-  if (!drive || at === undefined) return null;
+  if (!drive || !motion || at === undefined) return null;
   const motions = new Map<Way, Motion>();
   for (const [method, { calibration }] of results.value) {
     const vxMps = calibration?.frames.vxMps[index];
@@ -64,7 +64,7 @@ export const frameView = computed<FrameView | null>(() => {
     value !== undefined && Number.isFinite(value) ? value : null;
   const { offsets, values } = frames?.weights ?? {};
   const weights = offsets && values?.subarray(offsets[index], offsets[index + 1]);
-  const read = api.driveFrame(drive, at);
+  const read = api.driveFrame(drive, at, motion);
   const labelled = read.label?.map((label) => Number(label !== STATIC_LABEL));
   return {
     ...read,

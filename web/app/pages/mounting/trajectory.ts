@@ -1,6 +1,6 @@
 /** Where the radar's own motion takes the car under an angle, and where it really was. */
 import { computed } from '@preact/signals';
-import type { Drive, DriveCalibration, Trajectory, TrajectoryOptions } from 'boresight';
+import type { Drive, DriveCalibration, ScanMotion, Trajectory, TrajectoryOptions } from 'boresight';
 import { api } from '../../data.ts';
 import { loaded } from './drive.ts';
 import { after } from './playhead.ts';
@@ -21,13 +21,10 @@ function path(
 }
 
 /** The car's yaw rate as its sensor has it at each frame, less the bias that was found. */
-function sensorTurns({ frames, result }: DriveCalibration, drive: Drive): TrajectoryOptions {
+function sensorTurns({ frames, result }: DriveCalibration, { yawRateDegps }: ScanMotion): TrajectoryOptions {
   const bias = Number.isFinite(result.biasDegps) ? result.biasDegps : 0;
   return {
-    yawRateDegps: Float64Array.from(
-      frames.scan,
-      (scan) => (api.driveFrame(drive, scan).yawRateDegps ?? Number.NaN) - bias,
-    ),
+    yawRateDegps: Float64Array.from(frames.scan, (scan) => (yawRateDegps[scan] ?? Number.NaN) - bias),
   };
 }
 
@@ -57,10 +54,10 @@ const heading = computed(() => mountingState.value.heading);
 
 export const paths = computed<Paths | null>(() => {
   const calibration = shown.value;
-  const drive = loaded.value?.drive;
-  if (!calibration || !drive) return null;
+  const motion = loaded.value?.motion;
+  if (!calibration || !motion) return null;
   const { nominalDeg } = calibration.mounting;
-  const turns = heading.value === 'sensor' ? sensorTurns(calibration, drive) : undefined;
+  const turns = heading.value === 'sensor' ? sensorTurns(calibration, motion) : undefined;
   const found = path(calibration, calibration.result.angleDeg, turns);
   const nominal = nominalDeg === null ? null : path(calibration, nominalDeg, turns);
   return {

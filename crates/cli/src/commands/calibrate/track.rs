@@ -41,12 +41,11 @@ impl Track {
     /// where the car drove less than a segment.
     pub(super) fn error_m(&self, angle_rad: f64, options: &CalibrationOptions) -> Option<f64> {
         let poses = self.poses(angle_rad, options)?;
-        let (estimated, logged): (Vec<Pose>, Vec<Pose>) = poses
+        let known = poses
             .into_iter()
             .zip(&self.logged)
-            .filter_map(|(pose, logged)| Some((pose, (*logged)?)))
-            .unzip();
-        relative_error(&estimated, &logged, SEGMENT_M)
+            .filter_map(|(pose, logged)| Some((pose, (*logged)?)));
+        relative_error(known, SEGMENT_M)
     }
 
     /// The trajectory with an angle as CSV, from the origin along x, and beside it the logged one,
