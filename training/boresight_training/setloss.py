@@ -20,15 +20,18 @@ class SetLossConfig:
     """Per dB."""
     focal: float = 0.0
     """Exponent of the focal loss; 0 is cross-entropy."""
+    spread: float = 0.1
+    """Of the likelihood of the errors under the stated variances, where outputs state them."""
 
 
 def set_loss(outputs, targets, config: SetLossConfig):
-    """Loss of `outputs` [layers, batch, queries, 3] (sine, dB, logit): its sum over layers, and the parts of the last.
+    """Loss of `outputs` [layers, batch, queries, 3 or 5]: its sum over layers, and the parts of the last.
 
+    Outputs are sine, dB, logit, and the logarithms of the variances of sine (in cells) and dB, where there are any.
     Every part is a sum over a batch divided by its number of targets.
     """
     layers, batch = outputs.shape[:2]
-    u, db, logit = outputs.float().unbind(-1)
+    u, db, logit, *spread = outputs.float().unbind(-1)
     true_u, true_db = targets.u.float(), targets.db.float()
     cell = 2 / LRR48_APERTURE
     with torch.no_grad():
@@ -44,10 +47,21 @@ def set_loss(outputs, targets, config: SetLossConfig):
     confidence = (_classification(logit, label, config)).sum((1, 2)) / count
     error_u = (u.gather(2, columns) - true_u).abs() / cell
     sine = (error_u * there).sum((1, 2)) / count
-    magnitude = ((db.gather(2, columns) - true_db).abs() * there).sum((1, 2)) / count
+    error_db = (db.gather(2, columns) - true_db).abs()
+    magnitude = (error_db * there).sum((1, 2)) / count
     total = config.confidence * confidence + config.sine * sine + config.magnitude * magnitude
     parts = {"confidence": confidence[-1], "sine": sine[-1], "magnitude": magnitude[-1]}
+    if spread:
+        of_u, of_db = (_surprise(s.gather(2, columns), e) for s, e in zip(spread, (error_u, error_db), strict=True))
+        parts["spread"] = (((of_u + of_db) * there).sum((1, 2)) / count)[-1]
+        total = total + config.spread * ((of_u + of_db) * there).sum((1, 2)) / count
     return total.sum(), {k: v.detach() for k, v in parts.items()}
+
+
+def _surprise(log_variance, error):
+    """Negative log-likelihood of an error under a normal distribution; only the variance learns from it."""
+    log_variance = log_variance.clamp(-20, 10)
+    return 0.5 * (log_variance + error.detach().square() * (-log_variance).exp())
 
 
 def _classification(logit, label, config):

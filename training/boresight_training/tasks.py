@@ -9,6 +9,7 @@ import torch
 from torch import nn
 from torch.nn import functional
 
+from . import steered
 from .aaetr import CONFIGS, Aaetr
 from .arrays import array
 from .classifiers import CNN3D, COVARIANCE_FEATURES, DNN_HIDDEN, Cnn3d, counting, dnn, folded
@@ -63,6 +64,9 @@ class Task(Protocol):
         """Settings of data and model, for the card."""
 
 
+AAETRS = CONFIGS | steered.CONFIGS
+
+
 class AaetrTask:
     """Angles of arrival of up to 16 targets in one snapshot of `lrr48`."""
 
@@ -74,17 +78,21 @@ class AaetrTask:
     )
 
     def __init__(self, config: str, position_error: float = 0.0, targets: int = 16):
-        self.config = CONFIGS[config]
+        self.config = AAETRS[config]
         self.title = f"AAETR, form {config}" + (", displaced elements" if position_error else "")
         self.scenes = Scenes(targets=(0, targets), position_error=position_error)
         self.loss_config = SetLossConfig()
         self.positions = array("lrr48")
-        self.batch, self.learning_rate = (32, 2e-3) if self.config.steered else (1024, 4e-4)
+        self.batch, self.learning_rate = (1024, 4e-4) if config == "paper" else (32, 2e-3)
         meaning = "sine of azimuth, amplitude at one element, confidence from 0 to 1"
         self.outputs = (Port("targets", ("batch", self.config.queries, 3), meaning),)
 
     def model(self):
-        return Aaetr(self.config)
+        return steered.SteeredAaetr(self.config) if self._attends_steered else Aaetr(self.config)
+
+    @property
+    def _attends_steered(self):
+        return isinstance(self.config, steered.SteeredConfig)
 
     def draw(self, batch, progress, generator):
         targets, values, positions = snapshots(self.scenes, self.positions, batch, generator)
@@ -130,7 +138,7 @@ class _Targets(nn.Module):
         self.model = model
 
     def forward(self, snapshots, positions):
-        sine, db, logit = self.model(snapshots, positions)[-1].split(1, -1)
+        sine, db, logit = self.model(snapshots, positions)[-1][..., :3].split(1, -1)
         # No dB: those of empty queries magnify rounding.
         return torch.cat((sine, (db * (log(10) / 20)).exp(), logit.sigmoid()), -1)
 
@@ -269,7 +277,7 @@ def classifier(name: str, config: str, targets: int) -> ClassifierTask:
 
 
 NETWORKS = {
-    "aaetr": tuple(CONFIGS),
+    "aaetr": tuple(AAETRS),
     "counting": ("small", "paper"),
     "cnn3d": tuple(CNN3D),
     "dnn": tuple(DNN_HIDDEN),

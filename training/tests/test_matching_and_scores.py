@@ -1,12 +1,13 @@
 """Assignment against SciPy's, scores against hand counts, the set loss against its own parts."""
 
 from dataclasses import replace
-from math import radians
+from math import log, radians
 
 import pytest
 import torch
 from scipy.optimize import linear_sum_assignment
 
+from boresight_training.arrays import LRR48_APERTURE
 from boresight_training.matching import assign
 from boresight_training.score import best_f1
 from boresight_training.setloss import SetLossConfig, set_loss
@@ -92,3 +93,19 @@ def test_the_loss_vanishes_at_the_truth_and_matches_in_any_order(focal):
     loss, parts = set_loss(torch.stack((u, wrong, logit), -1), targets, config)
     assert parts["magnitude"] == pytest.approx(1.0, rel=1e-4)  # 4 dB over four targets
     assert loss == pytest.approx(config.magnitude, rel=1e-3)
+
+
+def test_stated_variances_are_likeliest_at_the_square_of_the_error_and_leave_the_answers_alone():
+    targets = truth([(0, -3)])
+    cell = 2 / LRR48_APERTURE
+    answers = torch.tensor([0.25 * cell, -1.0, 30.0]).repeat(1, 1, 1, 1).requires_grad_()
+    spread = torch.tensor([0.25, 2.0]).square().log().repeat(1, 1, 1, 1).requires_grad_()
+    loss, _ = set_loss(torch.cat((answers, spread), -1), targets, SetLossConfig())
+    without, _ = set_loss(answers, targets, SetLossConfig())
+    given = torch.autograd.grad(loss, (answers, spread))
+    assert given[1].abs().max() < 1e-6
+    assert torch.allclose(given[0], torch.autograd.grad(without, answers)[0])
+    # Half the deviation costs (4 - 1) / 2 - log 2 more.
+    narrow, parts = set_loss(torch.cat((answers, spread - 2 * log(2)), -1), targets, SetLossConfig())
+    assert (narrow - loss).item() == pytest.approx(0.1 * 2 * (1.5 - log(2)), rel=1e-4)
+    assert parts["spread"].item() == pytest.approx((narrow - without).item() / 0.1, rel=1e-3)

@@ -48,6 +48,7 @@ def log(folder):
     [
         ("aaetr", "tiny", 60, 16, 5e-3),
         ("aaetr", "paper", 40, 8, 1e-3),
+        ("aaetr", "steered-attention-tiny", 60, 16, 5e-3),
         ("counting", "small", 150, 64, 3e-3),
         ("cnn3d", "small", 40, 8, 1e-3),
         ("dnn", "small", 200, 64, 5e-3),
