@@ -23,6 +23,7 @@ def parser() -> argparse.ArgumentParser:
     train.add_argument("--config", default="small", help=f"size: {sizes}")
     train.add_argument("--targets", type=int, help="most targets of aaetr (16); targets cnn3d and dnn see (1), 1 or 2")
     train.add_argument("--position-error", type=float, default=0.0, help="aaetr: perturb positions, half wavelengths")
+    train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
     train.add_argument(
         "--resume",
         "--folder",
@@ -68,6 +69,8 @@ def train(arguments) -> list[dict]:
     if a.threads:
         torch.set_num_threads(a.threads)
     identity = {"name": a.network, "config": a.config, "targets": a.targets, "position_error": a.position_error}
+    if a.arrays != "lrr48":
+        identity["arrays"] = a.arrays
     what = task(**identity)
     group = processes.start(a.device)
     on_gpu = group.device.type == "cuda"

@@ -15,14 +15,74 @@ def along_y(ys) -> torch.Tensor:
 
 
 def array(name: str) -> torch.Tensor:
-    """Positions [elements, 3] of `lrr48` and `awr1642` (transmitter-major) or `ulaN`."""
+    """Positions [elements, 3] of `lrr48` and `awr1642` (transmitter-major), `cascade86` (by place) or `ulaN`."""
     if name == "lrr48":
         return along_y([tx + rx for tx in LRR48_TX for rx in LRR48_RX])
     if name == "awr1642":
         return along_y([-k for k in range(8)])
+    if name == "cascade86":
+        return along_y([k - 85 for k in range(86)])
     if name.startswith("ula") and name[3:].isdigit() and int(name[3:]) > 0:
         return along_y(range(int(name[3:])))
-    raise ValueError(f"array {name!r}: expected lrr48, awr1642 or ulaN")
+    raise ValueError(f"array {name!r}: expected lrr48, awr1642, cascade86 or ulaN")
+
+
+ELEMENTS = (8, 86)
+"""Fewest and most elements of random arrays."""
+_KINDS = ("uniform", "mimo", "thinned", "scattered")
+
+
+def random_arrays(batch: int, generator: torch.Generator) -> torch.Tensor:
+    """Different arrays of one number of elements, [batch, elements, 3], each about its own origin.
+
+    They are rows of elements half a wavelength apart or nearly so, sparse MIMO arrays, rows with elements missing, and
+    elements scattered at random, 0.5 half wavelengths apart or more. Elements of half of the arrays are then displaced
+    in each direction, with a standard deviation of up to 0.05 half wavelengths.
+    """
+    elements = _whole(*ELEMENTS, generator)
+    kinds = torch.randint(0, len(_KINDS), (batch,), generator=generator, device=generator.device).tolist()
+    rows = torch.stack([_row(_KINDS[kind], elements, generator) for kind in kinds])
+    turned = torch.where(torch.rand(batch, 1, generator=generator, device=generator.device) < 0.5, -1.0, 1.0)
+    positions = torch.zeros(batch, elements, 3, dtype=torch.float64, device=generator.device)
+    positions[..., 1] = (rows - rows.mean(-1, keepdim=True)) * turned
+    displaced = torch.rand(batch, 1, 1, generator=generator, device=generator.device, dtype=torch.float64) - 0.5
+    errors = torch.randn(positions.shape, generator=generator, device=generator.device, dtype=torch.float64)
+    return positions + 0.1 * displaced.clamp_min(0) * errors
+
+
+def _row(kind: str, elements: int, generator: torch.Generator) -> torch.Tensor:
+    """Places of the elements of an array in a row, half wavelengths."""
+    if kind == "uniform":
+        return torch.arange(elements, device=generator.device).double() * _number(0.9, 1.1, generator)
+    if kind == "scattered":
+        gaps = torch.rand(elements, generator=generator, device=generator.device, dtype=torch.float64)
+        return (0.5 + gaps * _number(0.5, 2.0, generator)).cumsum(0)
+    places = _mimo(elements, generator) if kind == "mimo" else None
+    if places is None:
+        most = max(elements, round(elements * _number(1.0, 2.2, generator)))
+        places = torch.randperm(most, generator=generator, device=generator.device)[:elements]
+    return places.sort().values.double()
+
+
+def _mimo(elements: int, generator: torch.Generator) -> torch.Tensor | None:
+    """Sums of transmitters' and receivers' places, of which some may be missing; none where they are too few."""
+    receivers = _whole(3, min(16, elements // 2), generator)
+    transmitters = -(-elements // receivers)
+    span = receivers + _whole(0, receivers, generator)
+    near = torch.randperm(span, generator=generator, device=generator.device)[:receivers]
+    steps = torch.randint(receivers, span + 1, (transmitters,), generator=generator, device=generator.device)
+    sums = (near.unsqueeze(0) + (steps.cumsum(0) - steps[0]).unsqueeze(1)).unique()
+    if len(sums) < elements:
+        return None
+    return sums[torch.randperm(len(sums), generator=generator, device=generator.device)[:elements]]
+
+
+def _whole(low: int, high: int, generator: torch.Generator) -> int:
+    return int(torch.randint(low, high + 1, (), generator=generator, device=generator.device))
+
+
+def _number(low: float, high: float, generator: torch.Generator) -> float:
+    return low + (high - low) * float(torch.rand((), generator=generator, device=generator.device))
 
 
 def steering(positions: torch.Tensor, u: torch.Tensor) -> torch.Tensor:

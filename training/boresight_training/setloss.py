@@ -24,18 +24,22 @@ class SetLossConfig:
     """Of the likelihood of the errors under the stated variances, where outputs state them."""
 
 
-def set_loss(outputs, targets, config: SetLossConfig):
+LRR48_CELL = torch.tensor([[2 / LRR48_APERTURE]])
+
+
+def set_loss(outputs, targets, config: SetLossConfig, cell=LRR48_CELL):
     """Loss of `outputs` [layers, batch, queries, 3 or 5]: its sum over layers, and the parts of the last.
 
     Outputs are sine, dB, logit, and the logarithms of the variances of sine (in cells) and dB, where there are any.
-    Every part is a sum over a batch divided by its number of targets.
+    `cell` is Rayleigh's resolution in sine of each array, [batch, 1], or of all, [1, 1]. Every part is a sum over a
+    batch divided by its number of targets.
     """
     layers, batch = outputs.shape[:2]
     u, db, logit, *spread = outputs.float().unbind(-1)
     true_u, true_db = targets.u.float(), targets.db.float()
-    cell = 2 / LRR48_APERTURE
+    cell = cell.to(u)
     with torch.no_grad():
-        far = (u.unsqueeze(-2) - true_u.unsqueeze(-1)).abs().div(cell)
+        far = (u.unsqueeze(-2) - true_u.unsqueeze(-1)).abs().div(cell.unsqueeze(-1))
         cost = config.sine * far + config.magnitude * (db.unsqueeze(-2) - true_db.unsqueeze(-1)).abs()
         cost = cost + config.confidence * _gain(logit, config).unsqueeze(-2)
         rows = targets.valid.sum(1).repeat(layers)

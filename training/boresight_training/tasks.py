@@ -11,7 +11,7 @@ from torch.nn import functional
 
 from . import steered
 from .aaetr import CONFIGS, Aaetr
-from .arrays import array
+from .arrays import array, random_arrays
 from .classifiers import CNN3D, COVARIANCE_FEATURES, DNN_HIDDEN, Cnn3d, counting, dnn, folded
 from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
 from .score import best_f1
@@ -65,57 +65,76 @@ class Task(Protocol):
 
 
 AAETRS = CONFIGS | steered.CONFIGS
+EVALUATED = {"lrr48": (2, 6, 10), "awr1642": (1, 2), "ula16": (2, 4), "cascade86": (4, 10)}
+"""Arrays that a network for any array is scored on, with numbers of targets. It is trained on none of them."""
 
 
 class AaetrTask:
-    """Angles of arrival of up to 16 targets in one snapshot of `lrr48`."""
+    """Angles of arrival of up to 16 targets in one snapshot, of `lrr48` or of any array."""
 
     reference = "AAETR: Angle of Arrival Estimation with Transformer"
 
-    inputs = (
-        Port("snapshots", ("batch", 48, 2), "real and imaginary part of each virtual element, transmitter-major"),
-        Port("positions", (48, 3), "positions of the virtual elements, half wavelengths, x forward, y left, z up"),
-    )
-
-    def __init__(self, config: str, position_error: float = 0.0, targets: int = 16):
+    def __init__(self, config: str, position_error: float = 0.0, targets: int = 16, arrays: str = "lrr48"):
         self.config = AAETRS[config]
-        self.title = f"AAETR, form {config}" + (", displaced elements" if position_error else "")
+        self.any_array = arrays == "any"
+        if self.any_array and not isinstance(self.config, steered.SteeredConfig):
+            raise ValueError(f"arrays 'any' of form {config}: expected a form with steered attention")
+        if self.any_array and position_error:
+            raise ValueError("a position error with arrays 'any': expected none, for these have their own")
+        of = ", any array" if self.any_array else ", displaced elements" if position_error else ""
+        self.title = f"AAETR, form {config}{of}"
         self.scenes = Scenes(targets=(0, targets), position_error=position_error)
         self.loss_config = SetLossConfig()
         self.positions = array("lrr48")
         self.batch, self.learning_rate = (1024, 4e-4) if config == "paper" else (32, 2e-3)
+        elements = "elements" if self.any_array else 48
+        self.inputs = (
+            Port("snapshots", ("batch", elements, 2), "real and imaginary part of each virtual element, in one order"),
+            Port(
+                "positions",
+                (elements, 3),
+                "positions of the virtual elements in that order, half wavelengths, x forward, y left, z up",
+            ),
+        )
         meaning = "sine of azimuth, amplitude at one element, confidence from 0 to 1"
         self.outputs = (Port("targets", ("batch", self.config.queries, 3), meaning),)
 
     def model(self):
-        return steered.SteeredAaetr(self.config) if self._attends_steered else Aaetr(self.config)
-
-    @property
-    def _attends_steered(self):
-        return isinstance(self.config, steered.SteeredConfig)
+        is_steered = isinstance(self.config, steered.SteeredConfig)
+        return steered.SteeredAaetr(self.config) if is_steered else Aaetr(self.config)
 
     def draw(self, batch, progress, generator):
-        targets, values, positions = snapshots(self.scenes, self.positions, batch, generator)
+        scenes, positions = self.scenes, self.positions
+        if self.any_array:
+            positions = random_arrays(batch, generator)
+            # A third of the elements is what lrr48 has targets at most.
+            most = max(1, min(scenes.targets[1], positions.shape[1] // 3))
+            scenes = replace(scenes, targets=(scenes.targets[0], most))
+        targets, values, positions = snapshots(scenes, positions, batch, generator)
         return targets, torch.view_as_real(values), positions.float()
 
     def loss(self, model, data):
         targets, values, positions = data
-        return set_loss(model(values, positions), targets, self.loss_config)
+        cell = {"cell": steered.Places(positions).cell} if self.any_array else {}
+        return set_loss(model(values, positions), targets, self.loss_config, **cell)
 
     def evaluate(self, model, count, generator):
         scores = []
-        for snr_db in (15, 25, 35):
-            for number in (2, 4, 6, 8, 10):
-                scenes = replace(self.scenes, targets=(number, number), snr_db=(snr_db, snr_db))
-                scores.append({"targets": number, "snr_db": snr_db, **self._score(model, scenes, count, generator)})
+        for name, numbers in (EVALUATED if self.any_array else {"lrr48": (2, 4, 6, 8, 10)}).items():
+            for snr_db in (15, 25, 35):
+                for number in numbers:
+                    scenes = replace(self.scenes, targets=(number, number), snr_db=(snr_db, snr_db))
+                    score = self._score(model, scenes, array(name), count, generator)
+                    of = {"array": name} if self.any_array else {}
+                    scores.append({**of, "targets": number, "snr_db": snr_db, **score})
         return scores
 
     def confidence(self, model, count, generator):
-        best = self._score(model, self.scenes, 4 * count, generator)
+        best = self._score(model, self.scenes, self.positions, 4 * count, generator)
         return torch.tensor(best["threshold"]).sigmoid().item()
 
-    def _score(self, model, scenes, count, generator):
-        targets, values, positions = snapshots(scenes, self.positions, count, generator)
+    def _score(self, model, scenes, positions, count, generator):
+        targets, values, positions = snapshots(scenes, positions, count, generator)
         parts = zip(values.split(250), positions.float().expand(count, -1, -1).split(250), strict=True)
         answers = torch.cat([model(torch.view_as_real(v), p)[-1] for v, p in parts]).double()
         return best_f1(answers[..., 0].clamp(-1, 1).asin(), answers[..., 1], answers[..., 2], targets)
@@ -128,7 +147,7 @@ class AaetrTask:
         return torch.view_as_real(values), self.positions.float().to(generator.device)
 
     def describe(self):
-        data = {"array": "lrr48", **asdict(self.scenes)}
+        data = {"array": "any" if self.any_array else "lrr48", **asdict(self.scenes)}
         return {"model": asdict(self.config), "data": data, "loss": asdict(self.loss_config)}
 
 
@@ -284,10 +303,12 @@ NETWORKS = {
 }
 
 
-def task(name: str, config: str, targets: int | None = None, position_error: float = 0.0) -> Task:
+def task(
+    name: str, config: str, targets: int | None = None, position_error: float = 0.0, arrays: str = "lrr48"
+) -> Task:
     """A network by name and size; `targets` is the most of AAETR (16), or how many a classifier sees (1)."""
     if config not in NETWORKS[name]:
         raise ValueError(f"config {config!r} of {name}: expected {', '.join(NETWORKS[name])}")
     if name == "aaetr":
-        return AaetrTask(config, position_error, 16 if targets is None else targets)
+        return AaetrTask(config, position_error, 16 if targets is None else targets, arrays)
     return classifier(name, config, 1 if targets is None else targets)

@@ -6,7 +6,7 @@ from math import pi, radians
 import pytest
 import torch
 
-from boresight_training.arrays import array
+from boresight_training.arrays import ELEMENTS, array, random_arrays
 from boresight_training.regions import (
     SPEED_OF_LIGHT,
     WAVEFORMS,
@@ -191,3 +191,26 @@ def test_the_generator_alone_decides():
 
     assert all(torch.equal(a, b) for a, b in zip(drawn(6), drawn(6), strict=True))
     assert not any(torch.equal(a, b) for a, b in zip(drawn(6), drawn(7), strict=True))
+
+
+def test_random_arrays_are_as_promised():
+    generator = torch.Generator().manual_seed(8)
+    sizes = set()
+    for _ in range(60):
+        arrays = random_arrays(16, generator)
+        batch, elements, axes = arrays.shape
+        sizes.add(elements)
+        assert (batch, axes) == (16, 3) and ELEMENTS[0] <= elements <= ELEMENTS[1]
+        rows = arrays[..., 1].sort(1).values
+        assert arrays.mean(1).abs().max() < 0.1
+        # Half a half wavelength apart, less five deviations of the difference of two displacements.
+        assert rows.diff(dim=1).min() > 0.5 - 5 * 0.05 * 2**0.5
+        extent = rows[:, -1] - rows[:, 0]
+        assert ((extent > 0.6 * (elements - 1)) & (extent < 3 * elements + 3)).all()
+        straight = arrays[..., 0].abs().amax(1) == 0
+        assert (arrays[..., 2].abs().amax(1)[straight] == 0).all()
+    assert min(sizes) < 16 and max(sizes) > 76 and len(sizes) > 30
+    # Different arrays, in a batch and between batches; the same again from the same seed.
+    assert len({tuple(row.round(decimals=6).tolist()) for row in rows}) == 16
+    again = [random_arrays(4, torch.Generator().manual_seed(9)) for _ in range(2)]
+    assert torch.equal(*again)

@@ -61,6 +61,27 @@ def test_every_network_lowers_its_loss(tmp_path, name, config, steps, batch, lea
     assert losses[-tenth:].mean() < 0.85 * losses[:tenth].mean()
 
 
+def test_a_network_for_any_array_lowers_its_loss_and_is_scored_on_several():
+    what = task("aaetr", "steered-attention-tiny", arrays="any")
+    torch.manual_seed(0)
+    network = what.model()
+    optimizer = torch.optim.AdamW(network.parameters(), lr=5e-3)
+    losses = []
+    for step in range(60):
+        loss, parts = what.loss(network, what.draw(16, 0.0, torch.Generator().manual_seed(step)))
+        optimizer.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
+        optimizer.step()
+        losses.append(parts["sine"].item() + parts["confidence"].item())
+    assert sum(losses[-10:]) < 0.85 * sum(losses[:10])
+    with torch.no_grad():
+        scores = what.evaluate(network, 8, torch.Generator().manual_seed(1))
+    assert {score["array"] for score in scores} == {"lrr48", "awr1642", "ula16", "cascade86"}
+    with pytest.raises(ValueError, match="arrays 'any' of form paper"):
+        task("aaetr", "paper", arrays="any")
+
+
 @pytest.mark.parametrize("network", [("aaetr", "tiny"), ("aaetr", "paper"), ("cnn3d", "small")])
 def test_bfloat16_trains_weights_in_single_precision(tmp_path, network):
     run = training(tmp_path, 2, network=network, batch=4, bfloat16=True)
