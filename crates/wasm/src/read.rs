@@ -53,7 +53,7 @@ impl Fields {
 
     /// Path of a field in errors.
     pub fn path_of(&self, name: &str) -> String {
-        if self.path.is_empty() { name.into() } else { format!("{}.{name}", self.path) }
+        if self.path.is_empty() { name.into() } else { [&self.path, ".", name].concat() }
     }
 
     /// The raw value of a field; nothing if absent or `undefined`.
@@ -155,7 +155,8 @@ pub fn items(value: &JsValue, path: &str) -> Fallible<Vec<(JsValue, String)>> {
     if array.length() > MOST_ITEMS {
         return Err(wrong_type(path, &format!("an array of at most {MOST_ITEMS} items"), value));
     }
-    Ok(array.iter().enumerate().map(|(i, item)| (item, format!("{path}[{i}]"))).collect())
+    let path_of = |index: usize| [path, "[", &index.to_string(), "]"].concat();
+    Ok(array.iter().enumerate().map(|(i, item)| (item, path_of(i))).collect())
 }
 
 /// A value in words, short enough for a message.

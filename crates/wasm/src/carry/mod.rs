@@ -6,6 +6,7 @@ mod known;
 mod names;
 mod read;
 mod refusal;
+mod walk;
 mod write;
 
 pub use known::Known;

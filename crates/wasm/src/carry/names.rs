@@ -4,6 +4,7 @@
 use boresight_core::describe::naming;
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 use wasm_bindgen::JsValue;
 
 /// A property of an object.
@@ -16,15 +17,38 @@ pub struct Property {
     pub is_angle: bool,
 }
 
+/// A name by where it stands in memory: what the source names has its place, often several.
+type Place = (usize, usize);
+
+/// Mixes a place and a length; the default hash costs more than all else that a field takes.
+#[derive(Default)]
+struct Mixed(u64);
+
+impl Hasher for Mixed {
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|byte| self.write_usize(usize::from(*byte)));
+    }
+
+    fn write_usize(&mut self, number: usize) {
+        const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
+        self.0 = (self.0 ^ number as u64).wrapping_mul(ODD).rotate_left(32);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}
+
 thread_local! {
-    static PROPERTIES: RefCell<HashMap<&'static str, &'static Property>> =
-        RefCell::new(HashMap::new());
+    static PROPERTIES: RefCell<HashMap<Place, &'static Property, BuildHasherDefault<Mixed>>> =
+        RefCell::default();
 }
 
 /// The property of a field, by the field's name in Rust.
 pub fn property(field: &'static str) -> &'static Property {
     PROPERTIES.with_borrow_mut(|properties| {
-        let known: &mut &'static Property = properties.entry(field).or_insert_with(|| {
+        let place = (field.as_ptr() as usize, field.len());
+        let known: &mut &'static Property = properties.entry(place).or_insert_with(|| {
             let name = naming::javascript(field);
             let key = JsValue::from_str(&name);
             // There are as many as the source names fields.

@@ -3,20 +3,15 @@
 use super::known::Known;
 use super::names::property;
 use super::refusal::ReadError;
+use super::walk::{Entries, FieldsOf, Items};
 use crate::error::{BindingError, Fallible};
 use crate::read::{MOST_ITEMS, shortened, wrong_type};
 use boresight_core::CoreError;
 use boresight_core::describe::{At, Described, Kind, Naming};
 use js_sys::{Array, Object, Reflect};
 use serde::de::value::StringDeserializer;
-use serde::de::{
-    DeserializeOwned, DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqAccess,
-    Visitor,
-};
+use serde::de::{DeserializeOwned, Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
-use std::iter::Zip;
-use std::ops::RangeFrom;
-use std::slice::Iter;
 use wasm_bindgen::{JsCast, JsValue};
 
 /// Reads an argument and checks it against its description. Fields that it does not know are
@@ -58,15 +53,15 @@ fn check_required(object: &Object, kind: &Kind, at: &At<'_>) -> Fallible<()> {
     Ok(())
 }
 
-type Reading<T> = Result<T, ReadError>;
+pub(super) type Reading<T> = Result<T, ReadError>;
 
 /// A value on its way into Rust.
 pub struct Reader<'a> {
-    value: JsValue,
-    at: At<'a>,
-    is_angle: bool,
+    pub(super) value: JsValue,
+    pub(super) at: At<'a>,
+    pub(super) is_angle: bool,
     /// Where the value's fields stand among those of another object: all names that this one has.
-    known: Option<&'a Known>,
+    pub(super) known: Option<&'a Known>,
 }
 
 impl<'a> Reader<'a> {
@@ -137,13 +132,8 @@ impl<'a> Reader<'a> {
         if !self.is_plain() {
             return Err(self.wrong_type("an object"));
         }
-        Ok(FieldsOf {
-            object: self.value.unchecked_ref(),
-            fields: (0_u64..).zip(names),
-            at: &self.at,
-            known: self.known.unwrap_or(own),
-            next: None,
-        })
+        let known = self.known.unwrap_or(own);
+        Ok(FieldsOf::new(self.value.unchecked_ref(), names, &self.at, known))
     }
 
     #[inline(never)]
@@ -277,7 +267,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         let array = self.items()?;
-        visitor.visit_seq(Items { array, at: &self.at, is_angle: self.is_angle, next: 0 })
+        visitor.visit_seq(Items::new(array, &self.at, self.is_angle))
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Reading<V::Value> {
@@ -289,14 +279,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         if !self.is_plain() {
             return Err(self.wrong_type("an object"));
         }
-        let object: &Object = self.value.unchecked_ref();
-        let entries = Entries {
-            object,
-            keys: Object::keys(object),
-            at: &self.at,
-            is_angle: self.is_angle,
-            next: 0,
-        };
+        let entries = Entries::new(self.value.unchecked_ref(), &self.at, self.is_angle);
         visitor.visit_map(entries).map_err(|error| error.at(&self.at))
     }
 
@@ -328,131 +311,5 @@ struct Expected<'a, V>(&'a V);
 impl<'de, V: Visitor<'de>> std::fmt::Display for Expected<'_, V> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         self.0.expecting(f)
-    }
-}
-
-/// The fields of a struct out of an object.
-struct FieldsOf<'a> {
-    object: &'a Object,
-    /// By their place, which serde takes for a name and compares at no cost.
-    fields: Zip<RangeFrom<u64>, Iter<'static, &'static str>>,
-    at: &'a At<'a>,
-    known: &'a Known,
-    next: Option<(&'static str, JsValue, bool)>,
-}
-
-impl<'a> FieldsOf<'a> {
-    /// The place of the next field that the object has.
-    #[inline(never)]
-    fn advance(&mut self) -> Reading<Option<u64>> {
-        for (place, &field) in self.fields.by_ref() {
-            if field.starts_with("..") {
-                self.next = Some((field, self.object.clone().into(), false));
-                return Ok(Some(place));
-            }
-            let value = self.known.get(self.object, field).map_err(|_| BindingError::Type {
-                what: self.at.field(field).path(),
-                expected: "a value".into(),
-                given: "a property that throws".into(),
-            })?;
-            if !value.is_undefined() {
-                self.next = Some((field, value, property(field).is_angle));
-                return Ok(Some(place));
-            }
-        }
-        Ok(None)
-    }
-
-    #[inline(never)]
-    fn value(&mut self) -> Reader<'a> {
-        let (field, value, is_angle) = self.next.take().unwrap_or(("", JsValue::UNDEFINED, false));
-        let spread = field.starts_with("..");
-        let at = if spread { *self.at } else { self.at.field(field) };
-        Reader { value, at, is_angle, known: spread.then_some(self.known) }
-    }
-}
-
-impl<'de> MapAccess<'de> for FieldsOf<'_> {
-    type Error = ReadError;
-
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
-        match self.advance()? {
-            Some(place) => seed.deserialize(place.into_deserializer()).map(Some),
-            None => Ok(None),
-        }
-    }
-
-    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
-        let reader = self.value();
-        let at = reader.at;
-        seed.deserialize(reader).map_err(|error| error.at(&at))
-    }
-}
-
-/// The items of an array.
-struct Items<'a> {
-    array: &'a Array,
-    at: &'a At<'a>,
-    is_angle: bool,
-    next: u32,
-}
-
-impl<'de> SeqAccess<'de> for Items<'_> {
-    type Error = ReadError;
-
-    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Reading<Option<T::Value>> {
-        if self.next >= self.array.length() {
-            return Ok(None);
-        }
-        let at = self.at.item(self.next as usize);
-        let value = self.array.get(self.next);
-        self.next += 1;
-        let reader = Reader { value, at, is_angle: self.is_angle, known: None };
-        seed.deserialize(reader).map_err(|error| error.at(&at)).map(Some)
-    }
-
-    fn size_hint(&self) -> Option<usize> {
-        Some((self.array.length() - self.next) as usize)
-    }
-}
-
-/// All entries of an object whose keys are not known beforehand.
-struct Entries<'a> {
-    object: &'a Object,
-    keys: Array,
-    at: &'a At<'a>,
-    is_angle: bool,
-    next: u32,
-}
-
-impl<'de> MapAccess<'de> for Entries<'_> {
-    type Error = ReadError;
-
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
-        while self.next < self.keys.length() {
-            let key = self.keys.get(self.next);
-            if Reflect::get(self.object, &key).is_ok_and(|value| value.is_undefined()) {
-                self.next += 1;
-                continue;
-            }
-            let name: StringDeserializer<ReadError> =
-                key.as_string().unwrap_or_default().into_deserializer();
-            return seed.deserialize(name).map(Some);
-        }
-        Ok(None)
-    }
-
-    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
-        let key = self.keys.get(self.next);
-        self.next += 1;
-        let name = key.as_string().unwrap_or_default();
-        let at = self.at.field(&name);
-        let value = Reflect::get(self.object, &key).map_err(|_| BindingError::Type {
-            what: at.path(),
-            expected: "a value".into(),
-            given: "a property that throws".into(),
-        })?;
-        let reader = Reader { value, at, is_angle: self.is_angle, known: None };
-        seed.deserialize(reader).map_err(|error| error.at(&at))
     }
 }

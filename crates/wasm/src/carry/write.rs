@@ -1,9 +1,8 @@
 //! Results as plain JavaScript objects with typed arrays of their own.
 
-use super::names::property;
+use super::names::{Property, property};
 use boresight_core::describe::NumberType;
 use boresight_core::describe::columns::number_type;
-use boresight_core::describe::naming::is_angle;
 use js_sys::{Array, Float32Array, Float64Array, Int8Array, Object, Uint8Array, Uint32Array};
 use serde::ser::{
     Serialize, SerializeMap, SerializeSeq, SerializeStruct, SerializeTuple, Serializer,
@@ -264,15 +263,18 @@ impl Fields<'_> {
 
     // These are once for all types of values, which keeps the module small.
     #[inline(never)]
-    fn writer(&self, field: &'static str) -> Writer<'_> {
-        let into = self.object().filter(|_| field.starts_with(".."));
-        Writer { into, is_angle: is_angle(field), column: None }
+    fn place(&self, field: &'static str) -> (Writer<'_>, Option<&'static Property>) {
+        if field.starts_with("..") {
+            return (Writer { into: self.object(), ..Writer::default() }, None);
+        }
+        let property = property(field);
+        (Writer { is_angle: property.is_angle, ..Writer::default() }, Some(property))
     }
 
     #[inline(never)]
-    fn set(&self, field: &'static str, value: &JsValue) {
-        if let Some(object) = self.object() {
-            object.unchecked_ref::<Plain>().set(&property(field).key, value);
+    fn set(&self, property: Option<&Property>, value: &JsValue) {
+        if let (Some(object), Some(property)) = (self.object(), property) {
+            object.unchecked_ref::<Plain>().set(&property.key, value);
         }
     }
 }
@@ -286,12 +288,9 @@ impl SerializeStruct for Fields<'_> {
         field: &'static str,
         value: &T,
     ) -> Written<()> {
-        let writer = self.writer(field);
-        let is_spread = writer.into.is_some();
+        let (writer, property) = self.place(field);
         let value = value.serialize(writer)?;
-        if !is_spread {
-            self.set(field, &value);
-        }
+        self.set(property, &value);
         Ok(())
     }
 

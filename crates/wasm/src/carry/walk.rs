@@ -1,0 +1,162 @@
+//! What serde walks through: the fields of a struct, the items of an array, the entries of a map.
+
+use super::known::Known;
+use super::names::property;
+use super::read::{Reader, Reading};
+use super::refusal::ReadError;
+use crate::error::BindingError;
+use boresight_core::describe::At;
+use js_sys::{Array, Object, Reflect};
+use serde::de::value::StringDeserializer;
+use serde::de::{DeserializeSeed, IntoDeserializer, MapAccess, SeqAccess};
+use std::iter::Zip;
+use std::ops::RangeFrom;
+use std::slice::Iter;
+use wasm_bindgen::JsValue;
+
+/// The fields of a struct out of an object.
+pub(super) struct FieldsOf<'a> {
+    object: &'a Object,
+    /// By their place, which serde takes for a name and compares at no cost.
+    fields: Zip<RangeFrom<u64>, Iter<'static, &'static str>>,
+    at: &'a At<'a>,
+    known: &'a Known,
+    next: Option<(&'static str, JsValue, bool)>,
+}
+
+impl<'a> FieldsOf<'a> {
+    pub fn new(
+        object: &'a Object,
+        names: &'static [&'static str],
+        at: &'a At<'a>,
+        known: &'a Known,
+    ) -> Self {
+        Self { object, fields: (0_u64..).zip(names), at, known, next: None }
+    }
+
+    /// The place of the next field that the object has.
+    #[inline(never)]
+    fn advance(&mut self) -> Reading<Option<u64>> {
+        for (place, &field) in self.fields.by_ref() {
+            if field.starts_with("..") {
+                self.next = Some((field, self.object.clone().into(), false));
+                return Ok(Some(place));
+            }
+            let value = self.known.get(self.object, field).map_err(|_| BindingError::Type {
+                what: self.at.field(field).path(),
+                expected: "a value".into(),
+                given: "a property that throws".into(),
+            })?;
+            if !value.is_undefined() {
+                self.next = Some((field, value, property(field).is_angle));
+                return Ok(Some(place));
+            }
+        }
+        Ok(None)
+    }
+
+    #[inline(never)]
+    fn value(&mut self) -> Reader<'a> {
+        let (field, value, is_angle) = self.next.take().unwrap_or(("", JsValue::UNDEFINED, false));
+        let spread = field.starts_with("..");
+        let at = if spread { *self.at } else { self.at.field(field) };
+        Reader { value, at, is_angle, known: spread.then_some(self.known) }
+    }
+}
+
+impl<'de> MapAccess<'de> for FieldsOf<'_> {
+    type Error = ReadError;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
+        match self.advance()? {
+            Some(place) => seed.deserialize(place.into_deserializer()).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
+        let reader = self.value();
+        let at = reader.at;
+        seed.deserialize(reader).map_err(|error| error.at(&at))
+    }
+}
+
+/// The items of an array.
+pub(super) struct Items<'a> {
+    array: &'a Array,
+    at: &'a At<'a>,
+    is_angle: bool,
+    next: u32,
+}
+
+impl<'a> Items<'a> {
+    pub fn new(array: &'a Array, at: &'a At<'a>, is_angle: bool) -> Self {
+        Self { array, at, is_angle, next: 0 }
+    }
+}
+
+impl<'de> SeqAccess<'de> for Items<'_> {
+    type Error = ReadError;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Reading<Option<T::Value>> {
+        if self.next >= self.array.length() {
+            return Ok(None);
+        }
+        let at = self.at.item(self.next as usize);
+        let value = self.array.get(self.next);
+        self.next += 1;
+        let reader = Reader { value, at, is_angle: self.is_angle, known: None };
+        seed.deserialize(reader).map_err(|error| error.at(&at)).map(Some)
+    }
+
+    fn size_hint(&self) -> Option<usize> {
+        Some((self.array.length() - self.next) as usize)
+    }
+}
+
+/// All entries of an object whose keys are not known beforehand.
+pub(super) struct Entries<'a> {
+    object: &'a Object,
+    keys: Array,
+    at: &'a At<'a>,
+    is_angle: bool,
+    next: u32,
+}
+
+impl<'a> Entries<'a> {
+    pub fn new(object: &'a Object, at: &'a At<'a>, is_angle: bool) -> Self {
+        Self { object, keys: Object::keys(object), at, is_angle, next: 0 }
+    }
+}
+
+impl<'de> MapAccess<'de> for Entries<'_> {
+    type Error = ReadError;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
+        while self.next < self.keys.length() {
+            let key = self.keys.get(self.next);
+            if Reflect::get(self.object, &key).is_ok_and(|value| value.is_undefined()) {
+                self.next += 1;
+                continue;
+            }
+            let name: StringDeserializer<ReadError> =
+                key.as_string().unwrap_or_default().into_deserializer();
+            return seed.deserialize(name).map(Some);
+        }
+        Ok(None)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
+        let key = self.keys.get(self.next);
+        self.next += 1;
+        let name = key.as_string().unwrap_or_default();
+        let at = self.at.field(&name);
+        let value = Reflect::get(self.object, &key).map_err(|_| BindingError::Type {
+            what: at.path(),
+            expected: "a value".into(),
+            given: "a property that throws".into(),
+        })?;
+        let reader = Reader { value, at, is_angle: self.is_angle, known: None };
+        seed.deserialize(reader).map_err(|error| error.at(&at))
+    }
+}
