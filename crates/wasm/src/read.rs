@@ -58,15 +58,11 @@ impl Fields {
 
     /// The raw value of a field; nothing if absent or `undefined`.
     pub fn raw(&mut self, name: &'static str) -> Fallible<Option<JsValue>> {
-        match self.known.get(&self.object, name) {
-            Ok(value) if value.is_undefined() => Ok(None),
-            Ok(value) => Ok(Some(value)),
-            Err(_) => Err(BindingError::Type {
-                what: self.path_of(name),
-                expected: "a value".into(),
-                given: "a property that throws".into(),
-            }),
-        }
+        self.known.get(&self.object, name).map_err(|_| BindingError::Type {
+            what: self.path_of(name),
+            expected: "a value".into(),
+            given: "a property that throws".into(),
+        })
     }
 
     /// A field that may be absent.

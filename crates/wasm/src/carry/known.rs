@@ -21,17 +21,18 @@ thread_local! {
 }
 
 impl Known {
-    /// The value of a field, by its name in Rust; `undefined` where there is none.
+    /// The value of a field, by its name in Rust; none where it is `undefined`.
     ///
     /// # Errors
     /// What a property throws.
-    pub fn get(&self, object: &Object, field: &'static str) -> Result<JsValue, JsValue> {
+    pub fn get(&self, object: &Object, field: &'static str) -> Result<Option<JsValue>, JsValue> {
         let property = property(field);
         let value = Reflect::get(object, &property.key)?;
+        let value = (!value.is_undefined()).then_some(value);
         let mut names = self.names.borrow_mut();
         if !names.contains(&property.name.as_str()) {
             names.push(&property.name);
-            self.present.set(self.present.get() + u32::from(!value.is_undefined()));
+            self.present.set(self.present.get() + u32::from(value.is_some()));
         }
         Ok(value)
     }

@@ -47,7 +47,7 @@ impl<'a> FieldsOf<'a> {
                 expected: "a value".into(),
                 given: "a property that throws".into(),
             })?;
-            if !value.is_undefined() {
+            if let Some(value) = value {
                 self.next = Some((field, value, property(field).is_angle));
                 return Ok(Some(place));
             }
