@@ -1,7 +1,7 @@
 // Measures the way from a fresh clone of the commit checked out to the demo, the command line and the tests, each from
 // nothing but what the registries give, and fails where one takes longer than its target. `--only start,cli,test,edit`
-// measures some; `--cold` downloads crates and packages anew; `--keep` leaves the folder. Runs for an hour, on Linux or
-// macOS; times mean something where nothing else runs.
+// measures some; `--cold` downloads crates and packages anew; `--keep` leaves the folder. Takes an hour and a half, on
+// Linux or macOS; times mean something where nothing else runs.
 import { spawn } from 'node:child_process';
 import { closeSync, existsSync, mkdirSync, mkdtempSync, openSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { cpus, homedir, loadavg, tmpdir } from 'node:os';
