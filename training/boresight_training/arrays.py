@@ -61,7 +61,10 @@ def _row(kind: str, elements: int, generator: torch.Generator) -> torch.Tensor:
     if places is None:
         most = max(elements, round(elements * _number(1.0, 2.2, generator)))
         places = torch.randperm(most, generator=generator, device=generator.device)[:elements]
-    return places.sort().values.double()
+    places = places.sort().values.double()
+    # No row without a gap: uniform arrays of half a wavelength are what networks are scored on.
+    places[-1] += places[-1] - places[0] == elements - 1
+    return places
 
 
 def _mimo(elements: int, generator: torch.Generator) -> torch.Tensor | None:

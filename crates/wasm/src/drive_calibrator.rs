@@ -75,7 +75,8 @@ impl DriveCalibrator {
         Ok(Self { inner, motion, detections: vec![], weights: weights.then(Vec::new) })
     }
 
-    /// Takes frames in order of time. Detections of frame `i` are those from `ends[i - 1]` to before `ends[i]`, `radars` places in the list of options.
+    /// Takes frames in order of time. Detections of frame `i` are those from `ends[i - 1]` to before
+    /// `ends[i]`, `radars` places in the list of options.
     ///
     /// Gives for each frame the place of its verdict, the motion (m/s), the angle it gives alone and
     /// its standard deviation (deg), its weight, and its inliers; NaN where there is none.

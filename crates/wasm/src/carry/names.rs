@@ -20,7 +20,7 @@ pub struct Property {
 /// A name by where it stands in memory: what the source names has its place, often several.
 type Place = (usize, usize);
 
-/// Mixes a place and a length; the default hash costs more than all else that a field takes.
+/// Mixes a place and a length, which need no hash that withstands hostile keys.
 #[derive(Default)]
 struct Mixed(u64);
 
