@@ -208,7 +208,7 @@ def test_random_arrays_are_as_promised():
         extent = rows[:, -1] - rows[:, 0]
         assert ((extent > 0.6 * (elements - 1)) & (extent < 3 * elements + 3)).all()
         # None is a full row of half wavelengths, which networks are scored on.
-        assert (rows.diff(dim=1) - 1).abs().amax(1).min() > 1e-3
+        assert (rows.diff(dim=1) - 1).abs().amax(1).min() > 1e-9
         straight = arrays[..., 0].abs().amax(1) == 0
         assert (arrays[..., 2].abs().amax(1)[straight] == 0).all()
     assert min(sizes) < 16 and max(sizes) > 76 and len(sizes) > 30
