@@ -7,7 +7,7 @@ import { root } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
 
 const EXPERIMENTS = [
-  { name: 'aoa', kinds: ['aaetr'], settings: ['--trials', '1000', '--seed', '1'], prefix: 'aoa-' },
+  { name: 'aoa', kinds: ['aaetr', 'learned-pursuit'], settings: ['--trials', '1000', '--seed', '1'], prefix: 'aoa-' },
   { name: 'doa', kinds: ['counting', 'cnn3d', 'dnn'], settings: ['--trials', '2100', '--seed', '0'], prefix: '' },
 ];
 

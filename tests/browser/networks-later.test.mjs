@@ -12,7 +12,7 @@ import { serve } from './session.mjs';
 const folder = mkdtempSync(join(tmpdir(), 'boresight-later-'));
 const site = join(folder, 'site');
 const patient = { timeout: 60_000 };
-const angles = '#/angle?array=lrr48&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,aaetr';
+const angles = '#/angle?array=lrr48&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,learned-pursuit';
 const estimated = (method) => `[data-row="${method}"]:not(.stale) [data-field="error"][data-value]`;
 
 /** What the build says. */
@@ -56,7 +56,7 @@ browserTest(
     await page.waitForSelector('[data-loading] [data-module="waiting"]');
     // Workers that are there before the module are given it too.
     await page.waitForSelector(estimated('iaa'), patient);
-    assert.doesNotMatch(await page.locator('[data-row="aaetr"]').innerText(), /missed/);
+    assert.doesNotMatch(await page.locator('[data-row="learned-pursuit"]').innerText(), /missed/);
     say({ state: 'building', started: Date.now() - 65_000, step: 'Compiling tract-core v0.23.9' });
     await page.waitForSelector('[data-loading] [data-module="building"]');
     assert.match(await page.locator('[data-loading] [data-module]').innerText(), /being built, for 1:\d\d min so far/);
@@ -64,8 +64,8 @@ browserTest(
     await page.waitForSelector('.notice [data-module="building"]');
     await page.locator('nav a[href^="#/angle"]').click();
     moduleComes();
-    await page.waitForSelector(estimated('aaetr'), patient);
-    for (const error of await values(page, '[data-row="aaetr"] [data-field="error"]'))
+    await page.waitForSelector(estimated('learned-pursuit'), patient);
+    for (const error of await values(page, '[data-row="learned-pursuit"] [data-field="error"]'))
       assert.ok(Math.abs(error) < 0.3, `${error} deg`);
     assert.equal(await page.locator('[data-module]').count(), 0, 'nothing is said of the build any more');
   },
@@ -94,7 +94,7 @@ browserTest(
     );
     moduleComes();
     await page.locator('[data-action="load"]').click();
-    await page.waitForSelector(estimated('aaetr'), patient);
+    await page.waitForSelector(estimated('learned-pursuit'), patient);
   },
 );
 

@@ -6,7 +6,7 @@ import { assertCsv, assertPng, drop, parametersWith, saved, values } from './dem
 import { browserTest } from './harness.mjs';
 import { typeNumber } from './type.mjs';
 
-const path = '#/networks?model=aaetr-small';
+const path = '#/networks?model=learned-pursuit';
 const models = readdirSync(join(root, 'models'))
   .filter((name) => name.endsWith('.json'))
   .map((name) => name.replace('.json', ''));
@@ -69,7 +69,7 @@ const header = (page) =>
     .evaluateAll((cells) => cells.map(({ dataset }) => dataset.field).join(','));
 
 browserTest(
-  'networks: AAETR runs on a scene beside IAA and the truth, and the link shows it again',
+  'networks: the learned pursuit runs on a scene beside IAA and the truth, and the link shows it again',
   { path: `${path}&targets=4&snr=25&seed=3` },
   async ({ page }) => {
     await page.locator('[data-card] ~ *').first().waitFor();
@@ -77,7 +77,7 @@ browserTest(
     await page.locator('[data-action="run"]').click();
     await tried(page);
     const before = {};
-    for (const method of ['aaetr', 'iaa', 'nomp']) {
+    for (const method of ['learned-pursuit', 'iaa', 'nomp']) {
       const [found] = await cell(page, method, 'found');
       assert.ok(found >= 3, `${method} found ${found} of 4`);
       before[method] = await cell(page, method, 'rmse');
@@ -86,11 +86,12 @@ browserTest(
     await parametersWith(page, (params) => params.get('run') === '1');
     await page.reload();
     await tried(page);
-    for (const method of ['aaetr', 'iaa', 'nomp']) assert.deepEqual(await cell(page, method, 'rmse'), before[method]);
+    for (const method of ['learned-pursuit', 'iaa', 'nomp'])
+      assert.deepEqual(await cell(page, method, 'rmse'), before[method]);
     await page.locator('input[name="refine"]').check();
     await page.waitForSelector('[data-attempt$="refined"]', patient);
-    const [refined] = await cell(page, 'aaetr', 'rmse');
-    assert.ok(refined <= before.aaetr[0], `refined ${refined}, ${before.aaetr} before`);
+    const [refined] = await cell(page, 'learned-pursuit', 'rmse');
+    assert.ok(refined <= before['learned-pursuit'][0], `refined ${refined}, ${before['learned-pursuit']} before`);
     await page.locator('[data-action="toggle"]').focus();
     await page.keyboard.press('Enter');
     await parametersWith(page, (params) => !params.has('run'));
@@ -146,14 +147,14 @@ browserTest(
     });
     await page.locator('[data-action="run"]').click();
     await page.waitForFunction(
-      (half) => document.querySelector('[data-loading="aaetr-small"] progress')?.value === half,
-      Math.floor(file('aaetr-small.onnx').length / 2),
+      (half) => document.querySelector('[data-loading="learned-pursuit"] progress')?.value === half,
+      Math.floor(file('learned-pursuit.onnx').length / 2),
     );
     await page.locator('[data-action="cancel-loading"]').first().click();
-    await page.waitForSelector('[data-stopped="aaetr-small"]');
+    await page.waitForSelector('[data-stopped="learned-pursuit"]');
     await page.locator('[data-action="load"]').first().click();
     await tried(page);
-    assert.match(await page.locator('[data-ready="aaetr-small"]').first().innerText(), /ready/);
+    assert.match(await page.locator('[data-ready="learned-pursuit"]').first().innerText(), /ready/);
   },
 );
 
@@ -186,7 +187,7 @@ browserTest(
   { path },
   async ({ page }) => {
     await page.waitForSelector('[data-card]');
-    const onnx = file('aaetr-small.onnx');
+    const onnx = file('learned-pursuit.onnx');
     const alert = async (files, code) => {
       await drop(page, files);
       await page.waitForSelector(`[data-error="${code}"]`, patient);
@@ -194,8 +195,8 @@ browserTest(
     };
     await alert([{ name: 'noise.onnx', bytes: Buffer.from('this is no network at all') }], 'not-onnx');
     await alert([{ name: 'cut.onnx', bytes: onnx.subarray(0, onnx.length / 2) }], 'truncated-file');
-    await alert([{ name: 'card.json', bytes: file('aaetr-small.json') }], 'missing');
-    const other = JSON.stringify({ ...card('aaetr-small'), sha256: '0'.repeat(64) });
+    await alert([{ name: 'card.json', bytes: file('learned-pursuit.json') }], 'missing');
+    const other = JSON.stringify({ ...card('learned-pursuit'), sha256: '0'.repeat(64) });
     await alert(
       [
         { name: 'other.onnx', bytes: onnx },
@@ -203,10 +204,10 @@ browserTest(
       ],
       'digest',
     );
-    assert.equal(await page.locator('[data-card]').getAttribute('data-card'), 'aaetr-small');
+    assert.equal(await page.locator('[data-card]').getAttribute('data-card'), 'learned-pursuit');
     await drop(page, [
       { name: 'mine.onnx', bytes: onnx },
-      { name: 'mine.json', bytes: file('aaetr-small.json') },
+      { name: 'mine.json', bytes: file('learned-pursuit.json') },
     ]);
     await page.waitForSelector('[data-card="own:mine.onnx"]', patient);
     assert.equal(await page.locator('[role="alert"]').count(), 0, 'the error is gone');
@@ -218,11 +219,11 @@ browserTest(
   { path: `${path}&targets=4&snr=25&seed=3` },
   async ({ page }) => {
     await page.waitForSelector('[data-card]');
-    await drop(page, [{ name: 'mine.onnx', bytes: file('aaetr-small.onnx') }]);
+    await drop(page, [{ name: 'mine.onnx', bytes: file('learned-pursuit.onnx') }]);
     await page.waitForSelector('[data-card="own:mine.onnx"]', patient);
     await page.locator('[data-action="run"]').click();
     await tried(page);
-    assert.ok((await cell(page, 'aaetr', 'found'))[0] >= 3);
+    assert.ok((await cell(page, 'learned-pursuit', 'found'))[0] >= 3);
   },
 );
 
@@ -250,7 +251,7 @@ for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) 
     async ({ page }) => {
       await page.waitForSelector(`[data-experiment="${name}"] .plot-host canvas`);
       const report = JSON.parse(readFileSync(experiment(name)));
-      const isNetwork = (method) => /^(aaetr|dnn|cnn3d|counting)/.test(method);
+      const isNetwork = (method) => /^(aaetr|learned-pursuit|dnn|cnn3d|counting)/.test(method);
       if (!report.methods.some(isNetwork)) {
         await page.waitForSelector(`[data-experiment="${name}"] [data-verdict="none"]`);
         return;
@@ -295,20 +296,20 @@ for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) 
 
 browserTest(
   'networks in the angle lab: one that fits loads and estimates, others say which array they are for',
-  { path: '#/angle?array=lrr48&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,aaetr' },
+  { path: '#/angle?array=lrr48&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,learned-pursuit' },
   async ({ page }) => {
-    await page.waitForSelector('[data-row="aaetr"]:not(.stale) [data-field="error"][data-value]', patient);
-    const errors = await values(page, '[data-row="aaetr"] [data-field="error"]');
+    await page.waitForSelector('[data-row="learned-pursuit"]:not(.stale) [data-field="error"][data-value]', patient);
+    const errors = await values(page, '[data-row="learned-pursuit"] [data-field="error"]');
     assert.equal(errors.length, 3);
     for (const error of errors) assert.ok(Math.abs(error) < 0.3, `${error} deg`);
     assert.ok(await page.locator('#method-dnn').isDisabled());
     assert.match(await page.locator('#method-dnn-note').innerText(), /8 elements|uniform/);
     assert.match(await page.locator('#method-cnn3d-note').innerText(), /region/);
     await page.locator('input[name="refine"]').check();
-    await page.waitForSelector('[data-row="aaetr"]:not(.stale) [data-field="error"][data-value]', patient);
+    await page.waitForSelector('[data-row="learned-pursuit"]:not(.stale) [data-field="error"][data-value]', patient);
     await page.locator('select[name="array"]').selectOption('ula');
-    await page.waitForSelector('#method-aaetr-note:not([hidden])');
-    assert.match(await page.locator('#method-aaetr-note').innerText(), /lrr48/);
+    await page.waitForSelector('#method-learned-pursuit-note:not([hidden])');
+    assert.match(await page.locator('#method-learned-pursuit-note').innerText(), /lrr48/);
     await typeNumber(page.locator('input[name="elements"]'), '8');
     await page.locator('#method-dnn').check();
     await page.waitForSelector('[data-row="dnn"]:not(.stale)', patient);
@@ -317,28 +318,28 @@ browserTest(
 );
 
 browserTest(
-  'networks in Capture: the DNN works on a cell of the recording, AAETR says why not',
+  'networks in Capture: the DNN works on a cell of the recording, the learned pursuit says why not',
   { path: '#/capture?methods=bartlett,dnn&sources=1' },
   async ({ page }) => {
     await page.waitForSelector('[data-row="dnn"]:not(.stale) [data-field="azimuth"][data-value]', patient);
     const [azimuth] = await values(page, '[data-row="dnn"] [data-field="azimuth"]');
     // The recording's near target lies at -10.8 deg, just outside the network's classes.
     assert.ok(Math.abs(azimuth + 10) <= 2, `${azimuth} deg`);
-    assert.ok(await page.locator('#cell-aaetr').isDisabled());
-    assert.match(await page.locator('#cell-aaetr-note').innerText(), /lrr48/);
+    assert.ok(await page.locator('#cell-learned-pursuit').isDisabled());
+    assert.match(await page.locator('#cell-learned-pursuit-note').innerText(), /lrr48/);
   },
 );
 
 browserTest(
-  'networks in Bird’s-eye view: an image by AAETR',
-  { path: '#/birdseye?methods=bartlett,aaetr&radars=front-left&cell=0.5' },
+  'networks in Bird’s-eye view: an image by the learned pursuit',
+  { path: '#/birdseye?methods=bartlett,learned-pursuit&radars=front-left&cell=0.5' },
   async ({ page }) => {
     await page.waitForSelector(
-      '[aria-busy="false"] [data-row="aaetr"]:not(.stale) [data-field="outsideDb"][data-value]',
+      '[aria-busy="false"] [data-row="learned-pursuit"]:not(.stale) [data-field="outsideDb"][data-value]',
       { timeout: 80_000 },
     );
-    const [network] = await values(page, '[data-row="aaetr"] [data-field="outsideDb"]');
+    const [network] = await values(page, '[data-row="learned-pursuit"] [data-field="outsideDb"]');
     const [fft] = await values(page, '[data-row="bartlett"] [data-field="outsideDb"]');
-    assert.ok(network < fft - 3, `AAETR ${network} dB, FFT ${fft} dB`);
+    assert.ok(network < fft - 3, `learned pursuit ${network} dB, FFT ${fft} dB`);
   },
 );

@@ -10,7 +10,7 @@ import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 import { difference, model, names, tensor } from './lib/networks.mjs';
 
-const aaetr = 'aaetr-small';
+const pursuit = 'learned-pursuit';
 /** Snapshots of `lrr48` with three targets each, as one batch. */
 const scenes = (count) => {
   const { data, shape } = simulateSnapshots({
@@ -62,7 +62,7 @@ describe('every shipped network', () => {
 
 describe('a network', () => {
   let network;
-  before(() => (network = new Network(model(aaetr).onnx, { card: model(aaetr).card, array: 'lrr48' })));
+  before(() => (network = new Network(model(pursuit).onnx, { card: model(pursuit).card, array: 'lrr48' })));
   after(() => network.free());
 
   test('finds the targets of clean snapshots', () => {
@@ -82,7 +82,7 @@ describe('a network', () => {
       );
       const result = network.estimate({ snapshots: { data, shape: [48, 1] } });
       assertShape(result, 'Estimate');
-      assert.equal(result.method, 'aaetr');
+      assert.equal(result.method, 'learned-pursuit');
       const found = result.sources.map(({ azimuthDeg }) => azimuthDeg);
       truth.forEach((angle) =>
         assert.ok(
@@ -122,11 +122,11 @@ describe('a network', () => {
   });
 
   test('refuses bad input with a typed error and goes on', () => {
-    const { onnx, card } = model(aaetr);
+    const { onnx, card } = model(pursuit);
     const input = cell(scenes(1), 0);
     const good = network.estimate(input);
-    const values = tensor(aaetr, 'snapshots');
-    const positions = tensor(aaetr, 'positions');
+    const values = tensor(pursuit, 'snapshots');
+    const positions = tensor(pursuit, 'positions');
     const spoilt = { data: values.data.map((x, i) => (i === 7 ? NaN : x)), shape: values.shape };
     const other = (change) => JSON.stringify({ ...JSON.parse(card), ...change });
     const unknown = renamed(onnx, 'Gemm', 'Gomm') ?? renamed(onnx, 'MatMul', 'MatMal');
@@ -144,7 +144,7 @@ describe('a network', () => {
       () => new Network(onnx, { card: other({ inputs: [{ name: 'snapshot', axes: ['batch', 48, 2] }] }) }),
       () => new Network(onnx, { card, gridPoint: 3 }),
       () => new Network(onnx, { card, confidence: 2 }),
-      () => new Network('models/aaetr-small.onnx'),
+      () => new Network('models/learned-pursuit.onnx'),
       () => new Network(onnx, 7),
       () => network.run({}),
       () => network.run({ snapshots: values }),
@@ -194,7 +194,7 @@ describe('a network', () => {
   });
 
   test('is freed once', () => {
-    const { onnx, card } = model(aaetr);
+    const { onnx, card } = model(pursuit);
     const one = new Network(onnx, { card });
     one.free();
     throwsTyped(() => one.free(), 'handle-freed', 'Network');
@@ -203,7 +203,7 @@ describe('a network', () => {
 });
 
 test('after a trap calls say so, and initNeural() gives a fresh instance', async () => {
-  const { onnx, card } = model(aaetr);
+  const { onnx, card } = model(pursuit);
   const stale = new Network(onnx, { card });
   const { memory } = await glue();
   // Nothing a caller may pass traps, so the memory under the module has to be spoilt.
@@ -215,12 +215,12 @@ test('after a trap calls say so, and initNeural() gives a fresh instance', async
   await initNeural();
   throwsTyped(() => stale.run({}), 'handle-stale', 'Network');
   const fresh = new Network(onnx, { card });
-  assert.equal(fresh.kind, 'aaetr');
+  assert.equal(fresh.kind, 'learned-pursuit');
   fresh.free();
 });
 
 test('a worker keeps the plans of a network when calls without options come between', () => {
-  keepNetwork('kept', model(aaetr));
+  keepNetwork('kept', model(pursuit));
   const { setOptions } = Network.prototype;
   let rebuilt = 0;
   Network.prototype.setOptions = function (options) {
@@ -231,7 +231,7 @@ test('a worker keeps the plans of a network when calls without options come betw
     const options = { array: 'lrr48', refine: true };
     for (let turn = 0; turn < 3; turn++) {
       networkWith('kept', { ...options, network: 'kept' });
-      assert.equal(networkWith('kept').kind, 'aaetr');
+      assert.equal(networkWith('kept').kind, 'learned-pursuit');
     }
     assert.equal(rebuilt, 1);
     networkWith('kept', { ...options, refine: false });
@@ -248,19 +248,19 @@ describe('a pool', () => {
   let network;
   before(async () => {
     pool = createPool({ workers: 2 });
-    info = await pool.loadNetwork(model(aaetr));
-    network = new Network(model(aaetr).onnx, { card: model(aaetr).card });
+    info = await pool.loadNetwork(model(pursuit));
+    network = new Network(model(pursuit).onnx, { card: model(pursuit).card });
   });
   after(() => {
     pool.terminate();
     network.free();
   });
-  const options = (more) => ({ method: 'aaetr', array: 'lrr48', network: info.id, ...more });
+  const options = (more) => ({ method: 'learned-pursuit', array: 'lrr48', network: info.id, ...more });
 
   test('says what it has loaded', () => {
     assertShape(info, 'NetworkInfo');
     assertShape(info.inputs[0], 'NetworkPort');
-    assert.deepEqual([info.kind, info.method, info.name], ['aaetr', 'aaetr', aaetr]);
+    assert.deepEqual([info.kind, info.method, info.name], ['learned-pursuit', 'learned-pursuit', pursuit]);
     assert.ok(info.readyMs > 0);
   });
 
@@ -307,7 +307,7 @@ describe('a pool', () => {
       { rangeM: 15, rateMps: -2, azimuthDeg: -31 },
     ];
     const cube = simulateCube({ waveform, array: 'lrr48', targets, snrDb: 20, seed: 3 });
-    const chain = { waveform, array: 'lrr48', angle: { method: 'aaetr', network: info.id } };
+    const chain = { waveform, array: 'lrr48', angle: { method: 'learned-pursuit', network: info.id } };
     const frames = await pool.processCube(cube, chain);
     assert.deepEqual(frames, network.processCube(cube, chain));
     assertShape(frames[0], 'FrameResult');
@@ -319,7 +319,7 @@ describe('a pool', () => {
     }
     const image = await pool.imageFrame(cube, chain);
     assertShape(image, 'ImageFrame');
-    assert.equal(image.estimates.method, 'aaetr');
+    assert.equal(image.estimates.method, 'learned-pursuit');
     const { angle: _, ...plain } = chain;
     assert.deepEqual((await pool.frameCells(cube, chain)).rangeBin, frameCells(cube, plain).rangeBin);
     throwsTyped(() => processCube(cube, chain), 'needs-model');
@@ -333,7 +333,7 @@ describe('a pool', () => {
     await rejectsTyped(pool.estimate(input, options({ network: undefined })), 'needs-model');
     await rejectsTyped(pool.estimate(input, options({ method: 'dnn' })));
     await rejectsTyped(pool.estimate({}, options()), 'wrong-type');
-    assert.equal((await pool.estimate(input, options())).method, 'aaetr');
+    assert.equal((await pool.estimate(input, options())).method, 'learned-pursuit');
   });
 
   test('goes on after a job is cancelled, and forgets a network when told to', async () => {
@@ -343,7 +343,7 @@ describe('a pool', () => {
       onProgress: () => controller.abort(),
     });
     await assert.rejects(job, { name: 'AbortError' });
-    const other = await pool.loadNetwork(model(aaetr));
+    const other = await pool.loadNetwork(model(pursuit));
     const input = cell(scenes(1), 0);
     assert.notEqual(other.id, info.id);
     assert.deepEqual(await pool.estimate(input, options({ network: other.id })), await pool.estimate(input, options()));

@@ -36,7 +36,7 @@ describe('a pool of worker threads', () => {
     assert.ok(presets.includes('lrr48'));
     assert.deepEqual(
       methods.filter(({ network }) => network).map(({ name }) => name),
-      ['aaetr', 'dnn', 'cnn3d'],
+      ['aaetr', 'learned-pursuit', 'dnn', 'cnn3d'],
     );
     assert.equal(methods.length, 14);
     assert.equal(geometry.positions.length, 8);

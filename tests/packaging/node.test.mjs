@@ -42,7 +42,7 @@ before(async () => {
         import { createPool } from 'boresight/worker';
         const file = (name) => readFileSync(fileURLToPath(import.meta.resolve('boresight/' + name)));
         initNeuralSync(file('boresight_neural.wasm'));
-        const model = { onnx: file('models/aaetr-small.onnx'), card: String(file('models/aaetr-small.json')) };
+        const model = { onnx: file('models/learned-pursuit.onnx'), card: String(file('models/learned-pursuit.json')) };
         const network = new Network(model.onnx, { card: model.card });
         const pool = createPool({ workers: 1 });
         console.log(network.kind, (await pool.loadNetwork(model)).name);
@@ -81,7 +81,7 @@ test('the module of drives can be had by name, and a pool loads it by itself', a
 });
 
 test('networks are a subpath of their own, and a pool loads their module by itself', async () => {
-  assert.equal(await printed('neural.mjs'), 'aaetr aaetr-small');
+  assert.equal(await printed('neural.mjs'), 'learned-pursuit learned-pursuit');
 });
 
 test('using the package before init() is a typed error', async () => {

@@ -19,7 +19,7 @@ before(async () => {
       'page.js': `
         import * as boresight from 'boresight';
         import { createPool } from 'boresight/worker';
-        import address from 'boresight/models/aaetr-small.onnx?url';
+        import address from 'boresight/models/learned-pursuit.onnx?url';
         import { planeWaveAzimuth, simulatedScans } from './program.mjs';
         await boresight.init();
         const here = await planeWaveAzimuth(boresight, 20);
@@ -54,7 +54,7 @@ async function checkPage(url) {
   const [here, inWorker, scans, networks] = JSON.parse(text);
   assert.ok(Math.abs(here - 20) < 0.1, `the page found ${here} deg, expected 20`);
   assert.ok(Math.abs(inWorker + 35) < 0.1, `the worker found ${inWorker} deg, expected -35`);
-  assert.deepEqual(networks, ['aaetr', 'aaetr']);
+  assert.deepEqual(networks, ['learned-pursuit', 'learned-pursuit']);
   assert.ok(scans[0] > 40 && scans[1] === scans[0], `scans of a simulated second: ${scans}`);
 }
 

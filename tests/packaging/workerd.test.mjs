@@ -29,7 +29,7 @@ let server;
 let url;
 before(
   async () => {
-    const onnx = readFileSync(join(root, 'models', 'aaetr-small.onnx')).toString('base64');
+    const onnx = readFileSync(join(root, 'models', 'learned-pursuit.onnx')).toString('base64');
     const files = { 'main.js': main, 'network.mjs': `export default '${onnx}';` };
     project = await consumer({ tools: ['vite'], fixtures: ['program.mjs'], files });
     // workerd resolves no package names, so a deployment bundles first: with the export map's
@@ -103,7 +103,7 @@ test('workerd takes the wasm as modules, estimates an angle, simulates a drive a
     const text = await response.text();
     assert.equal(response.status, 200, text);
     const { azimuthDeg, scans, network } = JSON.parse(text);
-    assert.equal(network, 'aaetr');
+    assert.equal(network, 'learned-pursuit');
     assert.ok(scans > 40, `${scans} scans of a simulated second`);
     assert.ok(Math.abs(azimuthDeg - expected) < 0.1, `${azimuthDeg} deg should be within 0.1 of ${expected}`);
   }

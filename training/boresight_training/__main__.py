@@ -8,7 +8,7 @@ from pathlib import Path
 import torch
 
 from . import export, processes
-from .tasks import NETWORKS, task
+from .tasks import NETWORKS, SETUPS, task
 from .train import Settings, Training
 
 
@@ -23,6 +23,15 @@ def parser() -> argparse.ArgumentParser:
     train.add_argument("--config", default="small", help=f"size: {sizes}")
     train.add_argument("--targets", type=int, help="most targets of aaetr (16); targets cnn3d and dnn see (1), 1 or 2")
     train.add_argument("--position-error", type=float, default=0.0, help="aaetr: perturb positions, half wavelengths")
+    train.add_argument(
+        "--snr-db",
+        type=float,
+        nargs=2,
+        metavar=("LOW", "HIGH"),
+        help="signal-to-noise ratio of the data; counting, cnn3d and dnn have 0 dB and more in their first half",
+    )
+    radars = "counting, cnn3d, dnn: radar of Table 3 or of Table 4"
+    train.add_argument("--setup", choices=tuple(SETUPS), default="simulated", help=radars)
     train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
     train.add_argument(
         "--resume",
@@ -34,7 +43,11 @@ def parser() -> argparse.ArgumentParser:
     )
     train.add_argument("--start-from", type=Path, metavar="DIR", help="begin with the weights of another run")
     train.add_argument("--minutes", type=float, help="stop this run after so long")
-    train.add_argument("--total-minutes", type=float, help="length of the schedule over all runs (as --minutes)")
+    train.add_argument(
+        "--total-minutes",
+        type=float,
+        help="length of the schedule over all runs, on a CPU in processor time of a thread (as --minutes)",
+    )
     train.add_argument("--steps", type=int, help="length of the schedule in steps instead")
     train.add_argument("--batch", type=int, help="examples a step, of all processes together")
     train.add_argument("--learning-rate", type=float)
@@ -71,6 +84,10 @@ def train(arguments) -> list[dict]:
     identity = {"name": a.network, "config": a.config, "targets": a.targets, "position_error": a.position_error}
     if a.arrays != "lrr48":
         identity["arrays"] = a.arrays
+    if a.setup != "simulated":
+        identity["setup"] = a.setup
+    if a.snr_db is not None:
+        identity["snr_db"] = a.snr_db
     what = task(**identity)
     group = processes.start(a.device)
     on_gpu = group.device.type == "cuda"

@@ -49,7 +49,6 @@ class Cnn3dConfig:
 
 CNN3D = {
     "paper": Cnn3dConfig(),
-    "experiment": Cnn3dConfig(),
     # A target fills two bins, and two targets of Table 3 are at most 20 apart.
     "small": Cnn3dConfig(filters=64, range_kernel=5, bins=43),
 }

@@ -147,11 +147,13 @@ def export(folder: Path, path: Path, half: bool = False, count: int = 4000, gold
     with torch.no_grad():
         metrics = what.evaluate(network, count, torch.Generator().manual_seed(SEEDS["metrics"]))
         confidence = what.confidence(network, count, torch.Generator().manual_seed(SEEDS["confidence"]))
-    identity, before = saved["identity"], saved["before"]
+    identity, legs = saved["identity"], [*saved["legs"], saved]
     card = {
         "name": path.stem,
         "title": what.title,
         "reference": what.reference,
+        "architecture": what.architecture,
+        "differences": what.differences,
         "network": identity["name"],
         "form": identity["config"],
         **({} if confidence is None else {"confidence": round(confidence, 3)}),
@@ -159,11 +161,9 @@ def export(folder: Path, path: Path, half: bool = False, count: int = 4000, gold
         "outputs": _ports(what.outputs),
         "parameters": sum(p.numel() for p in network.parameters()),
         **what.describe(),
-        "training": {name: saved["settings"][name] for name in SHAPING},
-        "steps": saved["step"] + before["step"],
-        "samplesSeen": saved["samples"] + before["samples"],
-        "hours": round((saved["seconds"] + before["seconds"]) / 3600, 3),
-        "hardware": saved["hardware"],
+        "legs": [_leg(leg) for leg in legs],
+        "samplesSeen": sum(leg["samples"] for leg in legs),
+        "hours": round(sum(leg["seconds"] for leg in legs) / 3600, 3),
         "software": f"PyTorch {torch.__version__.split('+')[0]}, Python {platform.python_version()}",
         "metrics": [{name: round(value, 5) for name, value in condition.items()} for condition in metrics],
         "metricsExamples": count,
@@ -174,6 +174,20 @@ def export(folder: Path, path: Path, half: bool = False, count: int = 4000, gold
     card = _camel_case(card)
     path.with_suffix(".json").write_text(json.dumps(card, indent=2) + "\n")
     return card
+
+
+def _leg(leg: dict) -> dict:
+    """One run of training: its data, its settings, and what it took."""
+    what = task(**leg["identity"])
+    return {
+        "title": what.title,
+        "data": what.describe()["data"],
+        "training": {name: leg["settings"][name] for name in SHAPING},
+        "steps": leg["step"],
+        "samplesSeen": leg["samples"],
+        "hours": round(leg["seconds"] / 3600, 3),
+        "hardware": leg["hardware"],
+    }
 
 
 def _camel_case(value):

@@ -9,7 +9,7 @@ import torch
 from torch import nn
 from torch.nn import functional
 
-from . import steered
+from . import steered, words
 from .aaetr import CONFIGS, Aaetr
 from .arrays import array, random_arrays
 from .classifiers import CNN3D, COVARIANCE_FEATURES, DNN_HIDDEN, Cnn3d, counting, dnn, folded
@@ -34,6 +34,10 @@ class Task(Protocol):
     title: str
     reference: str
     """Where the network is published."""
+    architecture: str
+    """What the network is, in words."""
+    differences: str
+    """How it and its training differ from the publication."""
     inputs: tuple[Port, ...]
     outputs: tuple[Port, ...]
     batch: int
@@ -65,16 +69,26 @@ class Task(Protocol):
 
 
 AAETRS = CONFIGS | steered.CONFIGS
+TRANSFORMERS = tuple(name for name, config in AAETRS.items() if getattr(config, "attend", True))
+PURSUITS = tuple(name for name in AAETRS if name not in TRANSFORMERS)
 EVALUATED = {"lrr48": (2, 6, 10), "awr1642": (1, 2), "ula16": (2, 4), "cascade86": (4, 10)}
 """Arrays that a network for any array is scored on, with numbers of targets. It is trained on none of them."""
 
 
+ZHU = "Zhu, Chen and Yang (2024), Angle of Arrival Estimation with Transformer"
+
+
 class AaetrTask:
-    """Angles of arrival of up to 16 targets in one snapshot, of `lrr48` or of any array."""
+    """AAETR or the learned pursuit: up to 16 targets in one snapshot, of `lrr48` or of any array."""
 
-    reference = "AAETR: Angle of Arrival Estimation with Transformer"
-
-    def __init__(self, config: str, position_error: float = 0.0, targets: int = 16, arrays: str = "lrr48"):
+    def __init__(
+        self,
+        config: str,
+        position_error: float = 0.0,
+        targets: int = 16,
+        arrays: str = "lrr48",
+        snr_db: tuple[float, float] | None = None,
+    ):
         self.config = AAETRS[config]
         self.any_array = arrays == "any"
         if self.any_array and not isinstance(self.config, steered.SteeredConfig):
@@ -82,8 +96,13 @@ class AaetrTask:
         if self.any_array and position_error:
             raise ValueError("a position error with arrays 'any': expected none, for these have their own")
         of = ", any array" if self.any_array else ", displaced elements" if position_error else ""
-        self.title = f"AAETR, form {config}{of}"
+        pursuit = config in PURSUITS
+        self.title = f"{'Learned pursuit' if pursuit else 'AAETR'}, form {config}{of}"
+        self.reference = f"{'Boresight, after ' if pursuit else ''}{ZHU}"
+        self.architecture, self.differences = words.set_prediction(self.config)
         self.scenes = Scenes(targets=(0, targets), position_error=position_error)
+        if snr_db is not None:
+            self.scenes = replace(self.scenes, snr_db=snr_db)
         self.loss_config = SetLossConfig()
         self.positions = array("lrr48")
         self.batch, self.learning_rate = (1024, 4e-4) if config == "paper" else (32, 2e-3)
@@ -180,6 +199,8 @@ class ClassifierTask:
 
     title: str
     reference: str
+    architecture: str
+    differences: str
     network: Any
     """Makes the model."""
     sizes: dict
@@ -276,27 +297,80 @@ SANG = "Sang et al. (2021), DoA Estimation for FMCW Radar by 3D-CNN"
 CHEN = "Chen, Gong and Mao (2020), Deep Neural Network for Estimation of Direction of Arrival with Antenna Array"
 
 
-def classifier(name: str, config: str, targets: int) -> ClassifierTask:
+SETUPS = {
+    "simulated": {},
+    "experiment": {"waveform": "3dcnn-experiment", "range_m": (10.0, 10.0), "shift_m": 0.3},
+}
+"""Radars and ranges of Tables 3 and 4; the latter with shifts in range (equation 10)."""
+NEAR = 0.5
+"""Share of pairs within a range bin, of all networks for two targets alike; of independent ranges one in ten are."""
+
+
+def classifier(
+    name: str, config: str, targets: int, setup: str = "simulated", snr_db: tuple[float, float] | None = None
+) -> ClassifierTask:
     """The counting network, the 3D-CNN or the DNN, for one or two targets."""
-    if name == "counting":
+    counts = name == "counting"
+    low, high = snr_db or (-10.0 if counts else -5.0, 15.0)
+    of = "" if setup == "simulated" else ", radar of Table 4"
+    cubes = Cubes(snr_db=(max(0.0, low), high), **SETUPS[setup])
+    if counts:
         hidden = {"small": 256, "paper": 1024}[config]
-        title, network = f"Number of targets, form {config}", partial(counting, hidden)
-        return ClassifierTask(title, SANG, network, {"hidden": hidden}, Cubes(), -10.0, True, 256, 1e-3)
-    number = "one target" if targets == 1 else "two targets"
-    cubes = Cubes(targets=(targets, targets))
+        return ClassifierTask(
+            title=f"Number of targets, form {config}{of}",
+            reference=SANG,
+            architecture=words.fully_connected(hidden, "four"),
+            differences=f"The second half of training begins at {low:g} dB, the publication's at -5 dB.",
+            network=partial(counting, hidden),
+            sizes={"hidden": hidden},
+            cubes=cubes,
+            lowest_db=low,
+            on_covariance=True,
+            batch=256,
+            learning_rate=1e-3,
+        )
+    cubes = replace(cubes, targets=(targets, targets), near=NEAR if targets == 2 else 0.0)
+    of = f"form {config}, {'one target' if targets == 1 else 'two targets'}{of}"
+    near = (
+        " Half of its pairs are within a range bin of each other; of independent ranges one in ten are."
+        if targets == 2
+        else ""
+    )
     if name == "dnn":
-        title, hidden = f"DNN, form {config}, {number}", DNN_HIDDEN[config]
-        return ClassifierTask(title, CHEN, partial(dnn, hidden), {"hidden": hidden}, cubes, -5.0, True, 256, 2e-3)
-    if config == "experiment":
-        cubes = replace(cubes, waveform="3dcnn-experiment", range_m=(9.7, 10.3), shift_m=0.3)
-    if targets == 2:
-        cubes = replace(cubes, near=0.5)
-    title, sizes = f"3D-CNN, form {config}, {number}", CNN3D[config]
-    return ClassifierTask(title, SANG, partial(Cnn3d, sizes), asdict(sizes), cubes, -5.0, False, 32, 2e-3)
+        hidden = DNN_HIDDEN[config]
+        return ClassifierTask(
+            title=f"DNN, {of}",
+            reference=CHEN,
+            architecture=words.fully_connected(hidden, "three"),
+            differences=f"Sizes of the layers are ours, of the numbers of parameters that Sang et al. state.{near}",
+            network=partial(dnn, hidden),
+            sizes={"hidden": hidden},
+            cubes=cubes,
+            lowest_db=low,
+            on_covariance=True,
+            batch=256,
+            learning_rate=2e-3,
+        )
+    sizes = CNN3D[config]
+    architecture, differences = words.cnn3d(sizes)
+    return ClassifierTask(
+        title=f"3D-CNN, {of}",
+        reference=SANG,
+        architecture=architecture,
+        differences=differences + near,
+        network=partial(Cnn3d, sizes),
+        sizes=asdict(sizes),
+        cubes=cubes,
+        lowest_db=low,
+        on_covariance=False,
+        batch=32,
+        learning_rate=2e-3,
+    )
 
 
 NETWORKS = {
-    "aaetr": tuple(AAETRS),
+    "aaetr": TRANSFORMERS,
+    "learned-pursuit": PURSUITS,
     "counting": ("small", "paper"),
     "cnn3d": tuple(CNN3D),
     "dnn": tuple(DNN_HIDDEN),
@@ -304,11 +378,18 @@ NETWORKS = {
 
 
 def task(
-    name: str, config: str, targets: int | None = None, position_error: float = 0.0, arrays: str = "lrr48"
+    name: str,
+    config: str,
+    targets: int | None = None,
+    position_error: float = 0.0,
+    arrays: str = "lrr48",
+    setup: str = "simulated",
+    snr_db: tuple[float, float] | None = None,
 ) -> Task:
     """A network by name and size; `targets` is the most of AAETR (16), or how many a classifier sees (1)."""
     if config not in NETWORKS[name]:
         raise ValueError(f"config {config!r} of {name}: expected {', '.join(NETWORKS[name])}")
-    if name == "aaetr":
-        return AaetrTask(config, position_error, 16 if targets is None else targets, arrays)
-    return classifier(name, config, 1 if targets is None else targets)
+    snr_db = None if snr_db is None else tuple(snr_db)
+    if name in ("aaetr", "learned-pursuit"):
+        return AaetrTask(config, position_error, 16 if targets is None else targets, arrays, snr_db)
+    return classifier(name, config, 1 if targets is None else targets, setup, snr_db)

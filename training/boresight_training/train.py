@@ -19,7 +19,10 @@ from .tasks import Task
 
 @dataclass(frozen=True)
 class Settings:
-    """How to train. The schedule runs over `steps`, or else over `total_minutes` of training, however often resumed."""
+    """How to train. The schedule runs over `steps`, or else over `total_minutes` of training, however often resumed.
+
+    A minute of training is one by `hardware.clock`: a busy machine makes a run longer, and not worse.
+    """
 
     batch: int
     """Examples a step, of all processes together."""
@@ -27,7 +30,7 @@ class Settings:
     steps: int | None = None
     total_minutes: float | None = None
     minutes: float | None = None
-    """This run stops after so long."""
+    """This run stops after so long by the clock on the wall."""
     stop_at_step: int | None = None
     """This run stops there, wherever the schedule ends."""
     warmup_steps: int = 200
@@ -74,8 +77,8 @@ class Training:
         )
         self.generator = torch.Generator(device=processes.device)
         self.step, self.samples, self.seconds = 0, 0, 0.0
-        self.before = {"step": 0, "samples": 0, "seconds": 0.0}
-        """What the runs took that this one started from."""
+        self.legs: list[dict] = []
+        """The runs that this one started from, first to last: of each what `leg` tells."""
         self.stop_requested = False
         saved = checkpoint.load(self.folder)
         if saved is not None:
@@ -91,7 +94,9 @@ class Training:
         """Trains until the schedule ends, the time is up or a signal comes; scores of the averaged weights."""
         s = self.settings
         handlers = {number: signal.signal(number, self._request_stop) for number in (signal.SIGTERM, signal.SIGINT)}
-        start = last = time.monotonic()
+        start = time.monotonic()
+        clock = hardware.clock(self.processes.device)
+        last = clock()
         due = {"log": s.log_seconds, "checkpoint": s.checkpoint_seconds, "evaluate": s.evaluate_seconds}
         sums: dict[str, torch.Tensor] = {}
         counted = logged_samples = 0
@@ -101,9 +106,10 @@ class Training:
                 for name, value in self._step().items():
                     sums[name] = sums.get(name, 0) + value
                 counted += 1
+                trained = clock()
+                self.seconds += trained - last
+                last = trained
                 now = time.monotonic()
-                self.seconds += now - last
-                last = now
                 elapsed = now - start
                 if elapsed >= due["log"]:
                     due["log"] = elapsed + s.log_seconds
@@ -138,19 +144,25 @@ class Training:
         with torch.no_grad(), self._autocast():
             return self.task.evaluate(self.ema, count or self.settings.evaluate_count, generator)
 
+    def leg(self) -> dict:
+        """What this run is and has taken so far."""
+        return {
+            "identity": self.identity,
+            "settings": asdict(self.settings),
+            "hardware": hardware.describe(self.processes.device, self.processes.count),
+            "step": self.step,
+            "samples": self.samples,
+            "seconds": self.seconds,
+        }
+
     def save(self) -> None:
         """Writes a checkpoint."""
         if self.processes.first:
             checkpoint.save(
                 self.folder,
                 {
-                    "identity": self.identity,
-                    "settings": asdict(self.settings),
-                    "hardware": hardware.describe(self.processes.device, self.processes.count),
-                    "step": self.step,
-                    "samples": self.samples,
-                    "seconds": self.seconds,
-                    "before": self.before,
+                    **self.leg(),
+                    "legs": self.legs,
                     "model": self.network.state_dict(),
                     "ema": self.ema.state_dict(),
                     "optimizer": self.optimizer.state_dict(),
@@ -164,7 +176,7 @@ class Training:
         self.ema.load_state_dict(saved["ema"])
         self.optimizer.load_state_dict(saved["optimizer"])
         self.step, self.samples, self.seconds = saved["step"], saved["samples"], saved["seconds"]
-        self.before = saved["before"]
+        self.legs = saved["legs"]
 
     def _start_from(self, folder: Path) -> None:
         """Takes the averaged weights of another run of the same network; everything else begins anew."""
@@ -174,9 +186,14 @@ class Training:
         same = ("name", "config")
         if any(saved["identity"][k] != self.identity[k] for k in same):
             raise ValueError(f"{folder} holds {saved['identity']}, not {self.identity}")
+        self.legs = [*saved["legs"], {name: saved[name] for name in self.leg()}]
+        if any(leg["settings"]["seed"] == self.settings.seed for leg in self.legs):
+            raise ValueError(
+                f"seed {self.settings.seed}: {folder} was trained with it, and the same batches would come again; "
+                "expected another"
+            )
         self.network.load_state_dict(saved["ema"])
         self.ema.load_state_dict(saved["ema"])
-        self.before = {k: saved["before"][k] + saved[k] for k in self.before}
 
     def _finished(self, elapsed: float) -> bool:
         s = self.settings

@@ -22,6 +22,16 @@ def card_of(path):
     return json.loads(path.with_suffix(".json").read_text())
 
 
+def task_of(card):
+    data, more = card["data"], {}
+    if "positionError" in data:
+        more["position_error"] = data["positionError"]
+    else:
+        more["setup"] = "experiment" if data["waveform"] == "3dcnn-experiment" else "simulated"
+        more["snr_db"] = (data["secondStageLowestSnrDb"], data["snrDb"][1])
+    return task(card["network"], card["form"], card.get("targets"), **more)
+
+
 def session_of(path):
     return onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
 
@@ -32,8 +42,11 @@ def test_a_card_describes_its_file(path):
     assert card["bytes"] == path.stat().st_size < 24e6
     assert card["sha256"] == hashlib.sha256(path.read_bytes()).hexdigest()
     assert card["name"] == path.stem
-    what = task(card["network"], card["form"], card.get("targets"), card["data"].get("positionError", 0.0))
-    assert (card["title"], card["reference"]) == (what.title, what.reference)
+    what = task_of(card)
+    for told in ("title", "reference", "architecture", "differences"):
+        assert card[told] == getattr(what, told)
+    for sum_of, digits in (("samplesSeen", 0), ("hours", 2)):
+        assert card[sum_of] == pytest.approx(sum(leg[sum_of] for leg in card["legs"]), abs=10**-digits)
     assert card["network"] == "counting" or 0 < card["confidence"] < 1
     for ports, named, given in (
         (what.inputs, card["inputs"], session.get_inputs()),
@@ -66,9 +79,12 @@ def test_all_weights_together_are_within_the_limit():
     assert sum(path.stat().st_size for path in MODELS) < 64e6
 
 
-@pytest.mark.parametrize("path", [path for path in MODELS if path.stem.startswith("aaetr")], ids=lambda path: path.stem)
-def test_an_aaetr_scores_what_its_card_says(path):
-    what = task("aaetr", card_of(path)["form"])
+SETS = [path for path in MODELS if card_of(path)["network"] in ("aaetr", "learned-pursuit")]
+
+
+@pytest.mark.parametrize("path", SETS, ids=lambda path: path.stem)
+def test_a_network_of_snapshots_scores_what_its_card_says(path):
+    what = task_of(card_of(path))
     for condition in card_of(path)["metrics"]:
         number, snr_db = condition["targets"], condition["snrDb"]
         if snr_db != 15:

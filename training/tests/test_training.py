@@ -112,13 +112,24 @@ def test_another_networks_folder_is_refused(tmp_path):
 def test_a_run_starts_from_the_weights_of_another(tmp_path):
     training(tmp_path / "first", 3).run()
     first = checkpoint.load(tmp_path / "first")
-    second = training(tmp_path / "second", 2, start_from=tmp_path / "first")
+    second = training(tmp_path / "second", 2, start_from=tmp_path / "first", seed=1)
     assert all(torch.equal(value, first["ema"][name]) for name, value in second.network.state_dict().items())
     second.run()
     saved = checkpoint.load(tmp_path / "second")
-    assert saved["step"] == 2 and saved["before"]["step"] == 3 and saved["before"]["samples"] == 48
+    assert saved["step"] == 2
+    assert [(leg["step"], leg["samples"], leg["settings"]["seed"]) for leg in saved["legs"]] == [(3, 48, 0)]
     with pytest.raises(ValueError, match="dnn"):
         training(tmp_path / "third", 2, network=("counting", "small"), start_from=tmp_path / "first")
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_run_from_another_refuses_seeds_whose_batches_were_seen(tmp_path, seed):
+    training(tmp_path / "first", 2).run()
+    training(tmp_path / "second", 2, start_from=tmp_path / "first", seed=1).run()
+    with pytest.raises(ValueError, match=f"seed {seed}"):
+        training(tmp_path / "third", 2, start_from=tmp_path / "second", seed=seed)
+    third = training(tmp_path / "third", 2, start_from=tmp_path / "second", seed=2)
+    assert [leg["settings"]["seed"] for leg in third.legs] == [0, 1]
 
 
 def test_a_checkpoint_is_replaced_whole(tmp_path, monkeypatch):
@@ -138,6 +149,7 @@ def test_a_checkpoint_is_replaced_whole(tmp_path, monkeypatch):
 def test_schedule_and_budget_follow_the_clock(tmp_path, monkeypatch):
     clock = itertools.count()
     monkeypatch.setattr(train.time, "monotonic", lambda: next(clock))  # every look at it takes a second
+    monkeypatch.setattr(train.hardware, "clock", lambda device: train.time.monotonic)
     run = training(tmp_path, None, total_minutes=2.0, minutes=1.0)
     run.run()
     assert 0.4 < run.progress() < 0.6
@@ -246,7 +258,9 @@ def test_the_command_line_trains_evaluates_and_exports(tmp_path):
     assert all(0 <= condition["accuracy"] <= 1 for condition in scores)
     finish(command("export", folder, path, "--half", "--count", 50))
     card = json.loads(path.with_suffix(".json").read_text())
-    assert card["samplesSeen"] > 0 and card["hours"] > 0 and card["hardware"]
+    assert card["samplesSeen"] > 0 and card["architecture"] and card["differences"]
+    (leg,) = card["legs"]
+    assert leg["samplesSeen"] == card["samplesSeen"] and leg["hardware"] and leg["training"]["seed"] == 0
     assert card["bytes"] == path.stat().st_size and len(card["sha256"]) == 64
     assert [condition["snrDb"] for condition in card["metrics"]] == [-10, -5, 0, 5, 10, 15]
 

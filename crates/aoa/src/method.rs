@@ -30,8 +30,10 @@ pub enum Method {
     MaximumLikelihood,
     /// Off-grid sparse Bayesian learning (Yang, Xie and Zhang 2013).
     SparseBayesian,
-    /// A transformer that answers with a set of targets.
+    /// A transformer that answers with a set of targets (AAETR).
     Aaetr,
+    /// A network without attention that answers with a set of targets: a pursuit whose steps are learned.
+    LearnedPursuit,
     /// A fully connected network on the covariance, of whole degrees (after Chen, Gong and Mao 2020).
     Dnn,
     /// A convolutional network on a region of the range spectrum, of whole degrees (Sang et al. 2021).
@@ -85,7 +87,7 @@ impl Method {
     ];
 
     /// The networks, which need one.
-    pub const NETWORKS: [Self; 3] = [Self::Aaetr, Self::Dnn, Self::Cnn3d];
+    pub const NETWORKS: [Self; 4] = [Self::Aaetr, Self::LearnedPursuit, Self::Dnn, Self::Cnn3d];
 
     /// The name used in options, in JavaScript and on the command line.
     pub fn name(self) -> &'static str {
@@ -213,8 +215,16 @@ impl Method {
                 ..base
             },
             Self::Aaetr => Requirements {
-                title: "AAETR (network)",
-                reference: "AAETR: Angle of Arrival Estimation with Transformer",
+                title: "AAETR (transformer)",
+                reference: "Zhu, Chen and Yang 2024",
+                max_snapshots: Some(1),
+                takes_covariance: false,
+                cost: "that of its model",
+                ..network
+            },
+            Self::LearnedPursuit => Requirements {
+                title: "Learned pursuit (network)",
+                reference: "Boresight",
                 max_snapshots: Some(1),
                 takes_covariance: false,
                 cost: "that of its model",

@@ -77,7 +77,7 @@ pub(crate) fn plan(
         Method::Nomp => Box::new(Nomp::new(array, options)?),
         Method::MaximumLikelihood => Box::new(MaximumLikelihood::new(array, options)?),
         Method::SparseBayesian => Box::new(SparseBayesian::new(array, options)?),
-        Method::Aaetr | Method::Dnn | Method::Cnn3d => {
+        Method::Aaetr | Method::LearnedPursuit | Method::Dnn | Method::Cnn3d => {
             return Err(AoaError::NeedsModel { method: method.name() });
         }
     })

@@ -39,12 +39,13 @@ fn snapshot(folder: &Path) -> PathBuf {
 fn a_network_estimates_like_any_method() {
     let folder = folder("network-estimates");
     let file = snapshot(&folder);
-    let base = ["estimate", file.to_str().unwrap(), "--array", "lrr48", "--method", "aaetr"];
+    let base =
+        ["estimate", file.to_str().unwrap(), "--array", "lrr48", "--method", "learned-pursuit"];
     let run = |extra: &[&str]| {
         let text = stdout(&[&base[..], extra].concat());
         serde_json::from_str::<Vec<Value>>(&text).unwrap()
     };
-    let path = model("aaetr-small");
+    let path = model("learned-pursuit");
     for extra in [&[][..], &["--refine"]] {
         let sources =
             run(&[&["--model", &path, "--field-of-view", "60", "--json"][..], extra].concat());
@@ -58,9 +59,14 @@ fn a_network_estimates_like_any_method() {
 
 #[test]
 fn a_model_tells_what_it_is() {
-    let text = stdout(&["network", &model("aaetr-small")]);
-    for part in ["aaetr", "snapshots [batch, 48, 2]", "targets [batch, 96, 3]", "lrr48", "SHA-256"]
-    {
+    let text = stdout(&["network", &model("learned-pursuit")]);
+    for part in [
+        "learned-pursuit",
+        "snapshots [batch, 48, 2]",
+        "targets [batch, 96, 3]",
+        "lrr48",
+        "SHA-256",
+    ] {
         assert!(text.contains(part), "{part}: {text}");
     }
 }
@@ -70,7 +76,8 @@ fn errors_name_the_file() {
     let folder = folder("network-errors");
     let file = snapshot(&folder);
     let refused = |extra: &[&str]| {
-        let base = ["estimate", file.to_str().unwrap(), "--array", "lrr48", "--method", "aaetr"];
+        let base =
+            ["estimate", file.to_str().unwrap(), "--array", "lrr48", "--method", "learned-pursuit"];
         let output = boresight(&[&base[..], extra].concat());
         assert!(!output.status.success());
         String::from_utf8(output.stderr).unwrap()
@@ -78,7 +85,7 @@ fn errors_name_the_file() {
     assert!(refused(&[]).contains("--model"));
     let other = refused(&["--model", &model("counting")]);
     assert!(other.contains("counting.onnx") && other.contains("wrong-network"), "{other}");
-    let whole = std::fs::read(model("aaetr-small")).unwrap();
+    let whole = std::fs::read(model("learned-pursuit")).unwrap();
     let cut = folder.join("cut.onnx");
     std::fs::write(&cut, &whole[..whole.len() / 2]).unwrap();
     let truncated = refused(&["--model", cut.to_str().unwrap()]);
@@ -88,13 +95,13 @@ fn errors_name_the_file() {
     assert!(refused(&["--model", text.to_str().unwrap()]).contains("not-onnx"));
     let card = folder.join("card.json");
     std::fs::write(&card, "{}").unwrap();
-    let bad = refused(&["--model", &model("aaetr-small"), "--card", card.to_str().unwrap()]);
+    let bad = refused(&["--model", &model("learned-pursuit"), "--card", card.to_str().unwrap()]);
     assert!(bad.contains("card.json") && bad.contains("malformed-card"), "{bad}");
 }
 
 #[test]
 fn an_image_of_a_street_is_made_by_a_network() {
-    let path = model("aaetr-small");
+    let path = model("learned-pursuit");
     let base = [
         "image",
         "street",
@@ -104,12 +111,12 @@ fn an_image_of_a_street_is_made_by_a_network() {
         "1",
         "--json",
         "--method",
-        "iaa,aaetr",
+        "iaa,learned-pursuit",
     ];
     let text = stdout(&[&base[..], &["--from", "targets", "--model", &path]].concat());
     let rows: Vec<Value> = serde_json::from_str(&text).unwrap();
     let lit = |row: &Value| row["litTargets"].as_f64().unwrap();
-    assert_eq!(rows[1]["method"], "aaetr");
+    assert_eq!(rows[1]["method"], "learned-pursuit");
     assert!(lit(&rows[1]) > 0.7 * lit(&rows[0]), "{rows:?}");
 }
 
@@ -117,24 +124,24 @@ fn an_image_of_a_street_is_made_by_a_network() {
 fn an_experiment_takes_networks_and_keeps_their_records_apart() {
     let folder = folder("network-evaluates");
     let out = folder.join("run");
-    let path = model("aaetr-small");
+    let path = model("learned-pursuit");
     let run = ["evaluate", "aoa", "--trials", "2", "--seed", "3", "--methods", "iaa"];
     let at = ["--out", out.to_str().unwrap()];
     let text = stdout(&[&run[..], &["--model", &path], &at].concat());
-    for row in ["| iaa |", "| aaetr-small |", "| aaetr-small+refined |"] {
+    for row in ["| iaa |", "| learned-pursuit |", "| learned-pursuit+refined |"] {
         assert!(text.contains(row), "{row} in {text}");
     }
-    let records = std::fs::read_to_string(out.join("aoa-aaetr-small.jsonl")).unwrap();
+    let records = std::fs::read_to_string(out.join("aoa-learned-pursuit.jsonl")).unwrap();
     let card: Value =
         serde_json::from_slice(&std::fs::read(path.replace(".onnx", ".json")).unwrap()).unwrap();
     assert!(records.lines().next().unwrap().contains(card["sha256"].as_str().unwrap()));
     // Nothing is run again, with another network added neither.
     let methods = std::fs::read(out.join("aoa.jsonl")).unwrap();
-    let other = model("aaetr-small-perturbed");
+    let other = model("learned-pursuit-displaced");
     let both = stdout(&[&run[..], &["--model", &path, "--model", &other], &at].concat());
-    assert!(both.contains("| aaetr-small-perturbed+refined |"), "{both}");
+    assert!(both.contains("| learned-pursuit-displaced+refined |"), "{both}");
     assert_eq!(std::fs::read(out.join("aoa.jsonl")).unwrap(), methods);
-    assert_eq!(std::fs::read_to_string(out.join("aoa-aaetr-small.jsonl")).unwrap(), records);
+    assert_eq!(std::fs::read_to_string(out.join("aoa-learned-pursuit.jsonl")).unwrap(), records);
 
     let wrong = boresight(&[&run[..], &["--model", &model("counting")], &at].concat());
     assert!(!wrong.status.success());

@@ -44,9 +44,9 @@ fn aoa_options(methods: &[&str], networks: Vec<Network>) -> aoa::AoaExperiment {
 fn a_network_is_scored_as_methods_are_and_its_records_are_its_own() {
     let go = |_| ControlFlow::Continue(());
     let root = folder("aoa");
-    let options = aoa_options(&["iaa", "nomp"], vec![network("aaetr-small")]);
+    let options = aoa_options(&["iaa", "nomp"], vec![network("learned-pursuit")]);
     let report = run(&options, how(2, Some(&root)), go).unwrap();
-    assert_eq!(report.methods, ["iaa", "nomp", "aaetr-small", "aaetr-small+refined"]);
+    assert_eq!(report.methods, ["iaa", "nomp", "learned-pursuit", "learned-pursuit+refined"]);
     let mean = |k: usize| {
         let f1 = report.conditions.iter().map(|c| c.methods[k].best.unwrap().f1);
         f1.sum::<f64>() / report.conditions.len() as f64
@@ -81,12 +81,12 @@ fn a_network_is_scored_as_methods_are_and_its_records_are_its_own() {
     other.entrants.networks[0].sha256 = "0".repeat(64);
     let refused = run(&other, how(1, Some(&root)), go);
     assert!(matches!(refused, Err(EvaluateError::OtherRun { .. })), "{refused:?}");
-    std::fs::remove_file(root.join("aoa-aaetr-small.jsonl")).unwrap();
+    std::fs::remove_file(root.join("aoa-learned-pursuit.jsonl")).unwrap();
     let before = std::fs::read(root.join("aoa.jsonl")).unwrap();
     run(&other, how(2, Some(&root)), go).unwrap();
     assert_eq!(std::fs::read(root.join("aoa.jsonl")).unwrap(), before);
     // Two trainings of one name cannot stand side by side.
-    let both = merge(&[networks, root.join("aoa-aaetr-small.jsonl")]);
+    let both = merge(&[networks, root.join("aoa-learned-pursuit.jsonl")]);
     assert!(matches!(both, Err(EvaluateError::OtherRun { .. })), "{both:?}");
     std::fs::remove_dir_all(root).unwrap();
 }
@@ -98,7 +98,7 @@ fn what_a_network_cannot_do_is_refused_before_anything_runs() {
         let options = aoa::AoaExperiment { array: array.into(), ..aoa_options(&["iaa"], networks) };
         run(&options, how(1, None), go).unwrap_err()
     };
-    let aaetr = network("aaetr-small");
+    let aaetr = network("learned-pursuit");
     assert!(matches!(aoa("ula16", vec![aaetr.clone()]), EvaluateError::Network(_)));
     assert!(matches!(aoa("lrr48", vec![network("dnn-small-2")]), EvaluateError::Network(_)));
     assert!(matches!(aoa("lrr48", vec![aaetr.clone(), aaetr.clone()]), EvaluateError::Core(_)));

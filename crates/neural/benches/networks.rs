@@ -1,4 +1,4 @@
-//! Time of a run of each model at batches of 1 and 32, and of an AAETR estimate.
+//! Time of a run of each model at batches of 1 and 32, and of an estimate of a set of targets.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use boresight_aoa::{Data, EstimatorOptions};
@@ -48,7 +48,7 @@ fn models(criterion: &mut Criterion) {
             });
             group.finish();
         }
-        if card.kind == boresight_neural::Kind::Aaetr {
+        if card.kind.answers_target_set() {
             let array = preset("lrr48").unwrap();
             let mut estimator = model.estimator(&array, &EstimatorOptions::default()).unwrap();
             let y = Array2::from_shape_fn((48, 1), |(k, _)| Complex64::cis(0.3 * k as f64));

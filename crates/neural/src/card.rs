@@ -6,13 +6,16 @@ use boresight_core::describe::{self, Described, Special};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What a network does, told from the names and shapes of its inputs and outputs.
+/// What a network is: what its card says, and without one what the names and shapes of its inputs and outputs tell.
+/// AAETR and the learned pursuit have the same; without a card such a network counts as AAETR.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 #[option(name = "NetworkKind")]
 pub enum Kind {
-    /// A set of targets from one snapshot.
+    /// A set of targets from one snapshot, by a transformer.
     Aaetr,
+    /// A set of targets from one snapshot, by a pursuit whose steps are learned.
+    LearnedPursuit,
     /// The number of targets, 0 to 2, from a covariance.
     Counting,
     /// Whole degrees from a covariance.
@@ -26,10 +29,16 @@ impl Kind {
     pub fn method(self) -> Option<Method> {
         match self {
             Self::Aaetr => Some(Method::Aaetr),
+            Self::LearnedPursuit => Some(Method::LearnedPursuit),
             Self::Counting => None,
             Self::Dnn => Some(Method::Dnn),
             Self::Cnn3d => Some(Method::Cnn3d),
         }
+    }
+
+    /// Whether it answers one snapshot with a set of targets.
+    pub fn answers_target_set(self) -> bool {
+        matches!(self, Self::Aaetr | Self::LearnedPursuit)
     }
 
     /// Its inputs, then its outputs. Where an axis has a name other than `batch`, any length will do, the same
@@ -45,7 +54,7 @@ impl Kind {
             )
         };
         match self {
-            Self::Aaetr => (
+            Self::Aaetr | Self::LearnedPursuit => (
                 vec![
                     port("snapshots", vec![batch(), named("elements"), Axis::Length(2)]),
                     port("positions", vec![named("elements"), Axis::Length(3)]),

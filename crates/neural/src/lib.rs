@@ -14,8 +14,8 @@
 //! use boresight_neural::{Card, Model};
 //! use ndarray::Array2;
 //!
-//! let card = Card::from_json(&std::fs::read("../../models/aaetr-small.json")?)?;
-//! let model = Model::load(&std::fs::read("../../models/aaetr-small.onnx")?, Some(&card))?;
+//! let card = Card::from_json(&std::fs::read("../../models/learned-pursuit.json")?)?;
+//! let model = Model::load(&std::fs::read("../../models/learned-pursuit.onnx")?, Some(&card))?;
 //!
 //! let array = preset("lrr48")?;
 //! let truth = Direction::azimuth(12_f64.to_radians());
@@ -28,7 +28,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod aaetr;
 pub mod card;
 mod classifier;
 mod convolution;
@@ -41,6 +40,7 @@ mod fused;
 mod model;
 mod onnx;
 mod product;
+mod target_set;
 
 pub use card::{Axis, Card, Kind, Port};
 pub use error::NeuralError;

@@ -1,12 +1,12 @@
 //! Models: loaded, checked, run.
 
-use crate::aaetr::Aaetr;
 use crate::card::{Axis, Card, Kind, Port};
 use crate::classifier::Classifier;
 use crate::engine::{Engine, Runners, ports, tensor, tensor_of};
 use crate::error::NeuralError;
 use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
+use crate::target_set::TargetSet;
 use boresight_aoa::Plan;
 use boresight_aoa::{Data, Estimate, Estimator, EstimatorOptions, Estimators, Method};
 use boresight_core::describe::{Described, Named, columns};
@@ -264,10 +264,12 @@ impl Model {
     ) -> Result<(Method, Network), NeuralError> {
         options.check()?;
         let Some(method) = self.kind.method() else {
-            return Err(self.wrong_kind("aaetr, dnn or cnn3d"));
+            return Err(self.wrong_kind("aaetr, learned-pursuit, dnn or cnn3d"));
         };
         let network = match self.kind {
-            Kind::Aaetr => Network::Aaetr(Aaetr::new(self, array, options)?),
+            kind if kind.answers_target_set() => {
+                Network::TargetSet(TargetSet::new(self, method, array, options)?)
+            }
             _ => Network::Classifier(Classifier::new(self, method, array, options)?),
         };
         Ok((method, network))
@@ -327,14 +329,14 @@ impl Model {
 
 #[derive(Clone)]
 enum Network {
-    Aaetr(Aaetr),
+    TargetSet(TargetSet),
     Classifier(Classifier),
 }
 
 impl Network {
     fn boxed(self) -> Box<dyn Plan> {
         match self {
-            Self::Aaetr(plan) => Box::new(plan),
+            Self::TargetSet(plan) => Box::new(plan),
             Self::Classifier(plan) => Box::new(plan),
         }
     }

@@ -256,13 +256,13 @@ fn a_card_has_to_fit_its_file() {
             "{text}"
         );
     }
-    let (aaetr, other) = (bytes("aaetr-small"), card("dnn-small-2"));
+    let (aaetr, other) = (bytes("learned-pursuit"), card("dnn-small-2"));
     assert!(matches!(Model::load(&aaetr, Some(&other)), Err(NeuralError::Mismatch { .. })));
 }
 
 #[test]
 fn inputs_of_a_run_and_arrays_are_checked() {
-    let network = model("aaetr-small");
+    let network = model("learned-pursuit");
     let (snapshots, positions) = (ArrayD::zeros(vec![2, 48, 2]), ArrayD::zeros(vec![48, 3]));
     let bad = ArrayD::<f32>::zeros(vec![2, 47, 2]);
     let none = ArrayD::<f32>::zeros(vec![0, 48, 2]);

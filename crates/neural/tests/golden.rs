@@ -22,7 +22,7 @@ fn run(model: &Model, inputs: &[(String, ArrayD<f32>)]) -> Vec<(String, ArrayD<f
 #[test]
 fn every_model_equals_pytorch() {
     let names = names();
-    assert!(names.contains(&"aaetr-small".to_owned()), "{names:?}");
+    assert!(names.contains(&"learned-pursuit".to_owned()), "{names:?}");
     for name in names {
         let model = model(&name);
         for (port, given) in run(&model, &inputs(&name, &model)) {
@@ -39,7 +39,7 @@ fn every_model_equals_pytorch() {
 /// 37 examples run as 32 and five more; each is what it is alone, to rounding: sums may be taken in another order.
 #[test]
 fn a_batch_is_its_examples() {
-    for name in ["aaetr-small", "dnn-small-2"] {
+    for name in ["learned-pursuit", "dnn-small-2"] {
         let model = model(name);
         let golden = inputs(name, &model);
         let batched = |port: &str| port != "positions";

@@ -196,7 +196,7 @@ impl Network {
         if let Some(array) = &self.array {
             return Ok(array.clone());
         }
-        let usual = if self.model.kind() == Kind::Aaetr { "lrr48" } else { "ula8" };
+        let usual = if self.model.kind().answers_target_set() { "lrr48" } else { "ula8" };
         let trained = self.model.card().and_then(|card| card.data.array.as_deref());
         Ok(preset(trained.unwrap_or(usual))?)
     }

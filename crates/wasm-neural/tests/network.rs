@@ -15,8 +15,8 @@ use support::{get, json, text, with};
 use wasm_bindgen::JsValue;
 use wasm_bindgen_test::wasm_bindgen_test;
 
-const ONNX: &[u8] = include_bytes!("../../../models/aaetr-small.onnx");
-const CARD: &str = include_str!("../../../models/aaetr-small.json");
+const ONNX: &[u8] = include_bytes!("../../../models/learned-pursuit.onnx");
+const CARD: &str = include_str!("../../../models/learned-pursuit.json");
 
 fn load(onnx: &[u8], options: &str) -> Result<Network, JsValue> {
     let onnx = Uint8Array::new_from_slice(onnx);
@@ -38,7 +38,7 @@ fn input(array: &Array, azimuths_deg: &[f64]) -> JsValue {
 fn a_network_finds_the_angles_of_clean_snapshots() {
     let array = preset("lrr48").unwrap();
     let mut network = load(ONNX, r#"{ "array": "lrr48" }"#).unwrap();
-    assert_eq!(text(&network.describe(), "kind"), "aaetr");
+    assert_eq!(text(&network.describe(), "kind"), "learned-pursuit");
     let truth = [-20.0, 15.0];
     let estimate = network.estimate(&input(&array, &truth)).unwrap();
     let sources = js_sys::Array::from(&get(&estimate, "sources"));

@@ -4,16 +4,29 @@
  */
 import type { ArrayGeometry, ModelCard, NetworkKind } from 'boresight';
 
-/** A card with what ours say beside what every card must. */
-export type Card = ModelCard & {
-  model?: Record<string, unknown>;
+/** A run of training; the next began with its weights. */
+export interface Leg {
+  title?: string;
   data?: Record<string, unknown>;
-  loss?: Record<string, unknown>;
   training?: Record<string, unknown>;
-  steps?: number;
   samplesSeen?: number;
   hours?: number;
   hardware?: string;
+}
+
+/** A card with what ours say beside what every card must. */
+export type Card = ModelCard & {
+  /** What the network is, in words. */
+  architecture?: string;
+  /** How it and its training differ from the publication. */
+  differences?: string;
+  model?: Record<string, unknown>;
+  data?: Record<string, unknown>;
+  loss?: Record<string, unknown>;
+  /** Every run of training, first to last. */
+  legs?: readonly Leg[];
+  samplesSeen?: number;
+  hours?: number;
   software?: string;
   metricsExamples?: number;
   onnx?: { opset?: number; weights?: string; parity?: number };
@@ -42,9 +55,10 @@ const cardAddresses = import.meta.glob<string>('../../../models/*.json', {
 });
 const addresses = import.meta.glob<string>('../../../models/*.onnx', { eager: true, query: '?url', import: 'default' });
 
-const KINDS: readonly NetworkKind[] = ['aaetr', 'counting', 'dnn', 'cnn3d'];
+const KINDS: readonly NetworkKind[] = ['aaetr', 'learned-pursuit', 'counting', 'dnn', 'cnn3d'];
 export const KIND_TITLES: Record<NetworkKind, string> = {
   aaetr: 'AAETR',
+  'learned-pursuit': 'Learned pursuit',
   counting: 'Counting network',
   dnn: 'DNN',
   cnn3d: '3D-CNN',
@@ -81,11 +95,14 @@ export const MODELS: readonly Model[] = Object.entries(cards)
       a.name.localeCompare(b.name),
   );
 
+/** Whether it answers one snapshot with a set of targets; others answer a region of interest in whole degrees. */
+export const answersTargetSet = ({ network }: Card): boolean => network === 'aaetr' || network === 'learned-pursuit';
+
 /** Virtual elements the network's input has room for. */
-export function elementsOf({ network, inputs }: Card): number {
-  const [, second, third] = inputs[0]?.axes ?? [];
-  if (network === 'aaetr') return Number(second);
-  if (network === 'cnn3d') return Number(third);
+export function elementsOf(card: Card): number {
+  const [, second, third] = card.inputs[0]?.axes ?? [];
+  if (answersTargetSet(card)) return Number(second);
+  if (card.network === 'cnn3d') return Number(third);
   // M (M - 1) numbers of a Hermitian matrix.
   return Math.round((1 + Math.sqrt(1 + 4 * Number(second))) / 2);
 }
@@ -103,7 +120,7 @@ export type Geometry = Pick<ArrayGeometry, 'positions' | 'uniform' | 'aperture'>
 export function arrayProblem(card: Card, { positions, uniform, aperture }: Geometry): string | null {
   const elements = elementsOf(card);
   const evenly = uniform && Math.abs(aperture - (elements - 1)) < 1e-6;
-  if (positions.length !== elements || (card.network !== 'aaetr' && !evenly)) {
+  if (positions.length !== elements || (!answersTargetSet(card) && !evenly)) {
     return `is for ${arrayOf(card)}${typeof card.data?.array === 'string' ? ` (${elements} elements)` : ''}`;
   }
   return null;

@@ -81,6 +81,7 @@ const METHOD_STYLES: Record<string, SeriesStyle> = {
   recursive: { color: { light: '#0072b2', dark: '#4aa8e8' }, width: 2, marker: 'circle' },
   joint: { color: { light: '#3d4650', dark: '#e9edf0' }, dash: [10, 3], marker: 'star' },
   aaetr: { color: { light: '#d62f1f', dark: '#ff7a66' }, width: 2.4, marker: 'diamond' },
+  'learned-pursuit': { color: { light: '#b8327a', dark: '#ff8ac2' }, width: 2.4, marker: 'up' },
   cnn3d: { color: { light: '#1b4fd1', dark: '#86a8ff' }, width: 2.4, marker: 'square' },
   dnn: { color: { light: '#6d4432', dark: '#d9ab93' }, width: 2, dash: [8, 3], marker: 'down' },
   counting: { color: { light: '#d62f1f', dark: '#ff7a66' }, width: 2.4, marker: 'diamond' },

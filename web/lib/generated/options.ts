@@ -199,7 +199,9 @@ export interface Region {
  * - `nomp`: Newtonized orthogonal matching pursuit (Mamandipoor et al. 2016).
  * - `maximum-likelihood`: Deterministic maximum likelihood by alternating projection (Ziskind and Wax 1988).
  * - `sparse-bayesian`: Off-grid sparse Bayesian learning (Yang, Xie and Zhang 2013).
- * - `aaetr`: A transformer that answers with a set of targets.
+ * - `aaetr`: A transformer that answers with a set of targets (AAETR).
+ * - `learned-pursuit`: A network without attention that answers with a set of targets: a pursuit whose steps are
+ * learned.
  * - `dnn`: A fully connected network on the covariance, of whole degrees (after Chen, Gong and Mao 2020).
  * - `cnn3d`: A convolutional network on a region of the range spectrum, of whole degrees (Sang et al. 2021).
  */
@@ -216,6 +218,7 @@ export type Method =
   | 'maximum-likelihood'
   | 'sparse-bayesian'
   | 'aaetr'
+  | 'learned-pursuit'
   | 'dnn'
   | 'cnn3d';
 

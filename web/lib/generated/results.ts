@@ -736,14 +736,16 @@ export interface Trajectory {
 }
 
 /**
- * What a network does, told from the names and shapes of its inputs and outputs.
+ * What a network is: what its card says, and without one what the names and shapes of its inputs and outputs tell.
+ * AAETR and the learned pursuit have the same; without a card such a network counts as AAETR.
  *
- * - `aaetr`: A set of targets from one snapshot.
+ * - `aaetr`: A set of targets from one snapshot, by a transformer.
+ * - `learned-pursuit`: A set of targets from one snapshot, by a pursuit whose steps are learned.
  * - `counting`: The number of targets, 0 to 2, from a covariance.
  * - `dnn`: Whole degrees from a covariance.
  * - `cnn3d`: Whole degrees from a region of the range spectrum.
  */
-export type NetworkKind = 'aaetr' | 'counting' | 'dnn' | 'cnn3d';
+export type NetworkKind = 'aaetr' | 'learned-pursuit' | 'counting' | 'dnn' | 'cnn3d';
 
 /** An input or output, of 32-bit floating-point numbers. */
 export interface NetworkPort {

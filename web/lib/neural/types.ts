@@ -2,7 +2,7 @@
 import type { EstimatorOptions, NetworkDescription, NetworkKind, NetworkPort } from '../types.js';
 
 /** Networks that estimate angles, as methods of an estimator; they need a model. */
-export type NetworkMethod = 'aaetr' | 'dnn' | 'cnn3d';
+export type NetworkMethod = Exclude<NetworkKind, 'counting'>;
 
 /** An input or output as a card has it. */
 export interface CardPort extends NetworkPort {

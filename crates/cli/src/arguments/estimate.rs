@@ -57,7 +57,7 @@ pub fn methods() -> Vec<&'static str> {
     Method::ALL.into_iter().chain(Method::NETWORKS).map(Method::name).collect()
 }
 
-/// The model that methods aaetr, dnn and cnn3d run.
+/// The model that methods aaetr, learned-pursuit, dnn and cnn3d run.
 #[derive(Debug, Args)]
 pub struct ModelArguments {
     /// Model of a network, an ONNX file.

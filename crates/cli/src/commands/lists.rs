@@ -47,7 +47,7 @@ pub fn methods(as_json: bool) -> Result<String, CliError> {
     }
     text += "\nsnapshots: of one cell; averaging and smoothing make more of one.\n\
              sources: whether their number must be given or counted (--sources) beforehand.\n\
-             aaetr, dnn and cnn3d are networks and need a trained model (--model).\n";
+             aaetr, learned-pursuit, dnn and cnn3d are networks and need a trained model (--model).\n";
     Ok(text)
 }
 

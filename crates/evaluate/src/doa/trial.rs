@@ -7,6 +7,7 @@ use crate::told::{self, Candidate};
 use boresight_aoa::bounds::{Signals, deterministic_bound, stochastic_bound, uncorrelated};
 use boresight_aoa::counting::{Criterion, count_sources_in};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, SourceCount};
+use boresight_core::describe::Named;
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::units::db_to_power;
 use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Random, Waveform};
@@ -150,11 +151,11 @@ impl Plan {
         }
         let named = |name: &str| methods.iter().any(|method| method == name);
         for network in networks {
-            if network.kind == Kind::Aaetr {
+            if network.kind.answers_target_set() {
                 return Err(CoreError::Unknown {
                     what: format!("use of the network {}", network.name),
                     expected: "a network that counts, or one of a region or its covariance".into(),
-                    given: "aaetr".into(),
+                    given: network.kind.name().into(),
                 }
                 .into());
             }

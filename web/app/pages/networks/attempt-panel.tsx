@@ -1,6 +1,7 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
 import { useMemo } from 'preact/hooks';
 import { ANGLE_STEPS, curve, sameGrid, series } from '../../estimates.ts';
+import { answersTargetSet } from '../../networks/models.ts';
 import { fixed, milliseconds, signed } from '../../plots/format.ts';
 import { bands, markers } from '../../plots/layers.ts';
 import { download, fileName, toCsv } from '../../plots/save.ts';
@@ -32,7 +33,7 @@ export function AttemptPanel() {
       <div class="panel experiment-head">
         <h2 id="try-title">Try it</h2>
         <p class="remark">
-          {model.card.network === 'aaetr'
+          {answersTargetSet(model.card)
             ? 'One simulated snapshot, drawn from the seed: the network beside IAA, NOMP and the plain FFT on the same numbers, none of which knows how many targets there are.'
             : 'One simulated region of interest, drawn from the seed: the network beside classical methods on the same numbers. All are told the number of targets but those that count it.'}
         </p>

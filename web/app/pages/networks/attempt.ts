@@ -1,9 +1,9 @@
 /** A network tried on one simulated scene, beside classical methods and the truth. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { Estimate, EstimateInput, EstimatorOptions, Method, NetworkInfo, Source } from 'boresight';
+import type { Estimate, EstimateInput, EstimatorOptions, Method, NetworkInfo, NetworkMethod, Source } from 'boresight';
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { load, loadings, models } from '../../networks/load.ts';
-import { type Card, elementsOf, type Model, targetsOf } from '../../networks/models.ts';
+import { answersTargetSet, type Card, elementsOf, type Model, targetsOf } from '../../networks/models.ts';
 import { REGION_ARRAY, simulateRegion } from './region.ts';
 import { type NetworksState, networksState, TARGET_RANGE } from './state.ts';
 
@@ -49,7 +49,7 @@ export const selected = computed<Model | undefined>(() =>
 
 /** How many targets a network can be tried on. */
 export function targetRange(card: Card): readonly [number, number] {
-  if (card.network === 'aaetr') return TARGET_RANGE;
+  if (answersTargetSet(card)) return TARGET_RANGE;
   const fixed = targetsOf(card);
   return card.network === 'counting' ? [0, 2] : fixed === null ? [1, 2] : [fixed, fixed];
 }
@@ -93,7 +93,7 @@ async function attemptOn(model: Model, scene: Scene, controller: AbortController
   trying.value = true;
   try {
     const info = await load(model.name, controller.signal);
-    const made = await (model.card.network === 'aaetr' ? onSnapshot : onRegion)(model, info, scene, controller.signal);
+    const made = await (answersTargetSet(model.card) ? onSnapshot : onRegion)(model, info, scene, controller.signal);
     if (running !== controller) return;
     batch(() => {
       attempt.value = made;
@@ -150,6 +150,7 @@ export function arrayFor(card: Card): string {
 
 async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal: AbortSignal): Promise<Attempt> {
   const { card, name } = model;
+  const method = card.network as NetworkMethod;
   const { snr: snrDb, seed, refine } = scene;
   const targets = targetsIn(scene, card);
   const array = arrayFor(card);
@@ -167,10 +168,9 @@ async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal:
   const rows = await rowsOf(
     [
       {
-        method: 'aaetr',
+        method,
         title: model.title,
-        run: () =>
-          pool().estimate(input, { ...options, method: 'aaetr', network: info.id, fieldOfViewDeg }, { signal }),
+        run: () => pool().estimate(input, { ...options, method, network: info.id, fieldOfViewDeg }, { signal }),
       },
       ...(['iaa', 'nomp', 'bartlett'] as const).map((method) => classical(method, input, options, signal)),
     ],

@@ -2,13 +2,13 @@
 
 import type { CardPort } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import type { Card, Model } from '../../networks/models.ts';
+import { answersTargetSet, type Card, type Leg, type Model } from '../../networks/models.ts';
 import { count, fixed } from '../../plots/format.ts';
 import { markers } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
 import { methodStyle, type SeriesStyle } from '../../plots/theme.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
-import { METRICS, metricText, sizeOf, taskOf, trainedOn, training } from './words.ts';
+import { hoursText, METRICS, made, metricText, sizeOf, taskOf, trainedOn } from './words.ts';
 
 export function CardPanel({ model }: { model: Model }) {
   const { card, title } = model;
@@ -16,7 +16,7 @@ export function CardPanel({ model }: { model: Model }) {
     ['Parameters', card.parameters === undefined ? '–' : count(card.parameters), 'Numbers that training found'],
     ['File', sizeOf(card), 'ONNX; fetched when the network is first used'],
     ['Samples seen', card.samplesSeen === undefined ? '–' : count(card.samplesSeen), 'All simulated'],
-    ['Training', card.hours === undefined ? '–' : `${fixed(card.hours, 2)} h`, card.hardware ?? ''],
+    ['Training', card.hours === undefined ? '–' : hoursText(card.hours), hardwareOf(card)],
     [
       'Least confidence',
       card.confidence === undefined ? '–' : fixed(card.confidence, 3),
@@ -49,6 +49,11 @@ export function CardPanel({ model }: { model: Model }) {
           </>
         )}
       </p>
+      {card.architecture && (
+        <p class="remark" data-field="architecture">
+          <b>What it is.</b> {card.architecture} {card.differences}
+        </p>
+      )}
       <dl class="facts flat" data-facts="card">
         {facts.map(([term, value, help]) => (
           <div key={term} title={help}>
@@ -60,8 +65,9 @@ export function CardPanel({ model }: { model: Model }) {
       <Ports card={card} />
       <div class="card-details">
         <Pairs title="Trained on simulated" pairs={trainedOn(card)} />
-        <Pairs title="Training" pairs={training(card)} />
+        <Pairs title="Making" pairs={made(card)} />
       </div>
+      {card.legs && <Legs legs={card.legs} />}
       {card.sha256 && (
         <p class="remark digest">
           SHA-256 <code>{card.sha256}</code>
@@ -84,6 +90,51 @@ function Pairs({ title, pairs }: { title: string; pairs: readonly [string, strin
                 {name}
               </th>
               <td class="text wrap">{value}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+const hardwareOf = ({ legs = [] }: Card): string =>
+  [...new Set(legs.flatMap(({ hardware }) => hardware ?? []))].join('; ');
+
+/** Runs of training, each of which began with the weights of the one before. */
+function Legs({ legs }: { legs: readonly Leg[] }) {
+  return (
+    <div class="table-scroll" tabIndex={0} role="region" aria-label="Runs of training, scrollable">
+      <table class="data compact" data-table="legs">
+        <thead>
+          <tr>
+            <th scope="col" class="text">
+              Run of training
+            </th>
+            <th scope="col" title="Simulated as they were needed; none came twice within a run">
+              Samples
+            </th>
+            <th scope="col">Time</th>
+            <th scope="col">Batch</th>
+            <th scope="col" title="The highest of its schedule">
+              Learning rate
+            </th>
+            <th scope="col" class="text">
+              Hardware
+            </th>
+          </tr>
+        </thead>
+        <tbody>
+          {legs.map(({ title, samplesSeen, hours, training = {}, hardware }, index) => (
+            <tr key={index}>
+              <th scope="row" class="text">
+                {index + 1}. {title}
+              </th>
+              <td>{samplesSeen === undefined ? '–' : count(samplesSeen)}</td>
+              <td>{hours === undefined ? '–' : hoursText(hours)}</td>
+              <td>{typeof training.batch === 'number' ? count(training.batch) : '–'}</td>
+              <td>{typeof training.learningRate === 'number' ? training.learningRate : '–'}</td>
+              <td class="text wrap">{hardware}</td>
             </tr>
           ))}
         </tbody>
@@ -145,7 +196,7 @@ function curvesOf(card: Card): {
   rows: readonly Row[][];
 } {
   const rows = card.metrics ?? [];
-  if (card.network === 'aaetr') {
+  if (answersTargetSet(card)) {
     const numbers = [...new Set(rows.map(({ targets }) => targets as number))].sort((a, b) => a - b);
     return {
       key: 'f1',
@@ -195,7 +246,7 @@ export function MetricsPanel({ model }: { model: Model }) {
     });
     const values = lines.flatMap(({ y }) => y).filter((value) => value !== null);
     const low = Math.min(...values);
-    const high = card.network === 'aaetr' ? 1 : 100;
+    const high = answersTargetSet(card) ? 1 : 100;
     const margin = Math.max((high - low) * 0.08, high * 0.002);
     return {
       lines,
@@ -239,7 +290,7 @@ export function MetricsPanel({ model }: { model: Model }) {
         label,
         style,
         line: true,
-        value: ({ index }) => fixed(y[index ?? -1] ?? Number.NaN, card.network === 'aaetr' ? 4 : 1),
+        value: ({ index }) => fixed(y[index ?? -1] ?? Number.NaN, answersTargetSet(card) ? 4 : 1),
       }))}
       readout={({ index }) => `SNR ${fixed(plot.snrs[index ?? -1] ?? Number.NaN, 0)} dB`}
       csv={csv}

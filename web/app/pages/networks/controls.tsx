@@ -1,5 +1,6 @@
 /** Which network is looked at, the scene it is tried on, and a user's own. */
 import { models } from '../../networks/load.ts';
+import { answersTargetSet } from '../../networks/models.ts';
 import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';
 import { Group, SelectField } from '../../ui/field.tsx';
@@ -53,7 +54,7 @@ export function Controls() {
           unit="dB"
           help="Of a snapshot: power of a 0 dB target at one element over the noise there. Of a region: of one sample of one chirp at one element, before any transform."
         />
-        {card && card.network !== 'aaetr' && targetsIn(state, card) === 2 && (
+        {card && !answersTargetSet(card) && targetsIn(state, card) === 2 && (
           <Control
             label="Two targets"
             name="range"
@@ -62,7 +63,7 @@ export function Controls() {
           />
         )}
         <SeedField value={state.seed} what="scene" title="Another scene" onChange={(seed) => update({ seed })} />
-        {card?.network === 'aaetr' && <Control label="Refine by Gauss-Newton" name="refine" />}
+        {card && answersTargetSet(card) && <Control label="Refine by Gauss-Newton" name="refine" />}
         <button
           type="button"
           class={state.run ? '' : 'primary'}

@@ -100,8 +100,9 @@ function Snapshots({ report }: { report: AoaReport }) {
       <div class="panel experiment-head">
         <h2 id="aoa-title">Many targets in one snapshot</h2>
         <p class="remark">
-          AAETR against the classical methods on {report.array}: 2 to 10 targets within 60° of boresight, powers within
-          13 dB, {count(report.trials)} snapshots a condition, seed {report.seed}. Figures 4 and 5 of its paper.
+          Networks against the classical methods on {report.array}: 2 to 10 targets within 60° of boresight, powers
+          within 13 dB, {count(report.trials)} snapshots a condition, seed {report.seed}. Figures 4 and 5 of the AAETR
+          paper.
         </p>
         <div class="row choices">
           <SelectField

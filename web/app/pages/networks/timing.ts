@@ -3,7 +3,7 @@ import { signal } from '@preact/signals';
 import type { EstimateInput, EstimatorOptions, Method, NetworkInfo, Tensor } from 'boresight';
 import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
 import { load } from '../../networks/load.ts';
-import type { Card, Model } from '../../networks/models.ts';
+import { answersTargetSet, type Card, type Model } from '../../networks/models.ts';
 import { arrayFor, targetRange } from './attempt.ts';
 import { REGION_ARRAY, type RegionScene, simulateRegion } from './region.ts';
 
@@ -68,7 +68,7 @@ export async function timeModel(model: Model): Promise<void> {
   try {
     say(0, 'Loading');
     const info = await load(model.name, signal);
-    const subjects = (model.card.network === 'aaetr' ? ofSnapshots : ofRegions)(model, info);
+    const subjects = (answersTargetSet(model.card) ? ofSnapshots : ofRegions)(model, info);
     const travelMs = (
       await measure(
         () => pool().version({ signal }),

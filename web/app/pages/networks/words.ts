@@ -8,6 +8,7 @@ export function taskOf(card: Card): string {
   const targets = targetsOf(card);
   switch (card.network) {
     case 'aaetr':
+    case 'learned-pursuit':
       return `Finds the angles and amplitudes of ${most(card)} targets in one snapshot`;
     case 'counting':
       return 'Tells whether a region of interest holds no, one or two targets';
@@ -22,6 +23,7 @@ export function briefly(card: Card): [task: string, input: string] {
   const elements = elementsOf(card);
   switch (card.network) {
     case 'aaetr':
+    case 'learned-pursuit':
       return [`Angles and amplitudes of ${most(card)} targets`, `1 snapshot, ${elements} elements`];
     case 'counting':
       return ['Number of targets: 0, 1 or 2', `covariance, ${elements} elements`];
@@ -88,21 +90,12 @@ export function trainedOn(card: Card): [string, string][] {
   return rows.filter((row): row is [string, string] => row[1] !== null);
 }
 
-/** How it was trained. */
-export function training(card: Card): [string, string][] {
-  const { training: how = {} } = card;
+/** How it was made, beside its runs of training. */
+export function made(card: Card): [string, string][] {
   const rows: [string, string | null][] = [
     ['Samples seen', card.samplesSeen === undefined ? null : count(card.samplesSeen)],
-    [
-      'Steps',
-      card.steps === undefined
-        ? null
-        : `${count(card.steps)}${typeof how.batch === 'number' ? ` of ${count(how.batch)} samples` : ''}`,
-    ],
-    ['Time', card.hours === undefined ? null : `${fixed(card.hours, card.hours < 10 ? 2 : 1)} h`],
-    ['Hardware', card.hardware ?? null],
+    ['Time', card.hours === undefined ? null : hoursText(card.hours)],
     ['Software', card.software ?? null],
-    ['Learning rate', typeof how.learningRate === 'number' ? String(how.learningRate) : null],
     ['Weights stored as', card.onnx?.weights ?? null],
     [
       'Export differs from PyTorch by',
@@ -116,6 +109,8 @@ export function training(card: Card): [string, string][] {
   ];
   return rows.filter((row): row is [string, string] => row[1] !== null);
 }
+
+export const hoursText = (hours: number): string => `${fixed(hours, hours < 10 ? 2 : 1)} h`;
 
 export const sizeOf = ({ bytes }: Card): string => (bytes === undefined ? '–' : byteSize(bytes));
 

@@ -1,4 +1,4 @@
-//! A set of targets from one snapshot: AAETR.
+//! A set of targets from one snapshot: AAETR and the learned pursuit.
 
 use crate::engine::{Runners, filled};
 use crate::error::{NeuralError, network_failed};
@@ -8,14 +8,13 @@ use boresight_aoa::{AoaError, Data, Estimate, EstimatorOptions, Method, Source, 
 use boresight_core::{Array, Complex64, Direction, presets};
 use ndarray::{Array2, ArrayView3, ArrayViewD, Axis};
 
-const METHOD: Method = Method::Aaetr;
-
 /// Least confidence of a source where neither options nor card name one.
 const CONFIDENCE: f64 = 0.5;
 
 /// The network with the positions of one array in it.
 #[derive(Clone)]
-pub(crate) struct Aaetr {
+pub(crate) struct TargetSet {
+    method: Method,
     runners: Runners,
     elements: usize,
     confidence: f64,
@@ -27,9 +26,10 @@ pub(crate) struct Aaetr {
     scales: Vec<f64>,
 }
 
-impl Aaetr {
+impl TargetSet {
     pub fn new(
         model: &Model,
+        method: Method,
         array: &Array,
         options: &EstimatorOptions,
     ) -> Result<Self, NeuralError> {
@@ -40,7 +40,7 @@ impl Aaetr {
         let elements = elements.unwrap_or_default();
         if array.len() != elements {
             return Err(AoaError::Array {
-                method: METHOD.name(),
+                method: method.name(),
                 expected: format!("an array of {elements} elements, as its model was made for"),
                 given: format!("has {}", array.len()),
             }
@@ -48,6 +48,7 @@ impl Aaetr {
         }
         let card = model.card().and_then(|card| card.confidence);
         Ok(Self {
+            method,
             runners: model.runners_for(array)?,
             elements,
             confidence: options.confidence.or(card).unwrap_or(CONFIDENCE),
@@ -59,16 +60,16 @@ impl Aaetr {
     }
 }
 
-impl Plan for Aaetr {
+impl Plan for TargetSet {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
-        let mut estimate = Estimate::new(METHOD);
+        let mut estimate = Estimate::new(self.method);
         self.estimate_into(data, &mut estimate)?;
         Ok(estimate)
     }
 
     fn estimate_into(&mut self, data: Data<'_>, out: &mut Estimate) -> Result<(), AoaError> {
         let Data::Snapshots(snapshots) = data else {
-            return Err(AoaError::NeedsSnapshots { method: METHOD.name() });
+            return Err(AoaError::NeedsSnapshots { method: self.method.name() });
         };
         self.estimate_cells(snapshots.insert_axis(Axis(0)), std::slice::from_mut(out))
     }
@@ -85,7 +86,7 @@ impl Plan for Aaetr {
         let (count, elements, snapshots) = cells.dim();
         if snapshots != 1 {
             return Err(AoaError::Snapshots {
-                method: METHOD.name(),
+                method: self.method.name(),
                 expected: "one snapshot".into(),
                 given: snapshots,
             });
@@ -97,7 +98,7 @@ impl Plan for Aaetr {
                 .outer_iter()
                 .map(|cell| cell.iter().map(|z| z.re.abs().max(z.im.abs())).fold(0.0, f64::max)),
         );
-        let Self { runners, scales, confidence, limit, most, warning, .. } = self;
+        let Self { method, runners, scales, confidence, limit, most, warning, .. } = self;
         let given = |from: usize, to: usize| {
             let stretch = cells.slice_axis(Axis(0), (from..to).into());
             let scales = &scales[from..to];
@@ -131,9 +132,9 @@ impl Plan for Aaetr {
                 }
             }
         };
-        runners.run(count, given, answers).map_err(|error| network_failed(METHOD.name(), error))?;
+        runners.run(count, given, answers).map_err(|error| network_failed(method.name(), error))?;
         for out in out {
-            out.method = METHOD;
+            out.method = *method;
             out.spectrum = None;
             out.iterations = 0;
             out.warnings.clear();

@@ -56,7 +56,7 @@ fn nearest<'a>(estimate: &'a Estimate, target: &Direction) -> Option<(f64, &'a S
 #[test]
 fn targets_are_found_where_they_are_and_as_strong() {
     let array = preset("lrr48").unwrap();
-    let mut estimator = model("aaetr-small").estimator(&array, &options()).unwrap();
+    let mut estimator = model("learned-pursuit").estimator(&array, &options()).unwrap();
     let (mut found, mut given, mut angle_deg, mut level_db) = (0, 0, 0.0, 0.0);
     for number in 0..SCENES {
         let scene = scene(&array, 10f64.powf(-2.5), number);
@@ -87,7 +87,7 @@ fn targets_are_found_where_they_are_and_as_strong() {
 fn refined_angles_reach_the_bound() {
     let array = preset("lrr48").unwrap();
     let options = EstimatorOptions { refine: true, ..options() };
-    let mut estimator = model("aaetr-small").estimator(&array, &options).unwrap();
+    let mut estimator = model("learned-pursuit").estimator(&array, &options).unwrap();
     let noise_power = 10f64.powf(-2.5);
     let (mut errors, mut bounds) = (0.0, 0.0);
     let (mut sources, mut sure) = (0, 0);
@@ -115,7 +115,7 @@ fn refined_angles_reach_the_bound() {
 #[test]
 fn a_batch_gives_what_its_cells_give_alone() {
     let array = preset("lrr48").unwrap();
-    let network = model("aaetr-small");
+    let network = model("learned-pursuit");
     let mut cells = Array3::zeros((35, 48, 1));
     for (number, mut cell) in cells.outer_iter_mut().enumerate() {
         // Scale is undone on the powers.
@@ -143,7 +143,7 @@ fn a_batch_gives_what_its_cells_give_alone() {
 #[test]
 fn what_the_network_was_not_trained_on_is_told() {
     let array = preset("lrr48").unwrap();
-    let network = model("aaetr-small");
+    let network = model("learned-pursuit");
     let warnings = |array: &Array, options: &EstimatorOptions| {
         let mut estimator = network.estimator(array, options).unwrap();
         let snapshot = scene(array, 1e-2, 0).snapshot;
@@ -165,7 +165,7 @@ fn what_the_network_was_not_trained_on_is_told() {
 #[test]
 fn confidence_is_the_threshold_asked_for() {
     let array = preset("lrr48").unwrap();
-    let network = model("aaetr-small");
+    let network = model("learned-pursuit");
     let snapshot = scene(&array, 10f64.powf(-1.5), 3).snapshot;
     let count = |confidence| {
         let options = EstimatorOptions { confidence, max_peaks: 1000, ..options() };
@@ -210,7 +210,7 @@ fn on_displaced_arrays(name: &str, deviation: f64) -> (usize, usize, f64) {
 /// displaced as much and known.
 #[test]
 fn displaced_elements_cost_nothing_when_they_are_known() {
-    let name = "aaetr-small-perturbed";
+    let name = "learned-pursuit-displaced";
     let (exact, displaced) = (on_displaced_arrays(name, 0.0), on_displaced_arrays(name, 0.05));
     println!("exact: {exact:?}; displaced: {displaced:?}");
     for (found, given, error_deg) in [exact, displaced] {

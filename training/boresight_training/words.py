@@ -1,0 +1,66 @@
+"""Architectures in words, and how each differs from its publication: for cards."""
+
+from .aaetr import AaetrConfig
+from .classifiers import Cnn3dConfig
+from .regions import LENGTH
+from .steered import SteeredConfig
+
+PAPER = (
+    "The publication has 6 + 6 layers of width 128, 1.6 million parameters, "
+    "and 63 million snapshots of 35 dB on 16 GPUs."
+)
+
+
+def set_prediction(config: AaetrConfig | SteeredConfig) -> tuple[str, str]:
+    """Of AAETR's forms and the learned pursuit."""
+    sizes = f"{config.queries} queries, width {config.width}"
+    if not isinstance(config, SteeredConfig) and not config.attend:
+        return (
+            f"No transformer, for it has no attention: a pursuit of {config.decoder_layers} learned steps, {sizes}. "
+            "Queries stand on a grid over the sine of the azimuth. Before each step every query sees what the array, "
+            "steered to where it stands and just beside, receives of the snapshot less what all queries explain so "
+            f"far. A convolution over {config.neighbours} neighbouring queries and a feed-forward network move it.",
+            f"It shares inputs, outputs, set loss and scores with AAETR, and nothing of its architecture. {PAPER}",
+        )
+    layers = f"A transformer: {config.encoder_layers} + {config.decoder_layers} layers, {config.heads} heads, {sizes}."
+    if isinstance(config, SteeredConfig):
+        return (
+            f"{layers} Elements are tokens with self-attention. Queries stand at sines of the azimuth. Where they "
+            "attend to elements, the values are turned by each element's phase from there, and elements attend to "
+            "queries in turn. Each query answers with one target or none.",
+            "Queries have places instead of learned embeddings, attention is steered by the positions of the "
+            f"elements, and there is an attention from elements to queries. {PAPER}",
+        )
+    if config.steered:
+        return (
+            f"{layers} Elements are tokens with self-attention. Queries stand on a grid over the sine of the azimuth, "
+            "attend to the tokens, and see before each layer what the array, steered to where they stand, receives of "
+            "what is not explained yet.",
+            f"Queries stand on a grid and see the residual. {PAPER}",
+        )
+    return (
+        f"{layers} Elements are tokens with self-attention; learned queries attend to them, and each answers with one "
+        "target or none.",
+        f"The architecture is the publication's as far as it is told, without its dropout. {PAPER}",
+    )
+
+
+def fully_connected(hidden: int, layers: str) -> str:
+    """Of the DNN and the counting network."""
+    return f"Fully connected, {layers} hidden layers of {hidden} with batch normalisation, on the region's covariance."
+
+
+def cnn3d(config: Cnn3dConfig) -> tuple[str, str]:
+    """Of the 3D-CNN."""
+    whole = Cnn3dConfig()
+    smaller = (
+        ""
+        if config == whole
+        else f" Table 2 has {whole.filters} filters, the first of {whole.range_kernel} x 5 x 3, on {LENGTH} range "
+        "bins, and 5.6 million parameters."
+    )
+    return (
+        f"Two three-dimensional convolutions of {config.filters} filters, the first of {config.range_kernel} x 5 x 3 "
+        f"(range, element, chirp), on {config.bins} range bins, pooling, and hidden layers of 500, 200 and 100.",
+        f"The first filters begin as beams, and there is no dropout.{smaller}",
+    )
