@@ -1,10 +1,11 @@
-"""AAETR: angles of arrival as set prediction with a transformer.
+"""Angles of arrival as set prediction: AAETR, a transformer, and the learned pursuit, which has no attention.
 
-The elements of a snapshot are the tokens of an encoder; queries attend to them, and each answers with one target or
-none.
-The paper's form has learned queries and nothing else. The steered form gives what physics knows: its queries stand on a
-grid over the sine of the azimuth, and before each layer every query sees what the array, steered to where it stands,
-receives of the snapshot less what all queries explain so far.
+In AAETR (Zhu, Chen and Yang 2024) the elements of a snapshot are the tokens of an encoder; learned queries attend to
+them, and each answers with one target or none. The form `paper` has its layers, width and number of queries; heads and
+the size of the feed-forward networks are ours, and there is no dropout, which theirs has.
+The steered forms give what physics knows: their queries stand on a grid over the sine of the azimuth, and before each
+layer every query sees what the array, steered to where it stands, receives of the snapshot less what all queries
+explain so far. `small` does without tokens and attention: it is no transformer, but a pursuit whose steps are learned.
 """
 
 from dataclasses import dataclass
@@ -18,7 +19,7 @@ from .arrays import LRR48_APERTURE
 
 @dataclass(frozen=True)
 class AaetrConfig:
-    """Sizes of an AAETR."""
+    """Sizes of an AAETR, or of a learned pursuit."""
 
     elements: int = 48
     width: int = 128

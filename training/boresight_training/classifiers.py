@@ -1,6 +1,6 @@
 """The networks of Sang et al. (2021): the counting network, the 3D-CNN, and the DNN it is compared with.
 
-All answer with logits; exported models answer with probabilities.
+All answer with logits; exported models answer with probabilities. None has the paper's dropout.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Set loss of AAETR: bipartite matching, then classification and regression, after every decoder layer."""
+"""A set loss after AAETR's: bipartite matching, then classification and regression, after every decoder layer."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""Snapshots of an array with random targets: `y = sum_m alpha_m a(theta_m) + n` (equations 4 to 6 of AAETR)."""
+"""Snapshots of an array with random targets: `y = sum_m alpha_m a(theta_m) + n` (equations 4 to 6 of AAETR's paper)."""
 
 from dataclasses import dataclass
 from math import radians

@@ -1,13 +1,13 @@
-"""AAETR with steered attention: the transformer of aaetr.py where attention knows what a wave does to an array.
+"""AAETR with steered attention: a transformer after AAETR, whose attention knows what a wave does to an array.
 
 Elements are the tokens of an encoder; queries attend to them, and each answers with one target or none, as in AAETR.
-Three things differ. Every query stands at a sine of the azimuth, its anchor, and each layer moves it. Where a query
+The rest is ours. Every query stands at a sine of the azimuth, its anchor, and each layer moves it. Where a query
 attends to elements, their values are complex and turned by the phase that a wave from the anchor has there, so that a
 mean over the elements is a beam and the weights of attention are its taper: rotary position embedding with the
 element's position and the anchor as its frequency. And attention goes both ways: after each layer elements attend to
-the queries, whose values are turned back, so that they learn what the queries account for. Queries attend to each other
-too, as DETR's do. Positions enter through these phases and through features relative to the aperture, so that one
-network takes any array and any number of elements.
+the queries, whose values are turned back, so that they learn what the queries account for. Queries attend to each
+other too, as DETR's do; AAETR's, as described, do not. Positions enter through these phases and through features
+relative to the aperture, so that one network takes any array and any number of elements.
 
 Complex numbers are pairs of real tensors, for ONNX has no others.
 """

@@ -58,8 +58,9 @@ pub fn integrate(motions: &[TimedMotion], angle_rad: f64, x_m: f64, y_m: f64) ->
 }
 
 /// Relative trajectory error, m, of estimated poses, each with the true one at its time: both trajectories are cut
-/// where the true one has run `segment_m` (50 m in Zhu et al.), aligned at each segment's start, and the distances of
-/// the segments' ends are averaged. `None` where the true one is shorter than a segment, or a pose is not finite.
+/// where the true one has run `segment_m` (50 m in the example of Zhu et al.), aligned at each segment's start, and the
+/// distances of the segments' ends are averaged. `None` where the true one is shorter than a segment, or a pose is not
+/// finite.
 pub fn relative_error(
     poses: impl IntoIterator<Item = (Pose, Pose)>,
     segment_m: f64,

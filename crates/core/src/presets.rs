@@ -54,8 +54,8 @@ fn cascade86() -> Result<Array, CoreError> {
 }
 
 /// A sparse long-range array of 6 transmitters and 8 receivers: 48 distinct virtual elements over
-/// 92 half wavelengths, peak sidelobe -14.5 dB. Of the size of the radar of the AAETR paper, whose
-/// positions are unpublished.
+/// 92 half wavelengths, peak sidelobe -14.5 dB. The radar of the AAETR paper has as many of each;
+/// their positions are unpublished.
 fn lrr48() -> Result<Array, CoreError> {
     Array::mimo(
         &along_y(&[0.0, 18.0, 30.0, 42.0, 62.0, 78.0]),

@@ -1,5 +1,5 @@
-//! Snapshots of an array: `y(t) = sum_m alpha_m a(theta_m) s_m(t) + n(t)` (equations 4 to 6 of
-//! AAETR), bit for bit the same natively and in wasm.
+//! Snapshots of an array: `y(t) = sum_m alpha_m a(theta_m) s_m(t) + n(t)` (equations 4 to 6 of the
+//! AAETR paper, Zhu, Chen and Yang 2024), bit for bit the same natively and in wasm.
 
 use crate::error::{SimulateError, check_values};
 use boresight_core::array::Position;

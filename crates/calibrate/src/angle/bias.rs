@@ -1,4 +1,4 @@
-//! Bias of the yaw rate from standing frames (equation 5).
+//! Bias of the yaw rate from standing frames (equation 5 of Zhu et al.).
 
 /// Standing frames from which their scatter tells the noise.
 const ENOUGH: u64 = 10;

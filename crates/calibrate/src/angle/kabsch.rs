@@ -4,7 +4,7 @@ use super::{ASSUMED_SCALE_SIGMA, Sample, Setting, Solution, wrap};
 use crate::symmetric::Symmetric;
 
 /// The rotation that turns the radar's velocities into `(v - w y_s, w x_s)`, in the plane:
-/// `theta = atan2(sum w V x U, sum w V . U)` with the weights of equation 13. `None` where no frame
+/// `theta = atan2(sum w V x U, sum w V . U)` with the weights of Zhu et al.'s equation 13. `None` where no frame
 /// has a speed or all velocities vanish.
 pub(crate) fn solve(samples: &[Sample], setting: &Setting) -> Option<Solution> {
     let place = [setting.x_m, setting.y_m];

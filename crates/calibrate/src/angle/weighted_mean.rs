@@ -1,4 +1,4 @@
-//! Weighted mean of the frames' angles, scale taken as 1 (equation 8; Kellner et al. 2015).
+//! Weighted mean of the frames' angles, scale taken as 1 (Kellner et al. 2015; Zhu et al.'s equation 8 has no weights).
 
 use super::{ASSUMED_SCALE_SIGMA, Row, Sample, Setting, Solution, rows, wrap};
 use crate::symmetric::Symmetric;

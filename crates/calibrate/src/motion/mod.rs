@@ -1,6 +1,7 @@
 //! The radar's own motion from one Doppler point cloud.
 //!
-//! A static point at azimuth `a` has `-range_rate = vx cos a + vy sin a` (equation 2 of Zhu et al.).
+//! A static point at azimuth `a` has `-range_rate = vx cos a + vy sin a` (equation 2 of Zhu et al. with
+//! their Doppler as the range rate; their text has it positive towards the radar, where the sign would be the other).
 //! `ransac` finds the points that agree on one motion; `least_squares` and
 //! `orthogonal_distance` make the most of them.
 

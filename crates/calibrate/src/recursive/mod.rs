@@ -327,7 +327,7 @@ impl Recursive {
         (self.bias_sum[0] >= 1.0).then(|| self.bias_sum[1] / self.bias_sum[0])
     }
 
-    /// Equation 5, with the prior as one more observation of its own standard deviation.
+    /// Equation 5 of Zhu et al., with the prior as one more observation of its own standard deviation.
     fn learn_bias(&mut self, measured: f64) {
         self.bias_sum[0] += 1.0;
         self.bias_sum[1] += measured;

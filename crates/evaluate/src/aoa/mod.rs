@@ -1,4 +1,5 @@
-//! Detection and accuracy on random scenes of a single snapshot: Figures 4 and 5 of the AAETR paper.
+//! Detection and accuracy on random scenes of a single snapshot: Figures 4 and 5 of the AAETR paper
+//! (Zhu, Chen and Yang 2024).
 
 pub mod cell;
 pub mod figures;

@@ -1,5 +1,5 @@
 //! Scores of detections against true targets, at every threshold at once: on power, or on the confidence of a
-//! network, as its authors do.
+//! network, as the AAETR paper does.
 //!
 //! A prediction within half a degree of a true target is right, else it is false; a target with such a
 //! prediction is found. Precision is right over all predictions, recall found over all targets. The strict

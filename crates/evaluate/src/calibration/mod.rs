@@ -47,7 +47,8 @@ const fn candidate(
     Candidate { name, method, motion, speed, joint: false, convergence }
 }
 
-/// The methods compared: those of Table II, ours, then the formulations of Table IV on our motion.
+/// The methods compared: the two of Table II that have no network, the regressions on RANSAC's motion, ours, then the
+/// formulations of Table IV on our motion.
 pub const CANDIDATES: [Candidate; 11] = [
     candidate("weighted mean (Kellner et al.)", Method::WeightedMean, MotionMethod::Ransac, true),
     candidate("Kabsch (Bao et al.)", Method::Kabsch, MotionMethod::Ransac, true),

@@ -1,5 +1,5 @@
 //! Counting and angles of up to two targets in the region of interest of a data cube: Figures 6 to 9 of Sang et
-//! al., "DoA Estimation for FMCW Radar by 3D-CNN" (2021).
+//! al., "DoA Estimation for FMCW Radar by 3D-CNN" (2021), in simulation; theirs of Figure 9 is of field measurements.
 //!
 //! Every trial simulates the cube of one frame, takes its range spectrum with a rectangular window, centres the
 //! region of 65 range bins and 4 chirps on the strongest bin, as detection would, and gives each method the
@@ -37,7 +37,8 @@ pub const REGION: [usize; 2] = [65, 4];
 pub enum Setup {
     /// The paper's Table 3: range bins of 1 m, one transmitter, 8 receivers, targets at 70 to 90 m.
     Simulation,
-    /// Its Table 4: range bins of 43 mm, 2 transmitters in turn, 4 receivers, targets at 9.7 to 10.3 m.
+    /// Its Table 4: range bins of 43 mm, 2 transmitters in turn, 4 receivers. Targets are at 9.7 to 10.3 m, where the
+    /// paper's stood at 10 m and were shifted by up to 0.3 m for training.
     Experiment,
 }
 

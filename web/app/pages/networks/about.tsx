@@ -9,13 +9,13 @@ export function AboutNetworks() {
         pursuit has no attention, and its steps subtract what they have found. Both are for the array on their card.{' '}
         <b>Counting network, DNN and 3D-CNN</b> see a region of interest of a data cube, 65 range bins of 8 elements and
         4 chirps: the first two its covariance, the last the region itself. They tell whether there are none, one or two
-        targets, and in which of the whole degrees from −10 to 10 these lie; an angle between two degrees is rounded.
+        targets, and in which of the whole degrees from −10 to 10 these lie; they have no answer between two degrees.
       </p>
       <p>
         All were trained on simulated data alone, by the code in <code>training/</code>, for as long as each card says,
-        on the hardware it names. AAETR’s authors trained on 63 million snapshots, far more than these networks saw.
-        What they do outside the data of their cards is not known, and the pages say so where an array or a field of
-        view differs.
+        on the hardware it names. The networks of the papers’ authors are not here, and nothing here says how good they
+        are. What these do outside the data of their cards is not known, and the pages say so where an array or a field
+        of view differs.
       </p>
       <p>
         <b>Refinement</b> takes what a method found to the best fit of the model by Gauss-Newton steps, adds what stands

@@ -101,8 +101,8 @@ function Snapshots({ report }: { report: AoaReport }) {
         <h2 id="aoa-title">Many targets in one snapshot</h2>
         <p class="remark">
           Networks against the classical methods on {report.array}: 2 to 10 targets within 60° of boresight, powers
-          within 13 dB, {count(report.trials)} snapshots a condition, seed {report.seed}. Figures 4 and 5 of the AAETR
-          paper.
+          within 13 dB, {count(report.trials)} snapshots a condition, seed {report.seed}. After Figures 4 and 5 of the
+          AAETR paper, whose array is not published.
         </p>
         <div class="row choices">
           <SelectField
@@ -146,9 +146,9 @@ function Regions({ report }: { report: DoaReport }) {
         <p class="remark">
           The counting network, the 3D-CNN and the DNNs against the classical methods: 8 elements, 4 chirps, 65 range
           bins, targets at whole degrees from −10 to 10, {count(report.trials)} regions a condition, seed {report.seed}.
-          Figures 6 to 9 of their paper. All that estimate angles are told the number of targets. The networks know
-          besides that targets stand at whole degrees within 10 of boresight, as they do here; the classical methods
-          know that they are within 15.
+          After Figures 6 to 9 of the 3D-CNN paper, whose last is of field measurements. All that estimate angles are
+          told the number of targets. The networks know besides that targets stand at whole degrees within 10 of
+          boresight, as they do here; the classical methods know that they are within 15.
         </p>
         <div class="row choices">
           <SelectField
