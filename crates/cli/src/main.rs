@@ -37,6 +37,7 @@ fn main() -> ExitCode {
     let result = match cli.command {
         Command::Estimate(arguments) => commands::estimate::run(&arguments, &files),
         Command::Simulate { what } => commands::simulate::run(&what, &files),
+        Command::Augment(arguments) => commands::augment::run(&arguments, &files),
         Command::Calibrate(arguments) => commands::calibrate::run(&arguments, &files),
         Command::Evaluate { what } => commands::evaluate::run(&what, &files),
         Command::Image { what } => commands::image::run(&what, &files),

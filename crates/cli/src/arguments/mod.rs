@@ -1,11 +1,13 @@
 //! What the command line takes: a file a command, and what several share.
 
+mod augment;
 mod drives;
 mod estimate;
 mod evaluate;
 mod image;
 mod simulate;
 
+pub use augment::AugmentArguments;
 pub use drives::{CalibrateArguments, LogArguments};
 pub use estimate::{EstimateArguments, ModelArguments};
 pub use evaluate::{
@@ -32,7 +34,7 @@ Examples:
       --snapshots 50 --seed 1 --out two.npy
     boresight estimate two.npy --array ula8 --method music --sources 2
   The same of a long-range array by a trained network:
-    boresight estimate cell.npy --array lrr48 --method aaetr --model models/aaetr-small.onnx
+    boresight estimate cell.npy --array lrr48 --method learned-pursuit --model models/learned-pursuit.onnx
 
 Angles are in degrees, positive to the left; range rates are positive when receding.";
 
@@ -59,6 +61,8 @@ pub enum Command {
         #[command(subcommand)]
         what: SimulateCommand,
     },
+    /// Make more frames of a recording by moving all that it holds in range, to train networks on.
+    Augment(Box<AugmentArguments>),
     /// Estimate the angle a car's radars are mounted at from a drive log.
     Calibrate(CalibrateArguments),
     /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.

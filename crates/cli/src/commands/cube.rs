@@ -6,18 +6,41 @@ use crate::arguments::EstimateArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::{array, network};
-use boresight_core::CoreError;
+use boresight_core::{Complex32, CoreError, Waveform};
 use boresight_formats::{NpyArray, RadarConfig};
 use boresight_pipeline::CubeFrames;
 use ndarray::Array5;
 
-/// Detections in a data cube of frames x loops x transmitters x receivers x samples; a cube of one
-/// frame may lack the first axis.
+/// Detections in a data cube.
 pub fn run(
     arguments: &EstimateArguments,
     file: &NpyArray,
     files: &Files,
 ) -> Result<String, CliError> {
+    let cube = read(file)?;
+    let receivers = cube.shape()[3];
+    let (waveform, array) = match (&arguments.config, &arguments.waveform) {
+        (Some(path), _) => {
+            let config = RadarConfig::parse(&files.read(path)?)?;
+            (config.waveform, array_of(arguments, &config, files)?)
+        }
+        (None, name) => {
+            let waveform = named_waveform(name.as_deref(), files)?;
+            let array = arguments.array.as_ref().ok_or_else(|| CliError::Option {
+                option: "--array",
+                expected: "the array of the cube".into(),
+                given: "nothing".into(),
+            })?;
+            (waveform, array::array(array, files)?)
+        }
+    };
+    let (options, model) = (chain_options(arguments), &arguments.angle.model);
+    let mut chain = network::chain(&waveform, receivers, &array, &options, model, files)?;
+    detections(arguments, &mut chain, &CubeFrames(cube.view()))
+}
+
+/// A data cube of frames x loops x transmitters x receivers x samples; a cube of one frame may lack the first axis.
+pub fn read(file: &NpyArray) -> Result<Array5<Complex32>, CliError> {
     let mut shape = file.shape.clone();
     if shape.len() == 4 {
         shape.insert(0, 1);
@@ -28,29 +51,15 @@ pub fn run(
         given: file.shape.clone(),
     };
     let shape: [usize; 5] = shape.try_into().map_err(|_| wrong())?;
-    let cube = Array5::from_shape_vec(shape, file.to_complex32()).map_err(|_| wrong())?;
-    let (waveform, array) = match (&arguments.config, &arguments.waveform) {
-        (Some(path), _) => {
-            let config = RadarConfig::parse(&files.read(path)?)?;
-            (config.waveform, array_of(arguments, &config, files)?)
-        }
-        (None, Some(name)) => {
-            let array = arguments.array.as_ref().ok_or_else(|| CliError::Option {
-                option: "--array",
-                expected: "the array of the cube".into(),
-                given: "nothing".into(),
-            })?;
-            (files::waveform(name, files)?, array::array(array, files)?)
-        }
-        (None, None) => {
-            return Err(CliError::Option {
-                option: "--waveform",
-                expected: "the waveform of the cube, or --config".into(),
-                given: "nothing".into(),
-            });
-        }
-    };
-    let (options, model) = (chain_options(arguments), &arguments.angle.model);
-    let mut chain = network::chain(&waveform, shape[3], &array, &options, model, files)?;
-    detections(arguments, &mut chain, &CubeFrames(cube.view()))
+    Ok(Array5::from_shape_vec(shape, file.to_complex32()).map_err(|_| wrong())?)
+}
+
+/// The waveform of a data cube that has no configuration beside it.
+pub fn named_waveform(name: Option<&str>, files: &Files) -> Result<Waveform, CliError> {
+    let name = name.ok_or_else(|| CliError::Option {
+        option: "--waveform",
+        expected: "the waveform of the cube, or --config".into(),
+        given: "nothing".into(),
+    })?;
+    files::waveform(name, files)
 }

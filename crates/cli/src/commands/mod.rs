@@ -1,5 +1,6 @@
 //! The commands.
 
+pub mod augment;
 mod board;
 pub mod calibrate;
 mod capture;

@@ -9,7 +9,7 @@ mod read;
 mod write;
 
 use boresight_core::{Complex32, Complex64};
-pub use write::{Element, write};
+pub use write::{Element, preamble, write};
 
 /// Numbers of an array, in C order.
 #[derive(Debug, Clone, PartialEq)]

@@ -47,7 +47,6 @@ impl Element for Complex64 {
 /// [`CoreError::Shape`] if the shape does not hold the count of numbers;
 /// [`CoreError::OutOfRange`] for more than 32 axes.
 pub fn write<T: Element>(shape: &[usize], data: &[T]) -> Result<Vec<u8>, FormatError> {
-    boresight_core::error::check_range("axes", shape.len() as f64, 0.0, 32.0)?;
     let count = shape.iter().try_fold(1_usize, |n, &length| n.checked_mul(length));
     if count != Some(data.len()) {
         return Err(CoreError::Shape {
@@ -57,6 +56,20 @@ pub fn write<T: Element>(shape: &[usize], data: &[T]) -> Result<Vec<u8>, FormatE
         }
         .into());
     }
+    let mut bytes = preamble::<T>(shape)?;
+    bytes.reserve_exact(std::mem::size_of_val(data));
+    for &value in data {
+        value.put(&mut bytes);
+    }
+    Ok(bytes)
+}
+
+/// What stands before the numbers in such a file.
+///
+/// # Errors
+/// [`CoreError::OutOfRange`] for more than 32 axes.
+pub fn preamble<T: Element>(shape: &[usize]) -> Result<Vec<u8>, FormatError> {
+    boresight_core::error::check_range("axes", shape.len() as f64, 0.0, 32.0)?;
     let axes: String = shape.iter().map(|length| format!("{length}, ")).collect();
     // One axis needs its comma; more read better without the last one.
     let axes = if shape.len() == 1 { axes.trim_end() } else { axes.trim_end_matches(", ") };
@@ -66,12 +79,9 @@ pub fn write<T: Element>(shape: &[usize], data: &[T]) -> Result<Vec<u8>, FormatE
     let padding = (10 + header.len() + 1).next_multiple_of(64) - (10 + header.len() + 1);
     header.extend(std::iter::repeat_n(' ', padding));
     header.push('\n');
-    let mut bytes = Vec::with_capacity(10 + header.len() + std::mem::size_of_val(data));
+    let mut bytes = Vec::with_capacity(10 + header.len());
     bytes.extend(b"\x93NUMPY\x01\x00");
     bytes.extend((header.len() as u16).to_le_bytes());
     bytes.extend(header.as_bytes());
-    for &value in data {
-        value.put(&mut bytes);
-    }
     Ok(bytes)
 }
