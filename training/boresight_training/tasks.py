@@ -247,8 +247,12 @@ class ClassifierTask:
             cubes = replace(self.cubes, snr_db=(snr_db, snr_db), near=0.0)
             answer, label = self._answers(model, cubes, count, generator)
             if self.counts:
-                right = (answer.argmax(1) == label.argmax(1)).float()
-                scores.append({"snr_db": snr_db, "accuracy": float(right.mean())})
+                right, true = (answer.argmax(1) == label.argmax(1)).float(), label.argmax(1)
+                by_class = {
+                    f"accuracy_of_{name}": float(right[true == number].mean())
+                    for number, name in enumerate(("none", "one", "two"))
+                }
+                scores.append({"snr_db": snr_db, "accuracy": float(right.mean()), **by_class})
             else:
                 scores.append({"snr_db": snr_db, **self._directions(answer, label)})
         return scores

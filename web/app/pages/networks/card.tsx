@@ -205,10 +205,11 @@ function curvesOf(card: Card): {
       series: numbers.map((targets) => ({ label: `${targets} targets`, values: ({ f1 }) => f1 })),
     };
   }
-  const keys =
+  const keys = (
     card.network === 'counting'
-      ? ['accuracy']
-      : ['within0Deg', 'within1Deg', 'closePairsWithin1Deg'].filter((key) => rows.some((row) => key in row));
+      ? ['accuracy', 'accuracyOfNone', 'accuracyOfOne', 'accuracyOfTwo']
+      : ['within0Deg', 'within1Deg', 'closePairsWithin1Deg']
+  ).filter((key) => rows.some((row) => key in row));
   return {
     key: keys[0] ?? '',
     label: 'Share of regions (%)',

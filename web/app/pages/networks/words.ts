@@ -145,6 +145,24 @@ export const METRICS: Record<string, Metric> = {
     digits: 1,
     percent: true,
   },
+  accuracyOfNone: {
+    title: 'Of none',
+    help: 'Share of the regions without a target that are counted so',
+    digits: 1,
+    percent: true,
+  },
+  accuracyOfOne: {
+    title: 'Of one',
+    help: 'Share of the regions with one target that are counted so',
+    digits: 1,
+    percent: true,
+  },
+  accuracyOfTwo: {
+    title: 'Of two',
+    help: 'Share of the regions with two targets that are counted so',
+    digits: 1,
+    percent: true,
+  },
   within0Deg: {
     title: 'Exact',
     help: 'Share of the regions in which all whole degrees are right',
