@@ -41,7 +41,8 @@ def parser() -> argparse.ArgumentParser:
         metavar="DIR",
         help="folder of checkpoint and log; goes on from its checkpoint (runs/NETWORK-CONFIG)",
     )
-    train.add_argument("--start-from", type=Path, metavar="DIR", help="begin with the weights of another run")
+    begin = "begin with the weights of another run, from its folder or from a file of export --weights"
+    train.add_argument("--start-from", type=Path, metavar="DIR|F.pt", help=begin)
     train.add_argument("--minutes", type=float, help="stop this run after so long")
     train.add_argument(
         "--total-minutes",
@@ -73,6 +74,7 @@ def parser() -> argparse.ArgumentParser:
     write.add_argument("--half", action="store_true", help="store weights in half precision")
     write.add_argument("--count", type=int, default=4000, help="examples a condition for the card's metrics")
     write.add_argument("--golden", type=Path, metavar="DIR", help="write a golden batch to a folder in there")
+    write.add_argument("--weights", type=Path, metavar="F.pt", help="write what another run can start from")
     return top
 
 
@@ -130,7 +132,8 @@ def main() -> int:
         elif arguments.command == "evaluate":
             result = evaluate(arguments)
         else:
-            result = export.export(arguments.folder, arguments.out, arguments.half, arguments.count, arguments.golden)
+            a = arguments
+            result = export.export(a.folder, a.out, a.half, a.count, a.golden, a.weights)
     except (ValueError, FileNotFoundError) as error:
         print(f"boresight_training: {error}", file=sys.stderr)
         return 2

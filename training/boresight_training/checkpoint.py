@@ -19,7 +19,14 @@ def save(folder: Path, state: dict) -> None:
     os.replace(temporary, folder / NAME)
 
 
-def load(folder: Path) -> dict | None:
-    """The state last saved in a folder, on the CPU; `None` where there is none."""
-    path = Path(folder) / NAME
+def weights(state: dict) -> dict:
+    """What another run can start from: the averaged weights in half precision, and where they are from."""
+    told = ("identity", "settings", "hardware", "step", "samples", "seconds", "legs")
+    half = {name: value.half() if value.is_floating_point() else value for name, value in state["ema"].items()}
+    return {name: state[name] for name in told} | {"ema": half}
+
+
+def load(path: Path) -> dict | None:
+    """The state last saved in a folder, or in a file of weights, on the CPU; `None` where there is none."""
+    path = Path(path) if Path(path).is_file() else Path(path) / NAME
     return torch.load(path, map_location="cpu", weights_only=True) if path.exists() else None

@@ -133,12 +133,22 @@ def golden(what: Task, form: torch.nn.Module, folder: Path) -> None:
         np.save(folder / f"{port.name}.npy", value.numpy())
 
 
-def export(folder: Path, path: Path, half: bool = False, count: int = 4000, golden_in: Path | None = None) -> dict:
+def export(
+    folder: Path,
+    path: Path,
+    half: bool = False,
+    count: int = 4000,
+    golden_in: Path | None = None,
+    weights: Path | None = None,
+) -> dict:
     """Writes the network of a training folder to `path`, its card beside it, and returns the card.
 
-    With `golden_in` a golden batch is written to a folder there of the model's name.
+    With `golden_in` a golden batch is written to a folder there of the model's name, with `weights` a file that another
+    run can start from.
     """
     saved, what, network = restore(folder)
+    if weights is not None:
+        torch.save(checkpoint.weights(saved), weights)
     path.parent.mkdir(parents=True, exist_ok=True)
     form = exported_form(what, network, half)
     difference = to_onnx(what, form, path, half)

@@ -179,7 +179,10 @@ class Training:
         self.legs = saved["legs"]
 
     def _start_from(self, folder: Path) -> None:
-        """Takes the averaged weights of another run of the same network; everything else begins anew."""
+        """Takes the averaged weights of another run of the same network, from its folder or from a file of weights.
+
+        Everything else begins anew.
+        """
         saved = checkpoint.load(folder)
         if saved is None:
             raise FileNotFoundError(f"{folder} holds no {checkpoint.NAME}")

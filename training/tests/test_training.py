@@ -122,6 +122,19 @@ def test_a_run_starts_from_the_weights_of_another(tmp_path):
         training(tmp_path / "third", 2, network=("counting", "small"), start_from=tmp_path / "first")
 
 
+def test_a_file_of_weights_is_enough_to_start_from(tmp_path):
+    training(tmp_path / "first", 3).run()
+    first = checkpoint.load(tmp_path / "first")
+    torch.save(checkpoint.weights(first), tmp_path / "weights.pt")
+    second = training(tmp_path / "second", 2, start_from=tmp_path / "weights.pt", seed=1)
+    for name, value in second.network.state_dict().items():
+        # Half precision has 11 bits.
+        assert torch.allclose(value, first["ema"][name], rtol=2**-11, atol=1e-7), name
+    assert second.legs[0]["samples"] == 48
+    size = (tmp_path / "weights.pt").stat().st_size
+    assert size < (tmp_path / "first" / checkpoint.NAME).stat().st_size / 6
+
+
 @pytest.mark.parametrize("seed", [0, 1])
 def test_a_run_from_another_refuses_seeds_whose_batches_were_seen(tmp_path, seed):
     training(tmp_path / "first", 2).run()
