@@ -47,7 +47,7 @@ pub use error::ImageError;
 pub use gate::Gate;
 pub use hidden::{HiddenMeasure, hidden_measure};
 pub use options::{GridOptions, ViewGridOptions};
-pub use points::{PointMeasure, RadarPoints, point_measure};
+pub use points::{PointMeasure, PointsAtHalf, RadarPoints, point_measure};
 pub use sidelobes::{LIT_DB, SidelobeMeasure, sidelobe_measure};
 pub use splat::{Grid, Outside, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target};
 pub use view::{BirdsEyeView, NO_RADAR, ViewGrid, birds_eye_view};

@@ -5,9 +5,9 @@
 use boresight_core::Diagnose;
 use boresight_core::drive::Mounting;
 use boresight_image::{
-    BirdsEyeView, Gate, Grid, HiddenMeasure, ImageError, NO_RADAR, PointMeasure, RadarPoints,
-    RangeAzimuthDoppler, RangeAzimuthMap, Target, ViewGrid, birds_eye_view, hidden_measure,
-    point_measure, sidelobe_measure,
+    BirdsEyeView, Gate, Grid, HiddenMeasure, ImageError, NO_RADAR, PointMeasure, PointsAtHalf,
+    RadarPoints, RangeAzimuthDoppler, RangeAzimuthMap, Target, ViewGrid, birds_eye_view,
+    hidden_measure, point_measure, sidelobe_measure,
 };
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
@@ -205,7 +205,7 @@ fn points_are_true_in_a_gate_false_beside_all_and_hidden_where_no_radar_sees() {
         // Turned left, 5 m ahead: at (5, 10) and at (-5, 10).
         RadarPoints {
             mounting: mounting(5.0, 0.0, 90.0),
-            points: vec![point(10.0, 0.0, 1.0, 1.0), point(200_f64.sqrt(), 45.0, 1.0, 1.0)],
+            points: vec![point(200_f64.sqrt(), 45.0, 0.75, 1.0), point(10.0, 0.0, 0.9, 1.0)],
         },
     ];
     let targets = [[20.0, 0.0], [5.0, 9.5], [5.0, 10.5], [30.0, 0.0]];
@@ -215,13 +215,21 @@ fn points_are_true_in_a_gate_false_beside_all_and_hidden_where_no_radar_sees() {
     };
     for gate in [Gate::Circle { radius_m: 0.6 }, Gate::Resolution { range_m: 0.6, sine: 0.05 }] {
         let measure = point_measure(&radars, &targets, gate, hidden).unwrap();
+        let rounded = |share: f64| (share * 1e12).round() / 1e12;
         let expected = PointMeasure {
             points: 4,
             false_points: 2,
-            false_share: 2.0 / 6.0,
+            false_share: rounded(1.75 / 5.65),
             hidden_points: 1,
-            hidden_share: 1.0 / 6.0,
+            hidden_share: rounded(0.75 / 5.65),
             found_targets: 0.75,
+            // By power: one of four targets, a false point, two targets at once, and one behind.
+            at_half: Some(PointsAtHalf { points: 3, false_points: 1, hidden_points: 0 }),
+        };
+        let measure = PointMeasure {
+            false_share: rounded(measure.false_share),
+            hidden_share: rounded(measure.hidden_share),
+            ..measure
         };
         assert_eq!(measure, expected);
     }
@@ -240,4 +248,5 @@ fn points_are_true_in_a_gate_false_beside_all_and_hidden_where_no_radar_sees() {
     );
     let nothing = point_measure(&[], &[], Gate::Circle { radius_m: 1.0 }, hidden).unwrap();
     assert_eq!((nothing.points, nothing.false_share, nothing.found_targets), (0, 0.0, 0.0));
+    assert_eq!(nothing.at_half, None);
 }
