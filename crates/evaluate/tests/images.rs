@@ -51,6 +51,15 @@ fn points_where_targets_are_are_true_and_points_beyond_house_fronts_behind_walls
     assert!(before.false_points > 0 && before.hidden_points == 0, "{before:?}");
 }
 
+#[test]
+fn points_beside_the_field_of_view_do_not_count() {
+    // The maps reach to 60 deg.
+    let beside = measure(|_, seen| {
+        Some(Target { azimuth_rad: 61_f64.to_radians(), ..target(seen, seen.echo.range_m) })
+    });
+    assert_eq!((beside.points, beside.found_targets), (0, 0.0));
+}
+
 fn report(streets: u64, methods: &[&str]) -> Result<ImagesReport, EvaluateError> {
     let entrants = Entrants::new(methods.iter().map(|&name| name.into()).collect(), vec![]);
     let options = ImagesExperiment { streets, seed: 1, entrants };

@@ -246,6 +246,15 @@ fn points_are_true_in_a_gate_false_beside_all_and_hidden_where_no_radar_sees() {
         [[20.0, 0.38], [20.0, 0.42], [20.9, 0.0], [21.1, 0.0]].map(found),
         [1.0, 0.0, 1.0, 0.0]
     );
+    // Half is reached with one of two, however many are found in the end.
+    let both = RadarPoints {
+        mounting: mounting(0.0, 0.0, 0.0),
+        points: vec![point(30.0, 0.0, 1.0, 1.0), point(20.0, 0.0, 2.0, 1.0)],
+    };
+    let gate = Gate::Circle { radius_m: 0.6 };
+    let measure = point_measure(&[both], &[[20.0, 0.0], [30.0, 0.0]], gate, |_, _| false).unwrap();
+    let half = PointsAtHalf { points: 1, false_points: 0, hidden_points: 0 };
+    assert_eq!((measure.found_targets, measure.at_half), (1.0, Some(half)));
     let nothing = point_measure(&[], &[], Gate::Circle { radius_m: 1.0 }, hidden).unwrap();
     assert_eq!((nothing.points, nothing.false_share, nothing.found_targets), (0, 0.0, 0.0));
     assert_eq!(nothing.at_half, None);
