@@ -38,10 +38,10 @@ const viewOf = (map, mounting) =>
   });
 const gate = { rangeM: 0.8, sine: 0.025 };
 
-test('the street has four radars, and what each sees lies in the scene', () => {
+test('the street has five radars, and what each sees lies in the scene', () => {
   assert.deepEqual(
     scene.radars.map(({ name }) => name),
-    ['right', 'front-right', 'front-left', 'left'],
+    ['right', 'front-right', 'front-left', 'left', 'rear'],
   );
   assert.ok(scene.targets.length > 500);
   const { xM, yM, yawDeg } = street.radar.mounting;

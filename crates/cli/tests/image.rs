@@ -17,11 +17,26 @@ fn the_street_has_a_picture_and_a_measure_by_method() {
     let rows: Value = serde_json::from_str(&printed).unwrap();
     let outside = |row: usize| rows[row]["outsideDb"].as_f64().unwrap();
     assert!(outside(1) < outside(0) - 10.0, "{rows}");
+    assert_eq!((&rows[0]["from"], &rows[1]["points"]), (&"spectra".into(), &Value::Null));
     for method in ["bartlett", "iaa"] {
         let picture = std::fs::read(folder.join(format!("street-{method}.png"))).unwrap();
         assert_eq!(picture[..8], *b"\x89PNG\r\n\x1a\n");
         // Width and height in the header: 50 m to each axis' edges in cells of half a metre.
         assert_eq!(picture[16..24], [0, 0, 0, 100, 0, 0, 0, 200]);
+    }
+}
+
+#[test]
+fn like_stands_beside_like_the_detections_of_the_chain_too() {
+    let base = ["image", "street", "--radars", "rear", "--cell", "1", "--x=-45,0", "--json"];
+    for more in [&["--method", "bartlett,nomp"][..], &["--method", "bartlett", "--chain"]] {
+        let rows: Value = serde_json::from_str(&stdout(&[&base[..], more].concat())).unwrap();
+        for row in rows.as_array().unwrap() {
+            assert_eq!(row["from"], "targets", "{rows}");
+            let count = |name: &str| row["points"][name].as_u64().unwrap();
+            assert!(count("points") > count("falsePoints"), "{rows}");
+            assert!(row["behindWalls"]["hiddenM2"].as_f64().unwrap() > 100.0, "{rows}");
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use crate::aoa;
 use crate::calibration;
 use crate::doa;
 use crate::experiment::{Experiment, Records, Report, file_name, legs, setup, side_by_side, whole};
+use crate::images;
 use crate::imperfections;
 use crate::resolution;
 use crate::sweep::{self, Line, Part};
@@ -101,6 +102,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
             merge_as::<calibration::CalibrationExperiment>(gathered, sources)
         }
         doa::DoaExperiment::NAME => merge_as::<doa::DoaExperiment>(gathered, sources),
+        images::ImagesExperiment::NAME => merge_as::<images::ImagesExperiment>(gathered, sources),
         imperfections::ImperfectionsExperiment::NAME => {
             merge_as::<imperfections::ImperfectionsExperiment>(gathered, sources)
         }
@@ -109,7 +111,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         }
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", first.first.display()),
-            expected: "aoa, calibration, doa, imperfections, resolution".into(),
+            expected: "aoa, calibration, doa, images, imperfections, resolution".into(),
             given: name.into(),
         }
         .into()),

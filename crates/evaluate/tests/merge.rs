@@ -8,7 +8,8 @@ use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::experiment::{Experiment, How, run, run_part};
 use boresight_evaluate::sweep::Part;
 use boresight_evaluate::{
-    Entrants, EvaluateError, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
+    Entrants, EvaluateError, Outcome, aoa, calibration, doa, images, imperfections, merge,
+    resolution,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -63,6 +64,8 @@ fn parts_make_the_whole() {
     let setup = doa::Setup::Simulation;
     let entrants = Entrants::new(doa::default_methods(setup).unwrap(), vec![]);
     check(&doa::DoaExperiment { setup, trials: 1, seed: 1, entrants });
+    let entrants = Entrants::new(vec![images::CHAIN.into()], vec![]);
+    check(&images::ImagesExperiment { streets: 2, seed: 1, entrants });
     let (array, snapshots) = ("ula4".into(), vec![1, 3]);
     check(&resolution::ResolutionExperiment { array, snapshots, trials: 1, seed: 1 });
     let (array, entrants) = ("ula8".into(), Entrants::new(vec!["iaa".into()], vec![]));

@@ -1,6 +1,6 @@
 //! Images of what a radar sees: targets or spectra of detected cells added into a
 //! range-azimuth-Doppler cube or a range-azimuth map by summation splatting, maps of several radars
-//! resampled into a bird's-eye view, and a measure of how much of such a view is not target.
+//! resampled into a bird's-eye view, and measures of how much of such a view, or of points, is not target.
 //!
 //! Powers are linear. Azimuth axes are uniform in its sine, as the resolution of an array is.
 //!
@@ -33,7 +33,10 @@
 mod axis;
 mod columns;
 mod error;
+mod gate;
+mod hidden;
 mod options;
+mod points;
 mod sidelobes;
 mod splat;
 mod view;
@@ -41,7 +44,10 @@ mod view;
 pub use axis::Axis;
 pub use columns::{MapColumns, ViewColumns};
 pub use error::ImageError;
+pub use gate::Gate;
+pub use hidden::{HiddenMeasure, hidden_measure};
 pub use options::{GridOptions, ViewGridOptions};
-pub use sidelobes::{Gate, LIT_DB, SidelobeMeasure, sidelobe_measure};
+pub use points::{PointMeasure, PointsAtHalf, RadarPoints, point_measure};
+pub use sidelobes::{LIT_DB, SidelobeMeasure, sidelobe_measure};
 pub use splat::{Grid, Outside, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target};
 pub use view::{BirdsEyeView, NO_RADAR, ViewGrid, birds_eye_view};

@@ -5,8 +5,9 @@
 use boresight_core::Diagnose;
 use boresight_core::drive::Mounting;
 use boresight_image::{
-    BirdsEyeView, Gate, Grid, ImageError, NO_RADAR, RangeAzimuthDoppler, RangeAzimuthMap, Target,
-    ViewGrid, birds_eye_view, sidelobe_measure,
+    BirdsEyeView, Gate, Grid, HiddenMeasure, ImageError, NO_RADAR, PointMeasure, PointsAtHalf,
+    RadarPoints, RangeAzimuthDoppler, RangeAzimuthMap, Target, ViewGrid, birds_eye_view,
+    hidden_measure, point_measure, sidelobe_measure,
 };
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
@@ -162,4 +163,99 @@ fn bad_arguments_are_refused() {
     };
     assert_eq!(measured(&[], 0.0), ("out-of-range", "gate_m".into()));
     assert_eq!(measured(&[[f64::NAN, 0.0]], 1.0), ("not-finite", "targets".into()));
+}
+
+#[test]
+fn what_is_hidden_from_the_radar_that_shows_it_is_measured() {
+    let view = two_cells();
+    let gate = Gate::Circle { radius_m: 1.0 };
+    let far = |radar: usize, [x, _]: [f64; 2]| radar == 0 && x > 8.0;
+    // Of 4 of power, 1 lies beyond 8 m and in no gate; the cell with 3 is a target's.
+    let measure = hidden_measure(&view, &[[20.0, 0.0]], gate, far).unwrap();
+    assert!((measure.share - 0.25).abs() < 1e-9 && measure.lit_m2 == 0.25, "{measure:?}");
+    let cells = view.radar.indexed_iter().filter(|&((i, k), &radar)| {
+        let (x, y) = (view.grid.x_m.value(i), view.grid.y_m.value(k));
+        let corner = 0.5 * std::f64::consts::FRAC_1_SQRT_2;
+        radar != NO_RADAR && x > 8.0 && (x - 20.0).hypot(y) > 1.0 + corner
+    });
+    assert_eq!(measure.hidden_m2, 0.25 * cells.count() as f64);
+    let all = hidden_measure(&view, &[], gate, far).unwrap();
+    assert_eq!((all.share, all.lit_m2), (1.0, 0.5));
+    let none = hidden_measure(&view, &[], gate, |radar, _| radar != 0).unwrap();
+    assert_eq!(none, HiddenMeasure { share: 0.0, lit_m2: 0.0, hidden_m2: 0.0 });
+    // 41 dB below the strongest a cell has power and is not lit.
+    let mut faint = two_cells();
+    faint.power[[80, 70]] = 3.0 * 10_f32.powf(-4.1);
+    let measure = hidden_measure(&faint, &[[20.0, 0.0]], gate, far).unwrap();
+    assert!(measure.share > 0.0 && measure.lit_m2 == 0.0, "{measure:?}");
+}
+
+#[test]
+fn points_are_true_in_a_gate_false_beside_all_and_hidden_where_no_radar_sees() {
+    let point = |range_m, azimuth_deg: f64, power, confidence| {
+        let azimuth_rad = azimuth_deg.to_radians();
+        Target { range_m, rate_mps: 0.0, azimuth_rad, power, confidence }
+    };
+    let radars = [
+        // At (20, 0) and, at 30 deg, at (17.3, 10).
+        RadarPoints {
+            mounting: mounting(0.0, 0.0, 0.0),
+            points: vec![point(20.4, 0.0, 3.0, 1.0), point(20.0, 30.0, 2.0, 0.5)],
+        },
+        // Turned left, 5 m ahead: at (5, 10) and at (-5, 10).
+        RadarPoints {
+            mounting: mounting(5.0, 0.0, 90.0),
+            points: vec![point(200_f64.sqrt(), 45.0, 0.75, 1.0), point(10.0, 0.0, 0.9, 1.0)],
+        },
+    ];
+    let targets = [[20.0, 0.0], [5.0, 9.5], [5.0, 10.5], [30.0, 0.0]];
+    let hidden = |radar: usize, [x, y]: [f64; 2]| {
+        assert!(radar == 0 && (x - 17.32).abs() < 0.01 && (y - 10.0).abs() < 0.01 || radar == 1);
+        radar == 1 && x < 0.0
+    };
+    for gate in [Gate::Circle { radius_m: 0.6 }, Gate::Resolution { range_m: 0.6, sine: 0.05 }] {
+        let measure = point_measure(&radars, &targets, gate, hidden).unwrap();
+        let rounded = |share: f64| (share * 1e12).round() / 1e12;
+        let expected = PointMeasure {
+            points: 4,
+            false_points: 2,
+            false_share: rounded(1.75 / 5.65),
+            hidden_points: 1,
+            hidden_share: rounded(0.75 / 5.65),
+            found_targets: 0.75,
+            // By power: one of four targets, a false point, two targets at once, and one behind.
+            at_half: Some(PointsAtHalf { points: 3, false_points: 1, hidden_points: 0 }),
+        };
+        let measure = PointMeasure {
+            false_share: rounded(measure.false_share),
+            hidden_share: rounded(measure.hidden_share),
+            ..measure
+        };
+        assert_eq!(measure, expected);
+    }
+    // A gate of resolution is as deep at any azimuth, and as wide as the sine at its range: 0.02 of 20 m are 0.4 m.
+    let found = |target| {
+        let gate = Gate::Resolution { range_m: 1.0, sine: 0.02 };
+        let radar = RadarPoints {
+            mounting: mounting(0.0, 0.0, 0.0),
+            points: vec![point(20.0, 0.0, 1.0, 1.0)],
+        };
+        point_measure(&[radar], &[target], gate, |_, _| false).unwrap().found_targets
+    };
+    assert_eq!(
+        [[20.0, 0.38], [20.0, 0.42], [20.9, 0.0], [21.1, 0.0]].map(found),
+        [1.0, 0.0, 1.0, 0.0]
+    );
+    // Half is reached with one of two, however many are found in the end.
+    let both = RadarPoints {
+        mounting: mounting(0.0, 0.0, 0.0),
+        points: vec![point(30.0, 0.0, 1.0, 1.0), point(20.0, 0.0, 2.0, 1.0)],
+    };
+    let gate = Gate::Circle { radius_m: 0.6 };
+    let measure = point_measure(&[both], &[[20.0, 0.0], [30.0, 0.0]], gate, |_, _| false).unwrap();
+    let half = PointsAtHalf { points: 1, false_points: 0, hidden_points: 0 };
+    assert_eq!((measure.found_targets, measure.at_half), (1.0, Some(half)));
+    let nothing = point_measure(&[], &[], Gate::Circle { radius_m: 1.0 }, hidden).unwrap();
+    assert_eq!((nothing.points, nothing.false_share, nothing.found_targets), (0, 0.0, 0.0));
+    assert_eq!(nothing.at_half, None);
 }

@@ -1,8 +1,8 @@
 //! From the cells of a frame to a range-azimuth map.
 
-use crate::{ChainOptions, FrameCells, PipelineError, suited};
+use crate::{ChainOptions, Detection, FrameCells, PipelineError, suited};
 use boresight_aoa::{
-    BatchEstimate, Estimator, EstimatorOptions, Method, SpectrumKind, WarningCount,
+    BatchEstimate, Estimator, EstimatorOptions, Method, Source, SpectrumKind, WarningCount,
 };
 use boresight_core::describe::Described;
 use boresight_core::{Array, CoreError, Waveform};
@@ -30,6 +30,15 @@ pub enum Content {
     Spectra,
 }
 
+impl Content {
+    /// What images of several methods are made of so that like stands beside like: spectra if all
+    /// methods have them, targets otherwise.
+    pub fn of_all(methods: &[Method]) -> Self {
+        let have = methods.iter().all(|method| method.requirements().spectrum);
+        if have { Self::Spectra } else { Self::Targets }
+    }
+}
+
 /// How the angles of an image are found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Angles {
@@ -44,8 +53,7 @@ pub struct Angles {
 impl Angles {
     /// The spectra of a method under its default options; the sources of one that has no spectra.
     pub fn of(method: Method) -> Self {
-        let content =
-            if method.requirements().spectrum { Content::Spectra } else { Content::Targets };
+        let content = Content::of_all(&[method]);
         Self { method, options: EstimatorOptions::default(), content }
     }
 
@@ -60,6 +68,8 @@ impl Angles {
 pub struct FrameMap {
     /// The map.
     pub map: RangeAzimuthMap,
+    /// The targets in it; none of a map of spectra.
+    pub targets: Vec<Target>,
     /// Remarks of the estimator.
     pub warnings: Vec<WarningCount>,
 }
@@ -92,39 +102,63 @@ pub fn frame_map(
 ) -> Result<FrameMap, PipelineError> {
     let wants_spectra = content == Content::Spectra;
     let estimates = estimator.estimate_batch(cells.snapshots.view(), wants_spectra)?;
-    let mut image = RangeAzimuthDoppler::new(grid, None)?;
-    match content {
-        Content::Targets => add_sources(&mut image, cells, &estimates)?,
-        Content::Spectra => add_spectra(&mut image, cells, &estimates)?,
-    }
-    Ok(FrameMap { map: image.to_map(), warnings: estimates.warnings })
+    let (map, targets) = match content {
+        Content::Targets => {
+            let targets = sources(cells, &estimates);
+            (target_map(&targets, grid)?, targets)
+        }
+        Content::Spectra => (spectrum_map(cells, &estimates, grid)?, vec![]),
+    };
+    Ok(FrameMap { map, targets, warnings: estimates.warnings })
 }
 
-fn add_sources(
-    image: &mut RangeAzimuthDoppler,
-    cells: &FrameCells,
-    estimates: &BatchEstimate,
-) -> Result<(), PipelineError> {
-    for (source, &cell) in estimates.sources.iter().zip(&estimates.cell) {
+/// Adds targets up to a map.
+///
+/// # Errors
+/// As [`RangeAzimuthDoppler::add_target`].
+pub fn target_map(targets: &[Target], grid: Grid) -> Result<RangeAzimuthMap, PipelineError> {
+    let mut image = RangeAzimuthDoppler::new(grid, None)?;
+    for target in targets {
+        image.add_target(target)?;
+    }
+    Ok(image.to_map())
+}
+
+/// Detections of the chain as targets of an image.
+pub fn detected_targets(detections: &[Detection]) -> Vec<Target> {
+    let target = |detection: &Detection| Target {
+        range_m: detection.range_m,
+        rate_mps: detection.rate_mps,
+        azimuth_rad: detection.azimuth_rad,
+        power: detection.power,
+        confidence: 1.0,
+    };
+    detections.iter().map(target).collect()
+}
+
+/// The sources found in each cell.
+fn sources(cells: &FrameCells, estimates: &BatchEstimate) -> Vec<Target> {
+    let target = |(source, &cell): (&Source, &u32)| {
         let cell = &cells.cells[cell as usize];
-        image.add_target(&Target {
+        Target {
             range_m: cell.range_m,
             rate_mps: cell.rate_mps,
             azimuth_rad: source.direction.azimuth_rad,
             power: source.power,
             confidence: source.confidence.unwrap_or(1.0),
-        })?;
-    }
-    Ok(())
+        }
+    };
+    estimates.sources.iter().zip(&estimates.cell).map(target).collect()
 }
 
-fn add_spectra(
-    image: &mut RangeAzimuthDoppler,
+fn spectrum_map(
     cells: &FrameCells,
     estimates: &BatchEstimate,
-) -> Result<(), PipelineError> {
+    grid: Grid,
+) -> Result<RangeAzimuthMap, PipelineError> {
+    let mut image = RangeAzimuthDoppler::new(grid, None)?;
     if cells.cells.is_empty() {
-        return Ok(());
+        return Ok(image.to_map());
     }
     let spectra = estimates.spectra.as_ref().ok_or_else(|| CoreError::Unknown {
         what: "spectrum".into(),
@@ -141,5 +175,5 @@ fn add_spectra(
         };
         image.add_spectrum(&plan, cell.range_m, cell.rate_mps, power, level)?;
     }
-    Ok(())
+    Ok(image.to_map())
 }

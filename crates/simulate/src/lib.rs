@@ -1,5 +1,5 @@
 //! Seeded simulation of what a radar's array receives: snapshots of scenes, and FMCW data cubes;
-//! a street around a car with four radars, and drives as Doppler point clouds.
+//! a street around a car with five radars, and drives as Doppler point clouds.
 //! The same seed gives the same bits natively and in wasm.
 //!
 //! # Example

@@ -10,7 +10,7 @@ use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// A street around a car with four radars.
+/// A street around a car with five radars.
 #[wasm_bindgen(js_name = streetScene)]
 pub fn street_scene(options: &JsValue) -> Fallible<JsValue> {
     let mut fields = Fields::of_optional(options)?;

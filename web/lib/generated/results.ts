@@ -305,7 +305,7 @@ export interface Mounting {
 
 /** A radar on the car. */
 export interface StreetRadar {
-  /** `right`, `front-right`, `front-left` or `left`: by the way it looks. */
+  /** `right`, `front-right`, `front-left`, `left` or `rear`: by the way it looks. */
   name: string;
   /** Its place and direction. */
   mounting: Mounting;
@@ -366,7 +366,7 @@ export interface StreetScene {
    * directions (-30 to 30 m/s).
    */
   egoSpeedMps: number;
-  /** The car's radars, mounted as those of the `RadarScenes` car. */
+  /** The car's radars, the four of the `RadarScenes` car as mounted there, and one that looks back. */
   radars: StreetRadar[];
   /** All points. */
   targets: StreetTarget[];

@@ -2,6 +2,7 @@
 
 use crate::flags::{Flags, OnCommandLine};
 use boresight_core::imperfections::ImperfectionSpread;
+use boresight_evaluate::images;
 use boresight_evaluate::sweep::Part;
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -15,6 +16,8 @@ pub enum EvaluateCommand {
     Calibration(EvaluateCalibrationArguments),
     /// Counting and angles of up to two targets in the region of interest of a data cube.
     Doa(EvaluateDoaArguments),
+    /// Bird's-eye images of simulated streets: how much of each is not target, by method.
+    Images(EvaluateImagesArguments),
     /// When two targets are resolved, by separation and signal-to-noise ratio.
     Resolution(EvaluateResolutionArguments),
     /// What gain, phase, position and coupling errors of the array do to detection and angles.
@@ -135,6 +138,24 @@ pub enum DoaSetup {
     Simulation,
     /// Range bins of 43 mm, targets at 9.7 to 10.3 m.
     Experiment,
+}
+
+/// Arguments of `evaluate images`.
+#[derive(Debug, Args)]
+pub struct EvaluateImagesArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Streets, the first of the seed and each of the next one: a frame of all radars each.
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    pub streets: u64,
+    /// Methods, separated by commas; `chain` for the detections of the ordinary chain.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',',
+          default_values_t = images::DEFAULT_METHODS.map(String::from))]
+    pub methods: Vec<String>,
+    /// Networks that find angles in a snapshot.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
 }
 
 /// Arguments of `evaluate resolution`.

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// What to make an image of.
 #[derive(Debug, Subcommand)]
 pub enum ImageCommand {
-    /// A simulated street seen by four radars, with how much of the image is not target.
+    /// A simulated street seen by five radars, with how much of the image is not target.
     Street(ImageStreetArguments),
     /// A frame of a raw capture.
     Capture(ImageCaptureArguments),
@@ -30,7 +30,7 @@ pub struct ImageArguments {
     #[command(flatten)]
     pub model: ModelArguments,
     /// What goes into the image: the angles found in each cell, or the spectrum of each cell;
-    /// without it spectra where the method has them.
+    /// without it spectra if all methods have them, so that like stands beside like.
     #[arg(long, value_name = "WHAT", value_parser = names::<Content>())]
     pub from: Option<String>,
     /// Picture to write; of several methods, each has the method's name before the ending.
@@ -50,11 +50,14 @@ pub struct ImageStreetArguments {
     /// The street.
     #[command(flatten)]
     pub street: Flags<StreetOptions>,
-    /// Radars, with commas between; without it all four.
+    /// Radars, with commas between; without it all five.
     #[arg(long, value_name = "NAMES", value_delimiter = ',',
           value_parser = PossibleValuesParser::new(STREET_RADARS))]
     pub radars: Vec<String>,
-    /// Mark the true targets in the picture.
+    /// Beside the methods an image of the detections of the ordinary chain, one a peak.
+    #[arg(long)]
+    pub chain: bool,
+    /// Mark the true targets and walls in the picture.
     #[arg(long)]
     pub truth: bool,
     /// What is shown.

@@ -13,7 +13,8 @@ use boresight_core::CoreError;
 use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Experiment, How};
 use boresight_evaluate::{
-    Entrants, Merged, Network, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
+    Entrants, Merged, Network, Outcome, aoa, calibration, doa, images, imperfections, merge,
+    resolution,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -57,6 +58,15 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             let networks = networks(&arguments.networks, files)?;
             let entrants = Entrants::new(doa::default_methods(setup)?, networks);
             let options = doa::DoaExperiment { setup, trials: arguments.trials, seed, entrants };
+            evaluate(&options, &arguments.shared, files)
+        }
+        EvaluateCommand::Images(arguments) => {
+            let networks = networks(&arguments.networks, files)?;
+            let options = images::ImagesExperiment {
+                streets: arguments.streets,
+                seed: arguments.shared.seed,
+                entrants: Entrants::new(arguments.methods.clone(), networks),
+            };
             evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Resolution(arguments) => {

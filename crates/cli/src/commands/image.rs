@@ -7,15 +7,17 @@ use crate::destination::Destination;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::json;
+use crate::network;
 use crate::output::remark;
+use crate::picture::{self, Truth};
 use crate::run::Run;
-use crate::{network, picture};
 use boresight_aoa::Method;
 use boresight_core::describe::Named;
 use boresight_core::drive::Mounting;
-use boresight_evaluate::images::StreetFrames;
+use boresight_core::units::power_to_db;
+use boresight_evaluate::images::{CHAIN, ImageFigures, Maker, StreetFrames};
 use boresight_formats::{Capture, RadarConfig};
-use boresight_image::{BirdsEyeView, Grid, Outside, ViewGrid, birds_eye_view, sidelobe_measure};
+use boresight_image::{BirdsEyeView, Grid, Outside, PointMeasure, ViewGrid, birds_eye_view};
 use boresight_pipeline::image::{Angles, Content, chain_options, frame_map, map_grid};
 use boresight_pipeline::{Chain, FrameSource};
 use boresight_simulate::Street;
@@ -32,7 +34,10 @@ pub fn run(what: &ImageCommand, files: &Files) -> Result<String, CliError> {
 }
 
 fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, CliError> {
-    let pictures = pictures(&arguments.shared, files)?;
+    let shared = &arguments.shared;
+    let chain = arguments.chain.then_some(CHAIN);
+    let names: Vec<&str> = shared.method.iter().map(String::as_str).chain(chain).collect();
+    let pictures = pictures(shared, &names, files)?;
     let grid = ViewGrid::of(&arguments.grid.options)?;
     let asked = |name: &str| {
         arguments.radars.is_empty() || arguments.radars.iter().any(|radar| radar == name)
@@ -40,31 +45,67 @@ fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, Cli
     let radars: Vec<usize> =
         (0..STREET_RADARS.len()).filter(|&index| asked(STREET_RADARS[index])).collect();
     let street = Street::new(arguments.street.options)?;
-    let frames = StreetFrames::new(street, &radars, &chain_options())?;
+    let frames = StreetFrames::new(street, &radars)?;
     let cells: Vec<usize> = frames.frames.iter().map(|frame| frame.cells.cells.len()).collect();
-    let (targets, gate) = (frames.targets_m(), frames.gate()?);
-    let truth = if arguments.truth { &targets[..] } else { &[] };
-    let shared = &arguments.shared;
+    let targets = frames.targets_m();
+    let truth = arguments.truth.then(|| Truth::of(frames.street(), &targets)).unwrap_or_default();
+    let content = content(shared, chain.is_some())?;
     let mut text = format!(
-        "{:<22}{:>11}{:>16}{:>13}{:>13}\n",
-        "method", "outside_db", "peak_outside_db", "lit_outside", "lit_targets"
+        "{:<22}{:<9}{:>11}{:>16}{:>13}{:>13}{:>11}{:>11}{:>8}{:>8}{:>8}\n",
+        "method",
+        "from",
+        "outside_db",
+        "peak_outside_db",
+        "lit_outside",
+        "lit_targets",
+        "behind_db",
+        "behind_m2",
+        "points",
+        "false",
+        "behind"
     );
     let mut rows = vec![];
-    for (name, picture) in shared.method.iter().zip(pictures) {
-        let angles = angles(shared, name)?;
-        let model = network::model_for(angles.method, &shared.model, files)?;
-        let image = frames.image(&angles, model.as_ref().map(|(model, _)| model), grid)?;
+    for (name, picture) in names.into_iter().zip(pictures) {
+        let angles;
+        let model;
+        let maker = if chain == Some(name) {
+            Maker::Chain
+        } else {
+            angles = Angles { content, ..Angles::of(Method::from_name(name)?) };
+            model = network::model_for(angles.method, &shared.model, files)?;
+            Maker::Cells { angles: &angles, model: model.as_ref().map(|(model, _)| model) }
+        };
+        let image = frames.image(&maker, grid)?;
         remark(image.warnings.iter().map(|warning| format!("{name}: {warning}")));
-        let measure = sidelobe_measure(&image.view, &targets, gate)?;
-        let (outside_db, peak_db) = (measure.outside_db(), measure.peak_outside_db());
+        let figures = frames.figures(&image)?;
+        let ImageFigures { sidelobes, behind_walls, points } = &figures;
+        let from = maker.content().name();
         text += &format!(
-            "{name:<22}{outside_db:>11.1}{peak_db:>16.1}{:>12.2}%{:>12.1}%\n",
-            100.0 * measure.lit_outside,
-            100.0 * measure.lit_targets
+            "{name:<22}{from:<9}{:>11.1}{:>16.1}{:>12.2}%{:>12.1}%{:>11.1}{:>11.1}",
+            sidelobes.outside_db(),
+            sidelobes.peak_outside_db(),
+            100.0 * sidelobes.lit_outside,
+            100.0 * sidelobes.lit_targets,
+            power_to_db(behind_walls.share),
+            behind_walls.lit_m2,
         );
-        let further = json!({ "method": name, "offMap": json::result(&image.outside) });
-        rows.push(json::beside(&measure, further));
-        keep(picture, &image.view, truth, files)?;
+        let count = |of: fn(&PointMeasure) -> usize| match points {
+            Some(points) => format!("{:>8}", of(points)),
+            None => format!("{:>8}", "-"),
+        };
+        text += &count(|points| points.points);
+        text += &count(|points| points.false_points);
+        text += &count(|points| points.hidden_points);
+        text += "\n";
+        let further = json!({
+            "method": name,
+            "from": from,
+            "offMap": json::result(&image.outside),
+            "behindWalls": json::result(behind_walls),
+            "points": points.as_ref().map(json::result),
+        });
+        rows.push(json::beside(sidelobes, further));
+        keep(picture, &image.view, &truth, files)?;
     }
     remark([format!("cells of each radar: {cells:?}; targets in view of any: {}", targets.len())]);
     Ok(if shared.json { format!("{:#}\n", Value::Array(rows)) } else { text })
@@ -77,7 +118,9 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
     let source = CaptureFrames(Capture::new(&bytes, &config)?);
     let array = board_array(arguments.array.as_deref(), &config, files)?;
     let waveform = config.waveform;
-    let pictures = pictures(shared, files)?;
+    let names: Vec<&str> = shared.method.iter().map(String::as_str).collect();
+    let pictures = pictures(shared, &names, files)?;
+    let content = content(shared, false)?;
     let mut chain = Chain::new(&waveform, config.receivers.len(), &array, &chain_options())?;
     let cells = match arguments.frame {
         Some(frame) => {
@@ -96,9 +139,9 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
     let grid = ViewGrid::new([0.0, far_m], [-far_m / 2.0, far_m / 2.0], far_m / 500.0)?;
     let mut text = format!("{:<22}{:>8}{:>12}{:>12}\n", "method", "cells", "off_map", "off_map_db");
     let mut rows = vec![];
-    for (name, picture) in shared.method.iter().zip(pictures) {
+    for (name, picture) in names.into_iter().zip(pictures) {
         let map_grid = Grid::of(&map_grid(&waveform))?;
-        let angles = angles(shared, name)?;
+        let angles = Angles { content, ..Angles::of(Method::from_name(name)?) };
         let options = angles.suited(&array);
         let mut estimator =
             network::estimator(angles.method, &array, &options, &shared.model, files)?;
@@ -113,35 +156,41 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
         text += &format!("{name:<22}{count_of:>8}{count:>12}{share_db:>12.1}\n");
         let off_map = json::result(&made.map.outside);
         rows.push(json!({ "method": name, "cells": count_of, "offMap": off_map }));
-        keep(picture, &view, &[], files)?;
+        keep(picture, &view, &Truth::default(), files)?;
     }
     Ok(if shared.json { format!("{:#}\n", Value::Array(rows)) } else { text })
 }
 
-fn angles(shared: &ImageArguments, name: &str) -> Result<Angles, CliError> {
-    let mut angles = Angles::of(Method::from_name(name)?);
+/// What images are made of: what was asked for, or the same of all.
+fn content(shared: &ImageArguments, with_chain: bool) -> Result<Content, CliError> {
     if let Some(from) = shared.from.as_deref() {
-        angles.content = Content::from_name("--from", from)?;
+        return Ok(Content::from_name("--from", from)?);
     }
-    Ok(angles)
+    let methods = shared.method.iter().map(|name| Method::from_name(name));
+    let methods: Vec<Method> = methods.collect::<Result<_, _>>()?;
+    Ok(if with_chain { Content::Targets } else { Content::of_all(&methods) })
 }
 
 /// Where the picture of each method goes, if one is asked for.
-fn pictures(shared: &ImageArguments, files: &Files) -> Result<Vec<Option<Destination>>, CliError> {
-    let several = shared.method.len() > 1;
-    let picture = |method: &String| {
+fn pictures(
+    shared: &ImageArguments,
+    names: &[&str],
+    files: &Files,
+) -> Result<Vec<Option<Destination>>, CliError> {
+    let several = names.len() > 1;
+    let picture = |name: &&str| {
         let path = shared.out.as_deref();
-        let path = path.map(|path| if several { named(path, method) } else { path.into() });
+        let path = path.map(|path| if several { named(path, name) } else { path.into() });
         path.map(|path| files.destination(&path)).transpose()
     };
-    shared.method.iter().map(picture).collect()
+    names.iter().map(picture).collect()
 }
 
 /// Writes the picture, if one is asked for.
 fn keep(
     picture: Option<Destination>,
     view: &BirdsEyeView,
-    truth: &[[f64; 2]],
+    truth: &Truth,
     files: &Files,
 ) -> Result<(), CliError> {
     let Some(destination) = picture else { return Ok(()) };

@@ -1,4 +1,4 @@
-//! A street around a car with four radars: parked and moving cars, a wall, a guard rail, poles and
+//! A street around a car with five radars: parked and moving cars, a wall, a guard rail, poles and
 //! people as points that scatter, of which each radar's data cubes are made. Bit for bit the same
 //! natively and in wasm.
 
@@ -17,10 +17,13 @@ use boresight_core::presets::preset;
 use boresight_core::{Complex32, Random, Waveform};
 use ndarray::Array5;
 use serde::{Deserialize, Serialize, Serializer};
-use std::f64::consts::FRAC_PI_3;
+use std::f64::consts::{FRAC_PI_3, PI};
 
 /// Names of the radars, by the way they look.
-pub const STREET_RADARS: [&str; 4] = ["right", "front-right", "front-left", "left"];
+pub const STREET_RADARS: [&str; 5] = ["right", "front-right", "front-left", "left", "rear"];
+
+/// The radar that looks back, in the middle of the rear bumper.
+const REAR: Mounting = Mounting { x_m: -1.0, y_m: 0.0, yaw_rad: PI };
 
 /// Power of a 0 dB target over the noise, both of a raw sample, dB. With the powers of
 /// [`VisibleTarget`], 1 m^2 at 40 m stands 20 dB above the noise in its range-Doppler cell under
@@ -118,7 +121,7 @@ fn as_columns<S: Serializer>(corners: &[[f64; 2]], serializer: S) -> Result<S::O
 /// A radar on the car.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct StreetRadar {
-    /// `right`, `front-right`, `front-left` or `left`: by the way it looks.
+    /// `right`, `front-right`, `front-left`, `left` or `rear`: by the way it looks.
     pub name: &'static str,
     /// Its place and direction.
     pub mounting: Mounting,
@@ -137,7 +140,7 @@ pub struct Street {
     /// What it was made from.
     #[serde(rename = "..options")]
     options: StreetOptions,
-    /// The car's radars, mounted as those of the `RadarScenes` car.
+    /// The car's radars, the four of the `RadarScenes` car as mounted there, and one that looks back.
     pub radars: Vec<StreetRadar>,
     /// All points.
     pub targets: Vec<StreetTarget>,
@@ -152,14 +155,15 @@ impl Street {
     /// [`boresight_core::CoreError::OutOfRange`] for a speed beyond 30 m/s either way.
     pub fn new(options: StreetOptions) -> Result<Self, SimulateError> {
         describe::check(&options, Naming::Rust)?;
-        let radar = |(name, (_, mounting)): (&'static str, (u8, Mounting))| StreetRadar {
+        let radar = |(name, mounting): (&'static str, Mounting)| StreetRadar {
             name,
             mounting,
             array: "lrr48",
             waveform: waveform_corner(),
             field_of_view_rad: FRAC_PI_3,
         };
-        let radars = STREET_RADARS.into_iter().zip(RADARSCENES_SENSORS).map(radar).collect();
+        let mountings = RADARSCENES_SENSORS.into_iter().map(|(_, mounting)| mounting).chain([REAR]);
+        let radars = STREET_RADARS.into_iter().zip(mountings).map(radar).collect();
         let (targets, outlines) = layout::layout(&mut Random::new(options.seed, 0));
         Ok(Self { options, radars, targets, outlines })
     }
@@ -177,6 +181,12 @@ impl Street {
     pub fn visible(&self, radar: usize) -> Result<Vec<VisibleTarget>, SimulateError> {
         check_range("radar", radar as f64, 0.0, self.radars.len() as f64 - 1.0)?;
         Ok(view::visible(self, &self.radars[radar]))
+    }
+
+    /// Whether house fronts stand between two places (x and y in the car's frame, m), so that a
+    /// radar in one shows nothing true in the other.
+    pub fn is_behind_wall(&self, from_m: [f64; 2], place_m: [f64; 2]) -> bool {
+        view::is_behind_wall(self, from_m, place_m)
     }
 
     /// A frame of radar `radar` (an index), 1 x loops x transmitters x receivers x samples, of the

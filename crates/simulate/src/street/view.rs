@@ -1,6 +1,6 @@
 //! What a radar sees of a street.
 
-use super::{Street, StreetRadar};
+use super::{Street, StreetKind, StreetRadar};
 use crate::cube::CubeTarget;
 use boresight_core::Direction;
 use boresight_core::describe::Described;
@@ -41,7 +41,7 @@ pub(super) fn visible(street: &Street, radar: &StreetRadar) -> Vec<VisibleTarget
     let (sin, cos) = libm::sincos(mounting.yaw_rad);
     let farthest_m = FARTHEST * radar.waveform.max_range_m();
     let ego_mps = street.options.ego_speed_mps;
-    let hiding: Vec<(f64, Vec<[[f64; 2]; 2]>)> = street
+    let hiding: Vec<(f64, Edges)> = street
         .outlines
         .iter()
         .filter_map(|outline| Some((outline.kind.loss_db()?, edges(&outline.corners_m))))
@@ -56,10 +56,8 @@ pub(super) fn visible(street: &Street, radar: &StreetRadar) -> Vec<VisibleTarget
             return None;
         }
         let point = [target.x_m, target.y_m];
-        let hides =
-            |edges: &[[[f64; 2]; 2]]| edges.iter().any(|[a, b]| cross(origin, point, *a, *b));
-        let shadow_db: f64 =
-            hiding.iter().filter(|(_, edges)| hides(edges)).map(|(loss, _)| loss).sum();
+        let hides = |(_, edges): &&(f64, Edges)| stands_between(origin, point, edges);
+        let shadow_db: f64 = hiding.iter().filter(hides).map(|(loss, _)| loss).sum();
         if shadow_db > DEEPEST_SHADOW_DB {
             return None;
         }
@@ -77,8 +75,22 @@ pub(super) fn visible(street: &Street, radar: &StreetRadar) -> Vec<VisibleTarget
     street.targets.iter().enumerate().filter_map(see).collect()
 }
 
+/// Whether house fronts stand between two places.
+pub(super) fn is_behind_wall(street: &Street, from: [f64; 2], place: [f64; 2]) -> bool {
+    let mut walls = street.outlines.iter().filter(|outline| outline.kind == StreetKind::Wall);
+    walls.any(|wall| stands_between(from, place, &edges(&wall.corners_m)))
+}
+
+/// Whether the line of sight from `a` to `b` crosses one of the edges.
+fn stands_between(a: [f64; 2], b: [f64; 2], edges: &[[[f64; 2]; 2]]) -> bool {
+    edges.iter().any(|[c, d]| cross(a, b, *c, *d))
+}
+
+/// Sides of an outline, each by its ends.
+type Edges = Vec<[[f64; 2]; 2]>;
+
 /// The sides of a polygon; of two points the line between them.
-fn edges(corners_m: &[[f64; 2]]) -> Vec<[[f64; 2]; 2]> {
+fn edges(corners_m: &[[f64; 2]]) -> Edges {
     let next = corners_m.iter().cycle().skip(1);
     corners_m.iter().zip(next).map(|(a, b)| [*a, *b]).collect()
 }
