@@ -366,6 +366,7 @@ impl Plan {
                 fluctuation: Fluctuation::RandomPhase,
                 imperfections,
                 seed: self.seed,
+                ..SnapshotOptions::default()
             },
         )?;
         Ok(simulator.scene(stream)?)
@@ -422,14 +423,14 @@ mod tests {
     /// Azimuths that a method finds of one target at the end of the sector, deg.
     fn found(name: &str, array: &Array, azimuth_rad: f64, trial: u64) -> Vec<f64> {
         let direction = Direction::azimuth(azimuth_rad);
-        let target = Target { direction, power_db: 0.0, phase_rad: None };
+        let target = Target { direction, ..Target::default() };
         let options = SnapshotOptions {
             scene: Scene::Given(vec![target]),
             snr_db: 30.0,
             snapshots: 1,
             fluctuation: Fluctuation::RandomPhase,
-            imperfections: None,
             seed: 1,
+            ..SnapshotOptions::default()
         };
         let (y, _) = SnapshotSimulator::new(array, &options).unwrap().scene(trial).unwrap();
         let finder = Finder::Method(Method::from_name(name).unwrap());
