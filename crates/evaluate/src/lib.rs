@@ -25,7 +25,9 @@
 //! ```
 
 pub mod aoa;
+mod apart;
 pub mod calibration;
+mod deviation;
 pub mod doa;
 pub mod entrants;
 pub mod error;
@@ -33,9 +35,11 @@ pub mod experiment;
 pub mod images;
 pub mod imperfections;
 mod merge;
+pub mod near_field;
 mod plot;
 pub mod resolution;
 pub mod statistics;
+pub mod straddling;
 pub mod sweep;
 mod table;
 mod told;

@@ -7,7 +7,9 @@ use crate::doa;
 use crate::experiment::{Experiment, Records, Report, file_name, legs, setup, side_by_side, whole};
 use crate::images;
 use crate::imperfections;
+use crate::near_field;
 use crate::resolution;
+use crate::straddling;
 use crate::sweep::{self, Line, Part};
 use boresight_core::CoreError;
 use serde_json::Value;
@@ -109,9 +111,16 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         resolution::ResolutionExperiment::NAME => {
             merge_as::<resolution::ResolutionExperiment>(gathered, sources)
         }
+        near_field::NearFieldExperiment::NAME => {
+            merge_as::<near_field::NearFieldExperiment>(gathered, sources)
+        }
+        straddling::StraddlingExperiment::NAME => {
+            merge_as::<straddling::StraddlingExperiment>(gathered, sources)
+        }
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", first.first.display()),
-            expected: "aoa, calibration, doa, images, imperfections, resolution".into(),
+            expected: "aoa, calibration, doa, images, imperfections, near-field, resolution, straddling"
+                .into(),
             given: name.into(),
         }
         .into()),

@@ -29,6 +29,8 @@ const LEGEND: u32 = 22;
 pub enum Axes {
     /// None.
     Linear,
+    /// The abscissa.
+    LogAbscissa,
     /// The ordinate.
     LogOrdinate,
     /// Both.
@@ -54,7 +56,11 @@ pub struct Panel {
 impl Panel {
     /// Whether abscissa and ordinate are logarithmic.
     fn logarithmic(&self) -> [bool; 2] {
-        [self.axes == Axes::Logarithmic, self.axes != Axes::Linear]
+        let one_of = |axes: [Axes; 2]| axes.contains(&self.axes);
+        [
+            one_of([Axes::LogAbscissa, Axes::Logarithmic]),
+            one_of([Axes::LogOrdinate, Axes::Logarithmic]),
+        ]
     }
 }
 
@@ -135,6 +141,7 @@ fn panel_on(panel: &Panel, area: &Area) -> Result<(), EvaluateError> {
     let [y0, y1] = panel.y_limits.unwrap_or_else(|| limits(panel, |point| point.1, logarithmic_y));
     match panel.axes {
         Axes::Linear => axes(panel, area, x0..x1, y0..y1),
+        Axes::LogAbscissa => axes(panel, area, (x0..x1).log_scale(), y0..y1),
         Axes::LogOrdinate => axes(panel, area, x0..x1, (y0..y1).log_scale()),
         Axes::Logarithmic => axes(panel, area, (x0..x1).log_scale(), (y0..y1).log_scale()),
     }

@@ -9,3 +9,15 @@ pub fn table(corner: &str, heads: &[&str], rows: &[(&str, Vec<String>)]) -> Stri
     }
     text
 }
+
+/// A number in about three digits.
+pub fn short(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".into(),
+        size if !size.is_finite() => "-".into(),
+        10.0.. => format!("{x:.1}"),
+        1.0.. => format!("{x:.2}"),
+        0.001.. => format!("{x:.3}"),
+        _ => format!("{x:.0e}"),
+    }
+}

@@ -9,7 +9,7 @@ use boresight_evaluate::experiment::{Experiment, How, run, run_part};
 use boresight_evaluate::sweep::Part;
 use boresight_evaluate::{
     Entrants, EvaluateError, Outcome, aoa, calibration, doa, images, imperfections, merge,
-    resolution,
+    near_field, resolution, straddling,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -68,6 +68,10 @@ fn parts_make_the_whole() {
     check(&images::ImagesExperiment { streets: 2, seed: 1, entrants });
     let (array, snapshots) = ("ula4".into(), vec![1, 3]);
     check(&resolution::ResolutionExperiment { array, snapshots, trials: 1, seed: 1 });
+    let (array, entrants) = ("ula16".into(), Entrants::new(vec!["nomp".into()], vec![]));
+    check(&near_field::NearFieldExperiment { array, snr_db: 20.0, trials: 1, seed: 1, entrants });
+    let (array, entrants) = ("ula8".into(), Entrants::new(vec!["bartlett".into()], vec![]));
+    check(&straddling::StraddlingExperiment { array, trials: 1, seed: 1, entrants });
     let (array, entrants) = ("ula8".into(), Entrants::new(vec!["iaa".into()], vec![]));
     check(&imperfections::ImperfectionsExperiment {
         array,

@@ -10,6 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use tract_onnx::pb::{ModelProto, ValueInfoProto, tensor_proto, tensor_shape_proto, type_proto};
 use tract_onnx::prelude::*;
 use tract_onnx::tract_core::model::TypedModelPatch;
+use tract_onnx::tract_core::ops::Cost;
 use tract_onnx::tract_core::ops::cast::Cast;
 use tract_onnx::tract_core::ops::konst::Const;
 use tract_onnx::tract_core::plan::SimpleState;
@@ -91,6 +92,27 @@ impl Engine {
         Ok(plan)
     }
 
+    /// Additions, multiplications and divisions of one example, as tract counts them, without what follows from
+    /// constants alone.
+    pub fn operations(&self) -> Result<f64, NeuralError> {
+        let count = |graph: TypedModel| -> TractResult<f64> {
+            let mut sum = 0.0;
+            for id in graph.eval_order()? {
+                for (cost, number) in graph.node(id).op.cost(&graph.node_input_facts(id)?)? {
+                    let each = match cost {
+                        Cost::FMA(_) => 2.0,
+                        Cost::Div(_) => 1.0,
+                        _ => 0.0,
+                    };
+                    sum += each * number.to_i64()? as f64;
+                }
+            }
+            Ok(sum)
+        };
+        let simple = widen(self.typed(1)?).and_then(TypedModel::into_decluttered);
+        simple.and_then(count).map_err(|error| refused("analysed", &error))
+    }
+
     fn prepare(&self, batch: usize) -> Result<Runnable, NeuralError> {
         let wide = widen(self.typed(batch)?).and_then(TypedModel::into_decluttered);
         let optimised = wide.and_then(|mut graph| {
@@ -167,6 +189,11 @@ impl Runners {
     pub fn new(engine: Arc<Engine>, single: bool) -> Self {
         let sizes = BATCHES.into_iter().filter(|&size| size == 1 || !single).collect();
         Self { engine, sizes, ready: Vec::new() }
+    }
+
+    /// As [`Engine::operations`].
+    pub fn operations(&self) -> Result<f64, NeuralError> {
+        self.engine.operations()
     }
 
     /// The largest batch that is run at once.

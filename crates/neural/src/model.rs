@@ -227,6 +227,15 @@ impl Model {
         Ok(Runners::new(engine, self.single))
     }
 
+    /// Additions, multiplications and divisions that a snapshot of an array takes, without what follows from the
+    /// positions of its elements alone.
+    ///
+    /// # Errors
+    /// [`NeuralError::Refused`] where the graph cannot be analysed.
+    pub fn operations(&self, array: &Array) -> Result<f64, NeuralError> {
+        self.runners_for(array)?.operations()
+    }
+
     /// An estimator for an array.
     ///
     /// # Errors

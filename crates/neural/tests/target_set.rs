@@ -218,3 +218,14 @@ fn displaced_elements_cost_nothing_when_they_are_known() {
     }
     assert!(displaced.2 < 1.15 * exact.2);
 }
+
+/// Six layers on 96 queries of 48 numbers, each with about the weights of the card: no fewer than a multiplication with
+/// addition for every weight, and, the weights being used for each query, no more than 96 of them and as much again for
+/// the elements.
+#[test]
+fn operations_are_those_of_the_weights() {
+    let model = model("aaetr-small");
+    let operations = model.operations(&preset("lrr48").unwrap()).unwrap();
+    let weights = 116_538.0;
+    assert!(operations > 2.0 * weights && operations < 2.0 * 2.0 * 96.0 * weights, "{operations}");
+}

@@ -6,12 +6,10 @@
 //! `R` at that very moment. So the beat frequency is positive and grows with range, and the phase
 //! `4 pi R / lambda` rises from chirp to chirp for a receding target, whose Doppler is positive.
 //!
-//! In the far field element `k` adds the phase `+pi p_k . u` of [`boresight_core::steering`].
-//! Positions thus describe the response as measured. With the sign of the beat above, a path that
-//! is *longer* gives more phase, so the near field takes the path over the point-reflected
-//! position `-p_k lambda / 2`, which tends to the far field's phase with growing range.
+//! Phases in the far and in the near field are those of `crate::paths`.
 
 use crate::error::{SimulateError, check_values};
+use crate::paths::{Paths, moved};
 use boresight_core::array::{MAX_ELEMENTS, Position};
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
@@ -192,10 +190,7 @@ struct Model<'a> {
     waveform: &'a Waveform,
     field: Field,
     imperfections: Option<&'a Imperfections>,
-    /// Metres, reflected through the origin.
-    tx_m: Vec<[f64; 3]>,
-    /// Metres, reflected through the origin, of each virtual element's receiver.
-    rx_m: Vec<[f64; 3]>,
+    paths: Paths,
     /// Virtual elements as they really are, half wavelengths.
     elements: Vec<Position>,
 }
@@ -245,35 +240,27 @@ impl Block {
 
 impl<'a> Model<'a> {
     fn new(waveform: &'a Waveform, array: &Array, options: &'a CubeOptions) -> Self {
-        let metres = -waveform.wavelength_m() / 2.0;
         let imperfections = options.imperfections.as_ref();
-        let moved = |p: Position, q: Position| [p[0] + q[0], p[1] + q[1], p[2] + q[2]];
-        let (mut elements, mut rx_m) = (vec![], vec![]);
+        let (mut elements, mut ends) = (vec![], vec![]);
         for tx in array.tx() {
             for rx in array.rx() {
                 let error = imperfections.map_or([0.0; 3], |i| i.displacement[elements.len()]);
                 let rx = moved(*rx, error);
-                rx_m.push(rx.map(|x| x * metres));
+                ends.push([*tx, rx]);
                 elements.push(moved(*tx, rx));
             }
         }
-        let tx_m = array.tx().iter().map(|p| p.map(|x| x * metres)).collect();
-        Self { waveform, field: options.field, imperfections, tx_m, rx_m, elements }
+        let paths = Paths::new(waveform.wavelength_m(), ends);
+        Self { waveform, field: options.field, imperfections, paths, elements }
     }
 
     fn echo(&self, target: &CubeTarget, phases: &mut Random) -> Echo {
         let unit = target.direction.unit();
         let phase = target.phase_rad.unwrap_or_else(|| phases.phase());
         let amplitude = cis(phase) * db_to_amplitude(target.power_db);
-        let receivers = self.elements.len() / self.tx_m.len();
         let ideal: Array1<Complex64> = match self.field {
             Field::Far => self.elements.iter().map(|p| cis(PI * dot(p, &unit))).collect(),
-            Field::Near => (0..self.elements.len())
-                .map(|k| {
-                    let path = self.path_m(k / receivers, k, target.range_m, &unit);
-                    cis(TAU * (path - 2.0 * target.range_m) / self.waveform.wavelength_m())
-                })
-                .collect(),
+            Field::Near => self.paths.response(target.range_m, &unit),
         };
         let mut gains = ideal.clone();
         if let Some(imperfections) = self.imperfections {
@@ -301,21 +288,11 @@ impl<'a> Model<'a> {
         for (r, gain) in gains.iter().enumerate() {
             if self.field == Field::Near {
                 let element = tx * receivers + r;
-                let path = |time_s| self.path_m(tx, element, range_m(time_s), &echo.unit);
+                let path = |time_s| self.paths.length_m(element, range_m(time_s), &echo.unit);
                 block.set_wave(self.tone(path(first_s), path(last_s)));
             }
             block.add_wave(r, *gain);
         }
-    }
-
-    /// Length of the path from transmitter `tx` to a target and back to the receiver of a virtual
-    /// element, m.
-    fn path_m(&self, tx: usize, element: usize, range_m: f64, unit: &[f64; 3]) -> f64 {
-        let leg = |from: &[f64; 3]| {
-            let d = [0, 1, 2].map(|a| range_m * unit[a] - from[a]);
-            dot(&d, &d).sqrt()
-        };
-        leg(&self.tx_m[tx]) + leg(&self.rx_m[element])
     }
 
     /// `exp(j 2 pi (d / c) f)` over the samples of a chirp, in which the path `d` and the frequency

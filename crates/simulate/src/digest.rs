@@ -51,6 +51,7 @@ pub fn reference_snapshots() -> Result<u64, SimulateError> {
             fluctuation,
             imperfections: Some(Imperfections::random(&array, spread, 5)?),
             seed: 2024,
+            ..SnapshotOptions::default()
         };
         let snapshots = SnapshotSimulator::new(&array, &options)?.scenes(7, 20)?;
         bits.extend(snapshots.values.iter().flat_map(|z| [z.re.to_bits(), z.im.to_bits()]));

@@ -10,12 +10,12 @@
 //!
 //! let direction = Direction::azimuth(10_f64.to_radians());
 //! let options = SnapshotOptions {
-//!     scene: Scene::Given(vec![Target { direction, power_db: 0.0, phase_rad: None }]),
+//!     scene: Scene::Given(vec![Target { direction, ..Target::default() }]),
 //!     snr_db: 20.0,
 //!     snapshots: 4,
 //!     fluctuation: Fluctuation::ComplexNormal,
-//!     imperfections: None,
 //!     seed: 7,
+//!     ..SnapshotOptions::default()
 //! };
 //! let simulator = SnapshotSimulator::new(&Array::ula(8)?, &options)?;
 //! let (snapshots, truth) = simulator.scene(3)?;
@@ -31,6 +31,7 @@ pub mod cube;
 pub mod digest;
 pub mod drive;
 pub mod error;
+mod paths;
 pub mod request;
 pub mod snapshots;
 pub mod street;

@@ -1,7 +1,15 @@
 //! Snapshots of an array: `y(t) = sum_m alpha_m a(theta_m) s_m(t) + n(t)` (equations 4 to 6 of the
 //! AAETR paper, Zhu, Chen and Yang 2024), bit for bit the same natively and in wasm.
+//!
+//! `a` is the far field's [`steering_vector`], or, of a target with a range, the response to a spherical wave. That
+//! does not follow from the positions of virtual elements: to second order in their size, a transmitter at `t` and a
+//! receiver at `r` add `(|t|^2 + |r|^2) / 2 R` to the path, less the squares along the line of sight. Two pairs with
+//! one `t + r` answer differently. So paths run from each element's transmitter over the target to its receiver
+//! ([`Array::channels`]). An array that was given by positions alone has one transmitter at the origin and its
+//! receivers there.
 
 use crate::error::{SimulateError, check_values};
+use crate::paths::{Paths, moved};
 use boresight_core::array::Position;
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
@@ -34,6 +42,11 @@ pub struct Target {
     /// amplitudes have none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phase_rad: Option<f64>,
+    /// Distance from the array's origin: its wave is spherical, with the paths of each transmitter and receiver, and
+    /// equally strong at all elements. Without it the wave is plane.
+    #[option(range = 0.001..=1_000_000_000)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range_m: Option<f64>,
 }
 
 /// Rule by which scenes are drawn: every quantity uniform.
@@ -96,6 +109,9 @@ pub struct SnapshotOptions {
     pub snapshots: usize,
     /// How amplitudes change between them.
     pub fluctuation: Fluctuation,
+    /// Wavelength, which says how long a half wavelength of the positions is; of use for targets with a range.
+    #[option(default = 0.0039, range = 1e-6..=1000)]
+    pub wavelength_m: f64,
     /// What is wrong with the array.
     #[serde(skip)]
     pub imperfections: Option<Imperfections>,
@@ -137,6 +153,7 @@ fn with_shape<S: Serializer>(all: &Array3<Complex64>, serializer: S) -> Result<S
 pub struct SnapshotSimulator {
     /// The array with its elements where they really are.
     array: Array,
+    paths: Paths,
     options: SnapshotOptions,
 }
 
@@ -149,6 +166,7 @@ impl SnapshotSimulator {
     pub fn new(array: &Array, options: &SnapshotOptions) -> Result<Self, SimulateError> {
         check_range("snr_db", options.snr_db, -300.0, 300.0)?;
         check_range("snapshots", options.snapshots as f64, 1.0, MAX_VALUES as f64)?;
+        check_range("wavelength_m", options.wavelength_m, 1e-6, 1e3)?;
         match &options.scene {
             Scene::Given(targets) => {
                 check_range("targets", targets.len() as f64, 0.0, MAX_TARGETS as f64)?;
@@ -156,22 +174,21 @@ impl SnapshotSimulator {
                     target.direction.check()?;
                     check_range("power_db", target.power_db, -300.0, 300.0)?;
                     check_range("phase_rad", target.phase_rad.unwrap_or(0.0), -1e6, 1e6)?;
+                    check_range("range_m", target.range_m.unwrap_or(1.0), 1e-3, 1e9)?;
                 }
             }
             Scene::Sampled(sampling) => check_sampling(sampling)?,
         }
+        let imperfections = options.imperfections.as_ref();
+        imperfections.map_or(Ok(()), |i| i.check(array.len()))?;
+        let paths = Paths::of(options.wavelength_m, array, imperfections);
         let mut array = array.clone();
-        if let Some(imperfections) = &options.imperfections {
-            imperfections.check(array.len())?;
-            let moved: Vec<Position> = array
-                .positions()
-                .iter()
-                .zip(&imperfections.displacement)
-                .map(|(p, d)| [p[0] + d[0], p[1] + d[1], p[2] + d[2]])
-                .collect();
-            array = Array::new(&moved)?;
+        if let Some(imperfections) = imperfections {
+            let places = array.positions().iter().zip(&imperfections.displacement);
+            let places: Vec<Position> = places.map(|(p, error)| moved(*p, *error)).collect();
+            array = Array::new(&places)?;
         }
-        Ok(Self { array, options: options.clone() })
+        Ok(Self { array, paths, options: options.clone() })
     }
 
     /// Snapshots (elements x snapshots) and targets of scene `index`.
@@ -206,7 +223,7 @@ impl SnapshotSimulator {
         let mut random = Random::new(self.options.seed, index);
         let mut targets = self.targets(&mut random);
         let responses: Vec<Array1<Complex64>> =
-            targets.iter().map(|target| self.response(target.direction)).collect();
+            targets.iter().map(|target| self.response(target)).collect();
         let powers: Vec<f64> = targets.iter().map(|t| db_to_power(t.power_db)).collect();
         let magnitudes: Vec<f64> = targets.iter().map(|t| db_to_amplitude(t.power_db)).collect();
         let noise_power = db_to_power(-self.options.snr_db);
@@ -260,14 +277,18 @@ impl SnapshotSimulator {
                         },
                         power_db: random.uniform(s.power_db[0], s.power_db[1]),
                         phase_rad: Some(random.phase()),
+                        range_m: None,
                     })
                     .collect()
             }
         }
     }
 
-    fn response(&self, direction: Direction) -> Array1<Complex64> {
-        let mut response = steering_vector(&self.array, direction);
+    fn response(&self, target: &Target) -> Array1<Complex64> {
+        let mut response = match target.range_m {
+            None => steering_vector(&self.array, target.direction),
+            Some(range_m) => self.paths.response(range_m, &target.direction.unit()),
+        };
         if let Some(imperfections) = &self.options.imperfections {
             imperfections.apply(&mut response);
         }

@@ -22,6 +22,7 @@ fn given(targets: &[(f64, f64, Option<f64>)]) -> Scene {
         direction: Direction::azimuth(deg.to_radians()),
         power_db,
         phase_rad,
+        range_m: None,
     };
     Scene::Given(targets.iter().map(target).collect())
 }
@@ -32,7 +33,14 @@ fn options(
     snr_db: f64,
     snapshots: usize,
 ) -> SnapshotOptions {
-    SnapshotOptions { scene, snr_db, snapshots, fluctuation, imperfections: None, seed: 12 }
+    SnapshotOptions {
+        scene,
+        snr_db,
+        snapshots,
+        fluctuation,
+        seed: 12,
+        ..SnapshotOptions::default()
+    }
 }
 
 fn simulate(array: &Array, options: &SnapshotOptions) -> (Array2<Complex64>, Vec<Target>) {
@@ -164,6 +172,75 @@ fn imperfect_arrays_respond_as_the_core_says() {
     }
 }
 
+/// Snapshot of a noiseless target of phase zero on `lrr48`, and the response to a plane wave.
+fn near_and_far(
+    array: &Array,
+    azimuth_deg: f64,
+    range_m: f64,
+    imperfections: Option<Imperfections>,
+) -> (Vec<Complex64>, Vec<Complex64>) {
+    let direction = Direction::azimuth(azimuth_deg.to_radians());
+    let snapshot = |range_m| {
+        let target = Target { direction, range_m, phase_rad: Some(0.0), ..Target::default() };
+        let options = SnapshotOptions {
+            imperfections: imperfections.clone(),
+            ..options(Scene::Given(vec![target]), Fluctuation::RandomPhase, NOISELESS, 1)
+        };
+        let (values, truth) = simulate(array, &options);
+        assert_eq!(truth[0].range_m, range_m);
+        values.iter().copied().collect()
+    };
+    (snapshot(Some(range_m)), snapshot(None))
+}
+
+/// `lrr48` is 92 half wavelengths of 1.95 mm long: a Fraunhofer distance of 16.5 m. Transmitters are up to 152 mm from
+/// the origin: at a million times the distance the phase differs by `pi (0.152^2 + 0.027^2) / 0.0039 / 1.65e7`, 1.2e-6;
+/// rounding of `2 R` leaves 1e-8 m of the path, 1.6e-5 rad.
+#[test]
+fn far_beyond_the_fraunhofer_distance_waves_are_plane() {
+    let array = preset("lrr48").unwrap();
+    let spread = ImperfectionSpread {
+        gain_db: 1.0,
+        phase_rad: 0.3,
+        position: 0.1,
+        coupling_db: Some(-15.0),
+    };
+    let imperfections = Imperfections::random(&array, spread, 6).unwrap();
+    for imperfections in [None, Some(imperfections)] {
+        let (near, far) = near_and_far(&array, -35.0, 16.5e6, imperfections);
+        assert!(near.iter().zip(&far).all(|(near, far)| (near - far).norm() < 1e-4));
+    }
+}
+
+/// To second order the paths over a transmitter at `t` and a receiver at `r`, along y, are longer than those of a plane
+/// wave by `(t^2 + r^2) cos(azimuth)^2 / 2 R`. At 100 m that is a phase of up to 0.19 rad; the third order is less by
+/// `t / R`, 3e-4 rad.
+#[test]
+fn nearer_by_phases_are_quadratic_in_the_places_of_transmitters_and_receivers() {
+    let array = preset("lrr48").unwrap();
+    let (half_m, range_m) = (0.0039 / 2.0, 100.0);
+    for azimuth_deg in [-50.0, 0.0, 20.0] {
+        let (near, far) = near_and_far(&array, azimuth_deg, range_m, None);
+        let across = f64::cos(azimuth_deg.to_radians()).powi(2);
+        for (k, channel) in array.channels().iter().enumerate() {
+            let [t, r] = [array.tx()[channel.tx], array.rx()[channel.rx]].map(|p| p[1] * half_m);
+            let longer_m = (t * t + r * r) * across / (2.0 * range_m);
+            let expected = std::f64::consts::TAU * longer_m / 0.0039;
+            let phase = (near[k] * far[k].conj()).arg();
+            assert!((phase - expected).abs() < 4e-4, "{azimuth_deg} deg, {k}: {phase}");
+            assert!((near[k].norm() - 1.0).abs() < 1e-12);
+        }
+    }
+    // The same virtual elements as receivers beside one transmitter answer otherwise, by `t r cos^2 / R`.
+    let alone = Array::new(array.positions()).unwrap();
+    let (mimo, _) = near_and_far(&array, 0.0, range_m, None);
+    let (simo, _) = near_and_far(&alone, 0.0, range_m, None);
+    let last = array.len() - 1;
+    let difference = (simo[last] * mimo[last].conj()).arg();
+    let expected = std::f64::consts::TAU / 0.0039 * (78.0 * 14.0 * half_m * half_m) / range_m;
+    assert!((difference - expected).abs() < 4e-4, "{difference} for {expected}");
+}
+
 #[test]
 fn too_much_and_too_little_are_named() {
     let array = preset("lrr48").unwrap();
@@ -176,6 +253,15 @@ fn too_much_and_too_little_are_named() {
         SnapshotSimulator::new(&array, &none),
         Err(SimulateError::Argument(CoreError::OutOfRange { .. }))
     ));
+    for (range_m, wavelength_m, what) in
+        [(0.0, 0.004, "range_m"), (f64::NAN, 0.004, "range_m"), (1.0, 0.0, "wavelength_m")]
+    {
+        let target = Target { range_m: Some(range_m), ..Target::default() };
+        let scene = Scene::Given(vec![target]);
+        let options = SnapshotOptions { scene, wavelength_m, ..good.clone() };
+        let error = SnapshotSimulator::new(&array, &options).unwrap_err();
+        assert!(error.details().what.contains(what), "{error}");
+    }
     let backwards = SceneSampling { count: [3, 2], ..SceneSampling::default() };
     let backwards = SnapshotOptions { scene: Scene::Sampled(backwards), ..good };
     let refused = SnapshotSimulator::new(&array, &backwards).err().unwrap();
@@ -207,7 +293,8 @@ proptest! {
             })
         } else {
             let direction = Direction::new(azimuth_rad, elevation_rad);
-            Scene::Given(vec![Target { direction, power_db: power, phase_rad: Some(phase) }])
+            let range_m = (other > 0.0).then_some(other);
+            Scene::Given(vec![Target { direction, power_db: power, phase_rad: Some(phase), range_m }])
         };
         let options = options(scene, Fluctuation::RandomPhase, snr_db, snapshots);
         let array = preset("awr1642").unwrap();

@@ -128,8 +128,8 @@ fn snapshots(array: &Array, targets: usize) -> Snapshots {
         snr_db: 20.0,
         snapshots: 4,
         fluctuation: Fluctuation::default(),
-        imperfections: None,
         seed: 3,
+        ..SnapshotOptions::default()
     };
     SnapshotSimulator::new(array, &options).unwrap().scenes(0, 3).unwrap()
 }

@@ -26,15 +26,15 @@ fn snapshots(array: &str, count: usize) -> Array2<Complex64> {
     let target = |azimuth_deg: f64, power_db| Target {
         direction: Direction::azimuth(azimuth_deg.to_radians()),
         power_db,
-        phase_rad: None,
+        ..Target::default()
     };
     let options = SnapshotOptions {
         scene: Scene::Given(vec![target(-17.0, 0.0), target(24.0, -3.0)]),
         snr_db: 20.0,
         snapshots: count,
         fluctuation: Fluctuation::RandomPhase,
-        imperfections: None,
         seed: 11,
+        ..SnapshotOptions::default()
     };
     let simulator = SnapshotSimulator::new(&preset(array).unwrap(), &options).unwrap();
     simulator.scene(0).unwrap().0

@@ -520,6 +520,11 @@ export interface SnapshotRequest {
   /** How amplitudes change between them (default 'random-phase'). */
   fluctuation?: Fluctuation;
   /**
+   * Wavelength, which says how long a half wavelength of the positions is; of use for targets with a range (1e-6 to
+   * 1000 m; default 0.0039).
+   */
+  wavelengthM?: number;
+  /**
    * Seed; the same one gives the same numbers on every machine. Scene `i` draws from stream `i` of it, whatever else
    * is simulated.
    */
@@ -542,6 +547,11 @@ export interface SnapshotTarget {
   powerDb?: number;
   /** Phase of its amplitude in the first snapshot; drawn uniformly if absent. Complex normal amplitudes have none. */
   phaseDeg?: number;
+  /**
+   * Distance from the array's origin: its wave is spherical, with the paths of each transmitter and receiver, and
+   * equally strong at all elements. Without it the wave is plane (0.001 to 1000000000 m).
+   */
+  rangeM?: number;
 }
 
 /** Rule by which scenes are drawn: every quantity uniform. */

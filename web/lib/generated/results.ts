@@ -281,6 +281,11 @@ export interface TrueTarget {
   powerDb: number;
   /** Phase of its amplitude in the first snapshot; drawn uniformly if absent. Complex normal amplitudes have none. */
   phaseDeg?: number;
+  /**
+   * Distance from the array's origin: its wave is spherical, with the paths of each transmitter and receiver, and
+   * equally strong at all elements. Without it the wave is plane (0.001 to 1000000000 m).
+   */
+  rangeM?: number;
 }
 
 /** Snapshots of several scenes. */

@@ -40,8 +40,8 @@ pub fn random_scenes(array: &Array, targets: usize, snr_db: f64, seed: u64) -> S
         snr_db,
         snapshots: 1,
         fluctuation: Fluctuation::RandomPhase,
-        imperfections: None,
         seed,
+        ..SnapshotOptions::default()
     };
     SnapshotSimulator::new(array, &options).unwrap()
 }

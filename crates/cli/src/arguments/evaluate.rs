@@ -18,10 +18,14 @@ pub enum EvaluateCommand {
     Doa(EvaluateDoaArguments),
     /// Bird's-eye images of simulated streets: how much of each is not target, by method.
     Images(EvaluateImagesArguments),
+    /// What the spherical waves of near targets do to methods that take waves for plane.
+    NearField(EvaluateNearFieldArguments),
     /// When two targets are resolved, by separation and signal-to-noise ratio.
     Resolution(EvaluateResolutionArguments),
     /// What gain, phase, position and coupling errors of the array do to detection and angles.
     Imperfections(EvaluateImperfectionsArguments),
+    /// What targets between the points of a grid cost methods that search one, and what finer grids cost.
+    Straddling(EvaluateStraddlingArguments),
     /// Put together what was run in parts.
     Merge(EvaluateMergeArguments),
 }
@@ -196,6 +200,54 @@ pub struct EvaluateImperfectionsArguments {
     /// Signal-to-noise ratio, dB: 15, 20, 25, 30 or 35.
     #[arg(long, value_name = "DB", default_value_t = 25.0)]
     pub snr: f64,
+}
+
+/// Arguments of `evaluate near-field`.
+#[derive(Debug, Args)]
+pub struct EvaluateNearFieldArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Snapshots a condition: one and two targets at ten ranges from 0.01 to 10 Fraunhofer distances, and infinitely
+    /// far.
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    pub trials: u64,
+    /// Array, by name; ten half wavelengths long or longer.
+    #[arg(long, value_name = "NAME", default_value = "lrr48")]
+    pub array: String,
+    /// Methods, separated by commas, as for `evaluate aoa`. Without it bartlett, iaa, iaa+refined and nomp.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub methods: Vec<String>,
+    /// Networks, as for `evaluate aoa`.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
+    /// Signal-to-noise ratio of the stronger target, dB.
+    #[arg(long, value_name = "DB", default_value_t = 25.0, allow_hyphen_values = true)]
+    pub snr: f64,
+}
+
+/// Arguments of `evaluate straddling`.
+#[derive(Debug, Args)]
+pub struct EvaluateStraddlingArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Snapshots a condition: one target at 10 and at 30 dB, and a weak one beside a strong one.
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub trials: u64,
+    /// Array, by name; its elements stand on a line.
+    #[arg(long, value_name = "NAME", default_value = "lrr48")]
+    pub array: String,
+    /// Methods, separated by commas, as for `evaluate aoa`; those with a spectrum are run on grids of 64 to 8192
+    /// points. Without it bartlett, capon, iaa, iaa+refined and nomp.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub methods: Vec<String>,
+    /// Networks, as for `evaluate aoa`.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
+    /// Print the time of a snapshot by method and grid, on one thread, in place of the experiment.
+    #[arg(long, conflicts_with_all = ["out", "part", "json", "csv"])]
+    pub times: bool,
 }
 
 /// Arguments of `evaluate calibration`.

@@ -89,7 +89,7 @@ pub struct SnapshotArguments {
     #[command(flatten)]
     pub shared: SimulateArguments,
     /// A target, such as azimuth=12,power=-3: azimuth and elevation in deg, power in dB, phase in
-    /// deg. Repeat for more.
+    /// deg, and range in m, with which its wave is spherical. Repeat for more.
     #[arg(long = "target", value_name = "KEY=VALUE,...", allow_hyphen_values = true)]
     pub targets: Vec<String>,
     /// What is simulated.

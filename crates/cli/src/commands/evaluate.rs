@@ -14,7 +14,7 @@ use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Experiment, How};
 use boresight_evaluate::{
     Entrants, Merged, Network, Outcome, aoa, calibration, doa, images, imperfections, merge,
-    resolution,
+    near_field, resolution, straddling,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                 imperfections: arguments.imperfections.options,
                 entrants: entrants(
                     &arguments.methods,
-                    &arguments.array,
+                    || Ok(aoa::default_methods(&preset(&arguments.array)?)),
                     &arguments.networks,
                     files,
                 )?,
@@ -86,11 +86,37 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                 seed: arguments.shared.seed,
                 entrants: entrants(
                     &arguments.methods,
-                    &arguments.array,
+                    || Ok(aoa::default_methods(&preset(&arguments.array)?)),
                     &arguments.networks,
                     files,
                 )?,
             };
+            evaluate(&options, &arguments.shared, files)
+        }
+        EvaluateCommand::NearField(arguments) => {
+            let usual = || Ok(near_field::default_methods());
+            let named = &arguments.methods;
+            let options = near_field::NearFieldExperiment {
+                array: arguments.array.clone(),
+                snr_db: arguments.snr,
+                trials: arguments.trials,
+                seed: arguments.shared.seed,
+                entrants: entrants(named, usual, &arguments.networks, files)?,
+            };
+            evaluate(&options, &arguments.shared, files)
+        }
+        EvaluateCommand::Straddling(arguments) => {
+            let usual = || Ok(straddling::default_methods());
+            let named = &arguments.methods;
+            let options = straddling::StraddlingExperiment {
+                array: arguments.array.clone(),
+                trials: arguments.trials,
+                seed: arguments.shared.seed,
+                entrants: entrants(named, usual, &arguments.networks, files)?,
+            };
+            if arguments.times {
+                return Ok(straddling::times(&options)?);
+            }
             evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Merge(arguments) => merged(arguments, files),
@@ -100,12 +126,12 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
 /// The methods named, or the usual ones, and the networks.
 fn entrants(
     named: &[String],
-    array: &str,
+    usual: impl FnOnce() -> Result<Vec<String>, CliError>,
     models: &NetworkArguments,
     files: &Files,
 ) -> Result<Entrants, CliError> {
     let methods = match named {
-        [] => aoa::default_methods(&preset(array)?),
+        [] => usual()?,
         _ => named.to_vec(),
     };
     Ok(Entrants::new(methods, networks(models, files)?))

@@ -42,6 +42,7 @@ fn snapshots(arguments: &SnapshotArguments, files: &Files) -> Result<String, Cli
     let truth = json!({
         "array": positions(&array),
         "snrDb": request.options.snr_db,
+        "wavelengthM": request.options.wavelength_m,
         "seed": request.options.seed,
         "firstScene": request.first_scene,
         "scenes": json::result(&result.truth),

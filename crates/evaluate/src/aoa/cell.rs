@@ -3,6 +3,7 @@
 use super::score::{Point, Prediction, Score, Threshold, WITHIN_RAD, odds_db};
 use super::{AoaExperiment, Condition, TARGETS};
 use crate::EvaluateError;
+use crate::apart::half_beam;
 use crate::entrants::{Entrants, Network, REFINED};
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::refinement::Refinement;
@@ -33,7 +34,7 @@ const MOST: usize = 64;
 const MOST_OF_NETWORKS: usize = 512;
 /// What finds targets in a snapshot.
 #[derive(Debug, Clone, PartialEq)]
-enum Finder {
+pub(crate) enum Finder {
     Method(Method),
     Network(Network),
 }
@@ -55,22 +56,43 @@ impl Finder {
     }
 
     /// Whether it is more than a name.
-    fn can_run(&self) -> bool {
+    pub(crate) fn can_run(&self) -> bool {
         !matches!(self, Self::Network(Network { model: None, .. }))
     }
 
     /// Directions that count where there is no sweep: of a network those it is sure enough of.
-    fn sure(&self, sources: &[Source]) -> Vec<Direction> {
+    pub(crate) fn sure(&self, sources: &[Source]) -> Vec<Direction> {
+        self.sure_sources(sources).map(|s| s.direction).collect()
+    }
+
+    /// The sources of these directions.
+    pub(crate) fn sure_sources<'a>(
+        &self,
+        sources: &'a [Source],
+    ) -> impl Iterator<Item = &'a Source> + use<'a> {
         let least = match self {
             Self::Network(network) => network.confidence(),
             Self::Method(_) => 0.0,
         };
-        let sure = sources.iter().filter(|s| s.confidence.is_none_or(|of| of >= least));
-        sure.map(|s| s.direction).collect()
+        sources.iter().filter(move |s| s.confidence.is_none_or(|of| of >= least))
     }
 
     /// For `targets` targets, or as many as the method can find. A network says what it finds by itself.
     fn estimator(&self, array: &Array, targets: usize) -> Result<Estimator, EvaluateError> {
+        match self.with_options(array, angle_options(targets)) {
+            Err(EvaluateError::Angle(AoaError::TooManySources { most, .. })) => {
+                self.with_options(array, angle_options(most))
+            }
+            result => result,
+        }
+    }
+
+    /// With options, of which networks do without a number of sources and without thresholds.
+    pub(crate) fn with_options(
+        &self,
+        array: &Array,
+        options: EstimatorOptions,
+    ) -> Result<Estimator, EvaluateError> {
         Ok(match self {
             Self::Network(network) => {
                 let sources = EstimatorOptions::default().sources;
@@ -78,30 +100,25 @@ impl Finder {
                     sources,
                     confidence: Some(0.0),
                     max_peaks: MOST_OF_NETWORKS,
-                    ..angle_options(targets)
+                    ..options
                 };
                 network.model()?.estimator(array, &options)?
             }
-            Self::Method(method) => match Estimator::new(*method, array, &angle_options(targets)) {
-                Err(AoaError::TooManySources { most, .. }) => {
-                    Estimator::new(*method, array, &angle_options(most))?
-                }
-                result => result?,
-            },
+            Self::Method(method) => Estimator::new(*method, array, &options)?,
         })
     }
 }
 
 /// What is compared: a finder, and whether its directions are refined on the snapshot.
 #[derive(Debug, Clone, PartialEq)]
-struct Candidate {
-    finder: Finder,
-    refined: bool,
+pub(crate) struct Candidate {
+    pub(crate) finder: Finder,
+    pub(crate) refined: bool,
 }
 
 impl Candidate {
     /// Methods as they are named, each network plain and refined.
-    fn all(entrants: &Entrants) -> Result<Vec<Self>, EvaluateError> {
+    pub(crate) fn all(entrants: &Entrants) -> Result<Vec<Self>, EvaluateError> {
         let mut all = vec![];
         for name in &entrants.methods {
             let plain = name.strip_suffix(REFINED);
@@ -118,7 +135,7 @@ impl Candidate {
         Ok(all)
     }
 
-    fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         format!("{}{}", self.finder.name(), if self.refined { REFINED } else { "" })
     }
 
@@ -192,30 +209,31 @@ pub struct Plan {
 /// Networks that no thread works with at the moment, by name: they take long to prepare and are for any number of
 /// targets.
 #[derive(Default)]
-struct Idle(Mutex<Vec<(String, Estimator)>>);
+pub(crate) struct Idle(Mutex<Vec<(String, Estimator)>>);
 
 impl Idle {
-    fn take(
+    /// What an idle estimator of the finder, or a new one, finds in snapshots, with spectra where they are asked for.
+    pub(crate) fn estimate(
         &self,
         finder: &Finder,
-        array: &Array,
-        targets: usize,
-    ) -> Result<Estimator, EvaluateError> {
-        let mut idle = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let (Finder::Network(_), Some(at)) =
-            (finder, idle.iter().position(|(name, _)| name == finder.name()))
-        {
-            return Ok(idle.swap_remove(at).1);
-        }
-        drop(idle);
-        finder.estimator(array, targets)
-    }
-
-    fn give(&self, finder: &Finder, estimator: Estimator) {
+        new: impl FnOnce() -> Result<Estimator, EvaluateError>,
+        scenes: ArrayView3<Complex64>,
+        spectra: bool,
+    ) -> Result<BatchEstimate, EvaluateError> {
+        let mut estimator = self.take(finder).map_or_else(new, Ok)?;
+        let batch = estimator.estimate_batch(scenes, spectra)?;
         if let Finder::Network(network) = finder {
             let mut idle = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             idle.push((network.name.clone(), estimator));
         }
+        Ok(batch)
+    }
+
+    fn take(&self, finder: &Finder) -> Option<Estimator> {
+        let Finder::Network(network) = finder else { return None };
+        let mut idle = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let at = idle.iter().position(|(name, _)| *name == network.name)?;
+        Some(idle.swap_remove(at).1)
     }
 }
 
@@ -236,11 +254,7 @@ impl Plan {
                 .estimator(&array, TARGETS[TARGETS.len() - 1])?
                 .estimate(Data::Snapshots(silence.view()))?;
         }
-        let across: Vec<f64> = array.positions().iter().map(|position| position[1]).collect();
-        let aperture = across.iter().copied().fold(f64::NEG_INFINITY, f64::max)
-            - across.iter().copied().fold(f64::INFINITY, f64::min);
-        // Between the first zeros of a line of that length, in half wavelengths, half of it.
-        let beam = 2.0 / aperture.max(1.0);
+        let beam = half_beam(&array);
         let (seed, imperfections) = (options.seed, options.imperfections);
         Ok(Self { array, seed, imperfections, candidates, beam, idle: Idle::default() })
     }
@@ -266,9 +280,8 @@ impl Plan {
         let mut found: Vec<(&Finder, BatchEstimate)> = vec![];
         for Candidate { finder, .. } in &self.candidates {
             if !found.iter().any(|(known, _)| *known == finder) {
-                let mut estimator = self.idle.take(finder, &self.array, condition.targets)?;
-                found.push((finder, estimator.estimate_batch(scenes.view(), false)?));
-                self.idle.give(finder, estimator);
+                let new = || finder.estimator(&self.array, condition.targets);
+                found.push((finder, self.idle.estimate(finder, new, scenes.view(), false)?));
             }
         }
         let mut refinement = Refinement::new(&self.array, &angle_options(condition.targets))?;
@@ -366,6 +379,7 @@ impl Plan {
                 fluctuation: Fluctuation::RandomPhase,
                 imperfections,
                 seed: self.seed,
+                ..SnapshotOptions::default()
             },
         )?;
         Ok(simulator.scene(stream)?)
@@ -422,14 +436,14 @@ mod tests {
     /// Azimuths that a method finds of one target at the end of the sector, deg.
     fn found(name: &str, array: &Array, azimuth_rad: f64, trial: u64) -> Vec<f64> {
         let direction = Direction::azimuth(azimuth_rad);
-        let target = Target { direction, power_db: 0.0, phase_rad: None };
+        let target = Target { direction, ..Target::default() };
         let options = SnapshotOptions {
             scene: Scene::Given(vec![target]),
             snr_db: 30.0,
             snapshots: 1,
             fluctuation: Fluctuation::RandomPhase,
-            imperfections: None,
             seed: 1,
+            ..SnapshotOptions::default()
         };
         let (y, _) = SnapshotSimulator::new(array, &options).unwrap().scene(trial).unwrap();
         let finder = Finder::Method(Method::from_name(name).unwrap());

@@ -21,15 +21,25 @@ pub fn times(options: &AoaExperiment) -> Result<Vec<(String, f64)>, EvaluateErro
     let (scenes, _) = plan.scenes(0, CONDITION, 0, SNAPSHOTS)?;
     let mut all = vec![];
     for (name, mut task) in plan.tasks(CONDITION.targets)? {
-        task(scenes.view())?;
-        let mut rounds = vec![];
-        for _ in 0..ROUNDS {
-            let started = std::time::Instant::now();
-            task(scenes.view())?;
-            rounds.push(started.elapsed().as_secs_f64() / SNAPSHOTS as f64);
-        }
-        rounds.sort_by(f64::total_cmp);
-        all.push((name, rounds[ROUNDS / 2]));
+        all.push((name, time_of(|| task(scenes.view()))? / SNAPSHOTS as f64));
     }
     Ok(all)
+}
+
+/// Time of a task, s: the median over some rounds after one that is not timed.
+///
+/// # Errors
+/// Those of the task.
+pub(crate) fn time_of(
+    mut task: impl FnMut() -> Result<(), EvaluateError>,
+) -> Result<f64, EvaluateError> {
+    task()?;
+    let mut rounds = [0.0; ROUNDS];
+    for round in &mut rounds {
+        let started = std::time::Instant::now();
+        task()?;
+        *round = started.elapsed().as_secs_f64();
+    }
+    rounds.sort_by(f64::total_cmp);
+    Ok(rounds[ROUNDS / 2])
 }

@@ -103,8 +103,8 @@ impl Plan {
                     snr_db: condition.snr_db,
                     snapshots: self.snapshots[condition.snapshots],
                     fluctuation: Fluctuation::RandomPhase,
-                    imperfections: None,
                     seed: random.bits(),
+                    ..SnapshotOptions::default()
                 },
             )?;
             let (y, _) = simulator.scene(0)?;
