@@ -23,7 +23,8 @@ pub fn load(path: &Path, card: Option<&Path>, files: &Files) -> Result<Model, Cl
     Model::load(&files.read(path)?, card.as_ref()).map_err(|error| wrong(path, error))
 }
 
-fn wrong(path: &Path, error: NeuralError) -> CliError {
+/// The error of a model, with its file.
+pub fn wrong(path: &Path, error: NeuralError) -> CliError {
     CliError::Model { path: path.into(), error: Box::new(error) }
 }
 

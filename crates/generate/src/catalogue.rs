@@ -108,7 +108,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
             "Networks",
             vec![
                 boresight_wasm_neural::NetworkDescription::KIND,
-                boresight_neural::SourceProbabilities::KIND,
+                boresight_aoa::SourceProbabilities::KIND,
             ],
         ),
         (

@@ -41,8 +41,10 @@ mod fused;
 mod model;
 mod onnx;
 mod product;
+mod regions;
 
 pub use card::{Axis, Card, Kind, Port};
 pub use error::NeuralError;
 pub use features::{COVARIANCE_FEATURES, covariance_features};
-pub use model::{Model, SourceProbabilities};
+pub use model::Model;
+pub use regions::RegionNetworks;

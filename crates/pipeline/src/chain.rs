@@ -345,7 +345,7 @@ fn cfar_options(options: &ChainOptions, transform: &RangeDoppler) -> CfarOptions
 }
 
 /// The channel of the frames each element of the array is.
-fn channels_of(
+pub(crate) fn channels_of(
     array: &Array,
     transmitters: usize,
     receivers: usize,

@@ -1,12 +1,12 @@
 //! Raw captures of boards.
 
 use super::chain::{chain_options, detections};
-use crate::arguments::EstimateArguments;
+use crate::arguments::{EstimateArguments, RadarArguments};
 use crate::error::CliError;
 use crate::files::Files;
 use crate::output::remark;
 use crate::{array, network};
-use boresight_core::Array;
+use boresight_core::{Array, Waveform};
 use boresight_formats::{Capture, RadarConfig};
 use boresight_pipeline::{Frame, FrameSource};
 
@@ -28,6 +28,29 @@ impl FrameSource for CaptureFrames<'_> {
 
 /// Detections in a capture.
 pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result<String, CliError> {
+    let (source, radar) = open(&arguments.radar, bytes, files)?;
+    let (options, model) = (chain_options(arguments), &arguments.angle.model);
+    let Radar { waveform, receivers, array } = &radar;
+    let mut chain = network::chain(waveform, *receivers, array, &options, model, files)?;
+    detections(arguments, &mut chain, &source)
+}
+
+/// The radar frames are of.
+pub struct Radar {
+    /// Its waveform.
+    pub waveform: Waveform,
+    /// Its receivers.
+    pub receivers: usize,
+    /// Its array.
+    pub array: Array,
+}
+
+/// Opens a capture.
+pub fn open<'a>(
+    arguments: &RadarArguments,
+    bytes: &'a [u8],
+    files: &Files,
+) -> Result<(CaptureFrames<'a>, Radar), CliError> {
     let path = arguments.config.as_ref().ok_or_else(|| CliError::Option {
         option: "--config",
         expected: "the board's .cfg file, which tells how to read a .bin file".into(),
@@ -36,20 +59,9 @@ pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result
     let config = RadarConfig::parse(&files.read(path)?)?;
     let capture = Capture::new(bytes, &config)?;
     remark(config.remarks.iter().chain(capture.remarks()).map(|remark| remark.message.clone()));
-    let array = array_of(arguments, &config, files)?;
-    let (options, receivers) = (chain_options(arguments), config.receivers.len());
-    let model = &arguments.angle.model;
-    let mut chain = network::chain(&config.waveform, receivers, &array, &options, model, files)?;
-    detections(arguments, &mut chain, &CaptureFrames(capture))
-}
-
-/// The array asked for, or the board's.
-pub fn array_of(
-    arguments: &EstimateArguments,
-    config: &RadarConfig,
-    files: &Files,
-) -> Result<Array, CliError> {
-    board_array(arguments.array.as_deref(), config, files)
+    let array = board_array(arguments.array.as_deref(), &config, files)?;
+    let (waveform, receivers) = (config.waveform, config.receivers.len());
+    Ok((CaptureFrames(capture), Radar { waveform, receivers, array }))
 }
 
 /// The array of a name, or the board's.

@@ -1,12 +1,12 @@
 //! Data cubes.
 
-use super::capture::array_of;
+use super::capture::{Radar, board_array};
 use super::chain::{chain_options, detections};
-use crate::arguments::EstimateArguments;
+use crate::arguments::{EstimateArguments, RadarArguments};
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::{array, network};
-use boresight_core::CoreError;
+use boresight_core::{Complex32, CoreError};
 use boresight_formats::{NpyArray, RadarConfig};
 use boresight_pipeline::CubeFrames;
 use ndarray::Array5;
@@ -18,6 +18,19 @@ pub fn run(
     file: &NpyArray,
     files: &Files,
 ) -> Result<String, CliError> {
+    let (cube, radar) = open(&arguments.radar, file, files)?;
+    let (options, model) = (chain_options(arguments), &arguments.angle.model);
+    let Radar { waveform, receivers, array } = &radar;
+    let mut chain = network::chain(waveform, *receivers, array, &options, model, files)?;
+    detections(arguments, &mut chain, &CubeFrames(cube.view()))
+}
+
+/// Opens a data cube.
+pub fn open(
+    arguments: &RadarArguments,
+    file: &NpyArray,
+    files: &Files,
+) -> Result<(Array5<Complex32>, Radar), CliError> {
     let mut shape = file.shape.clone();
     if shape.len() == 4 {
         shape.insert(0, 1);
@@ -32,7 +45,7 @@ pub fn run(
     let (waveform, array) = match (&arguments.config, &arguments.waveform) {
         (Some(path), _) => {
             let config = RadarConfig::parse(&files.read(path)?)?;
-            (config.waveform, array_of(arguments, &config, files)?)
+            (config.waveform, board_array(arguments.array.as_deref(), &config, files)?)
         }
         (None, Some(name)) => {
             let array = arguments.array.as_ref().ok_or_else(|| CliError::Option {
@@ -50,7 +63,5 @@ pub fn run(
             });
         }
     };
-    let (options, model) = (chain_options(arguments), &arguments.angle.model);
-    let mut chain = network::chain(&waveform, shape[3], &array, &options, model, files)?;
-    detections(arguments, &mut chain, &CubeFrames(cube.view()))
+    Ok((cube, Radar { waveform, receivers: shape[3], array }))
 }

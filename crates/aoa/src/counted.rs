@@ -1,0 +1,111 @@
+//! Estimators whose number of sources comes from outside the method, cell by cell: from a trained counting network.
+
+use crate::data::Data;
+use crate::error::AoaError;
+use crate::estimate::{Estimate, Warning};
+use crate::estimator::Estimator;
+use crate::method::Method;
+use crate::options::{EstimatorOptions, SourceCount};
+use crate::plan::Plan;
+use boresight_core::Array;
+use boresight_core::describe::{Described, columns};
+use serde::Serialize;
+use std::sync::Arc;
+
+/// How probable each number of sources is.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
+pub struct SourceProbabilities {
+    /// The most probable number.
+    pub sources: usize,
+    /// Probability of 0, 1 and 2 sources, each by itself.
+    #[option(described_as = Vec<f64>)]
+    #[serde(serialize_with = "columns::serialize")]
+    pub probability: [f64; 3],
+}
+
+/// What counts 0, 1 or 2 sources in data.
+pub trait CountSources: Send + Sync {
+    /// Counts the sources in data that [`Data::check`] has passed.
+    ///
+    /// # Errors
+    /// [`AoaError`] where the data does not suit, or the network fails.
+    fn count(&self, data: Data<'_>) -> Result<SourceProbabilities, AoaError>;
+}
+
+/// A counter with an estimator for one source and one for two.
+pub struct Counted {
+    counter: Arc<dyn CountSources>,
+    estimators: [Estimator; 2],
+}
+
+impl Counted {
+    /// Puts them together; the estimators are made for one and two known sources, of one method and on one array.
+    pub fn new(counter: Arc<dyn CountSources>, estimators: [Estimator; 2]) -> Self {
+        Self { counter, estimators }
+    }
+
+    /// The method of the estimators.
+    pub fn method(&self) -> Method {
+        self.estimators[0].method()
+    }
+
+    /// The array of the estimators.
+    pub fn array(&self) -> &Array {
+        self.estimators[0].array()
+    }
+
+    /// Counts the sources in data and estimates the angles of as many; of none there are no sources and the warning
+    /// [`Warning::NoSources`].
+    ///
+    /// # Errors
+    /// As [`CountSources::count`] and [`Estimator::estimate`].
+    pub fn estimate(
+        &mut self,
+        data: Data<'_>,
+    ) -> Result<(SourceProbabilities, Estimate), AoaError> {
+        data.check(self.array().len())?;
+        let counted = self.counter.count(data)?;
+        let [one, two] = &mut self.estimators;
+        let estimate = match counted.sources {
+            0 => {
+                let nothing = Estimate::new(one.method());
+                Estimate { warnings: vec![Warning::NoSources], ..nothing }
+            }
+            1 => one.estimate(data)?,
+            _ => two.estimate(data)?,
+        };
+        Ok((counted, estimate))
+    }
+}
+
+impl Plan for Counted {
+    fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
+        Ok(Counted::estimate(self, data)?.1)
+    }
+}
+
+impl Estimator {
+    /// As [`Estimator::new`], with the sources of each cell counted by `counter` where the options ask for it
+    /// ([`SourceCount::Network`]) and the method needs their number.
+    ///
+    /// # Errors
+    /// As [`Estimator::new`].
+    pub fn counted(
+        method: Method,
+        array: &Array,
+        options: &EstimatorOptions,
+        counter: &Arc<dyn CountSources>,
+    ) -> Result<Self, AoaError> {
+        if options.sources != SourceCount::Network || !method.requirements().source_count {
+            return Self::new(method, array, options);
+        }
+        let of = |sources| {
+            let sources = SourceCount::Known(sources);
+            Self::new(method, array, &EstimatorOptions { sources, ..*options })
+        };
+        let counted = Counted::new(counter.clone(), [of(1)?, of(2)?]);
+        // The estimators within refine what they find.
+        let options = EstimatorOptions { refine: false, ..*options };
+        Self::with_plan(method, array, Box::new(counted), &options)
+    }
+}
