@@ -210,7 +210,7 @@ impl RegionFinder {
     /// The peaks of each region, by number, the strongest first; regions by their strongest.
     fn groups(&self, marks: &[Mark], counts: &mut RegionCounts) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = vec![];
-        let reach = self.options.size.bins / 2;
+        let reach = self.reach();
         for (number, mark) in marks.iter().enumerate() {
             if !self.limits.contains(mark.range_m, mark.rate_mps) {
                 counts.outside_region += 1;
@@ -255,7 +255,8 @@ impl RegionFinder {
             let near = |numbers: &[usize]| {
                 numbers.iter().any(|&number| self.steps(marks[number].bin(), bin) <= guard)
             };
-            if near(&others) && !near(&own) {
+            let is_beyond = self.steps(range_bin, bin) > self.reach();
+            if is_beyond || (near(&others) && !near(&own)) {
                 part.fill(Complex32::default());
             }
         }
@@ -300,6 +301,12 @@ impl RegionFinder {
         let spectrum = estimate.spectrum.unwrap_or_default();
         let best = descending(spectrum.values).first().copied().unwrap_or_default();
         Ok(spectrum.azimuth_rad.get(best).copied().unwrap_or_default())
+    }
+
+    /// Bins on each side of the middle that count.
+    fn reach(&self) -> usize {
+        let half = self.options.size.bins / 2;
+        self.options.reach_bins.map_or(half, |reach| reach.min(half))
     }
 
     /// Steps between two range bins the shorter way round.

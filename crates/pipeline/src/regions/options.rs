@@ -26,6 +26,9 @@ pub struct RegionChainOptions {
     /// Range bins and chirps of a region.
     #[serde(rename = "..size")]
     pub size: RegionOptions,
+    /// Range bins on each side of a region's middle that count; bins beyond are set to zero, and peaks there begin
+    /// regions of their own. All that the region holds if absent.
+    pub reach_bins: Option<usize>,
     /// Window over the samples of a chirp for detection; regions have none, as networks were trained.
     pub range_window: Window,
     /// Detection on the power over range, mean over elements and chirps. Training cells always lie along range.
