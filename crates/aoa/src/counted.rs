@@ -54,33 +54,37 @@ impl Counted {
         self.estimators[0].array()
     }
 
-    /// Counts the sources in data and estimates the angles of as many; of none there are no sources and the warning
-    /// [`Warning::NoSources`].
+    /// Counts the sources in data.
     ///
     /// # Errors
-    /// As [`CountSources::count`] and [`Estimator::estimate`].
-    pub fn estimate(
-        &mut self,
-        data: Data<'_>,
-    ) -> Result<(SourceProbabilities, Estimate), AoaError> {
+    /// As [`Data::check`] and [`CountSources::count`].
+    pub fn count(&self, data: Data<'_>) -> Result<SourceProbabilities, AoaError> {
         data.check(self.array().len())?;
-        let counted = self.counter.count(data)?;
+        self.counter.count(data)
+    }
+
+    /// Estimates the angles of so many sources, of two where there are more; of none there are no sources and the
+    /// warning [`Warning::NoSources`].
+    ///
+    /// # Errors
+    /// As [`Estimator::estimate`].
+    pub fn estimate_of(&mut self, sources: usize, data: Data<'_>) -> Result<Estimate, AoaError> {
         let [one, two] = &mut self.estimators;
-        let estimate = match counted.sources {
+        match sources {
             0 => {
                 let nothing = Estimate::new(one.method());
-                Estimate { warnings: vec![Warning::NoSources], ..nothing }
+                Ok(Estimate { warnings: vec![Warning::NoSources], ..nothing })
             }
-            1 => one.estimate(data)?,
-            _ => two.estimate(data)?,
-        };
-        Ok((counted, estimate))
+            1 => one.estimate(data),
+            _ => two.estimate(data),
+        }
     }
 }
 
 impl Plan for Counted {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
-        Ok(Counted::estimate(self, data)?.1)
+        let sources = self.count(data)?.sources;
+        self.estimate_of(sources, data)
     }
 }
 

@@ -40,7 +40,7 @@ pub struct RegionFinder {
 pub struct FoundRegion {
     /// Its strongest peak.
     pub peak: Peak,
-    /// Its middle, the strongest bin without a window.
+    /// Its middle, the strongest bin under the window of regions.
     pub range_bin: usize,
     /// Range of the peak, m, corrected for the range rate.
     pub range_m: f64,
@@ -149,11 +149,13 @@ impl RegionFinder {
         &mut self,
         frame: ArrayView4<'_, Complex32>,
     ) -> Result<FoundRegions, PipelineError> {
-        let spectrum = self.spectrum(frame, Window::Rectangular)?;
+        let RegionChainOptions { range_window, region_window, .. } = self.options;
+        let spectrum = self.spectrum(frame, region_window)?;
         let power = range_power(spectrum.view());
-        let profile = match self.options.range_window {
-            Window::Rectangular => power.clone(),
-            window => range_power(self.spectrum(frame, window)?.view()),
+        let profile = if range_window == region_window {
+            power.clone()
+        } else {
+            range_power(self.spectrum(frame, range_window)?.view())
         };
         let map = Array2::from_shape_fn((profile.len(), 1), |(bin, _)| profile[bin] as f32);
         let over = self.cfar.detect(map.view())?;

@@ -29,8 +29,15 @@ pub struct RegionChainOptions {
     /// Range bins on each side of a region's middle that count; bins beyond are set to zero, and peaks there begin
     /// regions of their own. All that the region holds if absent.
     pub reach_bins: Option<usize>,
-    /// Window over the samples of a chirp for detection; regions have none, as networks were trained.
+    /// Window over the samples of a chirp for detection.
     pub range_window: Window,
+    /// Window over the samples of a chirp for what networks take; they were trained without.
+    #[option(default = Window::Rectangular)]
+    pub region_window: Window,
+    /// Diagonal loading of the covariance that targets are counted in, as a share of the mean element power. Arrays
+    /// that differ from their drawing need it, since a network trained on exact ones takes the difference for a target.
+    #[option(range = 0..=1e6)]
+    pub count_loading: f64,
     /// Detection on the power over range, mean over elements and chirps. Training cells always lie along range.
     pub cfar: CfarOptions,
     /// Limits outside which peaks make no region; the angle's hold for targets. Where they name no range, that is from
