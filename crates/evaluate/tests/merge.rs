@@ -62,7 +62,7 @@ fn parts_make_the_whole() {
     check(&calibration::CalibrationExperiment { scenes: 2, seed: 3, duration_s: 12.0 });
     let setup = doa::Setup::Simulation;
     let entrants = Entrants::new(doa::default_methods(setup).unwrap(), vec![]);
-    check(&doa::DoaExperiment { setup, trials: 1, seed: 1, entrants });
+    check(&doa::DoaExperiment { setup, trials: 1, seed: 1, entrants, end_to_end: None });
     let (array, snapshots) = ("ula4".into(), vec![1, 3]);
     check(&resolution::ResolutionExperiment { array, snapshots, trials: 1, seed: 1 });
     let (array, entrants) = ("ula8".into(), Entrants::new(vec!["iaa".into()], vec![]));

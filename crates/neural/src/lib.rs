@@ -47,4 +47,4 @@ pub use card::{Axis, Card, Kind, Port};
 pub use error::NeuralError;
 pub use features::{COVARIANCE_FEATURES, covariance_features};
 pub use model::Model;
-pub use regions::RegionNetworks;
+pub use regions::{REGION_FIELD_OF_VIEW_RAD, RegionNetworks};

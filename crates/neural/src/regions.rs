@@ -10,8 +10,8 @@ use boresight_core::Array;
 use boresight_core::describe::Named;
 use std::sync::Arc;
 
-/// Half width of the sector of training, 10 deg.
-const TRAINED_WITHIN_RAD: f64 = 0.174_532_925_199_432_95;
+/// Half width of the sector of networks of regions, rad: 10 deg.
+pub const REGION_FIELD_OF_VIEW_RAD: f64 = 0.174_532_925_199_432_95;
 
 /// A counting network, and networks that tell the angles of one and of two targets.
 #[derive(Clone, Copy)]
@@ -51,7 +51,7 @@ impl RegionNetworks<'_> {
             let sources = SourceCount::Known(expected);
             let options = EstimatorOptions {
                 sources,
-                field_of_view_rad: TRAINED_WITHIN_RAD,
+                field_of_view_rad: REGION_FIELD_OF_VIEW_RAD,
                 refine,
                 ..EstimatorOptions::default()
             };

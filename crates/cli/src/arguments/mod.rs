@@ -10,7 +10,8 @@ mod simulate;
 pub use drives::{CalibrateArguments, LogArguments};
 pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
 pub use evaluate::{
-    DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
+    DoaRegions, DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateDoaArguments,
+    EvaluateMergeArguments, NetworkArguments,
 };
 pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 pub use regions::RegionsArguments;

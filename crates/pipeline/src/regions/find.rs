@@ -15,7 +15,7 @@ use boresight_signal::range::{bin_correlation, range_doppler_coupling_m, range_o
 use boresight_signal::region::{
     crop_region, range_power, range_spectrum, region_covariance, region_snapshots,
 };
-use boresight_signal::{Cfar, CfarAxes, CfarOptions, Region, Window};
+use boresight_signal::{Cfar, CfarAxes, CfarOptions, Region, Window, load_diagonal};
 use ndarray::{Array2, Array3, ArrayView3, ArrayView4, Axis, Zip};
 use std::f64::consts::PI;
 
@@ -60,6 +60,13 @@ impl FoundRegion {
     /// Its vectors as [`region_snapshots`]: elements x (bins x chirps).
     pub fn snapshots(&self) -> Array2<Complex64> {
         region_snapshots(self.region.view())
+    }
+
+    /// Its covariance as [`region_covariance`], loaded by a share of the mean element power.
+    pub fn covariance(&self, loading: f64) -> Array2<Complex64> {
+        let mut covariance = region_covariance(self.region.view());
+        load_diagonal(&mut covariance, loading);
+        covariance
     }
 
     /// The sine of the true azimuth of a direction in the region.

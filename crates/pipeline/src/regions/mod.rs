@@ -22,7 +22,7 @@ pub use result::{RegionCounts, RegionFrame, RegionTarget, TargetRegion};
 use crate::capture::{Report, proceed};
 use crate::error::PipelineError;
 use crate::source::{FrameSource, Progress};
-use boresight_aoa::{Counted, Data, SourceProbabilities, Warning};
+use boresight_aoa::{Counted, Data, Warning};
 use boresight_core::describe::decibels::finite_db;
 use boresight_core::describe::remark::Coded;
 use boresight_core::linalg::least_squares;
@@ -32,7 +32,6 @@ use boresight_core::{Array, Complex32, Complex64, Direction, Remark, Waveform};
 use boresight_signal::cfar::Detection;
 use boresight_signal::peaks::interpolate;
 use boresight_signal::range::range_axis_m;
-use boresight_signal::{load_diagonal, sample_covariance};
 use ndarray::{Array2, ArrayView4, Axis};
 use std::ops::Range;
 
@@ -82,7 +81,9 @@ impl RegionChain {
         for found in &regions {
             let snapshots = found.snapshots();
             let data = Data::Snapshots(snapshots.view());
-            let count = self.count(data)?;
+            let covariance = found.covariance(self.count_loading);
+            let (matrix, vectors) = (covariance.view(), snapshots.ncols());
+            let count = self.counted.count(Data::Covariance { matrix, snapshots: vectors })?;
             let estimate = self.counted.estimate_of(count.sources, data)?;
             counts.without_target += usize::from(count.sources == 0);
             let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
@@ -156,17 +157,6 @@ impl RegionChain {
         }
         proceed(report, Progress { done: total, total })?;
         Ok(())
-    }
-
-    /// Counts targets in the covariance of a region, loaded where that is asked for.
-    fn count(&self, data: Data<'_>) -> Result<SourceProbabilities, PipelineError> {
-        let (Data::Snapshots(y), true) = (data, self.count_loading > 0.0) else {
-            return Ok(self.counted.count(data)?);
-        };
-        let mut covariance = sample_covariance(y);
-        load_diagonal(&mut covariance, self.count_loading);
-        let (matrix, snapshots) = (covariance.view(), y.ncols());
-        Ok(self.counted.count(Data::Covariance { matrix, snapshots })?)
     }
 
     /// Range of each source, m: that of the bin in which the amplitude that fits best is largest.
