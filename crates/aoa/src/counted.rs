@@ -25,6 +25,12 @@ pub struct SourceProbabilities {
 
 /// What counts 0, 1 or 2 sources in data.
 pub trait CountSources: Send + Sync {
+    /// Whether it counts what such an array sees.
+    ///
+    /// # Errors
+    /// [`AoaError::Array`] where it does not.
+    fn check_array(&self, array: &Array) -> Result<(), AoaError>;
+
     /// Counts the sources in data that [`Data::check`] has passed.
     ///
     /// # Errors
@@ -40,8 +46,15 @@ pub struct Counted {
 
 impl Counted {
     /// Puts them together; the estimators are made for one and two known sources, of one method and on one array.
-    pub fn new(counter: Arc<dyn CountSources>, estimators: [Estimator; 2]) -> Self {
-        Self { counter, estimators }
+    ///
+    /// # Errors
+    /// As [`CountSources::check_array`].
+    pub fn new(
+        counter: Arc<dyn CountSources>,
+        estimators: [Estimator; 2],
+    ) -> Result<Self, AoaError> {
+        counter.check_array(estimators[0].array())?;
+        Ok(Self { counter, estimators })
     }
 
     /// The method of the estimators.
@@ -93,7 +106,7 @@ impl Estimator {
     /// ([`SourceCount::Network`]) and the method needs their number.
     ///
     /// # Errors
-    /// As [`Estimator::new`].
+    /// As [`Estimator::new`] and [`CountSources::check_array`].
     pub fn counted(
         method: Method,
         array: &Array,
@@ -103,13 +116,24 @@ impl Estimator {
         if options.sources != SourceCount::Network || !method.requirements().source_count {
             return Self::new(method, array, options);
         }
-        let of = |sources| {
-            let sources = SourceCount::Known(sources);
-            Self::new(method, array, &EstimatorOptions { sources, ..*options })
-        };
-        let counted = Counted::new(counter.clone(), [of(1)?, of(2)?]);
+        Self::counted_by(counter, options, |options| Self::new(method, array, options))
+    }
+
+    /// An estimator of counted sources from what makes one of known ones.
+    ///
+    /// # Errors
+    /// As `known` and [`CountSources::check_array`].
+    pub fn counted_by<E: From<AoaError>>(
+        counter: &Arc<dyn CountSources>,
+        options: &EstimatorOptions,
+        known: impl Fn(&EstimatorOptions) -> Result<Self, E>,
+    ) -> Result<Self, E> {
+        let of =
+            |sources| known(&EstimatorOptions { sources: SourceCount::Known(sources), ..*options });
+        let counted = Counted::new(counter.clone(), [of(1)?, of(2)?])?;
+        let (method, array) = (counted.method(), counted.array().clone());
         // The estimators within refine what they find.
         let options = EstimatorOptions { refine: false, ..*options };
-        Self::with_plan(method, array, Box::new(counted), &options)
+        Ok(Self::with_plan(method, &array, Box::new(counted), &options)?)
     }
 }

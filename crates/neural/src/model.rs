@@ -9,7 +9,8 @@ use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
 use boresight_aoa::Plan;
 use boresight_aoa::{
-    Data, Estimate, Estimator, EstimatorOptions, Estimators, Method, SourceProbabilities,
+    AoaError, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method, SourceCount,
+    SourceProbabilities,
 };
 use boresight_core::describe::Named;
 use boresight_core::error::{check_finite, check_range};
@@ -253,6 +254,9 @@ impl Model {
         options: &EstimatorOptions,
     ) -> Result<(Method, Network), NeuralError> {
         options.check()?;
+        if options.sources == SourceCount::Network && self.kind != Kind::Aaetr {
+            return Err(AoaError::NeedsCounter { method: self.kind.name() }.into());
+        }
         let Some(method) = self.kind.method() else {
             return Err(self.wrong_kind("aaetr, dnn or cnn3d"));
         };

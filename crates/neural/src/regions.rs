@@ -1,13 +1,16 @@
 //! The networks that Sang et al. (2021) run on a region in turn: one counts, another of two tells the angles.
 
 use crate::card::Kind;
+use crate::classifier::rises;
 use crate::error::NeuralError;
 use crate::model::Model;
 use boresight_aoa::{
-    AoaError, CountSources, Counted, Data, EstimatorOptions, SourceCount, SourceProbabilities,
+    AoaError, CountSources, Counted, Data, Estimator, EstimatorOptions, Estimators, SourceCount,
+    SourceProbabilities,
 };
 use boresight_core::Array;
 use boresight_core::describe::Named;
+use boresight_core::error::check_range;
 use std::sync::Arc;
 
 /// Half width of the sector of networks of regions, rad: 10 deg.
@@ -57,11 +60,15 @@ impl RegionNetworks<'_> {
             };
             model.estimator(array, &options)
         };
-        Ok(Counted::new(counter, [of(self.one, 1)?, of(self.two, 2)?]))
+        Ok(Counted::new(counter, [of(self.one, 1)?, of(self.two, 2)?])?)
     }
 }
 
 impl CountSources for Model {
+    fn check_array(&self, array: &Array) -> Result<(), AoaError> {
+        rises(array, Kind::Counting.name()).map(|_| ())
+    }
+
     fn count(&self, data: Data<'_>) -> Result<SourceProbabilities, AoaError> {
         let failed = |error| crate::error::network_failed(Kind::Counting.name(), error);
         Self::count(self, data).map_err(failed)
@@ -78,5 +85,40 @@ impl Model {
             return Err(self.wrong_kind("counting"));
         }
         Ok(Arc::new(self.clone()))
+    }
+
+    /// As [`Model::estimator`], with the sources of each cell counted by `counter` where the options ask for it
+    /// ([`SourceCount::Network`]) and the network takes their number: DNN and 3D-CNN.
+    ///
+    /// # Errors
+    /// As [`Model::estimator`]; [`NeuralError::Angle`] where the array does not suit the counter.
+    pub fn counted_estimator(
+        &self,
+        array: &Array,
+        options: &EstimatorOptions,
+        counter: &Arc<dyn CountSources>,
+    ) -> Result<Estimator, NeuralError> {
+        let is_counted = options.sources == SourceCount::Network
+            && matches!(self.kind(), Kind::Dnn | Kind::Cnn3d);
+        if !is_counted {
+            return self.estimator(array, options);
+        }
+        Estimator::counted_by(counter, options, |known| self.estimator(array, known))
+    }
+
+    /// As [`Model::counted_estimator`], for up to `threads` threads.
+    ///
+    /// # Errors
+    /// As [`Model::counted_estimator`]; [`boresight_core::CoreError::OutOfRange`] for no threads, or more than 1024.
+    pub fn counted_estimators(
+        &self,
+        array: &Array,
+        options: &EstimatorOptions,
+        threads: usize,
+        counter: &Arc<dyn CountSources>,
+    ) -> Result<Estimators, NeuralError> {
+        check_range("threads", threads as f64, 1.0, 1024.0)?;
+        let one = |_| self.counted_estimator(array, options, counter);
+        Ok(Estimators::of((0..threads).map(one).collect::<Result<_, _>>()?)?)
     }
 }

@@ -74,6 +74,9 @@ pub struct ModelArguments {
     /// Its card; without it the .json file of its name, if there is one.
     #[arg(long, value_name = "FILE", requires = "model")]
     pub card: Option<PathBuf>,
+    /// Model of a counting network, for `--sources network`; its card is the .json file of its name.
+    #[arg(long, value_name = "FILE")]
+    pub counting_model: Option<PathBuf>,
 }
 
 /// Options of angle estimation.

@@ -70,8 +70,7 @@ impl Plan {
     ) -> Result<DoaRecord, EvaluateError> {
         let (targets, _) = condition(index);
         let count = targets.count();
-        let receivers = self.array.rx().len().max(1);
-        let receivers = if self.waveform.transmitters == 1 { self.array.len() } else { receivers };
+        let receivers = self.array.rx().len();
         let mut finder = RegionFinder::new(&self.waveform, receivers, &self.array, &flow.regions)?;
         let counting: Vec<_> =
             self.networks_that(true).map(Network::model).collect::<Result<_, _>>()?;
@@ -89,7 +88,7 @@ impl Plan {
             };
             let chain = || {
                 let counter = flow.counting.model()?.counter()?;
-                let counted = Counted::new(counter, [of(1)?, of(2)?]);
+                let counted = Counted::new(counter, [of(1)?, of(2)?])?;
                 let options = &flow.regions;
                 Ok::<_, EvaluateError>(RegionChain::new(
                     &self.waveform,

@@ -48,7 +48,7 @@ pub struct FoundRegion {
     pub rate_mps: f64,
     /// Peaks that belong to it.
     pub peaks: usize,
-    /// Direction most of its power comes from, rad.
+    /// Direction of its echoes together, rad.
     pub coarse_azimuth_rad: f64,
     /// Whether that direction was turned to boresight.
     pub rotated: bool,
@@ -297,9 +297,18 @@ impl RegionFinder {
         })
     }
 
-    /// Direction most of a region's power comes from, rad: the highest point of the conventional beamformer.
+    /// Direction of a region's echoes, rad. Neighbours of an evenly spaced array differ in phase by the mean over the
+    /// echoes, weighted by their powers, so that two lie to either side. Of another array it is the highest point of
+    /// the conventional beamformer.
     fn coarse(&mut self, region: ArrayView3<'_, Complex32>) -> Result<f64, PipelineError> {
         let covariance = region_covariance(region);
+        if let [first, second, ..] = self.array.positions()
+            && self.array.is_uniform()
+        {
+            let turn: Complex64 = (1..self.array.len()).map(|k| covariance[[k, k - 1]]).sum();
+            let sine = turn.arg() / (PI * (second[1] - first[1]));
+            return Ok(sine.clamp(-1.0, 1.0).asin());
+        }
         let snapshots = region.len_of(Axis(0)) * region.len_of(Axis(2));
         let data = Data::Covariance { matrix: covariance.view(), snapshots };
         let estimate = self.beam.estimate(data)?;

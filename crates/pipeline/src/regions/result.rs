@@ -36,7 +36,8 @@ pub struct TargetRegion {
     pub snr: f64,
     /// Peaks over range that belong to it.
     pub peaks: usize,
-    /// Direction from which most of its power comes, by the conventional beamformer.
+    /// Direction of its echoes together, from the phase between neighbouring elements; of an array that is not evenly
+    /// spaced, by the conventional beamformer.
     pub coarse_azimuth_rad: f64,
     /// Whether it was turned so that this direction is boresight.
     pub rotated: bool,
