@@ -30,9 +30,6 @@ pub struct RegionsArguments {
     /// Network of the same kind for two targets: models/cnn3d-2.onnx.
     #[arg(long, value_name = "FILE")]
     pub two: PathBuf,
-    /// Refine the angles on the matched model, beyond whole degrees.
-    #[arg(long)]
-    pub refine: bool,
     /// Only this frame, from 0; every frame by itself without it.
     #[arg(long, value_name = "I")]
     pub frame: Option<usize>,

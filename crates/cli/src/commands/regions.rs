@@ -77,7 +77,8 @@ fn chain(
     let (counting, one, two) =
         (load(&arguments.counting)?, load(&arguments.one)?, load(&arguments.two)?);
     let networks = RegionNetworks { counting: &counting, one: &one, two: &two };
-    let counted = networks.counted(&radar.array, arguments.refine).map_err(|error| {
+    let options = &arguments.chain.options;
+    let counted = networks.counted(&radar.array, options.refine).map_err(|error| {
         let path = match error {
             NeuralError::WrongKind { expected: "counting", .. } => &arguments.counting,
             NeuralError::WrongKind { expected: "dnn" | "cnn3d", .. }
@@ -86,7 +87,6 @@ fn chain(
         };
         network::wrong(path, error)
     })?;
-    let options = &arguments.chain.options;
     Ok(RegionChain::new(&radar.waveform, radar.receivers, options, counted)?)
 }
 

@@ -82,6 +82,7 @@ impl Plan {
                 let options = EstimatorOptions {
                     sources: SourceCount::Known(sources),
                     field_of_view_rad: REGION_FIELD_OF_VIEW_RAD,
+                    refine: flow.regions.refine,
                     ..EstimatorOptions::default()
                 };
                 model.estimator(&self.array, &options)

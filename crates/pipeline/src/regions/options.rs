@@ -48,6 +48,8 @@ pub struct RegionChainOptions {
     /// Half width of the sector about boresight in which a region is not turned unless it always is.
     #[option(default = 10.5_f64.to_radians(), range = 0..=90)]
     pub sector_rad: f64,
+    /// Refine the angles on the matched model, beyond whole degrees; those that noise explains are dropped.
+    pub refine: bool,
     /// Most regions a frame; those with the strongest peaks are kept.
     #[option(default = 32, range = 1..=1024)]
     pub max_regions: usize,
