@@ -57,7 +57,8 @@ export class Pool {
 
   /**
    * Loads a network from its ONNX file: once to see that it is one, then in each worker that comes to need it. Its id
-   * is what `network` in options names it by, for the methods `aaetr`, `dnn` and `cnn3d`.
+   * is what `network` in options names it by, for the methods `aaetr`, `dnn` and `cnn3d`; that of a counting network for
+   * any other method with `sources: 'network'`.
    */
   async loadNetwork(file: lib.NetworkFile, job?: JobOptions): Promise<lib.NetworkInfo> {
     const { value } = packed({ onnx: file.onnx, ...(file.card !== undefined && { card: file.card }) }, false);
@@ -96,6 +97,39 @@ export class Pool {
     job?: JobOptions,
   ): Promise<lib.Estimate> {
     return this.#one('estimateRegion', [region, options], job);
+  }
+
+  /**
+   * Regions of each frame of a cube, found along range, their targets counted by one network and told apart by one of
+   * two others (Figure 4 of Sang et al. 2021).
+   */
+  cubeRegions(
+    networks: lib.RegionNetworkIds,
+    cube: lib.ComplexData,
+    options: lib.CubeRegionOptions,
+    job?: JobOptions,
+  ): Promise<lib.RegionFrame[]> {
+    return this.#one('cubeRegions', [networks, cube, options], job, { network: idsOf(networks) });
+  }
+
+  /** The same of every frame of a capture, split over the workers; progress counts frames. */
+  async captureRegions(
+    networks: lib.RegionNetworkIds,
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    options?: lib.CaptureRegionOptions,
+    job: JobOptions = {},
+  ): Promise<lib.RegionFrame[]> {
+    const network = idsOf(networks);
+    const pieces = (await this.#stretches(bytes, config, job)).map(
+      ({ part, first, count }): Piece<'regionStretch'> => ({
+        name: 'regionStretch',
+        args: [networks, part, config, first, options],
+        units: count,
+        network,
+      }),
+    );
+    return (await this.#crew.run(pieces, { ...job, transfer: false })).flat();
   }
 
   /** Scenes are split over the workers; progress counts scenes. */
@@ -143,15 +177,10 @@ export class Pool {
     options?: lib.ChainOptions,
     job: JobOptions = {},
   ): Promise<lib.FrameResult[]> {
-    const { signal } = job;
-    const { frameBytes } = await this.parseConfig(config, signal ? { signal } : {});
-    const all = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
-    // Without a whole frame one worker gets the bytes, for its error.
-    const frames = Math.max(1, Math.floor(all.byteLength / frameBytes));
-    const pieces = split(frames, this.workers).map(
-      ({ first, count }): Piece<'processStretch'> => ({
+    const pieces = (await this.#stretches(bytes, config, job)).map(
+      ({ part, first, count }): Piece<'processStretch'> => ({
         name: 'processStretch',
-        args: [all.subarray(first * frameBytes, (first + count) * frameBytes), config, first, options],
+        args: [part, config, first, options],
         units: count,
         network: options?.angle?.network,
       }),
@@ -291,11 +320,28 @@ export class Pool {
     this.#crew.terminate();
   }
 
+  /** The frames of a capture in stretches, one a worker. */
+  async #stretches(
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    { signal }: JobOptions,
+  ): Promise<{ part: Uint8Array; first: number; count: number }[]> {
+    const { frameBytes } = await this.parseConfig(config, signal ? { signal } : {});
+    const all = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
+    // Without a whole frame one worker gets the bytes, for its error.
+    const frames = Math.max(1, Math.floor(all.byteLength / frameBytes));
+    return split(frames, this.workers).map(({ first, count }) => ({
+      part: all.subarray(first * frameBytes, (first + count) * frameBytes),
+      first,
+      count,
+    }));
+  }
+
   async #one<N extends OperationName>(
     name: N,
     args: Parameters<Operations[N]>,
     job?: JobOptions,
-    kept?: { network?: string; capture?: string },
+    kept?: { network?: string | readonly string[]; capture?: string },
   ): Promise<ReturnType<Operations[N]>> {
     const network = withNetworks.includes(name) ? networkIn(args) : undefined;
     const [result] = await this.#crew.run([{ name, args, units: 1, network, ...kept }], job);
@@ -310,6 +356,12 @@ function networkIn(args: readonly unknown[]): string | undefined {
     if (network !== undefined) return network;
   }
   return undefined;
+}
+
+/** The networks of regions, each once. */
+function idsOf(networks: lib.RegionNetworkIds): string[] {
+  const { counting, one, two } = networks ?? {};
+  return [...new Set([counting, one, two])].filter((id): id is string => id !== undefined);
 }
 
 /** A calibration of a part of a drive, its scans by their numbers in the whole. */

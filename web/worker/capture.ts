@@ -1,5 +1,6 @@
 // A capture that the pool keeps.
 import type { Capture } from '../lib/capture/capture.js';
+import { failure } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
 import type { Pool } from './api.js';
 import type { JobOptions } from './pool.js';
@@ -56,6 +57,29 @@ export class PoolCapture implements Functions {
   /** Detections of every frame, each by itself, split over the workers; progress counts frames. */
   processFrames(options?: lib.ChainOptions, job?: JobOptions): Promise<lib.FrameResult[]> {
     return this.#pool.processFrames(this.#bytes, this.#config, options, kept(job));
+  }
+
+  /** Regions of every frame and their targets, split over the workers; progress counts frames. */
+  regions(
+    networks: lib.RegionNetworkIds,
+    options?: lib.CaptureRegionOptions,
+    job?: JobOptions,
+  ): Promise<lib.RegionFrame[]> {
+    return this.#pool.captureRegions(networks, this.#bytes, this.#config, options, kept(job));
+  }
+
+  /** Regions of one frame. */
+  async frameRegions(
+    networks: lib.RegionNetworkIds,
+    frame: number,
+    options?: lib.CaptureRegionOptions,
+    job?: JobOptions,
+  ): Promise<lib.RegionFrame> {
+    const part = this.#frame(frame);
+    if (!part)
+      throw failure('out-of-range', { what: 'frame', expected: `0 to ${this.info.frames - 1}`, given: String(frame) });
+    const [result] = await this.#pool.captureRegions(networks, part, this.#config, options, kept(job));
+    return { ...(result as lib.RegionFrame), frame };
   }
 
   /** Detected cells of one frame, with what estimators take; angles are not estimated. */

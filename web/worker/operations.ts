@@ -8,11 +8,13 @@ import type {
   BytesInput,
   CalibrateDriveOptions,
   CaptureInfo,
+  CaptureRegionOptions,
   Cell,
   ChainOptions,
   CombineOptions,
   ComplexData,
   CubeChainOptions,
+  CubeRegionOptions,
   DriveCalibration,
   DriveData,
   Estimate,
@@ -22,6 +24,8 @@ import type {
   FrameResult,
   JointCalibrationOptions,
   NetworkInfo,
+  RegionFrame,
+  RegionNetworkIds,
   SimulateDriveOptions,
   SimulatedDrive,
   SourceProbabilities,
@@ -29,6 +33,7 @@ import type {
   TextInput,
 } from '../lib/api.js';
 import * as api from '../lib/api.js';
+import type { Network } from '../lib/neural/network.js';
 import { core } from '../lib/runtime/instance.js';
 import { bytesOf, type CaptureSource, withCapture } from './captures.js';
 import { keyOf, networkWith } from './networks.js';
@@ -130,6 +135,30 @@ function processFrame(source: CaptureSource, config: TextInput, frame: number, o
   return networkWith(id).processFrames(bytesOf(source), config, options, frame)[0] as FrameResult;
 }
 
+function cubeRegions(networks: RegionNetworkIds, cube: ComplexData, options: CubeRegionOptions): RegionFrame[] {
+  const { counting, ...angles } = networksOf(networks);
+  return counting.cubeRegions(angles, cube, options);
+}
+
+/** Regions of every frame of a stretch of a capture that begins with frame `first`. */
+function regionStretch(
+  networks: RegionNetworkIds,
+  bytes: BytesInput,
+  config: TextInput,
+  first: number,
+  options?: CaptureRegionOptions,
+): RegionFrame[] {
+  const { counting, ...angles } = networksOf(networks);
+  const results = counting.captureRegions(angles, bytes, config, options);
+  for (const result of results) result.frame += first;
+  return results;
+}
+
+/** The networks of regions. */
+function networksOf(ids: RegionNetworkIds): { counting: Network; one: Network; two: Network } {
+  return { counting: networkWith(ids?.counting), one: networkWith(ids?.one), two: networkWith(ids?.two) };
+}
+
 /** Every frame of a stretch of a capture that begins with frame `first`. */
 function processStretch(bytes: BytesInput, config: TextInput, first: number, options?: ChainOptions): FrameResult[] {
   const id = networkOf(options?.angle);
@@ -221,6 +250,8 @@ export const operations = {
   captureInfo,
   processFrame,
   processStretch,
+  cubeRegions,
+  regionStretch,
   combineFrames,
   cellSnapshots,
   cellSpectrum,

@@ -19,8 +19,8 @@ export interface Piece<N extends OperationName> {
   args: Parameters<Operations[N]>;
   /** Its share of the progress. */
   units: number;
-  /** The network it needs. */
-  network?: string | undefined;
+  /** The network it needs, or several. */
+  network?: string | readonly string[] | undefined;
   /** The kept capture it needs. */
   capture?: string | undefined;
 }
@@ -401,7 +401,7 @@ function terminated(): BoresightError {
 /** The kept files that a piece names. */
 function needs({ network, capture }: Piece<OperationName>): [keyof Files, string][] {
   return [
-    ...(network === undefined ? [] : [['network', network] as [keyof Files, string]]),
+    ...(network === undefined ? [] : [network].flat().map((id) => ['network', id] as [keyof Files, string])),
     ...(capture === undefined ? [] : [['capture', capture] as [keyof Files, string]]),
   ];
 }

@@ -131,6 +131,8 @@ pub(crate) fn resolve_count(
         SourceCount::Known(sources) => sources.min(most),
         SourceCount::Aic => count(Criterion::Aic).min(most),
         SourceCount::Mdl => count(Criterion::Mdl).min(most),
+        // No plan is made with it.
+        SourceCount::Network => 0,
     }
 }
 

@@ -52,6 +52,12 @@ pub enum AoaError {
         /// Name of the method.
         method: &'static str,
     },
+    /// A network is to count the sources and there is none.
+    #[error("{method} takes the number of sources from a counting network and needs one")]
+    NeedsCounter {
+        /// Name of the method.
+        method: &'static str,
+    },
     /// A network could not be run, or answered with what is no answer.
     #[error("{method}: {reason}")]
     Network {
@@ -71,6 +77,7 @@ impl Diagnose for AoaError {
             Self::Snapshots { .. } => "snapshot-count",
             Self::NeedsSnapshots { .. } => "needs-snapshots",
             Self::NeedsModel { .. } => "needs-model",
+            Self::NeedsCounter { .. } => "needs-counting-network",
             Self::Network { .. } => "network-failed",
         }
     }
@@ -87,6 +94,9 @@ impl Diagnose for AoaError {
             }
             Self::NeedsSnapshots { .. } => Details::new("data", "snapshots", "a covariance"),
             Self::NeedsModel { .. } => Details::new("model", "a trained network", "none"),
+            Self::NeedsCounter { .. } => {
+                Details::new("sources", "a trained counting network", "none")
+            }
             Self::Network { reason, .. } => Details::new("network", "an answer", reason),
         }
     }

@@ -1,6 +1,7 @@
 //! A batch over threads.
 
 use crate::batch::BatchEstimate;
+use crate::counted::CountSources;
 use crate::error::AoaError;
 use crate::estimator::Estimator;
 use crate::method::Method;
@@ -8,6 +9,7 @@ use crate::options::EstimatorOptions;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64};
 use ndarray::{ArrayView3, s};
+use std::sync::Arc;
 
 /// Fewest cells a thread is started for.
 const FEWEST_CELLS: usize = 8;
@@ -35,6 +37,22 @@ impl Estimators {
     ) -> Result<Self, AoaError> {
         check_range("threads", threads as f64, 1.0, 1024.0)?;
         let estimator = |_| Estimator::new(method, array, options);
+        Self::of((0..threads).map(estimator).collect::<Result<_, AoaError>>()?)
+    }
+
+    /// As [`Estimator::counted`], for up to `threads` threads.
+    ///
+    /// # Errors
+    /// As [`Estimator::counted`]; [`boresight_core::CoreError::OutOfRange`] for no threads, or more than 1024.
+    pub fn counted(
+        method: Method,
+        array: &Array,
+        options: &EstimatorOptions,
+        threads: usize,
+        counter: &Arc<dyn CountSources>,
+    ) -> Result<Self, AoaError> {
+        check_range("threads", threads as f64, 1.0, 1024.0)?;
+        let estimator = |_| Estimator::counted(method, array, options, counter);
         Self::of((0..threads).map(estimator).collect::<Result<_, AoaError>>()?)
     }
 

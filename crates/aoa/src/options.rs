@@ -16,6 +16,8 @@ pub enum SourceCount {
     Aic,
     /// Minimum description length on the eigenvalues.
     Mdl,
+    /// A trained counting network, given beside the options.
+    Network,
 }
 
 /// How IAA treats weak parts of the spectrum (Rowe, Li and Stoica 2013).
@@ -204,20 +206,24 @@ impl Serialize for NetworkName {
 }
 
 /// The ways of counting, by name.
-const COUNTED: [(&str, SourceCount); 2] = [("aic", SourceCount::Aic), ("mdl", SourceCount::Mdl)];
+const COUNTED: [(&str, SourceCount); 3] =
+    [("aic", SourceCount::Aic), ("mdl", SourceCount::Mdl), ("network", SourceCount::Network)];
+
+/// What can be given, in words.
+const EXPECTED: &str = "a number, 'aic', 'mdl' or 'network'";
 
 impl Described for SourceCount {
     const KIND: Kind = Kind::Special(&Special {
-        expected: "a number, 'aic' or 'mdl'",
-        typescript: "number | 'aic' | 'mdl'",
-        schema: r#"{ "anyOf": [{ "type": "integer", "minimum": 1, "maximum": 1024 }, { "enum": ["aic", "mdl"] }] }"#,
-        flag: "N|aic|mdl",
+        expected: EXPECTED,
+        typescript: "number | 'aic' | 'mdl' | 'network'",
+        schema: r#"{ "anyOf": [{ "type": "integer", "minimum": 1, "maximum": 1024 }, { "enum": ["aic", "mdl", "network"] }] }"#,
+        flag: "N|aic|mdl|network",
     });
 
     fn check(&self, range: Option<Range>, at: &At<'_>) -> Result<(), CoreError> {
         match self {
             Self::Known(count) => count.check(range, at),
-            Self::Aic | Self::Mdl => Ok(()),
+            Self::Aic | Self::Mdl | Self::Network => Ok(()),
         }
     }
 }
@@ -247,12 +253,12 @@ impl Visitor<'_> for CountVisitor {
     type Value = SourceCount;
 
     fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("a number, 'aic' or 'mdl'")
+        f.write_str(EXPECTED)
     }
 
     fn visit_u64<E: Error>(self, count: u64) -> Result<SourceCount, E> {
         let count = usize::try_from(count);
-        count.map(SourceCount::Known).map_err(|_| E::custom("a number, 'aic' or 'mdl'"))
+        count.map(SourceCount::Known).map_err(|_| E::custom(EXPECTED))
     }
 
     fn visit_f64<E: Error>(self, given: f64) -> Result<SourceCount, E> {
@@ -261,6 +267,8 @@ impl Visitor<'_> for CountVisitor {
 
     fn visit_str<E: Error>(self, given: &str) -> Result<SourceCount, E> {
         let known = COUNTED.iter().find(|(name, _)| *name == given);
-        known.map(|(_, way)| *way).ok_or_else(|| E::unknown_variant(given, &["aic", "mdl"]))
+        known
+            .map(|(_, way)| *way)
+            .ok_or_else(|| E::unknown_variant(given, &["aic", "mdl", "network"]))
     }
 }

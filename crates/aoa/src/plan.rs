@@ -12,7 +12,7 @@ use crate::method::Method;
 use crate::min_norm::MinNorm;
 use crate::music::Music;
 use crate::nomp::Nomp;
-use crate::options::EstimatorOptions;
+use crate::options::{EstimatorOptions, SourceCount};
 use crate::root_music::RootMusic;
 use crate::single_snapshot_music::SingleSnapshotMusic;
 use crate::sparse_bayesian::SparseBayesian;
@@ -65,6 +65,9 @@ pub(crate) fn plan(
     array: &Array,
     options: &EstimatorOptions,
 ) -> Result<Box<dyn Plan>, AoaError> {
+    if options.sources == SourceCount::Network && method.requirements().source_count {
+        return Err(AoaError::NeedsCounter { method: method.name() });
+    }
     Ok(match method {
         Method::Bartlett => Box::new(Bartlett::new(array, options)?),
         Method::Capon => Box::new(Capon::new(array, options)?),

@@ -44,6 +44,7 @@ fn main() -> ExitCode {
         Command::Log(arguments) => commands::log::run(&arguments, &files),
         Command::Methods(format) => commands::lists::methods(format.json),
         Command::Network(arguments) => commands::network::run(&arguments, &files),
+        Command::Regions(arguments) => commands::regions::run(&arguments, &files),
         Command::Arrays(format) => commands::lists::arrays(format.json),
     };
     match result.and_then(|text| print(&text, &files)) {

@@ -3,12 +3,13 @@
 use crate::arguments::ModelArguments;
 use crate::error::CliError;
 use crate::files::Files;
-use boresight_aoa::{Estimator, EstimatorOptions, Method};
+use boresight_aoa::{CountSources, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::describe::Named;
 use boresight_core::{Array, Waveform};
 use boresight_neural::{Card, Model, NeuralError};
 use boresight_pipeline::{Chain, ChainOptions};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A model and, unless another is named, the card beside it, if there is one.
 pub fn load(path: &Path, card: Option<&Path>, files: &Files) -> Result<Model, CliError> {
@@ -23,7 +24,8 @@ pub fn load(path: &Path, card: Option<&Path>, files: &Files) -> Result<Model, Cl
     Model::load(&files.read(path)?, card.as_ref()).map_err(|error| wrong(path, error))
 }
 
-fn wrong(path: &Path, error: NeuralError) -> CliError {
+/// The error of a model, with its file.
+pub fn wrong(path: &Path, error: NeuralError) -> CliError {
     CliError::Model { path: path.into(), error: Box::new(error) }
 }
 
@@ -49,6 +51,31 @@ pub fn model_for(
     Ok(Some((model, path.clone())))
 }
 
+/// What counts the sources where a network is to, if one is given.
+fn counter_for(
+    arguments: &ModelArguments,
+    files: &Files,
+) -> Result<Option<Arc<dyn CountSources>>, CliError> {
+    let Some(path) = &arguments.counting_model else { return Ok(None) };
+    let counter = load(path, None, files)?.counter();
+    counter.map(Some).map_err(|error| wrong(path, error))
+}
+
+/// Says which flag is missing where sources are to be counted by a network and there is none.
+fn check_counter(
+    options: &EstimatorOptions,
+    counter: Option<&Arc<dyn CountSources>>,
+) -> Result<(), CliError> {
+    if options.sources != SourceCount::Network || counter.is_some() {
+        return Ok(());
+    }
+    Err(CliError::Option {
+        option: "--counting-model",
+        expected: "a counting network (.onnx), which --sources network calls for".into(),
+        given: "nothing".into(),
+    })
+}
+
 /// An estimator by any method.
 pub fn estimator(
     method: Method,
@@ -57,9 +84,18 @@ pub fn estimator(
     arguments: &ModelArguments,
     files: &Files,
 ) -> Result<Estimator, CliError> {
-    match model_for(method, arguments, files)? {
-        None => Ok(Estimator::new(method, array, options)?),
-        Some((model, path)) => model.estimator(array, options).map_err(|error| wrong(&path, error)),
+    let counter = counter_for(arguments, files)?;
+    check_counter(options, counter.as_ref())?;
+    match (model_for(method, arguments, files)?, counter) {
+        (None, None) => Ok(Estimator::new(method, array, options)?),
+        (None, Some(counter)) => Ok(Estimator::counted(method, array, options, &counter)?),
+        (Some((model, path)), counter) => {
+            let estimator = match &counter {
+                None => model.estimator(array, options),
+                Some(counter) => model.counted_estimator(array, options, counter),
+            };
+            estimator.map_err(|error| wrong(&path, error))
+        }
     }
 }
 
@@ -72,10 +108,17 @@ pub fn chain(
     arguments: &ModelArguments,
     files: &Files,
 ) -> Result<Chain, CliError> {
-    match model_for(options.angle.method, arguments, files)? {
-        None => Ok(Chain::new(waveform, receivers, array, options)?),
-        Some((model, path)) => {
-            let estimators = model.estimators(array, &options.angle.options, options.threads);
+    let counter = counter_for(arguments, files)?;
+    let (angle, threads) = (&options.angle.options, options.threads);
+    check_counter(angle, counter.as_ref())?;
+    match (model_for(options.angle.method, arguments, files)?, counter) {
+        (None, None) => Ok(Chain::new(waveform, receivers, array, options)?),
+        (None, Some(counter)) => Ok(Chain::counted(waveform, receivers, array, options, &counter)?),
+        (Some((model, path)), counter) => {
+            let estimators = match &counter {
+                None => model.estimators(array, angle, threads),
+                Some(counter) => model.counted_estimators(array, angle, threads, counter),
+            };
             let estimators = estimators.map_err(|error| wrong(&path, error))?;
             Ok(Chain::with_estimators(waveform, receivers, array, options, estimators)?)
         }

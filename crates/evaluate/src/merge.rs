@@ -119,8 +119,9 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         }
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", first.first.display()),
-            expected: "aoa, calibration, doa, images, imperfections, near-field, resolution, straddling"
-                .into(),
+            expected:
+                "aoa, calibration, doa, images, imperfections, near-field, resolution, straddling"
+                    .into(),
             given: name.into(),
         }
         .into()),

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 fn report(setup: Setup, trials: u64) -> DoaReport {
     let entrants = Entrants::new(default_methods(setup).unwrap(), vec![]);
-    let options = DoaExperiment { setup, trials, seed: 5, entrants };
+    let options = DoaExperiment { setup, trials, seed: 5, entrants, end_to_end: None };
     run(&options, How { threads: 2, folder: None }, |_| ControlFlow::Continue(())).unwrap()
 }
 

@@ -63,7 +63,7 @@ fn parts_make_the_whole() {
     check(&calibration::CalibrationExperiment { scenes: 2, seed: 3, duration_s: 12.0 });
     let setup = doa::Setup::Simulation;
     let entrants = Entrants::new(doa::default_methods(setup).unwrap(), vec![]);
-    check(&doa::DoaExperiment { setup, trials: 1, seed: 1, entrants });
+    check(&doa::DoaExperiment { setup, trials: 1, seed: 1, entrants, end_to_end: None });
     let entrants = Entrants::new(vec![images::CHAIN.into()], vec![]);
     check(&images::ImagesExperiment { streets: 2, seed: 1, entrants });
     let (array, snapshots) = ("ula4".into(), vec![1, 3]);

@@ -106,7 +106,13 @@ fn what_a_network_cannot_do_is_refused_before_anything_runs() {
     name_only.model = None;
     assert!(matches!(aoa("lrr48", vec![name_only]), EvaluateError::NoModel { .. }));
     let entrants = Entrants::new(vec![], vec![aaetr]);
-    let doa = doa::DoaExperiment { setup: Setup::Simulation, trials: 1, seed: 1, entrants };
+    let doa = doa::DoaExperiment {
+        setup: Setup::Simulation,
+        trials: 1,
+        seed: 1,
+        entrants,
+        end_to_end: None,
+    };
     assert!(matches!(run(&doa, how(1, None), go), Err(EvaluateError::Core(_))));
 }
 
@@ -116,7 +122,13 @@ fn networks_of_regions_count_and_estimate_beside_the_rules() {
     let networks = vec![network("dnn-small-2"), network("counting")];
     let methods = vec!["MDL".into(), "maximum-likelihood".into()];
     let entrants = Entrants::new(methods, networks);
-    let options = doa::DoaExperiment { setup: Setup::Simulation, trials: 21, seed: 2, entrants };
+    let options = doa::DoaExperiment {
+        setup: Setup::Simulation,
+        trials: 21,
+        seed: 2,
+        entrants,
+        end_to_end: None,
+    };
     let report = run(&options, how(2, None), go).unwrap();
     assert_eq!(report.counters, ["MDL", "counting"]);
     assert_eq!(report.methods, ["maximum-likelihood", "dnn-small-2"]);

@@ -29,6 +29,10 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
         entry::<boresight_calibrate::CalibrationOptions>("CalibrationOptions", "Mounting angles")?,
         entry::<boresight_simulate::DriveOptions>("SimulateDriveOptions", "Simulated drives")?,
         entry::<boresight_wasm::region::RegionOptions>("RegionOptions", "Regions of interest")?,
+        entry::<boresight_pipeline::regions::RegionChainOptions>(
+            "RegionChainOptions",
+            "Regions and their targets",
+        )?,
         entry::<boresight_simulate::street::StreetOptions>(
             "StreetOptions",
             "The simulated street",
@@ -84,6 +88,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
                 capture::CaptureInfo::KIND,
                 boresight_pipeline::FrameResult::KIND,
                 boresight_pipeline::FrameCells::KIND,
+                boresight_pipeline::regions::RegionFrame::KIND,
             ],
         ),
         (
@@ -108,7 +113,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
             "Networks",
             vec![
                 boresight_wasm_neural::NetworkDescription::KIND,
-                boresight_neural::SourceProbabilities::KIND,
+                boresight_aoa::SourceProbabilities::KIND,
             ],
         ),
         (

@@ -46,14 +46,7 @@ impl Classifier {
         array: &Array,
         options: &EstimatorOptions,
     ) -> Result<Self, NeuralError> {
-        let Some(rises) = rises(array) else {
-            return Err(AoaError::Array {
-                method: method.name(),
-                expected: format!("{ELEMENTS} elements half a wavelength apart along y, in order"),
-                given: format!("has {} elements, or they lie otherwise", array.len()),
-            }
-            .into());
-        };
+        let rises = rises(array, method.name())?;
         let known = match options.sources {
             SourceCount::Known(count) => Some(count),
             _ => None,
@@ -180,12 +173,18 @@ impl Plan for Classifier {
     }
 }
 
-/// Whether the elements are those the networks are for, and if so, whether they are counted to the left.
-fn rises(array: &Array) -> Option<bool> {
-    let lattice = array.lattice()?;
-    let half_wavelength = (lattice.spacing - 1.0).abs() < SPACING_TOLERANCE;
-    let fits = array.len() == ELEMENTS && lattice.is_uniform() && half_wavelength;
-    fits.then(|| lattice.indices[0] == 0)
+/// Checks that the elements are those the networks are for, and tells whether they are counted to the left.
+pub(crate) fn rises(array: &Array, method: &'static str) -> Result<bool, AoaError> {
+    let lattice = array.lattice().filter(|lattice| {
+        let half_wavelength = (lattice.spacing - 1.0).abs() < SPACING_TOLERANCE;
+        array.len() == ELEMENTS && lattice.is_uniform() && half_wavelength
+    });
+    let lattice = lattice.ok_or_else(|| AoaError::Array {
+        method,
+        expected: format!("{ELEMENTS} elements half a wavelength apart along y, in order"),
+        given: format!("has {} elements, or they lie otherwise", array.len()),
+    })?;
+    Ok(lattice.indices[0] == 0)
 }
 
 /// Magnitude, real and imaginary part of a region given as snapshots, bins x elements x chirps x 3, the largest magnitude

@@ -84,6 +84,16 @@ pub enum NeuralError {
         /// The number it holds.
         given: f32,
     },
+    /// The model is for another number of targets.
+    #[error("a network for {expected} targets is needed; {name} is for {given}")]
+    Targets {
+        /// Its name.
+        name: String,
+        /// Targets it has to be for.
+        expected: usize,
+        /// Targets it is for.
+        given: usize,
+    },
     /// The model is of another kind than asked for.
     #[error("a network of kind {expected} is needed; this one is of kind {given}")]
     WrongKind {
@@ -108,7 +118,7 @@ impl Diagnose for NeuralError {
             Self::Card { .. } => "malformed-card",
             Self::Digest { .. } => "digest",
             Self::NotFinite { .. } => "network-not-finite",
-            Self::WrongKind { .. } => "wrong-network",
+            Self::Targets { .. } | Self::WrongKind { .. } => "wrong-network",
         }
     }
 
@@ -136,6 +146,9 @@ impl Diagnose for NeuralError {
             }
             Self::NotFinite { what, given } => {
                 Details::new(what, "finite numbers", given.to_string())
+            }
+            Self::Targets { expected, given, .. } => {
+                Details::new("network", format!("one for {expected} targets"), given.to_string())
             }
             Self::WrongKind { expected, given } => Details::new("network", *expected, *given),
         }

@@ -40,9 +40,11 @@ mod fused;
 mod model;
 mod onnx;
 mod product;
+mod regions;
 mod target_set;
 
 pub use card::{Axis, Card, Kind, Port};
 pub use error::NeuralError;
 pub use features::{COVARIANCE_FEATURES, covariance_features};
-pub use model::{Model, SourceProbabilities};
+pub use model::Model;
+pub use regions::{REGION_FIELD_OF_VIEW_RAD, RegionNetworks};

@@ -8,13 +8,15 @@ use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
 use crate::target_set::TargetSet;
 use boresight_aoa::Plan;
-use boresight_aoa::{Data, Estimate, Estimator, EstimatorOptions, Estimators, Method};
-use boresight_core::describe::{Described, Named, columns};
+use boresight_aoa::{
+    AoaError, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method, SourceCount,
+    SourceProbabilities,
+};
+use boresight_core::describe::Named;
 use boresight_core::error::{check_finite, check_range};
 use boresight_core::{Array, Complex32, CoreError};
 use boresight_signal::region::{region_covariance, region_snapshots};
 use ndarray::{ArrayD, ArrayView3, ArrayViewD, Axis as NdAxis, Slice};
-use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::sync::{Arc, Mutex, PoisonError};
 use tract_onnx::prelude::{TValue, TVec};
@@ -41,17 +43,6 @@ pub struct Model {
 
 /// Positions of elements, and the engine with these in it.
 type Placed = (Vec<f32>, Arc<Engine>);
-
-/// How probable each number of sources is.
-#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
-pub struct SourceProbabilities {
-    /// The most probable number.
-    pub sources: usize,
-    /// Probability of 0, 1 and 2 sources, each by itself.
-    #[option(described_as = Vec<f64>)]
-    #[serde(serialize_with = "columns::serialize")]
-    pub probability: [f64; 3],
-}
 
 impl Model {
     /// Reads a model and checks it: that it is ONNX, whole, and sound; that it uses supported operators only; that
@@ -272,6 +263,9 @@ impl Model {
         options: &EstimatorOptions,
     ) -> Result<(Method, Network), NeuralError> {
         options.check()?;
+        if options.sources == SourceCount::Network && self.kind != Kind::Aaetr {
+            return Err(AoaError::NeedsCounter { method: self.kind.name() }.into());
+        }
         let Some(method) = self.kind.method() else {
             return Err(self.wrong_kind("aaetr, learned-pursuit, dnn or cnn3d"));
         };
@@ -331,7 +325,7 @@ impl Model {
         Ok(SourceProbabilities { sources: sources.unwrap_or_default(), probability })
     }
 
-    fn wrong_kind(&self, expected: &'static str) -> NeuralError {
+    pub(crate) fn wrong_kind(&self, expected: &'static str) -> NeuralError {
         NeuralError::WrongKind { expected, given: self.kind.name() }
     }
 }

@@ -224,7 +224,7 @@ fn displaced_elements_cost_nothing_when_they_are_known() {
 /// the elements.
 #[test]
 fn operations_are_those_of_the_weights() {
-    let model = model("aaetr-small");
+    let model = model("learned-pursuit");
     let operations = model.operations(&preset("lrr48").unwrap()).unwrap();
     let weights = 116_538.0;
     assert!(operations > 2.0 * weights && operations < 2.0 * 2.0 * 96.0 * weights, "{operations}");

@@ -13,7 +13,7 @@ use std::ops::{ControlFlow, Range};
 const MAX_SNAPSHOTS: usize = 1024;
 
 /// Called between frames; breaking stops the run.
-type Report<'a> = &'a mut dyn FnMut(Progress) -> ControlFlow<()>;
+pub(crate) type Report<'a> = &'a mut dyn FnMut(Progress) -> ControlFlow<()>;
 
 impl Chain {
     /// Processes the frames in `frames` one by one and hands each result to `take`.
@@ -168,7 +168,7 @@ impl Chain {
     }
 }
 
-fn proceed(report: Report<'_>, progress: Progress) -> Result<(), PipelineError> {
+pub(crate) fn proceed(report: Report<'_>, progress: Progress) -> Result<(), PipelineError> {
     match report(progress) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => {

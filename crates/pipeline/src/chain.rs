@@ -4,7 +4,9 @@ use crate::beam::suited;
 use crate::error::PipelineError;
 use crate::options::{ChainOptions, usable_range_m};
 use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult};
-use boresight_aoa::{AoaError, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method};
+use boresight_aoa::{
+    AoaError, CountSources, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method,
+};
 use boresight_core::describe::remark::Coded;
 use boresight_core::order::sort_descending;
 use boresight_core::{Array, Complex32, Complex64, Direction, Remark, Waveform};
@@ -12,6 +14,7 @@ use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
 use boresight_signal::{Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, Region, tdm};
 use ndarray::{Array1, Array3, ArrayView2, ArrayView3, ArrayView4, Axis};
+use std::sync::Arc;
 
 /// Least power in decibels of an empty cell, so that plots and tables need no infinities.
 const FLOOR_DB: f64 = -300.0;
@@ -60,6 +63,23 @@ impl Chain {
     ) -> Result<Self, PipelineError> {
         let angle = suited(options.angle.method, array, &options.angle.options);
         let estimators = || Estimators::new(options.angle.method, array, &angle, options.threads);
+        Self::plan(waveform, receivers, array, options, estimators)
+    }
+
+    /// As [`Chain::new`], with the sources of each cell counted by `counter` where the options ask for it.
+    ///
+    /// # Errors
+    /// As [`Chain::new`] and [`Estimators::counted`].
+    pub fn counted(
+        waveform: &Waveform,
+        receivers: usize,
+        array: &Array,
+        options: &ChainOptions,
+        counter: &Arc<dyn CountSources>,
+    ) -> Result<Self, PipelineError> {
+        let ChainOptions { angle, threads, .. } = options;
+        let suited = suited(angle.method, array, &angle.options);
+        let estimators = || Estimators::counted(angle.method, array, &suited, *threads, counter);
         Self::plan(waveform, receivers, array, options, estimators)
     }
 
@@ -345,7 +365,7 @@ fn cfar_options(options: &ChainOptions, transform: &RangeDoppler) -> CfarOptions
 }
 
 /// The channel of the frames each element of the array is.
-fn channels_of(
+pub(crate) fn channels_of(
     array: &Array,
     transmitters: usize,
     receivers: usize,

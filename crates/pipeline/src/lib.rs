@@ -40,6 +40,7 @@ mod chain;
 mod error;
 pub mod image;
 mod options;
+pub mod regions;
 mod result;
 mod source;
 
@@ -47,5 +48,6 @@ pub use beam::suited;
 pub use chain::Chain;
 pub use error::PipelineError;
 pub use options::{AngleOptions, ChainOptions, usable_range_m};
+pub use regions::RegionChain;
 pub use result::{Counts, DetectedCell, Detection, FrameCells, FrameResult};
 pub use source::{CubeFrames, Frame, FrameSource, Progress};

@@ -53,6 +53,15 @@ impl RowTransform {
     }
 }
 
+/// Neighbouring range bins of noise that count as one independent bin under a window, without padding; see
+/// [`crate::RangeDoppler::cell_correlation`].
+///
+/// # Errors
+/// [`SignalError::Argument`] for a window out of range, or of no samples.
+pub fn bin_correlation(window: Window, samples: usize) -> Result<f64, SignalError> {
+    Ok(RowTransform::new(window, samples, 1)?.correlation)
+}
+
 /// Range of each bin of a range transform of `bins` bins, m: bin `k` holds beat frequency
 /// `k fs / bins`. All bins count, since samples are complex.
 pub fn range_axis_m(waveform: &Waveform, bins: usize) -> Vec<f64> {

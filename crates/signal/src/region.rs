@@ -7,7 +7,7 @@ use boresight_core::describe::Described;
 use boresight_core::error::check_range;
 use boresight_core::order::descending;
 use boresight_core::{Complex32, Complex64, CoreError};
-use ndarray::{Array2, Array3, Array4, ArrayView2, ArrayView3, ArrayView4, Axis};
+use ndarray::{Array2, Array3, Array4, ArrayView2, ArrayView3, ArrayView4};
 use serde::{Deserialize, Serialize};
 
 /// Limits, both ends inside; absent ones hold nothing back.
@@ -66,6 +66,18 @@ impl Region {
     }
 }
 
+/// How much a region of interest holds; what the 3D-CNN paper (Sang et al. 2021) takes unless said otherwise.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
+#[serde(default)]
+pub struct RegionOptions {
+    /// Range bins, the strongest in their middle.
+    #[option(default = 65, range = 1..)]
+    pub bins: usize,
+    /// Chirps of each transmitter, from the first of the frame.
+    #[option(default = 4, range = 1..)]
+    pub chirps: usize,
+}
+
 fn within(value: f64, limits: Option<[f64; 2]>) -> bool {
     limits.is_none_or(|[least, greatest]| value >= least && value <= greatest)
 }
@@ -102,15 +114,22 @@ pub fn range_spectrum(
     })
 }
 
-/// The range bin with the most power over all loops and channels of a [`range_spectrum`].
-pub fn strongest_range(spectrum: ArrayView3<Complex32>) -> usize {
-    let mut powers = vec![0.0; spectrum.len_of(Axis(2))];
+/// Power of each range bin of a [`range_spectrum`], mean over all loops and channels.
+pub fn range_power(spectrum: ArrayView3<Complex32>) -> Vec<f64> {
+    let (loops, channels, ranges) = spectrum.dim();
+    let share = 1.0 / (loops * channels).max(1) as f64;
+    let mut powers = vec![0.0; ranges];
     for row in spectrum.rows() {
         for (power, z) in powers.iter_mut().zip(row) {
-            *power += f64::from(z.norm_sqr());
+            *power += f64::from(z.norm_sqr()) * share;
         }
     }
-    descending(powers).first().copied().unwrap_or(0)
+    powers
+}
+
+/// The range bin with the most power over all loops and channels of a [`range_spectrum`].
+pub fn strongest_range(spectrum: ArrayView3<Complex32>) -> usize {
+    descending(range_power(spectrum)).first().copied().unwrap_or(0)
 }
 
 /// The region of interest of the 3D-CNN paper (Sang et al. 2021): the `length` range bins around

@@ -5,6 +5,7 @@
 
 mod constructors;
 mod network;
+mod regions;
 mod tensors;
 
 pub use network::{Network, NetworkDescription};

@@ -2,7 +2,7 @@
 
 use crate::constructors::construct;
 use crate::tensors::{read_tensors, tensors_object};
-use boresight_aoa::{EstimatorOptions, Estimators, Method};
+use boresight_aoa::{self as aoa, EstimatorOptions, Estimators, Method};
 use boresight_core::describe::{Described, Named};
 use boresight_core::presets::preset;
 use boresight_core::{Array, CoreError, Waveform};
@@ -39,7 +39,9 @@ pub struct NetworkDescription<'a> {
 /// A model, and the estimator its options make of it.
 #[wasm_bindgen]
 pub struct Network {
-    model: Model,
+    pub(crate) model: Model,
+    /// What a counting network estimates angles by.
+    method: Option<Method>,
     options: EstimatorOptions,
     array: Option<Array>,
     /// Made when it is first asked for.
@@ -60,7 +62,7 @@ impl Network {
         };
         let model = Model::load(&onnx, card.as_ref())?;
         let mut network =
-            Self { model, options: EstimatorOptions::default(), array: None, estimator: None };
+            Self { model, method: None, options: Default::default(), array: None, estimator: None };
         network.set_options(options)?;
         Ok(network)
     }
@@ -75,7 +77,7 @@ impl Network {
         fields.finish()?;
         options.check()?;
         self.check_method(method)?;
-        (self.array, self.options, self.estimator) = (array, options, None);
+        (self.method, self.array, self.options, self.estimator) = (method, array, options, None);
         Ok(())
     }
 
@@ -143,13 +145,7 @@ impl Network {
         frame: &JsValue,
     ) -> Fallible<js_sys::Array> {
         let mut capture = Capture::new(bytes, config)?;
-        let frames = match frame.is_undefined() {
-            true => 0..capture.frames(),
-            false => {
-                let frame = capture.read_frame(frame)?;
-                frame..frame + 1
-            }
-        };
+        let frames = capture.read_frames(frame)?;
         capture.process_frames_by(&|w, r, a, o| self.chain(w, r, a, o), frames, options)
     }
 
@@ -173,15 +169,22 @@ impl Network {
             Some(estimator) => estimator,
             None => {
                 let array = self.array()?;
-                self.model.estimator(&array, &self.options)?.into()
+                match self.method.filter(|_| self.model.kind() == Kind::Counting) {
+                    Some(method) => {
+                        let counter = self.model.counter()?;
+                        aoa::Estimator::counted(method, &array, &self.options, &counter)?.into()
+                    }
+                    None => self.model.estimator(&array, &self.options)?.into(),
+                }
             }
         };
         Ok(self.estimator.insert(estimator))
     }
 
-    /// A method that is named has to be the network's.
+    /// A method that is named has to be the network's. A counting network counts the sources of those that need none.
     fn check_method(&self, method: Option<Method>) -> Fallible<()> {
-        match method {
+        let counts = self.model.kind() == Kind::Counting;
+        match method.filter(|method| !(counts && Method::ALL.contains(method))) {
             Some(method) if self.model.kind().method() != Some(method) => {
                 let expected = self.model.kind().method().map_or("none", Method::name);
                 let (what, given) = ("method".into(), method.name().into());
@@ -210,6 +213,10 @@ impl Network {
         options: &ChainOptions,
     ) -> Fallible<Chain> {
         self.check_method(Some(options.angle.method).filter(|method| *method != Method::Bartlett))?;
+        if self.model.kind() == Kind::Counting {
+            let counter = self.model.counter()?;
+            return Ok(Chain::counted(waveform, receivers, array, options, &counter)?);
+        }
         let estimator = self.model.estimator(array, &options.angle.options)?;
         let estimators = Estimators::of(vec![estimator])?;
         Ok(Chain::with_estimators(waveform, receivers, array, options, estimators)?)

@@ -16,7 +16,7 @@ use boresight_core::{Array, Complex64, Geometry, Remark, Waveform};
 use boresight_formats::{self as formats, RadarConfig};
 use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameCells, FrameSource};
 use js_sys::Function;
-use ndarray::{Array2, ArrayView5};
+use ndarray::{Array2, ArrayView5, Axis};
 use serde::Serialize;
 use std::ops::{ControlFlow, Range};
 use wasm_bindgen::JsValue;
@@ -61,7 +61,7 @@ pub struct CaptureInfo<'a> {
 }
 
 /// The frames of a capture.
-struct Recording<'a>(formats::Capture<'a>);
+pub struct Recording<'a>(formats::Capture<'a>);
 
 impl FrameSource for Recording<'_> {
     type Error = BindingError;
@@ -213,6 +213,18 @@ impl Capture {
         Ok(index)
     }
 
+    /// All frames, or the one named.
+    ///
+    /// # Errors
+    /// For one that is not there.
+    pub fn read_frames(&self, frame: &JsValue) -> Fallible<Range<usize>> {
+        if frame.is_undefined() {
+            return Ok(0..self.frames);
+        }
+        let frame = self.read_frame(frame)?;
+        Ok(frame..frame + 1)
+    }
+
     /// `count` frames from `first`, all that are left if absent.
     fn frame_range(&self, first: usize, count: Option<usize>) -> Fallible<Range<usize>> {
         check_range("first_frame", first as f64, 0.0, (self.frames - 1) as f64)?;
@@ -222,6 +234,26 @@ impl Capture {
         Ok(first..first + count)
     }
 
+    /// An array that was asked for, or else that of the platform.
+    ///
+    /// # Errors
+    /// Where neither is known.
+    pub fn array_or(&self, array: Option<Array>) -> Fallible<Array> {
+        array.or_else(|| self.array.clone()).ok_or_else(|| BindingError::Missing {
+            what: "array".into(),
+            expected: "an array, since that of the platform is not known".into(),
+        })
+    }
+
+    /// Its waveform, its number of receivers, and its frames.
+    ///
+    /// # Errors
+    /// Those of laying the configuration over the bytes, which have not come up so far.
+    pub fn recording(&self) -> Fallible<(Waveform, usize, Recording<'_>)> {
+        let recording = Recording(formats::Capture::new(&self.bytes, &self.config)?);
+        Ok((self.config.waveform, self.config.receivers.len(), recording))
+    }
+
     /// Plans the chain, unless the one planned last will do.
     fn planned(
         &mut self,
@@ -229,11 +261,8 @@ impl Capture {
         array: Option<Array>,
         options: &ChainOptions,
     ) -> Fallible<(&mut Chain, Recording<'_>)> {
+        let array = self.array_or(array)?;
         let recording = Recording(formats::Capture::new(&self.bytes, &self.config)?);
-        let array = array.or_else(|| self.array.clone()).ok_or_else(|| BindingError::Missing {
-            what: "array".into(),
-            expected: "an array, since that of the platform is not known".into(),
-        })?;
         let kept = self.chain.take().filter(|c| c.array() == &array && c.options() == options);
         let chain = match kept {
             Some(chain) => chain,
@@ -274,6 +303,22 @@ pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array
     process_cube_by(&classical, cube, options)
 }
 
+/// The frames of a cube.
+///
+/// # Errors
+/// For a cube of other than five axes.
+pub fn cube_frames(cube: &Cube) -> Fallible<CubeFrames<'_>> {
+    let wrong = || {
+        let expected = "[frames, loops, transmitters, receivers, samples]";
+        shape_error("cube", expected, &cube.shape)
+    };
+    let [frames, loops, transmitters, receivers, samples] = cube.shape[..] else {
+        return Err(wrong());
+    };
+    let shape = (frames, loops, transmitters, receivers, samples);
+    Ok(CubeFrames(ArrayView5::from_shape(shape, &cube.data).map_err(|_| wrong())?))
+}
+
 /// The same by a chain planned elsewhere.
 pub fn process_cube_by(
     planner: Planner,
@@ -281,21 +326,13 @@ pub fn process_cube_by(
     options: &JsValue,
 ) -> Fallible<js_sys::Array> {
     let cube = Cube::read(cube, "cube")?;
-    let [frames, loops, transmitters, receivers, samples] = cube.shape[..] else {
-        let expected = "[frames, loops, transmitters, receivers, samples]";
-        return Err(shape_error("cube", expected, &cube.shape));
-    };
+    let source = cube_frames(&cube)?;
     let (waveform, array, options) = read_cube_chain(options)?;
-    let shape = (frames, loops, transmitters, receivers, samples);
-    let source = CubeFrames(
-        ArrayView5::from_shape(shape, &cube.data)
-            .map_err(|_| shape_error("cube", "five axes", &cube.shape))?,
-    );
-    let mut chain = planner(&waveform, receivers, &array, &options)?;
+    let mut chain = planner(&waveform, source.0.len_of(Axis(3)), &array, &options)?;
     let results = js_sys::Array::new();
     let take = |result| {
         results.push(&carry::write(&result));
     };
-    chain.each(&source, 0..frames, take, &mut |_| ControlFlow::Continue(()))?;
+    chain.each(&source, 0..source.frames(), take, &mut |_| ControlFlow::Continue(()))?;
     Ok(results)
 }

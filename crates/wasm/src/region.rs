@@ -7,27 +7,16 @@ use crate::read::Read;
 use boresight_core::describe::shaped::ComplexArray;
 use boresight_core::describe::{Described, columns};
 use boresight_core::{Complex32, Complex64};
+pub use boresight_signal::region::RegionOptions;
 use boresight_signal::region::{
     covariance_features, crop_region, range_spectrum, region_channels, region_covariance,
     strongest_range,
 };
 use boresight_signal::{SignalError, Window};
 use ndarray::{ArrayView4, Axis};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
-
-/// How much a region of interest holds; what the 3D-CNN paper (Sang et al. 2021) takes unless said otherwise.
-#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
-#[serde(default)]
-pub struct RegionOptions {
-    /// Range bins, the strongest in their middle.
-    #[option(default = 65, range = 1..)]
-    pub bins: usize,
-    /// Chirps of each transmitter, from the first of the frame.
-    #[option(default = 4, range = 1..)]
-    pub chirps: usize,
-}
 
 /// The range bins around the strongest of a frame.
 #[derive(Described, Serialize)]

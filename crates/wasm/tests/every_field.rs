@@ -58,6 +58,7 @@ fn options_of_bounds_and_images() {
     every_field::<boresight_image::GridOptions>(4);
     every_field::<boresight_image::ViewGridOptions>(3);
     every_field::<boresight_wasm::region::RegionOptions>(2);
+    every_field::<boresight_pipeline::regions::RegionChainOptions>(19);
 }
 
 /// A field to set: the names in JavaScript that lead to it, and its description.

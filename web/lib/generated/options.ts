@@ -73,7 +73,7 @@ export interface NompOptions {
 /** Options of all estimators. Those a method has no use for are ignored. */
 export interface SharedEstimatorOptions {
   /** Number of sources, or how they are counted, for methods that need it (1 to 1024; default 'mdl'). */
-  sources?: number | 'aic' | 'mdl';
+  sources?: number | 'aic' | 'mdl' | 'network';
   /** Half width of the field of view in azimuth (0.1 to 90 deg; default 90). */
   fieldOfViewDeg?: number;
   /** Half width of the field of view in elevation (arrays that span an area) (0.1 to 90 deg; default 30). */
@@ -227,7 +227,7 @@ export interface AngleOptions {
   /** Method of angle estimation (default 'bartlett'). */
   method?: Method;
   /** Number of sources, or how they are counted, for methods that need it (1 to 1024; default 'mdl'). */
-  sources?: number | 'aic' | 'mdl';
+  sources?: number | 'aic' | 'mdl' | 'network';
   /** Half width of the field of view in azimuth (0.1 to 90 deg; default 90). */
   fieldOfViewDeg?: number;
   /** Half width of the field of view in elevation (arrays that span an area) (0.1 to 90 deg; default 30). */
@@ -464,6 +464,59 @@ export interface RegionOptions {
   bins?: number;
   /** Chirps of each transmitter, from the first of the frame (at least 1; default 4). */
   chirps?: number;
+}
+
+/**
+ * When a region is turned to its coarse angle, so that what was made for a sector about boresight applies anywhere.
+ *
+ * - `never`: Never, as in the paper.
+ * - `outside`: Where the coarse angle lies outside the sector.
+ * - `always`: Always.
+ */
+export type Rotation = 'never' | 'outside' | 'always';
+
+/** How frames become regions, and these targets. */
+export interface RegionChainOptions {
+  /** Range bins, the strongest in their middle (at least 1; default 65). */
+  bins?: number;
+  /** Chirps of each transmitter, from the first of the frame (at least 1; default 4). */
+  chirps?: number;
+  /**
+   * Range bins on each side of a region's middle that count; bins beyond are set to zero, and peaks there begin
+   * regions of their own. All that the region holds if absent.
+   */
+  reachBins?: number;
+  /** Window over the samples of a chirp for detection (default 'hann'). */
+  rangeWindow?: WindowName;
+  /** Window over the samples of a chirp for what networks take; they were trained without (default 'rectangular'). */
+  regionWindow?: WindowName;
+  /**
+   * Diagonal loading of the covariance that targets are counted in, as a share of the mean element power. Arrays that
+   * differ from their drawing need it, since a network trained on exact ones takes the difference for a target (0 to
+   * 1000000; default 0).
+   */
+  countLoading?: number;
+  /** Detection on the power over range, mean over elements and chirps. Training cells always lie along range. */
+  cfar?: CfarOptions;
+  /**
+   * Limits outside which peaks make no region; the angle's hold for targets. Where they name no range, that is from 4
+   * range resolutions to 0.9 of the unambiguous range.
+   */
+  region?: Region;
+  /** Whether regions are turned to their coarse angle (default 'outside'). */
+  rotation?: Rotation;
+  /**
+   * Half width of the sector about boresight in which a region is not turned unless it always is (0 to 90 deg; default
+   * 10.5).
+   */
+  sectorDeg?: number;
+  /**
+   * Refine the angles on the matched model, beyond whole degrees; those that noise explains are dropped (default
+   * false).
+   */
+  refine?: boolean;
+  /** Most regions a frame; those with the strongest peaks are kept (1 to 1024; default 32). */
+  maxRegions?: number;
 }
 
 /** What a street is made from. */

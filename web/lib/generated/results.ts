@@ -549,6 +549,83 @@ export interface FrameCells {
   counts: FrameCounts;
 }
 
+/** A target in a region. */
+export interface RegionTarget {
+  /** Range of the bin in which it is strongest, interpolated and corrected for the range rate. */
+  rangeM: number;
+  /** Azimuth, positive to the left. */
+  azimuthDeg: number;
+  /** Power of one raw sample at one element over full scale (1.0), of all bins of the region. */
+  powerDb: number;
+  /** Probability of its direction, where a network gave it. */
+  confidence?: number;
+}
+
+/** A region of the range spectrum with what was found in it. */
+export interface TargetRegion {
+  /** Its middle: the strongest range bin. */
+  rangeBin: number;
+  /** Range of its strongest peak, interpolated between bins and corrected for the range rate. */
+  rangeM: number;
+  /** Range rate of its strongest bin, positive when receding, from the phase between loops; taken off the region. */
+  rateMps: number;
+  /** Power of its strongest peak: one raw sample at one element over full scale (1.0). */
+  powerDb: number;
+  /** Over the noise around the peak. */
+  snrDb: number;
+  /** Peaks over range that belong to it. */
+  peaks: number;
+  /**
+   * Direction of its echoes together, from the phase between neighbouring elements; of an array that is not evenly
+   * spaced, by the conventional beamformer.
+   */
+  coarseAzimuthDeg: number;
+  /** Whether it was turned so that this direction is boresight. */
+  rotated: boolean;
+  /** Targets counted. */
+  sources: number;
+  /** Probability of 0, 1 and 2 targets, each by itself. */
+  probability: Float64Array;
+  /** Targets, strongest first. */
+  targets: RegionTarget[];
+}
+
+/** What became of cells, peaks and targets. */
+export interface RegionCounts {
+  /** Range bins above their threshold. */
+  cellsOverThreshold: number;
+  /** Of these, bins grouped under a stronger neighbour. */
+  grouped: number;
+  /** Peaks and targets outside the limits. */
+  outsideRegion: number;
+  /** Peaks inside the region of a stronger one. */
+  joined: number;
+  /** Regions beyond the most to report. */
+  beyondLimit: number;
+  /** Regions in which no target was counted. */
+  withoutTarget: number;
+  /** Targets beyond 90 deg, which a turned region can give. */
+  beyondHorizon: number;
+  /** Samples at an end of the converter's range. */
+  clippedSamples: number;
+}
+
+/** Regions of one frame. */
+export interface RegionFrame {
+  /** Frame, from 0. */
+  frame: number;
+  /** Range of each range bin. */
+  rangeM: Float64Array;
+  /** Power over range: mean over elements and chirps, of what detection saw. */
+  rangeProfileDb: Float64Array;
+  /** Regions, strongest peak first. */
+  regions: TargetRegion[];
+  /** What became of cells, peaks and targets. */
+  counts: RegionCounts;
+  /** Remarks of the estimators, each kind once. */
+  warnings: Warning[];
+}
+
 /**
  * What of the estimates goes into an image.
  *

@@ -5,14 +5,17 @@ import { Handle } from '../runtime/handle.js';
 import { Instance } from '../runtime/module.js';
 import type { Report } from '../runtime/report.js';
 import type {
+  AngleNetworks,
   BatchEstimate,
   BatchInput,
   BatchOptions,
   BytesInput,
+  CaptureRegionOptions,
   ChainOptions,
   CombineOptions,
   ComplexData,
   CubeChainOptions,
+  CubeRegionOptions,
   Estimate,
   EstimateInput,
   FrameResult,
@@ -22,6 +25,7 @@ import type {
   NetworkMethod,
   NetworkOptions,
   NetworkPort,
+  RegionFrame,
   SourceProbabilities,
   Tensor,
   TextInput,
@@ -103,8 +107,36 @@ export class Network extends Handle<glue.Network> {
     return this.use((raw) => raw.processFrames(bytes, config, options, frame) as FrameResult[]);
   }
 
+  /**
+   * Regions of each frame of a cube, found along range, their targets counted by this network and told apart by `one` or
+   * `two`: counting networks only (Figure 4 of Sang et al. 2021).
+   */
+  cubeRegions({ one, two }: AngleNetworks<Network>, cube: ComplexData, options: CubeRegionOptions): RegionFrame[] {
+    return this.#with(one, two, (...raw) => glue.cubeRegions(...raw, cube, options) as RegionFrame[]);
+  }
+
+  /** The same of frames of a capture; all frames, or one. */
+  captureRegions(
+    { one, two }: AngleNetworks<Network>,
+    bytes: BytesInput,
+    config: TextInput,
+    options?: CaptureRegionOptions,
+    frame?: number,
+  ): RegionFrame[] {
+    return this.#with(
+      one,
+      two,
+      (...raw) => glue.captureRegions(...raw, bytes, config, options, frame) as RegionFrame[],
+    );
+  }
+
   /** As `combineFrames` of a capture, angles by this network. */
   combineFrames(bytes: BytesInput, config: TextInput, options?: CombineOptions, report?: Report): FrameResult {
     return this.use((raw) => raw.combineFrames(bytes, config, options, report) as FrameResult);
+  }
+
+  /** Runs what takes three networks. */
+  #with<T>(one: Network, two: Network, work: (...raw: [glue.Network, glue.Network, glue.Network]) => T): T {
+    return this.use((counting) => one.use((first) => two.use((second) => work(counting, first, second))));
   }
 }

@@ -1,5 +1,13 @@
 /** Neural networks: what `boresight/neural` and the pool take and give. */
-import type { EstimatorOptions, NetworkDescription, NetworkKind, NetworkPort } from '../types.js';
+import type {
+  ArrayInput,
+  EstimatorOptions,
+  NetworkDescription,
+  NetworkKind,
+  NetworkPort,
+  RegionChainOptions,
+  Waveform,
+} from '../types.js';
 
 /** Networks that estimate angles, as methods of an estimator; they need a model. */
 export type NetworkMethod = Exclude<NetworkKind, 'counting'>;
@@ -39,10 +47,37 @@ export interface Tensor {
   shape: readonly number[];
 }
 
-/** Options of a {@link Network}: its card, and those of its estimates. */
-export interface NetworkOptions extends Partial<Omit<EstimatorOptions, 'method' | 'network'>> {
+/**
+ * Options of a {@link Network}: its card, and those of its estimates. `method` is for a counting network, which with
+ * `sources: 'network'` counts for any method that needs no network.
+ */
+export interface NetworkOptions extends Partial<Omit<EstimatorOptions, 'network'>> {
   /** The card, or its JSON. Without one what the network is follows from its inputs and outputs. */
   card?: string | ModelCard;
+}
+
+/** Networks for the targets of a region: they tell the angles of one and of two, and are of one kind. */
+export interface AngleNetworks<N> {
+  one: N;
+  two: N;
+}
+
+/** Networks for regions on a pool, by their ids. */
+export interface RegionNetworkIds extends AngleNetworks<string> {
+  /** The counting network. */
+  counting: string;
+}
+
+/** Options of regions in captures. */
+export interface CaptureRegionOptions extends RegionChainOptions {
+  /** By default that of the capture's platform. */
+  array?: ArrayInput;
+}
+
+/** Options of regions in cubes, of which nothing else is known. */
+export interface CubeRegionOptions extends RegionChainOptions {
+  waveform: Waveform;
+  array: ArrayInput;
 }
 
 /** A network as a pool is given it. */

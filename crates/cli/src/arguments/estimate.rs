@@ -20,17 +20,9 @@ FILE is, by its ending:
 pub struct EstimateArguments {
     /// The capture or the snapshots.
     pub file: PathBuf,
-    /// The board's configuration (.cfg).
-    #[arg(long, value_name = "CFG")]
-    pub config: Option<PathBuf>,
-    /// Waveform of a data cube: awr1642, corner, 3dcnn-simulated, 3dcnn-experiment, or a JSON file, such as
-    /// the truth that `simulate cube` writes.
-    #[arg(long, value_name = "NAME|JSON", conflicts_with = "config")]
-    pub waveform: Option<String>,
-    /// Array: a name (see `boresight arrays`), ulaN for N elements, or a JSON file with `positions`
-    /// or `tx` and `rx` in half wavelengths. A capture's is taken from --config where it says.
-    #[arg(long, value_name = "NAME|JSON")]
-    pub array: Option<String>,
+    /// The radar.
+    #[command(flatten)]
+    pub radar: RadarArguments,
     /// Only this frame (of snapshots: this scene), from 0.
     #[arg(long, value_name = "I", conflicts_with_all = ["each", "all"])]
     pub frame: Option<usize>,
@@ -52,6 +44,22 @@ pub struct EstimateArguments {
     pub chain: Flags<ChainOptions>,
 }
 
+/// The radar that a capture or a data cube is of.
+#[derive(Debug, Args)]
+pub struct RadarArguments {
+    /// The board's configuration (.cfg).
+    #[arg(long, value_name = "CFG")]
+    pub config: Option<PathBuf>,
+    /// Waveform of a data cube: awr1642, corner, 3dcnn-simulated, 3dcnn-experiment, or a JSON file, such as
+    /// the truth that `simulate cube` writes.
+    #[arg(long, value_name = "NAME|JSON", conflicts_with = "config")]
+    pub waveform: Option<String>,
+    /// Array: a name (see `boresight arrays`), ulaN for N elements, or a JSON file with `positions`
+    /// or `tx` and `rx` in half wavelengths. A capture's is taken from --config where it says.
+    #[arg(long, value_name = "NAME|JSON")]
+    pub array: Option<String>,
+}
+
 /// Names of all methods, networks too.
 pub fn methods() -> Vec<&'static str> {
     Method::ALL.into_iter().chain(Method::NETWORKS).map(Method::name).collect()
@@ -66,6 +74,9 @@ pub struct ModelArguments {
     /// Its card; without it the .json file of its name, if there is one.
     #[arg(long, value_name = "FILE", requires = "model")]
     pub card: Option<PathBuf>,
+    /// Model of a counting network, for `--sources network`; its card is the .json file of its name.
+    #[arg(long, value_name = "FILE")]
+    pub counting_model: Option<PathBuf>,
 }
 
 /// Options of angle estimation.

@@ -4,6 +4,7 @@ use crate::flags::{Flags, OnCommandLine};
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::images;
 use boresight_evaluate::sweep::Part;
+use boresight_pipeline::regions::RegionChainOptions;
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -133,6 +134,24 @@ pub struct EvaluateDoaArguments {
     /// Networks: such that count, and such of a region or its covariance.
     #[command(flatten)]
     pub networks: NetworkArguments,
+    /// Where regions and numbers of targets come from.
+    #[arg(long, value_enum, default_value_t = DoaRegions::Told)]
+    pub regions: DoaRegions,
+    /// From end to end: targets around this azimuth in place of boresight, -50 to 50 deg.
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub centre: f64,
+    /// From end to end: detection and regions.
+    #[command(flatten)]
+    pub chain: Flags<RegionChainOptions>,
+}
+
+/// Regions of `evaluate doa`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DoaRegions {
+    /// The strongest bin, and methods are told the number of targets.
+    Told,
+    /// Detected, and counted by the first network given that counts; of networks only.
+    EndToEnd,
 }
 
 /// Radar of `evaluate doa`.

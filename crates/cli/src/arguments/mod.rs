@@ -5,15 +5,18 @@ mod drives;
 mod estimate;
 mod evaluate;
 mod image;
+mod regions;
 mod simulate;
 
 pub use augment::AugmentArguments;
 pub use drives::{CalibrateArguments, LogArguments};
-pub use estimate::{EstimateArguments, ModelArguments};
+pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
 pub use evaluate::{
-    DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
+    DoaRegions, DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateDoaArguments,
+    EvaluateMergeArguments, NetworkArguments,
 };
 pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
+pub use regions::RegionsArguments;
 pub use simulate::{
     CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,
 };
@@ -55,6 +58,8 @@ pub struct Cli {
 pub enum Command {
     /// Print the detections in a capture, or the angles in snapshots.
     Estimate(Box<EstimateArguments>),
+    /// Print regions of the range spectrum and the targets in each, counted and told apart by networks.
+    Regions(Box<RegionsArguments>),
     /// Simulate data of which the truth is known, as a .npy file.
     Simulate {
         /// What to simulate.

@@ -1,48 +1,36 @@
 //! `boresight augment`.
 
-use super::capture::CaptureFrames;
-use super::cube;
+use super::{capture, cube};
 use crate::arguments::AugmentArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::json;
-use crate::output::remark;
 use crate::run::Run;
 use boresight_core::{Complex32, Waveform};
 use boresight_formats::npy::{Element, preamble};
-use boresight_formats::{Capture, NpyArray, RadarConfig};
+use boresight_formats::{NpyArray, RadarConfig};
 use boresight_pipeline::{CubeFrames, FrameSource, PipelineError, Progress};
 use boresight_signal::{ShiftedFrame, shift_range};
 use serde_json::json;
 
 /// Runs the command and returns what it prints.
 pub fn run(arguments: &AugmentArguments, files: &Files) -> Result<String, CliError> {
-    let config = arguments
-        .config
-        .as_ref()
-        .map(|path| RadarConfig::parse(&files.read(path)?).map_err(CliError::from));
-    let config = config.transpose()?;
     let bytes = files.read(&arguments.file)?;
-    match (files::ending(&arguments.file).as_str(), config) {
-        ("bin", Some(config)) => {
-            let capture = Capture::new(&bytes, &config)?;
-            remark(config.remarks.iter().chain(capture.remarks()).map(|r| r.message.clone()));
-            write(arguments, &config.waveform, &CaptureFrames(capture), files)
+    let config = arguments.config.as_deref();
+    match files::ending(&arguments.file).as_str() {
+        "bin" => {
+            let (source, config) = capture::read(config, &bytes, files)?;
+            write(arguments, &config.waveform, &source, files)
         }
-        ("bin", None) => Err(CliError::Option {
-            option: "--config",
-            expected: "the board's .cfg file, which tells how to read a .bin file".into(),
-            given: "nothing".into(),
-        }),
-        ("npy", config) => {
+        "npy" => {
             let waveform = match config {
-                Some(config) => config.waveform,
+                Some(path) => RadarConfig::parse(&files.read(path)?)?.waveform,
                 None => cube::named_waveform(arguments.waveform.as_deref(), files)?,
             };
             let cube = cube::read(&NpyArray::parse(&bytes)?)?;
             write(arguments, &waveform, &CubeFrames(cube.view()), files)
         }
-        (other, _) => Err(CliError::Option {
+        other => Err(CliError::Option {
             option: "FILE",
             expected: "a file ending in .bin or .npy".into(),
             given: if other.is_empty() { "no ending".into() } else { format!(".{other}") },

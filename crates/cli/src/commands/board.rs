@@ -9,7 +9,7 @@ use boresight_formats::{BoardLog, RadarConfig};
 
 /// The board's detections of each packet; `--frame` counts packets from 0.
 pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result<String, CliError> {
-    let config = match &arguments.config {
+    let config = match &arguments.radar.config {
         Some(path) => Some(RadarConfig::parse(&files.read(path)?)?),
         None => None,
     };

@@ -1,14 +1,15 @@
 //! Raw captures of boards.
 
 use super::chain::{chain_options, detections};
-use crate::arguments::EstimateArguments;
+use crate::arguments::{EstimateArguments, RadarArguments};
 use crate::error::CliError;
 use crate::files::Files;
 use crate::output::remark;
 use crate::{array, network};
-use boresight_core::Array;
+use boresight_core::{Array, Waveform};
 use boresight_formats::{Capture, RadarConfig};
 use boresight_pipeline::{Frame, FrameSource};
+use std::path::Path;
 
 /// The frames of a capture.
 pub struct CaptureFrames<'a>(pub Capture<'a>);
@@ -28,7 +29,42 @@ impl FrameSource for CaptureFrames<'_> {
 
 /// Detections in a capture.
 pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result<String, CliError> {
-    let path = arguments.config.as_ref().ok_or_else(|| CliError::Option {
+    let (source, radar) = open(&arguments.radar, bytes, files)?;
+    let (options, model) = (chain_options(arguments), &arguments.angle.model);
+    let Radar { waveform, receivers, array } = &radar;
+    let mut chain = network::chain(waveform, *receivers, array, &options, model, files)?;
+    detections(arguments, &mut chain, &source)
+}
+
+/// The radar frames are of.
+pub struct Radar {
+    /// Its waveform.
+    pub waveform: Waveform,
+    /// Its receivers.
+    pub receivers: usize,
+    /// Its array.
+    pub array: Array,
+}
+
+/// Opens a capture.
+pub fn open<'a>(
+    arguments: &RadarArguments,
+    bytes: &'a [u8],
+    files: &Files,
+) -> Result<(CaptureFrames<'a>, Radar), CliError> {
+    let (frames, config) = read(arguments.config.as_deref(), bytes, files)?;
+    let array = board_array(arguments.array.as_deref(), &config, files)?;
+    let (waveform, receivers) = (config.waveform, config.receivers.len());
+    Ok((frames, Radar { waveform, receivers, array }))
+}
+
+/// The frames of a capture, and its configuration.
+pub fn read<'a>(
+    config: Option<&Path>,
+    bytes: &'a [u8],
+    files: &Files,
+) -> Result<(CaptureFrames<'a>, RadarConfig), CliError> {
+    let path = config.ok_or_else(|| CliError::Option {
         option: "--config",
         expected: "the board's .cfg file, which tells how to read a .bin file".into(),
         given: "nothing".into(),
@@ -36,20 +72,7 @@ pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result
     let config = RadarConfig::parse(&files.read(path)?)?;
     let capture = Capture::new(bytes, &config)?;
     remark(config.remarks.iter().chain(capture.remarks()).map(|remark| remark.message.clone()));
-    let array = array_of(arguments, &config, files)?;
-    let (options, receivers) = (chain_options(arguments), config.receivers.len());
-    let model = &arguments.angle.model;
-    let mut chain = network::chain(&config.waveform, receivers, &array, &options, model, files)?;
-    detections(arguments, &mut chain, &CaptureFrames(capture))
-}
-
-/// The array asked for, or the board's.
-pub fn array_of(
-    arguments: &EstimateArguments,
-    config: &RadarConfig,
-    files: &Files,
-) -> Result<Array, CliError> {
-    board_array(arguments.array.as_deref(), config, files)
+    Ok((CaptureFrames(capture), config))
 }
 
 /// The array of a name, or the board's.

@@ -1,15 +1,15 @@
 //! Data cubes.
 
-use super::capture::array_of;
+use super::capture::{Radar, board_array};
 use super::chain::{chain_options, detections};
-use crate::arguments::EstimateArguments;
+use crate::arguments::{EstimateArguments, RadarArguments};
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::{array, network};
 use boresight_core::{Complex32, CoreError, Waveform};
 use boresight_formats::{NpyArray, RadarConfig};
 use boresight_pipeline::CubeFrames;
-use ndarray::Array5;
+use ndarray::{Array5, Axis};
 
 /// Detections in a data cube.
 pub fn run(
@@ -17,15 +17,27 @@ pub fn run(
     file: &NpyArray,
     files: &Files,
 ) -> Result<String, CliError> {
+    let (cube, radar) = open(&arguments.radar, file, files)?;
+    let (options, model) = (chain_options(arguments), &arguments.angle.model);
+    let Radar { waveform, receivers, array } = &radar;
+    let mut chain = network::chain(waveform, *receivers, array, &options, model, files)?;
+    detections(arguments, &mut chain, &CubeFrames(cube.view()))
+}
+
+/// Opens a data cube.
+pub fn open(
+    arguments: &RadarArguments,
+    file: &NpyArray,
+    files: &Files,
+) -> Result<(Array5<Complex32>, Radar), CliError> {
     let cube = read(file)?;
-    let receivers = cube.shape()[3];
-    let (waveform, array) = match (&arguments.config, &arguments.waveform) {
-        (Some(path), _) => {
+    let (waveform, array) = match &arguments.config {
+        Some(path) => {
             let config = RadarConfig::parse(&files.read(path)?)?;
-            (config.waveform, array_of(arguments, &config, files)?)
+            (config.waveform, board_array(arguments.array.as_deref(), &config, files)?)
         }
-        (None, name) => {
-            let waveform = named_waveform(name.as_deref(), files)?;
+        None => {
+            let waveform = named_waveform(arguments.waveform.as_deref(), files)?;
             let array = arguments.array.as_ref().ok_or_else(|| CliError::Option {
                 option: "--array",
                 expected: "the array of the cube".into(),
@@ -34,9 +46,8 @@ pub fn run(
             (waveform, array::array(array, files)?)
         }
     };
-    let (options, model) = (chain_options(arguments), &arguments.angle.model);
-    let mut chain = network::chain(&waveform, receivers, &array, &options, model, files)?;
-    detections(arguments, &mut chain, &CubeFrames(cube.view()))
+    let receivers = cube.len_of(Axis(3));
+    Ok((cube, Radar { waveform, receivers, array }))
 }
 
 /// A data cube of frames x loops x transmitters x receivers x samples; a cube of one frame may lack the first axis.

@@ -1,7 +1,8 @@
 //! `boresight evaluate`.
 
 use crate::arguments::{
-    DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
+    DoaRegions, DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateDoaArguments,
+    EvaluateMergeArguments, NetworkArguments,
 };
 use crate::destination::Destination;
 use crate::error::CliError;
@@ -16,6 +17,7 @@ use boresight_evaluate::{
     Entrants, Merged, Network, Outcome, aoa, calibration, doa, images, imperfections, merge,
     near_field, resolution, straddling,
 };
+use boresight_neural::Kind;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -56,8 +58,15 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             };
             let seed = arguments.shared.seed;
             let networks = networks(&arguments.networks, files)?;
-            let entrants = Entrants::new(doa::default_methods(setup)?, networks);
-            let options = doa::DoaExperiment { setup, trials: arguments.trials, seed, entrants };
+            let end_to_end = (arguments.regions == DoaRegions::EndToEnd)
+                .then(|| end_to_end(arguments, &networks))
+                .transpose()?;
+            let methods = match end_to_end {
+                Some(_) => vec![],
+                None => doa::default_methods(setup)?,
+            };
+            let (trials, entrants) = (arguments.trials, Entrants::new(methods, networks));
+            let options = doa::DoaExperiment { setup, trials, seed, entrants, end_to_end };
             evaluate(&options, &arguments.shared, files)
         }
         EvaluateCommand::Images(arguments) => {
@@ -121,6 +130,21 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
         }
         EvaluateCommand::Merge(arguments) => merged(arguments, files),
     }
+}
+
+/// The whole flow, its targets counted by the first network given that counts.
+fn end_to_end(
+    arguments: &EvaluateDoaArguments,
+    networks: &[Network],
+) -> Result<doa::EndToEnd, CliError> {
+    let counting = networks.iter().find(|network| network.kind == Kind::Counting);
+    let counting = counting.cloned().ok_or_else(|| CliError::Option {
+        option: "--model",
+        expected: "a counting network among others, since regions are counted".into(),
+        given: "none that counts".into(),
+    })?;
+    let regions = arguments.chain.options;
+    Ok(doa::EndToEnd { counting, centre_deg: arguments.centre, regions })
 }
 
 /// The methods named, or the usual ones, and the networks.

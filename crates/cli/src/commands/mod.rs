@@ -13,6 +13,7 @@ pub mod image;
 pub mod lists;
 pub mod log;
 pub mod network;
+pub mod regions;
 pub mod simulate;
 mod simulated_drive;
 mod snapshots;

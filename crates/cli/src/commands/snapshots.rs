@@ -37,7 +37,7 @@ pub fn run(
     scenes: &Array3<Complex64>,
     files: &Files,
 ) -> Result<String, CliError> {
-    let name = arguments.array.as_ref().ok_or_else(|| CliError::Option {
+    let name = arguments.radar.array.as_ref().ok_or_else(|| CliError::Option {
         option: "--array",
         expected: "the array that took the snapshots".into(),
         given: "nothing".into(),

@@ -7,10 +7,12 @@
 //! the 8 channels. Methods that take snapshots only get eight that have this covariance. The 3D-CNN gets the region
 //! itself.
 
+pub mod end_to_end;
 pub mod figures;
 pub mod report;
 pub mod trial;
 
+pub use end_to_end::EndToEnd;
 pub use report::DoaReport;
 
 use crate::EvaluateError;
@@ -93,6 +95,9 @@ pub struct DoaExperiment {
     /// Rules that count and methods that estimate, by name, and networks that do either.
     #[serde(flatten)]
     pub entrants: Entrants,
+    /// The whole flow, in place of regions that are told; then there are networks only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end_to_end: Option<EndToEnd>,
 }
 
 /// Names of all rules that count, and of all methods that run on the radar's array.

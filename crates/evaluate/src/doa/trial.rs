@@ -1,5 +1,6 @@
 //! Trials of one condition.
 
+use super::end_to_end::EndToEnd;
 use super::{REGION, SNRS_DB, Targets, condition};
 use crate::EvaluateError;
 use crate::entrants::{Entrants, Network};
@@ -15,7 +16,7 @@ use boresight_neural::{Kind, Model};
 use boresight_signal::region::{crop_region, range_spectrum, region_snapshots, strongest_range};
 use boresight_signal::{Window, sample_covariance};
 use boresight_simulate::cube::{CubeOptions, CubeTarget, simulate_cube};
-use ndarray::{Array2, Array3, Axis};
+use ndarray::{Array2, Array3, Array5, Axis};
 use serde::{Deserialize, Serialize};
 
 /// Angles are the whole degrees up to this on either side.
@@ -90,7 +91,7 @@ impl Tally {
     }
 
     /// Counts a trial; both in ascending order.
-    fn count(&mut self, truth_deg: &[f64], found_rad: &[f64], close: bool) {
+    pub(super) fn count(&mut self, truth_deg: &[f64], found_rad: &[f64], close: bool) {
         let found_deg: Vec<f64> = found_rad.iter().map(|&azimuth| in_degrees(azimuth)).collect();
         let end = f64::from(LARGEST_DEG);
         let rounded_deg: Vec<f64> =
@@ -118,14 +119,15 @@ impl Tally {
 
 /// What trials share.
 pub struct Plan {
-    waveform: Waveform,
-    array: Array,
+    pub(super) waveform: Waveform,
+    pub(super) array: Array,
     range_m: [f64; 2],
     seed: u64,
     counters: Vec<Counter>,
     /// For one and for two targets.
     candidates: [Vec<Candidate>; 2],
     networks: Vec<Network>,
+    end_to_end: Option<EndToEnd>,
 }
 
 /// Every method that runs on a radar's array, for that many targets.
@@ -164,7 +166,16 @@ impl Plan {
         candidates.iter_mut().for_each(|all| all.retain(|candidate| named(&candidate.name)));
         let counters = COUNTERS.into_iter().filter(|counter| named(counter.0)).collect();
         let networks = networks.clone();
-        Ok(Self { waveform, array, range_m, seed: options.seed, counters, candidates, networks })
+        let end_to_end = options.end_to_end.clone();
+        if let Some(flow) = &end_to_end {
+            flow.check()?;
+            if let Some(given) = methods.first().cloned() {
+                let (what, expected) = ("methods from end to end".into(), "networks only".into());
+                return Err(CoreError::Unknown { what, expected, given }.into());
+            }
+        }
+        let seed = options.seed;
+        Ok(Self { waveform, array, range_m, seed, counters, candidates, networks, end_to_end })
     }
 
     /// Names of what counts: rules, then networks.
@@ -180,7 +191,7 @@ impl Plan {
     }
 
     /// Networks that count, or that estimate angles.
-    fn networks_that(&self, count: bool) -> impl Iterator<Item = &Network> {
+    pub(super) fn networks_that(&self, count: bool) -> impl Iterator<Item = &Network> {
         self.networks.iter().filter(move |network| (network.kind == Kind::Counting) == count)
     }
 
@@ -189,7 +200,10 @@ impl Plan {
     /// # Errors
     /// Those of the simulation and the estimators.
     pub fn run(&self, index: usize, first: u64, trials: u64) -> Result<DoaRecord, EvaluateError> {
-        let (targets, snr_db) = condition(index);
+        if let Some(flow) = &self.end_to_end {
+            return self.run_end_to_end(flow, index, first, trials);
+        }
+        let (targets, _) = condition(index);
         let count = targets.count();
         let candidates: &[Candidate] = if count > 0 { &self.candidates[count - 1] } else { &[] };
         let mut estimators: Vec<(Estimator, bool)> = vec![];
@@ -220,12 +234,11 @@ impl Plan {
         let mut cells = Array3::zeros((trials as usize, self.array.len(), vectors));
         let mut truths: Vec<(Vec<f64>, bool)> = vec![];
         for (trial, mut cell) in (first..).zip(cells.outer_iter_mut()) {
-            let truth_deg = angles(targets, trial);
-            let close = count == 2 && truth_deg[1] - truth_deg[0] < CLOSE_DEG;
+            let (frame, truth_deg, close) = self.frame(index, trial)?;
             record.close += u32::from(close);
-            let truth_deg: Vec<f64> = truth_deg.into_iter().map(f64::from).collect();
-            let stream = ((index as u64) << 40) + trial;
-            let region = self.region(targets, &truth_deg, snr_db, stream)?;
+            let spectrum = range_spectrum(frame.index_axis(Axis(0), 0), Window::Rectangular)?;
+            let strongest = strongest_range(spectrum.view());
+            let region = crop_region(spectrum.view(), strongest, REGION[0], REGION[1])?;
             cell.assign(&region_snapshots(region.view()));
             truths.push((truth_deg, close));
         }
@@ -262,15 +275,18 @@ impl Plan {
         Ok(record)
     }
 
-    /// Simulates a frame and returns its region of interest: range bins x elements x chirps.
-    fn region(
+    /// Simulates the frame of a trial: a cube of one frame, the angles of its targets, deg, and whether they are a
+    /// close pair.
+    pub(super) fn frame(
         &self,
-        targets: Targets,
-        truth_deg: &[f64],
-        snr_db: f64,
-        stream: u64,
-    ) -> Result<Array3<Complex32>, EvaluateError> {
-        let mut random = Random::new(self.seed, stream);
+        index: usize,
+        trial: u64,
+    ) -> Result<(Array5<Complex32>, Vec<f64>, bool), EvaluateError> {
+        let (targets, snr_db) = condition(index);
+        let truth_deg = angles(targets, trial);
+        let close = truth_deg.len() == 2 && truth_deg[1] - truth_deg[0] < CLOSE_DEG;
+        let truth_deg: Vec<f64> = truth_deg.into_iter().map(f64::from).collect();
+        let mut random = Random::new(self.seed, ((index as u64) << 40) + trial);
         let [near, far] = self.range_m;
         let mut range_m = random.uniform(near, far);
         let mut echoes = vec![];
@@ -278,14 +294,14 @@ impl Plan {
             if k > 0 && targets == Targets::Apart {
                 range_m = random.uniform(near, far);
             }
-            let direction = Direction::azimuth(azimuth.to_radians());
+            let flow = self.end_to_end.as_ref();
+            let azimuth_rad = flow.map_or(azimuth.to_radians(), |flow| flow.azimuth_rad(*azimuth));
+            let direction = Direction::azimuth(azimuth_rad);
             echoes.push(CubeTarget { range_m, direction, ..CubeTarget::default() });
         }
         let options = CubeOptions { snr_db, seed: random.bits(), ..CubeOptions::default() };
         let cube = simulate_cube(&self.waveform, &self.array, &echoes, &options)?;
-        let spectrum = range_spectrum(cube.index_axis(Axis(0), 0), Window::Rectangular)?;
-        let strongest = strongest_range(spectrum.view());
-        Ok(crop_region(spectrum.view(), strongest, REGION[0], REGION[1])?)
+        Ok((cube, truth_deg, close))
     }
 
     /// Bounds of the error of one target's angle, root of the mean square over its angles, deg: of all samples of

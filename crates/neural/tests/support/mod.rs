@@ -1,9 +1,11 @@
 //! Models of the repository, and small ONNX files made to order.
 #![allow(dead_code, clippy::unwrap_used)]
 
+use boresight_core::steering::steering_matrix;
+use boresight_core::{Array, Complex64, Direction, Random};
 use boresight_formats::NpyArray;
 use boresight_neural::{Card, Model};
-use ndarray::ArrayD;
+use ndarray::{Array2, ArrayD};
 use std::path::PathBuf;
 
 pub fn root() -> PathBuf {
@@ -40,6 +42,15 @@ pub fn golden(name: &str, port: &str) -> ArrayD<f32> {
     let array = NpyArray::parse(&std::fs::read(path).unwrap()).unwrap();
     let numbers = array.to_f64().unwrap().into_iter().map(|x| x as f32).collect();
     ArrayD::from_shape_vec(array.shape, numbers).unwrap()
+}
+
+/// Vectors of targets at these azimuths, deg, with echoes of their own in each, 10 dB above the noise.
+pub fn vectors(array: &Array, degrees: &[f64], count: usize, seed: u64) -> Array2<Complex64> {
+    let random = &mut Random::new(seed, 0);
+    let at: Vec<Direction> = degrees.iter().map(|d| Direction::azimuth(d.to_radians())).collect();
+    let echoes = Array2::from_shape_fn((at.len(), count), |_| random.complex_normal(1.0));
+    let noise = Array2::from_shape_fn((array.len(), count), |_| random.complex_normal(0.1));
+    steering_matrix(array, &at).dot(&echoes) + noise
 }
 
 /// A field of a protobuf message.

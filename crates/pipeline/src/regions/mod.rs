@@ -1,0 +1,200 @@
+//! Regions of the range spectrum and the targets in each, as in Figure 4 of Sang et al., "DoA Estimation for FMCW
+//! Radar by 3D-CNN" (2021): detection along range (CFAR), a region around each peak, a count of its targets, and the
+//! angles of one or of two.
+//!
+//! [`RegionFinder`] finds regions. [`RegionChain`] hands each to a [`Counted`]: a counting network with networks for
+//! one and for two targets, or any counter with estimators of a method.
+//!
+//! What goes beyond the paper: the Doppler phase of the strongest peak is taken off a region, between transmitters
+//! and between chirps, so that what moves looks like what stands; and a region is turned to its coarse angle, so that
+//! networks for +-10 deg about boresight apply anywhere. Turning is exact for elements along a line: an answer `a`
+//! means the azimuth whose sine is `sin a` plus the sine of the coarse angle. Degrees of answers so stretch by the
+//! inverse cosine of the azimuth: at 60 deg one step is 2 deg.
+
+mod find;
+mod options;
+mod result;
+
+pub use find::{FoundRegion, FoundRegions, RegionFinder};
+pub use options::{RegionChainOptions, Rotation};
+pub use result::{RegionCounts, RegionFrame, RegionTarget, TargetRegion};
+
+use crate::capture::{Report, proceed};
+use crate::error::PipelineError;
+use crate::source::{FrameSource, Progress};
+use boresight_aoa::{Counted, Data, Warning};
+use boresight_core::describe::decibels::finite_db;
+use boresight_core::describe::remark::Coded;
+use boresight_core::linalg::least_squares;
+use boresight_core::order::sort_descending;
+use boresight_core::steering::steering_matrix;
+use boresight_core::{Array, Complex32, Complex64, Direction, Remark, Waveform};
+use boresight_signal::cfar::Detection;
+use boresight_signal::peaks::interpolate;
+use boresight_signal::range::range_axis_m;
+use ndarray::{Array2, ArrayView4, Axis};
+use std::ops::Range;
+
+/// A plan for regions and their targets.
+pub struct RegionChain {
+    finder: RegionFinder,
+    counted: Counted,
+    count_loading: f64,
+}
+
+impl RegionChain {
+    /// Plans for frames as [`RegionFinder::new`]; the array is that of `counted`.
+    ///
+    /// # Errors
+    /// As [`RegionFinder::new`].
+    pub fn new(
+        waveform: &Waveform,
+        receivers: usize,
+        options: &RegionChainOptions,
+        counted: Counted,
+    ) -> Result<Self, PipelineError> {
+        let finder = RegionFinder::new(waveform, receivers, counted.array(), options)?;
+        Ok(Self { finder, counted, count_loading: options.count_loading })
+    }
+
+    /// The array.
+    pub fn array(&self) -> &Array {
+        self.finder.array()
+    }
+
+    /// The waveform.
+    pub fn waveform(&self) -> &Waveform {
+        self.finder.waveform()
+    }
+
+    /// Regions and targets of one frame of loops x transmitters x receivers x samples.
+    ///
+    /// # Errors
+    /// As [`RegionFinder::find`] and [`Counted::estimate`].
+    pub fn process(
+        &mut self,
+        frame: ArrayView4<'_, Complex32>,
+    ) -> Result<RegionFrame, PipelineError> {
+        let FoundRegions { regions, profile, mut counts } = self.finder.find(frame)?;
+        let mut warnings: Vec<Warning> = vec![];
+        let mut answered = Vec::with_capacity(regions.len());
+        for found in &regions {
+            let snapshots = found.snapshots();
+            let data = Data::Snapshots(snapshots.view());
+            let covariance = found.covariance(self.count_loading);
+            let (matrix, vectors) = (covariance.view(), snapshots.ncols());
+            let count = self.counted.count(Data::Covariance { matrix, snapshots: vectors })?;
+            let estimate = self.counted.estimate_of(count.sources, data)?;
+            counts.without_target += usize::from(count.sources == 0);
+            let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
+            let ranges_m = self.ranges_m(found, &directions);
+            let mut targets = Vec::with_capacity(directions.len());
+            for (source, range_m) in estimate.sources.iter().zip(ranges_m) {
+                let sine = found.sine(source.direction);
+                if sine.abs() > 1.0 {
+                    counts.beyond_horizon += 1;
+                    continue;
+                }
+                let azimuth_rad = sine.asin();
+                let (power, confidence) = (source.power, source.confidence);
+                targets.push(RegionTarget { range_m, azimuth_rad, power, confidence });
+            }
+            let before = targets.len();
+            targets.retain(|target| self.finder.limits().contains_azimuth(target.azimuth_rad));
+            counts.outside_region += before - targets.len();
+            sort_descending(&mut targets, |target| target.power);
+            let noise = found.peak.detection.noise_power.max(f64::MIN_POSITIVE);
+            answered.push(TargetRegion {
+                range_bin: found.range_bin,
+                range_m: found.range_m,
+                rate_mps: found.rate_mps,
+                power: found.peak.power,
+                snr: found.peak.power / noise,
+                peaks: found.peaks,
+                coarse_azimuth_rad: found.coarse_azimuth_rad,
+                rotated: found.rotated,
+                sources: count.sources,
+                probability: count.probability.to_vec(),
+                targets,
+            });
+            for warning in estimate.warnings {
+                let is_new = warnings.iter().all(|known| known.code() != warning.code());
+                // A region without a target is counted.
+                if is_new && warning != Warning::NoSources {
+                    warnings.push(warning);
+                }
+            }
+        }
+        Ok(RegionFrame {
+            frame: 0,
+            range_m: range_axis_m(self.waveform(), profile.len()),
+            range_profile_db: profile.into_iter().map(finite_db).collect(),
+            regions: answered,
+            counts,
+            warnings: warnings.iter().map(|w| Remark::new(w.code(), w.to_string())).collect(),
+        })
+    }
+
+    /// Processes the frames in `frames` one by one and hands each result to `take`.
+    ///
+    /// # Errors
+    /// As [`RegionChain::process`] and what the source gives; [`PipelineError::Cancelled`] if `report` breaks.
+    pub fn each<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        mut take: impl FnMut(RegionFrame),
+        report: Report<'_>,
+    ) -> Result<(), S::Error> {
+        let total = frames.len();
+        for (done, index) in frames.enumerate() {
+            proceed(report, Progress { done, total })?;
+            let frame = source.frame(index)?;
+            let mut result = self.process(frame.samples.view())?;
+            result.counts.clipped_samples = frame.clipped;
+            result.frame = index;
+            take(result);
+        }
+        proceed(report, Progress { done: total, total })?;
+        Ok(())
+    }
+
+    /// Range of each source, m: that of the bin in which the amplitude that fits best is largest.
+    fn ranges_m(&self, found: &FoundRegion, directions: &[Direction]) -> Vec<f64> {
+        let region = &found.region;
+        let (bins, elements, chirps) = region.dim();
+        let steering = steering_matrix(self.array(), directions);
+        let columns = region.view().permuted_axes([1, 0, 2]);
+        let columns = columns.as_standard_layout();
+        let wide = |z: &Complex32| Complex64::new(z.re.into(), z.im.into());
+        let Ok(columns) = columns.map(wide).into_shape_with_order((elements, bins * chirps)) else {
+            return vec![found.range_m; directions.len()];
+        };
+        // Directions that cannot be told apart are at the peak.
+        let Ok(Some(signals)) = least_squares(steering.view(), columns.view()) else {
+            return vec![found.range_m; directions.len()];
+        };
+        let of = |row: ndarray::ArrayView1<'_, Complex64>| {
+            let power = |bin: usize| {
+                let chirps = row.iter().skip(bin * chirps).take(chirps);
+                chirps.map(|z| z.norm_sqr()).sum::<f64>() as f32
+            };
+            let map = Array2::from_shape_fn((bins, 1), |(bin, _)| power(bin));
+            let best = strongest(&map);
+            let cell = Detection {
+                range_bin: best,
+                doppler_bin: 0,
+                power: map[[best, 0]].into(),
+                noise_power: 0.0,
+                threshold: 0.0,
+            };
+            let bin = interpolate(map.view(), cell).range_bin - (bins / 2) as f64;
+            self.finder.range_m(bin + found.range_bin as f64, found.rate_mps)
+        };
+        signals.axis_iter(Axis(0)).map(of).collect()
+    }
+}
+
+fn strongest(map: &Array2<f32>) -> usize {
+    (0..map.nrows()).max_by(|&a, &b| map[[a, 0]].total_cmp(&map[[b, 0]])).unwrap_or_default()
+}
