@@ -63,7 +63,7 @@ struct Image {
 
 #[derive(Clone)]
 enum By {
-    Cells(Angles, Option<Model>),
+    Cells(Box<Angles>, Option<Model>),
     Chain,
 }
 
@@ -149,7 +149,7 @@ impl Experiment for ImagesExperiment {
             let angles = Angles::of(network.kind.method().ok_or_else(other)?);
             Ok(vec![Image {
                 name: network.name.clone(),
-                by: By::Cells(angles, network.model.clone()),
+                by: By::Cells(Box::new(angles), network.model.clone()),
             }])
         });
         let images: Result<Vec<_>, EvaluateError> = methods.chain(networks).collect();
@@ -205,5 +205,8 @@ fn images_by(name: &str) -> Result<Vec<Image>, EvaluateError> {
     let mut contents = vec![Content::Targets];
     contents.extend(method.requirements().spectrum.then_some(Content::Spectra));
     let angles = |content| Angles { content, ..Angles::of(method) };
-    Ok(contents.into_iter().map(|content| image(By::Cells(angles(content), None))).collect())
+    Ok(contents
+        .into_iter()
+        .map(|content| image(By::Cells(Box::new(angles(content)), None)))
+        .collect())
 }

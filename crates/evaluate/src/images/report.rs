@@ -158,6 +158,11 @@ fn table_of<Record>(
     table("method", &heads, &rows)
 }
 
+/// What tables of images show of a record.
+fn whole(image: &ImageRecord) -> Option<&ImageRecord> {
+    Some(image)
+}
+
 impl crate::experiment::Report for ImagesReport {
     fn tables(&self) -> String {
         let last = self.seed.wrapping_add(self.streets - 1);
@@ -170,8 +175,8 @@ impl crate::experiment::Report for ImagesReport {
             self.seed,
             cells[0],
             cells[1],
-            table_of(&OF_VIEWS, &self.spectra, |image| Some(image)),
-            table_of(&OF_VIEWS, &self.targets, |image| Some(image)),
+            table_of(&OF_VIEWS, &self.spectra, whole),
+            table_of(&OF_VIEWS, &self.targets, whole),
             table_of(&OF_POINTS, &self.targets, |image| image.points.as_ref()),
         )
     }
