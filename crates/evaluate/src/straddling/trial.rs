@@ -17,6 +17,7 @@ use boresight_simulate::Target;
 use ndarray::{Array3, ArrayView2, Axis};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
+use std::sync::OnceLock;
 
 /// What answers.
 #[derive(Debug, Clone, PartialEq)]
@@ -114,6 +115,8 @@ pub struct Plan {
     pub(super) array: Array,
     seed: u64,
     lines: Vec<Line>,
+    /// Of lines and their grids, once they are counted.
+    operations: OnceLock<Vec<Option<f64>>>,
     idle: Idle,
 }
 
@@ -144,7 +147,8 @@ impl Plan {
             }
             lines.push(Line { candidate, on_grid: false });
         }
-        Ok(Self { array, seed: options.seed, lines, idle: Idle::default() })
+        let (operations, idle) = (OnceLock::new(), Idle::default());
+        Ok(Self { array, seed: options.seed, lines, operations, idle })
     }
 
     /// What answers, in order.
@@ -155,6 +159,16 @@ impl Plan {
     /// Lines and their grids, in the order of records.
     pub fn variants(&self) -> impl Iterator<Item = (&Line, Option<usize>)> {
         self.lines.iter().flat_map(|line| line.grids().into_iter().map(move |grid| (line, grid)))
+    }
+
+    /// Operations of lines and their grids, by formula. Those of networks take seconds to count.
+    fn operations(&self) -> Result<&[Option<f64>], EvaluateError> {
+        if let Some(known) = self.operations.get() {
+            return Ok(known);
+        }
+        let of = |(line, grid)| operations(line, &self.array, grid);
+        let all = self.variants().map(of).collect::<Result<Vec<_>, _>>()?;
+        Ok(self.operations.get_or_init(|| all))
     }
 
     /// Finders and their grids.
@@ -189,11 +203,8 @@ impl Plan {
         for truth in &truths {
             bound_deg2 += self.bound_deg2(truth, condition)?;
         }
-        let mut variants = vec![];
-        for (line, grid) in self.variants() {
-            let operations = operations(line, &self.array, grid)?;
-            variants.push(VariantRecord { deviation: Deviation::default(), operations });
-        }
+        let none = |&operations| VariantRecord { deviation: Deviation::default(), operations };
+        let mut variants: Vec<VariantRecord> = self.operations()?.iter().map(none).collect();
         let mut refinement = Refinement::new(&self.array, &angle_options(targets, None))?;
         for (finder, grid) in self.runs() {
             let new = || finder.with_options(&self.array, angle_options(targets, grid));
