@@ -18,6 +18,7 @@ fn options(array: &str) -> AoaExperiment {
     AoaExperiment {
         array: array.into(),
         trials: 8,
+        validation: 4,
         seed: 1,
         imperfections: ImperfectionSpread::default(),
         entrants: Entrants::new(default_methods(&preset(array).unwrap()), vec![]),
@@ -76,7 +77,8 @@ fn uniform_arrays_add_what_needs_one_and_unknown_ones_are_refused() {
         ("lrr48", &[], "empty", "methods"),
         ("lrr48", &["single-snapshot-music"], "unsuitable-array", "array"),
         ("lrr48", &["music"], "snapshot-count", "snapshots"),
-        ("lrr48", &["iaa+sharpened"], "unknown-name", "method"),
+        ("lrr48", &["iaa+sharpened"], "unknown-name", "thresholding"),
+        ("lrr48", &["nomp+hard"], "unknown-name", "method"),
     ] {
         let refused = named(array, methods).unwrap_err();
         assert_eq!((refused.code(), &*refused.details().what), (code, what));

@@ -9,7 +9,8 @@ mod simulate;
 pub use drives::{CalibrateArguments, LogArguments};
 pub use estimate::{EstimateArguments, ModelArguments};
 pub use evaluate::{
-    DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
+    AnswersArguments, DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments,
+    NetworkArguments,
 };
 pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 pub use simulate::{

@@ -1,7 +1,8 @@
 //! `boresight evaluate`.
 
 use crate::arguments::{
-    DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments, NetworkArguments,
+    AnswersArguments, DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateMergeArguments,
+    NetworkArguments,
 };
 use crate::destination::Destination;
 use crate::error::CliError;
@@ -11,11 +12,12 @@ use crate::output::remark;
 use crate::run::Run;
 use boresight_core::CoreError;
 use boresight_core::presets::preset;
-use boresight_evaluate::experiment::{self, Experiment, How};
+use boresight_evaluate::experiment::{self, Answered, Experiment, How};
 use boresight_evaluate::{
     Entrants, Merged, Network, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
 };
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -26,6 +28,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             let options = aoa::AoaExperiment {
                 array: arguments.array.clone(),
                 trials: arguments.trials,
+                validation: arguments.validation,
                 seed: arguments.shared.seed,
                 imperfections: arguments.imperfections.options,
                 entrants: entrants(
@@ -38,7 +41,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             if arguments.times {
                 return times(&options);
             }
-            evaluate(&options, &arguments.shared, files)
+            answered(&options, &arguments.shared, &arguments.answers, files)
         }
         EvaluateCommand::Calibration(arguments) => {
             let options = calibration::CalibrationExperiment {
@@ -57,7 +60,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             let networks = networks(&arguments.networks, files)?;
             let entrants = Entrants::new(doa::default_methods(setup)?, networks);
             let options = doa::DoaExperiment { setup, trials: arguments.trials, seed, entrants };
-            evaluate(&options, &arguments.shared, files)
+            answered(&options, &arguments.shared, &arguments.answers, files)
         }
         EvaluateCommand::Resolution(arguments) => {
             let options = resolution::ResolutionExperiment {
@@ -118,14 +121,42 @@ fn times(options: &aoa::AoaExperiment) -> Result<String, CliError> {
     Ok(text)
 }
 
+fn threads(shared: &EvaluateArguments) -> usize {
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    shared.threads.unwrap_or_else(cores)
+}
+
+/// Writes what was answered, where that is asked for.
+fn answered<E: Answered>(
+    options: &E,
+    shared: &EvaluateArguments,
+    answers: &AnswersArguments,
+    files: &Files,
+) -> Result<String, CliError> {
+    let Some(path) = &answers.answers else { return evaluate(options, shared, files) };
+    let destination = files.destination(path)?;
+    let run = Run::start("scenes")?;
+    let report = files.write_with(destination, |out| {
+        let write = |line: &str| {
+            out.write_all(line.as_bytes()).map_err(|error| CliError::File {
+                action: "write",
+                path: path.clone(),
+                error,
+            })
+        };
+        experiment::run_answered(options, threads(shared), write, |p| run.report(p))
+    })?;
+    run.finish();
+    Ok(printed(Outcome::new::<E>(&report)?, shared.format.json, shared.format.csv))
+}
+
 fn evaluate<E: Experiment>(
     options: &E,
     shared: &EvaluateArguments,
     files: &Files,
 ) -> Result<String, CliError> {
-    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
     let folder = shared.out.as_deref();
-    let how = How { threads: shared.threads.unwrap_or_else(cores), folder };
+    let how = How { threads: threads(shared), folder };
     let run = Run::start("records")?;
     let started = Instant::now();
     let (mut done, mut new) = (0, 0);
