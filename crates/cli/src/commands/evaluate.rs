@@ -17,7 +17,6 @@ use boresight_evaluate::{
     Entrants, Merged, Network, Outcome, aoa, calibration, doa, imperfections, merge, resolution,
 };
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
