@@ -1,14 +1,37 @@
-// Runs the angle experiments with the shipped networks and puts figures and numbers where the documents and the page
-// have them. Records stay in target/experiments: only networks trained since are run again.
+// Runs the angle experiments with the shipped networks and puts figures, numbers and tables where the documents and the
+// page have them. Records stay in target/experiments: only networks trained since are run again.
 // `--binary FILE` takes a command line that is built already.
-import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
+import { withTables } from './lib/tables.mjs';
 
+/** `drawn` names the numbers of the page, and begins the names of the figures' files. */
 const EXPERIMENTS = [
-  { name: 'aoa', kinds: ['aaetr', 'learned-pursuit'], settings: ['--trials', '1000', '--seed', '1'], prefix: 'aoa-' },
-  { name: 'doa', kinds: ['counting', 'cnn3d', 'dnn'], settings: ['--trials', '2100', '--seed', '0'], prefix: '' },
+  {
+    name: 'aoa',
+    experiment: 'aoa',
+    kinds: ['aaetr', 'learned-pursuit'],
+    settings: ['--trials', '4000', '--seed', '1'],
+    drawn: { page: 'aoa', prefix: 'aoa-' },
+  },
+  {
+    name: 'aoa-ula48',
+    experiment: 'aoa',
+    kinds: [],
+    settings: [
+      ...['--array', 'ula48', '--trials', '500', '--seed', '1'],
+      ...['--methods', 'bartlett,iaa,iaa+refined,nomp,single-snapshot-music,maximum-likelihood'],
+    ],
+  },
+  {
+    name: 'doa',
+    experiment: 'doa',
+    kinds: ['counting', 'cnn3d', 'dnn'],
+    settings: ['--trials', '2100', '--seed', '0'],
+    drawn: { page: 'doa', prefix: '' },
+  },
 ];
 
 const models = join(root, 'models');
@@ -34,13 +57,20 @@ await main(async () => {
   const [command, ...before] =
     at > 0 ? [process.argv[at + 1]] : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-cli', '--'];
   mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
-  for (const { name, kinds, settings, prefix } of EXPERIMENTS) {
+  const tables = {};
+  for (const { name, experiment, kinds, settings, drawn } of EXPERIMENTS) {
     const folder = join(root, 'target', 'experiments', name);
-    forgetOld(folder, name);
+    forgetOld(folder, experiment);
     const networks = cards.filter(({ network }) => kinds.includes(network)).flatMap(({ onnx }) => ['--model', onnx]);
-    await run(command, [...before, 'evaluate', name, ...settings, ...networks, '--out', folder]);
-    cpSync(join(folder, `${name}.brief.json`), join(root, 'docs', 'experiments', `${name}.json`));
+    await run(command, [...before, 'evaluate', experiment, ...settings, ...networks, '--out', folder]);
+    tables[name] = readFileSync(join(folder, `${experiment}.md`), 'utf8');
+    if (!drawn) continue;
+    cpSync(join(folder, `${experiment}.brief.json`), join(root, 'docs', 'experiments', `${drawn.page}.json`));
     for (const file of readdirSync(folder).filter((entry) => entry.endsWith('.svg')))
-      cpSync(join(folder, file), join(root, 'docs', 'images', prefix + file));
+      cpSync(join(folder, file), join(root, 'docs', 'images', drawn.prefix + file));
+  }
+  for (const name of ['aoa', 'doa']) {
+    const document = join(root, 'docs', `experiments-${name}.md`);
+    writeFileSync(document, withTables(readFileSync(document, 'utf8'), tables));
   }
 });

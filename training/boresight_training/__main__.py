@@ -8,7 +8,7 @@ from pathlib import Path
 import torch
 
 from . import export, processes
-from .tasks import NETWORKS, SETUPS, task
+from .tasks import NEAR, NETWORKS, SETUPS, task
 from .train import Settings, Training
 
 
@@ -30,6 +30,7 @@ def parser() -> argparse.ArgumentParser:
         metavar=("LOW", "HIGH"),
         help="signal-to-noise ratio of the data; counting, cnn3d and dnn have 0 dB and more in their first half",
     )
+    train.add_argument("--near", type=float, default=NEAR, help="cnn3d, dnn: share of pairs put within a range bin")
     radars = "counting, cnn3d, dnn: radar of Table 3 or of Table 4"
     train.add_argument("--setup", choices=tuple(SETUPS), default="simulated", help=radars)
     train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
@@ -88,6 +89,8 @@ def train(arguments) -> list[dict]:
         identity["arrays"] = a.arrays
     if a.setup != "simulated":
         identity["setup"] = a.setup
+    if a.near != NEAR:
+        identity["near"] = a.near
     if a.snr_db is not None:
         identity["snr_db"] = a.snr_db
     what = task(**identity)

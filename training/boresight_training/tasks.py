@@ -311,7 +311,12 @@ NEAR = 0.5
 
 
 def classifier(
-    name: str, config: str, targets: int, setup: str = "simulated", snr_db: tuple[float, float] | None = None
+    name: str,
+    config: str,
+    targets: int,
+    setup: str = "simulated",
+    snr_db: tuple[float, float] | None = None,
+    near: float = NEAR,
 ) -> ClassifierTask:
     """The counting network, the 3D-CNN or the DNN, for one or two targets."""
     counts = name == "counting"
@@ -324,7 +329,7 @@ def classifier(
             title=f"Number of targets, form {config}{of}",
             reference=SANG,
             architecture=words.fully_connected(hidden, "four"),
-            differences=f"The second half of training begins at {low:g} dB, the publication's at -5 dB.",
+            differences=words.counting_stages(low),
             network=partial(counting, hidden),
             sizes={"hidden": hidden},
             cubes=cubes,
@@ -333,11 +338,11 @@ def classifier(
             batch=256,
             learning_rate=1e-3,
         )
-    cubes = replace(cubes, targets=(targets, targets), near=NEAR if targets == 2 else 0.0)
+    cubes = replace(cubes, targets=(targets, targets), near=near if targets == 2 else 0.0)
     of = f"form {config}, {'one target' if targets == 1 else 'two targets'}{of}"
-    near = (
-        " Half of its pairs are within a range bin of each other; of independent ranges one in ten are."
-        if targets == 2
+    pairs = (
+        f" {near:.0%} of its pairs are put within a range bin of each other; of independent ranges a tenth are."
+        if cubes.near > 0
         else ""
     )
     if name == "dnn":
@@ -346,7 +351,7 @@ def classifier(
             title=f"DNN, {of}",
             reference=CHEN,
             architecture=words.fully_connected(hidden, "three"),
-            differences=f"Sizes of the layers are ours, of the numbers of parameters that Sang et al. state.{near}",
+            differences=f"Sizes of the layers are ours, of the numbers of parameters that Sang et al. state.{pairs}",
             network=partial(dnn, hidden),
             sizes={"hidden": hidden},
             cubes=cubes,
@@ -361,7 +366,7 @@ def classifier(
         title=f"3D-CNN, {of}",
         reference=SANG,
         architecture=architecture,
-        differences=differences + near,
+        differences=differences + pairs,
         network=partial(Cnn3d, sizes),
         sizes=asdict(sizes),
         cubes=cubes,
@@ -389,6 +394,7 @@ def task(
     arrays: str = "lrr48",
     setup: str = "simulated",
     snr_db: tuple[float, float] | None = None,
+    near: float = NEAR,
 ) -> Task:
     """A network by name and size; `targets` is the most of AAETR (16), or how many a classifier sees (1)."""
     if config not in NETWORKS[name]:
@@ -396,4 +402,4 @@ def task(
     snr_db = None if snr_db is None else tuple(snr_db)
     if name in ("aaetr", "learned-pursuit"):
         return AaetrTask(config, position_error, 16 if targets is None else targets, arrays, snr_db)
-    return classifier(name, config, 1 if targets is None else targets, setup, snr_db)
+    return classifier(name, config, 1 if targets is None else targets, setup, snr_db, near)

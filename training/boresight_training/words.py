@@ -64,3 +64,13 @@ def cnn3d(config: Cnn3dConfig) -> tuple[str, str]:
         f"(range, element, chirp), on {config.bins} range bins, pooling, and hidden layers of 500, 200 and 100.",
         f"The first filters begin as beams, and there is no dropout.{smaller}",
     )
+
+
+def counting_stages(lowest_db: float) -> str:
+    """How the counting network's training differs."""
+    stages = (
+        "The second half of training begins at -5 dB, as the publication's"
+        if lowest_db == -5
+        else f"The second half of training begins at {lowest_db:g} dB, the publication's at -5 dB"
+    )
+    return f"{stages}. Every step draws its own data; the publication has 63,000 snapshots a stage."

@@ -27,6 +27,7 @@ def task_of(card):
     if "positionError" in data:
         more["position_error"] = data["positionError"]
     else:
+        more["near"] = data.get("near") or 0.0
         more["setup"] = "experiment" if data["waveform"] == "3dcnn-experiment" else "simulated"
         more["snr_db"] = (data["secondStageLowestSnrDb"], data["snrDb"][1])
     return task(card["network"], card["form"], card.get("targets"), **more)

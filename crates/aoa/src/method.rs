@@ -186,7 +186,7 @@ impl Method {
                 reference: "Yardibi et al. 2010",
                 takes_covariance: false,
                 elevation: true,
-                cost: "(K^3 + G log G) an iteration",
+                cost: "(K^3 + G log G) an iteration, K^3 + D^2 K for powers",
                 ..base
             },
             Self::Nomp => Requirements {

@@ -20,7 +20,8 @@ pub enum SourceCount {
     Network,
 }
 
-/// How IAA treats weak parts of the spectrum (Rowe, Li and Stoica 2013).
+/// How IAA treats weak parts of the spectrum (after Rowe, Li and Stoica 2013). What is taken off the powers counts as
+/// white noise in the next iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Thresholding {

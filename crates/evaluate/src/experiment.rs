@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::mpsc;
 
 /// The options of an experiment, which say all that its records depend on.
 pub trait Experiment: Serialize + DeserializeOwned + Clone + PartialEq + Sync {
@@ -57,6 +58,23 @@ pub trait Experiment: Serialize + DeserializeOwned + Clone + PartialEq + Sync {
         plan: &Self::Plan,
         records: impl Iterator<Item = Self::Record>,
     ) -> Self::Report;
+}
+
+/// What is handed each answer: of one trial a JSON object, which the experiment describes.
+pub type Tell<'a> = &'a mut dyn FnMut(Value);
+
+/// An experiment that tells what was answered, so that its scores can be counted again by other means.
+pub trait Answered: Experiment {
+    /// Runs a scene like [`Experiment::scene`], and tells the truth and all answers of each of its trials.
+    ///
+    /// # Errors
+    /// As [`Experiment::scene`].
+    fn answered(
+        &self,
+        plan: &Self::Plan,
+        number: u64,
+        tell: Option<Tell>,
+    ) -> Result<Self::Record, EvaluateError>;
 }
 
 /// The result of an experiment.
@@ -157,9 +175,42 @@ pub fn run<E: Experiment>(
 ) -> Result<E::Report, EvaluateError> {
     // Whether everything goes together, before anything is run.
     let plan = options.plan()?;
-    let legs = records(options, how, Part::WHOLE, progress)?;
+    let legs = records(options, how, Part::WHOLE, E::scene, progress)?;
     let scenes = side_by_side::<E>(legs);
     Ok(options.report(&plan, scenes.into_values()))
+}
+
+/// Runs all scenes and hands `write` lines with every answer: what heads the records first, then an object a trial and
+/// group of entrants, as [`Answered::answered`] tells them, in no order. Nothing is recorded, and no more held than the
+/// lines of some scenes.
+///
+/// # Errors
+/// As [`run`], and what `write` returns, which ends the run.
+pub fn run_answered<E: Answered, X: From<EvaluateError>>(
+    options: &E,
+    threads: usize,
+    mut write: impl FnMut(&str) -> Result<(), X>,
+    mut progress: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<E::Report, X> {
+    let plan = options.plan()?;
+    write(&format!("{}\n", setup(options, &plan)))?;
+    let (sender, lines) = mpsc::channel();
+    let scene = |leg: &E, plan: &E::Plan, number| {
+        let mut text = String::new();
+        let mut tell = |answer: Value| text += &format!("{answer}\n");
+        let record = leg.answered(plan, number, Some(&mut tell))?;
+        // Nobody listens where the run has ended.
+        let _ = sender.send(text);
+        Ok(record)
+    };
+    let mut written = Ok(());
+    let mut go_on = |p: Progress| {
+        written = lines.try_iter().try_for_each(|text: String| write(&text));
+        if written.is_err() { ControlFlow::Break(()) } else { progress(p) }
+    };
+    let legs = records(options, How { threads, folder: None }, Part::WHOLE, scene, &mut go_on);
+    written?;
+    Ok(options.report(&plan, side_by_side::<E>(legs?).into_values()))
 }
 
 /// Whether a folder has records of an experiment's whole run, by any of its entrants, from which it would go on.
@@ -179,17 +230,18 @@ pub fn run_part<E: Experiment>(
     progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<usize, EvaluateError> {
     options.plan()?;
-    Ok(records(options, how, part, progress)?.iter().map(BTreeMap::len).sum())
+    Ok(records(options, how, part, E::scene, progress)?.iter().map(BTreeMap::len).sum())
 }
 
 /// The records of a run, or part of one, of some of its entrants.
 pub(crate) type Records<E> = BTreeMap<u64, <E as Experiment>::Record>;
 
-/// The records of each leg.
+/// The records of each leg, by what runs a scene of it.
 fn records<E: Experiment>(
     options: &E,
     how: How,
     part: Part,
+    scene: impl Fn(&E, &E::Plan, u64) -> Result<E::Record, EvaluateError> + Sync,
     mut progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Vec<Records<E>>, EvaluateError> {
     let legs = legs(options);
@@ -207,7 +259,7 @@ fn records<E: Experiment>(
         };
         let before: usize = all.iter().map(BTreeMap::len).sum();
         let of_all = |p: Progress| Progress { done: before + p.done, total: count * p.total };
-        all.push(sweep::run(&sweep, |number| leg.scene(&plan, number), |p| progress(of_all(p)))?);
+        all.push(sweep::run(&sweep, |number| scene(&leg, &plan, number), |p| progress(of_all(p)))?);
     }
     Ok(all)
 }

@@ -62,8 +62,16 @@ fn one_target_is_found_with_the_error_of_theory_and_pairs_as_far_as_they_can_be(
     assert!(report.counted_rightly(1, Targets::Apart, 15.0) > 0.95);
     let together = report.counted_rightly(1, Targets::Together, 15.0);
     assert!((together - 2.0 / 3.0).abs() < 0.05, "{together}");
+    // By class: coherent targets are nearly always counted as one, others are not.
+    let by_class = |targets| report.counted_as_it_is(1, targets, 15.0);
+    assert!(by_class(Targets::One) > 0.9 && by_class(Targets::Together) < 0.1);
     assert_eq!(report.figures().unwrap().len(), 4);
     let tables = report.tables();
+    let missed = format!("{:.1}", 100.0 * by_class(Targets::Together));
+    let of_class =
+        tables.split("Scenes with two targets at one range counted rightly").nth(1).unwrap();
+    let mdl = of_class.lines().find(|line| line.starts_with("| MDL |")).unwrap();
+    assert!(mdl.ends_with(&format!("| {missed} |")), "{mdl}");
     assert!(tables.contains("Figure 9") && !tables.contains("NaN"), "{tables}");
     let lines = SNRS_DB.len() * (3 * report.methods.len() + 4 * 4);
     assert_eq!(report.csv().lines().count(), 1 + lines);

@@ -25,6 +25,7 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
     let plain = aoa::AoaExperiment {
         array: "lrr48".into(),
         trials: 10,
+        validation: 1,
         seed: 3,
         imperfections: ImperfectionSpread::default(),
         entrants,

@@ -54,7 +54,14 @@ fn check<E: Experiment>(options: &E) {
 fn aoa_options(seed: u64) -> aoa::AoaExperiment {
     let imperfections = ImperfectionSpread { phase_rad: 0.1, ..ImperfectionSpread::default() };
     let entrants = Entrants::new(vec!["iaa".into(), "nomp+refined".into()], vec![]);
-    aoa::AoaExperiment { array: "ula8".into(), trials: 3, seed, imperfections, entrants }
+    aoa::AoaExperiment {
+        array: "ula8".into(),
+        trials: 3,
+        validation: 2,
+        seed,
+        imperfections,
+        entrants,
+    }
 }
 
 #[test]

@@ -37,7 +37,14 @@ fn how(threads: usize, folder: Option<&Path>) -> How<'_> {
 fn aoa_options(methods: &[&str], networks: Vec<Network>) -> aoa::AoaExperiment {
     let entrants = Entrants::new(methods.iter().map(|&name| name.into()).collect(), networks);
     let imperfections = ImperfectionSpread::default();
-    aoa::AoaExperiment { array: "lrr48".into(), trials: 2, seed: 1, imperfections, entrants }
+    aoa::AoaExperiment {
+        array: "lrr48".into(),
+        trials: 2,
+        validation: 2,
+        seed: 1,
+        imperfections,
+        entrants,
+    }
 }
 
 #[test]

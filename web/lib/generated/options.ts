@@ -9,7 +9,8 @@
 export type EspritForm = 'least-squares' | 'total-least-squares';
 
 /**
- * How IAA treats weak parts of the spectrum (Rowe, Li and Stoica 2013).
+ * How IAA treats weak parts of the spectrum (after Rowe, Li and Stoica 2013). What is taken off the powers counts as
+ * white noise in the next iteration.
  *
  * - `none`: Plain IAA.
  * - `hard`: Powers below the threshold become zero after each iteration.

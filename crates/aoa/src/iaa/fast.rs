@@ -3,6 +3,7 @@
 use super::fourier::{LagTransforms, real};
 use super::inverse::{HermitianTiles, Real, Singular, TILE};
 use super::kernel::{Kernel, weighted_power};
+use super::split::Split;
 use boresight_core::order::ascending;
 use boresight_core::{Complex64, Lattice};
 use ndarray::ArrayView2;
@@ -40,20 +41,6 @@ pub struct FastKernel<T: Real, F> {
     power: Vec<T>,
     denominator: Vec<T>,
     numerator: Vec<T>,
-}
-
-/// A vector in blocks of one tile, real and imaginary parts apart.
-#[derive(Debug, Clone)]
-struct Split<T> {
-    re: Vec<[T; TILE]>,
-    im: Vec<[T; TILE]>,
-}
-
-impl<T: Real> Split<T> {
-    fn zero(blocks: usize) -> Self {
-        let zero = vec![[T::zero(); TILE]; blocks];
-        Self { re: zero.clone(), im: zero }
-    }
 }
 
 impl<T: Real, F: LagTransforms<T>> FastKernel<T, F> {
@@ -119,8 +106,7 @@ impl<T: Real, F: LagTransforms<T>> FastKernel<T, F> {
         for (column, split) in y.columns().into_iter().zip(&mut self.snapshots) {
             for (k, &element) in self.order.iter().enumerate() {
                 let z = column[element] * scale;
-                split.re[k / TILE][k % TILE] = real(z.re);
-                split.im[k / TILE][k % TILE] = real(z.im);
+                split.set(k, Complex::new(real(z.re), real(z.im)));
             }
         }
     }
@@ -180,47 +166,13 @@ impl<T: Real, F: LagTransforms<T>> FastKernel<T, F> {
             *lag = -(below + self.diagonal_sums[last + m]);
         }
     }
-
-    /// `solved = R^-1 y` for one snapshot.
-    fn apply(&mut self, snapshot: usize) {
-        let y = &self.snapshots[snapshot];
-        for x in self.solved.re.iter_mut().chain(&mut self.solved.im) {
-            *x = [T::zero(); TILE];
-        }
-        let mut tiles = self.matrix.tiles().iter();
-        for i in 0..self.matrix.blocks() {
-            for (j, tile) in tiles.by_ref().take(i + 1).enumerate() {
-                for r in 0..TILE {
-                    // Row r of the tile times y_j, and its conjugate times y_i into x_j.
-                    let (mut re, mut im) = (T::zero(), T::zero());
-                    for c in 0..TILE {
-                        let (a, b) = (tile.re[r][c], tile.im[r][c]);
-                        let (p, q) = (y.re[j][c], y.im[j][c]);
-                        re = re + a * p - b * q;
-                        im = im + a * q + b * p;
-                    }
-                    self.solved.re[i][r] = self.solved.re[i][r] - re;
-                    self.solved.im[i][r] = self.solved.im[i][r] - im;
-                    if j < i {
-                        let (p, q) = (y.re[i][r], y.im[i][r]);
-                        for c in 0..TILE {
-                            let (a, b) = (tile.re[r][c], tile.im[r][c]);
-                            self.solved.re[j][c] = self.solved.re[j][c] - (a * p + b * q);
-                            self.solved.im[j][c] = self.solved.im[j][c] - (a * q - b * p);
-                        }
-                    }
-                }
-            }
-        }
-    }
 }
 
 /// Puts a vector on its lattice indices.
 fn scatter<T: Real>(indices: &[usize], vector: &Split<T>, out: &mut [Complex<T>]) {
     out.fill(Complex::zero());
     for (k, &index) in indices.iter().enumerate() {
-        let (block, entry) = (k / TILE, k % TILE);
-        out[index] = out[index] + Complex::new(vector.re[block][entry], vector.im[block][entry]);
+        out[index] = out[index] + vector.get(k);
     }
 }
 
@@ -272,7 +224,7 @@ impl<T: Real, F: LagTransforms<T>> Kernel for FastKernel<T, F> {
         }
         self.numerator.fill(T::zero());
         for snapshot in 0..self.count {
-            self.apply(snapshot);
+            self.matrix.negated_product(&self.snapshots[snapshot], &mut self.solved);
             scatter(&self.indices, &self.solved, &mut self.scattered);
             self.fourier.add_power(&self.scattered, &mut self.numerator);
         }

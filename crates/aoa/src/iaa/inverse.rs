@@ -9,6 +9,7 @@
 use boresight_core::Complex64;
 use boresight_core::fft::Transforms;
 use ndarray::Array2;
+use rustfft::num_complex::Complex;
 use rustfft::num_traits::Float;
 use std::ops::{Add, Mul, Sub};
 use wide::{f32x4, f64x2};
@@ -139,6 +140,27 @@ impl<T: Real> HermitianTiles<T> {
     /// The same, to fill.
     pub fn tiles_mut(&mut self) -> &mut [Tile<T>] {
         &mut self.tiles
+    }
+
+    /// Makes it the unit matrix.
+    pub fn set_identity(&mut self) {
+        self.tiles.fill(Tile::zero());
+        for i in 0..self.blocks {
+            let tile = &mut self.tiles[i * (i + 1) / 2 + i];
+            for r in 0..TILE {
+                tile.re[r][r] = T::one();
+            }
+        }
+    }
+
+    /// Sets an entry on or below the diagonal, and its mirror image.
+    pub fn set(&mut self, row: usize, column: usize, z: Complex<T>) {
+        let (i, j, r, c) = (row / TILE, column / TILE, row % TILE, column % TILE);
+        let tile = &mut self.tiles[i * (i + 1) / 2 + j];
+        (tile.re[r][c], tile.im[r][c]) = (z.re, z.im);
+        if i == j {
+            (tile.re[c][r], tile.im[c][r]) = (z.re, -z.im);
+        }
     }
 
     /// Replaces the matrix by minus its inverse.

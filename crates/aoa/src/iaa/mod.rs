@@ -4,7 +4,14 @@
 //! A weighted least-squares estimate of the power at every point of a grid, weighted by the inverse
 //! of the covariance that the powers of the last iteration imply. It works from a single snapshot
 //! and on coherent sources. The grid covers all azimuths, also those outside the field of view,
-//! since what is there is in the data as well.
+//! since what is there is in the data as well. Directions of sources are between the points of the grid,
+//! and their powers are fitted there ([`peak_powers`]).
+//!
+//! Thresholding makes the spectrum sparse. After each iteration, with `t` the threshold below the strongest,
+//! `P -> P` where `P >= t max P`, else 0 (hard), or `P -> max(P - t max P, 0)` (soft). Without its weak part
+//! the spectrum would imply a covariance of low rank and no noise, which nothing inverts to use. So what is taken away
+//! counts as white noise in the next iteration, `R = A P A^H + v I` with `v` by how much the sum of powers fell; the
+//! powers of the elements stay what they were. That is ours, as is the threshold relative to the strongest power.
 
 mod adaptive;
 mod dense;
@@ -12,7 +19,9 @@ mod fast;
 pub(crate) mod fourier;
 pub(crate) mod inverse;
 mod kernel;
+mod peak_powers;
 mod residues;
+mod split;
 
 use crate::checks::{ambiguity, check_array, settle};
 use crate::data::Data;
@@ -31,6 +40,7 @@ use fast::FastKernel;
 use fourier::LatticeFourier;
 use kernel::Kernel;
 use ndarray::ArrayView2;
+use peak_powers::PeakPowers;
 use std::f64::consts::FRAC_PI_2;
 
 /// Shares of the element power put on the diagonal of a singular covariance, one after another.
@@ -43,6 +53,13 @@ pub(crate) struct Iaa {
     grid: Grid,
     finder: PeakFinder,
     peaks: Vec<Peak>,
+    /// Powers over the whole grid.
+    whole: Vec<f64>,
+    /// Of the peaks.
+    powers: Vec<f64>,
+    fit: PeakPowers,
+    /// What the last threshold took off the element power.
+    removed: f64,
     ambiguity: Option<Warning>,
 }
 
@@ -80,6 +97,10 @@ impl Iaa {
             kernel,
             finder: PeakFinder::new(array, &grid, options),
             peaks: Vec::new(),
+            whole: vec![0.0; grid.full_points * grid.elevation_rad.len()],
+            powers: Vec::new(),
+            fit: PeakPowers::new(array, &grid),
+            removed: 0.0,
             grid,
             ambiguity: ambiguity(array, options),
         })
@@ -93,26 +114,30 @@ impl Iaa {
         let regularisation = self.options.regularisation * mean;
         let floor = 10f64.powf(-self.options.threshold_db / 10.0);
         let mut loaded: Option<f64> = None;
+        self.removed = 0.0;
         for iteration in 0..self.options.iterations {
-            if self.kernel.iterate(regularisation).is_err() {
+            if self.kernel.iterate(regularisation + self.removed).is_err() {
                 let element = self.kernel.element_power();
-                let share = LOADINGS
-                    .into_iter()
-                    .find(|share| self.kernel.iterate(regularisation + share * element).is_ok());
+                let share = LOADINGS.into_iter().find(|share| {
+                    let loading = regularisation + self.removed + share * element;
+                    self.kernel.iterate(loading).is_ok()
+                });
                 match share {
                     Some(share) => loaded = Some(loaded.unwrap_or(0.0).max(share)),
                     None => return (Some(loaded.unwrap_or(0.0)), iteration),
                 }
             }
-            self.threshold(floor);
+            self.removed = self.threshold(floor);
         }
         (loaded, self.options.iterations)
     }
 
-    fn threshold(&mut self, floor: f64) {
+    /// Applies the threshold, a share of the largest power, and returns by how much the powers' sum falls.
+    fn threshold(&mut self, floor: f64) -> f64 {
         if self.options.thresholding == Thresholding::None {
-            return;
+            return 0.0;
         }
+        let before = self.kernel.element_power();
         let mut largest = 0.0f64;
         self.kernel.map_power(&mut |p| {
             largest = largest.max(p);
@@ -130,6 +155,7 @@ impl Iaa {
                 if left > 0.0 || p < largest { left.max(0.0) } else { p }
             }),
         }
+        (before - self.kernel.element_power()).max(0.0)
     }
 }
 
@@ -154,6 +180,7 @@ impl Plan for Iaa {
         let values = &mut spectrum.values;
         values.clear();
         values.resize(self.grid.len(), 0.0);
+        out.sources.clear();
         if let Some(largest) = scale_of(y) {
             let (loaded, iterations) = self.iterate(y, 1.0 / largest);
             out.iterations = iterations;
@@ -161,29 +188,34 @@ impl Plan for Iaa {
             if iterations < self.options.iterations {
                 out.warnings.push(Warning::NotConverged { iterations });
             }
-            self.crop(largest, values);
+            self.find(y, 1.0 / largest, values);
+            let found = self.peaks.iter().zip(&self.powers);
+            out.sources.extend(found.map(|(peak, &power)| Source {
+                direction: peak.direction,
+                power: power_out(power, largest),
+                amplitude: None,
+                confidence: None,
+            }));
+            values.iter_mut().for_each(|p| *p = power_out(*p, largest));
         }
-        self.finder.find_into(&self.grid, values, &mut self.peaks);
-        out.sources.clear();
-        out.sources.extend(self.peaks.iter().map(|peak| Source {
-            direction: peak.direction,
-            power: top_power(&self.grid, values, peak),
-            amplitude: None,
-            confidence: None,
-        }));
         settle(out, None);
         Ok(())
     }
 }
 
 impl Iaa {
-    /// Powers inside the field of view, in the unit of the data.
-    fn crop(&self, largest: f64, values: &mut [f64]) {
-        let azimuths = self.grid.sines.len();
-        for (row, out) in values.chunks_exact_mut(azimuths).enumerate() {
-            self.kernel.power_from(row * self.grid.full_points + self.grid.first, out);
-            out.iter_mut().for_each(|p| *p = power_out(*p, largest));
+    /// The spectrum inside the field of view, its peaks and their powers, of the snapshots times `scale`.
+    fn find(&mut self, y: ArrayView2<Complex64>, scale: f64, values: &mut [f64]) {
+        let Self { grid, finder, peaks, whole, powers, fit, .. } = self;
+        self.kernel.power_from(0, whole);
+        let rows = whole.chunks_exact(grid.full_points);
+        for (row, inside) in rows.zip(values.chunks_exact_mut(grid.sines.len())) {
+            inside.copy_from_slice(&row[grid.first..grid.first + inside.len()]);
         }
+        finder.find_into(grid, values, peaks);
+        powers.clear();
+        powers.extend(peaks.iter().map(|peak| peak.value));
+        fit.fit(y, scale, whole, self.removed, peaks, powers);
     }
 }
 
@@ -192,29 +224,6 @@ fn all_directions(array: &Array, options: &EstimatorOptions) -> Vec<Direction> {
     let whole = EstimatorOptions { field_of_view_rad: FRAC_PI_2, ..*options };
     let whole = Grid::new(array, &whole);
     (0..whole.len()).map(|g| whole.direction(g)).collect()
-}
-
-/// Height of the parabola through the logarithms around a peak.
-fn top_power(grid: &Grid, values: &[f64], peak: &Peak) -> f64 {
-    let azimuths = grid.sines.len();
-    let (row, column) = (peak.index / azimuths, peak.index % azimuths);
-    let mut gain = 0.0;
-    if column > 0 && column + 1 < azimuths {
-        gain += rise(values[peak.index - 1], peak.value, values[peak.index + 1]);
-    }
-    if row > 0 && row + 1 < grid.elevation_rad.len() {
-        gain += rise(values[peak.index - azimuths], peak.value, values[peak.index + azimuths]);
-    }
-    (peak.value * gain.exp()).min(f64::MAX)
-}
-
-/// How far, in natural logarithm, the top of the parabola through three values is above the middle
-/// one.
-fn rise(left: f64, middle: f64, right: f64) -> f64 {
-    let log = |x: f64| x.clamp(f64::MIN_POSITIVE, f64::MAX).ln();
-    let (l, m, r) = (log(left), log(middle), log(right));
-    let bend = l - 2.0 * m + r;
-    if bend < 0.0 { -(l - r) * (l - r) / (8.0 * bend) } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -51,6 +51,15 @@ pub struct EvaluateArguments {
     pub part: Option<Part>,
 }
 
+/// What was answered, for those who count again.
+#[derive(Debug, Args)]
+pub struct AnswersArguments {
+    /// Write the truth and every answer of each trial as JSON lines; nothing is recorded then. It grows large: with
+    /// `aoa` by about 1 KB a snapshot and method, of which 4000 snapshots a condition make 180 MB a method.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["out", "part"])]
+    pub answers: Option<PathBuf>,
+}
+
 /// How experiments print.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("evaluate-format").args(["json", "csv"]))]
@@ -95,19 +104,25 @@ pub struct EvaluateAoaArguments {
     /// Snapshots a condition: 2 to 10 targets at 15 to 35 dB.
     #[arg(long, value_name = "N", default_value_t = 4000)]
     pub trials: u64,
+    /// Further snapshots a condition, on which one threshold for all conditions is found.
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    pub validation: u64,
+    /// What was answered.
+    #[command(flatten)]
+    pub answers: AnswersArguments,
     /// Array, by name.
     #[arg(long, value_name = "NAME", default_value = "lrr48")]
     pub array: String,
-    /// Methods, separated by commas; NAME+refined for one refined on the matched model. Those that need
-    /// the number of targets are told it. Without it bartlett, capon, iaa, iaa+refined, nomp and, on
-    /// evenly spaced arrays, single-snapshot-music.
+    /// Methods, separated by commas; NAME+refined for one refined on the matched model, iaa+hard and iaa+soft
+    /// for IAA with thresholding. Those that need the number of targets are told it. Without it bartlett, capon,
+    /// iaa, iaa+hard, iaa+soft, iaa+refined, nomp and, on evenly spaced arrays, single-snapshot-music.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub methods: Vec<String>,
     /// Networks, each run plain and refined.
     #[command(flatten)]
     pub networks: NetworkArguments,
     /// Print the time of a snapshot by method, on one thread, in place of the experiment.
-    #[arg(long, conflicts_with_all = ["out", "part", "json", "csv"])]
+    #[arg(long, conflicts_with_all = ["out", "part", "json", "csv", "answers"])]
     pub times: bool,
     /// What is wrong with the array.
     #[command(flatten)]
@@ -131,6 +146,9 @@ pub struct EvaluateDoaArguments {
     /// The paper's simulated radar (Table 3) or that of its experiments (Table 4), simulated.
     #[arg(long, value_enum, default_value_t = DoaSetup::Simulation)]
     pub setup: DoaSetup,
+    /// What was answered.
+    #[command(flatten)]
+    pub answers: AnswersArguments,
     /// Networks: such that count, and such of a region or its covariance.
     #[command(flatten)]
     pub networks: NetworkArguments,

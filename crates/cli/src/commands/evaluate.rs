@@ -1,8 +1,8 @@
 //! `boresight evaluate`.
 
 use crate::arguments::{
-    DoaRegions, DoaSetup, EvaluateArguments, EvaluateCommand, EvaluateDoaArguments,
-    EvaluateMergeArguments, NetworkArguments,
+    AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCommand,
+    EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
 };
 use crate::destination::Destination;
 use crate::error::CliError;
@@ -12,7 +12,7 @@ use crate::output::remark;
 use crate::run::Run;
 use boresight_core::CoreError;
 use boresight_core::presets::preset;
-use boresight_evaluate::experiment::{self, Experiment, How};
+use boresight_evaluate::experiment::{self, Answered, Experiment, How};
 use boresight_evaluate::{
     Entrants, Merged, Network, Outcome, aoa, calibration, doa, images, imperfections, merge,
     near_field, resolution, straddling,
@@ -29,6 +29,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             let options = aoa::AoaExperiment {
                 array: arguments.array.clone(),
                 trials: arguments.trials,
+                validation: arguments.validation,
                 seed: arguments.shared.seed,
                 imperfections: arguments.imperfections.options,
                 entrants: entrants(
@@ -41,7 +42,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             if arguments.times {
                 return times(&options);
             }
-            evaluate(&options, &arguments.shared, files)
+            answered(&options, &arguments.shared, &arguments.answers, files)
         }
         EvaluateCommand::Calibration(arguments) => {
             let options = calibration::CalibrationExperiment {
@@ -58,6 +59,13 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             };
             let seed = arguments.shared.seed;
             let networks = networks(&arguments.networks, files)?;
+            if arguments.regions == DoaRegions::EndToEnd && arguments.answers.answers.is_some() {
+                return Err(CliError::Option {
+                    option: "--answers",
+                    expected: "regions that are told".into(),
+                    given: "--regions end-to-end".into(),
+                });
+            }
             let end_to_end = (arguments.regions == DoaRegions::EndToEnd)
                 .then(|| end_to_end(arguments, &networks))
                 .transpose()?;
@@ -67,7 +75,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             };
             let (trials, entrants) = (arguments.trials, Entrants::new(methods, networks));
             let options = doa::DoaExperiment { setup, trials, seed, entrants, end_to_end };
-            evaluate(&options, &arguments.shared, files)
+            answered(&options, &arguments.shared, &arguments.answers, files)
         }
         EvaluateCommand::Images(arguments) => {
             let networks = networks(&arguments.networks, files)?;
@@ -178,14 +186,42 @@ fn times(options: &aoa::AoaExperiment) -> Result<String, CliError> {
     Ok(text)
 }
 
+fn threads(shared: &EvaluateArguments) -> usize {
+    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
+    shared.threads.unwrap_or_else(cores)
+}
+
+/// Writes what was answered, where that is asked for.
+fn answered<E: Answered>(
+    options: &E,
+    shared: &EvaluateArguments,
+    answers: &AnswersArguments,
+    files: &Files,
+) -> Result<String, CliError> {
+    let Some(path) = &answers.answers else { return evaluate(options, shared, files) };
+    let destination = files.destination(path)?;
+    let run = Run::start("scenes")?;
+    let report = files.write_with(destination, |out| {
+        let write = |line: &str| {
+            out.write_all(line.as_bytes()).map_err(|error| CliError::File {
+                action: "write",
+                path: path.clone(),
+                error,
+            })
+        };
+        experiment::run_answered(options, threads(shared), write, |p| run.report(p))
+    })?;
+    run.finish();
+    Ok(printed(Outcome::new::<E>(&report)?, shared.format.json, shared.format.csv))
+}
+
 fn evaluate<E: Experiment>(
     options: &E,
     shared: &EvaluateArguments,
     files: &Files,
 ) -> Result<String, CliError> {
-    let cores = || std::thread::available_parallelism().map_or(1, usize::from);
     let folder = shared.out.as_deref();
-    let how = How { threads: shared.threads.unwrap_or_else(cores), folder };
+    let how = How { threads: threads(shared), folder };
     let run = Run::start("records")?;
     let started = Instant::now();
     let (mut done, mut new) = (0, 0);

@@ -5,11 +5,14 @@ use super::{AoaExperiment, Condition, TARGETS};
 use crate::EvaluateError;
 use crate::apart::half_beam;
 use crate::entrants::{Entrants, Network, REFINED};
+use crate::experiment::Tell;
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
+use boresight_aoa::options::Thresholding;
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{
     AoaError, BatchEstimate, Data, Estimator, EstimatorOptions, Method, Source, SourceCount,
 };
+use boresight_core::describe::Named;
 use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
 use boresight_core::steering::cis;
@@ -20,6 +23,7 @@ use boresight_simulate::snapshots::{
 };
 use ndarray::{Array2, Array3, ArrayView3, Axis};
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use std::sync::{Mutex, PoisonError};
 
 /// Half width of the sector of targets, rad (60 deg).
@@ -32,25 +36,32 @@ const SEPARATED_BEAMS: f64 = 2.0;
 /// Most predictions of a snapshot, and of networks, which say of each how sure they are.
 const MOST: usize = 64;
 const MOST_OF_NETWORKS: usize = 512;
+/// Threshold of IAA where it has one, below the strongest power: twice the range of the targets, and a little.
+const THRESHOLD_DB: f64 = 30.0;
+
 /// What finds targets in a snapshot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Finder {
-    Method(Method),
+    /// With the thresholding of IAA.
+    Method(Method, Thresholding),
     Network(Network),
 }
 
 impl Finder {
-    fn name(&self) -> &str {
+    fn name(&self) -> String {
         match self {
-            Self::Method(method) => method.name(),
-            Self::Network(network) => &network.name,
+            Self::Method(method, Thresholding::None) => method.name().into(),
+            Self::Method(method, thresholding) => {
+                format!("{}+{}", method.name(), thresholding.name())
+            }
+            Self::Network(network) => network.name.clone(),
         }
     }
 
     /// What its predictions are swept over.
     fn threshold(&self) -> Threshold {
         match self {
-            Self::Method(_) => Threshold::Power,
+            Self::Method(..) => Threshold::Power,
             Self::Network(_) => Threshold::Confidence,
         }
     }
@@ -72,7 +83,7 @@ impl Finder {
     ) -> impl Iterator<Item = &'a Source> + use<'a> {
         let least = match self {
             Self::Network(network) => network.confidence(),
-            Self::Method(_) => 0.0,
+            Self::Method(..) => 0.0,
         };
         sources.iter().filter(move |s| s.confidence.is_none_or(|of| of >= least))
     }
@@ -104,7 +115,12 @@ impl Finder {
                 };
                 network.model()?.estimator(array, &options)?
             }
-            Self::Method(method) => Estimator::new(*method, array, &options)?,
+            Self::Method(method, thresholding) => {
+                let mut options = options;
+                options.iaa.thresholding = *thresholding;
+                options.iaa.threshold_db = THRESHOLD_DB;
+                Estimator::new(*method, array, &options)?
+            }
         })
     }
 }
@@ -121,9 +137,7 @@ impl Candidate {
     pub(crate) fn all(entrants: &Entrants) -> Result<Vec<Self>, EvaluateError> {
         let mut all = vec![];
         for name in &entrants.methods {
-            let plain = name.strip_suffix(REFINED);
-            let finder = Finder::Method(Method::from_name(plain.unwrap_or(name))?);
-            let candidate = Self { finder, refined: plain.is_some() };
+            let candidate = Self::method(name)?;
             if !all.contains(&candidate) {
                 all.push(candidate);
             }
@@ -133,6 +147,19 @@ impl Candidate {
             all.extend([false, true].map(|refined| Self { finder: finder.clone(), refined }));
         }
         Ok(all)
+    }
+
+    /// A method as it is named: `iaa`, `iaa+hard`, `nomp+refined`, `iaa+soft+refined`.
+    fn method(name: &str) -> Result<Self, EvaluateError> {
+        let plain = name.strip_suffix(REFINED);
+        let refined = plain.is_some();
+        let finder = match plain.unwrap_or(name).split_once('+') {
+            Some((of, how)) if of == Method::Iaa.name() => {
+                Finder::Method(Method::Iaa, Thresholding::from_name("thresholding", how)?)
+            }
+            _ => Finder::Method(Method::from_name(plain.unwrap_or(name))?, Thresholding::None),
+        };
+        Ok(Self { finder, refined })
     }
 
     pub(crate) fn name(&self) -> String {
@@ -182,6 +209,13 @@ fn prediction(source: &Source, threshold: Threshold) -> Prediction {
         Threshold::Confidence => odds_db(source.confidence.unwrap_or(1.0)),
     };
     Prediction { point, level_db }
+}
+
+/// A target or prediction among the answers: azimuth in degrees, power in dB (`null` where there is none), and the
+/// confidence that a network has in it.
+fn row(point: Point, confidence: Option<f64>) -> Value {
+    let row = [Some(point.azimuth_rad.to_degrees()), Some(point.power_db), confidence];
+    row.into_iter().flatten().map(Value::from).collect()
 }
 
 /// Some snapshots of one condition.
@@ -264,7 +298,8 @@ impl Plan {
         self.candidates.iter().map(Candidate::name).collect()
     }
 
-    /// Runs snapshots `first` to `first + trials - 1` of a condition.
+    /// Runs snapshots `first` to `first + trials - 1` of a condition, whose scenes are those of the streams `index`, and
+    /// tells of each its number, truth and answers.
     ///
     /// # Errors
     /// Those of the simulation and the estimators.
@@ -272,8 +307,8 @@ impl Plan {
         &self,
         index: usize,
         condition: Condition,
-        first: u64,
-        trials: u64,
+        [first, trials]: [u64; 2],
+        mut tell: Option<Tell>,
     ) -> Result<AoaRecord, EvaluateError> {
         let noise_power = db_to_power(-condition.snr_db);
         let (scenes, truths) = self.scenes(index, condition, first, trials)?;
@@ -294,6 +329,7 @@ impl Plan {
                 .map(|t| Point { azimuth_rad: t.direction.azimuth_rad, power_db: t.power_db })
                 .collect();
             let bound = self.bound(truth, noise_power);
+            let mut answers = serde_json::Map::new();
             for (candidate, record) in self.candidates.iter().zip(&mut methods) {
                 let finder = &candidate.finder;
                 let Some((_, batch)) = found.iter().find(|(known, _)| *known == finder) else {
@@ -311,6 +347,24 @@ impl Plan {
                     sources.iter().map(|s| prediction(s, candidate.threshold())).collect();
                 record.score.add(&points, &predictions);
                 self.separated(record, &points, &sure, &bound);
+                if tell.is_some() {
+                    let rows = sources
+                        .iter()
+                        .zip(&predictions)
+                        .map(|(source, prediction)| row(prediction.point, source.confidence));
+                    answers.insert(candidate.name(), rows.collect());
+                }
+            }
+            if let Some(tell) = &mut tell {
+                let truth: Value = points.iter().map(|&point| row(point, None)).collect();
+                tell(json!({
+                    "condition": index,
+                    "targets": condition.targets,
+                    "snrDb": condition.snr_db,
+                    "trial": first + trial as u64,
+                    "truth": truth,
+                    "answers": answers,
+                }));
             }
         }
         Ok(AoaRecord { condition: index, methods })
@@ -446,7 +500,7 @@ mod tests {
             ..SnapshotOptions::default()
         };
         let (y, _) = SnapshotSimulator::new(array, &options).unwrap().scene(trial).unwrap();
-        let finder = Finder::Method(Method::from_name(name).unwrap());
+        let finder = Candidate::method(name).unwrap().finder;
         let estimate = finder.estimator(array, 1).unwrap().estimate(Data::Snapshots(y.view()));
         let sources = estimate.unwrap().sources;
         sources.iter().map(|source| source.direction.azimuth_rad.to_degrees()).collect()
@@ -456,10 +510,9 @@ mod tests {
     fn every_method_finds_targets_where_their_sector_ends() {
         let array = preset("ula16").unwrap();
         for name in super::super::default_methods(&array) {
-            let name = name.strip_suffix(REFINED).unwrap_or(&name);
             for end in [-TARGETS_WITHIN_RAD, TARGETS_WITHIN_RAD] {
                 for trial in 0..20 {
-                    let found = found(name, &array, end, trial);
+                    let found = found(&name, &array, end, trial);
                     let near = found.iter().any(|f| (f - end.to_degrees()).abs() <= 0.5);
                     assert!(near, "{name}: {found:?}");
                 }

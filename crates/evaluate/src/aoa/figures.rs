@@ -28,14 +28,16 @@ pub fn precision_recall(report: &AoaReport) -> Result<String, EvaluateError> {
     draw(&panels, 2)
 }
 
-/// Figure 5: what is missing of F1 at its largest, and the errors there, against the number of targets.
+/// Figure 5: what is missing of F1 at its largest and at one threshold, and the errors at the largest, against the number
+/// of targets.
 ///
 /// # Errors
 /// [`EvaluateError::Figure`].
 pub fn scores(report: &AoaReport) -> Result<String, EvaluateError> {
     type Value = fn(&MethodResult) -> Option<f64>;
-    let rows: [(&str, Value); 3] = [
+    let rows: [(&str, Value); 4] = [
         ("1 - largest F1", |m| m.best.map(|best| 1.0 - best.f1)),
+        ("1 - F1 at one threshold", |m| m.at_one_threshold.map(|one| 1.0 - one.f1)),
         ("mean error of angle / deg", |m| m.best.map(|best| best.angle_error_deg)),
         ("mean error of power / dB", |m| m.best.map(|best| best.power_error_db)),
     ];

@@ -13,7 +13,7 @@ pub use times::times;
 
 use crate::EvaluateError;
 use crate::entrants::Entrants;
-use crate::experiment::{Experiment, Trials};
+use crate::experiment::{Answered, Experiment, Tell, Trials};
 use boresight_core::Array;
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
@@ -23,6 +23,9 @@ use serde::{Deserialize, Serialize};
 pub const TARGETS: [usize; 9] = [2, 3, 4, 5, 6, 7, 8, 9, 10];
 /// Signal-to-noise ratios of the conditions, dB.
 pub const SNRS_DB: [f64; 5] = [15.0, 20.0, 25.0, 30.0, 35.0];
+/// Number of conditions. A record's condition counts those of scored snapshots, then those of snapshots for the
+/// threshold.
+const CONDITIONS: usize = TARGETS.len() * SNRS_DB.len();
 /// Snapshots of one record.
 const CHUNK: u64 = 250;
 
@@ -34,19 +37,22 @@ pub struct AoaExperiment {
     pub array: String,
     /// Snapshots a condition.
     pub trials: u64,
+    /// Further snapshots a condition, drawn from streams of their own, on which the one threshold of each entrant is
+    /// found; they are not scored.
+    pub validation: u64,
     /// Everything random comes from it.
     pub seed: u64,
     /// Errors of the array that no method knows of.
     pub imperfections: ImperfectionSpread,
-    /// Methods by name, with `+refined` for those whose sources are refined on the snapshot, and networks, which are
-    /// run plain and refined. Methods that need the number of sources are told it.
+    /// Methods by name, `iaa` with `+hard` or `+soft` for its thresholding, any with `+refined` for sources refined on
+    /// the snapshot, and networks, which are run plain and refined. Methods that need the number of sources are told it.
     #[serde(flatten)]
     pub entrants: Entrants,
 }
 
 /// Methods that are run if none are named: those quick enough for many snapshots.
 pub fn default_methods(array: &Array) -> Vec<String> {
-    let mut names = vec!["bartlett", "capon", "iaa", "iaa+refined", "nomp"];
+    let mut names = vec!["bartlett", "capon", "iaa", "iaa+hard", "iaa+soft", "iaa+refined", "nomp"];
     if array.is_uniform() {
         names.push("single-snapshot-music");
     }
@@ -72,13 +78,14 @@ impl Condition {
 
 impl Experiment for AoaExperiment {
     const NAME: &'static str = "aoa";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
     type Plan = cell::Plan;
     type Record = cell::AoaRecord;
     type Report = AoaReport;
 
     fn plan(&self) -> Result<cell::Plan, EvaluateError> {
         check_range("trials", self.trials as f64, 1.0, 1e7)?;
+        check_range("validation", self.validation as f64, 1.0, 1e7)?;
         cell::Plan::new(self)
     }
 
@@ -94,13 +101,14 @@ impl Experiment for AoaExperiment {
         record.methods.extend(other.methods);
     }
 
+    /// Those that are scored, then those for the threshold.
     fn scenes(&self) -> u64 {
-        self.split().scenes(TARGETS.len() * SNRS_DB.len())
+        let [scored, validation] = self.splits();
+        scored.scenes(CONDITIONS) + validation.scenes(CONDITIONS)
     }
 
     fn scene(&self, plan: &cell::Plan, number: u64) -> Result<cell::AoaRecord, EvaluateError> {
-        let (index, first, trials) = self.split().of(number);
-        plan.run(index, Condition::all()[index], first, trials)
+        self.answered(plan, number, None)
     }
 
     fn report(
@@ -112,8 +120,28 @@ impl Experiment for AoaExperiment {
     }
 }
 
+impl Answered for AoaExperiment {
+    fn answered(
+        &self,
+        plan: &cell::Plan,
+        number: u64,
+        tell: Option<Tell>,
+    ) -> Result<cell::AoaRecord, EvaluateError> {
+        let [scored, validation] = self.splits();
+        let (index, first, trials) = match number.checked_sub(scored.scenes(CONDITIONS)) {
+            None => scored.of(number),
+            Some(number) => {
+                let (condition, first, trials) = validation.of(number);
+                (CONDITIONS + condition, first, trials)
+            }
+        };
+        plan.run(index, Condition::all()[index % CONDITIONS], [first, trials], tell)
+    }
+}
+
 impl AoaExperiment {
-    fn split(&self) -> Trials {
-        Trials { each: self.trials, chunk: CHUNK }
+    /// Of scored snapshots, and of those for the threshold.
+    fn splits(&self) -> [Trials; 2] {
+        [self.trials, self.validation].map(|each| Trials { each, chunk: CHUNK })
     }
 }

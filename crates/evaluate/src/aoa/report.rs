@@ -1,11 +1,12 @@
 //! From records to curves and tables.
 
 use super::cell::{AoaRecord, MethodRecord};
-use super::score::Operating;
-use super::{AoaExperiment, Condition, SNRS_DB, TARGETS, figures};
+use super::score::{Operating, Score, one_threshold_db, point_at};
+use super::{AoaExperiment, CONDITIONS, Condition, SNRS_DB, TARGETS, figures};
 use crate::EvaluateError;
 use crate::entrants::Network;
 use crate::experiment::brief;
+use crate::statistics::Summary;
 use crate::table::table;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -21,10 +22,15 @@ pub struct AoaReport {
     pub array: String,
     /// Snapshots a condition.
     pub trials: u64,
+    /// Further snapshots a condition, on which the one threshold of each method was found.
+    pub validation: u64,
     /// Seed.
     pub seed: u64,
     /// Methods, then each network plain and refined.
     pub methods: Vec<String>,
+    /// The threshold of each method, the same in all conditions: where the mean over conditions of its F1 is largest on
+    /// the snapshots for that, dB; `None` without predictions.
+    pub thresholds_db: Vec<Option<f64>>,
     /// Which networks these are.
     pub networks: Vec<Network>,
     /// Results by condition.
@@ -51,6 +57,8 @@ pub struct MethodResult {
     pub best: Option<Operating>,
     /// Largest strict F1.
     pub strict_f1: f64,
+    /// At the method's one threshold; `None` without predictions above it.
+    pub at_one_threshold: Option<Operating>,
     /// Precision against recall.
     pub curve: Vec<Operating>,
     /// Separated targets: root mean square error and bound, deg, over those found; how many were, and of
@@ -80,7 +88,7 @@ impl AoaReport {
         records: impl Iterator<Item = AoaRecord>,
     ) -> Self {
         let conditions = Condition::all();
-        let mut sums: Vec<Vec<MethodRecord>> = vec![vec![]; conditions.len()];
+        let mut sums: Vec<Vec<MethodRecord>> = vec![vec![]; 2 * CONDITIONS];
         for AoaRecord { condition, methods } in records {
             let Some(sum) = sums.get_mut(condition) else { continue };
             if sum.is_empty() {
@@ -91,22 +99,52 @@ impl AoaReport {
                 to.merge(from);
             }
         }
+        let (scored, validation) = sums.split_at(CONDITIONS);
+        let thresholds_db: Vec<Option<f64>> = (0..methods.len())
+            .map(|k| {
+                let of_method = validation.iter().filter_map(|sums| sums.get(k));
+                let scores: Vec<Score> = of_method.map(|m| m.score.clone()).collect();
+                one_threshold_db(&scores)
+            })
+            .collect();
+        let results = |sums: &Vec<MethodRecord>| {
+            let methods = sums.iter().zip(&thresholds_db);
+            methods.map(|(m, threshold_db)| MethodResult::new(m, *threshold_db)).collect()
+        };
+        let conditions = conditions
+            .iter()
+            .zip(scored)
+            .map(|(condition, sums)| ConditionResult {
+                targets: condition.targets,
+                snr_db: condition.snr_db,
+                methods: results(sums),
+            })
+            .collect();
         Self {
             array: options.array.clone(),
             trials: options.trials,
+            validation: options.validation,
             seed: options.seed,
             methods: methods.to_vec(),
+            thresholds_db,
             networks: options.entrants.networks.clone(),
-            conditions: conditions
-                .iter()
-                .zip(&sums)
-                .map(|(condition, sums)| ConditionResult {
-                    targets: condition.targets,
-                    snr_db: condition.snr_db,
-                    methods: sums.iter().map(MethodResult::new).collect(),
-                })
-                .collect(),
+            conditions,
         }
+    }
+
+    /// Of a method its one threshold and means over conditions: the largest F1, F1 and strict F1 at that threshold.
+    fn means(&self, method: usize) -> Vec<String> {
+        let mean = |value: fn(&MethodResult) -> Option<f64>| {
+            let of_method = self.conditions.iter().filter_map(|c| c.methods.get(method));
+            let all: Vec<f64> = of_method.map(|m| value(m).unwrap_or(0.0)).collect();
+            shown(Some(Summary::of(&all).mean), 4)
+        };
+        vec![
+            shown(self.thresholds_db.get(method).copied().flatten(), 2),
+            mean(|m| Some(m.best?.f1)),
+            mean(|m| Some(m.at_one_threshold?.f1)),
+            mean(|m| Some(m.at_one_threshold?.strict_f1)),
+        ]
     }
 
     /// The result of a method in a condition.
@@ -120,20 +158,37 @@ impl AoaReport {
 
 impl crate::experiment::Report for AoaReport {
     fn tables(&self) -> String {
-        let mut text = format!("Array {}, {} snapshots a condition.\n", self.array, self.trials);
-        let none = f64::NAN;
-        type Value = fn(&MethodResult) -> f64;
-        let kinds: [(&str, usize, Value); 5] = [
-            ("Largest F1", 4, |m| m.best.map_or(f64::NAN, |best| best.f1)),
-            ("Largest F1 with one prediction a target", 4, |m| m.strict_f1),
-            ("Mean error of angle at the largest F1, deg", 4, |m| {
-                m.best.map_or(f64::NAN, |best| best.angle_error_deg)
+        let mut text = format!(
+            "Array {}, {} snapshots a condition; thresholds from {} others.\n",
+            self.array, self.trials, self.validation
+        );
+        text += "\nOne threshold a method, dB, and the mean over all conditions of its F1\n\n";
+        let rows: Vec<(&str, Vec<String>)> = self
+            .methods
+            .iter()
+            .enumerate()
+            .map(|(k, name)| (name.as_str(), self.means(k)))
+            .collect();
+        text += &table(
+            "method",
+            &["threshold", "largest F1", "F1 at the threshold", "strict F1 at the threshold"],
+            &rows,
+        );
+        type Value = fn(&MethodResult) -> Option<f64>;
+        let kinds: [(&str, usize, Value); 8] = [
+            ("Largest F1", 4, |m| Some(m.best?.f1)),
+            ("F1 at one threshold", 4, |m| Some(m.at_one_threshold?.f1)),
+            ("Strict F1 at one threshold", 4, |m| Some(m.at_one_threshold?.strict_f1)),
+            ("Precision at one threshold", 4, |m| Some(m.at_one_threshold?.precision)),
+            ("Recall at one threshold", 4, |m| Some(m.at_one_threshold?.recall)),
+            ("Mean error of angle at one threshold, deg", 4, |m| {
+                Some(m.at_one_threshold?.angle_error_deg)
             }),
-            ("Mean error of power at the largest F1, dB", 2, |m| {
-                m.best.map_or(f64::NAN, |best| best.power_error_db)
+            ("Mean error of power at one threshold, dB", 2, |m| {
+                Some(m.at_one_threshold?.power_error_db)
             }),
             ("Error over the Cramer-Rao bound, separated targets", 2, |m| {
-                m.separated.rmse_deg / m.separated.bound_deg
+                Some(m.separated.rmse_deg / m.separated.bound_deg)
             }),
         ];
         let heads: Vec<String> = TARGETS.iter().map(|n| format!("{n} targets")).collect();
@@ -147,8 +202,7 @@ impl crate::experiment::Report for AoaReport {
                     .enumerate()
                     .map(|(k, name)| {
                         let cells = TARGETS.iter().map(|&targets| {
-                            let value = self.at(targets, snr_db, k).map_or(none, value);
-                            if value.is_finite() { format!("{value:.digits$}") } else { "-".into() }
+                            shown(self.at(targets, snr_db, k).and_then(value), digits)
                         });
                         (name.as_str(), cells.collect())
                     })
@@ -161,30 +215,39 @@ impl crate::experiment::Report for AoaReport {
 
     fn csv(&self) -> String {
         let mut text = "method,targets,snr_db,threshold_db,precision,recall,f1,strict_f1,angle_error_deg,\
-                        power_error_db,separated_rmse_deg,bound_deg,separated_found,separated_targets\n"
+                        power_error_db,separated_rmse_deg,bound_deg,separated_found,separated_targets,\
+                        one_threshold_db,one_precision,one_recall,one_f1,one_strict_f1,one_angle_error_deg,\
+                        one_power_error_db\n"
             .to_owned();
         for condition in &self.conditions {
-            for (name, m) in self.methods.iter().zip(&condition.methods) {
-                let (b, s) = (m.best, m.separated);
-                let of = |value: fn(&Operating) -> f64| {
-                    b.as_ref().map_or(String::new(), |best| value(best).to_string())
-                };
-                text += &format!(
-                    "\"{name}\",{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                    condition.targets,
-                    condition.snr_db,
-                    of(|b| b.threshold_db),
-                    of(|b| b.precision),
-                    of(|b| b.recall),
-                    of(|b| b.f1),
-                    m.strict_f1,
-                    of(|b| b.angle_error_deg),
-                    of(|b| b.power_error_db),
-                    s.rmse_deg,
-                    s.bound_deg,
-                    s.found,
-                    s.targets,
-                );
+            let named = self.methods.iter().zip(&self.thresholds_db).zip(&condition.methods);
+            let of = |point: Option<Operating>, value: fn(&Operating) -> f64| {
+                point.as_ref().map_or(String::new(), |point| value(point).to_string())
+            };
+            for ((name, one_db), m) in named {
+                let s = m.separated;
+                let numbers = [
+                    of(m.best, |p| p.threshold_db),
+                    of(m.best, |p| p.precision),
+                    of(m.best, |p| p.recall),
+                    of(m.best, |p| p.f1),
+                    m.strict_f1.to_string(),
+                    of(m.best, |p| p.angle_error_deg),
+                    of(m.best, |p| p.power_error_db),
+                    s.rmse_deg.to_string(),
+                    s.bound_deg.to_string(),
+                    s.found.to_string(),
+                    s.targets.to_string(),
+                    one_db.map_or(String::new(), |db| db.to_string()),
+                    of(m.at_one_threshold, |p| p.precision),
+                    of(m.at_one_threshold, |p| p.recall),
+                    of(m.at_one_threshold, |p| p.f1),
+                    of(m.at_one_threshold, |p| p.strict_f1),
+                    of(m.at_one_threshold, |p| p.angle_error_deg),
+                    of(m.at_one_threshold, |p| p.power_error_db),
+                ];
+                let (targets, snr_db) = (condition.targets, condition.snr_db);
+                text += &format!("\"{name}\",{targets},{snr_db},{}\n", numbers.join(","));
             }
         }
         text
@@ -209,6 +272,10 @@ impl crate::experiment::Report for AoaReport {
     fn figures(&self) -> Result<Vec<String>, EvaluateError> {
         Ok(vec![figures::precision_recall(self)?, figures::scores(self)?])
     }
+}
+
+fn shown(value: Option<f64>, digits: usize) -> String {
+    value.filter(|v| v.is_finite()).map_or_else(|| "-".into(), |v| format!("{v:.digits$}"))
 }
 
 fn items(value: &mut Value) -> impl Iterator<Item = &mut Value> {
@@ -242,12 +309,13 @@ impl MethodRecord {
 }
 
 impl MethodResult {
-    fn new(record: &MethodRecord) -> Self {
+    fn new(record: &MethodRecord, threshold_db: Option<f64>) -> Self {
         let curve = record.score.curve();
         let (errors, bounds, found) = record.separated;
         let rms = |sum: f64| if found > 0 { (sum / f64::from(found)).sqrt() } else { f64::NAN };
         Self {
             best: record.score.best(),
+            at_one_threshold: threshold_db.and_then(|db| point_at(&curve, db)),
             strict_f1: curve.iter().map(|point| point.strict_f1).fold(0.0, f64::max),
             curve,
             separated: Separated {

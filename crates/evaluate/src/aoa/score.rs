@@ -76,8 +76,8 @@ pub struct Score {
     found: Vec<u32>,
     matched: Vec<u32>,
     /// Sums over right predictions of their distance from the nearest target, deg and dB.
-    angle_deg: Vec<f32>,
-    power_db: Vec<f32>,
+    angle_deg: Vec<f64>,
+    power_db: Vec<f64>,
 }
 
 /// A point of a precision-recall curve.
@@ -147,8 +147,8 @@ impl Score {
             match nearest {
                 Some((distance, target)) => {
                     self.right[bin] += 1;
-                    self.angle_deg[bin] += distance.to_degrees() as f32;
-                    self.power_db[bin] += (prediction.power_db - target.power_db).abs() as f32;
+                    self.angle_deg[bin] += distance.to_degrees();
+                    self.power_db[bin] += (prediction.power_db - target.power_db).abs();
                 }
                 None => self.wrong[bin] += 1,
             }
@@ -187,8 +187,8 @@ impl Score {
             wrong += f64::from(self.wrong[bin]);
             found += f64::from(self.found[bin]);
             matched += f64::from(self.matched[bin]);
-            angle += f64::from(self.angle_deg[bin]);
-            power += f64::from(self.power_db[bin]);
+            angle += self.angle_deg[bin];
+            power += self.power_db[bin];
             if new > 0 {
                 let all: f64 = right + wrong;
                 let mean = |hits: f64, recalled: f64| 2.0 * hits * recalled / (hits + recalled);
@@ -215,6 +215,30 @@ impl Score {
     pub fn best(&self) -> Option<Operating> {
         self.curve().into_iter().max_by(|a, b| a.f1.total_cmp(&b.f1))
     }
+}
+
+/// The point of a curve at a threshold; `None` where there are no predictions above it.
+pub fn point_at(curve: &[Operating], threshold_db: f64) -> Option<Operating> {
+    let above = curve.partition_point(|point| point.threshold_db >= threshold_db);
+    above.checked_sub(1).and_then(|last| curve.get(last)).copied()
+}
+
+/// The threshold, the same for all of some scores, at which the mean of their F1 is largest, the highest of equal
+/// ones; `None` without predictions.
+pub fn one_threshold_db(scores: &[Score]) -> Option<f64> {
+    let curves: Vec<Vec<Operating>> = scores.iter().map(Score::curve).collect();
+    let mut all: Vec<f64> = curves.iter().flatten().map(|point| point.threshold_db).collect();
+    all.sort_by(|a, b| b.total_cmp(a));
+    all.dedup();
+    let mut best: Option<(f64, f64)> = None;
+    for threshold_db in all {
+        let f1 = |curve: &Vec<_>| point_at(curve, threshold_db).map_or(0.0, |point| point.f1);
+        let sum: f64 = curves.iter().map(f1).sum();
+        if best.is_none_or(|(_, largest)| sum > largest) {
+            best = Some((threshold_db, sum));
+        }
+    }
+    best.map(|(threshold_db, _)| threshold_db)
 }
 
 /// Bin of a level that far below the highest; what is no number counts as the highest.
@@ -271,6 +295,26 @@ mod tests {
         assert_eq!(a, both);
         assert!(empty().best().is_none());
     }
+    #[test]
+    fn one_threshold_is_the_best_on_average_and_not_of_one_score() {
+        // The first score is best at -5.25 dB, where the second has a false prediction for each right one; both are at
+        // -3.25 dB, if the first one misses a target of four.
+        let (mut a, mut b) = (Score::new(Threshold::Power), Score::new(Threshold::Power));
+        let right = [at(0.0, -1.1), at(10.0, -2.1), at(20.0, -3.1), at(30.0, -5.1)];
+        a.add(&right, &claimed(&right));
+        let wrong = [at(-30.0, -4.1), at(-40.0, -4.1)];
+        b.add(&right[..2], &claimed(&[&right[..2], &wrong].concat()));
+        assert_eq!(a.best().unwrap().threshold_db, -5.25);
+        assert_eq!(one_threshold_db(&[a.clone(), b.clone()]), Some(-3.25));
+        let at = |score: &Score, threshold_db| point_at(&score.curve(), threshold_db);
+        assert_eq!(at(&a, -3.25).unwrap().recall, 0.75);
+        // Between the points of a curve it is the one before.
+        let precision = |threshold_db| at(&b, threshold_db).unwrap().precision;
+        assert_eq!((precision(-3.25), precision(-4.25)), (1.0, 0.5));
+        assert!(at(&a, -1.0).is_none());
+        assert_eq!(one_threshold_db(&[]), None);
+    }
+
     #[test]
     fn confidence_decides_where_the_threshold_is_on_it() {
         let mut score = Score::new(Threshold::Confidence);

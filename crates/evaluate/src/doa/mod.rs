@@ -17,7 +17,7 @@ pub use report::DoaReport;
 
 use crate::EvaluateError;
 use crate::entrants::Entrants;
-use crate::experiment::{Experiment, Trials};
+use crate::experiment::{Answered, Experiment, Tell, Trials};
 use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Waveform};
@@ -119,7 +119,7 @@ impl DoaExperiment {
 
 impl Experiment for DoaExperiment {
     const NAME: &'static str = "doa";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
     type Plan = Plan;
     type Record = DoaRecord;
     type Report = DoaReport;
@@ -147,12 +147,23 @@ impl Experiment for DoaExperiment {
     }
 
     fn scene(&self, plan: &Plan, number: u64) -> Result<DoaRecord, EvaluateError> {
-        let (condition, first, trials) = self.split().of(number);
-        plan.run(condition, first, trials)
+        self.answered(plan, number, None)
     }
 
     fn report(&self, plan: &Plan, records: impl Iterator<Item = DoaRecord>) -> DoaReport {
         DoaReport::new(self, plan, records)
+    }
+}
+
+impl Answered for DoaExperiment {
+    fn answered(
+        &self,
+        plan: &Plan,
+        number: u64,
+        tell: Option<Tell>,
+    ) -> Result<DoaRecord, EvaluateError> {
+        let (condition, first, trials) = self.split().of(number);
+        plan.run(condition, first, trials, tell)
     }
 }
 

@@ -130,11 +130,21 @@ impl DoaReport {
 
     /// Share of scenes, a third each of no, one and two targets, that one of `counters` counted rightly.
     pub fn counted_rightly(&self, counter: usize, two: Targets, snr_db: f64) -> f64 {
-        let share = |targets: Targets| {
-            let counted = self.at(targets, snr_db).and_then(|c| c.counted.get(counter));
-            counted.map_or(f64::NAN, |counted| counted[targets.count()])
-        };
-        (share(Targets::None) + share(Targets::One) + share(two)) / 3.0
+        let classes = [Targets::None, Targets::One, two];
+        classes.map(|targets| self.counted_as_it_is(counter, targets, snr_db)).iter().sum::<f64>()
+            / 3.0
+    }
+
+    /// Share of the scenes with such targets in which one of `counters` counted as many as there are.
+    pub fn counted_as_it_is(&self, counter: usize, targets: Targets, snr_db: f64) -> f64 {
+        let counted = self.at(targets, snr_db).and_then(|c| c.counted.get(counter));
+        counted.map_or(f64::NAN, |counted| counted[targets.count()])
+    }
+
+    /// Rows of a table over the signal-to-noise ratio, of all `counters`.
+    fn counting(&self, share: impl Fn(usize, f64) -> f64) -> Vec<(&str, Vec<String>)> {
+        let cells = |k| SNRS_DB.map(|snr_db| percent(share(k, snr_db))).to_vec();
+        self.counters.iter().enumerate().map(|(k, name)| (name.as_str(), cells(k))).collect()
     }
 
     /// Rows of a table over the signal-to-noise ratio, of the methods that have been run on such targets.
@@ -164,6 +174,10 @@ impl DoaReport {
     }
 }
 
+fn percent(share: f64) -> String {
+    format!("{:.1}", 100.0 * share)
+}
+
 fn share(count: u32, of: u32) -> f64 {
     f64::from(count) / f64::from(of)
 }
@@ -187,21 +201,17 @@ impl crate::experiment::Report for DoaReport {
     fn tables(&self) -> String {
         let heads = SNRS_DB.map(|snr_db| format!("{snr_db} dB"));
         let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let percent = |share: f64| format!("{:.1}", 100.0 * share);
         let mut text = format!("{} trials a condition.\n", self.trials);
         for (two, which) in PAIRS {
             text += &format!(
                 "\nScenes counted rightly, %, a third each of 0, 1 and 2 targets, the two {which} (Figure 6).\n\n"
             );
-            let rows: Vec<(&str, Vec<String>)> = self
-                .counters
-                .iter()
-                .enumerate()
-                .map(|(k, name)| {
-                    let share = |snr_db| percent(self.counted_rightly(k, two, snr_db));
-                    (name.as_str(), SNRS_DB.map(share).to_vec())
-                })
-                .collect();
+            let rows = self.counting(|k, snr_db| self.counted_rightly(k, two, snr_db));
+            text += &table("rule", &heads, &rows);
+        }
+        for (targets, which) in CLASSES {
+            text += &format!("\nScenes with {which} counted rightly, %.\n\n");
+            let rows = self.counting(|k, snr_db| self.counted_as_it_is(k, targets, snr_db));
             text += &table("rule", &heads, &rows);
         }
         text += "\nRoot mean square error of one target's angle, deg (Figure 7).\n\n";
@@ -300,5 +310,12 @@ impl Targets {
 /// The two kinds of pairs, in words.
 pub(super) const PAIRS: [(Targets, &str); 2] =
     [(Targets::Apart, "at ranges of their own"), (Targets::Together, "at one range")];
+/// What there is to count, in words.
+const CLASSES: [(Targets, &str); 4] = [
+    (Targets::None, "no target"),
+    (Targets::One, "one target"),
+    (Targets::Apart, "two targets at ranges of their own"),
+    (Targets::Together, "two targets at one range"),
+];
 /// Names of the bounds.
 pub(super) const BOUNDS: [&str; 2] = ["Cramer-Rao bound", "MUSIC in theory"];

@@ -4,6 +4,7 @@ use super::end_to_end::EndToEnd;
 use super::{REGION, SNRS_DB, Targets, condition};
 use crate::EvaluateError;
 use crate::entrants::{Entrants, Network};
+use crate::experiment::Tell;
 use crate::told::{self, Candidate};
 use boresight_aoa::bounds::{Signals, deterministic_bound, stochastic_bound, uncorrelated};
 use boresight_aoa::counting::{Criterion, count_sources_in};
@@ -18,6 +19,7 @@ use boresight_signal::{Window, sample_covariance};
 use boresight_simulate::cube::{CubeOptions, CubeTarget, simulate_cube};
 use ndarray::{Array2, Array3, Array5, Axis};
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
 
 /// Angles are the whole degrees up to this on either side.
 pub const LARGEST_DEG: i32 = 10;
@@ -117,6 +119,15 @@ impl Tally {
     }
 }
 
+/// What was answered in one trial.
+#[derive(Debug, Clone, Default)]
+struct Answers {
+    /// By counter.
+    counted: Vec<usize>,
+    /// By method and network: ascending, nothing where there were fewer than targets.
+    azimuths_rad: Vec<Option<Vec<f64>>>,
+}
+
 /// What trials share.
 pub struct Plan {
     pub(super) waveform: Waveform,
@@ -195,15 +206,21 @@ impl Plan {
         self.networks.iter().filter(move |network| (network.kind == Kind::Counting) == count)
     }
 
-    /// Runs trials `first` to `first + trials - 1` of a condition.
+    /// Runs trials `first` to `first + trials - 1` of a condition, and tells of each its number, truth and answers.
     ///
     /// # Errors
     /// Those of the simulation and the estimators.
-    pub fn run(&self, index: usize, first: u64, trials: u64) -> Result<DoaRecord, EvaluateError> {
+    pub fn run(
+        &self,
+        index: usize,
+        first: u64,
+        trials: u64,
+        tell: Option<Tell>,
+    ) -> Result<DoaRecord, EvaluateError> {
         if let Some(flow) = &self.end_to_end {
             return self.run_end_to_end(flow, index, first, trials);
         }
-        let (targets, _) = condition(index);
+        let (targets, snr_db) = condition(index);
         let count = targets.count();
         let candidates: &[Candidate] = if count > 0 { &self.candidates[count - 1] } else { &[] };
         let mut estimators: Vec<(Estimator, bool)> = vec![];
@@ -242,7 +259,9 @@ impl Plan {
             cell.assign(&region_snapshots(region.view()));
             truths.push((truth_deg, close));
         }
-        for (cell, (truth_deg, close)) in cells.outer_iter().zip(&truths) {
+        let mut answers = vec![Answers::default(); truths.len()];
+        for ((cell, (truth_deg, close)), told) in cells.outer_iter().zip(&truths).zip(&mut answers)
+        {
             let covariance = sample_covariance(cell);
             let snapshots = root(&covariance)?;
             let data = Data::Covariance { matrix: covariance.view(), snapshots: vectors };
@@ -250,26 +269,61 @@ impl Plan {
             for ((_, criterion, reversed), counts) in self.counters.iter().zip(&mut counts) {
                 let (_, counted) = count_sources_in(data, *reversed, *criterion)?;
                 counts[counted.sources.min(3)] += 1;
+                told.counted.push(counted.sources);
             }
             for (model, counts) in counting.iter().zip(counts) {
-                counts[model.count(data)?.sources.min(3)] += 1;
+                let counted = model.count(data)?.sources;
+                counts[counted.min(3)] += 1;
+                told.counted.push(counted);
             }
             for ((estimator, covariance), tally) in estimators.iter_mut().zip(&mut record.methods) {
                 let data = if *covariance { data } else { Data::Snapshots(snapshots.view()) };
                 let found = told::azimuths(estimator, data, count)?;
-                if let (Some(tally), Some(found)) = (tally, found) {
-                    tally.count(truth_deg, &found, *close);
+                if let (Some(tally), Some(found)) = (tally, &found) {
+                    tally.count(truth_deg, found, *close);
                 }
+                told.azimuths_rad.push(found);
             }
         }
         let tallies = record.methods.iter_mut().skip(estimators.len());
         for (network, tally) in networks.iter_mut().zip(tallies) {
-            let (Some(network), Some(tally)) = (network, tally) else { continue };
+            let (Some(network), Some(tally)) = (network, tally) else {
+                answers.iter_mut().for_each(|told| told.azimuths_rad.push(None));
+                continue;
+            };
             let batch = network.estimate_batch(cells.view(), false)?;
-            for (cell, (truth_deg, close)) in truths.iter().enumerate() {
-                if let Some(found) = told::strongest(batch.sources_of(cell), count) {
-                    tally.count(truth_deg, &found, *close);
+            for (cell, ((truth_deg, close), told)) in truths.iter().zip(&mut answers).enumerate() {
+                let found = told::strongest(batch.sources_of(cell), count);
+                if let Some(found) = &found {
+                    tally.count(truth_deg, found, *close);
                 }
+                told.azimuths_rad.push(found);
+            }
+        }
+        if let Some(tell) = tell {
+            for (trial, ((truth_deg, _), answers)) in (first..).zip(truths.iter().zip(&answers)) {
+                let counted: Map<_, _> = self
+                    .counters()
+                    .into_iter()
+                    .zip(answers.counted.iter().map(|&n| n.into()))
+                    .collect();
+                let degrees = |found: &Option<Vec<f64>>| {
+                    let degrees = |found: &Vec<f64>| found.iter().map(|a| a.to_degrees()).collect();
+                    found.as_ref().map_or(Value::Null, degrees)
+                };
+                let angles_deg: Map<_, _> = self
+                    .names()
+                    .into_iter()
+                    .zip(answers.azimuths_rad.iter().map(degrees))
+                    .collect();
+                tell(json!({
+                    "targets": targets,
+                    "snrDb": snr_db,
+                    "trial": trial,
+                    "truthDeg": truth_deg,
+                    "counted": counted,
+                    "anglesDeg": angles_deg,
+                }));
             }
         }
         Ok(record)

@@ -105,7 +105,7 @@ impl ImperfectionsExperiment {
 
 impl Experiment for ImperfectionsExperiment {
     const NAME: &'static str = "imperfections";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
     /// One a setting.
     type Plan = Vec<cell::Plan>;
     type Record = cell::AoaRecord;
@@ -127,6 +127,8 @@ impl Experiment for ImperfectionsExperiment {
                 cell::Plan::new(&aoa::AoaExperiment {
                     array: self.array.clone(),
                     trials: self.trials,
+                    // Largest F1 only, which asks for no threshold.
+                    validation: 1,
                     seed: self.seed,
                     entrants: self.entrants.clone(),
                     imperfections: setting
@@ -157,7 +159,7 @@ impl Experiment for ImperfectionsExperiment {
         let (index, first, trials) = self.split().of(number);
         let condition = Condition { targets: NUMBERS[index % NUMBERS.len()], snr_db: self.snr_db };
         let there = Condition::all().iter().position(|c| *c == condition).unwrap_or(0);
-        let record = plan[index / NUMBERS.len()].run(there, condition, first, trials)?;
+        let record = plan[index / NUMBERS.len()].run(there, condition, [first, trials], None)?;
         Ok(cell::AoaRecord { condition: index, ..record })
     }
 

@@ -67,6 +67,7 @@ pub struct Condition {
 
 impl Experiment for ResolutionExperiment {
     const NAME: &'static str = "resolution";
+    const REVISION: u32 = 1;
     type Plan = Plan;
     type Record = ResolutionRecord;
     type Report = ResolutionReport;

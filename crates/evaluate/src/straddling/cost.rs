@@ -32,7 +32,7 @@ pub(super) fn operations(
             let count = |model: &boresight_neural::Model| model.operations(array);
             network.model.as_ref().map(count).transpose()?
         }
-        Finder::Method(method) => of_method(*method, form, array, grid),
+        Finder::Method(method, _) => of_method(*method, form, array, grid),
     };
     let refined = if line.is_refined() { pursuit(form, array) } else { 0.0 };
     Ok(found.map(|found| found + refined))

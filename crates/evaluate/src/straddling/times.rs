@@ -6,7 +6,7 @@ use crate::EvaluateError;
 use crate::aoa::cell::Finder;
 use crate::aoa::times::time_of;
 use crate::table::table;
-use boresight_aoa::options::{IaaForm, IaaOptions};
+use boresight_aoa::options::{IaaForm, IaaOptions, Thresholding};
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Complex64;
@@ -31,7 +31,7 @@ pub fn times(options: &StraddlingExperiment) -> Result<String, EvaluateError> {
         };
         let grids = || line.grids().into_iter().map(|grid| angle_options(2, grid));
         rows.push((line.name(), grids().map(of).collect::<Result<_, _>>()?));
-        if *line.finder() == Finder::Method(Method::Iaa) && !line.is_refined() {
+        if *line.finder() == Finder::Method(Method::Iaa, Thresholding::None) && !line.is_refined() {
             let iaa = IaaOptions { form: IaaForm::Dense, ..IaaOptions::default() };
             let dense = grids().map(|options| of(EstimatorOptions { iaa, ..options }));
             rows.push(("iaa, dense form".into(), dense.collect::<Result<_, _>>()?));

@@ -37,7 +37,7 @@ impl Line {
     /// The grids it is run on; none for what knows none.
     pub fn grids(&self) -> Vec<Option<usize>> {
         match &self.candidate.finder {
-            Finder::Method(method) if method.requirements().spectrum => GRIDS.map(Some).to_vec(),
+            Finder::Method(method, _) if method.requirements().spectrum => GRIDS.map(Some).to_vec(),
             _ => vec![None],
         }
     }
