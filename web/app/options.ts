@@ -2,6 +2,7 @@
 import type {
   CalibrationOptions,
   DetectionOptions,
+  RegionChainOptions,
   SharedEstimatorOptions,
   SimulateDriveOptions,
   StreetOptions,
@@ -12,6 +13,7 @@ import { type ChoiceField, choice, type Field, flag, type NumberField, numberIn,
 interface Records {
   CalibrationOptions: CalibrationOptions;
   DetectionOptions: DetectionOptions;
+  RegionChainOptions: RegionChainOptions;
   SharedEstimatorOptions: SharedEstimatorOptions;
   SimulateDriveOptions: SimulateDriveOptions;
   StreetOptions: StreetOptions;

@@ -125,6 +125,24 @@ export function Controls() {
         <Control label="Range padding" name="rangePadding" labels={padded} note="Finer bins, the same resolution." />
         <Control label="Doppler padding" name="dopplerPadding" labels={padded} />
       </Group>
+      <Group title="Regions by networks">
+        <Control
+          label="Angles by"
+          name="regionsBy"
+          labels={{ cnn3d: '3D-CNN', dnn: 'DNN' }}
+          help="Networks for one and for two targets; which is used a counting network says."
+        />
+        <Control label="Region’s window" name="regionWindow" labels={WINDOW_NAMES} />
+        <Control
+          label="Reach"
+          name="regionReach"
+          unit="bins"
+          help="Range bins on each side of a peak that belong to its region; 32 is all that networks take, as in the paper."
+        />
+        <Control label="Loading for the count" name="countLoading" step={0.5} />
+        <Control label="Turn to the coarse angle" name="rotation" labels={{ outside: 'beyond ±10.5°' }} />
+        <Control label="Refine by Gauss-Newton" name="regionRefine" />
+      </Group>
       <Group title="Display">
         <Control label="Colour span" name="span" labels={(span) => `${span} dB`} help="From the strongest cell down." />
         <Control

@@ -11,6 +11,8 @@ import { FrameBar } from './frame-bar.tsx';
 import { compare } from './match.ts';
 import { cellResults, processProblem, result, type Shown, start, usedArray, wasCancelled, working } from './process.ts';
 import { RangeDopplerMap, RangeProfile } from './range-plots.tsx';
+import { startRegions } from './regions.ts';
+import { RegionsPanel } from './regions-panel.tsx';
 import { captureCodec, captureState, update } from './state.ts';
 import { Summary } from './summary.tsx';
 import { shownCell } from './view.ts';
@@ -22,7 +24,10 @@ export function CapturePage() {
     },
     start: () => {
       if (!loaded.peek() && !waiting.peek()) void openBundled();
-      return start();
+      const stops = [start(), startRegions()];
+      return () => {
+        for (const stop of stops) stop();
+      };
     },
     write: () => captureCodec.write(captureState.value),
   });
@@ -188,6 +193,7 @@ function Plots({ capture, frame, view }: Shown) {
           )
         }
       />
+      <RegionsPanel fileParts={fileParts} />
       <Remarks capture={capture} view={view} />
     </>
   );

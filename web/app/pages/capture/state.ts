@@ -4,7 +4,7 @@ import type { Cell, ChainOptions, Method } from 'boresight';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
-import { choice, codec, type Field, names, text } from '../../state/codec.ts';
+import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
 import { PRESETS } from '../angle/state.ts';
 
 /** `all`, or a frame's number. */
@@ -28,6 +28,7 @@ const cell: Field<Cell | null> = {
 };
 
 const detection = optionsOf('DetectionOptions');
+const region = optionsOf('RegionChainOptions');
 
 export const captureCodec = codec(
   {
@@ -59,6 +60,16 @@ export const captureCodec = codec(
     sources: detection.picks('angle.sources', ['mdl', 'aic', '1', '2', '3', '4']),
     networks: networkNames,
     refine: detection.field('angle.refine'),
+    /** Whether regions are found, and their networks loaded. */
+    regions: flag(false),
+    regionsBy: choice('cnn3d', ['cnn3d', 'dnn']),
+    // A board is not calibrated and its targets have sidelobes in range, both of which networks never saw: a window, one
+    // bin a region and a loaded covariance keep these from being counted.
+    regionWindow: region.field('regionWindow', { fallback: 'hann' }),
+    regionReach: number(0, [0, 32], 'integer'),
+    countLoading: region.field('countLoading', { fallback: 2, max: 1000 }),
+    rotation: region.field('rotation'),
+    regionRefine: region.field('refine'),
     span: choice('60', ['30', '40', '50', '60', '80']),
     colors: choice('viridis', COLOR_MAPS),
     board: text('last', (value) => value === 'last' || /^\d{1,7}$/.test(value)),
