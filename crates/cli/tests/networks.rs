@@ -125,7 +125,8 @@ fn an_experiment_takes_networks_and_keeps_their_records_apart() {
     let folder = folder("network-evaluates");
     let out = folder.join("run");
     let path = model("learned-pursuit");
-    let run = ["evaluate", "aoa", "--trials", "2", "--seed", "3", "--methods", "iaa"];
+    let short = ["--trials", "2", "--validation", "1", "--seed", "3", "--methods", "iaa"];
+    let run = [&["evaluate", "aoa"], &short[..]].concat();
     let at = ["--out", out.to_str().unwrap()];
     let text = stdout(&[&run[..], &["--model", &path], &at].concat());
     for row in ["| iaa |", "| learned-pursuit |", "| learned-pursuit+refined |"] {

@@ -214,13 +214,7 @@ fn singular_covariances_are_loaded_and_said() {
     let array = Array::ula(8).unwrap();
     let y = (steering_vector(&array, Direction::azimuth(0.25f64.asin()))).insert_axis(Axis(1));
     for form in [IaaForm::Fast, IaaForm::Dense] {
-        let iaa = IaaOptions {
-            thresholding: Thresholding::Hard,
-            threshold_db: 3.0,
-            iterations: 30,
-            form,
-            ..EstimatorOptions::default().iaa
-        };
+        let iaa = IaaOptions { iterations: 30, form, ..EstimatorOptions::default().iaa };
         let mut plan =
             Iaa::new(&array, &EstimatorOptions { iaa, ..EstimatorOptions::default() }).unwrap();
         let estimate = plan.estimate(Data::Snapshots(y.view())).unwrap();

@@ -253,7 +253,7 @@ impl crate::experiment::Report for AoaReport {
         text
     }
 
-    /// Of the curves some, with fewer points.
+    /// Of the curves some, with fewer points; at the one threshold the scores.
     fn brief(&self) -> String {
         let mut all = json!(self);
         for (condition, result) in self.conditions.iter().zip(items(&mut all["conditions"])) {
@@ -262,6 +262,7 @@ impl crate::experiment::Report for AoaReport {
                 let points = if drawn { thinned(&method.curve) } else { vec![] };
                 let point = |p: &Operating| json!({ "precision": p.precision, "recall": p.recall, "f1": p.f1 });
                 result["curve"] = points.into_iter().map(point).collect();
+                result["atOneThreshold"] = json!(method.at_one_threshold.as_ref().map(point));
             }
         }
         brief(all)
