@@ -91,7 +91,7 @@ describe('estimators', () => {
         [0, 1.9, 0.3],
       ],
     }),
-    sources: fc.oneof(fc.nat(9), fc.constantFrom('aic', 'mdl')),
+    sources: fc.oneof(fc.nat(9), fc.constantFrom('aic', 'mdl', 'network')),
     fieldOfViewDeg: fc.integer({ min: 1, max: 90 }),
     gridPoints: fc.integer({ min: 16, max: 300 }),
     elevationPoints: fc.integer({ min: 3, max: 9 }),

@@ -184,6 +184,7 @@ fn options() -> impl Strategy<Value = EstimatorOptions> {
         (1usize..12).prop_map(SourceCount::Known),
         Just(SourceCount::Aic),
         Just(SourceCount::Mdl),
+        Just(SourceCount::Network),
     ];
     let shape = (sources, 0.1..1.57f64, 40usize..200, 3usize..8);
     let averaging =

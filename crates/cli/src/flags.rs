@@ -363,7 +363,8 @@ mod tests {
         match flag.kind() {
             Kind::Truth => vec![String::new()],
             Kind::Number => vec![number.to_string()],
-            Kind::Whole | Kind::Seed => vec![whole.to_string()],
+            // One of the two is not the default.
+            Kind::Whole | Kind::Seed => vec![whole.to_string(), (whole + 1.0).to_string()],
             Kind::Choice(choice) => {
                 choice.variants.iter().map(|(name, _)| (*name).into()).collect()
             }

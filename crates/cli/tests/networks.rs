@@ -149,3 +149,60 @@ fn an_experiment_takes_networks_and_keeps_their_records_apart() {
     let error = String::from_utf8(wrong.stderr).unwrap();
     assert!(error.contains("counting") && !error.contains("panicked"), "{error}");
 }
+
+#[test]
+fn regions_are_found_counted_and_told_apart() {
+    let folder = folder("network-regions");
+    let cube = folder.join("three.npy");
+    let cube = cube.to_str().unwrap();
+    let radar = ["--waveform", "3dcnn-simulated", "--array", "ula8"];
+    let targets = ["range=70,azimuth=-4", "range=160,azimuth=-6", "range=166,azimuth=5"];
+    let targets: Vec<&str> = targets.iter().flat_map(|target| ["--target", target]).collect();
+    let simulate = ["simulate", "cube", "--snr", "10", "--seed", "2", "--out", cube];
+    stdout(&[&simulate[..], &radar, &targets].concat());
+    let [counting, one, two] = ["counting", "dnn-small-1", "dnn-small-2"].map(model);
+    let networks = ["--counting", &counting, "--one", &one, "--two", &two];
+    let base = [&["regions", cube][..], &radar, &networks].concat();
+    let frames: Vec<Value> =
+        serde_json::from_str(&stdout(&[&base[..], &["--json"]].concat())).unwrap();
+    let regions = frames[0]["regions"].as_array().unwrap();
+    let mut counted: Vec<i64> = regions.iter().map(|r| r["sources"].as_i64().unwrap()).collect();
+    counted.sort_unstable();
+    assert_eq!(counted, [1, 2]);
+    let text = stdout(&[&base[..], &["--csv"]].concat());
+    let mut rows: Vec<String> = text
+        .lines()
+        .skip(1)
+        .map(|line| {
+            let fields: Vec<&str> = line.split(',').collect();
+            format!("{:.0}", fields[7].parse::<f64>().unwrap())
+        })
+        .collect();
+    rows.sort();
+    assert_eq!(rows, ["-4", "-6", "5"]);
+    // Errors name the file that is wrong.
+    let swapped =
+        [&["regions", cube][..], &radar, &["--counting", &one, "--one", &one, "--two", &two]];
+    let error = boresight(&swapped.concat());
+    assert!(!error.status.success());
+    let error = String::from_utf8(error.stderr).unwrap();
+    assert!(error.contains("dnn-small-1") && error.contains("wrong-network"), "{error}");
+}
+
+#[test]
+fn sources_are_counted_by_a_network_where_one_is_given() {
+    let folder = folder("network-counts");
+    let file = folder.join("one.npy");
+    let file = file.to_str().unwrap();
+    let target = ["--target", "azimuth=3", "--snapshots", "260", "--snr", "10", "--seed", "1"];
+    stdout(&[&["simulate", "snapshots", "--array", "ula8", "--out", file][..], &target].concat());
+    let base = ["estimate", file, "--array", "ula8", "--method", "music", "--sources", "network"];
+    let refused = boresight(&base);
+    let error = String::from_utf8(refused.stderr).unwrap();
+    assert!(!refused.status.success() && error.contains("--counting-model"), "{error}");
+    let counting = model("counting");
+    let text = stdout(&[&base[..], &["--counting-model", &counting, "--json"]].concat());
+    let sources: Vec<Value> = serde_json::from_str(&text).unwrap();
+    assert_eq!(sources.len(), 1, "{sources:?}");
+    assert!((sources[0]["azimuthDeg"].as_f64().unwrap() - 3.0).abs() < 0.3, "{sources:?}");
+}

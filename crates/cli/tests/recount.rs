@@ -25,7 +25,7 @@ fn scores_counted_again_are_those_reported() {
         let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
         models.join(format!("{name}.onnx")).to_str().unwrap().to_owned()
     };
-    let (of_snapshots, of_regions) = (model("aaetr-small"), model("cnn3d-2"));
+    let (of_snapshots, of_regions) = (model("learned-pursuit"), model("cnn3d-2"));
     let aoa =
         ["--validation", "2", "--methods", "iaa,iaa+hard,nomp+refined", "--model", &of_snapshots];
     let counting = model("counting");

@@ -11,6 +11,7 @@ use boresight_evaluate::experiment::{How, Report as _, run, run_part};
 use boresight_evaluate::sweep::Part;
 use boresight_evaluate::{Entrants, EvaluateError, Network, Outcome, aoa, doa, merge};
 use boresight_neural::{Card, Kind, Model};
+use boresight_pipeline::regions::RegionChainOptions;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -158,4 +159,66 @@ fn networks_of_regions_count_and_estimate_beside_the_rules() {
     assert!(!figure_7.contains("dnn-small-2") && tables.contains("| dnn-small-2 |"), "{tables}");
     assert!(report.figures().unwrap()[2].contains("dnn-small-2"));
     assert!(!report.csv().contains("one,15,\"dnn-small-2\""));
+}
+
+/// The flow tells nothing, and counts what is told nearly as often: the very same scenes at 15 dB, where the region that is
+/// detected is the strongest bin's.
+#[test]
+fn from_end_to_end_networks_do_as_well_as_told() {
+    let go = |_| ControlFlow::Continue(());
+    let networks = vec![network("counting"), network("dnn-small-2")];
+    let told = doa::DoaExperiment {
+        setup: Setup::Simulation,
+        trials: 21,
+        seed: 2,
+        entrants: Entrants::new(vec![], networks.clone()),
+        end_to_end: None,
+    };
+    let flow = |centre_deg| doa::EndToEnd {
+        counting: network("counting"),
+        centre_deg,
+        regions: RegionChainOptions::default(),
+    };
+    let end_to_end = doa::DoaExperiment { end_to_end: Some(flow(0.0)), ..told.clone() };
+    let report = |options: &doa::DoaExperiment| run(options, how(2, None), go).unwrap();
+    let (told, found) = (report(&told), report(&end_to_end));
+    for snr_db in [0.0, 15.0] {
+        for targets in [Targets::None, Targets::One, Targets::Apart, Targets::Together] {
+            let [told, found] =
+                [&told, &found].map(|report| report.at(targets, snr_db).unwrap().clone());
+            // One scene of 21 may fall to either side.
+            for (a, b) in told.counted[0].iter().zip(&found.counted[0]) {
+                assert!((a - b).abs() < 0.06, "{targets:?} {snr_db}: {told:?} {found:?}");
+            }
+            if let Some(Some(found)) = found.methods.first() {
+                // The number was counted here.
+                let counted = report_of(&told.counted[0], targets);
+                assert!((found.found - counted).abs() < 0.06, "{found:?}");
+            }
+        }
+    }
+    // Around 35 deg every region is turned.
+    let aside = doa::DoaExperiment { end_to_end: Some(flow(35.0)), ..end_to_end.clone() };
+    let two = report(&aside).at(Targets::Apart, 15.0).unwrap().methods[0].clone().unwrap();
+    assert!(two.success > 0.8, "{two:?}");
+    // Nothing that is told can take part, nor anything that does not count stand for what does.
+    let with = |entrants, flow| doa::DoaExperiment {
+        entrants,
+        end_to_end: Some(flow),
+        ..end_to_end.clone()
+    };
+    let counting = doa::EndToEnd { counting: network("dnn-small-2"), ..flow(0.0) };
+    for refused in [
+        with(Entrants::new(vec!["MDL".into()], networks.clone()), flow(0.0)),
+        with(Entrants::new(vec![], networks.clone()), flow(80.0)),
+        with(Entrants::new(vec![], networks.clone()), counting),
+    ] {
+        let error = run(&refused, how(1, None), go).unwrap_err();
+        assert!(matches!(error, EvaluateError::Core(_)), "{error:?}");
+    }
+}
+
+/// The share of scenes that were counted as they are.
+fn report_of(counted: &[f64; 4], targets: Targets) -> f64 {
+    counted[targets.count()]
 }

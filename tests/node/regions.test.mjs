@@ -1,0 +1,107 @@
+// Regions of the range spectrum and their targets by networks: a simulated cube, the recorded capture, a pool; sources of
+// other methods counted by a network.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { estimate, init, simulateCube, waveformPreset } from 'boresight';
+import { initNeural, Network } from 'boresight/neural';
+import { createPool } from 'boresight/worker';
+import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
+import { assertShape } from './lib/interfaces.mjs';
+import { model } from './lib/networks.mjs';
+import { bin, cfg } from './lib/recording.mjs';
+
+const named = { counting: 'counting', one: 'dnn-small-1', two: 'dnn-small-2' };
+let radar;
+let cube;
+let networks;
+let pool;
+let ids;
+
+before(async () => {
+  await Promise.all([init(), initNeural()]);
+  radar = { waveform: waveformPreset('3dcnn-simulated'), array: 'ula8' };
+  const targets = [
+    { rangeM: 70, azimuthDeg: -4 },
+    { rangeM: 160, azimuthDeg: -6 },
+    { rangeM: 166, azimuthDeg: 5 },
+  ];
+  cube = simulateCube({ ...radar, snrDb: 10, seed: 2, targets });
+  networks = Object.fromEntries(
+    Object.entries(named).map(([role, name]) => [role, new Network(model(name).onnx, { card: model(name).card })]),
+  );
+  pool = createPool({ workers: 2 });
+  const load = async ([role, name]) => [role, (await pool.loadNetwork(model(name))).id];
+  ids = Object.fromEntries(await Promise.all(Object.entries(named).map(load)));
+});
+after(() => {
+  pool.terminate();
+  for (const network of Object.values(networks)) network.free();
+});
+
+/** What is in a capture that is windowed, a bin to itself, and loaded, since the board is not calibrated. */
+const ofBoard = { regionWindow: 'hann', reachBins: 0, countLoading: 2 };
+
+test('a region of one target and one of two are told as they are, on a pool too', async () => {
+  const { counting, ...angles } = networks;
+  const frames = counting.cubeRegions(angles, cube, radar);
+  const [frame] = frames;
+  assertShape(frame, 'RegionFrame');
+  assertShape(frame.counts, 'RegionCounts');
+  assert.equal(frame.regions.length, 2);
+  const found = frame.regions.map((region) => {
+    assertShape(region, 'TargetRegion');
+    assertShape(region.targets[0], 'RegionTarget');
+    return [region.sources, ...region.targets.map(({ azimuthDeg }) => Math.round(azimuthDeg)).sort((a, b) => a - b)];
+  });
+  found.sort(([a], [b]) => a - b);
+  assert.deepEqual(found, [
+    [1, -4],
+    [2, -6, 5],
+  ]);
+  assert.deepEqual(await pool.cubeRegions(ids, cube, radar), frames);
+});
+
+test('the recorded targets are one each, in every frame', async () => {
+  const kept = await pool.loadCapture(bin, cfg);
+  const frames = await kept.regions(ids, ofBoard);
+  assert.deepEqual(
+    frames.map(({ frame }) => frame),
+    [0, 1, 2, 3, 4, 5, 6, 7],
+  );
+  for (const { regions } of frames) {
+    for (const [rangeBin, classicalDeg] of [
+      [58, -11.1],
+      [97, -0.4],
+    ]) {
+      const region = regions.find((one) => one.rangeBin === rangeBin);
+      assert.equal(region.sources, 1);
+      assert.ok(Math.abs(region.targets[0].azimuthDeg - classicalDeg) < 1, JSON.stringify(region.targets));
+    }
+  }
+  assert.deepEqual(await kept.frameRegions(ids, 3, ofBoard), frames[3]);
+  const { counting, ...angles } = networks;
+  assert.deepEqual(counting.captureRegions(angles, bin, cfg, ofBoard, 3), [frames[3]]);
+  await rejectsTyped(kept.frameRegions(ids, 8, ofBoard), 'out-of-range', 'frame');
+  kept.free();
+});
+
+test('networks of other kinds are refused, and unknown ones', async () => {
+  const { counting, one, two } = networks;
+  throwsTyped(() => one.cubeRegions({ one, two: counting }, cube, radar));
+  throwsTyped(() => counting.cubeRegions({ one: two, two: one }, cube, radar), 'wrong-network');
+  throwsTyped(
+    () => counting.cubeRegions({ one, two }, cube, { ...radar, maxRegions: 0 }),
+    'out-of-range',
+    'maxRegions',
+  );
+  throwsTyped(() => counting.cubeRegions({ one, two }, cube, { ...radar, rotate: 'never' }));
+  await rejectsTyped(pool.cubeRegions({ ...ids, two: 'none' }, cube, radar), 'unknown-network');
+});
+
+test('a network counts the sources of other methods', async () => {
+  const snapshots = planeWaves(8, 40, [4]);
+  const options = { method: 'root-music', array: 'ula8', sources: 'network' };
+  throwsTyped(() => estimate({ snapshots }, options), 'needs-counting-network', 'sources');
+  const { sources } = await pool.estimate({ snapshots }, { ...options, network: ids.counting });
+  assert.equal(sources.length, networks.counting.count({ snapshots }).sources);
+});
