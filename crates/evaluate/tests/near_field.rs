@@ -59,6 +59,7 @@ fn methods_are_right_far_away_and_wrong_at_the_array() {
 fn what_cannot_be_run_is_refused() {
     for (array, methods, snr_db, code) in [
         ("nothing", &["iaa"][..], 25.0, "unknown-name"),
+        ("awr1642", &["iaa"], 25.0, "out-of-range"),
         ("lrr48", &["guess"], 25.0, "unknown-name"),
         ("lrr48", &["iaa"], f64::NAN, "out-of-range"),
         ("lrr48", &[], 25.0, "empty"),

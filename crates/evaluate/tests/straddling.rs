@@ -81,7 +81,7 @@ fn records_do_not_depend_on_threads_and_arrays_of_an_area_are_refused() {
     let [one, two] = [1, 2].map(|threads| report("ula8", &["bartlett"], threads).unwrap());
     assert_eq!(format!("{one:?}"), format!("{two:?}"));
     for (array, methods, code) in [
-        ("awr1843", &["bartlett"][..], "unknown-name"),
+        ("awr1843", &["bartlett"][..], "unsuitable-array"),
         ("nothing", &["bartlett"], "unknown-name"),
         ("lrr48", &["guess"], "unknown-name"),
         ("lrr48", &["esprit"], "unsuitable-array"),

@@ -9,6 +9,7 @@ use crate::deviation::Deviation;
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{BatchEstimate, Data, EstimatorOptions, Source};
 use boresight_core::array::Position;
+use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::units::db_to_power;
 use boresight_core::{Array, CoreError};
@@ -45,6 +46,8 @@ pub struct Plan {
 impl Plan {
     pub(super) fn new(options: &NearFieldExperiment) -> Result<Self, EvaluateError> {
         let array = preset(&options.array)?;
+        // The least range would be a fraction of the wavelength for shorter ones.
+        check_range("length of the array, half wavelengths", array.aperture(), 10.0, 1e6)?;
         options.entrants.check()?;
         let candidates = Candidate::all(&options.entrants)?;
         // Whether they take the array and one snapshot, before anything is run.

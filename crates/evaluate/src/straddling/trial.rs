@@ -7,12 +7,15 @@ use crate::aoa::cell::{Candidate, Finder, Idle};
 use crate::aoa::score::WITHIN_RAD;
 use crate::apart::Drawn;
 use crate::deviation::Deviation;
+use crate::experiment::Experiment;
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
 use boresight_aoa::refinement::Refinement;
-use boresight_aoa::{BatchEstimate, Data, EstimatorOptions, Source, SourceCount, SpectrumKind};
+use boresight_aoa::{
+    AoaError, BatchEstimate, Data, EstimatorOptions, Source, SourceCount, SpectrumKind,
+};
 use boresight_core::presets::preset;
 use boresight_core::units::db_to_power;
-use boresight_core::{Array, Complex64, CoreError, Direction, Extent};
+use boresight_core::{Array, Complex64, Direction, Extent};
 use boresight_simulate::Target;
 use ndarray::{Array3, ArrayView2, Axis};
 use serde::{Deserialize, Serialize};
@@ -124,10 +127,10 @@ impl Plan {
     pub(super) fn new(options: &StraddlingExperiment) -> Result<Self, EvaluateError> {
         let array = preset(&options.array)?;
         if array.extent() != Extent::Azimuth {
-            return Err(CoreError::Unknown {
-                what: "array".into(),
+            return Err(AoaError::Array {
+                method: StraddlingExperiment::NAME,
                 expected: "elements on a line along y".into(),
-                given: options.array.clone(),
+                given: "has others".into(),
             }
             .into());
         }
