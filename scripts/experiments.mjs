@@ -1,6 +1,7 @@
 // Runs the angle experiments with the shipped networks and puts figures, numbers and tables where the documents and the
 // page have them. Records stay in target/experiments: only networks trained since are run again.
-// `--binary FILE` takes a command line that is built already.
+// `--binary FILE` takes a command line that is built already; `--trials N` runs at most so many trials a condition, which
+// the tables say.
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from './lib/paths.mjs';
@@ -52,17 +53,27 @@ function forgetOld(folder, name) {
   }
 }
 
+function argument(name) {
+  const at = process.argv.indexOf(name);
+  return at > 0 ? process.argv[at + 1] : undefined;
+}
+
+/** Settings with at most so many trials. */
+function limited(settings, most) {
+  return settings.map((value, i) => (settings[i - 1] === '--trials' && most < Number(value) ? String(most) : value));
+}
+
 await main(async () => {
-  const at = process.argv.indexOf('--binary');
-  const [command, ...before] =
-    at > 0 ? [process.argv[at + 1]] : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-cli', '--'];
+  const binary = argument('--binary');
+  const [command, ...before] = binary ? [binary] : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-cli', '--'];
+  const most = Number(argument('--trials') ?? Number.POSITIVE_INFINITY);
   mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
   const tables = {};
   for (const { name, experiment, kinds, settings, drawn } of EXPERIMENTS) {
     const folder = join(root, 'target', 'experiments', name);
     forgetOld(folder, experiment);
     const networks = cards.filter(({ network }) => kinds.includes(network)).flatMap(({ onnx }) => ['--model', onnx]);
-    await run(command, [...before, 'evaluate', experiment, ...settings, ...networks, '--out', folder]);
+    await run(command, [...before, 'evaluate', experiment, ...limited(settings, most), ...networks, '--out', folder]);
     tables[name] = readFileSync(join(folder, `${experiment}.md`), 'utf8');
     if (!drawn) continue;
     cpSync(join(folder, `${experiment}.brief.json`), join(root, 'docs', 'experiments', `${drawn.page}.json`));
