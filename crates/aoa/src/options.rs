@@ -159,7 +159,8 @@ pub struct EstimatorOptions {
     /// out of the rest is added, and all are taken to the best fit by Gauss-Newton steps, with the
     /// false-alarm probability and noise power of `nomp`.
     pub refine: bool,
-    /// A network that has been loaded under this name, for the methods that need one.
+    /// A network that has been loaded under this name: the one that a method needs, or a counting network for
+    /// `sources`.
     #[serde(skip_serializing)]
     pub network: Option<NetworkName>,
     /// Least confidence of a network's sources; that of its card if absent.

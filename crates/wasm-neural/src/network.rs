@@ -61,8 +61,9 @@ impl Network {
             false => Some(Card::from_json(String::read(card, "card")?.as_bytes())?),
         };
         let model = Model::load(&onnx, card.as_ref())?;
+        let unset = EstimatorOptions::default();
         let mut network =
-            Self { model, method: None, options: Default::default(), array: None, estimator: None };
+            Self { model, method: None, options: unset, array: None, estimator: None };
         network.set_options(options)?;
         Ok(network)
     }

@@ -38,7 +38,6 @@ pub fn cube_regions(
 
 /// Regions and targets of each frame of a capture, or of one.
 #[wasm_bindgen(js_name = captureRegions)]
-#[allow(clippy::too_many_arguments)]
 pub fn capture_regions(
     counting: &Network,
     one: &Network,

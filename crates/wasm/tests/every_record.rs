@@ -16,6 +16,7 @@ use boresight_formats::{BoardLog, RadarConfig};
 use boresight_image::{
     Gate, Grid, RangeAzimuthDoppler, Target, ViewGrid, birds_eye_view, sidelobe_measure,
 };
+use boresight_pipeline::regions::{RegionCounts, RegionFrame, RegionTarget, TargetRegion};
 use boresight_pipeline::{AngleOptions, Chain, ChainOptions};
 use boresight_simulate::street::{Street, StreetOptions};
 use boresight_simulate::{
@@ -205,6 +206,28 @@ fn records_of_captures_and_images() {
     whole(&chain.process(frame).unwrap());
     whole(&chain.cells(frame).unwrap());
     whole(&RegionOfInterest::of(frame, RegionOptions { bins: 5, chirps: 2 }).unwrap());
+    let target =
+        RegionTarget { range_m: 4.0, azimuth_rad: 0.1, power: 0.5, confidence: Some(0.75) };
+    whole(&RegionFrame {
+        frame: 2,
+        range_m: vec![0.5, 1.0],
+        range_profile_db: vec![-3.0, -6.0],
+        regions: vec![TargetRegion {
+            range_bin: 8,
+            range_m: 4.0,
+            rate_mps: -0.5,
+            power: 0.25,
+            snr: 100.0,
+            peaks: 3,
+            coarse_azimuth_rad: 0.2,
+            rotated: true,
+            sources: 1,
+            probability: vec![0.1, 0.8, 0.2],
+            targets: vec![target],
+        }],
+        counts: RegionCounts { joined: 2, ..RegionCounts::default() },
+        warnings: vec![],
+    });
     whole(&ImageDefaults::of(&waveform, &array, &AngleOptions::default()));
     let grid = Grid::new([0.0, 10.0], 20, FRAC_PI_3, 16).unwrap();
     let mut image = RangeAzimuthDoppler::new(grid, None).unwrap();

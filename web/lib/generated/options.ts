@@ -108,7 +108,7 @@ export interface SharedEstimatorOptions {
    * of `nomp` (default false).
    */
   refine?: boolean;
-  /** A network that has been loaded under this name, for the methods that need one. */
+  /** A network that has been loaded under this name: the one that a method needs, or a counting network for `sources`. */
   network?: string;
   /** Least confidence of a network's sources; that of its card if absent (0 to 1). */
   confidence?: number;
@@ -262,7 +262,7 @@ export interface AngleOptions {
    * of `nomp` (default false).
    */
   refine?: boolean;
-  /** A network that has been loaded under this name, for the methods that need one. */
+  /** A network that has been loaded under this name: the one that a method needs, or a counting network for `sources`. */
   network?: string;
   /** Least confidence of a network's sources; that of its card if absent (0 to 1). */
   confidence?: number;
