@@ -330,6 +330,63 @@ browserTest(
   },
 );
 
+const regionRow = (bin) => `[data-table="regions"][aria-busy="false"] [data-region="${bin}"]`;
+/** The number of targets counted in the region of a range bin, and their azimuths. */
+async function counted(page, bin) {
+  const row = page.locator(regionRow(bin));
+  const data = (field) => row.locator(`[data-field="${field}"]`).getAttribute('data-value');
+  return { sources: Number(await data('sources')), azimuths: (await data('azimuths')).split(',').map(Number) };
+}
+
+browserTest(
+  'networks in Capture: regions are counted, and their targets told where classical methods see them',
+  { path: '#/capture?frame=3' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-table="detections"] [data-field="rangeM"][data-value]');
+    await page.locator('[data-action="find-regions"]').click();
+    // Both targets of the recording, at 2.95 and 4.94 m, with Bartlett's azimuths.
+    const targets = [
+      [58, -11.1],
+      [97, -0.4],
+    ];
+    for (const [bin, classicalDeg] of targets) {
+      await page.waitForSelector(regionRow(bin), patient);
+      const { sources, azimuths } = await counted(page, bin);
+      assert.equal(sources, 1, `bin ${bin}`);
+      assert.ok(Math.abs(azimuths[0] - classicalDeg) <= 1, `bin ${bin}: ${azimuths}, ${classicalDeg} by Bartlett`);
+    }
+    assertCsv(
+      await saved(page, '[data-table="regions"] [data-export="csv"]'),
+      'range_bin,range_m,rate_mps,snr_db,coarse_azimuth_deg,turned,targets,p0,p1,p2,azimuth_1_deg,power_1_db,azimuth_2_deg,power_2_db',
+    );
+    await parametersWith(page, (params) => params.get('regions') === '1');
+    // As the paper takes them, networks see the board's errors as targets; the count says so.
+    const { sources } = await counted(page, 58);
+    await typeNumber(page.locator('input[name="countLoading"]'), '0');
+    await page.waitForFunction(
+      ([selector, before]) => document.querySelector(selector)?.dataset.value !== before,
+      [`${regionRow(58)} [data-field="sources"]`, String(sources)],
+      patient,
+    );
+    await parametersWith(page, (params) => params.get('countLoading') === '0');
+    await page.locator('[data-action="stop-regions"]').click();
+    await page.waitForSelector('[data-action="find-regions"]');
+    assert.equal(await page.locator('[data-region]').count(), 0);
+    await parametersWith(page, (params) => !params.has('regions'));
+  },
+);
+
+browserTest(
+  'networks in Capture: a link finds regions by the DNN, in the frame it names',
+  { path: '#/capture?frame=5&regions=1&regionsBy=dnn' },
+  async ({ page }) => {
+    await page.waitForSelector(regionRow(97), patient);
+    assert.match(await page.locator('[data-table="regions"] [data-count]').innerText(), /in frame 6/);
+    const { sources, azimuths } = await counted(page, 97);
+    assert.ok(sources === 1 && Math.abs(azimuths[0] + 0.4) <= 1, `${sources}: ${azimuths}`);
+  },
+);
+
 browserTest(
   'networks in Bird’s-eye view: an image by the learned pursuit',
   { path: '#/birdseye?methods=bartlett,learned-pursuit&radars=front-left&cell=0.5' },

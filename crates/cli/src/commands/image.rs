@@ -48,7 +48,10 @@ fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, Cli
     let frames = StreetFrames::new(street, &radars)?;
     let cells: Vec<usize> = frames.frames.iter().map(|frame| frame.cells.cells.len()).collect();
     let targets = frames.targets_m();
-    let truth = arguments.truth.then(|| Truth::of(frames.street(), &targets)).unwrap_or_default();
+    let truth = match arguments.truth {
+        true => Truth::of(frames.street(), &targets),
+        false => Truth::default(),
+    };
     let content = content(shared, chain.is_some())?;
     let mut text = format!(
         "{:<22}{:<9}{:>11}{:>16}{:>13}{:>13}{:>11}{:>11}{:>8}{:>8}{:>8}\n",
