@@ -52,7 +52,9 @@ describe('every shipped network', () => {
           const apart = difference(given.data, expected.data);
           assert.ok(apart <= 1e-4, `${port} differs by ${apart}`);
         }
-        assert.equal(network.kind, JSON.parse(card).network);
+        // Inputs and outputs of the learned pursuit are AAETR's: without a card it counts as one.
+        const { network: kind } = JSON.parse(card);
+        assert.equal(network.kind, !options.card && kind === 'learned-pursuit' ? 'aaetr' : kind);
         assert.equal(network.card?.name ?? null, options.card ? name : null);
         network.free();
       }

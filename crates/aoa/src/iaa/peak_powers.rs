@@ -38,6 +38,11 @@ const LEAST_NOISE: f64 = 1e-7;
 /// the grid is fine enough makes two peaks.
 const SPLIT_STEPS: f64 = 3.5;
 
+/// Of a double-precision number.
+const MANTISSA_BITS: u32 = 52;
+/// Biased exponents that there are.
+const EXPONENTS: usize = 1 << 11;
+
 /// The fit with its memory, for one array.
 pub struct PeakPowers {
     positions: Vec<[f64; 3]>,
@@ -51,7 +56,8 @@ pub struct PeakPowers {
     beams: Split<f64>,
     amplitudes: Split<f64>,
     fitted: Vec<f64>,
-    sorted: Vec<f64>,
+    /// How many powers have each binary exponent.
+    octaves: Vec<usize>,
 }
 
 impl PeakPowers {
@@ -70,7 +76,7 @@ impl PeakPowers {
             beams: zero.clone(),
             amplitudes: zero,
             fitted: Vec::new(),
-            sorted: Vec::new(),
+            octaves: Vec::new(),
         }
     }
 
@@ -116,14 +122,23 @@ impl PeakPowers {
         }
     }
 
+    /// Middle of the octave that the median of some powers lies in: the noise needs no better.
     fn median(&mut self, spectrum: &[f64]) -> f64 {
-        self.sorted.clear();
-        self.sorted.extend_from_slice(spectrum);
-        if self.sorted.is_empty() {
-            return 0.0;
+        self.octaves.clear();
+        self.octaves.resize(EXPONENTS, 0);
+        for power in spectrum {
+            self.octaves[(power.to_bits() >> MANTISSA_BITS) as usize % EXPONENTS] += 1;
         }
-        let middle = self.sorted.len() / 2;
-        *self.sorted.select_nth_unstable_by(middle, f64::total_cmp).1
+        let mut below = 0;
+        let half = spectrum.len() / 2;
+        let octave = self.octaves.iter().position(|count| {
+            below += count;
+            below > half
+        });
+        // The exponent with half a mantissa.
+        octave.map_or(0.0, |at| {
+            f64::from_bits(((at as u64) << MANTISSA_BITS) | 1 << (MANTISSA_BITS - 1))
+        })
     }
 
     /// The peaks to fit, and their steering vectors.
@@ -134,7 +149,7 @@ impl PeakPowers {
             let here = peak.direction.unit();
             let is_split = self.kept.iter().any(|&stronger| {
                 let there = peaks[stronger].direction.unit();
-                (here[1] - there[1]).hypot(here[2] - there[2]) < self.split
+                (here[1] - there[1]).powi(2) + (here[2] - there[2]).powi(2) < self.split.powi(2)
             });
             if is_split || powers[k] <= 0.0 || self.kept.len() == self.positions.len() {
                 continue;
