@@ -15,6 +15,8 @@ export const networksLater = { BORESIGHT_NETWORKS: folder };
 const types = `
 export const Network: any;
 export type Network = any;
+export const cubeRegions: any;
+export const captureRegions: any;
 export const initSync: any;
 export const lastPanic: any;
 export const __wbg_reset_state: any;

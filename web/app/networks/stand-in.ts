@@ -7,6 +7,8 @@ interface Bindings {
   initSync(options: unknown): unknown;
   __wbg_reset_state(): void;
   lastPanic(): string;
+  cubeRegions(...args: unknown[]): unknown;
+  captureRegions(...args: unknown[]): unknown;
   Network: unknown;
 }
 
@@ -16,6 +18,8 @@ export default (options: unknown): Promise<unknown> => bindings.default(options)
 export const initSync = (options: unknown): unknown => bindings.initSync(options);
 export const __wbg_reset_state = (): void => bindings.__wbg_reset_state();
 export const lastPanic = (): string => bindings.lastPanic();
+export const cubeRegions = (...args: unknown[]): unknown => bindings.cubeRegions(...args);
+export const captureRegions = (...args: unknown[]): unknown => bindings.captureRegions(...args);
 export let Network: unknown;
 
 async function load(): Promise<void> {
