@@ -70,7 +70,7 @@ impl RegionChain {
     /// Regions and targets of one frame of loops x transmitters x receivers x samples.
     ///
     /// # Errors
-    /// As [`RegionFinder::find`] and [`Counted::estimate`].
+    /// As [`RegionFinder::find`]; those of the estimators.
     pub fn process(
         &mut self,
         frame: ArrayView4<'_, Complex32>,
