@@ -54,7 +54,7 @@ async function checkPage(url) {
   const [here, inWorker, scans, networks] = JSON.parse(text);
   assert.ok(Math.abs(here - 20) < 0.1, `the page found ${here} deg, expected 20`);
   assert.ok(Math.abs(inWorker + 35) < 0.1, `the worker found ${inWorker} deg, expected -35`);
-  assert.deepEqual(networks, ['learned-pursuit', 'learned-pursuit']);
+  assert.deepEqual(networks, ['aaetr', 'aaetr']);
   assert.ok(scans[0] > 40 && scans[1] === scans[0], `scans of a simulated second: ${scans}`);
 }
 
