@@ -39,7 +39,7 @@ const printed = async (script) => (await project.run(process.execPath, [script])
 
 test('every snippet has a test here', () => {
   assert.equal(readme.length, 3);
-  assert.equal(javascript.length, 3);
+  assert.equal(javascript.length, 4);
 });
 
 test('the first snippet of the README finds both targets with the methods that resolve them', async () => {
@@ -98,6 +98,13 @@ test('the network finds the targets', async () => {
     // Refined: a tenth of a beamwidth of 1.2 deg is some ten deviations at 25 dB and 48 elements.
     assert.ok(Math.abs(angle - truth) < 0.12, line);
   }
+});
+
+test('the networks find the targets in the regions of a cube', async () => {
+  const lines = await printed('javascript-3.mjs');
+  assert.equal(lines.length, 2);
+  assert.match(lines[0], /^70 m: 1, at -4 deg$/);
+  assert.match(lines[1], /^16\d m: 2, at (-6,5|5,-6) deg$/);
 });
 
 test('the table of methods of mounting angles says what calibrationMethods() says', async () => {

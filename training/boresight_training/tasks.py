@@ -12,7 +12,8 @@ from torch.nn import functional
 from . import steered, words
 from .aaetr import CONFIGS, Aaetr
 from .arrays import array, random_arrays
-from .classifiers import CNN3D, COVARIANCE_FEATURES, DNN_HIDDEN, Cnn3d, counting, dnn, folded
+from .classifiers import COVARIANCE_FEATURES, DNN_HIDDEN, counting, dnn, folded
+from .cnn3d import CNN3D, Cnn3d
 from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
 from .score import best_f1
 from .setloss import SetLossConfig, set_loss

@@ -1,7 +1,7 @@
 """Architectures in words, and how each differs from its publication: for cards."""
 
 from .aaetr import AaetrConfig
-from .classifiers import Cnn3dConfig
+from .cnn3d import Cnn3dConfig
 from .regions import LENGTH
 from .steered import SteeredConfig
 

@@ -137,6 +137,23 @@ def test_positions_may_differ_from_snapshot_to_snapshot():
         assert (together - alone).abs().max() < 1e-3
 
 
+@pytest.mark.parametrize("config", ["paper", "small"])
+def test_the_3d_cnn_trains_on_the_convolutions_that_it_answers_with(config):
+    torch.manual_seed(5)
+    network = task("cnn3d", config).model()
+    region = torch.randn(3, 65, 8, 4, 3)
+    answers, gradients = [], []
+    for training in (True, False):
+        network.train(training).zero_grad()
+        answers.append(network(region))
+        answers[-1].logsumexp(1).sum().backward()
+        gradients.append([p.grad.clone() for p in network.parameters()])
+    # Single precision, sums of up to 2,048 terms of order 0.1.
+    torch.testing.assert_close(*answers, atol=2e-6, rtol=1e-5)
+    for quick, plain in zip(*gradients, strict=True):
+        torch.testing.assert_close(quick, plain, atol=2e-5 * float(plain.abs().max()), rtol=1e-4)
+
+
 def test_batch_normalisation_folds_away():
     torch.manual_seed(0)
     network = fully_connected([5, 7, 3])
