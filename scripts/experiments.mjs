@@ -8,7 +8,10 @@ import { root } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
 import { withTables } from './lib/tables.mjs';
 
-/** `drawn` names the numbers of the page, and begins the names of the figures' files. */
+/**
+ * `kinds` and `waveform` say which networks take part, `drawn` names the numbers of the page and begins the names of the
+ * figures' files.
+ */
 const EXPERIMENTS = [
   {
     name: 'aoa',
@@ -30,8 +33,16 @@ const EXPERIMENTS = [
     name: 'doa',
     experiment: 'doa',
     kinds: ['counting', 'cnn3d', 'dnn'],
+    waveform: '3dcnn-simulated',
     settings: ['--trials', '2100', '--seed', '0'],
     drawn: { page: 'doa', prefix: '' },
+  },
+  {
+    name: 'doa-experiment',
+    experiment: 'doa',
+    kinds: ['counting', 'cnn3d', 'dnn'],
+    waveform: '3dcnn-experiment',
+    settings: ['--setup', 'experiment', '--trials', '2100', '--seed', '0'],
   },
 ];
 
@@ -69,10 +80,12 @@ await main(async () => {
   const most = Number(argument('--trials') ?? Number.POSITIVE_INFINITY);
   mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
   const tables = {};
-  for (const { name, experiment, kinds, settings, drawn } of EXPERIMENTS) {
+  for (const { name, experiment, kinds, waveform, settings, drawn } of EXPERIMENTS) {
     const folder = join(root, 'target', 'experiments', name);
     forgetOld(folder, experiment);
-    const networks = cards.filter(({ network }) => kinds.includes(network)).flatMap(({ onnx }) => ['--model', onnx]);
+    const networks = cards
+      .filter(({ network, data }) => kinds.includes(network) && data.waveform === waveform)
+      .flatMap(({ onnx }) => ['--model', onnx]);
     await run(command, [...before, 'evaluate', experiment, ...limited(settings, most), ...networks, '--out', folder]);
     tables[name] = readFileSync(join(folder, `${experiment}.md`), 'utf8');
     if (!drawn) continue;
