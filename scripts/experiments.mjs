@@ -1,29 +1,39 @@
 // Runs the angle experiments with the shipped networks and puts figures, numbers and tables where the documents and the
 // page have them. Records stay in target/experiments: only networks trained since are run again.
-// `--binary FILE` takes a command line that is built already; `--trials N` runs at most so many trials a condition, which
-// the tables say.
+// `npm run experiments -- aoa images` runs these alone. `--binary FILE` takes a command line that is built already;
+// `--trials N` runs at most so many trials a condition, which the tables say.
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { parseArgs } from 'node:util';
 import { root } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
 import { withTables } from './lib/tables.mjs';
 
+/** Networks that answer a snapshot of the array lrr48. */
+const SNAPSHOTS = { kinds: ['aaetr', 'learned-pursuit'] };
+/** Those of them whose training ended on elements where they should be. */
+const EXACT = { ...SNAPSHOTS, positionError: 0 };
+/** Networks that answer a region of interest. */
+const REGIONS = { kinds: ['counting', 'cnn3d', 'dnn'], waveform: '3dcnn-simulated' };
+
 /**
- * `kinds` and `waveform` say which networks take part, `drawn` names the numbers of the page and begins the names of the
- * figures' files.
+ * `networks` says which take part, `document` which page of docs has the tables, `shown` that the demo shows the numbers.
+ * `figures` begins the names that figures have in docs/images; without it they stay.
  */
 const EXPERIMENTS = [
   {
     name: 'aoa',
     experiment: 'aoa',
-    kinds: ['aaetr', 'learned-pursuit'],
+    document: 'experiments-aoa',
+    networks: SNAPSHOTS,
     settings: ['--trials', '4000', '--seed', '1'],
-    drawn: { page: 'aoa', prefix: 'aoa-' },
+    figures: 'aoa-',
+    shown: true,
   },
   {
     name: 'aoa-ula48',
     experiment: 'aoa',
-    kinds: [],
+    document: 'experiments-aoa',
     settings: [
       ...['--array', 'ula48', '--trials', '500', '--seed', '1'],
       ...['--methods', 'bartlett,iaa,iaa+refined,nomp,single-snapshot-music,maximum-likelihood'],
@@ -32,25 +42,45 @@ const EXPERIMENTS = [
   {
     name: 'doa',
     experiment: 'doa',
-    kinds: ['counting', 'cnn3d', 'dnn'],
-    waveform: '3dcnn-simulated',
+    document: 'experiments-doa',
+    networks: REGIONS,
     settings: ['--trials', '2100', '--seed', '0'],
-    drawn: { page: 'doa', prefix: '' },
+    figures: '',
+    shown: true,
   },
   {
     name: 'doa-experiment',
     experiment: 'doa',
-    kinds: ['counting', 'cnn3d', 'dnn'],
-    waveform: '3dcnn-experiment',
+    document: 'experiments-doa',
+    networks: { ...REGIONS, waveform: '3dcnn-experiment' },
     settings: ['--setup', 'experiment', '--trials', '2100', '--seed', '0'],
+  },
+  ...[
+    ['straddling', 1000, EXACT],
+    ['near-field', 500, EXACT],
+    ['imperfections', 500, SNAPSHOTS],
+  ].map(([name, trials, networks]) => ({
+    name,
+    experiment: name,
+    document: `experiments-${name}`,
+    networks,
+    settings: ['--trials', String(trials), '--seed', '0'],
+    figures: '',
+  })),
+  {
+    name: 'images',
+    experiment: 'images',
+    document: 'images',
+    networks: EXACT,
+    settings: ['--streets', '4', '--seed', '0'],
   },
 ];
 
-const models = join(root, 'models');
-const cards = readdirSync(models)
+const shipped = join(root, 'models');
+const cards = readdirSync(shipped)
   .filter((file) => file.endsWith('.json'))
   .map((file) => ({
-    ...JSON.parse(readFileSync(join(models, file), 'utf8')),
+    ...JSON.parse(readFileSync(join(shipped, file), 'utf8')),
     onnx: join('models', file.replace(/json$/, 'onnx')),
   }));
 
@@ -64,37 +94,43 @@ function forgetOld(folder, name) {
   }
 }
 
-function argument(name) {
-  const at = process.argv.indexOf(name);
-  return at > 0 ? process.argv[at + 1] : undefined;
-}
-
 /** Settings with at most so many trials. */
 function limited(settings, most) {
   return settings.map((value, i) => (settings[i - 1] === '--trials' && most < Number(value) ? String(most) : value));
 }
 
+/** What `--model` says of the networks that take part. */
+function models({ kinds = [], ...data } = {}) {
+  return cards
+    .filter((card) => kinds.includes(card.network) && Object.keys(data).every((key) => card.data[key] === data[key]))
+    .flatMap(({ onnx }) => ['--model', onnx]);
+}
+
 await main(async () => {
-  const binary = argument('--binary');
-  const [command, ...before] = binary ? [binary] : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-cli', '--'];
-  const most = Number(argument('--trials') ?? Number.POSITIVE_INFINITY);
+  const { values, positionals } = parseArgs({
+    allowPositionals: true,
+    options: { binary: { type: 'string' }, trials: { type: 'string' } },
+  });
+  const unknown = positionals.find((wanted) => EXPERIMENTS.every(({ name }) => name !== wanted));
+  if (unknown) throw new Error(`experiment '${unknown}': expected ${EXPERIMENTS.map(({ name }) => name).join(', ')}`);
+  const wanted = EXPERIMENTS.filter(({ name }) => !positionals.length || positionals.includes(name));
+  const [command, ...before] = values.binary
+    ? [values.binary]
+    : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-cli', '--'];
+  const most = Number(values.trials ?? Number.POSITIVE_INFINITY);
   mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
-  const tables = {};
-  for (const { name, experiment, kinds, waveform, settings, drawn } of EXPERIMENTS) {
+  for (const { name, experiment, document, networks, settings, figures, shown } of wanted) {
     const folder = join(root, 'target', 'experiments', name);
     forgetOld(folder, experiment);
-    const networks = cards
-      .filter(({ network, data }) => kinds.includes(network) && data.waveform === waveform)
-      .flatMap(({ onnx }) => ['--model', onnx]);
-    await run(command, [...before, 'evaluate', experiment, ...limited(settings, most), ...networks, '--out', folder]);
-    tables[name] = readFileSync(join(folder, `${experiment}.md`), 'utf8');
-    if (!drawn) continue;
-    cpSync(join(folder, `${experiment}.brief.json`), join(root, 'docs', 'experiments', `${drawn.page}.json`));
+    const options = [...limited(settings, most), ...models(networks)];
+    await run(command, [...before, 'evaluate', experiment, ...options, '--out', folder]);
+    const page = join(root, 'docs', `${document}.md`);
+    const tables = { [name]: readFileSync(join(folder, `${experiment}.md`), 'utf8') };
+    writeFileSync(page, withTables(readFileSync(page, 'utf8'), tables));
+    if (shown)
+      cpSync(join(folder, `${experiment}.brief.json`), join(root, 'docs', 'experiments', `${experiment}.json`));
+    if (figures === undefined) continue;
     for (const file of readdirSync(folder).filter((entry) => entry.endsWith('.svg')))
-      cpSync(join(folder, file), join(root, 'docs', 'images', drawn.prefix + file));
-  }
-  for (const name of ['aoa', 'doa']) {
-    const document = join(root, 'docs', `experiments-${name}.md`);
-    writeFileSync(document, withTables(readFileSync(document, 'utf8'), tables));
+      cpSync(join(folder, file), join(root, 'docs', 'images', figures + file));
   }
 });

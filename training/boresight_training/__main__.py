@@ -31,6 +31,13 @@ def parser() -> argparse.ArgumentParser:
         help="signal-to-noise ratio of the data; counting, cnn3d and dnn have 0 dB and more in their first half",
     )
     train.add_argument("--near", type=float, default=NEAR, help="cnn3d, dnn: share of pairs put within a range bin")
+    train.add_argument(
+        "--channel-error",
+        type=float,
+        nargs=2,
+        metavar=("DB", "DEG"),
+        help="counting, cnn3d, dnn: deviations of the elements' gain and phase, for boards that are not calibrated",
+    )
     radars = "counting, cnn3d, dnn: radar of Table 3 or of Table 4"
     train.add_argument("--setup", choices=tuple(SETUPS), default="simulated", help=radars)
     train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
@@ -93,6 +100,8 @@ def train(arguments) -> list[dict]:
         identity["near"] = a.near
     if a.snr_db is not None:
         identity["snr_db"] = a.snr_db
+    if a.channel_error is not None:
+        identity["channel_error"] = a.channel_error
     what = task(**identity)
     group = processes.start(a.device)
     on_gpu = group.device.type == "cuda"

@@ -69,6 +69,10 @@ class Cubes:
     """Greatest shift in range by equation 10."""
     near: float = 0.0
     """Share of cubes whose targets all lie within a range bin of the first, the hard ones, in training alone."""
+    channel_db: float = 0.0
+    """Deviation of an element's gain, in training alone; every cube has a board of its own."""
+    channel_deg: float = 0.0
+    """The same of its phase."""
 
     def elements(self) -> torch.Tensor:
         """Positions of the 8 virtual elements, transmitter-major."""
@@ -163,6 +167,7 @@ def regions(cubes: Cubes, batch: int, generator: torch.Generator):
     phase = torch.polar(reflectors.valid.float(), reflectors.phase.float()).unsqueeze(-1)
     tone = phase * spectrum_of_still(waveform, range_m, bins)
     response = steering(elements, reflectors.azimuth.sin()).to(tone.dtype)
+    response = response * channel_errors(cubes, batch, len(elements), generator)
     spectrum = (tone.mT @ response).unsqueeze(-1)
     spectrum = spectrum + noise * complex_normal((*spectrum.shape[:-1], CHIRPS), generator)
     power = torch.view_as_real(spectrum).square().sum((2, 3, 4))
@@ -174,6 +179,14 @@ def regions(cubes: Cubes, batch: int, generator: torch.Generator):
         power = torch.view_as_real(spectrum).square().sum((2, 3, 4))
         region[empty] = noise[empty] * crop(spectrum, power.argmax(1))
     return reflectors, region
+
+
+def channel_errors(cubes: Cubes, batch: int, elements: int, generator: torch.Generator) -> torch.Tensor:
+    """Factors of the elements of boards that are not calibrated, [batch, 1, elements]."""
+    if cubes.channel_db == 0 and cubes.channel_deg == 0:
+        return torch.ones(1, 1, 1, dtype=torch.complex64, device=generator.device)
+    gain_db, phase_deg = torch.randn((2, batch, 1, elements), generator=generator, device=generator.device)
+    return torch.polar(10 ** (cubes.channel_db / 20 * gain_db), radians(cubes.channel_deg) * phase_deg)
 
 
 def crop(spectrum: torch.Tensor, centre: torch.Tensor) -> torch.Tensor:

@@ -74,3 +74,10 @@ def counting_stages(lowest_db: float) -> str:
         else f"The second half of training begins at {lowest_db:g} dB, the publication's at -5 dB"
     )
     return f"{stages}. Every step draws its own data; the publication has 63,000 snapshots a stage."
+
+
+def channel_errors(gain_db: float, phase_deg: float) -> str:
+    """How boards of the data differ from exact ones; nothing of exact ones."""
+    if gain_db == 0 and phase_deg == 0:
+        return ""
+    return f" Elements have errors of {gain_db:g} dB and {phase_deg:g} deg (deviations), new in every region."

@@ -29,6 +29,7 @@ def task_of(card):
     else:
         more["near"] = data.get("near") or 0.0
         more["setup"] = "experiment" if data["waveform"] == "3dcnn-experiment" else "simulated"
+        more["channel_error"] = (data.get("channelDb", 0.0), data.get("channelDeg", 0.0))
         more["snr_db"] = (data["secondStageLowestSnrDb"], data["snrDb"][1])
     return task(card["network"], card["form"], card.get("targets"), **more)
 

@@ -4,7 +4,7 @@ import type { Estimate, EstimateInput, EstimatorOptions, Method, NetworkInfo, Ne
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { load, loadings, models } from '../../networks/load.ts';
 import { answersTargetSet, type Card, elementsOf, type Model, targetsOf } from '../../networks/models.ts';
-import { REGION_ARRAY, simulateRegion } from './region.ts';
+import { radarOf, simulateRegion } from './region.ts';
 import { type NetworksState, networksState, TARGET_RANGE } from './state.ts';
 
 export interface Row {
@@ -206,7 +206,10 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, signal: A
   const { card, name } = model;
   const { snr, seed, range, refine } = scene;
   const targets = targetsIn(scene, card);
+  const radar = radarOf(card);
+  const { array } = radar;
   const { azimuthDeg, region, covariance, vectors, snapshots } = simulateRegion(
+    radar,
     targets,
     snr,
     seed,
@@ -218,7 +221,7 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, signal: A
     snapshot: false,
     truth: azimuthDeg.map((azimuth) => ({ azimuthDeg: azimuth, powerDb: 0 })),
     fieldOfViewDeg: 15,
-    array: REGION_ARRAY,
+    array,
     rows: [],
     counts: [],
     scene: `${targets} ${targets === 1 ? 'target' : 'targets'}${targets === 2 ? (range === 'together' ? ' at one range' : ' at ranges of their own') : ''}, ${snr} dB, seed ${seed}`,
@@ -246,7 +249,7 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, signal: A
   }
   const method = card.network;
   const options = {
-    array: REGION_ARRAY,
+    array,
     fieldOfViewDeg: 15,
     sources: targets,
     maxPeaks: targets,
@@ -261,7 +264,7 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, signal: A
         run: () =>
           pool().estimateRegion(
             region,
-            { array: REGION_ARRAY, sources: targets, fieldOfViewDeg: 10, method, network: info.id },
+            { array, sources: targets, fieldOfViewDeg: 10, method, network: info.id },
             { signal },
           ),
       },

@@ -1,9 +1,22 @@
-/** Regions of interest of the 3D-CNN's paper (Sang et al. 2021), simulated with the waveform of its Table 3. */
+/** Regions of interest of the 3D-CNN's paper (Sang et al. 2021), simulated with the radar that a network was trained on. */
 import type { RegionOfInterest } from 'boresight';
 import { api } from '../../data.ts';
+import type { Card } from '../../networks/models.ts';
 
-const WAVEFORM = '3dcnn-simulated';
-export const REGION_ARRAY = 'ula8';
+interface Radar {
+  waveform: string;
+  array: string;
+  /** Nearest and farthest target. */
+  rangeM: readonly [number, number];
+}
+
+/** Of the paper's Table 3. */
+const SIMULATED: Radar = { waveform: '3dcnn-simulated', array: 'ula8', rangeM: [70, 90] };
+/** Of its Table 4. */
+const EXPERIMENT: Radar = { waveform: '3dcnn-experiment', array: 'awr1642', rangeM: [9.7, 10.3] };
+
+/** The radar of a network of regions; Table 3's where its card names none. */
+export const radarOf = ({ data }: Card): Radar => (data?.waveform === EXPERIMENT.waveform ? EXPERIMENT : SIMULATED);
 
 export interface RegionScene extends RegionOfInterest {
   /** Whole degrees, ascending. */
@@ -23,14 +36,20 @@ export function anglesOf(targets: number, seed: number): number[] {
   return pairs[step] as number[];
 }
 
-/** Equal targets that stand still at 70 to 90 m. The SNR is of one sample of one chirp at one element. */
-export function simulateRegion(targets: number, snrDb: number, seed: number, together: boolean): RegionScene {
+/** Equal targets that stand still. The SNR is of one sample of one chirp at one element. */
+export function simulateRegion(
+  { waveform, array, rangeM: [nearest, farthest] }: Radar,
+  targets: number,
+  snrDb: number,
+  seed: number,
+  together: boolean,
+): RegionScene {
   const azimuthDeg = anglesOf(targets, seed);
   const share = (seed * 0.618034) % 1;
-  const rangeM = [70 + 20 * share, 70 + 20 * ((share + 0.381966) % 1)];
+  const rangeM = [share, (share + 0.381966) % 1].map((part) => nearest + (farthest - nearest) * part);
   const cube = api.simulateCube({
-    waveform: api.waveformPreset(WAVEFORM),
-    array: REGION_ARRAY,
+    waveform: api.waveformPreset(waveform),
+    array,
     snrDb,
     seed,
     targets: azimuthDeg.map((azimuth, i) => ({ azimuthDeg: azimuth, rangeM: rangeM[together ? 0 : i] as number })),

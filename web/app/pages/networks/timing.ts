@@ -5,7 +5,7 @@ import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
 import { load } from '../../networks/load.ts';
 import { answersTargetSet, type Card, type Model } from '../../networks/models.ts';
 import { arrayFor, targetRange } from './attempt.ts';
-import { REGION_ARRAY, type RegionScene, simulateRegion } from './region.ts';
+import { type RegionScene, radarOf, simulateRegion } from './region.ts';
 
 export const BATCHES = [1, 32] as const;
 export type Batch = (typeof BATCHES)[number];
@@ -188,8 +188,9 @@ function ofSnapshots(model: Model, info: NetworkInfo): Subject[] {
 
 function ofRegions(model: Model, info: NetworkInfo): Subject[] {
   const [, targets] = targetRange(model.card);
+  const radar = radarOf(model.card);
   const scenes = Array.from({ length: BATCHES[BATCHES.length - 1] as number }, (_, seed) =>
-    simulateRegion(targets, 10, seed + 1, false),
+    simulateRegion(radar, targets, 10, seed + 1, false),
   );
   const [input] = info.inputs;
   const features = featuresOf(model.card);
@@ -203,7 +204,7 @@ function ofRegions(model: Model, info: NetworkInfo): Subject[] {
     ]),
   );
   const cells = scenes.map(({ covariance, vectors }): EstimateInput => ({ covariance, snapshotCount: vectors }));
-  const options = { array: REGION_ARRAY, fieldOfViewDeg: 15, sources: targets };
+  const options = { array: radar.array, fieldOfViewDeg: 15, sources: targets };
   return [
     {
       id: 'network',
