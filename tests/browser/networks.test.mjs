@@ -284,9 +284,16 @@ for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) 
           );
         }
       }
-      for (const plot of await page
+      const plots = await page
         .locator(`[data-experiment="${name}"] [data-plot]`)
-        .evaluateAll((all) => all.map(({ dataset }) => dataset.plot))) {
+        .evaluateAll((all) => all.map(({ dataset }) => dataset.plot));
+      if (name === 'aoa')
+        for (const score of ['f1', 'f1-at-one-threshold'])
+          assert.ok(
+            plots.some((plot) => plot.endsWith(score)),
+            `${plots}`,
+          );
+      for (const plot of plots) {
         assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
       }
       await page.locator(`[data-experiment="${name}"] select`).first().selectOption({ index: 1 });

@@ -58,7 +58,7 @@ const HIDDEN = [
 
 function useChosen(methods: readonly string[], all: boolean) {
   const first = all
-    ? ['capon', 'nomp, refined', 'nomp+refined', ...methods.filter((method) => method.includes('-perturbed'))]
+    ? ['capon', 'nomp, refined', 'nomp+refined', ...methods.filter((method) => method.includes('-displaced'))]
     : HIDDEN;
   const hidden = useSignal<ReadonlySet<string>>(new Set(first));
   const chosen = (method: string): boolean => !hidden.value.has(method);

@@ -42,13 +42,13 @@ const binomial = (p: number, n: number): number => {
 const present = (value: number | null | undefined): number | null =>
   value === null || value === undefined || !Number.isFinite(value) ? null : value;
 
+type Result = AoaReport['conditions'][number]['methods'][number];
+
 /** Over the number of targets, at one SNR. */
 export function aoaFigures(report: AoaReport, snrDb: number): Figure[] {
   const conditions = report.conditions.filter((one) => one.snrDb === snrDb).sort((a, b) => a.targets - b.targets);
   const x = conditions.map(({ targets }) => targets);
-  const line = (
-    value: (of: (typeof conditions)[number]['methods'][number], targets: number) => [number | null, number | null],
-  ): Line[] =>
+  const line = (value: (of: Result, targets: number) => [number | null, number | null]): Line[] =>
     report.methods.map((method, i) => {
       const pairs = conditions.map((one) => {
         const of = one.methods[i];
@@ -65,21 +65,42 @@ export function aoaFigures(report: AoaReport, snrDb: number): Figure[] {
     detail: `${report.array}, ${snrDb} dB`,
   };
   const trials = `${count(report.trials)} snapshots a condition.`;
+  const missing = (
+    name: string,
+    title: string,
+    score: string,
+    scored: (of: Result) => { f1: number } | null,
+    remark: string,
+  ): Figure => ({
+    ...shared,
+    name,
+    title,
+    yLabel: `1 − ${score}`,
+    log: true,
+    y: [0.0001, 0.5],
+    unit: 'one_minus_f1',
+    lines: line((of, targets) => {
+      const found = scored(of);
+      return found ? [1 - found.f1, binomial(found.f1, report.trials * targets)] : [null, null];
+    }),
+    show: (value) => `F1 ${fixed(1 - value, 4)}`,
+    remark: `${remark} ${trials}`,
+  });
   return [
-    {
-      ...shared,
-      name: 'f1',
-      title: 'F1: what is missing',
-      yLabel: '1 − largest F1',
-      log: true,
-      y: [0.0001, 0.5],
-      unit: 'one_minus_f1',
-      lines: line(({ best }, targets) =>
-        best ? [1 - best.f1, binomial(best.f1, report.trials * targets)] : [null, null],
-      ),
-      show: (value) => `F1 ${fixed(1 - value, 4)}`,
-      remark: `Right is what lies within 0.5° of a target; the threshold is the best for each method. ${trials}`,
-    },
+    missing(
+      'f1',
+      'F1: what is missing',
+      'largest F1',
+      ({ best }) => best,
+      'Right is what lies within 0.5° of a target; the threshold is the best for each method and condition.',
+    ),
+    missing(
+      'f1-at-one-threshold',
+      'F1 at one threshold: what is missing',
+      'F1',
+      ({ atOneThreshold }) => atOneThreshold,
+      `Each method has one threshold for all conditions, from ${count(report.validation)} other snapshots of each.`,
+    ),
     {
       ...shared,
       name: 'bound',

@@ -1,6 +1,6 @@
 /** Methods as the experiments name them: a method or network, perhaps refined or smoothed. */
 import { api } from '../../data.ts';
-import { KIND_TITLES, MODELS } from '../../networks/models.ts';
+import { KIND_TITLES, MODELS, targetsOf } from '../../networks/models.ts';
 import { methodStyle, type SeriesStyle } from '../../plots/theme.ts';
 
 const KINDS = Object.keys(KIND_TITLES) as (keyof typeof KIND_TITLES)[];
@@ -38,11 +38,28 @@ const COUNTERS: Record<string, SeriesStyle> = {
   mdl: { color: methodStyle('capon').color, marker: 'square' },
 };
 
+/** What tells networks of one kind apart: those of the smallest first, which keep the style of their kind. */
+const SIBLINGS: readonly Pick<SeriesStyle, 'dash' | 'marker'>[] = [
+  {},
+  { dash: [8, 3], marker: 'square' },
+  { dash: [2, 2], marker: 'circle' },
+  { dash: [10, 2, 2, 2], marker: 'cross' },
+];
+
 export function styleOf(name: string): SeriesStyle {
   const { base, variant } = partsOf(name);
   const kind = kindOf(name);
   const style = COUNTERS[base] ?? methodStyle(kind ?? base);
-  if (kind && base.includes('large')) return { ...style, dash: [], marker: 'up', width: 2.4 };
-  if (base.endsWith('-perturbed')) return { ...style, marker: 'square', dash: variant ? [8, 3, 2, 3] : [8, 3] };
-  return variant ? { ...style, dash: [4, 3] } : style;
+  const own = MODELS.find((model) => model.name === base);
+  const siblings = own
+    ? MODELS.filter(({ card }) => card.network === own.card.network && targetsOf(card) === targetsOf(own.card))
+    : [];
+  const sibling =
+    SIBLINGS[
+      Math.max(
+        siblings.findIndex(({ name }) => name === base),
+        0,
+      ) % SIBLINGS.length
+    ];
+  return { ...style, ...sibling, ...(variant ? { dash: [4, 3] } : {}) };
 }

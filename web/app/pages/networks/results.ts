@@ -15,6 +15,8 @@ export interface Operating {
 export interface AoaReport {
   array: string;
   trials: number;
+  /** Further snapshots of each condition, which the one threshold of each method comes from. */
+  validation: number;
   seed: number;
   methods: string[];
   conditions: {
@@ -22,6 +24,8 @@ export interface AoaReport {
     snrDb: number;
     methods: {
       best: Operating | null;
+      /** Nothing of a method without answers in the further snapshots. */
+      atOneThreshold: Pick<Operating, 'f1' | 'precision' | 'recall'> | null;
       strictF1: number | null;
       curve?: Operating[];
       separated: { rmseDeg: number | null; boundDeg: number | null; found: number; targets: number };
