@@ -59,13 +59,6 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
             };
             let seed = arguments.shared.seed;
             let networks = networks(&arguments.networks, files)?;
-            if arguments.regions == DoaRegions::EndToEnd && arguments.answers.answers.is_some() {
-                return Err(CliError::Option {
-                    option: "--answers",
-                    expected: "regions that are told".into(),
-                    given: "--regions end-to-end".into(),
-                });
-            }
             let end_to_end = (arguments.regions == DoaRegions::EndToEnd)
                 .then(|| end_to_end(arguments, &networks))
                 .transpose()?;

@@ -1,10 +1,12 @@
 //! The whole flow of the paper's Figure 4 on the same scenes: detection along range, regions, the counting network,
 //! and the network for the number it gave.
 
+use super::answers::Answers;
 use super::trial::{DoaRecord, Plan, Tally};
 use super::{REGION, condition};
 use crate::EvaluateError;
 use crate::entrants::Network;
+use crate::experiment::Tell;
 use boresight_aoa::{Counted, Data, EstimatorOptions, SourceCount};
 use boresight_core::error::check_range;
 use boresight_neural::{Kind, REGION_FIELD_OF_VIEW_RAD};
@@ -60,13 +62,14 @@ impl EndToEnd {
 }
 
 impl Plan {
-    /// Trials of one condition from end to end.
+    /// Trials of one condition from end to end; tells of each its number, truth and answers.
     pub(super) fn run_end_to_end(
         &self,
         flow: &EndToEnd,
         index: usize,
         first: u64,
         trials: u64,
+        mut tell: Option<Tell>,
     ) -> Result<DoaRecord, EvaluateError> {
         let (targets, _) = condition(index);
         let count = targets.count();
@@ -111,6 +114,7 @@ impl Plan {
             let (frame, truth_deg, close) = self.frame(index, trial)?;
             record.close += u32::from(close);
             let frame = frame.index_axis(Axis(0), 0);
+            let mut answers = Answers::default();
             let found = if counting.is_empty() { vec![] } else { finder.find(frame)?.regions };
             for (model, counts) in counting.iter().zip(&mut record.counted) {
                 let mut all = 0;
@@ -120,17 +124,26 @@ impl Plan {
                     all += model.count(Data::Covariance { matrix, snapshots })?.sources;
                 }
                 counts[all.min(3)] += 1;
+                answers.counted.push(all);
             }
             for (chain, tally) in chains.iter_mut().zip(&mut record.methods) {
-                let (Some(chain), Some(tally)) = (chain, tally) else { continue };
+                let (Some(chain), Some(tally)) = (chain, tally) else {
+                    answers.azimuths_rad.push(None);
+                    continue;
+                };
                 let regions = chain.process(frame)?.regions;
                 let targets = regions.iter().flat_map(|region| &region.targets);
                 let mut found: Vec<f64> =
                     targets.map(|target| flow.offset_rad(target.azimuth_rad)).collect();
                 found.sort_by(f64::total_cmp);
-                if found.len() == count {
-                    tally.count(&truth_deg, &found, close);
+                let found = (found.len() == count).then_some(found);
+                if let Some(found) = &found {
+                    tally.count(&truth_deg, found, close);
                 }
+                answers.azimuths_rad.push(found);
+            }
+            if let Some(tell) = tell.as_deref_mut() {
+                self.tell(index, trial, &truth_deg, &answers, tell);
             }
         }
         Ok(record)

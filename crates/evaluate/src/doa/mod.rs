@@ -7,6 +7,7 @@
 //! the 8 channels. Methods that take snapshots only get eight that have this covariance. The 3D-CNN gets the region
 //! itself.
 
+mod answers;
 pub mod end_to_end;
 pub mod figures;
 pub mod report;

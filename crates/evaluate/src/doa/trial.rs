@@ -1,5 +1,6 @@
 //! Trials of one condition.
 
+use super::answers::Answers;
 use super::end_to_end::EndToEnd;
 use super::{REGION, SNRS_DB, Targets, condition};
 use crate::EvaluateError;
@@ -19,7 +20,6 @@ use boresight_signal::{Window, sample_covariance};
 use boresight_simulate::cube::{CubeOptions, CubeTarget, simulate_cube};
 use ndarray::{Array2, Array3, Array5, Axis};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value, json};
 
 /// Angles are the whole degrees up to this on either side.
 pub const LARGEST_DEG: i32 = 10;
@@ -119,15 +119,6 @@ impl Tally {
     }
 }
 
-/// What was answered in one trial.
-#[derive(Debug, Clone, Default)]
-struct Answers {
-    /// By counter.
-    counted: Vec<usize>,
-    /// By method and network: ascending, nothing where there were fewer than targets.
-    azimuths_rad: Vec<Option<Vec<f64>>>,
-}
-
 /// What trials share.
 pub struct Plan {
     pub(super) waveform: Waveform,
@@ -218,9 +209,9 @@ impl Plan {
         tell: Option<Tell>,
     ) -> Result<DoaRecord, EvaluateError> {
         if let Some(flow) = &self.end_to_end {
-            return self.run_end_to_end(flow, index, first, trials);
+            return self.run_end_to_end(flow, index, first, trials, tell);
         }
-        let (targets, snr_db) = condition(index);
+        let (targets, _) = condition(index);
         let count = targets.count();
         let candidates: &[Candidate] = if count > 0 { &self.candidates[count - 1] } else { &[] };
         let mut estimators: Vec<(Estimator, bool)> = vec![];
@@ -302,28 +293,7 @@ impl Plan {
         }
         if let Some(tell) = tell {
             for (trial, ((truth_deg, _), answers)) in (first..).zip(truths.iter().zip(&answers)) {
-                let counted: Map<_, _> = self
-                    .counters()
-                    .into_iter()
-                    .zip(answers.counted.iter().map(|&n| n.into()))
-                    .collect();
-                let degrees = |found: &Option<Vec<f64>>| {
-                    let degrees = |found: &Vec<f64>| found.iter().map(|a| a.to_degrees()).collect();
-                    found.as_ref().map_or(Value::Null, degrees)
-                };
-                let angles_deg: Map<_, _> = self
-                    .names()
-                    .into_iter()
-                    .zip(answers.azimuths_rad.iter().map(degrees))
-                    .collect();
-                tell(json!({
-                    "targets": targets,
-                    "snrDb": snr_db,
-                    "trial": trial,
-                    "truthDeg": truth_deg,
-                    "counted": counted,
-                    "anglesDeg": angles_deg,
-                }));
+                self.tell(index, trial, truth_deg, answers, &mut *tell);
             }
         }
         Ok(record)
