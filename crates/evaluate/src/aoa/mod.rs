@@ -3,6 +3,7 @@
 
 pub mod cell;
 pub mod figures;
+pub(crate) mod finder;
 pub mod report;
 pub mod score;
 pub mod times;

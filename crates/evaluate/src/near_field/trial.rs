@@ -2,7 +2,7 @@
 
 use super::{NearFieldExperiment, POWERS_DB, RANGES};
 use crate::EvaluateError;
-use crate::aoa::cell::{Candidate, Finder, Idle};
+use crate::aoa::finder::{Candidate, Finder, Idle};
 use crate::aoa::score::WITHIN_RAD;
 use crate::apart::Drawn;
 use crate::deviation::Deviation;

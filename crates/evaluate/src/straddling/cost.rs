@@ -7,7 +7,7 @@
 
 use super::trial::Line;
 use crate::EvaluateError;
-use crate::aoa::cell::Finder;
+use crate::aoa::finder::Finder;
 use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Array;
 

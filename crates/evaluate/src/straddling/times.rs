@@ -3,7 +3,7 @@
 use super::trial::{Plan, angle_options};
 use super::{CONDITIONS, GRIDS, StraddlingExperiment};
 use crate::EvaluateError;
-use crate::aoa::cell::Finder;
+use crate::aoa::finder::Finder;
 use crate::aoa::times::time_of;
 use crate::table::table;
 use boresight_aoa::options::{IaaForm, IaaOptions, Thresholding};

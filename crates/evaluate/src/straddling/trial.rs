@@ -3,7 +3,7 @@
 use super::cost::operations;
 use super::{CONDITIONS, Condition, GRIDS, StraddlingExperiment};
 use crate::EvaluateError;
-use crate::aoa::cell::{Candidate, Finder, Idle};
+use crate::aoa::finder::{Candidate, Finder, Idle};
 use crate::aoa::score::WITHIN_RAD;
 use crate::apart::Drawn;
 use crate::deviation::Deviation;
