@@ -43,6 +43,7 @@ const methods = fc.constantFrom(
   'min-norm',
   'iaa',
   'nomp',
+  'atomic-norm',
   'maximum-likelihood',
   'sparse-bayesian',
 );

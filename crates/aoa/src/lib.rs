@@ -30,6 +30,7 @@
 //! # Ok::<(), boresight_aoa::AoaError>(())
 //! ```
 
+mod atomic_norm;
 mod bartlett;
 pub mod batch;
 mod batch_columns;

@@ -26,6 +26,8 @@ pub enum Method {
     Iaa,
     /// Newtonized orthogonal matching pursuit (Mamandipoor et al. 2016).
     Nomp,
+    /// Atomic norm minimisation without a grid (Bhaskar et al. 2013).
+    AtomicNorm,
     /// Deterministic maximum likelihood by alternating projection (Ziskind and Wax 1988).
     MaximumLikelihood,
     /// Off-grid sparse Bayesian learning (Yang, Xie and Zhang 2013).
@@ -72,7 +74,7 @@ pub struct Requirements {
 
 impl Method {
     /// All methods that need no trained model, in the order they are listed to users.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Bartlett,
         Self::Capon,
         Self::Music,
@@ -82,6 +84,7 @@ impl Method {
         Self::MinNorm,
         Self::Iaa,
         Self::Nomp,
+        Self::AtomicNorm,
         Self::MaximumLikelihood,
         Self::SparseBayesian,
     ];
@@ -196,6 +199,15 @@ impl Method {
                 elevation: true,
                 spectrum: false,
                 cost: "D (G log G + D K)",
+                ..base
+            },
+            Self::AtomicNorm => Requirements {
+                title: "Atomic norm",
+                reference: "Bhaskar, Tang and Recht 2013; Yang and Xie 2016",
+                takes_covariance: false,
+                elevation: true,
+                spectrum: false,
+                cost: "D (G log G + D K), D K a round",
                 ..base
             },
             Self::MaximumLikelihood => Requirements {

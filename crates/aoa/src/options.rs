@@ -153,7 +153,7 @@ pub struct EstimatorOptions {
     pub esprit: EspritForm,
     /// The iterative adaptive approach.
     pub iaa: IaaOptions,
-    /// Newtonized orthogonal matching pursuit.
+    /// Newtonized orthogonal matching pursuit, and the search for sources in the atomic norm and in refinement.
     pub nomp: NompOptions,
     /// Refine the sources on the matched model: those that noise explains are dropped, what stands
     /// out of the rest is added, and all are taken to the best fit by Gauss-Newton steps, with the

@@ -1,5 +1,6 @@
 //! What each method of angle estimation implements, and the plans of those that need no network.
 
+use crate::atomic_norm::AtomicNorm;
 use crate::bartlett::Bartlett;
 use crate::capon::Capon;
 use crate::data::Data;
@@ -78,6 +79,7 @@ pub(crate) fn plan(
         Method::MinNorm => Box::new(MinNorm::new(array, options)?),
         Method::Iaa => Box::new(Iaa::new(array, options)?),
         Method::Nomp => Box::new(Nomp::new(array, options)?),
+        Method::AtomicNorm => Box::new(AtomicNorm::new(array, options)?),
         Method::MaximumLikelihood => Box::new(MaximumLikelihood::new(array, options)?),
         Method::SparseBayesian => Box::new(SparseBayesian::new(array, options)?),
         Method::Aaetr | Method::LearnedPursuit | Method::Dnn | Method::Cnn3d => {

@@ -74,3 +74,44 @@ fn nomp_reaches_the_deterministic_bound() {
         assert!(extra <= 15, "{extra}");
     }
 }
+
+/// Three targets of 20 to 10 dB, two beams or more apart, on the sparse long-range array, one snapshot. The ratio of
+/// 1500 errors to their own bounds has a standard deviation of 1.8 %; what is missing of each shrunken amplitude would
+/// pull at the others by a sixth of the bound, were it not fitted again.
+#[test]
+fn the_atomic_norm_reaches_the_deterministic_bound() {
+    let array = preset("lrr48").unwrap();
+    let noise_power = 0.01;
+    let mut estimator =
+        Estimator::new(Method::AtomicNorm, &array, &EstimatorOptions::default()).unwrap();
+    let (mut squares, mut extra, mut slow) = (0.0, 0, 0);
+    for trial in 0..TRIALS {
+        let mut random = Random::new(102, trial);
+        let start = random.uniform(-0.6, 0.4);
+        let sines = [start, start + random.uniform(0.045, 0.2), start + random.uniform(0.245, 0.4)];
+        let at = sines.map(|sine: f64| Direction::azimuth(sine.asin()));
+        let s = [1.0, 0.6, 0.32].map(|amplitude| cis(random.phase()) * amplitude);
+        let mut y = ndarray::Array1::zeros(array.len());
+        for (&at, &s) in at.iter().zip(&s) {
+            y += &(steering_vector(&array, at) * s);
+        }
+        y.iter_mut().for_each(|z| *z += random.complex_normal(noise_power));
+        let y = y.insert_axis(Axis(1));
+        let result = estimator.estimate(Data::Snapshots(y.view())).unwrap();
+        extra += result.sources.len().saturating_sub(3);
+        slow += usize::from(!result.warnings.is_empty());
+        let covariance = single_snapshot(&s);
+        let signals = Signals { covariance: covariance.view(), noise_power, snapshots: 1 };
+        let bounds = deterministic_bound(&array, &at, &signals).unwrap().azimuth_rad;
+        for (at, bound) in at.iter().zip(&bounds) {
+            let errors = result.sources.iter().map(|s| s.direction.azimuth_rad - at.azimuth_rad);
+            let error = errors.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap();
+            squares += (error / bound).powi(2);
+        }
+    }
+    let ratio = (squares / (3 * TRIALS) as f64).sqrt();
+    println!("atomic norm: {ratio:.3} of the bound, {extra} extra, {slow} not certified");
+    assert!((0.93..=1.07).contains(&ratio), "{ratio}");
+    // One false alarm in a hundred is asked for: 5 expected, Poisson.
+    assert!(extra <= 15 && slow == 0, "{extra} {slow}");
+}

@@ -4,7 +4,7 @@ import { models } from './load.ts';
 import { arrayProblem, type Geometry, type Model, targetsOf } from './models.ts';
 
 /** Networks of a method that fit all arrays, best first: for the number of targets, then the quickest to load. */
-export function fitting(method: Method, geometries: readonly Geometry[], sources: number | null): Model[] {
+export function fitting(method: Method | 'counting', geometries: readonly Geometry[], sources: number | null): Model[] {
   const off = (model: Model): number => Math.abs((targetsOf(model.card) ?? sources ?? 2) - (sources ?? 2));
   return models.value
     .filter(({ card }) => card.network === method && geometries.every((geometry) => !arrayProblem(card, geometry)))

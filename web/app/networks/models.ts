@@ -98,6 +98,9 @@ export const MODELS: readonly Model[] = Object.entries(cards)
 /** Whether it answers one snapshot with a set of targets; others answer a region of interest in whole degrees. */
 export const answersTargetSet = ({ network }: Card): boolean => network === 'aaetr' || network === 'learned-pursuit';
 
+/** Whether it was trained on elements with errors, as those of a board that is not calibrated. */
+export const trainedOnBoards = ({ data }: Card): boolean => Number(data?.channelDb) > 0 || Number(data?.channelDeg) > 0;
+
 /** Virtual elements the network's input has room for. */
 export function elementsOf(card: Card): number {
   const [, second, third] = card.inputs[0]?.axes ?? [];

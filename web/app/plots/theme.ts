@@ -73,6 +73,7 @@ const METHOD_STYLES: Record<string, SeriesStyle> = {
   'min-norm': { color: { light: '#00896a', dark: '#2fcf9f' }, dash: [4, 3], marker: 'right' },
   iaa: { color: { light: '#8a3ab9', dark: '#c99af2' }, marker: 'star' },
   nomp: { color: { light: '#3d4650', dark: '#e9edf0' }, marker: 'plus' },
+  'atomic-norm': { color: { light: '#5b7f00', dark: '#b6d95c' }, dash: [6, 2], marker: 'right' },
   'maximum-likelihood': { color: { light: '#0e7f92', dark: '#56d3e6' }, marker: 'cross' },
   'weighted-mean': { color: { light: '#d55e00', dark: '#ff8a3d' }, dash: [7, 3], marker: 'square' },
   kabsch: { color: { light: '#a3154e', dark: '#ff7fa8' }, dash: [2, 3], marker: 'up' },

@@ -100,7 +100,7 @@ export interface SharedEstimatorOptions {
   esprit?: EspritForm;
   /** The iterative adaptive approach. */
   iaa?: IaaOptions;
-  /** Newtonized orthogonal matching pursuit. */
+  /** Newtonized orthogonal matching pursuit, and the search for sources in the atomic norm and in refinement. */
   nomp?: NompOptions;
   /**
    * Refine the sources on the matched model: those that noise explains are dropped, what stands out of the rest is
@@ -198,6 +198,7 @@ export interface Region {
  * - `min-norm`: Minimum norm (Kumaresan and Tufts 1983).
  * - `iaa`: Iterative adaptive approach (Yardibi et al. 2010).
  * - `nomp`: Newtonized orthogonal matching pursuit (Mamandipoor et al. 2016).
+ * - `atomic-norm`: Atomic norm minimisation without a grid (Bhaskar et al. 2013).
  * - `maximum-likelihood`: Deterministic maximum likelihood by alternating projection (Ziskind and Wax 1988).
  * - `sparse-bayesian`: Off-grid sparse Bayesian learning (Yang, Xie and Zhang 2013).
  * - `aaetr`: A transformer that answers with a set of targets (AAETR).
@@ -216,6 +217,7 @@ export type Method =
   | 'min-norm'
   | 'iaa'
   | 'nomp'
+  | 'atomic-norm'
   | 'maximum-likelihood'
   | 'sparse-bayesian'
   | 'aaetr'
@@ -254,7 +256,7 @@ export interface AngleOptions {
   esprit?: EspritForm;
   /** The iterative adaptive approach. */
   iaa?: IaaOptions;
-  /** Newtonized orthogonal matching pursuit. */
+  /** Newtonized orthogonal matching pursuit, and the search for sources in the atomic norm and in refinement. */
   nomp?: NompOptions;
   /**
    * Refine the sources on the matched model: those that noise explains are dropped, what stands out of the rest is

@@ -22,7 +22,7 @@ impl Nomp {
             if found + 1 >= elements || found > self.options.max_sources {
                 break;
             }
-            let (point, power) = self.strongest(&residual);
+            let (point, power) = self.strongest(&residual, 1.0);
             match self.stands_out(power, &residual, found, None) {
                 Verdict::Source => return found + 1,
                 Verdict::Noise => break,

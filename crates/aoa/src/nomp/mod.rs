@@ -33,7 +33,7 @@ use crate::plan::Plan;
 use crate::quadratic::QuadraticSpectrum;
 use boresight_core::linalg::least_squares;
 use boresight_core::{Array, Complex64, Direction};
-use ndarray::Array2;
+use ndarray::{Array1, Array2};
 use newton::{beam_power, step};
 use std::f64::consts::FRAC_PI_2;
 
@@ -71,16 +71,20 @@ enum Verdict {
 
 /// Sources so far.
 #[derive(Debug, Clone)]
-struct Fitted {
-    points: Vec<Point>,
+pub(crate) struct Fitted {
+    pub points: Vec<Point>,
     /// Sources x snapshots.
-    amplitudes: Array2<Complex64>,
-    residual: Array2<Complex64>,
+    pub amplitudes: Array2<Complex64>,
+    pub residual: Array2<Complex64>,
 }
 
 impl Nomp {
     pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
-        let method = Method::Nomp;
+        Self::of(Method::Nomp, array, options)
+    }
+
+    /// For a method that is made of its parts.
+    pub fn of(method: Method, array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(method, array, options)?;
         let geometry = Geometry::new(array);
         let extent = |axis: usize| {
@@ -121,18 +125,41 @@ impl Nomp {
             && direction.elevation_rad.abs() <= elevation + 1e-9
     }
 
-    /// The strongest beam in `residual`, refined, and its power.
-    fn strongest(&mut self, residual: &Array2<Complex64>) -> (Point, f64) {
+    /// What is to be said of the array.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.ambiguity.iter().cloned().collect()
+    }
+
+    /// Most sources of an estimate.
+    pub fn most(&self) -> usize {
+        self.options.max_sources
+    }
+
+    /// The noise power that is given, in the unit of normalised snapshots.
+    pub fn noise_power_in(&self, normalised: &Normalised) -> Option<f64> {
+        self.options.noise_power.map(|power| normalised.power_in(power))
+    }
+
+    /// The strongest beam in `residual`, refined, and its power. Beams of the coarse grid that have `rivals` of the
+    /// strongest one's power there are refined as well: 1 for none.
+    pub fn strongest(&mut self, residual: &Array2<Complex64>, rivals: f64) -> (Point, f64) {
         let values = self.spectrum.evaluate_snapshots(residual.view());
         let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
-        let mut point = self.geometry.point(self.spectrum.grid().direction(best));
-        for _ in 0..self.options.single_refinements {
-            point = step(&self.geometry, residual, point);
-            // The false-alarm rate counts the directions within these elevations.
-            let highest = self.field_of_view[1].sin();
-            point[1] = point[1].clamp(-highest, highest);
-        }
-        (point, beam_power(&self.geometry, residual, point))
+        let near = |&i: &usize| i != best && values[i] > rivals * values[best];
+        let others = (0..values.len()).filter(near);
+        let grid = self.spectrum.grid();
+        let starts = others.map(|i| grid.direction(i)).chain([grid.direction(best)]);
+        let refined = starts.map(|start| {
+            let mut point = self.geometry.point(start);
+            for _ in 0..self.options.single_refinements {
+                point = step(&self.geometry, residual, point);
+                // The false-alarm rate counts the directions within these elevations.
+                let highest = self.field_of_view[1].sin();
+                point[1] = point[1].clamp(-highest, highest);
+            }
+            (point, beam_power(&self.geometry, residual, point))
+        });
+        refined.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
     }
 
     /// Whether a beam of this power is more than noise makes, after `found` sources.
@@ -177,26 +204,35 @@ impl Nomp {
         let Some(noise) = noise_power else {
             return self.shares.after(found, snapshots).is_some_and(|least| gain > least * left);
         };
+        gain > noise * self.level(snapshots)
+    }
+
+    /// What noise gains in the strongest beam with the false-alarm probability, in noise powers.
+    pub fn level(&mut self, snapshots: usize) -> f64 {
         let level = match self.level {
             Some((count, level)) if count == snapshots => level,
             _ => self.volumes.level(self.options.false_alarm, snapshots),
         };
         self.level = Some((snapshots, level));
-        gain > noise * level
+        level
     }
 
-    /// Newton steps on every source in turn, with all others taken off.
-    fn cycle(&self, fitted: &mut Fitted) {
+    /// A Newton step on every source in turn, with all others taken off, and its amplitudes: those of its beam, which
+    /// loses `threshold` of its norm over the snapshots.
+    pub fn cycle(&self, fitted: &mut Fitted, threshold: f64) {
         for i in 0..fitted.points.len() {
             let before = self.geometry.steering(fitted.points[i]).vector;
             let own = add_source(&fitted.residual, &before, fitted.amplitudes.row(i), 1.0);
             fitted.points[i] = step(&self.geometry, &own, fitted.points[i]);
             let after = self.geometry.steering(fitted.points[i]).vector;
-            let elements = self.geometry.elements() as f64;
-            for (n, column) in own.columns().into_iter().enumerate() {
-                let x: Complex64 = after.iter().zip(column).map(|(a, y)| a.conj() * y).sum();
-                fitted.amplitudes[[i, n]] = x / elements;
-            }
+            let beam = own.columns().into_iter().map(|column| -> Complex64 {
+                after.iter().zip(column).map(|(a, y)| a.conj() * y).sum()
+            });
+            let beam: Array1<Complex64> = beam.collect();
+            let norm = beam.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
+            let left = if norm > threshold { 1.0 - threshold / norm } else { 0.0 };
+            let share = left / self.geometry.elements() as f64;
+            fitted.amplitudes.row_mut(i).assign(&beam.mapv(|x| x * share));
             fitted.residual = add_source(&own, &after, fitted.amplitudes.row(i), -1.0);
         }
     }
@@ -213,7 +249,7 @@ impl Nomp {
 
     /// Pursues sources beyond `start`; also whether it ended for another reason than its limit on
     /// sources.
-    fn pursue(
+    pub fn pursue(
         &mut self,
         y: &Array2<Complex64>,
         start: Vec<Point>,
@@ -234,7 +270,7 @@ impl Nomp {
             if energy(&fitted.residual) <= EXHAUSTED * total || found + 1 >= y.nrows() {
                 return (sure, true);
             }
-            let (point, power) = self.strongest(&fitted.residual);
+            let (point, power) = self.strongest(&fitted.residual, 1.0);
             let verdict = self.stands_out(power, &fitted.residual, found, noise_power);
             if verdict == Verdict::Hidden && found >= expected {
                 expected = self.look_ahead(&fitted);
@@ -255,7 +291,7 @@ impl Nomp {
                 return (sure, true);
             };
             for _ in 0..self.options.cyclic_refinements {
-                self.cycle(&mut next);
+                self.cycle(&mut next, 0.0);
             }
             // Two sources that have run into each other are one.
             match self.fit(y, next.points) {
@@ -269,7 +305,7 @@ impl Nomp {
     }
 }
 
-fn energy(y: &Array2<Complex64>) -> f64 {
+pub(crate) fn energy(y: &Array2<Complex64>) -> f64 {
     y.iter().map(|z| z.norm_sqr()).sum()
 }
 
@@ -295,12 +331,12 @@ impl Plan for Nomp {
         let Data::Snapshots(y) = data else {
             return Err(AoaError::NeedsSnapshots { method: method.name() });
         };
-        let mut warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
+        let mut warnings = self.warnings();
         let Some(normalised) = Normalised::new(y) else {
             return Ok(conclude(method, vec![], None, None, 0, warnings));
         };
         let y = &normalised.snapshots;
-        let noise_power = self.options.noise_power.map(|power| normalised.power_in(power));
+        let noise_power = self.noise_power_in(&normalised);
         let (fitted, ended) = self.pursue(y, Vec::new(), noise_power);
         let found = fitted.points.len();
         if !ended {

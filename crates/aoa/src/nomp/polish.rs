@@ -21,7 +21,7 @@ impl Nomp {
     pub fn complete(&mut self, normalised: &Normalised, start: Vec<Point>) -> Vec<Point> {
         let y = &normalised.snapshots;
         let data = Data::Snapshots(y.view());
-        let noise_power = self.options.noise_power.map(|power| normalised.power_in(power));
+        let noise_power = self.noise_power_in(normalised);
         let start = self.without_noise(start, data, noise_power, false);
         let (fitted, _) = self.pursue(y, start, noise_power);
         self.polish(fitted.points, data, noise_power)
@@ -100,7 +100,7 @@ impl Nomp {
     }
 
     /// Refined, merged and without noise.
-    pub(super) fn polish(
+    pub fn polish(
         &mut self,
         points: Vec<Point>,
         data: Data<'_>,

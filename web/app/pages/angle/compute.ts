@@ -49,7 +49,7 @@ export const unavailable = signal<ReadonlyMap<Method, string>>(new Map());
 const FRAME_BUDGET_MS = 8;
 /** What is left of the time on a worker without the way there and back, roughly, for short calls. */
 const TRAVEL_SHARE = 0.5;
-const SLOW_AT_FIRST: readonly Method[] = ['nomp', 'maximum-likelihood', 'sparse-bayesian', 'iaa'];
+const SLOW_AT_FIRST: readonly Method[] = ['nomp', 'atomic-norm', 'maximum-likelihood', 'sparse-bayesian', 'iaa'];
 /** One slow call proves nothing. */
 const FEWEST_TIMES = 3;
 const recent = new Map<Method, number[]>(

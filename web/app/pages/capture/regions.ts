@@ -6,7 +6,7 @@ import type { CaptureRegionOptions, RegionFrame } from 'boresight';
 import { aborted, describeError, type Problem } from '../../data.ts';
 import { fitting } from '../../networks/choose.ts';
 import { load, models, readyNetworks } from '../../networks/load.ts';
-import { arrayProblem, type Model } from '../../networks/models.ts';
+import { arrayProblem, type Model, targetsOf, trainedOnBoards } from '../../networks/models.ts';
 import { type Loaded, loaded } from './files.ts';
 import { usedArray } from './process.ts';
 import { captureState } from './state.ts';
@@ -24,14 +24,19 @@ export const regions = signal<ShownRegions | null>(null);
 export const regionsWorking = signal(false);
 export const regionsProblem = signal<Problem | null>(null);
 
+/** Of some networks, best first, the one for recordings, whose boards are hardly ever calibrated. */
+const forRecordings = (networks: readonly Model[]): Model | undefined =>
+  networks.find(({ card }) => trainedOnBoards(card)) ?? networks[0];
+
 /** The networks that count and tell the targets of this capture's array, or why there are none. */
 export const trio = computed<Trio | string | null>(() => {
   const geometry = usedArray.value;
   if (!geometry) return null;
   const { regionsBy } = captureState.value;
-  const counting = models.value.find(({ card }) => card.network === 'counting' && !arrayProblem(card, geometry));
-  const [one] = fitting(regionsBy, [geometry], 1);
-  const [two] = fitting(regionsBy, [geometry], 2);
+  const counting = forRecordings(fitting('counting', [geometry], null));
+  const [one, two] = [1, 2].map((targets) =>
+    forRecordings(fitting(regionsBy, [geometry], targets).filter(({ card }) => targetsOf(card) === targets)),
+  );
   if (counting && one && two) return { counting, one, two };
   const any = models.value.find(({ card }) => card.network === 'counting');
   return (any && arrayProblem(any.card, geometry)) ?? 'has no networks for this array';

@@ -1,6 +1,6 @@
 /** What cards mean, in the words of radar. */
 
-import { arrayOf, type Card, elementsOf, targetsOf } from '../../networks/models.ts';
+import { arrayOf, type Card, elementsOf, targetsOf, trainedOnBoards } from '../../networks/models.ts';
 import { byteSize, count, fixed } from '../../plots/format.ts';
 
 /** What the network is for, in one sentence. */
@@ -78,6 +78,7 @@ export function trainedOn(card: Card): [string, string][] {
       typeof data.secondStageLowestSnrDb === 'number' ? `${minus(data.secondStageLowestSnrDb)} dB` : null,
     ],
     ['Range', range(data.rangeM, 'm')],
+    ['Errors of elements', trainedOnBoards(card) ? `${data.channelDb} dB and ${data.channelDeg}° (deviations)` : null],
     [
       'Errors of position',
       typeof data.positionError === 'number'
