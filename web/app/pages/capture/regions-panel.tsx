@@ -1,5 +1,6 @@
 /** Regions of the shown frame, how many targets a network counts in each, and where others see them. */
 import type { RegionTarget, TargetRegion } from 'boresight';
+import { trainedOnBoards } from '../../networks/models.ts';
 import { count, fixed, signed } from '../../plots/format.ts';
 import { download, fileName, toCsv } from '../../plots/save.ts';
 import { LoadState } from '../../ui/network-note.tsx';
@@ -14,6 +15,12 @@ export function RegionsPanel({ fileParts }: { fileParts: readonly (string | numb
   const networks = trio.value;
   const shown = regions.value;
   const problem = regionsProblem.value;
+  const three = networks && typeof networks !== 'string' ? [networks.counting, networks.one, networks.two] : [];
+  const boards = three.some(({ card }) => trainedOnBoards(card))
+    ? three.every(({ card }) => trainedOnBoards(card))
+      ? ' of boards that are not calibrated'
+      : ', some of boards that are not calibrated'
+    : ' of an exact array';
   return (
     <section class="panel" aria-labelledby="regions-title" aria-busy={regionsWorking.value} data-table="regions">
       <div class="panel-head">
@@ -40,7 +47,7 @@ export function RegionsPanel({ fileParts }: { fileParts: readonly (string | numb
       <p class="remark">
         Detection along range begins a region at each peak. A network counts its targets, none, one or two, and another
         for so many tells their angles in whole degrees; regions beyond 10° are turned to where most of their power
-        comes from. All were trained on simulated data of an exact array.
+        comes from. All were trained on simulated data{boards}.
         {captureState.value.frame === 'all' && wanted && ' Networks take one frame at a time: this is the first.'}
       </p>
       {typeof networks === 'string' ? (
@@ -72,8 +79,7 @@ export function RegionsPanel({ fileParts }: { fileParts: readonly (string | numb
             </button>
           )}
           {wanted &&
-            networks &&
-            [networks.counting, networks.one, networks.two].map(({ name, title }) => (
+            three.map(({ name, title }) => (
               <span key={name} class="muted">
                 {title}: <LoadState name={name} />
               </span>

@@ -63,11 +63,11 @@ export const captureCodec = codec(
     /** Whether regions are found, and their networks loaded. */
     regions: flag(false),
     regionsBy: choice('cnn3d', ['cnn3d', 'dnn']),
-    // A board is not calibrated and its targets have sidelobes in range, both of which networks never saw: a window, one
-    // bin a region and a loaded covariance keep these from being counted.
+    // Targets of a recording have sidelobes in range, which networks never saw, and its board differs from those of the
+    // training: a window, one bin a region and a loaded covariance keep both from being counted.
     regionWindow: region.field('regionWindow', { fallback: 'hann' }),
     regionReach: number(0, [0, 32], 'integer'),
-    countLoading: region.field('countLoading', { fallback: 2, max: 1000 }),
+    countLoading: region.field('countLoading', { fallback: 1, max: 1000 }),
     rotation: region.field('rotation'),
     regionRefine: region.field('refine'),
     span: choice('60', ['30', '40', '50', '60', '80']),
