@@ -26,20 +26,31 @@ before(async () => {
     { rangeM: 166, azimuthDeg: 5 },
   ];
   cube = simulateCube({ ...radar, snrDb: 10, seed: 2, targets });
-  networks = Object.fromEntries(
-    Object.entries(named).map(([role, name]) => [role, new Network(model(name).onnx, { card: model(name).card })]),
-  );
+  networks = instances(named);
   pool = createPool({ workers: 2 });
-  const load = async ([role, name]) => [role, (await pool.loadNetwork(model(name))).id];
-  ids = Object.fromEntries(await Promise.all(Object.entries(named).map(load)));
+  ids = await loaded(named);
 });
+
+/** Networks of this thread, by role. */
+function instances(names) {
+  const make = ([role, name]) => [role, new Network(model(name).onnx, { card: model(name).card })];
+  return Object.fromEntries(Object.entries(names).map(make));
+}
+
+/** Ids of networks on the pool, by role. */
+async function loaded(names) {
+  const load = async ([role, name]) => [role, (await pool.loadNetwork(model(name))).id];
+  return Object.fromEntries(await Promise.all(Object.entries(names).map(load)));
+}
+
 after(() => {
   pool.terminate();
   for (const network of Object.values(networks)) network.free();
 });
 
-/** What is in a capture that is windowed, a bin to itself, and loaded, since the board is not calibrated. */
-const ofBoard = { regionWindow: 'hann', reachBins: 0, countLoading: 2 };
+/** For a recording: windowed, a bin to itself, and loaded; the networks are those of boards that are not calibrated. */
+const ofBoard = { regionWindow: 'hann', reachBins: 0, countLoading: 1 };
+const boards = { counting: 'counting-experiment', one: 'cnn3d-experiment-1', two: 'cnn3d-experiment-2' };
 
 test('a region of one target and one of two are told as they are, on a pool too', async () => {
   const { counting, ...angles } = networks;
@@ -63,7 +74,8 @@ test('a region of one target and one of two are told as they are, on a pool too'
 
 test('the recorded targets are one each, in every frame', async () => {
   const kept = await pool.loadCapture(bin, cfg);
-  const frames = await kept.regions(ids, ofBoard);
+  const onPool = await loaded(boards);
+  const frames = await kept.regions(onPool, ofBoard);
   assert.deepEqual(
     frames.map(({ frame }) => frame),
     [0, 1, 2, 3, 4, 5, 6, 7],
@@ -78,10 +90,12 @@ test('the recorded targets are one each, in every frame', async () => {
       assert.ok(Math.abs(region.targets[0].azimuthDeg - classicalDeg) < 1, JSON.stringify(region.targets));
     }
   }
-  assert.deepEqual(await kept.frameRegions(ids, 3, ofBoard), frames[3]);
-  const { counting, ...angles } = networks;
+  assert.deepEqual(await kept.frameRegions(onPool, 3, ofBoard), frames[3]);
+  const here = instances(boards);
+  const { counting, ...angles } = here;
   assert.deepEqual(counting.captureRegions(angles, bin, cfg, ofBoard, 3), [frames[3]]);
-  await rejectsTyped(kept.frameRegions(ids, 8, ofBoard), 'out-of-range', 'frame');
+  for (const network of Object.values(here)) network.free();
+  await rejectsTyped(kept.frameRegions(onPool, 8, ofBoard), 'out-of-range', 'frame');
   kept.free();
 });
 

@@ -38,7 +38,7 @@ describe('a pool of worker threads', () => {
       methods.filter(({ network }) => network).map(({ name }) => name),
       ['aaetr', 'learned-pursuit', 'dnn', 'cnn3d'],
     );
-    assert.equal(methods.length, 15);
+    assert.equal(methods.length, 16);
     assert.equal(geometry.positions.length, 8);
   });
 

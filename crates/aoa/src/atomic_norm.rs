@@ -27,14 +27,14 @@ use crate::checks::conclude;
 use crate::cosines::Point;
 use crate::data::Data;
 use crate::error::AoaError;
-use crate::estimate::{Estimate, Source, Warning};
+use crate::estimate::{Estimate, Warning};
 use crate::method::Method;
 use crate::nomp::{Fitted, Nomp, energy};
 use crate::normalised::Normalised;
 use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use boresight_core::{Array, Complex64};
-use ndarray::{Array2, Axis, s};
+use ndarray::Array2;
 
 /// By what share of `tau` a beam of the residual may be above it, and by what share of `tau sum ||s||` the minimum may
 /// be missed for phases that do not agree.
@@ -103,10 +103,11 @@ impl AtomicNorm {
                 return Minimum { waves, rounds, certified: rounds < MOST_ROUNDS };
             }
             if !exhausted && waves.points.len() < y.nrows() {
+                let before = waves.points.len();
                 waves.points.push(point);
-                let mut amplitudes = Array2::zeros((waves.points.len(), y.ncols()));
-                amplitudes.slice_mut(s![..-1, ..]).assign(&waves.amplitudes);
-                waves.amplitudes = amplitudes;
+                waves.amplitudes = Array2::from_shape_fn((before + 1, y.ncols()), |(i, n)| {
+                    if i < before { waves.amplitudes[[i, n]] } else { Complex64::ZERO }
+                });
             }
         }
     }
@@ -131,7 +132,8 @@ fn drop_silent(waves: &mut Fitted) {
     let heard = norms(&waves.amplitudes).enumerate().filter(|&(_, norm)| norm > 0.0);
     let kept: Vec<usize> = heard.map(|(i, _)| i).collect();
     waves.points = kept.iter().map(|&i| waves.points[i]).collect();
-    waves.amplitudes = waves.amplitudes.select(Axis(0), &kept);
+    let shape = (kept.len(), waves.amplitudes.ncols());
+    waves.amplitudes = Array2::from_shape_fn(shape, |(i, n)| waves.amplitudes[[kept[i], n]]);
 }
 
 impl Plan for AtomicNorm {
@@ -151,13 +153,8 @@ impl Plan for AtomicNorm {
         if !minimum.certified {
             warnings.push(Warning::NotConverged { iterations: minimum.rounds });
         }
-        let scaled = Data::Snapshots(y.view());
-        let points = self.nomp.polish(minimum.waves.points, scaled, noise_power);
-        let sources = self.nomp.sources(points, scaled).into_iter();
-        let sources: Vec<Source> = sources.map(|source| normalised.source_out(source)).collect();
-        let mut estimate = conclude(method, sources, None, None, minimum.rounds, warnings);
-        estimate.sources.truncate(self.nomp.most());
-        Ok(estimate)
+        let (points, rounds) = (minimum.waves.points, minimum.rounds);
+        Ok(self.nomp.conclude(method, points, &normalised, rounds, warnings))
     }
 }
 

@@ -23,7 +23,7 @@ use crate::checks::{ambiguity, check_array, conclude};
 use crate::cosines::{Geometry, Point};
 use crate::data::Data;
 use crate::error::AoaError;
-use crate::estimate::{Estimate, Source, Warning};
+use crate::estimate::{Estimate, Warning};
 use crate::false_alarm::{Shares, Volumes};
 use crate::grid::Grid;
 use crate::method::Method;
@@ -33,7 +33,7 @@ use crate::plan::Plan;
 use crate::quadratic::QuadraticSpectrum;
 use boresight_core::linalg::least_squares;
 use boresight_core::{Array, Complex64, Direction};
-use ndarray::{Array1, Array2};
+use ndarray::Array2;
 use newton::{beam_power, step};
 use std::f64::consts::FRAC_PI_2;
 
@@ -130,9 +130,22 @@ impl Nomp {
         self.ambiguity.iter().cloned().collect()
     }
 
-    /// Most sources of an estimate.
-    pub fn most(&self) -> usize {
-        self.options.max_sources
+    /// The estimate of the sources at `points`, polished, in the unit of the data as given.
+    pub fn conclude(
+        &mut self,
+        method: Method,
+        points: Vec<Point>,
+        normalised: &Normalised,
+        iterations: usize,
+        warnings: Vec<Warning>,
+    ) -> Estimate {
+        let scaled = Data::Snapshots(normalised.snapshots.view());
+        let points = self.polish(points, scaled, self.noise_power_in(normalised));
+        let mut sources = self.sources(points, scaled);
+        sources.iter_mut().for_each(|source| *source = normalised.source_out(*source));
+        let mut estimate = conclude(method, sources, None, None, iterations, warnings);
+        estimate.sources.truncate(self.options.max_sources);
+        estimate
     }
 
     /// The noise power that is given, in the unit of normalised snapshots.
@@ -145,21 +158,24 @@ impl Nomp {
     pub fn strongest(&mut self, residual: &Array2<Complex64>, rivals: f64) -> (Point, f64) {
         let values = self.spectrum.evaluate_snapshots(residual.view());
         let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
-        let near = |&i: &usize| i != best && values[i] > rivals * values[best];
-        let others = (0..values.len()).filter(near);
-        let grid = self.spectrum.grid();
-        let starts = others.map(|i| grid.direction(i)).chain([grid.direction(best)]);
-        let refined = starts.map(|start| {
-            let mut point = self.geometry.point(start);
+        let mut strongest = (Point::default(), -1.0);
+        for i in 0..values.len() {
+            if i != best && values[i] <= rivals * values[best] {
+                continue;
+            }
+            let mut point = self.geometry.point(self.spectrum.grid().direction(i));
             for _ in 0..self.options.single_refinements {
                 point = step(&self.geometry, residual, point);
                 // The false-alarm rate counts the directions within these elevations.
                 let highest = self.field_of_view[1].sin();
                 point[1] = point[1].clamp(-highest, highest);
             }
-            (point, beam_power(&self.geometry, residual, point))
-        });
-        refined.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default()
+            let power = beam_power(&self.geometry, residual, point);
+            if power > strongest.1 {
+                strongest = (point, power);
+            }
+        }
+        strongest
     }
 
     /// Whether a beam of this power is more than noise makes, after `found` sources.
@@ -225,14 +241,15 @@ impl Nomp {
             let own = add_source(&fitted.residual, &before, fitted.amplitudes.row(i), 1.0);
             fitted.points[i] = step(&self.geometry, &own, fitted.points[i]);
             let after = self.geometry.steering(fitted.points[i]).vector;
-            let beam = own.columns().into_iter().map(|column| -> Complex64 {
-                after.iter().zip(column).map(|(a, y)| a.conj() * y).sum()
-            });
-            let beam: Array1<Complex64> = beam.collect();
-            let norm = beam.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
-            let left = if norm > threshold { 1.0 - threshold / norm } else { 0.0 };
+            let mut power = 0.0;
+            for (n, column) in own.columns().into_iter().enumerate() {
+                let x: Complex64 = after.iter().zip(column).map(|(a, y)| a.conj() * y).sum();
+                fitted.amplitudes[[i, n]] = x;
+                power += x.norm_sqr();
+            }
+            let left = (1.0 - threshold / power.sqrt().max(f64::MIN_POSITIVE)).max(0.0);
             let share = left / self.geometry.elements() as f64;
-            fitted.amplitudes.row_mut(i).assign(&beam.mapv(|x| x * share));
+            fitted.amplitudes.row_mut(i).iter_mut().for_each(|s| *s *= share);
             fitted.residual = add_source(&own, &after, fitted.amplitudes.row(i), -1.0);
         }
     }
@@ -342,11 +359,7 @@ impl Plan for Nomp {
         if !ended {
             warnings.push(Warning::NotConverged { iterations: found });
         }
-        let scaled = Data::Snapshots(y.view());
-        let points = self.polish(fitted.points, scaled, noise_power);
-        let sources = self.sources(points, scaled).into_iter();
-        let sources: Vec<Source> = sources.map(|source| normalised.source_out(source)).collect();
-        Ok(conclude(method, sources, None, None, found, warnings))
+        Ok(self.conclude(method, fitted.points, &normalised, found, warnings))
     }
 }
 
