@@ -43,11 +43,15 @@ test('what another command prints stays, and a title that none has is an error',
 });
 
 test('the documents of the experiments mark places', () => {
-  for (const [name, count] of [
-    ['aoa', 2],
-    ['doa', 1],
+  for (const [document, count] of [
+    ['experiments-aoa', 2],
+    ['experiments-doa', 2],
+    ['experiments-straddling', 1],
+    ['experiments-near-field', 2],
+    ['experiments-imperfections', 2],
+    ['images', 2],
   ]) {
-    const text = readFileSync(join(root, 'docs', `experiments-${name}.md`), 'utf8');
+    const text = readFileSync(join(root, 'docs', `${document}.md`), 'utf8');
     assert.equal(text.match(/<!-- tables: /g).length, count);
     assert.equal(text.match(/<!-- end of tables -->/g).length, count);
   }
