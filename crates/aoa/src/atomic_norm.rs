@@ -44,9 +44,10 @@ const CERTIFICATE: f64 = 1e-3;
 const RIVALS: f64 = 0.8;
 /// Newton steps on the strongest beam, at least.
 const STEPS: usize = 4;
-/// Rounds over the waves between two looks at the residual, and most of them.
+/// Rounds over the waves between two looks at the residual.
 const ROUNDS: usize = 20;
-const MOST_ROUNDS: usize = 4000;
+/// Most steps of waves, each counted once a snapshot, so that no data take long.
+const MOST_STEPS: usize = 100_000;
 /// Least `tau`, in parts of what all of the power would make: below it rounding decides.
 const LEAST: f64 = 1e-9;
 
@@ -96,18 +97,15 @@ impl AtomicNorm {
                 self.nomp.cycle(&mut waves, tau);
             }
             rounds += ROUNDS;
-            drop_silent(&mut waves);
             let (point, power) = self.nomp.strongest(&waves.residual, RIVALS);
             let exhausted = power.sqrt() <= tau * (1.0 + self.certificate);
-            if (exhausted && self.aligned(&waves, y, tau)) || rounds >= MOST_ROUNDS {
-                return Minimum { waves, rounds, certified: rounds < MOST_ROUNDS };
-            }
-            if !exhausted && waves.points.len() < y.nrows() {
-                let before = waves.points.len();
-                waves.points.push(point);
-                waves.amplitudes = Array2::from_shape_fn((before + 1, y.ncols()), |(i, n)| {
-                    if i < before { waves.amplitudes[[i, n]] } else { Complex64::ZERO }
-                });
+            let certified = exhausted && self.aligned(&waves, y, tau);
+            let steps = rounds * waves.amplitudes.len().max(1);
+            let finished = certified || steps >= MOST_STEPS;
+            let more = !(exhausted || finished) && waves.points.len() < y.nrows();
+            change_waves(&mut waves, more.then_some(point));
+            if finished {
+                return Minimum { waves, rounds, certified };
             }
         }
     }
@@ -127,13 +125,15 @@ fn norms(amplitudes: &Array2<Complex64>) -> impl Iterator<Item = f64> {
     amplitudes.rows().into_iter().map(|s| s.iter().map(|s| s.norm_sqr()).sum::<f64>().sqrt())
 }
 
-/// Leaves out waves that have shrunk to nothing.
-fn drop_silent(waves: &mut Fitted) {
+/// Leaves out waves that have shrunk to nothing, and adds one that has still to grow.
+fn change_waves(waves: &mut Fitted, more: Option<Point>) {
     let heard = norms(&waves.amplitudes).enumerate().filter(|&(_, norm)| norm > 0.0);
     let kept: Vec<usize> = heard.map(|(i, _)| i).collect();
-    waves.points = kept.iter().map(|&i| waves.points[i]).collect();
-    let shape = (kept.len(), waves.amplitudes.ncols());
-    waves.amplitudes = Array2::from_shape_fn(shape, |(i, n)| waves.amplitudes[[kept[i], n]]);
+    waves.points = kept.iter().map(|&i| waves.points[i]).chain(more).collect();
+    let shape = (waves.points.len(), waves.amplitudes.ncols());
+    waves.amplitudes = Array2::from_shape_fn(shape, |(i, n)| {
+        kept.get(i).map_or(Complex64::ZERO, |&k| waves.amplitudes[[k, n]])
+    });
 }
 
 impl Plan for AtomicNorm {
