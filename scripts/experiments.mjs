@@ -1,5 +1,5 @@
 // Runs the angle experiments with the shipped networks and puts figures, numbers and tables where the documents and the
-// page have them. Records stay in target/experiments: only networks trained since are run again.
+// page have them. Records stay in target/experiments, by the trials asked for: only networks trained since are run again.
 // `npm run experiments -- aoa images` runs these alone. `--binary FILE` takes a command line that is built already;
 // `--trials N` runs at most so many trials a condition, which the tables say.
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -120,7 +120,7 @@ await main(async () => {
   const most = Number(values.trials ?? Number.POSITIVE_INFINITY);
   mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
   for (const { name, experiment, document, networks, settings, figures, shown } of wanted) {
-    const folder = join(root, 'target', 'experiments', name);
+    const folder = join(root, 'target', 'experiments', values.trials ? `${name}-${values.trials}` : name);
     forgetOld(folder, experiment);
     const options = [...limited(settings, most), ...models(networks)];
     await run(command, [...before, 'evaluate', experiment, ...options, '--out', folder]);
