@@ -5,6 +5,7 @@ use crate::convolution::unroll;
 use crate::dense::densify;
 use crate::error::NeuralError;
 use crate::fused::fuse;
+use crate::softmax::soften;
 use ndarray::{ArrayD, ArrayViewD};
 use std::sync::{Arc, Mutex, PoisonError};
 use tract_onnx::pb::{ModelProto, ValueInfoProto, tensor_proto, tensor_shape_proto, type_proto};
@@ -123,6 +124,7 @@ impl Engine {
             }
             graph.optimize()?;
             fuse(&mut graph)?;
+            soften(&mut graph)?;
             graph.into_runnable()
         });
         optimised.map_err(|error| refused("optimised", &error))

@@ -41,6 +41,7 @@ mod model;
 mod onnx;
 mod product;
 mod regions;
+mod softmax;
 mod target_set;
 
 pub use card::{Axis, Card, Kind, Port};
