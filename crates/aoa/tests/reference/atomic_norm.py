@@ -1,6 +1,6 @@
-"""Reference minima of atomic norm denoising, by the semidefinite program of Bhaskar, Tang and Recht (2013) and Yang and
-Xie (2016), solved by the alternating direction method of multipliers, written to atomic_norm.json. Needs NumPy; run it in
-this folder.
+"""Reference minima of atomic norm denoising, by the semidefinite program of Bhaskar, Tang and Recht (2013) and Yang
+and Xie (2016), solved by the alternating direction method of multipliers, written to atomic_norm.json. Needs NumPy; run
+it in this folder.
 
 The atoms are the whole line of places, of which elements are some. With unit amplitudes at the elements the program is
 
@@ -30,7 +30,7 @@ def solve(places, y, tau, rounds=60000, rho=None):
     whole[places] = y
     z, multiplier = np.zeros((size, size), complex), np.zeros((size, size), complex)
     counts = span - np.arange(span)
-    for step in range(rounds):
+    for _ in range(rounds):
         target = z + multiplier / rho
         # The block X enters twice, the data term once.
         x = (whole + 2 * rho * target[:span, span:]) / (seen[:, None] + 2 * rho)
@@ -44,7 +44,6 @@ def solve(places, y, tau, rounds=60000, rho=None):
         if np.linalg.norm(z - block) + np.linalg.norm(z - before) < 1e-10 * np.linalg.norm(z):
             break
     value = 0.5 * np.linalg.norm(y - x[places]) ** 2 + tau / 2 * (t[0].real + np.trace(w).real)
-    print(step, "rounds,", value)
     return float(value)
 
 
