@@ -5,6 +5,7 @@
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
+import { endToEndTables } from './lib/end-to-end.mjs';
 import { root } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
 import { withTables } from './lib/tables.mjs';
@@ -48,6 +49,13 @@ const EXPERIMENTS = [
     figures: '',
     shown: true,
   },
+  ...[[], ['--centre', '35']].map((centre) => ({
+    name: ['doa-end-to-end', ...centre.slice(1)].join('-'),
+    experiment: 'doa',
+    document: 'experiments-doa',
+    networks: { names: ['counting', 'cnn3d-1', 'cnn3d-2', 'cnn3d-paper-2', 'dnn-small-1', 'dnn-small-2'] },
+    settings: ['--regions', 'end-to-end', '--trials', '2100', '--seed', '0', ...centre],
+  })),
   {
     name: 'doa-experiment',
     experiment: 'doa',
@@ -76,6 +84,9 @@ const EXPERIMENTS = [
   },
 ];
 
+/** Experiments whose brief records make the tables of `doa-flow` together. */
+const FLOW = ['doa', 'doa-end-to-end', 'doa-end-to-end-35'];
+
 const shipped = join(root, 'models');
 const cards = readdirSync(shipped)
   .filter((file) => file.endsWith('.json'))
@@ -99,11 +110,17 @@ function limited(settings, most) {
   return settings.map((value, i) => (settings[i - 1] === '--trials' && most < Number(value) ? String(most) : value));
 }
 
-/** What `--model` says of the networks that take part. */
-function models({ kinds = [], ...data } = {}) {
-  return cards
-    .filter((card) => kinds.includes(card.network) && Object.keys(data).every((key) => card.data[key] === data[key]))
-    .flatMap(({ onnx }) => ['--model', onnx]);
+/** What `--model` says of the networks that take part, by name or by kind and data. */
+function models({ names, kinds = [], ...data } = {}) {
+  const fits = (card) => kinds.includes(card.network) && Object.keys(data).every((key) => card.data[key] === data[key]);
+  return cards.filter((card) => names?.includes(card.name) ?? fits(card)).flatMap(({ onnx }) => ['--model', onnx]);
+}
+
+/** Tables of whole frames beside told regions, once there are records of all. */
+function flowTables(folder) {
+  const records = FLOW.map((name) => join(folder(name), 'doa.brief.json'));
+  if (!records.every((file) => existsSync(file))) return {};
+  return { 'doa-flow': endToEndTables(...records.map((file) => JSON.parse(readFileSync(file, 'utf8')))) };
 }
 
 await main(async () => {
@@ -118,14 +135,16 @@ await main(async () => {
     ? [values.binary]
     : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-cli', '--'];
   const most = Number(values.trials ?? Number.POSITIVE_INFINITY);
+  const folderOf = (name) => join(root, 'target', 'experiments', values.trials ? `${name}-${values.trials}` : name);
   mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
   for (const { name, experiment, document, networks, settings, figures, shown } of wanted) {
-    const folder = join(root, 'target', 'experiments', values.trials ? `${name}-${values.trials}` : name);
+    const folder = folderOf(name);
     forgetOld(folder, experiment);
     const options = [...limited(settings, most), ...models(networks)];
     await run(command, [...before, 'evaluate', experiment, ...options, '--out', folder]);
     const page = join(root, 'docs', `${document}.md`);
     const tables = { [name]: readFileSync(join(folder, `${experiment}.md`), 'utf8') };
+    if (FLOW.includes(name)) Object.assign(tables, flowTables(folderOf));
     writeFileSync(page, withTables(readFileSync(page, 'utf8'), tables));
     if (shown)
       cpSync(join(folder, `${experiment}.brief.json`), join(root, 'docs', 'experiments', `${experiment}.json`));

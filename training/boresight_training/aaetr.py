@@ -63,14 +63,14 @@ class Attention(nn.Module):
         width, heads = query.shape[-1], self.heads
 
         def split(x):
-            return x.reshape(-1, int(x.shape[1]), heads, width // heads).transpose(1, 2)
+            return x.reshape(-1, x.shape[1], heads, width // heads).transpose(1, 2)
 
         mixed = functional.scaled_dot_product_attention(
             split(self.query(query)),
             split(self.key(key)),
             split(self.value(value)),
         )
-        return self.out(mixed.transpose(1, 2).reshape(-1, int(query.shape[1]), width))
+        return self.out(mixed.transpose(1, 2).reshape(-1, query.shape[1], width))
 
 
 class Feedforward(nn.Sequential):

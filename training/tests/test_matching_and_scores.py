@@ -1,7 +1,7 @@
 """Assignment against SciPy's, scores against hand counts, the set loss against its own parts."""
 
 from dataclasses import replace
-from math import log, radians
+from math import log, pi, radians
 
 import pytest
 import torch
@@ -95,17 +95,17 @@ def test_the_loss_vanishes_at_the_truth_and_matches_in_any_order(focal):
     assert loss == pytest.approx(config.magnitude, rel=1e-3)
 
 
-def test_stated_variances_are_likeliest_at_the_square_of_the_error_and_leave_the_answers_alone():
+def test_stated_variances_are_best_at_those_of_normal_errors_of_that_size_and_leave_the_answers_alone():
     targets = truth([(0, -3)])
     cell = 2 / LRR48_APERTURE
     answers = torch.tensor([0.25 * cell, -1.0, 30.0]).repeat(1, 1, 1, 1).requires_grad_()
-    spread = torch.tensor([0.25, 2.0]).square().log().repeat(1, 1, 1, 1).requires_grad_()
+    spread = (torch.tensor([0.25, 2.0]).square() * pi / 2).log().repeat(1, 1, 1, 1).requires_grad_()
     loss, _ = set_loss(torch.cat((answers, spread), -1), targets, SetLossConfig())
     without, _ = set_loss(answers, targets, SetLossConfig())
     given = torch.autograd.grad(loss, (answers, spread))
     assert given[1].abs().max() < 1e-6
     assert torch.allclose(given[0], torch.autograd.grad(without, answers)[0])
-    # Half the deviation costs (4 - 1) / 2 - log 2 more.
+    # Half the deviation costs 2 - 1 - log 2 more.
     narrow, parts = set_loss(torch.cat((answers, spread - 2 * log(2)), -1), targets, SetLossConfig())
-    assert (narrow - loss).item() == pytest.approx(0.1 * 2 * (1.5 - log(2)), rel=1e-4)
+    assert (narrow - loss).item() == pytest.approx(0.1 * 2 * (1 - log(2)), rel=1e-4)
     assert parts["spread"].item() == pytest.approx((narrow - without).item() / 0.1, rel=1e-3)
