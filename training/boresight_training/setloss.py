@@ -66,8 +66,8 @@ def set_loss(outputs, targets, config: SetLossConfig, cell=LRR48_CELL):
 def _surprise(log_variance, error):
     """Least where the deviation is what a normal error of this mean size has; only the variance learns from it.
 
-    The negative log-likelihood of a Laplace distribution but for a constant: squares would let the few errors of targets
-    that were confused decide the deviations of all.
+    The negative log-likelihood of a Laplace distribution but for a constant: squares would let the few errors of
+    targets that were confused decide the deviations of all.
     """
     half = 0.5 * log_variance.clamp(-20, 10)
     return half + (pi / 2) ** 0.5 * error.detach().abs() * (-half).exp()

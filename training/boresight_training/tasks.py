@@ -15,7 +15,7 @@ from .arrays import array, random_arrays
 from .classifiers import COVARIANCE_FEATURES, DNN_HIDDEN, counting, dnn, folded
 from .cnn3d import CNN3D, Cnn3d
 from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
-from .score import best_f1
+from .score import best_f1, right_predictions
 from .setloss import SetLossConfig, set_loss
 from .snapshots import Scenes, snapshots
 
@@ -59,8 +59,11 @@ class Task(Protocol):
     def confidence(self, model: nn.Module, count: int, generator: torch.Generator) -> float | None:
         """Threshold on the exported confidence with the largest F1 over all conditions; none where none is needed."""
 
-    def export_form(self, model: nn.Module) -> nn.Module:
-        """The module whose graph is exported."""
+    def deviations(self, model: nn.Module, count: int, generator: torch.Generator) -> list[float] | None:
+        """Factors that make the deviations which the model states those of its errors; none where it states none."""
+
+    def export_form(self, model: nn.Module, deviations: list[float] | None = None) -> nn.Module:
+        """The module whose graph is exported, with these factors."""
 
     def example(self, batch: int, generator: torch.Generator) -> tuple[torch.Tensor, ...]:
         """Inputs of the exported form."""
@@ -76,6 +79,8 @@ EVALUATED = {"lrr48": (2, 6, 10), "awr1642": (1, 2), "ula16": (2, 4), "cascade86
 """Arrays that a network for any array is scored on, with numbers of targets. It is trained on none of them."""
 
 
+ONE_DEVIATION = 0.6827
+"""Share of normal errors within one standard deviation."""
 ZHU = "Zhu, Chen and Yang (2024), Angle of Arrival Estimation with Transformer"
 
 
@@ -117,11 +122,17 @@ class AaetrTask:
             ),
         )
         meaning = "sine of azimuth, amplitude at one element, confidence from 0 to 1"
-        self.outputs = (Port("targets", ("batch", self.config.queries, 3), meaning),)
+        if self._states_deviations:
+            meaning += ", standard deviations of the sine and of the amplitude in dB"
+        values = 5 if self._states_deviations else 3
+        self.outputs = (Port("targets", ("batch", self.config.queries, values), meaning),)
+
+    @property
+    def _states_deviations(self):
+        return isinstance(self.config, steered.SteeredConfig)
 
     def model(self):
-        is_steered = isinstance(self.config, steered.SteeredConfig)
-        return steered.SteeredAaetr(self.config) if is_steered else Aaetr(self.config)
+        return steered.SteeredAaetr(self.config) if self._states_deviations else Aaetr(self.config)
 
     def draw(self, batch, progress, generator):
         scenes, positions = self.scenes, self.positions
@@ -153,14 +164,33 @@ class AaetrTask:
         best = self._score(model, self.scenes, self.positions, 4 * count, generator)
         return torch.tensor(best["threshold"]).sigmoid().item()
 
+    def deviations(self, model, count, generator):
+        if not self._states_deviations:
+            return None
+        # The array it is trained for, or arrays as it is trained on.
+        parts = [self.draw(250, 1.0, generator) for _ in range(max(1, 4 * count // 250))]
+        ratios = torch.cat([self._ratios(model, *part) for part in parts])
+        return ratios.quantile(ONE_DEVIATION, 0).tolist() if len(ratios) else [1.0, 1.0]
+
+    def _ratios(self, model, targets, values, positions):
+        """Errors over the deviations stated, of right predictions and in sine and dB, [predictions, 2]."""
+        with torch.no_grad():
+            answer = model(values, positions)[-1].double()
+        u, db, logit, *spread = answer.unbind(-1)
+        cell = steered.Places(positions).cell.double()
+        right, nearest = right_predictions(u.clamp(-1, 1).asin(), logit, targets)
+        errors = ((u - targets.u.gather(1, nearest)) / cell, db - targets.db.gather(1, nearest))
+        ratios = [(e.abs() * (-0.5 * s).exp())[right] for e, s in zip(errors, spread, strict=True)]
+        return torch.stack(ratios, -1)
+
     def _score(self, model, scenes, positions, count, generator):
         targets, values, positions = snapshots(scenes, positions, count, generator)
         parts = zip(values.split(250), positions.float().expand(count, -1, -1).split(250), strict=True)
         answers = torch.cat([model(torch.view_as_real(v), p)[-1] for v, p in parts]).double()
         return best_f1(answers[..., 0].clamp(-1, 1).asin(), answers[..., 1], answers[..., 2], targets)
 
-    def export_form(self, model):
-        return _Targets(model)
+    def export_form(self, model, deviations=None):
+        return _Targets(model, (deviations or [1.0, 1.0]) if self._states_deviations else None)
 
     def example(self, batch, generator):
         _, values, _ = snapshots(replace(self.scenes, position_error=0.0), self.positions, batch, generator)
@@ -172,14 +202,20 @@ class AaetrTask:
 
 
 class _Targets(nn.Module):
-    def __init__(self, model):
+    def __init__(self, model, deviations):
         super().__init__()
-        self.model = model
+        self.model, self.deviations = model, deviations
 
     def forward(self, snapshots, positions):
-        sine, db, logit = self.model(snapshots, positions)[-1][..., :3].split(1, -1)
+        sine, db, logit, *spread = self.model(snapshots, positions)[-1].split(1, -1)
         # No dB: those of empty queries magnify rounding.
-        return torch.cat((sine, (db * (log(10) / 20)).exp(), logit.sigmoid()), -1)
+        answer = (sine, (db * (log(10) / 20)).exp(), logit.sigmoid())
+        if self.deviations is None:
+            return torch.cat(answer, -1)
+        in_cells, in_db = (
+            (0.5 * s.clamp(-20, 10)).exp() * factor for s, factor in zip(spread, self.deviations, strict=True)
+        )
+        return torch.cat((*answer, in_cells * steered.Places(positions).cell, in_db), -1)
 
 
 REGION = Port(
@@ -286,7 +322,10 @@ class ClassifierTask:
             scores["close_pairs_within_1_deg"] = float((error[close] <= 1).all(1).float().mean())
         return scores
 
-    def export_form(self, model):
+    def deviations(self, model, count, generator):
+        return None
+
+    def export_form(self, model, deviations=None):
         return nn.Sequential(folded(model) if isinstance(model, nn.Sequential) else model, nn.Sigmoid())
 
     def example(self, batch, generator):

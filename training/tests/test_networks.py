@@ -1,6 +1,7 @@
 """Networks: the papers' sizes, symmetries, and exported files that give the same numbers."""
 
 import onnx
+import onnxruntime
 import pytest
 import torch
 
@@ -111,6 +112,45 @@ def test_steered_attention_takes_any_array_and_turns_with_it():
             moved = network(torch.view_as_real(values[:, order]), (positions[order] + torch.tensor([0, 7, 0])).float())
         assert answer.shape == (2, 3, 48, 5) and answer.isfinite().all()
         assert (answer - moved).abs().max() < 1e-2, name
+
+
+def test_what_is_exported_for_any_array_takes_any_number_of_elements(tmp_path):
+    torch.manual_seed(0)
+    what = task("aaetr", "steered-attention-tiny", arrays="any")
+    form = export.exported_form(what, what.model().eval(), False, [0.5, 2.0])
+    export.to_onnx(what, form, tmp_path / "any.onnx")
+    session = onnxruntime.InferenceSession(tmp_path / "any.onnx", providers=["CPUExecutionProvider"])
+    generator = torch.Generator().manual_seed(4)
+    for name in ("ula8", "lrr48", "ula86"):
+        positions = array(name)
+        _, values, _ = snapshots(Scenes(targets=(2, 2)), positions, 3, generator)
+        example = torch.view_as_real(values), positions.float()
+        given = {port.name: part.numpy() for port, part in zip(what.inputs, example, strict=True)}
+        with torch.no_grad():
+            expected = form(*example)
+        (answer,) = (torch.from_numpy(part) for part in session.run(None, given))
+        assert answer.shape == (3, 48, 5) and (answer - expected).abs().max() < 1e-4, name
+
+
+def test_stated_deviations_are_scaled_to_hold_68_of_100_errors():
+    torch.manual_seed(0)
+    what = task("aaetr", "steered-attention-tiny", targets=1, snr_db=(30.0, 40.0))
+    network = what.model().eval()
+    # A network that answers where its anchors are: errors of a few cells, and deviations of one.
+    with torch.no_grad():
+        network.head.bias[2] = 5.0
+        network.head.weight.zero_()
+    factors = what.deviations(network, 1000, torch.Generator().manual_seed(3))
+    drawn = [what.draw(250, 1.0, torch.Generator().manual_seed(seed)) for seed in range(4, 20)]
+    ratios = torch.cat([what._ratios(network, *data) for data in drawn])
+    inside = (ratios <= torch.tensor(factors)).double().mean(0)
+    # Some 700 right predictions on either side: the difference of two shares deviates by 0.025.
+    assert len(ratios) > 500 and (inside - 0.6827).abs().max() < 0.08
+    plain, scaled = (what.export_form(network, given) for given in (None, factors))
+    example = what.example(3, torch.Generator().manual_seed(8))
+    with torch.no_grad():
+        ratio = scaled(*example)[..., 3:] / plain(*example)[..., 3:]
+    assert torch.allclose(ratio, torch.tensor(factors).expand_as(ratio), rtol=1e-4)
 
 
 def test_the_steered_form_ignores_the_phase_of_the_whole():
