@@ -55,10 +55,8 @@ impl Plan for Bartlett {
                 let form = prepared.matrix.view();
                 let top = self.spectrum.refine(form, peak.direction, Towards::Maximum);
                 Source {
-                    direction: top.0,
-                    power: top.1 / (elements * elements),
                     amplitude: beam(&self.array, top.0, data),
-                    confidence: None,
+                    ..Source::new(top.0, top.1 / (elements * elements))
                 }
             })
             .collect();

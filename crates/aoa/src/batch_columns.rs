@@ -29,6 +29,12 @@ pub struct BatchColumns<'a> {
     /// How sure a network is of each source, from 0 to 1; absent from other methods.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
     pub confidence: Option<Vec<f64>>,
+    /// Standard deviation that a network states of each azimuth; absent where the method states none.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
+    pub azimuth_deviation_rad: Option<Vec<f64>>,
+    /// The same of each power.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
+    pub power_deviation_db: Option<Vec<f64>>,
     /// The spectra, where they were asked for and the method has them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spectra: Option<SpectraColumns<'a>>,
@@ -65,6 +71,10 @@ impl BatchEstimate {
     #[must_use]
     pub fn columns(&self) -> BatchColumns<'_> {
         let each = |number: fn(&Source) -> f64| self.sources.iter().map(number).collect();
+        let stated = |number: fn(&Source) -> Option<f64>| {
+            let all: Option<Vec<_>> = self.sources.iter().map(number).collect();
+            all.filter(|all| !all.is_empty())
+        };
         BatchColumns {
             method: self.method,
             cells: self.cells,
@@ -72,12 +82,9 @@ impl BatchEstimate {
             azimuth_rad: each(|source| source.direction.azimuth_rad),
             elevation_rad: each(|source| source.direction.elevation_rad),
             power: each(|source| source.power),
-            confidence: self
-                .sources
-                .iter()
-                .map(|source| source.confidence)
-                .collect::<Option<Vec<_>>>()
-                .filter(|confidence| !confidence.is_empty()),
+            confidence: stated(|source| source.confidence),
+            azimuth_deviation_rad: stated(|source| source.deviation.map(|d| d.azimuth_rad)),
+            power_deviation_db: stated(|source| source.deviation.map(|d| d.power_db)),
             spectra: self.spectra.as_ref().map(|spectra| spectra.columns(self.cells)),
             unresolved: self.unresolved,
             warnings: &self.warnings,

@@ -90,12 +90,7 @@ impl Plan for Capon {
                 let form = inverse.view();
                 let (direction, value) =
                     self.spectrum.refine(form, peak.direction, Towards::Minimum);
-                sources.push(Source {
-                    direction,
-                    power: 1.0 / value,
-                    amplitude: None,
-                    confidence: None,
-                });
+                sources.push(Source::new(direction, 1.0 / value));
             }
         }
         let grid = self.spectrum.grid();

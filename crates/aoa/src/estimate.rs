@@ -22,6 +22,26 @@ pub struct Source {
     /// How sure a network is of it, from 0 to 1; absent from other methods.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub confidence: Option<f64>,
+    /// Standard deviations that a network states of its answer; absent where the method states none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deviation: Option<Deviation>,
+}
+
+impl Source {
+    /// A source of which no more is known.
+    pub fn new(direction: Direction, power: f64) -> Self {
+        Self { direction, power, amplitude: None, confidence: None, deviation: None }
+    }
+}
+
+/// Standard deviations of what is told of a source.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
+#[option(name = "SourceDeviation")]
+pub struct Deviation {
+    /// Of the azimuth.
+    pub azimuth_rad: f64,
+    /// Of the power.
+    pub power_db: f64,
 }
 
 /// What the values of a spectrum mean.

@@ -79,7 +79,7 @@ pub use checks::settle;
 pub use counted::{CountSources, Counted, SourceProbabilities};
 pub use data::Data;
 pub use error::AoaError;
-pub use estimate::{Estimate, Source, Spectrum, SpectrumKind, Warning};
+pub use estimate::{Deviation, Estimate, Source, Spectrum, SpectrumKind, Warning};
 pub use estimator::Estimator;
 pub use estimators::Estimators;
 pub use grid::Grid;

@@ -52,10 +52,8 @@ pub fn sources_at(array: &Array, directions: &[Direction], data: Data<'_>) -> Ve
         .zip(&powers)
         .enumerate()
         .map(|(i, (&direction, &power))| Source {
-            direction,
-            power,
             amplitude: amplitudes.as_ref().map(|s| s[i]),
-            confidence: None,
+            ..Source::new(direction, power)
         })
         .collect()
 }

@@ -150,7 +150,7 @@ impl Plan for Portions {
         let mut estimate = Estimate::new(Method::Aaetr);
         let power = y.iter().map(|z| z.norm_sqr()).sum();
         let direction = Direction::azimuth(0.0);
-        estimate.sources.push(Source { direction, power, amplitude: None, confidence: Some(0.9) });
+        estimate.sources.push(Source { confidence: Some(0.9), ..Source::new(direction, power) });
         Ok(estimate)
     }
 

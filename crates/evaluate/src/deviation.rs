@@ -152,7 +152,7 @@ mod tests {
 
     fn source(azimuth_deg: f64, power: f64) -> Source {
         let direction = Direction::azimuth(azimuth_deg.to_radians());
-        Source { direction, power, amplitude: None, confidence: None }
+        Source::new(direction, power)
     }
 
     #[test]

@@ -41,8 +41,9 @@ impl Kind {
         matches!(self, Self::Aaetr | Self::LearnedPursuit)
     }
 
-    /// Its inputs, then its outputs. Where an axis has a name other than `batch`, any length will do, the same
-    /// everywhere.
+    /// Its inputs, then its outputs. Where an axis has a name other than `batch`, any length or name will do, the same
+    /// everywhere. Of a target the `values` are sine of the azimuth, amplitude and confidence, and there may be the
+    /// standard deviations of the sine and of the amplitude in dB ([`TARGET_VALUES`]).
     pub fn ports(self) -> (Vec<Port>, Vec<Port>) {
         let batch = || Axis::Named("batch".into());
         let named = |name: &str| Axis::Named(name.into());
@@ -59,7 +60,7 @@ impl Kind {
                     port("snapshots", vec![batch(), named("elements"), Axis::Length(2)]),
                     port("positions", vec![named("elements"), Axis::Length(3)]),
                 ],
-                vec![port("targets", vec![batch(), named("queries"), Axis::Length(3)])],
+                vec![port("targets", vec![batch(), named("queries"), named("values")])],
             ),
             Self::Counting => (vec![fixed("covariance", &[56])], vec![fixed("probability", &[3])]),
             Self::Dnn => (vec![fixed("covariance", &[56])], vec![fixed("probability", &[21])]),
@@ -69,6 +70,9 @@ impl Kind {
         }
     }
 }
+
+/// Numbers a target of a set has, without and with deviations.
+pub const TARGET_VALUES: [usize; 2] = [3, 5];
 
 /// Length of an axis, or a name where any goes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -108,6 +112,17 @@ pub struct Port {
     pub axes: Vec<Axis>,
 }
 
+impl Port {
+    /// Lengths of the axes that have names, in a tensor of this shape.
+    pub(crate) fn lengths(&self, shape: &[usize]) -> Vec<(String, usize)> {
+        let named = self.axes.iter().zip(shape).filter_map(|(axis, &length)| match axis {
+            Axis::Named(name) => Some((name.clone(), length)),
+            Axis::Length(_) => None,
+        });
+        named.collect()
+    }
+}
+
 impl fmt::Display for Port {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let axes: Vec<String> = self.axes.iter().map(Axis::to_string).collect();
@@ -127,6 +142,8 @@ pub struct TrainingData {
     pub field_of_view_deg: Option<f64>,
     /// Standard deviation of the elements' positions, half wavelengths.
     pub position_error: f64,
+    /// Fewest and most elements of the arrays, where it was trained on different ones.
+    pub elements: Option<[usize; 2]>,
 }
 
 /// What is known of a model. Only what is needed to run and name it; a card holds more.

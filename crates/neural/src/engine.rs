@@ -23,6 +23,9 @@ const MAX_NUMBERS: usize = 1 << 26;
 
 type Runnable = Arc<TypedRunnableModel>;
 
+/// Lengths of axes that have names, by name.
+pub(crate) type Lengths = Vec<(String, usize)>;
+
 /// A graph with its plans, a plan for each size of batch.
 pub(crate) struct Engine {
     graph: InferenceModel,
@@ -49,7 +52,23 @@ impl Engine {
         self.inputs.iter().zip(self.batched.iter().copied())
     }
 
-    /// Shapes of the outputs for one example, those of other than 32-bit floating-point numbers being empty.
+    /// The same with these lengths.
+    pub fn with_lengths(&self, lengths: &Lengths) -> Self {
+        let mut inputs = self.inputs.clone();
+        for (port, &batched) in inputs.iter_mut().zip(&self.batched) {
+            for axis in &mut port.axes[usize::from(batched)..] {
+                let known = |(name, _): &&(String, usize)| *axis == Axis::Named(name.clone());
+                if let Some((_, length)) = lengths.iter().find(known) {
+                    *axis = Axis::Length(*length);
+                }
+            }
+        }
+        let (graph, batched) = (self.graph.clone(), self.batched.clone());
+        Self { graph, inputs, batched, plans: Mutex::default() }
+    }
+
+    /// Shapes of the outputs for one example, those of other than 32-bit floating-point numbers being empty. Axes without
+    /// a length have one.
     pub fn output_shapes(&self) -> Result<Vec<Vec<usize>>, NeuralError> {
         let typed = self.typed(1)?;
         let shape = |at| {
@@ -63,12 +82,9 @@ impl Engine {
 
     /// The same with an input that never changes, so that what follows from it is computed once.
     pub fn with_constant(&self, name: &str, tensor: Tensor) -> Result<Self, NeuralError> {
-        let mut engine = Self {
-            graph: self.graph.clone(),
-            inputs: self.inputs.clone(),
-            batched: self.batched.clone(),
-            plans: Mutex::default(),
-        };
+        let port = self.inputs.iter().find(|port| port.name == name);
+        let lengths = port.map(|port| port.lengths(tensor.shape())).unwrap_or_default();
+        let mut engine = self.with_lengths(&lengths);
         if let Some(at) = self.inputs.iter().position(|port| port.name == name) {
             let outlet = engine.graph.inputs.remove(at);
             let node = &mut engine.graph.nodes[outlet.node];

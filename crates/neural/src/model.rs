@@ -1,8 +1,8 @@
 //! Models: loaded, checked, run.
 
-use crate::card::{Axis, Card, Kind, Port};
+use crate::card::{Axis, Card, Kind, Port, TARGET_VALUES};
 use crate::classifier::Classifier;
-use crate::engine::{Engine, Runners, ports, tensor, tensor_of};
+use crate::engine::{Engine, Lengths, Runners, ports, tensor, tensor_of};
 use crate::error::NeuralError;
 use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
@@ -23,6 +23,8 @@ use tract_onnx::prelude::{TValue, TVec};
 
 /// Most examples run at once.
 const MAX_BATCH: usize = 1 << 20;
+/// Longest axis of any length.
+const MAX_LENGTH: usize = 4096;
 
 /// A network ready to run; clones share it.
 #[derive(Clone)]
@@ -37,8 +39,8 @@ pub struct Model {
     single: bool,
     /// The engine with the array of the last estimator in it, and the positions of its elements.
     placed: Arc<Mutex<Option<Placed>>>,
-    /// What ran the graph last, ready to do so again.
-    idle: Arc<Mutex<Option<Runners>>>,
+    /// What ran the graph last, ready to do so again on inputs of the same lengths.
+    idle: Arc<Mutex<Option<(Lengths, Runners)>>>,
 }
 
 /// Positions of elements, and the engine with these in it.
@@ -111,12 +113,13 @@ impl Model {
         &self,
         inputs: &[(&str, ArrayViewD<'_, f32>)],
     ) -> Result<Vec<(String, ArrayD<f32>)>, NeuralError> {
-        let ordered = self.ordered(inputs)?;
+        let (ordered, lengths) = self.ordered(inputs)?;
         let counted = ordered.iter().find(|(_, batched)| *batched);
         let batch = counted.map_or(1, |(array, _)| array.shape()[0]);
         check_range("number of examples", batch as f64, 1.0, MAX_BATCH as f64)?;
         let mut parts: Vec<Vec<ArrayD<f32>>> = vec![Vec::new(); self.outputs.len()];
         self.run_graph(
+            &lengths,
             batch,
             |from, to| {
                 let part = |(array, batched): &(ArrayViewD<'_, f32>, bool)| {
@@ -146,11 +149,12 @@ impl Model {
         self.outputs.iter().zip(parts).map(named).collect()
     }
 
-    /// The inputs in the network's order, each with whether its first axis counts examples.
+    /// The inputs in the network's order, each with whether its first axis counts examples, and the lengths of axes that
+    /// have names.
     fn ordered<'a>(
         &self,
         inputs: &'a [(&str, ArrayViewD<'_, f32>)],
-    ) -> Result<Vec<(ArrayViewD<'a, f32>, bool)>, NeuralError> {
+    ) -> Result<(Vec<(ArrayViewD<'a, f32>, bool)>, Lengths), NeuralError> {
         let given = |name: &str| inputs.iter().find(|(given, _)| *given == name);
         if inputs.len() != self.inputs.len() || self.inputs.iter().any(|p| given(&p.name).is_none())
         {
@@ -162,11 +166,22 @@ impl Model {
         }
         let mut batch = None;
         let mut ordered = Vec::with_capacity(inputs.len());
+        let mut lengths: Lengths = Vec::new();
         for (port, batched) in self.engine.inputs() {
             let Some((_, array)) = given(&port.name) else { continue };
+            let mut fits_length = |axis: &Axis, length: usize| match axis {
+                Axis::Length(wanted) => *wanted == length,
+                Axis::Named(name) => match lengths.iter().find(|(known, _)| known == name) {
+                    Some((_, known)) => *known == length,
+                    None => {
+                        lengths.push((name.clone(), length));
+                        (1..=MAX_LENGTH).contains(&length)
+                    }
+                },
+            };
             let fits = array.ndim() == port.axes.len()
-                && port.axes.iter().zip(array.shape()).enumerate().all(|(at, (axis, length))| {
-                    (at == 0 && batched) || *axis == Axis::Length(*length)
+                && port.axes.iter().zip(array.shape()).enumerate().all(|(at, (axis, &length))| {
+                    (at == 0 && batched) || fits_length(axis, length)
                 });
             let count = array.shape().first().copied();
             if !fits || (batched && *batch.get_or_insert(count) != count) {
@@ -179,24 +194,33 @@ impl Model {
             check_finite(&port.name, array.iter().map(|&x| f64::from(x)))?;
             ordered.push((array.view(), batched));
         }
-        Ok(ordered)
+        Ok((ordered, lengths))
     }
 
     pub(crate) fn runners(&self) -> Runners {
         Runners::new(self.engine.clone(), self.single)
     }
 
+    fn runners_of(&self, lengths: &Lengths) -> Runners {
+        match lengths[..] {
+            [] => self.runners(),
+            _ => Runners::new(Arc::new(self.engine.with_lengths(lengths)), self.single),
+        }
+    }
+
     fn run_graph(
         &self,
+        lengths: &Lengths,
         count: usize,
         given: impl FnMut(usize, usize) -> Result<TVec<TValue>, NeuralError>,
         take: impl FnMut(usize, &[ArrayViewD<'_, f32>]),
     ) -> Result<(), NeuralError> {
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut runners = idle().take().unwrap_or_else(|| self.runners());
+        let last = idle().take().filter(|(known, _)| known == lengths);
+        let mut runners = last.map_or_else(|| self.runners_of(lengths), |(_, runners)| runners);
         // Not kept where it failed.
         runners.run(count, given, take)?;
-        *idle() = Some(runners);
+        *idle() = Some((lengths.clone(), runners));
         Ok(())
     }
 
@@ -313,6 +337,7 @@ impl Model {
         let features = covariance_features(data);
         let mut probability = [0.0; 3];
         self.run_graph(
+            &Lengths::new(),
             1,
             |_, _| Ok([tensor_of(&[1, features.len()], &features)?.into()].into_iter().collect()),
             |_, outputs| {
@@ -377,23 +402,24 @@ fn kinds_of(inputs: &[Port], outputs: &[Port], kinds: &[Kind]) -> Result<Vec<Kin
     })
 }
 
-/// Whether ports have these names and shapes; an axis named otherwise than `batch` has some fixed length, the same
-/// everywhere.
+/// Whether ports have these names and shapes; an axis wanted by another name than `batch` has some length or name, the
+/// same everywhere.
 fn axes_fit(ports: &[Port], wanted: &[Port]) -> bool {
-    let mut named: Vec<(String, usize)> = Vec::new();
+    let mut named: Vec<(String, Axis)> = Vec::new();
     let mut fits = |axis: &Axis, wanted: &Axis| match (axis, wanted) {
         (Axis::Length(length), Axis::Length(wanted)) => length == wanted,
         (Axis::Named(_) | Axis::Length(1), Axis::Named(name)) if name == "batch" => true,
-        (Axis::Length(length), Axis::Named(name)) if name != "batch" && *length > 0 => {
-            match named.iter().find(|(known, _)| known == name) {
-                Some((_, known)) => known == length,
-                None => {
-                    named.push((name.clone(), *length));
-                    true
+        (Axis::Length(0), _) | (_, Axis::Length(_)) => false,
+        (axis, Axis::Named(name)) => {
+            name != "batch"
+                && match named.iter().find(|(known, _)| known == name) {
+                    Some((_, known)) => known == axis,
+                    None => {
+                        named.push((name.clone(), axis.clone()));
+                        true
+                    }
                 }
-            }
         }
-        _ => false,
     };
     ports.len() == wanted.len()
         && ports.iter().zip(wanted).all(|(port, wanted)| {
@@ -423,10 +449,19 @@ fn checked_outputs(
         })
         .collect();
     let examples = shapes_found.iter().all(|shape| shape.first() == Some(&1));
-    if let Some(kind) = kinds.iter().find(|kind| examples && axes_fit(&found, &kind.ports().1)) {
+    let values = |kind: Kind| {
+        let last = shapes_found.first().and_then(|shape| shape.last());
+        !kind.answers_target_set() || last.is_some_and(|last| TARGET_VALUES.contains(last))
+    };
+    let fits = |kind: &&Kind| examples && axes_fit(&found, &kind.ports().1) && values(**kind);
+    if let Some(kind) = kinds.iter().find(fits) {
         return Ok((*kind, found));
     }
-    let wanted: Vec<String> = kinds.iter().map(|kind| shapes(&kind.ports().1)).collect();
+    let one = |kind: &Kind| {
+        let values = if kind.answers_target_set() { ", 3 or 5 values" } else { "" };
+        format!("{}{values}", shapes(&kind.ports().1))
+    };
+    let wanted: Vec<String> = kinds.iter().map(one).collect();
     Err(NeuralError::Mismatch {
         what: "outputs, of 32-bit floating-point numbers".into(),
         expected: wanted.join(", or "),

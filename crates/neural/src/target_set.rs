@@ -4,12 +4,17 @@ use crate::engine::{Runners, filled};
 use crate::error::{NeuralError, network_failed};
 use crate::model::Model;
 use boresight_aoa::Plan;
-use boresight_aoa::{AoaError, Data, Estimate, EstimatorOptions, Method, Source, Warning, settle};
+use boresight_aoa::{
+    AoaError, Data, Deviation, Estimate, EstimatorOptions, Method, Source, Warning, settle,
+};
 use boresight_core::{Array, Complex64, Direction, presets};
 use ndarray::{Array2, ArrayView3, ArrayViewD, Axis};
 
 /// Least confidence of a source where neither options nor card name one.
 const CONFIDENCE: f64 = 0.5;
+
+/// Least derivative of the sine by the azimuth, at the edge of what an array sees.
+const LEAST_SLOPE: f64 = 1e-3;
 
 /// The network with the positions of one array in it.
 #[derive(Clone)]
@@ -37,7 +42,8 @@ impl TargetSet {
             [crate::Axis::Length(elements), _] => Some(elements),
             _ => None,
         });
-        let elements = elements.unwrap_or_default();
+        // A network that names the axis takes any array.
+        let elements = elements.unwrap_or(array.len());
         if array.len() != elements {
             return Err(AoaError::Array {
                 method: method.name(),
@@ -120,13 +126,19 @@ impl Plan for TargetSet {
                 let out = &mut out[from + cell];
                 out.sources.clear();
                 for target in targets.outer_iter().filter(|_| scale > 0.0) {
-                    let [sine, amplitude, sure] = [0, 1, 2].map(|i| f64::from(target[i]));
+                    let value = |at| target.get(at).copied().map(f64::from);
+                    let [sine, amplitude, sure] = [0, 1, 2].map(|at| value(at).unwrap_or_default());
                     if sure >= *confidence && sine.abs() <= limit.min(1.0) {
+                        let direction = Direction::azimuth(sine.asin());
+                        let slope = direction.azimuth_rad.cos().max(LEAST_SLOPE);
+                        let deviation = value(3).zip(value(4)).map(|(of_sine, of_db)| Deviation {
+                            azimuth_rad: of_sine / slope,
+                            power_db: of_db,
+                        });
                         out.sources.push(Source {
-                            direction: Direction::azimuth(sine.asin()),
-                            power: (amplitude * scale).powi(2),
-                            amplitude: None,
                             confidence: Some(sure),
+                            deviation,
+                            ..Source::new(direction, (amplitude * scale).powi(2))
                         });
                     }
                 }
@@ -155,6 +167,13 @@ fn outside_training(model: &Model, array: &Array, options: &EstimatorOptions) ->
         && deviation(array, &trained) > 1e-3 + 4.0 * card.data.position_error
     {
         differences.push(format!("trained on the array {name}, used on another"));
+    }
+    if let Some([fewest, most]) = card.data.elements
+        && !(fewest..=most).contains(&array.len())
+    {
+        let given = array.len();
+        differences
+            .push(format!("trained on {fewest} to {most} elements, used on an array of {given}"));
     }
     if let Some(trained) = card.data.field_of_view_deg
         && options.field_of_view_rad.to_degrees() > trained + 1e-6

@@ -87,10 +87,8 @@ impl Nomp {
         });
         points[first] = self.geometry.moved(points[first], step);
         sources[first] = Source {
-            direction: self.geometry.direction(points[first]),
-            power: sum.norm_sqr(),
             amplitude: Some(sum),
-            confidence: None,
+            ..Source::new(self.geometry.direction(points[first]), sum.norm_sqr())
         };
         for &k in group[1..].iter().rev() {
             points.remove(k);
