@@ -179,10 +179,11 @@ impl Model {
                     }
                 },
             };
-            let fits = array.ndim() == port.axes.len()
-                && port.axes.iter().zip(array.shape()).enumerate().all(|(at, (axis, &length))| {
-                    (at == 0 && batched) || fits_length(axis, length)
-                });
+            let fits =
+                array.ndim() == port.axes.len()
+                    && port.axes.iter().zip(array.shape()).enumerate().all(
+                        |(at, (axis, &length))| (at == 0 && batched) || fits_length(axis, length),
+                    );
             let count = array.shape().first().copied();
             if !fits || (batched && *batch.get_or_insert(count) != count) {
                 return Err(NeuralError::Argument(CoreError::Shape {

@@ -190,7 +190,9 @@ impl Plan for Iaa {
             }
             self.find(y, 1.0 / largest, values);
             let found = self.peaks.iter().zip(&self.powers);
-            out.sources.extend(found.map(|(peak, &power)| Source::new(peak.direction, power_out(power, largest))));
+            out.sources.extend(
+                found.map(|(peak, &power)| Source::new(peak.direction, power_out(power, largest))),
+            );
             values.iter_mut().for_each(|p| *p = power_out(*p, largest));
         }
         settle(out, None);

@@ -2,6 +2,7 @@
 
 use super::finder::{Candidate, Finder, Idle, angle_options};
 use super::score::{Point, Prediction, Score, Threshold, WITHIN_RAD, odds_db};
+use super::stated::Stated;
 use super::{AoaExperiment, Condition, TARGETS};
 use crate::EvaluateError;
 use crate::apart::half_beam;
@@ -34,11 +35,19 @@ pub struct MethodRecord {
     pub separated: (f64, f64, u32),
     /// Separated targets in all.
     pub separated_targets: u32,
+    /// What became of the deviations stated.
+    #[serde(default, skip_serializing_if = "Stated::is_empty")]
+    pub stated: Stated,
 }
 
 impl MethodRecord {
     fn new(threshold: Threshold) -> Self {
-        Self { score: Score::new(threshold), separated: (0.0, 0.0, 0), separated_targets: 0 }
+        Self {
+            score: Score::new(threshold),
+            separated: (0.0, 0.0, 0),
+            separated_targets: 0,
+            stated: Stated::default(),
+        }
     }
 }
 
@@ -156,6 +165,9 @@ impl Plan {
                 let predictions: Vec<Prediction> =
                     sources.iter().map(|s| prediction(s, candidate.threshold())).collect();
                 record.score.add(&points, &predictions);
+                for source in finder.sure_sources(sources) {
+                    record.stated.add(&points, source);
+                }
                 self.separated(record, &points, &sure, &bound);
                 if tell.is_some() {
                     let rows = sources

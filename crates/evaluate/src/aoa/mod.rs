@@ -6,6 +6,7 @@ pub mod figures;
 pub(crate) mod finder;
 pub mod report;
 pub mod score;
+pub mod stated;
 pub mod times;
 
 pub use report::AoaReport;

@@ -2,6 +2,7 @@
 
 use super::cell::{AoaRecord, MethodRecord};
 use super::score::{Operating, Score, one_threshold_db, point_at};
+use super::stated::Stated;
 use super::{AoaExperiment, CONDITIONS, Condition, SNRS_DB, TARGETS, figures};
 use crate::EvaluateError;
 use crate::entrants::Network;
@@ -64,6 +65,9 @@ pub struct MethodResult {
     /// Separated targets: root mean square error and bound, deg, over those found; how many were, and of
     /// how many.
     pub separated: Separated,
+    /// What became of the deviations stated; absent where none were.
+    #[serde(skip_serializing_if = "Stated::is_empty")]
+    pub stated: Stated,
 }
 
 /// Accuracy on targets that stand apart.
@@ -147,6 +151,57 @@ impl AoaReport {
         ]
     }
 
+    /// What became of the deviations that a method stated, over all conditions or those of one ratio.
+    pub fn stated(&self, method: usize, snr_db: Option<f64>) -> Stated {
+        let mut sum = Stated::default();
+        for condition in &self.conditions {
+            if snr_db.is_none_or(|snr_db| condition.snr_db == snr_db)
+                && let Some(result) = condition.methods.get(method)
+            {
+                sum.merge(&result.stated);
+            }
+        }
+        sum
+    }
+
+    /// The table of it; nothing where no method states deviations.
+    fn stated_table(&self) -> String {
+        let levels: Vec<Option<f64>> =
+            std::iter::once(None).chain(DRAWN_DB.into_iter().map(Some)).collect();
+        let heads: Vec<String> = ["azimuth", "power"]
+            .iter()
+            .flat_map(|what| {
+                levels.iter().map(move |level| match level {
+                    Some(snr_db) => format!("{what}, {snr_db} dB"),
+                    None => format!("{what}, all"),
+                })
+            })
+            .collect();
+        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
+        let rows: Vec<(&str, Vec<String>)> = self
+            .methods
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| !self.stated(*k, None).is_empty())
+            .map(|(k, name)| {
+                let stated: Vec<Stated> =
+                    levels.iter().map(|&level| self.stated(k, level)).collect();
+                let cell = |within: [u32; 2], of: u32| {
+                    let [one, two] = within.map(|n| 100.0 * f64::from(n) / f64::from(of.max(1)));
+                    format!("{one:.1} / {two:.1}")
+                };
+                let azimuth = stated.iter().map(|s| cell(s.azimuth, s.predictions));
+                let power = stated.iter().map(|s| cell(s.power, s.predictions));
+                (name.as_str(), azimuth.chain(power).collect())
+            })
+            .collect();
+        if rows.is_empty() {
+            return String::new();
+        }
+        let title = "Right predictions within one / two of the deviations they state, %";
+        format!("\n{title}\n\n{}", table("method", &heads, &rows))
+    }
+
     /// The result of a method in a condition.
     pub fn at(&self, targets: usize, snr_db: f64, method: usize) -> Option<&MethodResult> {
         self.conditions
@@ -174,6 +229,7 @@ impl crate::experiment::Report for AoaReport {
             &["threshold", "largest F1", "F1 at the threshold", "strict F1 at the threshold"],
             &rows,
         );
+        text += &self.stated_table();
         type Value = fn(&MethodResult) -> Option<f64>;
         let kinds: [(&str, usize, Value); 8] = [
             ("Largest F1", 4, |m| Some(m.best?.f1)),
@@ -306,6 +362,7 @@ impl MethodRecord {
         self.separated.1 += other.separated.1;
         self.separated.2 += other.separated.2;
         self.separated_targets += other.separated_targets;
+        self.stated.merge(&other.stated);
     }
 }
 
@@ -325,6 +382,7 @@ impl MethodResult {
                 found,
                 targets: record.separated_targets,
             },
+            stated: record.stated,
         }
     }
 }
