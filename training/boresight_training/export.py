@@ -180,7 +180,7 @@ def export(
         "samplesSeen": sum(leg["samples"] for leg in legs),
         "hours": round(sum(leg["seconds"] for leg in legs) / 3600, 3),
         "software": f"PyTorch {torch.__version__.split('+')[0]}, Python {platform.python_version()}",
-        "metrics": [{name: round(value, 5) for name, value in condition.items()} for condition in metrics],
+        "metrics": [{name: _rounded(value) for name, value in condition.items()} for condition in metrics],
         "metricsExamples": count,
         "onnx": {"opset": OPSET, "weights": "float16" if half else "float32", "parity": difference},
         "bytes": path.stat().st_size,
@@ -189,6 +189,10 @@ def export(
     card = _camel_case(card)
     path.with_suffix(".json").write_text(json.dumps(card, indent=2) + "\n")
     return card
+
+
+def _rounded(value):
+    return round(value, 5) if isinstance(value, float) else value
 
 
 def _leg(leg: dict) -> dict:

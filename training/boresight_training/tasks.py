@@ -11,7 +11,7 @@ from torch.nn import functional
 
 from . import steered, words
 from .aaetr import CONFIGS, Aaetr
-from .arrays import array, random_arrays
+from .arrays import ELEMENTS, array, random_arrays
 from .classifiers import COVARIANCE_FEATURES, DNN_HIDDEN, counting, dnn, folded
 from .cnn3d import CNN3D, Cnn3d
 from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
@@ -197,7 +197,8 @@ class AaetrTask:
         return torch.view_as_real(values), self.positions.float().to(generator.device)
 
     def describe(self):
-        data = {"array": "any" if self.any_array else "lrr48", **asdict(self.scenes)}
+        arrays = {"array": "any", "elements": list(ELEMENTS)} if self.any_array else {"array": "lrr48"}
+        data = {**arrays, **asdict(self.scenes)}
         return {"model": asdict(self.config), "data": data, "loss": asdict(self.loss_config)}
 
 

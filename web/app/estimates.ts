@@ -1,5 +1,6 @@
 /** Estimates as the plots show them. */
-import type { Estimate } from 'boresight';
+import type { Estimate, Method, Source } from 'boresight';
+import type { Marker } from './plots/layers.ts';
 import type { PlotSeries } from './plots/plot.ts';
 import { methodStyle } from './plots/theme.ts';
 
@@ -53,6 +54,20 @@ export function series(curves: readonly Curve[]): PlotSeries[] {
     style: methodStyle(method),
   }));
 }
+
+/** Sources of a method on its spectrum, with bars of the deviations they state. */
+export function sourceMarkers(method: Method, sources: readonly Source[]): Marker[] {
+  return sources.map(({ azimuthDeg, powerDb, deviation }) => ({
+    x: azimuthDeg,
+    y: powerDb,
+    style: methodStyle(method),
+    ...(deviation ? { deviation: { x: deviation.azimuthDeg, y: deviation.powerDb } } : {}),
+  }));
+}
+
+/** Whether a method states deviations of its sources: what its entry in a legend says then. */
+export const withBars = (title: string, sources: readonly Source[]): string =>
+  sources.some(({ deviation }) => deviation) ? `${title}, bars ±σ it states` : title;
 
 export function highest(values: ArrayLike<number>): number {
   let best = Number.NEGATIVE_INFINITY;

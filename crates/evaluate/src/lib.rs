@@ -26,6 +26,7 @@
 
 pub mod aoa;
 mod apart;
+pub mod arrays;
 pub mod calibration;
 mod deviation;
 pub mod doa;

@@ -2,6 +2,7 @@
 
 use crate::EvaluateError;
 use crate::aoa;
+use crate::arrays;
 use crate::calibration;
 use crate::doa;
 use crate::experiment::{Experiment, Records, Report, file_name, legs, setup, side_by_side, whole};
@@ -100,6 +101,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
     let name = first.setup["experiment"].as_str().unwrap_or_default();
     match name {
         aoa::AoaExperiment::NAME => merge_as::<aoa::AoaExperiment>(gathered, sources),
+        arrays::ArraysExperiment::NAME => merge_as::<arrays::ArraysExperiment>(gathered, sources),
         calibration::CalibrationExperiment::NAME => {
             merge_as::<calibration::CalibrationExperiment>(gathered, sources)
         }
@@ -120,7 +122,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", first.first.display()),
             expected:
-                "aoa, calibration, doa, images, imperfections, near-field, resolution, straddling"
+                "aoa, arrays, calibration, doa, images, imperfections, near-field, resolution, straddling"
                     .into(),
             given: name.into(),
         }

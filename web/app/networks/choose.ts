@@ -1,14 +1,18 @@
 /** Which network a method of a page uses, and why it may have none. */
 import type { Method } from 'boresight';
 import { models } from './load.ts';
-import { arrayProblem, type Geometry, type Model, targetsOf } from './models.ts';
+import { arrayProblem, elementsOf, type Geometry, type Model, targetsOf } from './models.ts';
 
-/** Networks of a method that fit all arrays, best first: for the number of targets, then the quickest to load. */
+/**
+ * Networks of a method that fit all arrays, best first: for the number of targets, for this array rather than any, then the
+ * quickest to load.
+ */
 export function fitting(method: Method | 'counting', geometries: readonly Geometry[], sources: number | null): Model[] {
   const off = (model: Model): number => Math.abs((targetsOf(model.card) ?? sources ?? 2) - (sources ?? 2));
+  const forAny = ({ card }: Model): number => Number(elementsOf(card) === null);
   return models.value
     .filter(({ card }) => card.network === method && geometries.every((geometry) => !arrayProblem(card, geometry)))
-    .sort((a, b) => off(a) - off(b) || (a.card.parameters ?? 0) - (b.card.parameters ?? 0));
+    .sort((a, b) => off(a) - off(b) || forAny(a) - forAny(b) || (a.card.parameters ?? 0) - (b.card.parameters ?? 0));
 }
 
 /** The one used: one that the link names, else the best. */

@@ -101,10 +101,10 @@ export const answersTargetSet = ({ network }: Card): boolean => network === 'aae
 /** Whether it was trained on elements with errors, as those of a board that is not calibrated. */
 export const trainedOnBoards = ({ data }: Card): boolean => Number(data?.channelDb) > 0 || Number(data?.channelDeg) > 0;
 
-/** Virtual elements the network's input has room for. */
-export function elementsOf(card: Card): number {
+/** Virtual elements the network's input has room for; null where any number goes. */
+export function elementsOf(card: Card): number | null {
   const [, second, third] = card.inputs[0]?.axes ?? [];
-  if (answersTargetSet(card)) return Number(second);
+  if (answersTargetSet(card)) return typeof second === 'number' ? second : null;
   if (card.network === 'cnn3d') return Number(third);
   // M (M - 1) numbers of a Hermitian matrix.
   return Math.round((1 + Math.sqrt(1 + 4 * Number(second))) / 2);
@@ -112,9 +112,12 @@ export function elementsOf(card: Card): number {
 
 /** The array in words. */
 export function arrayOf(card: Card): string {
-  return typeof card.data?.array === 'string'
-    ? card.data.array
-    : `${elementsOf(card)} elements half a wavelength apart`;
+  const elements = elementsOf(card);
+  if (elements === null) {
+    const [fewest, most] = Array.isArray(card.data?.elements) ? card.data.elements : [];
+    return fewest === undefined ? 'any array' : `any array of ${fewest} to ${most} elements`;
+  }
+  return typeof card.data?.array === 'string' ? card.data.array : `${elements} elements half a wavelength apart`;
 }
 
 export type Geometry = Pick<ArrayGeometry, 'positions' | 'uniform' | 'aperture'>;
@@ -122,6 +125,7 @@ export type Geometry = Pick<ArrayGeometry, 'positions' | 'uniform' | 'aperture'>
 /** Why a network cannot work on an array, or null. */
 export function arrayProblem(card: Card, { positions, uniform, aperture }: Geometry): string | null {
   const elements = elementsOf(card);
+  if (elements === null) return null;
   const evenly = uniform && Math.abs(aperture - (elements - 1)) < 1e-6;
   if (positions.length !== elements || (!answersTargetSet(card) && !evenly)) {
     return `is for ${arrayOf(card)}${typeof card.data?.array === 'string' ? ` (${elements} elements)` : ''}`;

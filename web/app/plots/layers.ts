@@ -186,13 +186,51 @@ export interface Marker {
   style: SeriesStyle;
   size?: number;
   hollow?: boolean;
+  /** Half lengths of its bars, in the plot's units. */
+  deviation?: { x: number; y: number };
 }
 
-/** Markers at points; what is beyond top or bottom stands at the edge unless `edge` is off. */
+/** Bars through a point, one deviation to each side, with ends across; ends closer than the marker is large are left out. */
+function drawBars(
+  { ctx, plot, themeName, ratio, x, y }: LayerContext,
+  { x: px, y: py, style, deviation, size = 4.5 }: Marker,
+): void {
+  if (!deviation) return;
+  ctx.save();
+  clipToPlot(ctx, plot);
+  ctx.strokeStyle = style.color[themeName];
+  ctx.lineWidth = 1.5 * ratio;
+  const cap = 3.5 * ratio;
+  const [left, right] = [x(px - deviation.x), x(px + deviation.x)];
+  const [low, high] = [y(py - deviation.y), y(py + deviation.y)];
+  ctx.beginPath();
+  ctx.moveTo(left, y(py));
+  ctx.lineTo(right, y(py));
+  ctx.moveTo(x(px), low);
+  ctx.lineTo(x(px), high);
+  if (right - left > 2 * size * ratio) {
+    for (const end of [left, right]) {
+      ctx.moveTo(end, y(py) - cap);
+      ctx.lineTo(end, y(py) + cap);
+    }
+  }
+  if (low - high > 2 * size * ratio) {
+    for (const end of [low, high]) {
+      ctx.moveTo(x(px) - cap, end);
+      ctx.lineTo(x(px) + cap, end);
+    }
+  }
+  ctx.stroke();
+  ctx.restore();
+}
+
+/** Markers at points, with bars where a point has deviations; what is beyond top or bottom stands at the edge unless `edge` is off. */
 export function markers(points: readonly Marker[], { edge = true } = {}): Layer {
-  return ({ ctx, plot, theme, themeName, ratio, x, y }) => {
+  return (context) => {
+    const { ctx, plot, theme, themeName, ratio, x, y } = context;
     const { left, top, width, height } = plot.bbox;
     for (const point of points) {
+      drawBars(context, point);
       const size = (point.size ?? 4.5) * ratio;
       const px = x(point.x);
       if (px < left - 1 || px > left + width + 1) continue;

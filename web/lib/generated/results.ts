@@ -131,6 +131,14 @@ export interface MethodInfo {
  */
 export type Unsuited = 'one-place' | 'uniform-array' | 'grid' | 'elevation' | 'few-snapshots' | 'many-snapshots';
 
+/** Standard deviations of what is told of a source. */
+export interface SourceDeviation {
+  /** Of the azimuth. */
+  azimuthDeg: number;
+  /** Of the power. */
+  powerDb: number;
+}
+
 /** One source found. */
 export interface Source {
   /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg). */
@@ -143,6 +151,8 @@ export interface Source {
   amplitude?: readonly [re: number, im: number];
   /** How sure a network is of it, from 0 to 1; absent from other methods. */
   confidence?: number;
+  /** Standard deviations that a network states of its answer; absent where the method states none. */
+  deviation?: SourceDeviation;
 }
 
 /**
@@ -229,6 +239,10 @@ export interface BatchEstimate {
   powerDb: Float64Array;
   /** How sure a network is of each source, from 0 to 1; absent from other methods. */
   confidence?: Float64Array;
+  /** Standard deviation that a network states of each azimuth; absent where the method states none. */
+  azimuthDeviationDeg?: Float64Array;
+  /** The same of each power. */
+  powerDeviationDb?: Float64Array;
   /** The spectra, where they were asked for and the method has them. */
   spectra?: BatchSpectra;
   /** Cells in which not all sources asked for or counted were found. */

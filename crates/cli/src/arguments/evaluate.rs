@@ -13,6 +13,8 @@ use std::path::PathBuf;
 pub enum EvaluateCommand {
     /// Angles in single snapshots of 2 to 10 targets: detection and accuracy by method.
     Aoa(EvaluateAoaArguments),
+    /// The same on several arrays, for networks that take any.
+    Arrays(EvaluateArraysArguments),
     /// Mounting angles on simulated drives of four radars: errors, trajectories, driving time.
     Calibration(EvaluateCalibrationArguments),
     /// Counting and angles of up to two targets in the region of interest of a data cube.
@@ -214,6 +216,26 @@ pub struct EvaluateResolutionArguments {
     /// Numbers of snapshots.
     #[arg(long, value_name = "N,N", value_delimiter = ',', default_values_t = [1, 16])]
     pub snapshots: Vec<usize>,
+}
+
+/// Arguments of `evaluate arrays`.
+#[derive(Debug, Args)]
+pub struct EvaluateArraysArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Snapshots a condition: two numbers of targets on each of six arrays.
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    pub trials: u64,
+    /// Methods, separated by commas, as for `evaluate aoa`.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub methods: Vec<String>,
+    /// Networks that take any array.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
+    /// Signal-to-noise ratio, dB: 15, 20, 25, 30 or 35.
+    #[arg(long, value_name = "DB", default_value_t = 25.0)]
+    pub snr: f64,
 }
 
 /// Arguments of `evaluate imperfections`.

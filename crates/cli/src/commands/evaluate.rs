@@ -14,8 +14,8 @@ use boresight_core::CoreError;
 use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Answered, Experiment, How};
 use boresight_evaluate::{
-    Entrants, Merged, Network, Outcome, aoa, calibration, doa, images, imperfections, merge,
-    near_field, resolution, straddling,
+    Entrants, Merged, Network, Outcome, aoa, arrays, calibration, doa, images, imperfections,
+    merge, near_field, resolution, straddling,
 };
 use boresight_neural::Kind;
 use std::collections::BTreeMap;
@@ -100,6 +100,16 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                     &arguments.networks,
                     files,
                 )?,
+            };
+            evaluate(&options, &arguments.shared, files)
+        }
+        EvaluateCommand::Arrays(arguments) => {
+            let usual = || Ok(arrays::default_methods());
+            let options = arrays::ArraysExperiment {
+                snr_db: arguments.snr,
+                trials: arguments.trials,
+                seed: arguments.shared.seed,
+                entrants: entrants(&arguments.methods, usual, &arguments.networks, files)?,
             };
             evaluate(&options, &arguments.shared, files)
         }

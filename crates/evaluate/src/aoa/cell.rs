@@ -6,6 +6,7 @@ use super::stated::Stated;
 use super::{AoaExperiment, Condition, TARGETS};
 use crate::EvaluateError;
 use crate::apart::half_beam;
+use crate::entrants::Entrants;
 use crate::experiment::Tell;
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_aoa::refinement::Refinement;
@@ -88,17 +89,27 @@ pub struct Plan {
     candidates: Vec<Candidate>,
     beam: f64,
     idle: Idle,
+    /// Largest error of a right prediction, rad.
+    within_rad: f64,
 }
 
 impl Plan {
     /// For an array.
     ///
     /// # Errors
-    /// An array that is not known.
+    /// An array that is not known; as [`Plan::of`].
     pub fn new(options: &AoaExperiment) -> Result<Self, EvaluateError> {
-        let array = preset(&options.array)?;
-        options.entrants.check()?;
-        let candidates = Candidate::all(&options.entrants)?;
+        let plan = Self::of(preset(&options.array)?, options.seed, &options.entrants)?;
+        Ok(Self { imperfections: options.imperfections, ..plan })
+    }
+
+    /// For an array of any elements.
+    ///
+    /// # Errors
+    /// Those of methods and networks that do not take it.
+    pub fn of(array: Array, seed: u64, entrants: &Entrants) -> Result<Self, EvaluateError> {
+        entrants.check()?;
+        let candidates = Candidate::all(entrants)?;
         // Whether they take the array, one snapshot and the most targets, before anything is run.
         let silence = Array2::zeros((array.len(), 1));
         for candidate in candidates.iter().filter(|c| c.finder.can_run()) {
@@ -108,8 +119,14 @@ impl Plan {
                 .estimate(Data::Snapshots(silence.view()))?;
         }
         let beam = half_beam(&array);
-        let (seed, imperfections) = (options.seed, options.imperfections);
-        Ok(Self { array, seed, imperfections, candidates, beam, idle: Idle::default() })
+        let (imperfections, idle) = (ImperfectionSpread::default(), Idle::default());
+        Ok(Self { array, seed, imperfections, candidates, beam, idle, within_rad: WITHIN_RAD })
+    }
+
+    /// With another error of what is right, rad.
+    #[must_use]
+    pub fn within(self, within_rad: f64) -> Self {
+        Self { within_rad, ..self }
     }
 
     /// Names of the methods in order.
@@ -164,9 +181,9 @@ impl Plan {
                 };
                 let predictions: Vec<Prediction> =
                     sources.iter().map(|s| prediction(s, candidate.threshold())).collect();
-                record.score.add(&points, &predictions);
+                record.score.add_within(self.within_rad, &points, &predictions);
                 for source in finder.sure_sources(sources) {
-                    record.stated.add(&points, source);
+                    record.stated.add(self.within_rad, &points, source);
                 }
                 self.separated(record, &points, &sure, &bound);
                 if tell.is_some() {
@@ -295,7 +312,7 @@ impl Plan {
             record.separated_targets += 1;
             let near = found.iter().map(|d| (d.azimuth_rad - target.azimuth_rad).abs());
             let error = near.fold(f64::INFINITY, f64::min);
-            if error <= WITHIN_RAD {
+            if error <= self.within_rad {
                 record.separated.0 += error.to_degrees().powi(2);
                 record.separated.1 += bound_deg[index].powi(2);
                 record.separated.2 += 1;

@@ -94,13 +94,8 @@ impl AoaReport {
         let conditions = Condition::all();
         let mut sums: Vec<Vec<MethodRecord>> = vec![vec![]; 2 * CONDITIONS];
         for AoaRecord { condition, methods } in records {
-            let Some(sum) = sums.get_mut(condition) else { continue };
-            if sum.is_empty() {
-                *sum = methods;
-                continue;
-            }
-            for (to, from) in sum.iter_mut().zip(&methods) {
-                to.merge(from);
+            if let Some(sum) = sums.get_mut(condition) {
+                MethodRecord::merge_all(sum, methods);
             }
         }
         let (scored, validation) = sums.split_at(CONDITIONS);
@@ -186,13 +181,9 @@ impl AoaReport {
             .map(|(k, name)| {
                 let stated: Vec<Stated> =
                     levels.iter().map(|&level| self.stated(k, level)).collect();
-                let cell = |within: [u32; 2], of: u32| {
-                    let [one, two] = within.map(|n| 100.0 * f64::from(n) / f64::from(of.max(1)));
-                    format!("{one:.1} / {two:.1}")
-                };
-                let azimuth = stated.iter().map(|s| cell(s.azimuth, s.predictions));
-                let power = stated.iter().map(|s| cell(s.power, s.predictions));
-                (name.as_str(), azimuth.chain(power).collect())
+                let shown: Vec<[String; 2]> = stated.iter().map(Stated::shown).collect();
+                let of = |what: usize| shown.iter().map(move |both| both[what].clone());
+                (name.as_str(), of(0).chain(of(1)).collect())
             })
             .collect();
         if rows.is_empty() {
@@ -355,6 +346,17 @@ fn thinned(curve: &[Operating]) -> Vec<&Operating> {
 }
 
 impl MethodRecord {
+    /// Adds another part of a condition, method by method; the first part is that of a condition not begun.
+    pub(crate) fn merge_all(sums: &mut Vec<Self>, others: Vec<Self>) {
+        if sums.is_empty() {
+            *sums = others;
+            return;
+        }
+        for (to, from) in sums.iter_mut().zip(&others) {
+            to.merge(from);
+        }
+    }
+
     /// Adds another part of the condition.
     fn merge(&mut self, other: &Self) {
         self.score.merge(&other.score);
@@ -367,7 +369,8 @@ impl MethodRecord {
 }
 
 impl MethodResult {
-    fn new(record: &MethodRecord, threshold_db: Option<f64>) -> Self {
+    /// From the record of a method, and its one threshold.
+    pub(crate) fn new(record: &MethodRecord, threshold_db: Option<f64>) -> Self {
         let curve = record.score.curve();
         let (errors, bounds, found) = record.separated;
         let rms = |sum: f64| if found > 0 { (sum / f64::from(found)).sqrt() } else { f64::NAN };

@@ -116,8 +116,13 @@ impl Score {
         }
     }
 
-    /// Adds a scene. Predictions that are no numbers are false at every threshold.
+    /// Adds a scene, where half a degree is right. Predictions that are no numbers are false at every threshold.
     pub fn add(&mut self, truth: &[Point], predictions: &[Prediction]) {
+        self.add_within(WITHIN_RAD, truth, predictions);
+    }
+
+    /// The same, where another error is right, rad.
+    pub fn add_within(&mut self, within_rad: f64, truth: &[Point], predictions: &[Prediction]) {
         self.targets += truth.len() as u32;
         let mut order: Vec<&Prediction> = predictions.iter().collect();
         order.sort_by(|a, b| b.level_db.total_cmp(&a.level_db));
@@ -131,7 +136,7 @@ impl Score {
             let mut free: Option<(f64, usize)> = None;
             for (index, target) in truth.iter().enumerate() {
                 let distance = near(target);
-                if distance <= WITHIN_RAD {
+                if distance <= within_rad {
                     if nearest.is_none_or(|(best, _)| distance < best) {
                         nearest = Some((distance, target));
                     }

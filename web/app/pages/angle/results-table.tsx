@@ -29,6 +29,7 @@ export function ResultsTable({ scene }: { scene: Scene }) {
         'azimuth_deg',
         'error_deg',
         'power_db',
+        'stated_sigma_deg',
         'crb_sigma_deg',
         'time_ms',
       ],
@@ -43,6 +44,7 @@ export function ResultsTable({ scene }: { scene: Scene }) {
             source?.azimuthDeg,
             source && source.azimuthDeg - target.azimuthDeg,
             source?.powerDb,
+            source?.deviation?.azimuthDeg,
             sigma(i),
             result?.milliseconds,
           ];
@@ -149,11 +151,15 @@ export function ResultsTable({ scene }: { scene: Scene }) {
                           data-value={source?.azimuthDeg}
                         >
                           {source ? signed(source.azimuthDeg, 2) : '–'}
+                          <Deviation of={source?.deviation?.azimuthDeg} digits={2} field="azimuth-deviation" />
                         </td>,
                         <td key={`e${i}`} data-field="error" data-target={i} data-value={error}>
                           {error !== undefined ? signed(error, 3) : result?.estimate ? 'missed' : '–'}
                         </td>,
-                        <td key={`p${i}`}>{source ? signed(source.powerDb, 1) : '–'}</td>,
+                        <td key={`p${i}`}>
+                          {source ? signed(source.powerDb, 1) : '–'}
+                          <Deviation of={source?.deviation?.powerDb} digits={1} field="power-deviation" />
+                        </td>,
                       ];
                     })}
                     <td title={assignment.extra.map((k) => `${signed(sources[k]?.azimuthDeg ?? 0, 1)}°`).join(', ')}>
@@ -169,6 +175,17 @@ export function ResultsTable({ scene }: { scene: Scene }) {
       </div>
       <Warnings rows={rows.map(({ info, result }) => ({ title: info.title, estimate: result?.estimate }))} />
     </section>
+  );
+}
+
+/** The standard deviation that a network states of a number, where it states one. */
+function Deviation({ of, digits, field }: { of: number | undefined; digits: number; field: string }) {
+  if (of === undefined) return null;
+  const shown = of < 10 ** -digits ? of.toPrecision(1) : fixed(of, digits);
+  return (
+    <span class="deviation" title="Standard deviation that the network states" data-field={field} data-value={of}>
+      {` ±${shown}`}
+    </span>
   );
 }
 

@@ -1,7 +1,7 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
 import { useMemo, useRef } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { ANGLE_STEPS, type Curve, curve, sameGrid, series } from '../../estimates.ts';
+import { ANGLE_STEPS, type Curve, curve, sameGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { Handles } from '../../plots/handles.ts';
 import { bands, horizontalLine, type Layer, markers } from '../../plots/layers.ts';
@@ -81,13 +81,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
         ? [[target.azimuthDeg - sigma, target.azimuthDeg + sigma] as const]
         : [];
     });
-    const estimates = [...found].flatMap(([method, { estimate }]) =>
-      (estimate?.sources ?? []).map((source) => ({
-        x: source.azimuthDeg,
-        y: source.powerDb,
-        style: methodStyle(method),
-      })),
-    );
+    const estimates = [...found].flatMap(([method, { estimate }]) => sourceMarkers(method, estimate?.sources ?? []));
     return {
       x: shown[0]?.azimuthDeg ?? [],
       series: series(shown),
@@ -114,7 +108,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
         const curve = shown.find(({ method }) => method === info.name);
         return {
           id: info.name,
-          label: info.title,
+          label: withBars(info.title, found.get(info.name)?.estimate?.sources ?? []),
           style: methodStyle(info.name),
           line: info.spectrum,
           ...(curve ? { value: ({ index }) => `${fixed(curve.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB` } : {}),

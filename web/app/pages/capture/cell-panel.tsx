@@ -3,7 +3,7 @@
 import type { Cell, FrameResult, Method } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { ANGLE_STEPS, curve, highest, sameGrid, series } from '../../estimates.ts';
+import { ANGLE_STEPS, curve, highest, sameGrid, series, sourceMarkers } from '../../estimates.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { bands, markers, verticalLines } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -43,13 +43,7 @@ export function CellPanel({
     [results],
   );
   const content = useMemo(() => {
-    const sources = [...results].flatMap(([method, { estimate }]) =>
-      (estimate?.sources ?? []).map((source) => ({
-        x: source.azimuthDeg,
-        y: source.powerDb,
-        style: methodStyle(method),
-      })),
-    );
+    const sources = [...results].flatMap(([method, { estimate }]) => sourceMarkers(method, estimate?.sources ?? []));
     const top = Math.max(...shown.map(({ valuesDb }) => highest(valuesDb)), ...sources.map(({ y }) => y));
     const ceiling = Number.isFinite(top) ? Math.ceil((top + 4) / 5) * 5 : 0;
     const outside: [number, number][] =

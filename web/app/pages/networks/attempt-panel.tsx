@@ -1,6 +1,6 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
 import { useMemo } from 'preact/hooks';
-import { ANGLE_STEPS, curve, sameGrid, series } from '../../estimates.ts';
+import { ANGLE_STEPS, curve, sameGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
 import { answersTargetSet } from '../../networks/models.ts';
 import { fixed, milliseconds, signed } from '../../plots/format.ts';
 import { bands, markers } from '../../plots/layers.ts';
@@ -100,10 +100,9 @@ function ScenePlot({ shown }: { shown: Attempt }) {
         markers(
           rows
             .flatMap((row) =>
-              (row.estimate?.sources ?? []).map(({ azimuthDeg, powerDb }) => ({
-                x: azimuthDeg,
-                y: powerDb - level(row),
-                style: methodStyle(row.method),
+              sourceMarkers(row.method, row.estimate?.sources ?? []).map((marker) => ({
+                ...marker,
+                y: marker.y - level(row),
                 size: row === rows[0] ? 6 : 4.5,
               })),
             )
@@ -132,7 +131,7 @@ function ScenePlot({ shown }: { shown: Attempt }) {
         },
         ...rows.map(({ method, title, estimate }) => ({
           id: method,
-          label: title,
+          label: withBars(title, estimate?.sources ?? []),
           style: methodStyle(method),
           line: Boolean(estimate?.spectrum),
         })),

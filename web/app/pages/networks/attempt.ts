@@ -72,14 +72,14 @@ const loaded = computed(() => loadings.value.get(selected.value?.name ?? '')?.st
 /** Runs the scene of the state while it is wanted; the newest wins. */
 export function start(): () => void {
   const finish = effect(() => {
-    const { targets, snr, seed, refine, run, range } = networksState.value;
+    const { targets, snr, seed, refine, run, range, array } = networksState.value;
     const model = selected.value;
     void loaded.value;
     running?.abort();
     if (!run || !model) return;
     const controller = new AbortController();
     running = controller;
-    queueMicrotask(() => void attemptOn(model, { targets, snr, seed, refine, range }, controller));
+    queueMicrotask(() => void attemptOn(model, { targets, snr, seed, refine, range, array }, controller));
   });
   return () => {
     running?.abort();
@@ -87,7 +87,7 @@ export function start(): () => void {
   };
 }
 
-type Scene = Pick<NetworksState, 'targets' | 'snr' | 'seed' | 'refine' | 'range'>;
+type Scene = Pick<NetworksState, 'targets' | 'snr' | 'seed' | 'refine' | 'range' | 'array'>;
 
 async function attemptOn(model: Model, scene: Scene, controller: AbortController): Promise<void> {
   trying.value = true;
@@ -142,10 +142,14 @@ function classical(
   return { method, title: name, run: () => pool().estimate(input, { ...options, method }, { signal }) };
 }
 
-/** The array of a network of snapshots: the one it was trained on, or, of a user's own, one of as many elements. */
-export function arrayFor(card: Card): string {
-  const array = card.data?.array;
-  return typeof array === 'string' ? array : elementsOf(card) === 48 ? 'lrr48' : `ula${elementsOf(card)}`;
+/**
+ * The array of a network of snapshots: the one chosen, where it takes any, or the one it was trained on, or, of a user's
+ * own, one of as many elements.
+ */
+export function arrayFor(card: Card, chosen: string): string {
+  const [array, elements] = [card.data?.array, elementsOf(card)];
+  if (elements === null) return chosen;
+  return typeof array === 'string' ? array : elements === 48 ? 'lrr48' : `ula${elements}`;
 }
 
 async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal: AbortSignal): Promise<Attempt> {
@@ -153,7 +157,7 @@ async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal:
   const method = card.network as NetworkMethod;
   const { snr: snrDb, seed, refine } = scene;
   const targets = targetsIn(scene, card);
-  const array = arrayFor(card);
+  const array = arrayFor(card, scene.array);
   const fieldOfViewDeg = typeof card.data?.fieldOfViewDeg === 'number' ? card.data.fieldOfViewDeg : 60;
   const drawn = api.simulateSnapshots({
     array,

@@ -1,6 +1,6 @@
 /** Which network is looked at, the scene it is tried on, and a user's own. */
 import { models } from '../../networks/load.ts';
-import { answersTargetSet } from '../../networks/models.ts';
+import { answersTargetSet, elementsOf } from '../../networks/models.ts';
 import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';
 import { Group, SelectField } from '../../ui/field.tsx';
@@ -61,6 +61,9 @@ export function Controls() {
             labels={{ apart: 'own ranges', together: 'one range' }}
             help="At one range their echoes are coherent. Also for the experiments’ plots."
           />
+        )}
+        {card && answersTargetSet(card) && elementsOf(card) === null && (
+          <Control label="Array" name="array" help="Any array goes; the angle lab takes positions of your own." />
         )}
         <SeedField value={state.seed} what="scene" title="Another scene" onChange={(seed) => update({ seed })} />
         {card && answersTargetSet(card) && <Control label="Refine by Gauss-Newton" name="refine" />}

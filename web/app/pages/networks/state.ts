@@ -10,6 +10,9 @@ export const EXPERIMENT_SNRS = ['15', '25', '35'] as const;
 export const TARGETS = ['2', '3', '4', '5', '6', '7', '8', '9', '10'] as const;
 export const REGION_SNRS = ['-10', '-5', '0', '5', '10', '15'] as const;
 
+/** Arrays that a network for any array is tried on. */
+export const ARRAYS = ['lrr48', 'cascade86', 'awr1843', 'awr1642', 'ula16', 'ula32'] as const;
+
 const first = MODELS[0]?.name ?? '';
 
 export const networksCodec = codec(
@@ -26,6 +29,8 @@ export const networksCodec = codec(
     of: choice('6', TARGETS),
     regionAt: choice('0', REGION_SNRS),
     range: choice('apart', ['apart', 'together']),
+    /** Of a network that takes any. */
+    array: choice('lrr48', ARRAYS),
   },
   ['model'],
 );

@@ -6,6 +6,7 @@ import { load } from '../../networks/load.ts';
 import { answersTargetSet, type Card, type Model } from '../../networks/models.ts';
 import { arrayFor, targetRange } from './attempt.ts';
 import { type RegionScene, radarOf, simulateRegion } from './region.ts';
+import { networksState } from './state.ts';
 
 export const BATCHES = [1, 32] as const;
 export type Batch = (typeof BATCHES)[number];
@@ -149,7 +150,7 @@ function classical(
 
 function ofSnapshots(model: Model, info: NetworkInfo): Subject[] {
   const most = BATCHES[BATCHES.length - 1] as number;
-  const array = arrayFor(model.card);
+  const array = arrayFor(model.card, networksState.value.array);
   const {
     data,
     shape: [, elements],

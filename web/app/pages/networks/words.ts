@@ -24,7 +24,10 @@ export function briefly(card: Card): [task: string, input: string] {
   switch (card.network) {
     case 'aaetr':
     case 'learned-pursuit':
-      return [`Angles and amplitudes of ${most(card)} targets`, `1 snapshot, ${elements} elements`];
+      return [
+        `Angles and amplitudes of ${most(card)} targets`,
+        `1 snapshot, ${elements === null ? arrayOf(card) : `${elements} elements`}`,
+      ];
     case 'counting':
       return ['Number of targets: 0, 1 or 2', `covariance, ${elements} elements`];
     case 'dnn':
