@@ -41,6 +41,13 @@ const EXPERIMENTS = [
     ],
   },
   {
+    name: 'arrays',
+    experiment: 'arrays',
+    document: 'experiments-arrays',
+    networks: { kinds: ['aaetr'], array: 'any' },
+    settings: ['--trials', '1000', '--seed', '0'],
+  },
+  {
     name: 'doa',
     experiment: 'doa',
     document: 'experiments-doa',

@@ -4,7 +4,7 @@ import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
 import { assertCsv, assertPng, drop, parametersWith, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
-import { typeNumber } from './type.mjs';
+import { typeNumber, typeText } from './type.mjs';
 
 const path = '#/networks?model=learned-pursuit';
 const models = readdirSync(join(root, 'models'))
@@ -100,6 +100,26 @@ browserTest(
       await saved(page, '[data-table="attempt"] [data-export="csv"]'),
       'method,found,missed,false,rmse_deg,power_error_db,time_ms',
     );
+  },
+);
+
+browserTest(
+  'networks: the transformer for any array runs on the arrays chosen, and shows how far off it may be',
+  { path: '#/networks?model=aaetr-any&targets=3&snr=25&seed=3&run=1' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-attempt^="lrr48"]', patient);
+    await page.getByText('bars ±σ it states').first().waitFor(patient);
+    for (const array of ['cascade86', 'ula32']) {
+      await page.locator('select[name="array"]').selectOption(array);
+      await page.waitForSelector(`[data-attempt^="${array}"]`, patient);
+      const [found] = await cell(page, 'aaetr', 'found');
+      assert.ok(found >= 2, `${array}: found ${found} of 3`);
+    }
+    await parametersWith(page, (params) => params.get('array') === 'ula32');
+    // Other networks are for one array, and ask for none.
+    await page.locator('select[name="model"]').selectOption('learned-pursuit');
+    await page.waitForSelector('[data-attempt^="lrr48"]', patient);
+    assert.equal(await page.locator('select[name="array"]').count(), 0);
   },
 );
 
@@ -322,6 +342,37 @@ browserTest(
     await page.locator('#method-dnn').check();
     await page.waitForSelector('[data-row="dnn"]:not(.stale)', patient);
     await parametersWith(page, (params) => params.get('methods').split(',').includes('dnn'));
+  },
+);
+
+browserTest(
+  'networks in the angle lab: a transformer takes positions that are typed, and its deviations are shown',
+  { path: '#/angle?array=ula24&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,aaetr' },
+  async ({ page }) => {
+    const found = '[data-row="aaetr"]:not(.stale) [data-field="error"][data-value]';
+    await page.waitForSelector(found, patient);
+    const check = async () => {
+      const [errors, stated] = [
+        await values(page, '[data-row="aaetr"] [data-field="error"]'),
+        await values(page, '[data-row="aaetr"] [data-field="azimuth-deviation"]'),
+      ];
+      assert.deepEqual([errors.length, stated.length], [3, 3]);
+      // Each of three errors is within four deviations, and they say something: less than half a beam.
+      errors.forEach((error, i) =>
+        assert.ok(Math.abs(error) < 4 * stated[i] && stated[i] < 2.5, `${error}, ±${stated[i]}`),
+      );
+    };
+    await check();
+    await page.getByText('bars ±σ it states').first().waitFor();
+    await page.locator('select[name="array"]').selectOption('at');
+    await typeText(
+      page.locator('input[name="positions"]'),
+      Array.from({ length: 20 }, (_, k) => (1.7 * k + 0.5 * ((k * k) % 3)).toFixed(1)).join(', '),
+    );
+    await parametersWith(page, (params) => params.get('array')?.split(',').length === 20);
+    await page.waitForSelector(found, patient);
+    await check();
+    assert.equal(await page.locator('[data-row="iaa"] [data-field="azimuth-deviation"]').count(), 0);
   },
 );
 

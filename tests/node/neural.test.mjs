@@ -204,6 +204,62 @@ describe('a network', () => {
   });
 });
 
+describe('a network for any array', () => {
+  const { onnx, card } = model('aaetr-any');
+
+  test('takes each, and states deviations that its errors keep', () => {
+    const positions = Array.from({ length: 24 }, (_, k) => [0, 1.3 * k + 0.4 * ((k * k) % 5), 0]);
+    for (const array of ['lrr48', 'cascade86', { positions }]) {
+      const network = new Network(onnx, { card, array, fieldOfViewDeg: 60 });
+      const { data, shape, truth } = simulateSnapshots({
+        array,
+        targets: { count: [3, 3], fieldOfViewDeg: 50 },
+        snrDb: 25,
+        scenes: 40,
+        seed: 6,
+      });
+      const batch = { data, shape: shape.slice(0, 2) };
+      const all = network.estimateBatch({ snapshots: batch });
+      assertShape(all, 'BatchEstimate');
+      const within = { right: 0, one: 0, two: 0 };
+      for (let i = 0; i < all.cell.length; i++) {
+        const errors = truth[all.cell[i]].map(({ azimuthDeg }) => Math.abs(azimuthDeg - all.azimuthDeg[i]));
+        const error = Math.min(...errors);
+        if (error > 1) continue;
+        within.right += 1;
+        within.one += error < all.azimuthDeviationDeg[i];
+        within.two += error < 2 * all.azimuthDeviationDeg[i];
+      }
+      // 120 targets, of which some are nearer to each other than the array resolves; shares of 100 deviate by 5 in 100.
+      assert.ok(within.right > 100, JSON.stringify(within));
+      assert.ok(within.one / within.right > 0.5 && within.two / within.right > 0.8, JSON.stringify(within));
+      const one = network.estimate(cell(batch, 0));
+      assertShape(one, 'Estimate');
+      const { azimuthDeg, deviation } = one.sources[0];
+      const at = [...all.cell].indexOf(0);
+      assert.ok(Math.abs(azimuthDeg - all.azimuthDeg[at]) < 1e-3);
+      assert.ok(Math.abs(deviation.azimuthDeg - all.azimuthDeviationDeg[at]) < 1e-3 && deviation.powerDb > 0);
+      // What is refined on the snapshot is no longer the network's.
+      network.setOptions({ array, refine: true });
+      assert.ok(network.estimate(cell(batch, 0)).sources.every((source) => !('deviation' in source)));
+      network.setOptions({});
+      throwsTyped(() => network.estimate(cell(batch, 0)), 'unsuitable-array');
+      network.free();
+    }
+  });
+
+  test('says which arrays it was trained on, and refuses inputs that do not go together', () => {
+    const network = new Network(onnx, { card, array: 'ula6', fieldOfViewDeg: 60 });
+    const { warnings } = network.estimate({ snapshots: { data: new Float64Array(12).fill(1), shape: [6, 1] } });
+    assert.match(warnings.map(({ message }) => message).join(), /trained on 8 to 86 elements, used on an array of 6/);
+    const values = (...shape) => ({ data: new Float32Array(shape.reduce((a, b) => a * b)).fill(0.5), shape });
+    const { targets } = network.run({ snapshots: values(2, 9, 2), positions: values(9, 3) });
+    assert.deepEqual(targets.shape, [2, 96, 5]);
+    throwsTyped(() => network.run({ snapshots: values(2, 9, 2), positions: values(8, 3) }), 'shape');
+    network.free();
+  });
+});
+
 test('after a trap calls say so, and initNeural() gives a fresh instance', async () => {
   const { onnx, card } = model(pursuit);
   const stale = new Network(onnx, { card });

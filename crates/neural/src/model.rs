@@ -43,6 +43,8 @@ pub struct Model {
     idle: Arc<Mutex<Option<(Lengths, Runners)>>>,
 }
 
+/// Inputs, each with whether its first axis counts examples.
+type Ordered<'a> = Vec<(ArrayViewD<'a, f32>, bool)>;
 /// Positions of elements, and the engine with these in it.
 type Placed = (Vec<f32>, Arc<Engine>);
 
@@ -96,6 +98,14 @@ impl Model {
     /// Its inputs.
     pub fn inputs(&self) -> &[Port] {
         &self.inputs
+    }
+
+    /// The number of elements of arrays that it takes; none where any goes, or where the input is no snapshot.
+    pub fn elements(&self) -> Option<usize> {
+        self.inputs.iter().find_map(|port| match port.axes[..] {
+            [Axis::Length(elements), _] if port.name == "positions" => Some(elements),
+            _ => None,
+        })
     }
 
     /// Its outputs.
@@ -154,7 +164,7 @@ impl Model {
     fn ordered<'a>(
         &self,
         inputs: &'a [(&str, ArrayViewD<'_, f32>)],
-    ) -> Result<(Vec<(ArrayViewD<'a, f32>, bool)>, Lengths), NeuralError> {
+    ) -> Result<(Ordered<'a>, Lengths), NeuralError> {
         let given = |name: &str| inputs.iter().find(|(given, _)| *given == name);
         if inputs.len() != self.inputs.len() || self.inputs.iter().any(|p| given(&p.name).is_none())
         {

@@ -38,12 +38,7 @@ impl TargetSet {
         array: &Array,
         options: &EstimatorOptions,
     ) -> Result<Self, NeuralError> {
-        let elements = model.inputs().iter().find_map(|port| match port.axes[..] {
-            [crate::Axis::Length(elements), _] => Some(elements),
-            _ => None,
-        });
-        // A network that names the axis takes any array.
-        let elements = elements.unwrap_or(array.len());
+        let elements = model.elements().unwrap_or(array.len());
         if array.len() != elements {
             return Err(AoaError::Array {
                 method: method.name(),

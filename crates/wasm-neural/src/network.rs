@@ -200,7 +200,18 @@ impl Network {
         if let Some(array) = &self.array {
             return Ok(array.clone());
         }
-        let usual = if self.model.kind().answers_target_set() { "lrr48" } else { "ula8" };
+        let kind = self.model.kind();
+        if let (true, None, Some(method)) =
+            (kind.answers_target_set(), self.model.elements(), kind.method())
+        {
+            return Err(aoa::AoaError::Array {
+                method: method.name(),
+                expected: "the array that took the snapshots, for this network takes any".into(),
+                given: "is missing".into(),
+            }
+            .into());
+        }
+        let usual = if kind.answers_target_set() { "lrr48" } else { "ula8" };
         let trained = self.model.card().and_then(|card| card.data.array.as_deref());
         Ok(preset(trained.unwrap_or(usual))?)
     }

@@ -71,6 +71,8 @@ pub fn run(
                 source.direction.elevation_rad.to_degrees(),
                 power_to_db(source.power),
                 source.confidence.unwrap_or(f64::NAN),
+                source.deviation.map_or(f64::NAN, |of| of.azimuth_rad.to_degrees()),
+                source.deviation.map_or(f64::NAN, |of| of.power_db),
             ]
         }));
     }
@@ -84,9 +86,12 @@ pub fn run(
     ];
     if Method::NETWORKS.contains(&method) {
         columns.push(column("confidence", "confidence", 3));
-    } else {
-        rows.iter_mut().for_each(|row: &mut Vec<f64>| row.truncate(columns.len()));
     }
+    if rows.iter().any(|row: &Vec<f64>| row.last().is_some_and(|last| last.is_finite())) {
+        columns.push(column("azimuthDeviationDeg", "azimuth_deviation_deg", 3));
+        columns.push(column("powerDeviationDb", "power_deviation_db", 2));
+    }
+    rows.iter_mut().for_each(|row| row.truncate(columns.len()));
     let table = Table { columns, rows, empty: "no sources" };
     table.render(&arguments.output)
 }
