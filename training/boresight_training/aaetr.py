@@ -40,6 +40,7 @@ class AaetrConfig:
 
 CONFIGS = {
     "paper": AaetrConfig(),
+    "plain": AaetrConfig(width=84, heads=4, feedforward=168, encoder_layers=2, decoder_layers=5, queries=96),
     "steered": AaetrConfig(encoder_layers=2, queries=96, steered=True, neighbours=3),
     "small": AaetrConfig(
         width=48, feedforward=96, encoder_layers=0, queries=96, steered=True, attend=False, neighbours=3
