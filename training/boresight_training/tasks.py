@@ -79,8 +79,8 @@ EVALUATED = {"lrr48": (2, 6, 10), "awr1642": (1, 2), "ula16": (2, 4), "cascade86
 """Arrays that a network for any array is scored on, with numbers of targets. It is trained on none of them."""
 
 
-ONE_DEVIATION = 0.6827
-"""Share of normal errors within one standard deviation."""
+WITHIN = (0.6827, 0.9545)
+"""Shares of normal errors within one and two standard deviations."""
 ZHU = "Zhu, Chen and Yang (2024), Angle of Arrival Estimation with Transformer"
 
 
@@ -170,7 +170,7 @@ class AaetrTask:
         # The array it is trained for, or arrays as it is trained on.
         parts = [self.draw(250, 1.0, generator) for _ in range(max(1, 4 * count // 250))]
         ratios = torch.cat([self._ratios(model, *part) for part in parts])
-        return ratios.quantile(ONE_DEVIATION, 0).tolist() if len(ratios) else [1.0, 1.0]
+        return [_factor(ratio) for ratio in ratios.T] if len(ratios) else [1.0, 1.0]
 
     def _ratios(self, model, targets, values, positions):
         """Errors over the deviations stated, of right predictions and in sine and dB, [predictions, 2]."""
@@ -200,6 +200,18 @@ class AaetrTask:
         arrays = {"array": "any", "elements": list(ELEMENTS)} if self.any_array else {"array": "lrr48"}
         data = {**arrays, **asdict(self.scenes)}
         return {"model": asdict(self.config), "data": data, "loss": asdict(self.loss_config)}
+
+
+def _factor(ratios) -> float:
+    """By which deviations are multiplied, so that the shares of errors within one and two are equally far from WITHIN.
+
+    Errors have longer tails than normal ones, so that no factor has both.
+    """
+    one, two = ratios.quantile(WITHIN[0]).item(), 0.5 * ratios.quantile(WITHIN[1]).item()
+    factors = torch.linspace(one, two, 200, dtype=ratios.dtype)
+    shares = [(ratios.unsqueeze(1) <= times * factors).double().mean(0) for times in (1, 2)]
+    off = torch.stack([(share - wanted).abs() for share, wanted in zip(shares, WITHIN, strict=True)]).amax(0)
+    return factors[off.argmin()].item()
 
 
 class _Targets(nn.Module):
