@@ -45,7 +45,7 @@ const EXPERIMENTS = [
     experiment: 'arrays',
     document: 'experiments-arrays',
     networks: { kinds: ['aaetr'], array: 'any' },
-    settings: ['--trials', '1000', '--seed', '0'],
+    settings: ['--trials', '500', '--seed', '0'],
   },
   {
     name: 'doa',

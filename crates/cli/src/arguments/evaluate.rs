@@ -225,7 +225,7 @@ pub struct EvaluateArraysArguments {
     #[command(flatten)]
     pub shared: EvaluateArguments,
     /// Snapshots a condition: two numbers of targets on each of six arrays.
-    #[arg(long, value_name = "N", default_value_t = 1000)]
+    #[arg(long, value_name = "N", default_value_t = 500)]
     pub trials: u64,
     /// Methods, separated by commas, as for `evaluate aoa`.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
