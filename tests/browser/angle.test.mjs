@@ -161,7 +161,7 @@ browserTest('angle lab: plots and tables are saved as PNG and CSV', { path }, as
   assertCsv(await saved(page, '[data-plot="pattern"] [data-export="csv"]'), 'azimuth_deg,response_db');
   assertCsv(
     await saved(page, '[data-table="results"] [data-export="csv"]'),
-    'method,target,true_azimuth_deg,true_power_db,azimuth_deg,error_deg,power_db,crb_sigma_deg,time_ms',
+    'method,target,true_azimuth_deg,true_power_db,azimuth_deg,error_deg,power_db,stated_sigma_deg,crb_sigma_deg,time_ms',
   );
 });
 
