@@ -39,6 +39,7 @@ mod function;
 mod fused;
 mod model;
 mod onnx;
+mod ports;
 mod product;
 mod regions;
 mod softmax;

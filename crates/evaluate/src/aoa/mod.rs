@@ -16,15 +16,27 @@ pub use times::times;
 use crate::EvaluateError;
 use crate::entrants::Entrants;
 use crate::experiment::{Answered, Experiment, Tell, Trials};
-use boresight_core::Array;
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
+use boresight_core::{Array, CoreError};
 use serde::{Deserialize, Serialize};
 
 /// Numbers of targets of the conditions.
 pub const TARGETS: [usize; 9] = [2, 3, 4, 5, 6, 7, 8, 9, 10];
 /// Signal-to-noise ratios of the conditions, dB.
 pub const SNRS_DB: [f64; 5] = [15.0, 20.0, 25.0, 30.0, 35.0];
+/// Checks that a signal-to-noise ratio is one of [`SNRS_DB`].
+pub(crate) fn check_snr(snr_db: f64) -> Result<(), CoreError> {
+    if SNRS_DB.contains(&snr_db) {
+        return Ok(());
+    }
+    Err(CoreError::OutOfRange {
+        what: "snrDb".into(),
+        expected: SNRS_DB.map(|snr_db| snr_db.to_string()).join(", "),
+        given: snr_db,
+    })
+}
+
 /// Number of conditions. A record's condition counts those of scored snapshots, then those of snapshots for the
 /// threshold.
 const CONDITIONS: usize = TARGETS.len() * SNRS_DB.len();

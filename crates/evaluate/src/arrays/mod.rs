@@ -10,13 +10,13 @@ pub use report::ArraysReport;
 
 use crate::EvaluateError;
 use crate::aoa::score::WITHIN_RAD;
-use crate::aoa::{Condition, SNRS_DB, cell};
+use crate::aoa::{self, Condition, cell};
 use crate::apart::half_beam;
 use crate::entrants::Entrants;
 use crate::experiment::{Experiment, Trials};
 use boresight_core::error::check_range;
 use boresight_core::presets::preset;
-use boresight_core::{Array, CoreError, Random};
+use boresight_core::{Array, Random};
 use serde::{Deserialize, Serialize};
 
 /// Snapshots of one record.
@@ -152,14 +152,7 @@ impl Experiment for ArraysExperiment {
 
     fn plan(&self) -> Result<Self::Plan, EvaluateError> {
         check_range("trials", self.trials as f64, 1.0, 1e7)?;
-        if !SNRS_DB.contains(&self.snr_db) {
-            return Err(CoreError::OutOfRange {
-                what: "snrDb".into(),
-                expected: SNRS_DB.map(|snr_db| snr_db.to_string()).join(", "),
-                given: self.snr_db,
-            }
-            .into());
-        }
+        aoa::check_snr(self.snr_db)?;
         let usual = half_beam(&Tried::Lrr48.array()?);
         Tried::ALL
             .into_iter()

@@ -8,10 +8,9 @@ pub mod report;
 pub use report::ImperfectionsReport;
 
 use crate::EvaluateError;
-use crate::aoa::{self, Condition, SNRS_DB, cell};
+use crate::aoa::{self, Condition, cell};
 use crate::entrants::Entrants;
 use crate::experiment::{Experiment, Trials};
-use boresight_core::CoreError;
 use boresight_core::error::check_range;
 use boresight_core::imperfections::ImperfectionSpread;
 use serde::{Deserialize, Serialize};
@@ -113,14 +112,7 @@ impl Experiment for ImperfectionsExperiment {
 
     fn plan(&self) -> Result<Self::Plan, EvaluateError> {
         check_range("trials", self.trials as f64, 1.0, 1e7)?;
-        if !SNRS_DB.contains(&self.snr_db) {
-            return Err(CoreError::OutOfRange {
-                what: "snrDb".into(),
-                expected: SNRS_DB.map(|snr_db| snr_db.to_string()).join(", "),
-                given: self.snr_db,
-            }
-            .into());
-        }
+        aoa::check_snr(self.snr_db)?;
         settings()
             .into_iter()
             .map(|setting| {
