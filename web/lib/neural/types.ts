@@ -35,8 +35,8 @@ export interface ModelCard {
   confidence?: number;
   /** Digest of the ONNX file, hexadecimal; a file of another digest is refused. */
   sha256?: string;
-  /** Scores by condition. */
-  metrics?: Record<string, number>[];
+  /** Scores by condition; a network for any array names the array of each. */
+  metrics?: Record<string, number | string>[];
   /** All else the card tells: data, training, hardware. */
   [name: string]: unknown;
 }

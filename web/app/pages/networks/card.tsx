@@ -186,23 +186,36 @@ function Ports({ card }: { card: Card }) {
   );
 }
 
-type Row = Readonly<Record<string, number>>;
+type Row = Readonly<Record<string, number | string>>;
+const numberOf = (value: number | string | undefined): number | undefined =>
+  typeof value === 'number' ? value : undefined;
 
 /** Which metric a plot of a network shows, as series over SNR. */
 function curvesOf(card: Card): {
   key: string;
   label: string;
-  series: { label: string; values: (row: Row) => number | undefined }[];
+  /** A curve's dash and marker, by their numbers. */
+  series: { label: string; look: readonly [dash: number, marker: number]; values: (row: Row) => number | undefined }[];
   rows: readonly Row[][];
 } {
   const rows = card.metrics ?? [];
   if (answersTargetSet(card)) {
-    const numbers = [...new Set(rows.map(({ targets }) => targets as number))].sort((a, b) => a - b);
+    // Of a network for any array each array has its own.
+    const arrays = [...new Set(rows.map(({ array }) => array))];
+    const curves = arrays.flatMap((array, dash) => {
+      const ofArray = rows.filter((row) => row.array === array);
+      const numbers = [...new Set(ofArray.map(({ targets }) => Number(targets)))].sort((a, b) => a - b);
+      return numbers.map((targets, marker) => ({
+        label: `${array === undefined ? '' : `${array}, `}${targets} ${targets === 1 ? 'target' : 'targets'}`,
+        look: [arrays.length > 1 ? dash : marker, marker] as const,
+        rows: ofArray.filter((row) => row.targets === targets),
+      }));
+    });
     return {
       key: 'f1',
       label: 'Largest F1',
-      rows: numbers.map((targets) => rows.filter((row) => row.targets === targets)),
-      series: numbers.map((targets) => ({ label: `${targets} targets`, values: ({ f1 }) => f1 })),
+      rows: curves.map((one) => one.rows),
+      series: curves.map(({ label, look }) => ({ label, look, values: ({ f1 }) => numberOf(f1) })),
     };
   }
   const keys = (
@@ -214,9 +227,10 @@ function curvesOf(card: Card): {
     key: keys[0] ?? '',
     label: 'Share of regions (%)',
     rows: keys.map(() => [...rows]),
-    series: keys.map((key) => ({
+    series: keys.map((key, i) => ({
       label: METRICS[key]?.title ?? key,
-      values: (row) => (row[key] === undefined ? undefined : 100 * row[key]),
+      look: [i, i] as const,
+      values: (row) => (row[key] === undefined ? undefined : 100 * Number(row[key])),
     })),
   };
 }
@@ -232,11 +246,11 @@ export function MetricsPanel({ model }: { model: Model }) {
     const { series, rows: parts, label } = curvesOf(card);
     const snrs = [...new Set(rows.map(({ snrDb }) => snrDb as number))].sort((a, b) => a - b);
     const lines = series.map((one, i) => {
-      const dash = DASHES[i % DASHES.length];
+      const dash = DASHES[one.look[0] % DASHES.length];
       const style: SeriesStyle = {
         color: methodStyle(card.network).color,
         width: 1.8,
-        marker: SHAPES[i % SHAPES.length] as 'circle',
+        marker: SHAPES[one.look[1] % SHAPES.length] as 'circle',
         ...(dash ? { dash } : {}),
       };
       const y = snrs.map((snr) => {

@@ -127,6 +127,11 @@ export interface Metric {
 }
 
 export const METRICS: Record<string, Metric> = {
+  array: {
+    title: 'Array',
+    help: 'The array that the snapshots are of',
+    digits: 0,
+  },
   targets: { title: 'Targets', help: 'Targets in a snapshot', digits: 0 },
   snrDb: {
     title: 'SNR (dB)',
@@ -200,8 +205,9 @@ export const METRICS: Record<string, Metric> = {
   rmseDeg: { title: 'RMSE (°)', help: 'Root mean square error', digits: 3 },
 };
 
-export function metricText(key: string, value: number | undefined): string {
+export function metricText(key: string, value: number | string | undefined): string {
   if (value === undefined) return '–';
+  if (typeof value === 'string') return value;
   const { digits = 3, percent = false } = METRICS[key] ?? {};
   return percent ? `${fixed(100 * value, digits)}\u00a0%` : fixed(value, digits);
 }
