@@ -26,11 +26,23 @@ export function tensor(name, port) {
 /** Confidence below which no card reports a target: such queries are empty, and magnify rounding. */
 const EMPTY = 1e-3;
 
+/** The largest difference, relative to the largest number or 1. */
+export function difference(given, expected) {
+  let [largest, scale] = [0, 1];
+  expected.forEach((value, i) => {
+    // Not a number is no small difference.
+    const apart = Math.abs(given[i] - value);
+    largest = Math.max(largest, apart);
+    scale = Math.max(scale, Math.abs(value));
+  });
+  return largest / scale;
+}
+
 /**
- * The largest difference, relative to the largest number of its kind (along the last axis) or 1. Of a set of targets, what
- * empty queries answer beside their confidence counts a tenth.
+ * The same relative to the largest number of its kind (along the last axis) or 1. Of a set of targets, what empty queries
+ * answer beside their confidence counts a tenth.
  */
-export function difference(given, { data, shape }, isSet) {
+export function differenceByKind(given, { data, shape }, isSet) {
   const kinds = shape[shape.length - 1];
   const scale = new Array(kinds).fill(1);
   data.forEach((value, i) => {
