@@ -5,8 +5,8 @@ Both answer with logits; exported models answer with probabilities. Neither has 
 
 from itertools import pairwise
 
-import torch
 from torch import nn
+from torch.nn.utils.fusion import fuse_conv_bn_eval, fuse_linear_bn_eval
 
 from .regions import CLASSES
 
@@ -35,17 +35,12 @@ DNN_HIDDEN = {"small": 239, "large": 2320}
 
 
 def folded(network: nn.Sequential) -> nn.Sequential:
-    """The same function in linear layers alone, for batch normalisation in its evaluation mode."""
+    """The same function without batch normalisation, for its evaluation mode."""
     layers = []
     for layer in network:
-        if isinstance(layer, nn.BatchNorm1d):
-            before = layers.pop()
-            gain = layer.weight / (layer.running_var + layer.eps).sqrt()
-            linear = nn.Linear(before.in_features, before.out_features)
-            with torch.no_grad():
-                linear.weight.copy_(before.weight * gain.unsqueeze(1))
-                linear.bias.copy_((before.bias - layer.running_mean) * gain + layer.bias)
-            layers.append(linear)
+        if isinstance(layer, nn.BatchNorm1d | nn.BatchNorm2d):
+            fuse = fuse_linear_bn_eval if isinstance(layers[-1], nn.Linear) else fuse_conv_bn_eval
+            layers.append(fuse(layers.pop(), layer))
         else:
             layers.append(layer)
     return nn.Sequential(*layers)

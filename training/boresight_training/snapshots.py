@@ -1,7 +1,7 @@
 """Snapshots of an array with random targets: `y = sum_m alpha_m a(theta_m) + n` (equations 4 to 6 of AAETR's paper)."""
 
 from dataclasses import dataclass
-from math import radians
+from math import log, radians
 
 import torch
 
@@ -88,3 +88,28 @@ def snapshots(scenes: Scenes, positions: torch.Tensor, batch: int, generator: to
     values = responses(targets, positions).to(torch.complex64)
     noise = 10 ** (-uniform((batch, 1), *scenes.snr_db, generator, torch.float32) / 20)
     return targets, values + noise * complex_normal(values.shape, generator), positions
+
+
+def covariances(
+    scenes: Scenes, positions: torch.Tensor, batch: int, snapshots: tuple[int, int], generator: torch.Generator
+):
+    """Random scenes of uncorrelated targets: these, and sample covariances (complex64, [batch, elements, elements]).
+
+    Numbers of snapshots are uniform in their logarithm, at least as many as elements. Covariances are drawn as such,
+    from Wishart's distribution by Bartlett's decomposition.
+    """
+    targets = draw_targets(scenes, batch, generator)
+    positions = positions.to(generator.device)
+    waves = steering(positions.double(), targets.u)
+    noise = 10 ** (-uniform((batch, 1, 1), *scenes.snr_db, generator) / 10)
+    power = targets.amplitude.abs().square().unsqueeze(-1)
+    elements = len(positions)
+    exact = (waves * power).mT @ waves.conj() + noise * torch.eye(elements, device=generator.device)
+    fewest, most = (log(count) for count in snapshots)
+    count = uniform((batch, 1), fewest, most, generator).exp().round()
+    degrees = count - torch.arange(elements, device=generator.device)
+    # Of the standard gamma distribution by its generator on the CPU, which takes one.
+    diagonal = torch._standard_gamma(degrees, generator=generator).sqrt()
+    lower = complex_normal((batch, elements, elements), generator, torch.float64).tril(-1)
+    factor = torch.linalg.cholesky(exact) @ (lower + torch.diag_embed(diagonal).to(lower.dtype))
+    return targets, (factor @ factor.mH / count.unsqueeze(-1)).to(torch.complex64)

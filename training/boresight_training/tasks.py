@@ -9,24 +9,18 @@ import torch
 from torch import nn
 from torch.nn import functional
 
-from . import steered, words
+from . import steered, unrolled_iaa, words
 from .aaetr import CONFIGS, Aaetr
 from .arrays import ELEMENTS, array, random_arrays
 from .classifiers import COVARIANCE_FEATURES, DNN_HIDDEN, counting, dnn, folded
 from .cnn3d import CNN3D, Cnn3d
+from .covariance_networks import CNN_CONFIGS, MUSIC_CONFIGS
+from .ports import Port, snapshot_ports
 from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
 from .score import best_f1, right_predictions
 from .setloss import SetLossConfig, set_loss
 from .snapshots import Scenes, snapshots
-
-
-@dataclass(frozen=True)
-class Port:
-    """An input or output of an exported model; axes are numbers, or names where any length goes."""
-
-    name: str
-    axes: tuple[int | str, ...]
-    meaning: str
+from .spectra import CovarianceTask, UnrolledIaaTask
 
 
 class Task(Protocol):
@@ -113,14 +107,7 @@ class AaetrTask:
         self.positions = array("lrr48")
         self.batch, self.learning_rate = (1024, 4e-4) if config == "paper" else (32, 2e-3)
         elements = "elements" if self.any_array else 48
-        self.inputs = (
-            Port("snapshots", ("batch", elements, 2), "real and imaginary part of each virtual element, in one order"),
-            Port(
-                "positions",
-                (elements, 3),
-                "positions of the virtual elements in that order, half wavelengths, x forward, y left, z up",
-            ),
-        )
+        self.inputs = snapshot_ports(elements)
         meaning = "sine of azimuth, amplitude at one element, confidence from 0 to 1"
         if self._states_deviations:
             meaning += ", standard deviations of the sine and of the amplitude in dB"
@@ -439,6 +426,9 @@ NETWORKS = {
     "counting": ("small", "paper"),
     "cnn3d": tuple(CNN3D),
     "dnn": tuple(DNN_HIDDEN),
+    "unrolled-iaa": tuple(unrolled_iaa.CONFIGS),
+    "covariance-cnn": tuple(CNN_CONFIGS),
+    "deep-music": tuple(MUSIC_CONFIGS),
 }
 
 
@@ -453,10 +443,17 @@ def task(
     near: float = NEAR,
     channel_error: tuple[float, float] = (0.0, 0.0),
 ) -> Task:
-    """A network by name and size; `targets` is the most of AAETR (16), or how many a classifier sees (1)."""
+    """A network by name and size.
+
+    `targets` is the most that it is trained on (16, of covariances 3), or how many a classifier sees (1).
+    """
     if config not in NETWORKS[name]:
         raise ValueError(f"config {config!r} of {name}: expected {', '.join(NETWORKS[name])}")
     snr_db = None if snr_db is None else tuple(snr_db)
     if name in ("aaetr", "learned-pursuit"):
         return AaetrTask(config, position_error, 16 if targets is None else targets, arrays, snr_db)
+    if name == "unrolled-iaa":
+        return UnrolledIaaTask(config, 16 if targets is None else targets)
+    if name in ("covariance-cnn", "deep-music"):
+        return CovarianceTask(name, config, 3 if targets is None else targets)
     return classifier(name, config, 1 if targets is None else targets, setup, snr_db, near, channel_error)

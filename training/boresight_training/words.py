@@ -2,8 +2,10 @@
 
 from .aaetr import AaetrConfig
 from .cnn3d import Cnn3dConfig
+from .covariance_networks import CovarianceConfig
 from .regions import LENGTH
 from .steered import SteeredConfig
+from .unrolled_iaa import UnrolledIaaConfig
 
 PAPER = (
     "The publication has 6 + 6 layers of width 128, 1.6 million parameters, "
@@ -81,3 +83,45 @@ def channel_errors(gain_db: float, phase_deg: float) -> str:
     if gain_db == 0 and phase_deg == 0:
         return ""
     return f" Elements have errors of {gain_db:g} dB and {phase_deg:g} deg (deviations), new in every region."
+
+
+def unrolled_iaa(config: UnrolledIaaConfig) -> tuple[str, str]:
+    """Of UAA."""
+    return (
+        f"A recurrent network of {config.layers} layers that share their weights, each an iteration of IAA on a grid "
+        f"of {config.points} sines. {config.gradients} steps of conjugate gradients a layer take the place of the "
+        f"inverse of the covariance; a gated convolution over {config.kernel} neighbouring points, of width "
+        f"{config.width}, takes that of its quadratic forms, and tells the noise.",
+        "The publication tells that the iterations of IAA become layers without matrix inverses. What these layers are "
+        "made of, the lobes they are trained to answer with, and data and loss are ours.",
+    )
+
+
+def _layers(config: CovarianceConfig) -> str:
+    hidden = " and ".join(str(width) for width in config.hidden)
+    return (
+        f"four convolutions of {config.filters} filters, the first of 3 x 3 at every other element, then 2 x 2, and "
+        f"hidden layers of {hidden}, with batch normalisation"
+    )
+
+
+def covariance_cnn(config: CovarianceConfig) -> tuple[str, str]:
+    """Of Papageorgiou's CNN."""
+    return (
+        f"On the covariance of {config.elements} elements as an image of three channels: {_layers(config)}. "
+        f"{config.points} outputs, the probability of a source at each sine of the azimuth.",
+        "The publication has 256 filters, hidden layers of 4096, 2048 and 1024, dropout, and 121 whole degrees. "
+        "Here the grid is of sines, and labels are lobes a step of the grid wide, so that angles between its points "
+        "can be told. Covariances are those of 16 to 2,000 snapshots.",
+    )
+
+
+def deep_music(config: CovarianceConfig) -> tuple[str, str]:
+    """Of DeepMUSIC."""
+    return (
+        f"{config.sectors} networks, each for a sector of the sine of the azimuth, on the covariance of "
+        f"{config.elements} elements as an image of three channels. Each: {_layers(config)}.",
+        "Networks are smaller than the publication's. They learn the pseudo-spectrum that MUSIC has of the exact "
+        "covariance and the true number of sources, down to 30 dB below its largest value, from covariances of 16 to "
+        "2,000 snapshots. Sources are anywhere, where the publication has one a sector.",
+    )

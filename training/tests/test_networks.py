@@ -22,6 +22,10 @@ EVERY = [
     ("cnn3d", "paper", 2),
     ("dnn", "small", 1),
     ("dnn", "large", 2),
+    ("unrolled-iaa", "tiny", None),
+    ("unrolled-iaa", "small", None),
+    ("covariance-cnn", "small", None),
+    ("deep-music", "small", None),
 ]
 # What tract-onnx takes, as far as our graphs need it.
 OPERATORS = {
@@ -63,6 +67,7 @@ OPERATORS = {
     "Sqrt",
     "Squeeze",
     "Sub",
+    "Tanh",
     "Transpose",
     "Unsqueeze",
     "Where",
