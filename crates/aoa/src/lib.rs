@@ -85,5 +85,6 @@ pub use estimators::Estimators;
 pub use grid::Grid;
 pub use method::{Method, Requirements};
 pub use options::{EstimatorOptions, SourceCount};
+pub use peaks::{Peak, PeakFinder};
 pub use plan::Plan;
 pub use powers::sources_at;

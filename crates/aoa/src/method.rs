@@ -40,6 +40,12 @@ pub enum Method {
     Dnn,
     /// A convolutional network on a region of the range spectrum, of whole degrees (Sang et al. 2021).
     Cnn3d,
+    /// UAA: iterations of IAA unrolled into the layers of a network, without matrix inverses (Zheng et al. 2023).
+    UnrolledIaa,
+    /// A convolutional network on the covariance, of sources on a grid (Papageorgiou et al. 2021).
+    CovarianceCnn,
+    /// Convolutional networks on the covariance that answer with MUSIC's spectrum (Elbir 2020).
+    DeepMusic,
 }
 
 /// What a method needs and gives; the check and the documentation both read it.
@@ -90,7 +96,15 @@ impl Method {
     ];
 
     /// The networks, which need one.
-    pub const NETWORKS: [Self; 4] = [Self::Aaetr, Self::LearnedPursuit, Self::Dnn, Self::Cnn3d];
+    pub const NETWORKS: [Self; 7] = [
+        Self::Aaetr,
+        Self::LearnedPursuit,
+        Self::Dnn,
+        Self::Cnn3d,
+        Self::UnrolledIaa,
+        Self::CovarianceCnn,
+        Self::DeepMusic,
+    ];
 
     /// The name used in options, in JavaScript and on the command line.
     pub fn name(self) -> &'static str {
@@ -121,7 +135,8 @@ impl Method {
             network: false,
             cost: "",
         };
-        let network = Requirements { spectrum: false, network: true, ..base };
+        let network =
+            Requirements { spectrum: false, network: true, cost: "that of its model", ..base };
         match self {
             Self::Bartlett => Requirements {
                 title: "Bartlett (FFT)",
@@ -231,7 +246,6 @@ impl Method {
                 reference: "Zhu, Chen and Yang 2024",
                 max_snapshots: Some(1),
                 takes_covariance: false,
-                cost: "that of its model",
                 ..network
             },
             Self::LearnedPursuit => Requirements {
@@ -239,14 +253,12 @@ impl Method {
                 reference: "Boresight",
                 max_snapshots: Some(1),
                 takes_covariance: false,
-                cost: "that of its model",
                 ..network
             },
             Self::Dnn => Requirements {
                 title: "DNN (network)",
                 reference: "Chen, Gong and Mao 2020",
                 uniform_array: true,
-                cost: "that of its model",
                 ..network
             },
             Self::Cnn3d => Requirements {
@@ -257,7 +269,28 @@ impl Method {
                 max_snapshots: Some(260),
                 takes_covariance: false,
                 uniform_array: true,
-                cost: "that of its model",
+                ..network
+            },
+            Self::UnrolledIaa => Requirements {
+                title: "UAA (unrolled IAA)",
+                reference: "Zheng et al. 2023",
+                max_snapshots: Some(1),
+                takes_covariance: false,
+                spectrum: true,
+                ..network
+            },
+            Self::CovarianceCnn => Requirements {
+                title: "Covariance CNN",
+                reference: "Papageorgiou et al. 2021",
+                uniform_array: true,
+                spectrum: true,
+                ..network
+            },
+            Self::DeepMusic => Requirements {
+                title: "DeepMUSIC",
+                reference: "Elbir 2020",
+                uniform_array: true,
+                spectrum: true,
                 ..network
             },
         }

@@ -6,7 +6,7 @@ use boresight_core::{Array, Direction};
 
 /// A local maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Peak {
+pub struct Peak {
     /// Where the parabola through its neighbours, in dB, has its top.
     pub direction: Direction,
     /// Linear value at the grid point.
@@ -17,7 +17,7 @@ pub(crate) struct Peak {
 
 /// Finds peaks within the field of view, the sector without grating lobes and the dynamic range.
 #[derive(Debug, Clone)]
-pub(crate) struct PeakFinder {
+pub struct PeakFinder {
     /// Period of the spectrum in `sin(azimuth)`, for elements on a lattice.
     period: Option<f64>,
     /// Whether the last azimuth's right neighbour is the first one.
@@ -29,6 +29,7 @@ pub(crate) struct PeakFinder {
 }
 
 impl PeakFinder {
+    /// For spectra of an array on a grid; of the options, dynamic range and number of peaks count.
     pub fn new(array: &Array, grid: &Grid, options: &EstimatorOptions) -> Self {
         let spacing = array.lattice().map(|lattice| lattice.spacing);
         let whole = grid.sines.len() == grid.full_points;

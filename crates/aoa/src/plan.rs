@@ -82,8 +82,6 @@ pub(crate) fn plan(
         Method::AtomicNorm => Box::new(AtomicNorm::new(array, options)?),
         Method::MaximumLikelihood => Box::new(MaximumLikelihood::new(array, options)?),
         Method::SparseBayesian => Box::new(SparseBayesian::new(array, options)?),
-        Method::Aaetr | Method::LearnedPursuit | Method::Dnn | Method::Cnn3d => {
-            return Err(AoaError::NeedsModel { method: method.name() });
-        }
+        _ => return Err(AoaError::NeedsModel { method: method.name() }),
     })
 }

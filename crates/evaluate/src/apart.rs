@@ -1,4 +1,4 @@
-//! Snapshots of targets that stand apart.
+//! Scenes of targets that stand apart.
 
 use crate::EvaluateError;
 use boresight_core::{Array, Complex64, Direction, Random};
@@ -8,8 +8,8 @@ use std::f64::consts::FRAC_PI_3;
 
 /// Half width of the sector of targets, rad (60 deg).
 const WITHIN_RAD: f64 = FRAC_PI_3;
-/// Targets are at least this many beams between their first zeros from each other.
-const BEAMS: f64 = 2.0;
+/// Distance of targets that disturb each other little, in beams between their first zeros.
+pub(crate) const BEAMS_APART: f64 = 2.0;
 /// Draws of a target that comes too near another; the last one is taken, where beams fill the sector.
 const DRAWS: usize = 100;
 
@@ -29,6 +29,10 @@ pub(crate) struct Drawn<'a> {
     pub group: u64,
     /// Signal-to-noise ratio of a target of 0 dB, dB.
     pub snr_db: f64,
+    /// Snapshots of each scene.
+    pub snapshots: usize,
+    /// Least distance of two targets, in beams between their first zeros.
+    pub beams_apart: f64,
     /// Power of each target, dB.
     pub powers_db: &'a [f64],
     /// Their distance, m; none for plane waves.
@@ -36,7 +40,7 @@ pub(crate) struct Drawn<'a> {
 }
 
 impl Drawn<'_> {
-    /// Snapshots `first` to `first + trials - 1`, each with its targets.
+    /// Scenes `first` to `first + trials - 1`, scenes x elements x snapshots, each with its targets.
     ///
     /// # Errors
     /// Those of the simulation.
@@ -45,13 +49,14 @@ impl Drawn<'_> {
         first: u64,
         trials: u64,
     ) -> Result<(Array3<Complex64>, Vec<Vec<Target>>), EvaluateError> {
-        let mut scenes = Array3::zeros((trials as usize, self.array.len(), 1));
+        let mut scenes = Array3::zeros((trials as usize, self.array.len(), self.snapshots));
         let mut truths = vec![];
         for (trial, mut scene) in (first..).zip(scenes.outer_iter_mut()) {
             let mut random = Random::new(self.seed, (self.group << 40) + trial);
             let options = SnapshotOptions {
                 scene: Scene::Given(self.targets(&mut random)),
                 snr_db: self.snr_db,
+                snapshots: self.snapshots,
                 seed: random.bits(),
                 ..SnapshotOptions::default()
             };
@@ -63,7 +68,7 @@ impl Drawn<'_> {
     }
 
     fn targets(&self, random: &mut Random) -> Vec<Target> {
-        let least = 2.0 * BEAMS * half_beam(self.array);
+        let least = 2.0 * self.beams_apart * half_beam(self.array);
         let mut azimuths_rad: Vec<f64> = vec![];
         for _ in self.powers_db {
             let mut azimuth_rad = random.uniform(-WITHIN_RAD, WITHIN_RAD);

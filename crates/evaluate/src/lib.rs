@@ -35,6 +35,7 @@ pub mod error;
 pub mod experiment;
 pub mod images;
 pub mod imperfections;
+pub mod low_snr;
 mod merge;
 pub mod near_field;
 mod plot;

@@ -8,6 +8,7 @@ use crate::doa;
 use crate::experiment::{Experiment, Records, Report, file_name, legs, setup, side_by_side, whole};
 use crate::images;
 use crate::imperfections;
+use crate::low_snr;
 use crate::near_field;
 use crate::resolution;
 use crate::straddling;
@@ -110,6 +111,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         imperfections::ImperfectionsExperiment::NAME => {
             merge_as::<imperfections::ImperfectionsExperiment>(gathered, sources)
         }
+        low_snr::LowSnrExperiment::NAME => merge_as::<low_snr::LowSnrExperiment>(gathered, sources),
         resolution::ResolutionExperiment::NAME => {
             merge_as::<resolution::ResolutionExperiment>(gathered, sources)
         }
@@ -122,7 +124,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", first.first.display()),
             expected:
-                "aoa, arrays, calibration, doa, images, imperfections, near-field, resolution, straddling"
+                "aoa, arrays, calibration, doa, images, imperfections, low-snr, near-field, resolution, straddling"
                     .into(),
             given: name.into(),
         }

@@ -28,18 +28,9 @@ impl Candidate {
     }
 }
 
-/// Every method that can run on the array with that many snapshots. Those that need more than there are run
-/// on the covariance smoothed over subarrays of two thirds of the elements, forwards and backwards, where the
-/// array is uniform; so do, beside their plain form, the ones on eigenvectors where `coherent` targets are to be
-/// told apart.
-pub fn candidates(
-    array: &Array,
-    snapshots: usize,
-    sources: usize,
-    field_of_view_rad: f64,
-    coherent: bool,
-) -> Vec<Candidate> {
-    let options = EstimatorOptions {
+/// Options of methods that are told the number of targets.
+pub fn options(sources: usize, field_of_view_rad: f64) -> EstimatorOptions {
+    EstimatorOptions {
         sources: SourceCount::Known(sources),
         field_of_view_rad,
         grid_points: 2048,
@@ -52,7 +43,21 @@ pub fn candidates(
             ..EstimatorOptions::default().nomp
         },
         ..EstimatorOptions::default()
-    };
+    }
+}
+
+/// Every method that can run on the array with that many snapshots. Those that need more than there are run
+/// on the covariance smoothed over subarrays of two thirds of the elements, forwards and backwards, where the
+/// array is uniform; so do, beside their plain form, the ones on eigenvectors where `coherent` targets are to be
+/// told apart.
+pub fn candidates(
+    array: &Array,
+    snapshots: usize,
+    sources: usize,
+    field_of_view_rad: f64,
+    coherent: bool,
+) -> Vec<Candidate> {
+    let options = options(sources, field_of_view_rad);
     // Sparse Bayesian learning converges the more slowly the finer its grid is; it and maximum likelihood go on
     // between the points.
     let span = array.aperture() as usize + 1;

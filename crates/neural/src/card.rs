@@ -22,6 +22,12 @@ pub enum Kind {
     Dnn,
     /// Whole degrees from a region of the range spectrum.
     Cnn3d,
+    /// The spectrum of one snapshot, by iterations of IAA unrolled.
+    UnrolledIaa,
+    /// Probabilities of sources over a grid, from a covariance.
+    CovarianceCnn,
+    /// MUSIC's spectrum, from a covariance.
+    DeepMusic,
 }
 
 impl Kind {
@@ -33,6 +39,9 @@ impl Kind {
             Self::Counting => None,
             Self::Dnn => Some(Method::Dnn),
             Self::Cnn3d => Some(Method::Cnn3d),
+            Self::UnrolledIaa => Some(Method::UnrolledIaa),
+            Self::CovarianceCnn => Some(Method::CovarianceCnn),
+            Self::DeepMusic => Some(Method::DeepMusic),
         }
     }
 
@@ -43,7 +52,9 @@ impl Kind {
 
     /// Its inputs, then its outputs. Where an axis has a name other than `batch`, any length or name will do, the same
     /// everywhere. Of a target the `values` are sine of the azimuth, amplitude and confidence, and there may be the
-    /// standard deviations of the sine and of the amplitude in dB ([`TARGET_VALUES`]).
+    /// standard deviations of the sine and of the amplitude in dB ([`TARGET_VALUES`]). The `points` of a spectrum are at
+    /// sines of the azimuth `-1 + 2 g / points`; a covariance over its mean diagonal entry has three channels, real part,
+    /// imaginary part and phase over pi.
     pub fn ports(self) -> (Vec<Port>, Vec<Port>) {
         let batch = || Axis::Named("batch".into());
         let named = |name: &str| Axis::Named(name.into());
@@ -54,14 +65,25 @@ impl Kind {
                 std::iter::once(batch()).chain(lengths.iter().map(|&n| Axis::Length(n))).collect(),
             )
         };
+        let snapshots = || {
+            vec![
+                port("snapshots", vec![batch(), named("elements"), Axis::Length(2)]),
+                port("positions", vec![named("elements"), Axis::Length(3)]),
+            ]
+        };
+        let covariance = || {
+            let image = vec![batch(), Axis::Length(3), named("elements"), named("elements")];
+            vec![port("covariance", image)]
+        };
+        let grid = |name| vec![port(name, vec![batch(), named("points")])];
         match self {
             Self::Aaetr | Self::LearnedPursuit => (
-                vec![
-                    port("snapshots", vec![batch(), named("elements"), Axis::Length(2)]),
-                    port("positions", vec![named("elements"), Axis::Length(3)]),
-                ],
+                snapshots(),
                 vec![port("targets", vec![batch(), named("queries"), named("values")])],
             ),
+            Self::UnrolledIaa => (snapshots(), grid("spectrum")),
+            Self::CovarianceCnn => (covariance(), grid("probability")),
+            Self::DeepMusic => (covariance(), grid("spectrum")),
             Self::Counting => (vec![fixed("covariance", &[56])], vec![fixed("probability", &[3])]),
             Self::Dnn => (vec![fixed("covariance", &[56])], vec![fixed("probability", &[21])]),
             Self::Cnn3d => {
@@ -82,6 +104,16 @@ pub enum Axis {
     Length(usize),
     /// Any length; axes of one name have the same.
     Named(String),
+}
+
+impl Axis {
+    /// Its length, where that is fixed.
+    pub fn length(&self) -> Option<usize> {
+        match self {
+            Self::Length(length) => Some(*length),
+            Self::Named(_) => None,
+        }
+    }
 }
 
 impl Described for Axis {
@@ -144,6 +176,10 @@ pub struct TrainingData {
     pub position_error: f64,
     /// Fewest and most elements of the arrays, where it was trained on different ones.
     pub elements: Option<[usize; 2]>,
+    /// Fewest and most snapshots of a covariance.
+    pub snapshots: Option<[usize; 2]>,
+    /// Fewest and most targets.
+    pub targets: Option<[usize; 2]>,
 }
 
 /// What is known of a model. Only what is needed to run and name it; a card holds more.

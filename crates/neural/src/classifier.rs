@@ -46,7 +46,7 @@ impl Classifier {
         array: &Array,
         options: &EstimatorOptions,
     ) -> Result<Self, NeuralError> {
-        let rises = rises(array, method.name())?;
+        let rises = rises(array, ELEMENTS, method.name())?;
         let known = match options.sources {
             SourceCount::Known(count) => Some(count),
             _ => None,
@@ -174,14 +174,18 @@ impl Plan for Classifier {
 }
 
 /// Checks that the elements are those the networks are for, and tells whether they are counted to the left.
-pub(crate) fn rises(array: &Array, method: &'static str) -> Result<bool, AoaError> {
+pub(crate) fn rises(
+    array: &Array,
+    elements: usize,
+    method: &'static str,
+) -> Result<bool, AoaError> {
     let lattice = array.lattice().filter(|lattice| {
         let half_wavelength = (lattice.spacing - 1.0).abs() < SPACING_TOLERANCE;
-        array.len() == ELEMENTS && lattice.is_uniform() && half_wavelength
+        array.len() == elements && lattice.is_uniform() && half_wavelength
     });
     let lattice = lattice.ok_or_else(|| AoaError::Array {
         method,
-        expected: format!("{ELEMENTS} elements half a wavelength apart along y, in order"),
+        expected: format!("{elements} elements half a wavelength apart along y, in order"),
         given: format!("has {} elements, or they lie otherwise", array.len()),
     })?;
     Ok(lattice.indices[0] == 0)

@@ -42,7 +42,9 @@ mod onnx;
 mod ports;
 mod product;
 mod regions;
+mod snapshots;
 mod softmax;
+mod spectrum;
 mod target_set;
 
 pub use card::{Axis, Card, Kind, Port};

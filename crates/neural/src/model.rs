@@ -7,6 +7,7 @@ use crate::error::NeuralError;
 use crate::features::{ELEMENTS, covariance_features};
 use crate::onnx;
 use crate::ports::{check_digest, check_ports, checked_outputs, kinds_of, list};
+use crate::spectrum::Spectral;
 use crate::target_set::TargetSet;
 use boresight_aoa::Plan;
 use boresight_aoa::{
@@ -103,8 +104,9 @@ impl Model {
 
     /// The number of elements of arrays that it takes; none where any goes, or where the input is no snapshot.
     pub fn elements(&self) -> Option<usize> {
-        self.inputs.iter().find_map(|port| match port.axes[..] {
-            [Axis::Length(elements), _] if port.name == "positions" => Some(elements),
+        self.inputs.iter().find_map(|port| match (&*port.name, &port.axes[..]) {
+            ("positions", [Axis::Length(elements), _])
+            | ("covariance", [_, _, _, Axis::Length(elements)]) => Some(*elements),
             _ => None,
         })
     }
@@ -303,11 +305,14 @@ impl Model {
             return Err(AoaError::NeedsCounter { method: self.kind.name() }.into());
         }
         let Some(method) = self.kind.method() else {
-            return Err(self.wrong_kind("aaetr, learned-pursuit, dnn or cnn3d"));
+            return Err(self.wrong_kind("any but a counting network"));
         };
         let network = match self.kind {
-            kind if kind.answers_target_set() => {
+            Kind::Aaetr | Kind::LearnedPursuit => {
                 Network::TargetSet(TargetSet::new(self, method, array, options)?)
+            }
+            Kind::UnrolledIaa | Kind::CovarianceCnn | Kind::DeepMusic => {
+                Network::Spectral(Spectral::new(self, method, array, options)?)
             }
             _ => Network::Classifier(Classifier::new(self, method, array, options)?),
         };
@@ -371,6 +376,7 @@ impl Model {
 enum Network {
     TargetSet(TargetSet),
     Classifier(Classifier),
+    Spectral(Spectral),
 }
 
 impl Network {
@@ -378,6 +384,7 @@ impl Network {
         match self {
             Self::TargetSet(plan) => Box::new(plan),
             Self::Classifier(plan) => Box::new(plan),
+            Self::Spectral(plan) => Box::new(plan),
         }
     }
 }

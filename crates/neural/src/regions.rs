@@ -3,6 +3,7 @@
 use crate::card::Kind;
 use crate::classifier::rises;
 use crate::error::NeuralError;
+use crate::features::ELEMENTS;
 use crate::model::Model;
 use boresight_aoa::{
     AoaError, CountSources, Counted, Data, Estimator, EstimatorOptions, Estimators, SourceCount,
@@ -66,7 +67,7 @@ impl RegionNetworks<'_> {
 
 impl CountSources for Model {
     fn check_array(&self, array: &Array) -> Result<(), AoaError> {
-        rises(array, Kind::Counting.name()).map(|_| ())
+        rises(array, ELEMENTS, Kind::Counting.name()).map(|_| ())
     }
 
     fn count(&self, data: Data<'_>) -> Result<SourceProbabilities, AoaError> {

@@ -55,10 +55,19 @@ const cardAddresses = import.meta.glob<string>('../../../models/*.json', {
 });
 const addresses = import.meta.glob<string>('../../../models/*.onnx', { eager: true, query: '?url', import: 'default' });
 
-const KINDS: readonly NetworkKind[] = ['aaetr', 'learned-pursuit', 'counting', 'dnn', 'cnn3d'];
+/** What one example of a network is of. */
+export type Sight = 'snapshot' | 'covariance' | 'region';
+
+const KINDS: readonly NetworkKind[] = [
+  ...(['aaetr', 'learned-pursuit', 'unrolled-iaa', 'covariance-cnn', 'deep-music'] as const),
+  ...(['counting', 'dnn', 'cnn3d'] as const),
+];
 export const KIND_TITLES: Record<NetworkKind, string> = {
   aaetr: 'AAETR',
   'learned-pursuit': 'Learned pursuit',
+  'unrolled-iaa': 'UAA',
+  'covariance-cnn': 'Covariance CNN',
+  'deep-music': 'DeepMUSIC',
   counting: 'Counting network',
   dnn: 'DNN',
   cnn3d: '3D-CNN',
@@ -95,8 +104,20 @@ export const MODELS: readonly Model[] = Object.entries(cards)
       a.name.localeCompare(b.name),
   );
 
-/** Whether it answers one snapshot with a set of targets; others answer a region of interest in whole degrees. */
-export const answersTargetSet = ({ network }: Card): boolean => network === 'aaetr' || network === 'learned-pursuit';
+/** Whether it sees one snapshot of many targets, the covariance of many snapshots, or a region of interest. */
+export function sightOf({ network }: Card): Sight {
+  switch (network) {
+    case 'aaetr':
+    case 'learned-pursuit':
+    case 'unrolled-iaa':
+      return 'snapshot';
+    case 'covariance-cnn':
+    case 'deep-music':
+      return 'covariance';
+    default:
+      return 'region';
+  }
+}
 
 /** Whether it was trained on elements with errors, as those of a board that is not calibrated. */
 export const trainedOnBoards = ({ data }: Card): boolean => Number(data?.channelDb) > 0 || Number(data?.channelDeg) > 0;
@@ -104,7 +125,8 @@ export const trainedOnBoards = ({ data }: Card): boolean => Number(data?.channel
 /** Virtual elements the network's input has room for; null where any number goes. */
 export function elementsOf(card: Card): number | null {
   const [, second, third] = card.inputs[0]?.axes ?? [];
-  if (answersTargetSet(card)) return typeof second === 'number' ? second : null;
+  if (sightOf(card) === 'snapshot') return typeof second === 'number' ? second : null;
+  if (sightOf(card) === 'covariance') return Number(third);
   if (card.network === 'cnn3d') return Number(third);
   // M (M - 1) numbers of a Hermitian matrix.
   return Math.round((1 + Math.sqrt(1 + 4 * Number(second))) / 2);
@@ -127,7 +149,7 @@ export function arrayProblem(card: Card, { positions, uniform, aperture }: Geome
   const elements = elementsOf(card);
   if (elements === null) return null;
   const evenly = uniform && Math.abs(aperture - (elements - 1)) < 1e-6;
-  if (positions.length !== elements || (!answersTargetSet(card) && !evenly)) {
+  if (positions.length !== elements || (sightOf(card) !== 'snapshot' && !evenly)) {
     return `is for ${arrayOf(card)}${typeof card.data?.array === 'string' ? ` (${elements} elements)` : ''}`;
   }
   return null;

@@ -206,6 +206,10 @@ export interface Region {
  * learned.
  * - `dnn`: A fully connected network on the covariance, of whole degrees (after Chen, Gong and Mao 2020).
  * - `cnn3d`: A convolutional network on a region of the range spectrum, of whole degrees (Sang et al. 2021).
+ * - `unrolled-iaa`: UAA: iterations of IAA unrolled into the layers of a network, without matrix inverses (Zheng et
+ * al. 2023).
+ * - `covariance-cnn`: A convolutional network on the covariance, of sources on a grid (Papageorgiou et al. 2021).
+ * - `deep-music`: Convolutional networks on the covariance that answer with MUSIC's spectrum (Elbir 2020).
  */
 export type Method =
   | 'bartlett'
@@ -223,7 +227,10 @@ export type Method =
   | 'aaetr'
   | 'learned-pursuit'
   | 'dnn'
-  | 'cnn3d';
+  | 'cnn3d'
+  | 'unrolled-iaa'
+  | 'covariance-cnn'
+  | 'deep-music';
 
 /** Angle estimation in each cell, on the chain's array. */
 export interface AngleOptions {

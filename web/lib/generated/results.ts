@@ -840,8 +840,19 @@ export interface Trajectory {
  * - `counting`: The number of targets, 0 to 2, from a covariance.
  * - `dnn`: Whole degrees from a covariance.
  * - `cnn3d`: Whole degrees from a region of the range spectrum.
+ * - `unrolled-iaa`: The spectrum of one snapshot, by iterations of IAA unrolled.
+ * - `covariance-cnn`: Probabilities of sources over a grid, from a covariance.
+ * - `deep-music`: MUSIC's spectrum, from a covariance.
  */
-export type NetworkKind = 'aaetr' | 'learned-pursuit' | 'counting' | 'dnn' | 'cnn3d';
+export type NetworkKind =
+  | 'aaetr'
+  | 'learned-pursuit'
+  | 'counting'
+  | 'dnn'
+  | 'cnn3d'
+  | 'unrolled-iaa'
+  | 'covariance-cnn'
+  | 'deep-music';
 
 /** An input or output, of 32-bit floating-point numbers. */
 export interface NetworkPort {

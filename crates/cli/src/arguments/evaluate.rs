@@ -21,6 +21,8 @@ pub enum EvaluateCommand {
     Doa(EvaluateDoaArguments),
     /// Bird's-eye images of simulated streets: how much of each is not target, by method.
     Images(EvaluateImagesArguments),
+    /// Two sources far below the noise in many snapshots, by methods and networks on the covariance.
+    LowSnr(EvaluateLowSnrArguments),
     /// What the spherical waves of near targets do to methods that take waves for plane.
     NearField(EvaluateNearFieldArguments),
     /// When two targets are resolved, by separation and signal-to-noise ratio.
@@ -236,6 +238,26 @@ pub struct EvaluateArraysArguments {
     /// Signal-to-noise ratio, dB: 15, 20, 25, 30 or 35.
     #[arg(long, value_name = "DB", default_value_t = 25.0)]
     pub snr: f64,
+}
+
+/// Arguments of `evaluate low-snr`.
+#[derive(Debug, Args)]
+pub struct EvaluateLowSnrArguments {
+    /// Shared arguments.
+    #[command(flatten)]
+    pub shared: EvaluateArguments,
+    /// Trials a condition: -20 to 10 dB, each with 20, 200 and 2000 snapshots.
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    pub trials: u64,
+    /// Array, by name.
+    #[arg(long, value_name = "NAME", default_value = "ula16")]
+    pub array: String,
+    /// Methods that take a covariance, separated by commas.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub methods: Vec<String>,
+    /// Networks on the covariance of the array.
+    #[command(flatten)]
+    pub networks: NetworkArguments,
 }
 
 /// Arguments of `evaluate imperfections`.

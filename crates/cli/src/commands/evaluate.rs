@@ -15,7 +15,7 @@ use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Answered, Experiment, How};
 use boresight_evaluate::{
     Entrants, Merged, Network, Outcome, aoa, arrays, calibration, doa, images, imperfections,
-    merge, near_field, resolution, straddling,
+    low_snr, merge, near_field, resolution, straddling,
 };
 use boresight_neural::Kind;
 use std::collections::BTreeMap;
@@ -110,6 +110,17 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                 trials: arguments.trials,
                 seed: arguments.shared.seed,
                 entrants: entrants(&arguments.methods, usual, &arguments.networks, files)?,
+            };
+            evaluate(&options, &arguments.shared, files)
+        }
+        EvaluateCommand::LowSnr(arguments) => {
+            let usual = || Ok(low_snr::default_methods());
+            let named = &arguments.methods;
+            let options = low_snr::LowSnrExperiment {
+                array: arguments.array.clone(),
+                trials: arguments.trials,
+                seed: arguments.shared.seed,
+                entrants: entrants(named, usual, &arguments.networks, files)?,
             };
             evaluate(&options, &arguments.shared, files)
         }

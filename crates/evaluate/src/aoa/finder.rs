@@ -10,6 +10,7 @@ use boresight_aoa::{
 };
 use boresight_core::describe::Named;
 use boresight_core::{Array, Complex64, Direction};
+use boresight_neural::Kind;
 use ndarray::ArrayView3;
 use std::sync::{Mutex, PoisonError};
 
@@ -44,8 +45,8 @@ impl Finder {
     /// What its predictions are swept over.
     pub(super) fn threshold(&self) -> Threshold {
         match self {
-            Self::Method(..) => Threshold::Power,
-            Self::Network(_) => Threshold::Confidence,
+            Self::Network(network) if network.kind != Kind::UnrolledIaa => Threshold::Confidence,
+            _ => Threshold::Power,
         }
     }
 

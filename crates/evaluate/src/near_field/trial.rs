@@ -4,7 +4,7 @@ use super::{NearFieldExperiment, POWERS_DB, RANGES};
 use crate::EvaluateError;
 use crate::aoa::finder::{Candidate, Finder, Idle};
 use crate::aoa::score::WITHIN_RAD;
-use crate::apart::Drawn;
+use crate::apart::{BEAMS_APART, Drawn};
 use crate::deviation::Deviation;
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{BatchEstimate, Data, EstimatorOptions, Source};
@@ -90,6 +90,8 @@ impl Plan {
             seed: self.seed,
             group: number as u64,
             snr_db: self.snr_db,
+            snapshots: 1,
+            beams_apart: BEAMS_APART,
             powers_db: POWERS_DB[number],
             range_m: range.map(|range| range * self.fraunhofer_m),
         };

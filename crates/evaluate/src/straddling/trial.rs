@@ -5,7 +5,7 @@ use super::{CONDITIONS, Condition, GRIDS, StraddlingExperiment};
 use crate::EvaluateError;
 use crate::aoa::finder::{Candidate, Finder, Idle};
 use crate::aoa::score::WITHIN_RAD;
-use crate::apart::Drawn;
+use crate::apart::{BEAMS_APART, Drawn};
 use crate::deviation::Deviation;
 use crate::experiment::Experiment;
 use boresight_aoa::bounds::{Signals, deterministic_bound, uncorrelated};
@@ -238,8 +238,17 @@ impl Plan {
         let Condition { snr_db, weak_db } = CONDITIONS[index];
         let powers_db: Vec<f64> = [0.0].into_iter().chain(weak_db).collect();
         let (array, seed, group) = (&self.array, self.seed, index as u64);
-        Drawn { array, seed, group, snr_db, powers_db: &powers_db, range_m: None }
-            .scenes(first, trials)
+        Drawn {
+            array,
+            seed,
+            group,
+            snr_db,
+            snapshots: 1,
+            beams_apart: BEAMS_APART,
+            powers_db: &powers_db,
+            range_m: None,
+        }
+        .scenes(first, trials)
     }
 
     /// Variance of the azimuth of the last target at the bound, deg^2.

@@ -1,7 +1,7 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
 import { useMemo } from 'preact/hooks';
 import { ANGLE_STEPS, curve, sameGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
-import { answersTargetSet } from '../../networks/models.ts';
+import { type Sight, sightOf } from '../../networks/models.ts';
 import { fixed, milliseconds, signed } from '../../plots/format.ts';
 import { bands, markers } from '../../plots/layers.ts';
 import { download, fileName, toCsv } from '../../plots/save.ts';
@@ -11,11 +11,28 @@ import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { assign } from '../angle/assign.ts';
 import { truthLayer } from '../angle/spectrum-plot.tsx';
-import { type Attempt, attempt, attemptProblem, type Row, selected, strongest, trying } from './attempt.ts';
+import {
+  type Attempt,
+  attempt,
+  attemptProblem,
+  COVARIANCE_SNAPSHOTS,
+  type Row,
+  selected,
+  strongest,
+  trying,
+} from './attempt.ts';
 import { networksState, update } from './state.ts';
 
 /** Within this of a target an estimate is right, degrees: the papers' limits for snapshots and regions. */
-const gateOf = ({ snapshot }: Attempt): number => (snapshot ? 0.5 : 1);
+const GATES: Record<Sight, number> = { snapshot: 0.5, covariance: 2, region: 1 };
+
+const SCENES: Record<Sight, string> = {
+  snapshot:
+    'One simulated snapshot, drawn from the seed: the network beside IAA, NOMP and the plain FFT on the same numbers, none of which knows how many targets there are.',
+  covariance: `${COVARIANCE_SNAPSHOTS} simulated snapshots, drawn from the seed: the network beside methods on their covariance. All are told the number of targets.`,
+  region:
+    'One simulated region of interest, drawn from the seed: the network beside classical methods on the same numbers. All are told the number of targets but those that count it.',
+};
 
 export function AttemptPanel() {
   const model = selected.value;
@@ -32,11 +49,7 @@ export function AttemptPanel() {
     >
       <div class="panel experiment-head">
         <h2 id="try-title">Try it</h2>
-        <p class="remark">
-          {answersTargetSet(model.card)
-            ? 'One simulated snapshot, drawn from the seed: the network beside IAA, NOMP and the plain FFT on the same numbers, none of which knows how many targets there are.'
-            : 'One simulated region of interest, drawn from the seed: the network beside classical methods on the same numbers. All are told the number of targets but those that count it.'}
-        </p>
+        <p class="remark">{SCENES[sightOf(model.card)]}</p>
         <p class="row choices">
           {networksState.value.run ? (
             <button type="button" data-action="stop" onClick={() => update({ run: false })}>
@@ -70,7 +83,7 @@ export function AttemptPanel() {
 
 function ScenePlot({ shown }: { shown: Attempt }) {
   const { truth, rows, bound, fieldOfViewDeg } = shown;
-  const onRegion = !shown.snapshot;
+  const onRegion = shown.sight === 'region';
   // Levels of regions are relative to the strongest source.
   const level = ({ estimate }: Row): number => (onRegion ? strongest(estimate?.sources ?? []) : 0);
   const curves = useMemo(
@@ -157,7 +170,7 @@ function ScenePlot({ shown }: { shown: Attempt }) {
 
 function Found({ shown }: { shown: Attempt }) {
   const { truth, rows, bound } = shown;
-  const gate = gateOf(shown);
+  const gate = GATES[shown.sight];
   const scored = rows.map((row) => {
     const sources = row.estimate?.sources ?? [];
     const { matched, extra } = assign(
@@ -174,7 +187,7 @@ function Found({ shown }: { shown: Attempt }) {
     return { row, found: errors.length, extra: extra.length, rmse: rms(errors), power: mean(power) };
   });
   const crb = bound?.length ? rms([...bound]) : Number.NaN;
-  const onSnapshot = shown.snapshot;
+  const onSnapshot = shown.sight !== 'region';
   const csv = (): string =>
     toCsv(
       ['method', 'found', 'missed', 'false', 'rmse_deg', 'power_error_db', 'time_ms'],

@@ -3,9 +3,9 @@ import { batch, computed, effect, signal } from '@preact/signals';
 import type { Estimate, EstimateInput, EstimatorOptions, Method, NetworkInfo, NetworkMethod, Source } from 'boresight';
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { load, loadings, models } from '../../networks/load.ts';
-import { answersTargetSet, type Card, elementsOf, type Model, targetsOf } from '../../networks/models.ts';
+import { type Card, elementsOf, type Model, type Sight, sightOf, targetsOf } from '../../networks/models.ts';
 import { radarOf, simulateRegion } from './region.ts';
-import { type NetworksState, networksState, TARGET_RANGE } from './state.ts';
+import { type NetworksState, networksState, SOURCE_RANGE, TARGET_RANGE } from './state.ts';
 
 export interface Row {
   method: Method;
@@ -25,8 +25,7 @@ export interface Count {
 
 export interface Attempt {
   model: string;
-  /** Whether it is one snapshot, not a region. */
-  snapshot: boolean;
+  sight: Sight;
   /** In the order of the targets' azimuths. */
   truth: { azimuthDeg: number; powerDb: number }[];
   /** Standard deviation of each target's azimuth at best, degrees. */
@@ -49,7 +48,8 @@ export const selected = computed<Model | undefined>(() =>
 
 /** How many targets a network can be tried on. */
 export function targetRange(card: Card): readonly [number, number] {
-  if (answersTargetSet(card)) return TARGET_RANGE;
+  if (sightOf(card) === 'snapshot') return TARGET_RANGE;
+  if (sightOf(card) === 'covariance') return SOURCE_RANGE;
   const fixed = targetsOf(card);
   return card.network === 'counting' ? [0, 2] : fixed === null ? [1, 2] : [fixed, fixed];
 }
@@ -93,7 +93,12 @@ async function attemptOn(model: Model, scene: Scene, controller: AbortController
   trying.value = true;
   try {
     const info = await load(model.name, controller.signal);
-    const made = await (answersTargetSet(model.card) ? onSnapshot : onRegion)(model, info, scene, controller.signal);
+    const made = await (sightOf(model.card) === 'region' ? onRegion : onSnapshots)(
+      model,
+      info,
+      scene,
+      controller.signal,
+    );
     if (running !== controller) return;
     batch(() => {
       attempt.value = made;
@@ -152,23 +157,40 @@ export function arrayFor(card: Card, chosen: string): string {
   return typeof array === 'string' ? array : elements === 48 ? 'lrr48' : `ula${elements}`;
 }
 
-async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal: AbortSignal): Promise<Attempt> {
+/** Snapshots that the covariance of a scene is the mean of. */
+export const COVARIANCE_SNAPSHOTS = 200;
+
+/** What a scene of snapshots is: one with many targets, or many with few, of whose number methods are told. */
+export function snapshotScene(card: Card, targets: number) {
+  return sightOf(card) === 'covariance'
+    ? ({
+        snapshots: COVARIANCE_SNAPSHOTS,
+        powerDb: [0, 0],
+        beside: ['music', 'root-music', 'capon'],
+        sources: targets,
+      } as const)
+    : ({ snapshots: 1, powerDb: [-13, 0], beside: ['iaa', 'nomp', 'bartlett'] } as const);
+}
+
+async function onSnapshots(model: Model, info: NetworkInfo, scene: Scene, signal: AbortSignal): Promise<Attempt> {
   const { card, name } = model;
   const method = card.network as NetworkMethod;
   const { snr: snrDb, seed, refine } = scene;
   const targets = targetsIn(scene, card);
   const array = arrayFor(card, scene.array);
+  const { snapshots, powerDb, beside, ...told } = snapshotScene(card, targets);
   const fieldOfViewDeg = typeof card.data?.fieldOfViewDeg === 'number' ? card.data.fieldOfViewDeg : 60;
   const drawn = api.simulateSnapshots({
     array,
-    targets: { count: [targets, targets], fieldOfViewDeg, powerDb: [-13, 0] },
+    targets: { count: [targets, targets], fieldOfViewDeg, powerDb },
+    snapshots,
     snrDb,
     seed,
   });
   const truth = [...(drawn.truth[0] ?? [])].sort((a, b) => a.azimuthDeg - b.azimuthDeg);
   const [, elements, count] = drawn.shape;
   const input: EstimateInput = { snapshots: { data: drawn.data, shape: [elements, count] } };
-  const options = { array, gridPoints: 2048, ...(refine ? { refine } : {}) };
+  const options = { array, gridPoints: 2048, ...told, ...(refine ? { refine } : {}) };
   const rows = await rowsOf(
     [
       {
@@ -176,13 +198,13 @@ async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal:
         title: model.title,
         run: () => pool().estimate(input, { ...options, method, network: info.id, fieldOfViewDeg }, { signal }),
       },
-      ...(['iaa', 'nomp', 'bartlett'] as const).map((method) => classical(method, input, options, signal)),
+      ...beside.map((method) => classical(method, input, options, signal)),
     ],
     signal,
   );
   return {
     model: name,
-    snapshot: true,
+    sight: sightOf(card),
     truth,
     fieldOfViewDeg,
     array,
@@ -192,7 +214,7 @@ async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal:
       ? {
           bound: api.cramerRaoBound({
             array,
-            snapshots: 1,
+            snapshots,
             kind: 'deterministic',
             targets: truth.map(({ azimuthDeg, powerDb, phaseDeg }) => ({
               azimuthDeg,
@@ -202,7 +224,7 @@ async function onSnapshot(model: Model, info: NetworkInfo, scene: Scene, signal:
           }).azimuthDeg,
         }
       : {}),
-    scene: `${array}, ${targets} targets, ${snrDb} dB, seed ${seed}${refine ? ', refined' : ''}`,
+    scene: `${array}, ${targets} ${targets === 1 ? 'target' : 'targets'}${snapshots > 1 ? `, ${snapshots} snapshots` : ''}, ${snrDb} dB, seed ${seed}${refine ? ', refined' : ''}`,
   };
 }
 
@@ -222,7 +244,7 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, signal: A
   const input: EstimateInput = { covariance, snapshotCount: vectors };
   const made: Attempt = {
     model: name,
-    snapshot: false,
+    sight: 'region',
     truth: azimuthDeg.map((azimuth) => ({ azimuthDeg: azimuth, powerDb: 0 })),
     fieldOfViewDeg: 15,
     array,

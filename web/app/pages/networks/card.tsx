@@ -2,7 +2,7 @@
 
 import type { CardPort } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { answersTargetSet, type Card, type Leg, type Model } from '../../networks/models.ts';
+import { type Card, type Leg, type Model, sightOf } from '../../networks/models.ts';
 import { count, fixed } from '../../plots/format.ts';
 import { markers } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -199,7 +199,7 @@ function curvesOf(card: Card): {
   rows: readonly Row[][];
 } {
   const rows = card.metrics ?? [];
-  if (answersTargetSet(card)) {
+  if (sightOf(card) === 'snapshot') {
     // Of a network for any array each array has its own.
     const arrays = [...new Set(rows.map(({ array }) => array))];
     const curves = arrays.flatMap((array, dash) => {
@@ -221,11 +221,11 @@ function curvesOf(card: Card): {
   const keys = (
     card.network === 'counting'
       ? ['accuracy', 'accuracyOfNone', 'accuracyOfOne', 'accuracyOfTwo']
-      : ['within0Deg', 'within1Deg', 'closePairsWithin1Deg']
+      : ['within0Deg', 'within1Deg', 'closePairsWithin1Deg', ...(sightOf(card) === 'covariance' ? ['within2Deg'] : [])]
   ).filter((key) => rows.some((row) => key in row));
   return {
     key: keys[0] ?? '',
-    label: 'Share of regions (%)',
+    label: sightOf(card) === 'covariance' ? 'Share of scenes (%)' : 'Share of regions (%)',
     rows: keys.map(() => [...rows]),
     series: keys.map((key, i) => ({
       label: METRICS[key]?.title ?? key,
@@ -261,7 +261,7 @@ export function MetricsPanel({ model }: { model: Model }) {
     });
     const values = lines.flatMap(({ y }) => y).filter((value) => value !== null);
     const low = Math.min(...values);
-    const high = answersTargetSet(card) ? 1 : 100;
+    const high = sightOf(card) === 'snapshot' ? 1 : 100;
     const margin = Math.max((high - low) * 0.08, high * 0.002);
     return {
       lines,
@@ -305,7 +305,7 @@ export function MetricsPanel({ model }: { model: Model }) {
         label,
         style,
         line: true,
-        value: ({ index }) => fixed(y[index ?? -1] ?? Number.NaN, answersTargetSet(card) ? 4 : 1),
+        value: ({ index }) => fixed(y[index ?? -1] ?? Number.NaN, sightOf(card) === 'snapshot' ? 4 : 1),
       }))}
       readout={({ index }) => `SNR ${fixed(plot.snrs[index ?? -1] ?? Number.NaN, 0)} dB`}
       csv={csv}

@@ -1,6 +1,6 @@
 /** Which network is looked at, the scene it is tried on, and a user's own. */
 import { models } from '../../networks/load.ts';
-import { answersTargetSet, elementsOf } from '../../networks/models.ts';
+import { elementsOf, sightOf } from '../../networks/models.ts';
 import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';
 import { Group, SelectField } from '../../ui/field.tsx';
@@ -54,7 +54,7 @@ export function Controls() {
           unit="dB"
           help="Of a snapshot: power of a 0 dB target at one element over the noise there. Of a region: of one sample of one chirp at one element, before any transform."
         />
-        {card && !answersTargetSet(card) && targetsIn(state, card) === 2 && (
+        {card && sightOf(card) === 'region' && targetsIn(state, card) === 2 && (
           <Control
             label="Two targets"
             name="range"
@@ -62,11 +62,11 @@ export function Controls() {
             help="At one range their echoes are coherent. Also for the experiments’ plots."
           />
         )}
-        {card && answersTargetSet(card) && elementsOf(card) === null && (
+        {card && sightOf(card) === 'snapshot' && elementsOf(card) === null && (
           <Control label="Array" name="array" help="Any array goes; the angle lab takes positions of your own." />
         )}
         <SeedField value={state.seed} what="scene" title="Another scene" onChange={(seed) => update({ seed })} />
-        {card && answersTargetSet(card) && <Control label="Refine by Gauss-Newton" name="refine" />}
+        {card && sightOf(card) !== 'region' && <Control label="Refine by Gauss-Newton" name="refine" />}
         <button
           type="button"
           class={state.run ? '' : 'primary'}

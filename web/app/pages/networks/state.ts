@@ -6,6 +6,8 @@ import { choice, codec, flag, number, text } from '../../state/codec.ts';
 import { seed } from '../../state/seed.ts';
 
 export const TARGET_RANGE = [0, 16] as const;
+/** Sources in a covariance. */
+export const SOURCE_RANGE = [1, 3] as const;
 export const EXPERIMENT_SNRS = ['15', '25', '35'] as const;
 export const TARGETS = ['2', '3', '4', '5', '6', '7', '8', '9', '10'] as const;
 export const REGION_SNRS = ['-10', '-5', '0', '5', '10', '15'] as const;

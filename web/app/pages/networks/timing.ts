@@ -1,10 +1,10 @@
 /** How long networks and classical methods take here: the same cells one by one and in batches, on a worker. */
 import { signal } from '@preact/signals';
-import type { EstimateInput, EstimatorOptions, Method, NetworkInfo, Tensor } from 'boresight';
+import type { EstimateInput, EstimatorOptions, Method, NetworkInfo, NetworkMethod, Tensor } from 'boresight';
 import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
 import { load } from '../../networks/load.ts';
-import { answersTargetSet, type Card, type Model } from '../../networks/models.ts';
-import { arrayFor, targetRange } from './attempt.ts';
+import { type Card, type Model, sightOf } from '../../networks/models.ts';
+import { arrayFor, snapshotScene, targetRange } from './attempt.ts';
 import { type RegionScene, radarOf, simulateRegion } from './region.ts';
 import { networksState } from './state.ts';
 
@@ -69,7 +69,10 @@ export async function timeModel(model: Model): Promise<void> {
   try {
     say(0, 'Loading');
     const info = await load(model.name, signal);
-    const subjects = (answersTargetSet(model.card) ? ofSnapshots : ofRegions)(model, info);
+    const subjects = { snapshot: ofSnapshots, covariance: ofCovariances, region: ofRegions }[sightOf(model.card)](
+      model,
+      info,
+    );
     const travelMs = (
       await measure(
         () => pool().version({ signal }),
@@ -184,6 +187,41 @@ function ofSnapshots(model: Model, info: NetworkInfo): Subject[] {
     },
     classical('iaa', cells, options),
     classical('nomp', cells, options),
+  ];
+}
+
+/** Networks with the covariance and its image in their time, as classical methods have it in theirs. */
+function ofCovariances(model: Model, info: NetworkInfo): Subject[] {
+  const most = BATCHES[BATCHES.length - 1] as number;
+  const array = arrayFor(model.card, networksState.value.array);
+  const targets = 2;
+  const { snapshots, powerDb, beside, ...told } = snapshotScene(model.card, targets);
+  const cells = Array.from({ length: most }, (_, seed): EstimateInput => {
+    const drawn = api.simulateSnapshots({
+      array,
+      targets: { count: [targets, targets], powerDb },
+      snapshots,
+      snrDb: 0,
+      seed: seed + 1,
+    });
+    const [, elements, count] = drawn.shape;
+    return { snapshots: { data: drawn.data, shape: [elements, count] } };
+  });
+  const options = { array, gridPoints: 2048, ...told };
+  const method = model.card.network as NetworkMethod;
+  const network = { ...options, fieldOfViewDeg: 60, method, network: info.id };
+  return [
+    {
+      id: 'network',
+      title: model.title,
+      method,
+      network: true,
+      run: (batch, signal) =>
+        batch === 1
+          ? pool().estimate(cells[0] as EstimateInput, network, { signal })
+          : pool().estimateMany(cells.slice(0, batch), network, { signal }),
+    },
+    ...beside.map((name) => classical(name, cells, options)),
   ];
 }
 

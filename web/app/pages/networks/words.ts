@@ -10,6 +10,12 @@ export function taskOf(card: Card): string {
     case 'aaetr':
     case 'learned-pursuit':
       return `Finds the angles and amplitudes of ${most(card)} targets in one snapshot`;
+    case 'unrolled-iaa':
+      return `Gives the spectrum of ${most(card)} targets in one snapshot`;
+    case 'covariance-cnn':
+      return `Finds the angles of ${most(card)} uncorrelated sources in the covariance of many snapshots`;
+    case 'deep-music':
+      return `Gives MUSIC’s spectrum of ${most(card)} uncorrelated sources from the covariance of many snapshots`;
     case 'counting':
       return 'Tells whether a region of interest holds no, one or two targets';
     default:
@@ -28,6 +34,12 @@ export function briefly(card: Card): [task: string, input: string] {
         `Angles and amplitudes of ${most(card)} targets`,
         `1 snapshot, ${elements === null ? arrayOf(card) : `${elements} elements`}`,
       ];
+    case 'unrolled-iaa':
+      return [`Spectrum of ${most(card)} targets`, `1 snapshot, ${elements} elements`];
+    case 'covariance-cnn':
+      return [`Angles of ${most(card)} sources`, `covariance, ${elements} elements`];
+    case 'deep-music':
+      return [`MUSIC’s spectrum of ${most(card)} sources`, `covariance, ${elements} elements`];
     case 'counting':
       return ['Number of targets: 0, 1 or 2', `covariance, ${elements} elements`];
     case 'dnn':
@@ -74,6 +86,7 @@ export function trainedOn(card: Card): [string, string][] {
         : null,
     ],
     ['Field of view', typeof data.fieldOfViewDeg === 'number' ? `±${data.fieldOfViewDeg}°` : null],
+    ['Snapshots', range(data.snapshots, 'in a covariance')],
     ['Powers', range(data.db, 'dB')],
     ['SNR', range(data.snrDb, 'dB')],
     [
@@ -186,7 +199,7 @@ export const METRICS: Record<string, Metric> = {
   },
   within2Deg: {
     title: 'Within 2°',
-    help: 'Share of the regions in which all directions are within 2°',
+    help: 'Share of the scenes in which all directions are within 2°',
     digits: 1,
     percent: true,
   },
