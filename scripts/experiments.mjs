@@ -48,6 +48,13 @@ const EXPERIMENTS = [
     settings: ['--trials', '500', '--seed', '0'],
   },
   {
+    name: 'low-snr',
+    experiment: 'low-snr',
+    document: 'experiments-low-snr',
+    networks: { kinds: ['covariance-cnn', 'deep-music'] },
+    settings: ['--trials', '500', '--seed', '0'],
+  },
+  {
     name: 'doa',
     experiment: 'doa',
     document: 'experiments-doa',

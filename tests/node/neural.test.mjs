@@ -206,6 +206,50 @@ describe('a network', () => {
   });
 });
 
+describe('networks that answer with a spectrum', () => {
+  const load = (name, options) => {
+    const { onnx, card } = model(name);
+    return new Network(onnx, { card, fieldOfViewDeg: 60, ...options });
+  };
+  const angles = ({ sources }, count) =>
+    sources
+      .slice(0, count)
+      .map(({ azimuthDeg }) => azimuthDeg)
+      .sort((a, b) => a - b);
+
+  test('find targets of one snapshot, or of a covariance, and give the spectrum', () => {
+    const cases = [
+      ['unrolled-iaa', 'lrr48', 1, 'power', 0.3],
+      ['covariance-cnn', 'ula16', 200, 'pseudo', 2],
+      ['deep-music', 'ula16', 200, 'pseudo', 2],
+    ];
+    for (const [name, board, snapshots, kind, within] of cases) {
+      const network = load(name, { array: board, sources: 2 });
+      const targets = [{ azimuthDeg: -21.4 }, { azimuthDeg: 10.8 }];
+      const { data, shape } = simulateSnapshots({ array: board, targets, snapshots, snrDb: 20, seed: 3 });
+      const given = { snapshots: { data, shape: shape.slice(1) } };
+      const found = network.estimate(given);
+      assertShape(found, 'Estimate');
+      assert.equal(found.spectrum.kind, kind);
+      const errors = angles(found, 2).map((azimuth, i) => Math.abs(azimuth - targets[i].azimuthDeg));
+      assert.ok(errors.length === 2 && errors.every((error) => error < within), `${name}: ${angles(found, 2)}`);
+      // All with the card's field of view: 60 deg.
+      assert.ok(found.spectrum.azimuthDeg.every((azimuth) => Math.abs(azimuth) <= 60 + 1e-9));
+      network.free();
+    }
+  });
+
+  test('say what they were not trained for, and refuse other arrays', () => {
+    const few = load('covariance-cnn', { array: 'ula16', sources: 1 });
+    const { warnings } = few.estimate({ snapshots: planeWaves(16, 4, [5]) });
+    assert.ok(warnings.some(({ code, message }) => code === 'outside-training' && /16 to 2000/.test(message)));
+    few.free();
+    const other = load('unrolled-iaa', { array: 'ula16' });
+    throwsTyped(() => other.estimate({ snapshots: planeWaves(16, 1, [5]) }), 'unsuitable-array');
+    other.free();
+  });
+});
+
 describe('a network for any array', () => {
   const { onnx, card } = model('aaetr-any');
 

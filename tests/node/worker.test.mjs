@@ -36,9 +36,9 @@ describe('a pool of worker threads', () => {
     assert.ok(presets.includes('lrr48'));
     assert.deepEqual(
       methods.filter(({ network }) => network).map(({ name }) => name),
-      ['aaetr', 'learned-pursuit', 'dnn', 'cnn3d'],
+      ['aaetr', 'learned-pursuit', 'dnn', 'cnn3d', 'unrolled-iaa', 'covariance-cnn', 'deep-music'],
     );
-    assert.equal(methods.length, 16);
+    assert.equal(methods.length, 19);
     assert.equal(geometry.positions.length, 8);
   });
 

@@ -81,6 +81,8 @@ def parser() -> argparse.ArgumentParser:
     write.add_argument("out", type=Path, metavar="F.onnx")
     write.add_argument("--half", action="store_true", help="store weights in half precision")
     write.add_argument("--count", type=int, default=4000, help="examples a condition for the card's metrics")
+    beside = "show the learning curve of another run on the card, too; may be given several times"
+    write.add_argument("--beside", type=Path, action="append", default=[], metavar="DIR", help=beside)
     write.add_argument("--golden", type=Path, metavar="DIR", help="write a golden batch to a folder in there")
     write.add_argument("--weights", type=Path, metavar="F.pt", help="write what another run can start from")
     return top
@@ -145,7 +147,7 @@ def main() -> int:
             result = evaluate(arguments)
         else:
             a = arguments
-            result = export.export(a.folder, a.out, a.half, a.count, a.golden, a.weights)
+            result = export.export(a.folder, a.out, a.half, a.count, a.golden, a.weights, tuple(a.beside))
     except (ValueError, FileNotFoundError) as error:
         print(f"boresight_training: {error}", file=sys.stderr)
         return 2

@@ -14,6 +14,7 @@ import torch
 from onnx import TensorProto, helper, numpy_helper
 
 from . import checkpoint
+from .learning import learning_curve
 from .tasks import Task, task
 
 OPSET = 16
@@ -143,11 +144,12 @@ def export(
     count: int = 4000,
     golden_in: Path | None = None,
     weights: Path | None = None,
+    beside: tuple[Path, ...] = (),
 ) -> dict:
     """Writes the network of a training folder to `path`, its card beside it, and returns the card.
 
     With `golden_in` a golden batch is written to a folder there of the model's name, with `weights` a file that another
-    run can start from.
+    run can start from. The card has the learning curve of the folder, and of those `beside`.
     """
     saved, what, network = restore(folder)
     if weights is not None:
@@ -161,6 +163,7 @@ def export(
     with torch.no_grad():
         metrics = what.evaluate(network, count, torch.Generator().manual_seed(SEEDS["metrics"]))
         confidence = what.confidence(network, count, torch.Generator().manual_seed(SEEDS["confidence"]))
+    curves = [curve for one in (folder, *beside) if (curve := learning_curve(one)) is not None]
     identity, legs = saved["identity"], [*saved["legs"], saved]
     card = {
         "name": path.stem,
@@ -182,6 +185,7 @@ def export(
         "software": f"PyTorch {torch.__version__.split('+')[0]}, Python {platform.python_version()}",
         "metrics": [{name: _rounded(value) for name, value in condition.items()} for condition in metrics],
         "metricsExamples": count,
+        **({"learning": curves} if curves else {}),
         "onnx": {"opset": OPSET, "weights": "float16" if half else "float32", "parity": difference},
         "bytes": path.stat().st_size,
         "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),

@@ -14,6 +14,7 @@ import pytest
 import torch
 
 from boresight_training import checkpoint, train
+from boresight_training.learning import learning_curve
 from boresight_training.processes import Processes
 from boresight_training.tasks import task
 from boresight_training.train import Settings, Training
@@ -52,6 +53,9 @@ def log(folder):
         ("counting", "small", 150, 64, 3e-3),
         ("cnn3d", "small", 40, 8, 1e-3),
         ("dnn", "small", 200, 64, 5e-3),
+        ("unrolled-iaa", "tiny", 500, 16, 2e-2),
+        ("covariance-cnn", "tiny", 100, 64, 3e-3),
+        ("deep-music", "tiny", 100, 64, 3e-3),
     ],
 )
 def test_every_network_lowers_its_loss(tmp_path, name, config, steps, batch, learning_rate):
@@ -278,6 +282,21 @@ def test_the_command_line_trains_evaluates_and_exports(tmp_path):
     assert leg["samplesSeen"] == card["samplesSeen"] and leg["hardware"] and leg["training"]["seed"] == 0
     assert card["bytes"] == path.stat().st_size and len(card["sha256"]) == 64
     assert [condition["snrDb"] for condition in card["metrics"]] == [-10, -5, 0, 5, 10, 15]
+
+
+def test_a_learning_curve_counts_on_from_run_to_run(tmp_path):
+    first, second = tmp_path / "first", tmp_path / "second"
+    training(first, 3, network=("aaetr", "tiny"), batch=4).run()
+    training(second, 2, network=("aaetr", "tiny"), batch=4, seed=1, start_from=first).run()
+    one, two = learning_curve(first), learning_curve(second)
+    assert one["title"] == "AAETR, form tiny" and two["title"] == "AAETR, form tiny, run 2"
+    assert [point["samples"] for point in (one["points"][-1], two["points"][-1])] == [12, 20]
+    assert two["points"][-1]["hours"] >= one["points"][-1]["hours"]
+    scores = log(first)[-1]["scores"]
+    assert one["points"][-1]["f1"] == pytest.approx(sum(s["f1"] for s in scores) / len(scores), abs=1e-5)
+    # Of a network without F1 there is none.
+    training(tmp_path / "counting", 2, network=("counting", "small"), batch=8).run()
+    assert learning_curve(tmp_path / "counting") is None
 
 
 def test_a_signal_saves_and_stops(tmp_path):

@@ -40,10 +40,28 @@ export function curve(estimate: Estimate, title: string): Curve | null {
   return { method: estimate.method, title, azimuthDeg: spectrum.azimuthDeg, valuesDb };
 }
 
-/** Curves on the first one's grid; others wait until theirs is the same. */
-export function sameGrid(curves: readonly (Curve | null)[]): Curve[] {
+/** Curves on the grid of the finest; those of coarser grids are lines between their points, and nothing beyond. */
+export function onOneGrid(curves: readonly (Curve | null)[]): Curve[] {
   const some = curves.filter((item) => item !== null);
-  return some.filter((item) => item.azimuthDeg.length === some[0]?.azimuthDeg.length);
+  const finest = some.reduce<Curve | undefined>(
+    (most, item) => (most && most.azimuthDeg.length >= item.azimuthDeg.length ? most : item),
+    undefined,
+  );
+  return some.map((item) => (finest && item !== finest ? { ...item, ...resampled(item, finest.azimuthDeg) } : item));
+}
+
+function resampled({ azimuthDeg, valuesDb }: Curve, onto: Float64Array): Pick<Curve, 'azimuthDeg' | 'valuesDb'> {
+  const same = azimuthDeg.length === onto.length && azimuthDeg.every((azimuth, i) => azimuth === onto[i]);
+  if (same) return { azimuthDeg, valuesDb };
+  let right = 1;
+  const between = (azimuth: number): number => {
+    while (right + 1 < azimuthDeg.length && (azimuthDeg[right] as number) < azimuth) right += 1;
+    const [a, b] = [azimuthDeg[right - 1] ?? Number.NaN, azimuthDeg[right] ?? Number.NaN];
+    const share = (azimuth - a) / (b - a);
+    const [from, to] = [valuesDb[right - 1] ?? Number.NaN, valuesDb[right] ?? Number.NaN];
+    return share >= 0 && share <= 1 ? from + share * (to - from) : Number.NaN;
+  };
+  return { azimuthDeg: onto, valuesDb: onto.map(between) };
 }
 
 export function series(curves: readonly Curve[]): PlotSeries[] {

@@ -14,6 +14,12 @@ export interface Leg {
   hardware?: string;
 }
 
+/** Mean F1 over the conditions of a card on the way of a training, or of another one beside it. */
+export interface LearningCurve {
+  title: string;
+  points: readonly { samples: number; hours: number; f1: number }[];
+}
+
 /** A card with what ours say beside what every card must. */
 export type Card = ModelCard & {
   /** What the network is, in words. */
@@ -29,6 +35,8 @@ export type Card = ModelCard & {
   hours?: number;
   software?: string;
   metricsExamples?: number;
+  /** Of the run that gave the network, then of others. */
+  learning?: readonly LearningCurve[];
   onnx?: { opset?: number; weights?: string; parity?: number };
   bytes?: number;
 };

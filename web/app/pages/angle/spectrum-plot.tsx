@@ -1,7 +1,7 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
 import { useMemo, useRef } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { ANGLE_STEPS, type Curve, curve, sameGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
+import { ANGLE_STEPS, type Curve, curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { Handles } from '../../plots/handles.ts';
 import { bands, horizontalLine, type Layer, markers } from '../../plots/layers.ts';
@@ -16,7 +16,7 @@ import { addTarget, angleState, LIMITS, removeTarget, setTarget } from './state.
 const EXTENT = { x: [-90, 90], y: [-50, 14] } as const;
 
 function curves(): Curve[] {
-  return sameGrid(
+  return onOneGrid(
     api.methods().map(({ name, title }) => {
       const estimate = results.value.get(name)?.estimate;
       return estimate ? curve(estimate, title) : null;

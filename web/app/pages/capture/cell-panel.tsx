@@ -3,7 +3,7 @@
 import type { Cell, FrameResult, Method } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { ANGLE_STEPS, curve, highest, sameGrid, series, sourceMarkers } from '../../estimates.ts';
+import { ANGLE_STEPS, curve, highest, onOneGrid, series, sourceMarkers } from '../../estimates.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { bands, markers, verticalLines } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -34,7 +34,7 @@ export function CellPanel({
   const infos = api.methods().filter(({ name }) => results.has(name));
   const shown = useMemo(
     () =>
-      sameGrid(
+      onOneGrid(
         infos.map(({ name, title }) => {
           const estimate = results.get(name)?.estimate;
           return estimate ? curve(estimate, title) : null;

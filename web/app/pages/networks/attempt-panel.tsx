@@ -1,6 +1,6 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
 import { useMemo } from 'preact/hooks';
-import { ANGLE_STEPS, curve, sameGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
+import { ANGLE_STEPS, curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
 import { type Sight, sightOf } from '../../networks/models.ts';
 import { fixed, milliseconds, signed } from '../../plots/format.ts';
 import { bands, markers } from '../../plots/layers.ts';
@@ -88,7 +88,7 @@ function ScenePlot({ shown }: { shown: Attempt }) {
   const level = ({ estimate }: Row): number => (onRegion ? strongest(estimate?.sources ?? []) : 0);
   const curves = useMemo(
     () =>
-      sameGrid(
+      onOneGrid(
         rows.map((row) => {
           const one = row.estimate ? curve(row.estimate, row.title) : null;
           return one && onRegion ? { ...one, valuesDb: one.valuesDb.map((value) => value - level(row)) } : one;

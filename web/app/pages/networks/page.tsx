@@ -9,6 +9,7 @@ import { AttemptPanel } from './attempt-panel.tsx';
 import { CardPanel, MetricsPanel } from './card.tsx';
 import { Controls } from './controls.tsx';
 import { Experiments } from './experiments.tsx';
+import { LearningPanel } from './learning.tsx';
 import { Overview } from './overview.tsx';
 import { ownProblem } from './own.tsx';
 import { networksCodec, networksState } from './state.ts';
@@ -54,6 +55,7 @@ export function NetworksPage() {
             <MetricsPanel model={model} />
           </div>
         )}
+        {model && <LearningPanel model={model} />}
         <AttemptPanel />
         <TimingPanel />
         <Experiments />
