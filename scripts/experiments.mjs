@@ -41,6 +41,12 @@ const EXPERIMENTS = [
     ],
   },
   {
+    name: 'aoa-atomic-norm',
+    experiment: 'aoa',
+    document: 'experiments-aoa',
+    settings: ['--trials', '500', '--seed', '1', '--methods', 'iaa,iaa+refined,nomp,atomic-norm'],
+  },
+  {
     name: 'arrays',
     experiment: 'arrays',
     document: 'experiments-arrays',

@@ -12,6 +12,63 @@ const COLUMNS: usize = 8;
 /// Eight columns' numbers of a row of the matrix.
 pub(crate) type Columns = [f32; COLUMNS];
 
+/// The same of numbers whose lower 16 bits are zero (bfloat16), half as much to read.
+pub(crate) type ShortColumns = [u16; COLUMNS];
+
+/// Eight columns' numbers in some precision.
+pub(crate) trait Eight: Copy + Send + Sync {
+    /// Whether widening costs, so that it pays to do it once for many rows.
+    const WIDENED: bool;
+
+    fn halves(&self) -> [f32x4; 2];
+}
+
+impl Eight for Columns {
+    const WIDENED: bool = false;
+
+    #[inline(always)]
+    fn halves(&self) -> [f32x4; 2] {
+        let [a, b, c, d, e, f, g, h] = *self;
+        [f32x4::new([a, b, c, d]), f32x4::new([e, f, g, h])]
+    }
+}
+
+impl Eight for ShortColumns {
+    const WIDENED: bool = true;
+
+    #[inline(always)]
+    fn halves(&self) -> [f32x4; 2] {
+        let [a, b, c, d, e, f, g, h] = *self;
+        [widened([a, b, c, d]), widened([e, f, g, h])]
+    }
+}
+
+#[inline(always)]
+fn widened([a, b, c, d]: [u16; 4]) -> f32x4 {
+    let wide = |x: u16| f32::from_bits(u32::from(x) << 16);
+    f32x4::new([wide(a), wide(b), wide(c), wide(d)])
+}
+
+/// A matrix in panels of as few bytes as hold its numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Panels {
+    Whole(Vec<Columns>),
+    Short(Vec<ShortColumns>),
+}
+
+impl Panels {
+    /// Short where no number loses by it.
+    pub fn of(whole: Vec<Columns>) -> Self {
+        if whole.as_flattened().iter().any(|x| x.to_bits() & 0xffff != 0) {
+            return Self::Whole(whole);
+        }
+        let mut short = vec![[0; COLUMNS]; whole.len()];
+        let numbers = short.as_flattened_mut().iter_mut().zip(whole.as_flattened());
+        numbers.for_each(|(short, x)| *short = (x.to_bits() >> 16) as u16);
+        Self::Short(short)
+    }
+}
+
 /// Rows times a matrix. An axis of the product may be any axis, or several, of its operands.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Layout {
@@ -115,8 +172,9 @@ impl Layout {
     }
 
     /// The product of `given` rows with the matrix in panels.
-    pub fn multiply(&self, given: &[f32], panels: &[Columns], output: &mut [f32]) {
+    pub fn multiply<E: Eight>(&self, given: &[f32], panels: &[E], output: &mut [f32]) {
         let inner = self.inner.len();
+        let mut wide: Vec<Columns> = vec![];
         let block = (BLOCK / inner).max(LEAST_ROWS / 4) * 4;
         let room = if self.in_order { 0 } else { block.min(self.rows.len()) * inner };
         let mut gathered = vec![0.0; room];
@@ -133,8 +191,17 @@ impl Layout {
             };
             let (fours, single) = rows.as_chunks::<4>();
             for (at, panel) in panels.chunks_exact(inner).enumerate() {
+                let widen = E::WIDENED && fours.len() > 1;
+                if widen {
+                    wide.clear();
+                    wide.extend(panel.iter().map(|eight| numbers_of(eight.halves())));
+                }
                 for (rows, numbers) in fours.iter().zip(numbers.chunks_exact(4 * inner)) {
-                    for (&row, numbers) in rows.iter().zip(&four_rows(panel, numbers, inner)) {
+                    let four = match widen {
+                        true => four_rows(&wide, numbers, inner),
+                        false => four_rows(panel, numbers, inner),
+                    };
+                    for (&row, numbers) in rows.iter().zip(&four) {
                         self.put(at, row, numbers, output);
                     }
                 }
@@ -169,19 +236,14 @@ impl Layout {
     }
 }
 
-fn halves(numbers: &[f32; COLUMNS]) -> [f32x4; 2] {
-    let [a, b, c, d, e, f, g, h] = *numbers;
-    [f32x4::new([a, b, c, d]), f32x4::new([e, f, g, h])]
-}
-
-fn numbers([low, high]: [f32x4; 2]) -> [f32; COLUMNS] {
+fn numbers_of([low, high]: [f32x4; 2]) -> [f32; COLUMNS] {
     let ([a, b, c, d], [e, f, g, h]) = (low.to_array(), high.to_array());
     [a, b, c, d, e, f, g, h]
 }
 
 // Functions of their own: engines of WebAssembly optimise by function, and these are called often.
 #[inline(never)]
-fn four_rows(panel: &[Columns], rows: &[f32], inner: usize) -> [Columns; 4] {
+fn four_rows<E: Eight>(panel: &[E], rows: &[f32], inner: usize) -> [Columns; 4] {
     let (r0, rest) = rows.split_at(inner);
     let (r1, rest) = rest.split_at(inner);
     let (r2, rest) = rest.split_at(inner);
@@ -189,7 +251,7 @@ fn four_rows(panel: &[Columns], rows: &[f32], inner: usize) -> [Columns; 4] {
     let [mut a0, mut a1, mut b0, mut b1] = [f32x4::ZERO; 4];
     let [mut c0, mut c1, mut d0, mut d1] = [f32x4::ZERO; 4];
     for k in 0..inner {
-        let [low, high] = halves(&panel[k]);
+        let [low, high] = panel[k].halves();
         let a = f32x4::splat(r0[k]);
         a0 += a * low;
         a1 += a * high;
@@ -203,12 +265,12 @@ fn four_rows(panel: &[Columns], rows: &[f32], inner: usize) -> [Columns; 4] {
         d0 += d * low;
         d1 += d * high;
     }
-    [numbers([a0, a1]), numbers([b0, b1]), numbers([c0, c1]), numbers([d0, d1])]
+    [numbers_of([a0, a1]), numbers_of([b0, b1]), numbers_of([c0, c1]), numbers_of([d0, d1])]
 }
 
 /// A row with two panels side by side, which share what is loaded of the row.
 #[inline(never)]
-fn one_row(panels: &[Columns], row: &[f32]) -> [Columns; 2] {
+fn one_row<E: Eight>(panels: &[E], row: &[f32]) -> [Columns; 2] {
     let inner = row.len();
     let (left, right) = (&panels[..inner], &panels[panels.len() - inner..]);
     // Sums of even and odd numbers apart, since each has to wait for its last addition.
@@ -219,13 +281,13 @@ fn one_row(panels: &[Columns], row: &[f32]) -> [Columns; 2] {
     let (rights, last_right) = right.as_chunks::<2>();
     for ((numbers, left), right) in twos.iter().zip(lefts).zip(rights) {
         let number = f32x4::splat(numbers[0]);
-        let ([low, high], [lower, higher]) = (halves(&left[0]), halves(&right[0]));
+        let ([low, high], [lower, higher]) = (left[0].halves(), right[0].halves());
         a0 += number * low;
         a1 += number * high;
         b0 += number * lower;
         b1 += number * higher;
         let number = f32x4::splat(numbers[1]);
-        let ([low, high], [lower, higher]) = (halves(&left[1]), halves(&right[1]));
+        let ([low, high], [lower, higher]) = (left[1].halves(), right[1].halves());
         c0 += number * low;
         c1 += number * high;
         d0 += number * lower;
@@ -233,11 +295,11 @@ fn one_row(panels: &[Columns], row: &[f32]) -> [Columns; 2] {
     }
     if let ([number], [left], [right]) = (rest, last_left, last_right) {
         let number = f32x4::splat(*number);
-        let ([low, high], [lower, higher]) = (halves(left), halves(right));
+        let ([low, high], [lower, higher]) = (left.halves(), right.halves());
         a0 += number * low;
         a1 += number * high;
         b0 += number * lower;
         b1 += number * higher;
     }
-    [numbers([a0 + c0, a1 + c1]), numbers([b0 + d0, b1 + d1])]
+    [numbers_of([a0 + c0, a1 + c1]), numbers_of([b0 + d0, b1 + d1])]
 }
