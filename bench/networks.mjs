@@ -21,7 +21,9 @@ function inputsOf(ports, batch, positions) {
   const draw = numbers(7);
   return Object.fromEntries(
     ports.map(({ name, axes }) => {
-      const shape = axes.map((axis) => (typeof axis === 'number' ? axis : batch));
+      const shape = axes.map((axis) =>
+        typeof axis === 'number' ? axis : axis === 'elements' ? positions.length : batch,
+      );
       const data = new Float32Array(shape.reduce((product, length) => product * length, 1));
       for (let i = 0; i < data.length; i++)
         data[i] = name === 'positions' ? positions[Math.trunc(i / 3)][i % 3] : draw();

@@ -26,7 +26,7 @@ const EXPERIMENTS = [
     name: 'aoa',
     experiment: 'aoa',
     document: 'experiments-aoa',
-    networks: SNAPSHOTS,
+    networks: { kinds: [...SNAPSHOTS.kinds, 'unrolled-iaa'] },
     settings: ['--trials', '4000', '--seed', '1'],
     figures: 'aoa-',
     shown: true,

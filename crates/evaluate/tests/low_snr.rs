@@ -28,8 +28,8 @@ fn subspace_methods_reach_the_bound_above_the_threshold_and_fail_below() {
             let gathered_db = snr_db + 10.0 * (16.0 * snapshots as f64).log10();
             let context = format!("{snapshots} snapshots, {snr_db} dB: {method:?}");
             if snr_db >= 0.0 {
-                // At most two pairs as near as half a beam are lost.
-                assert!(method.found >= 0.95, "{context}");
+                // One of 40 pairs may be lost.
+                assert!(method.found >= 0.97, "{context}");
                 assert!((0.7..1.35).contains(&method.over_bound.unwrap()), "{context}");
             }
             if gathered_db < 6.0 {

@@ -312,7 +312,7 @@ impl Model {
                 Network::TargetSet(TargetSet::new(self, method, array, options)?)
             }
             Kind::UnrolledIaa | Kind::CovarianceCnn | Kind::DeepMusic => {
-                Network::Spectral(Spectral::new(self, method, array, options)?)
+                Network::Spectral(Box::new(Spectral::new(self, method, array, options)?))
             }
             _ => Network::Classifier(Classifier::new(self, method, array, options)?),
         };
@@ -376,7 +376,7 @@ impl Model {
 enum Network {
     TargetSet(TargetSet),
     Classifier(Classifier),
-    Spectral(Spectral),
+    Spectral(Box<Spectral>),
 }
 
 impl Network {
@@ -384,7 +384,7 @@ impl Network {
         match self {
             Self::TargetSet(plan) => Box::new(plan),
             Self::Classifier(plan) => Box::new(plan),
-            Self::Spectral(plan) => Box::new(plan),
+            Self::Spectral(plan) => plan,
         }
     }
 }

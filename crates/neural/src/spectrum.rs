@@ -10,7 +10,7 @@ use boresight_aoa::{
     AoaError, Data, Estimate, EstimatorOptions, Grid, Method, Peak, PeakFinder, Plan, Source,
     SourceCount, Spectrum, SpectrumKind, Warning, settle, sources_at,
 };
-use boresight_core::{Array, Complex64};
+use boresight_core::{Array, Complex64, Direction};
 use boresight_signal::sample_covariance;
 use ndarray::{ArrayView2, ArrayView3, ArrayViewD, Axis};
 use std::f64::consts::PI;
@@ -24,10 +24,22 @@ const PSEUDO_RANGE_DB: f64 = 10.0;
 /// Channels of a covariance.
 const CHANNELS: usize = 3;
 
+/// What the numbers over the grid are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Told {
+    /// Powers at one element, from one snapshot.
+    Powers,
+    /// Probabilities of sources, from a covariance.
+    Probabilities,
+    /// MUSIC's spectrum, from a covariance.
+    NullSpectrum,
+}
+
 /// The network for one array.
 #[derive(Clone)]
 pub(crate) struct Spectral {
     method: Method,
+    told: Told,
     runners: Runners,
     array: Array,
     grid: Grid,
@@ -50,16 +62,22 @@ impl Spectral {
         options: &EstimatorOptions,
     ) -> Result<Self, NeuralError> {
         check_elements(model, method, array)?;
-        let on_snapshot = method == Method::UnrolledIaa;
+        let told = match method {
+            Method::UnrolledIaa => Told::Powers,
+            Method::DeepMusic => Told::NullSpectrum,
+            _ => Told::Probabilities,
+        };
+        let on_snapshot = told == Told::Powers;
         let points = model.outputs().first().and_then(|port| port.axes.last()?.length());
         let mut options = EstimatorOptions { grid_points: points.unwrap_or(1), ..*options };
-        if method == Method::DeepMusic {
+        if told == Told::NullSpectrum {
             options.dynamic_range_db = options.dynamic_range_db.min(PSEUDO_RANGE_DB);
         }
         let grid = Grid::new(array, &EstimatorOptions { elevation_points: 1, ..options });
         let confidence = model.card().and_then(|card| card.confidence);
         Ok(Self {
             method,
+            told,
             runners: if on_snapshot { model.runners_for(array)? } else { model.runners() },
             finder: PeakFinder::new(array, &grid, &options),
             mirrored: !on_snapshot && !rises(array, array.len(), method.name())?,
@@ -83,50 +101,48 @@ impl Spectral {
         (first..first + self.grid.sines.len()).map(|g| f64::from(row(at(g)).max(0.0))).collect()
     }
 
-    /// Sources from the values of a cell, whose scale for powers is given.
+    /// The estimate of a cell, whose scale for powers is given.
     fn answer(&self, values: Vec<f64>, scale: f64, data: Data<'_>, out: &mut Estimate) {
-        *out = Estimate::new(self.method);
         let peaks = match self.known {
             Some(count) => self.finder.highest(&self.grid, &values, count),
             None => self.finder.find(&self.grid, &values),
         };
-        let kind = match self.method {
-            Method::UnrolledIaa => SpectrumKind::Power,
-            _ => SpectrumKind::Pseudo,
-        };
-        out.sources = match self.method {
-            Method::UnrolledIaa => {
+        *out = Estimate::new(self.method);
+        out.sources = match self.told {
+            Told::Powers => {
                 let power = |peak: &Peak| scale * scale * self.top(&values, peak);
                 peaks.iter().map(|peak| Source::new(peak.direction, power(peak))).collect()
             }
-            _ => {
-                let sure = |peak: &Peak| self.top(&values, peak).min(1.0);
-                let counts = |peak: &&Peak| {
-                    self.method == Method::DeepMusic
-                        || self.known.is_some()
-                        || sure(peak) >= self.least
-                };
-                let peaks: Vec<Peak> = peaks.iter().filter(counts).copied().collect();
-                let directions: Vec<_> = peaks.iter().map(|peak| peak.direction).collect();
-                let mut sources = sources_at(&self.array, &directions, data);
-                if self.method == Method::CovarianceCnn {
-                    for (source, peak) in sources.iter_mut().zip(&peaks) {
-                        source.confidence = Some(sure(peak));
-                    }
+            Told::Probabilities => {
+                let sure = |peak: &Peak| (*peak, self.top(&values, peak).min(1.0));
+                let mut likely: Vec<(Peak, f64)> = peaks.iter().map(sure).collect();
+                likely.retain(|&(_, p)| self.known.is_some() || p >= self.least);
+                let mut sources = self.fitted(likely.iter().map(|(peak, _)| peak), data);
+                for (source, (_, p)) in sources.iter_mut().zip(&likely) {
+                    source.confidence = Some(*p);
                 }
                 sources
             }
+            Told::NullSpectrum => self.fitted(peaks.iter(), data),
         };
-        let scaled = values.iter().map(|value| value * scale * scale).collect();
         out.spectrum = Some(Spectrum {
             azimuth_rad: self.grid.azimuth_rad.clone(),
             elevation_rad: self.grid.elevation_rad.clone(),
-            values: scaled,
-            kind,
+            values: values.iter().map(|value| value * scale * scale).collect(),
+            kind: match self.told {
+                Told::Powers => SpectrumKind::Power,
+                _ => SpectrumKind::Pseudo,
+            },
         });
         out.warnings.extend(self.warning.clone());
         out.warnings.extend(self.beyond_training(data));
         settle(out, self.known);
+    }
+
+    /// Sources at peaks, with the powers that fit the data best.
+    fn fitted<'a>(&self, peaks: impl Iterator<Item = &'a Peak>, data: Data<'_>) -> Vec<Source> {
+        let directions: Vec<Direction> = peaks.map(|peak| peak.direction).collect();
+        sources_at(&self.array, &directions, data)
     }
 
     /// A warning where a covariance is of other numbers of snapshots or targets than in training.
@@ -168,7 +184,7 @@ impl Plan for Spectral {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
         let mut estimate = Estimate::new(self.method);
         let out = std::slice::from_mut(&mut estimate);
-        if self.method == Method::UnrolledIaa {
+        if self.told == Told::Powers {
             self.estimate_cells(one_cell(self.method, data)?, out)?;
         } else {
             let features = match data {
@@ -190,7 +206,7 @@ impl Plan for Spectral {
         out: &mut [Estimate],
     ) -> Result<(), AoaError> {
         let data = |cell| Data::Snapshots(cells.index_axis_move(Axis(0), cell));
-        if self.method != Method::UnrolledIaa {
+        if self.told != Told::Powers {
             let features: Vec<Vec<f32>> = cells
                 .outer_iter()
                 .map(|cell| covariance_image(sample_covariance(cell).view()))

@@ -15,10 +15,11 @@ use ndarray::Axis;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
 
-/// Half width of the sector that methods search, rad (60 deg), which is where sources are.
-const FIELD_OF_VIEW_RAD: f64 = FRAC_PI_3;
 /// Largest error of a source that was found, rad (2 deg).
 const WITHIN_RAD: f64 = 0.034_906_585_039_886_59;
+/// Half width of the sector that methods search, rad: 60 deg, where sources end, and as much as these may be off, since
+/// a maximum at the edge of a grid is no peak.
+const FIELD_OF_VIEW_RAD: f64 = FRAC_PI_3 + WITHIN_RAD;
 /// Sources are as far apart as half the main beam: a beam is what lies between its first zeros.
 const BEAMS_APART: f64 = 0.5;
 /// Powers of the sources, dB.

@@ -42,7 +42,7 @@ export function LearningPanel({ model: { card, name } }: { model: Model }) {
   const csv = (): string =>
     toCsv(
       ['run', 'samples', 'hours', 'f1'],
-      curves.flatMap(({ title, points }) => points.map(({ samples, hours, f1 }) => [title, samples, hours, f1])),
+      curves.flatMap(({ points }, i) => points.map(({ samples, hours, f1 }) => [i + 1, samples, hours, f1])),
     );
   return (
     <PlotFrame
