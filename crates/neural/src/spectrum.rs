@@ -21,6 +21,8 @@ const PROBABILITY: f64 = 0.5;
 /// Depth below the highest to which peaks of DeepMUSIC's spectrum count where the number of sources is not known, dB;
 /// its range is 30 dB.
 const PSEUDO_RANGE_DB: f64 = 10.0;
+/// Points of the grid searched beyond the field of view.
+const BEYOND: f64 = 2.0;
 /// Channels of a covariance.
 const CHANNELS: usize = 3;
 
@@ -42,8 +44,12 @@ pub(crate) struct Spectral {
     told: Told,
     runners: Runners,
     array: Array,
+    /// Somewhat more than the field of view, for a maximum at the edge is no peak.
     grid: Grid,
     finder: PeakFinder,
+    /// Sine of the half width of the field of view.
+    limit: f64,
+    most: usize,
     /// Whether the elements are counted the other way round than in training.
     mirrored: bool,
     known: Option<usize>,
@@ -73,13 +79,20 @@ impl Spectral {
         if told == Told::NullSpectrum {
             options.dynamic_range_db = options.dynamic_range_db.min(PSEUDO_RANGE_DB);
         }
-        let grid = Grid::new(array, &EstimatorOptions { elevation_points: 1, ..options });
+        let points = options.grid_points as f64;
+        let limit = options.field_of_view_rad.sin() + 1e-9;
+        let wider = (limit + BEYOND * 2.0 / points).min(1.0).asin();
+        let searched =
+            EstimatorOptions { elevation_points: 1, field_of_view_rad: wider, ..options };
+        let grid = Grid::new(array, &searched);
         let confidence = model.card().and_then(|card| card.confidence);
         Ok(Self {
             method,
             told,
             runners: if on_snapshot { model.runners_for(array)? } else { model.runners() },
-            finder: PeakFinder::new(array, &grid, &options),
+            finder: PeakFinder::new(array, &grid, &searched),
+            limit,
+            most: options.max_peaks,
             mirrored: !on_snapshot && !rises(array, array.len(), method.name())?,
             known: match options.sources {
                 SourceCount::Known(count) if !on_snapshot => Some(count),
@@ -103,10 +116,12 @@ impl Spectral {
 
     /// The estimate of a cell, whose scale for powers is given.
     fn answer(&self, values: Vec<f64>, scale: f64, data: Data<'_>, out: &mut Estimate) {
-        let peaks = match self.known {
-            Some(count) => self.finder.highest(&self.grid, &values, count),
+        let mut peaks = match self.known {
+            Some(_) => self.finder.highest(&self.grid, &values, usize::MAX),
             None => self.finder.find(&self.grid, &values),
         };
+        peaks.retain(|peak| peak.direction.azimuth_rad.sin().abs() <= self.limit);
+        peaks.truncate(self.known.unwrap_or(self.most));
         *out = Estimate::new(self.method);
         out.sources = match self.told {
             Told::Powers => {
@@ -125,10 +140,12 @@ impl Spectral {
             }
             Told::NullSpectrum => self.fitted(peaks.iter(), data),
         };
+        let inside = |at: &usize| self.grid.sines[*at].abs() <= self.limit;
+        let inside = || (0..values.len()).filter(inside);
         out.spectrum = Some(Spectrum {
-            azimuth_rad: self.grid.azimuth_rad.clone(),
+            azimuth_rad: inside().map(|at| self.grid.azimuth_rad[at]).collect(),
             elevation_rad: self.grid.elevation_rad.clone(),
-            values: values.iter().map(|value| value * scale * scale).collect(),
+            values: inside().map(|at| values[at] * scale * scale).collect(),
             kind: match self.told {
                 Told::Powers => SpectrumKind::Power,
                 _ => SpectrumKind::Pseudo,

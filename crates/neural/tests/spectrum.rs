@@ -212,3 +212,27 @@ fn a_batch_gives_what_its_cells_give_alone() {
         assert!(batch.spectra.is_some());
     }
 }
+
+/// A maximum at the edge of a grid is no peak, and the points of these grids are up to a degree apart there.
+#[test]
+fn targets_are_found_where_the_field_of_view_ends() {
+    for (name, array) in
+        [("unrolled-iaa", "lrr48"), ("covariance-cnn", "ula16"), ("deep-music", "ula16")]
+    {
+        let array = preset(array).unwrap();
+        let mut one = estimator(name, &array, 1);
+        for deg in [-59.9, -59.5, 59.5, 59.9] {
+            let y = if name == "unrolled-iaa" {
+                snapshot(&array, &[(deg, 0.0)], 1)
+            } else {
+                vectors(&array, &[deg], 200, 1)
+            };
+            let estimate = one.estimate(Data::Snapshots(y.view())).unwrap();
+            let off = estimate.sources[0].direction.azimuth_rad.to_degrees() - deg;
+            let within = if name == "unrolled-iaa" { 0.5 } else { 2.0 };
+            assert!(off.abs() < within, "{name} {deg}: off by {off}");
+            let spectrum = estimate.spectrum.as_ref().unwrap();
+            assert!(spectrum.azimuth_rad.iter().all(|u| u.abs() <= FRAC_PI_3 + 1e-9));
+        }
+    }
+}

@@ -25,12 +25,14 @@ export function LearningPanel({ model: { card, name } }: { model: Model }) {
       y: points.map(({ f1 }) => f1),
     }));
     const most = Math.max(0, ...lines.flatMap(({ x }) => x));
+    const least = Math.min(1, ...lines.flatMap(({ y }) => y));
+    const margin = 0.08 * (1 - least);
     return {
       lines,
       content: {
         x: [...new Set(lines.flatMap(({ x }) => x))].sort((a, b) => a - b),
         series: [],
-        extent: { x: [0, 1.05 * most] as const, y: [0, 1.03] as const },
+        extent: { x: [0, 1.05 * most] as const, y: [least - margin, 1 + margin] as const },
         above: [
           ...lines.map(({ x, y, style }) => polyline(x, y, style)),
           markers(lines.flatMap(({ x, y, style }) => x.map((at, k) => ({ x: at, y: y[k] as number, style, size: 4 })))),
