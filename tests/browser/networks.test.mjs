@@ -1,23 +1,14 @@
 import assert from 'node:assert/strict';
-import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
 import { assertCsv, assertPng, drop, parametersWith, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
+import { card, cell, file, models, patient, tried } from './trial.mjs';
 import { typeNumber, typeText } from './type.mjs';
 
 const path = '#/networks?model=learned-pursuit';
-const models = readdirSync(join(root, 'models'))
-  .filter((name) => name.endsWith('.json'))
-  .map((name) => name.replace('.json', ''));
-const file = (name) => readFileSync(join(root, 'models', name));
-const card = (name) => JSON.parse(file(`${name}.json`));
 const experiment = (name) => join(root, 'docs', 'experiments', `${name}.json`);
-
-/** A network is fetched, its module compiled in each worker: on a busy machine that takes its time. */
-const patient = { timeout: 60_000 };
-const tried = (page) => page.waitForSelector('[data-attempt] [data-table="attempt"]', patient);
-const cell = (page, row, field) => values(page, `[data-table="attempt"] [data-row="${row}"] [data-field="${field}"]`);
 
 browserTest(
   'networks: no page fetches a network or their module before one is used',
@@ -120,55 +111,6 @@ browserTest(
     await page.locator('select[name="model"]').selectOption('learned-pursuit');
     await page.waitForSelector('[data-attempt^="lrr48"]', patient);
     assert.equal(await page.locator('select[name="array"]').count(), 0);
-  },
-);
-
-browserTest(
-  'networks: UAA gives its spectrum beside that of IAA, each on its own grid',
-  { path: '#/networks?model=unrolled-iaa&targets=3&snr=25&seed=3&run=1' },
-  async ({ page }) => {
-    await page.waitForSelector('[data-attempt^="lrr48"]', patient);
-    const [found] = await cell(page, 'unrolled-iaa', 'found');
-    assert.ok(found >= 2, `found ${found} of 3`);
-    const csv = await saved(page, '[data-plot="attempt"] [data-export="csv"]');
-    const rows = assertCsv(csv, 'azimuth_deg,unrolled-iaa_db,iaa_db,bartlett_db');
-    // The coarse grid is drawn through the points of the fine one, and no further than it goes.
-    assert.ok(rows.length > 1000, `${rows.length} rows`);
-    const own = rows.filter(([, db]) => db !== '');
-    assert.ok(own.length > 0.8 * rows.length && own.length < rows.length, `${own.length} of ${rows.length}`);
-  },
-);
-
-browserTest(
-  'networks: those on a covariance see many snapshots, as methods on it do',
-  { path: '#/networks?model=covariance-cnn&targets=2&snr=0&seed=2&run=1' },
-  async ({ page }) => {
-    for (const name of ['covariance-cnn', 'deep-music']) {
-      await page.locator('select[name="model"]').selectOption(name);
-      await page.waitForSelector(`[data-attempt^="ula16"] [data-row="${name}"] [data-field="found"]`, patient);
-      for (const method of [name, 'music', 'capon']) assert.deepEqual(await cell(page, method, 'found'), [2], method);
-      assert.match(await page.locator('[data-attempt]').getAttribute('data-attempt'), /2 targets, 200 snapshots, 0 dB/);
-    }
-    // Three sources at most; the refused one stays in the field with its reason.
-    const field = page.locator('input[name="targets"]');
-    await typeNumber(field, '4');
-    await page.locator('input[name="targets"][aria-invalid="true"]').waitFor();
-    await typeNumber(field, '3');
-    await page.waitForSelector('[data-attempt^="ula16, 3 targets"]', patient);
-  },
-);
-
-browserTest(
-  'networks: a learning curve stands beside the card',
-  { path: '#/networks?model=aaetr-lrr48' },
-  async ({ page }) => {
-    const { learning } = card('aaetr-lrr48');
-    await page.waitForSelector('[data-plot="learning"] canvas');
-    assert.equal(await page.locator('[data-plot="learning"] .legend li').count(), learning.length);
-    assertCsv(await saved(page, '[data-plot="learning"] [data-export="csv"]'), 'run,samples,hours,f1');
-    await page.locator('select[name="model"]').selectOption('counting');
-    await page.waitForSelector('[data-card="counting"]');
-    assert.equal(await page.locator('[data-plot="learning"]').count(), 0);
   },
 );
 
