@@ -85,6 +85,11 @@ impl Spectral {
         let searched =
             EstimatorOptions { elevation_points: 1, field_of_view_rad: wider, ..options };
         let grid = Grid::new(array, &searched);
+        let mirrored = !on_snapshot && !rises(array, array.len(), method.name())?;
+        let in_order = match mirrored {
+            true => array.select(&(0..array.len()).rev().collect::<Vec<_>>())?,
+            false => array.clone(),
+        };
         let confidence = model.card().and_then(|card| card.confidence);
         Ok(Self {
             method,
@@ -93,13 +98,13 @@ impl Spectral {
             finder: PeakFinder::new(array, &grid, &searched),
             limit,
             most: options.max_peaks,
-            mirrored: !on_snapshot && !rises(array, array.len(), method.name())?,
+            mirrored,
             known: match options.sources {
                 SourceCount::Known(count) if !on_snapshot => Some(count),
                 _ => None,
             },
             least: options.confidence.or(confidence).unwrap_or(PROBABILITY),
-            warning: outside_training(model, array, &options),
+            warning: outside_training(model, &in_order, &options),
             card: model.card().cloned(),
             array: array.clone(),
             grid,

@@ -134,6 +134,7 @@ fn elements_counted_the_other_way_round_mirror_the_angles() {
         let turned = y.slice(ndarray::s![..;-1, ..]).to_owned();
         let found = estimator(name, &array, 2).estimate(Data::Snapshots(y.view())).unwrap();
         let again = estimator(name, &reversed, 2).estimate(Data::Snapshots(turned.view())).unwrap();
+        assert!(again.warnings.is_empty(), "{name}: {:?}", again.warnings);
         // Not the same covariance for the network, but the same targets.
         for (one, other) in degrees(&found).iter().zip(degrees(&again)) {
             assert!((one - other).abs() < 2.0, "{name}: {one} {other}");
