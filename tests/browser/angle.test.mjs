@@ -32,8 +32,8 @@ browserTest('angle lab: dragging a target moves its estimates and the address', 
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
   await page.mouse.down();
-  await page.mouse.move(x + 60, y + 10, { steps: 5 });
-  await page.mouse.move(x + 120, y + 20, { steps: 5 });
+  await page.mouse.move(x - 60, y + 10, { steps: 5 });
+  await page.mouse.move(x - 120, y + 20, { steps: 5 });
   await page.mouse.up();
   const truth = '[data-field="truth"][data-target="1"]';
   await page.waitForFunction((cell) => Number(document.querySelector(cell).dataset.value) > 30, truth);
@@ -82,8 +82,8 @@ browserTest('angle lab: a target can be moved, added and removed from the keyboa
   await shown(page, 'music');
   const target = page.locator('.plot-handle[data-target="0"]');
   await target.focus();
-  await page.keyboard.press('ArrowRight');
-  await page.keyboard.press('Shift+ArrowRight');
+  await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('Shift+ArrowLeft');
   await page.keyboard.press('-');
   await parametersWith(page, (params) => params.get('targets') === '-3.9:-0.5,12:0');
   assert.match(await target.getAttribute('aria-label'), /azimuth −3\.9 degrees, power −0\.5 dB/);
@@ -102,7 +102,7 @@ browserTest('angle lab: a target can be moved, added and removed from the keyboa
 browserTest('angle lab: double clicks add and remove targets', { path }, async ({ page }) => {
   await shown(page, 'music');
   const plot = await page.locator('[data-plot="spectrum"] .u-over').boundingBox();
-  await page.mouse.dblclick(plot.x + plot.width * 0.75, plot.y + plot.height * 0.4);
+  await page.mouse.dblclick(plot.x + plot.width * 0.25, plot.y + plot.height * 0.4);
   await parametersWith(page, (params) => params.get('targets').split(',').length === 3);
   const added = Number(parameters(page).get('targets').split(',')[2].split(':')[0]);
   assert.ok(Math.abs(added - 45) < 1, `added at ${added}`);
@@ -174,7 +174,7 @@ browserTest('angle lab: a drag zooms, the cursor reads out, a key resets', { pat
   assert.match(await label(), /Azimuth [+−]?0\.\d\d°\s+Level −18\.0/);
   await page.mouse.move(over.x + over.width * 0.5, over.y + 200);
   await page.mouse.down();
-  await page.mouse.move(over.x + over.width * 0.75, over.y + 205, { steps: 5 });
+  await page.mouse.move(over.x + over.width * 0.25, over.y + 205, { steps: 5 });
   await page.mouse.up();
   await page.mouse.move(over.x + over.width / 2, over.y + over.height / 2);
   assert.match(await label(), /Azimuth \+22\.\d\d°/);

@@ -4,9 +4,6 @@ import type { Marker } from './plots/layers.ts';
 import type { PlotSeries } from './plots/plot.ts';
 import { methodStyle } from './plots/theme.ts';
 
-/** Tick steps for degrees. */
-export const ANGLE_STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 60, 90];
-
 export interface Curve {
   method: string;
   title: string;

@@ -1,22 +1,15 @@
 /** The car's frame on a plot, and the car in it. */
 import type { Layer, LayerContext } from './layers.ts';
 
-/** Where a place in the car's frame (x ahead, y left) is on the canvas. */
-export type Ground = (context: LayerContext) => (xM: number, yM: number) => [x: number, y: number];
-
-/** The car looks to the right: the horizontal axis is x. */
-export const aheadRight: Ground =
-  ({ x, y }) =>
-  (xM, yM) => [x(xM), y(yM)];
-/** The car looks up: the vertical axis is x, the horizontal one y, descending. */
-export const aheadUp: Ground =
-  ({ x, y }) =>
-  (xM, yM) => [x(yM), y(xM)];
+/** Where a place in the car's frame (x ahead, y left) is on the canvas. The car looks up: the vertical axis is x. */
+export const ground =
+  ({ x, y }: LayerContext) =>
+  (xM: number, yM: number): [x: number, y: number] => [x(yM), y(xM)];
 
 /** A car's outline about its rear axle, m: typical, as logs do not say. */
 const CAR = { behind: 1, ahead: 3.9, half: 0.93 } as const;
 
-export function carOutline(ground: Ground = aheadRight): Layer {
+export function carOutline(): Layer {
   return (context) => {
     const { ctx, theme, ratio } = context;
     const at = ground(context);

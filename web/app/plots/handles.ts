@@ -10,7 +10,7 @@ export interface HandlePoint {
 export interface HandleActions {
   /** A drag: where the point was put. */
   move(index: number, x: number, y: number): void;
-  /** The keyboard: arrows by `dx`, plus and minus by `dy` steps; `coarse` with shift held. */
+  /** The keyboard: arrows by `dx` steps of the axis, plus and minus by `dy`; `coarse` with shift held. */
   nudge(index: number, dx: number, dy: number, coarse: boolean): void;
   remove(index: number): void;
 }
@@ -117,7 +117,13 @@ export class Handles {
       _: [0, -1],
     };
     const step = steps[event.key];
-    if (step) this.#actions.nudge(index, step[0], step[1], event.shiftKey && event.key.startsWith('Arrow'));
+    if (step)
+      this.#actions.nudge(
+        index,
+        this.#plot.direction * step[0],
+        step[1],
+        event.shiftKey && event.key.startsWith('Arrow'),
+      );
     else if (event.key === 'Delete' || event.key === 'Backspace') this.#actions.remove(index);
     else return;
     event.preventDefault();

@@ -151,6 +151,11 @@ export class Plot {
     return this.#theme;
   }
 
+  /** 1 where values grow to the right, -1 where they grow to the left. */
+  get direction(): 1 | -1 {
+    return this.#options.x.descending ? -1 : 1;
+  }
+
   /** Calls back after each drawing, for things laid over the plot. */
   onDraw(listener: () => void): () => void {
     this.#listeners.add(listener);
@@ -206,7 +211,7 @@ export class Plot {
   /** Moves a zoomed view to the right and up by shares of what it shows. */
   panBy(right: number, up = 0): void {
     const { x, y } = this.#drawn(this.u);
-    this.moveBy((x[1] - x[0]) * (this.#options.x.descending ? -right : right), (y[1] - y[0]) * up);
+    this.moveBy((x[1] - x[0]) * this.direction * right, (y[1] - y[0]) * up);
   }
 
   /** Moves a zoomed view along by what its axes say. */
@@ -269,7 +274,7 @@ export class Plot {
         x: {
           time: false,
           auto: false,
-          dir: options.x.descending ? -1 : 1,
+          dir: this.direction,
           range: (u) => [...this.#drawn(u).x] as [number, number],
         },
         y: { auto: false, range: (u) => [...this.#drawn(u).y] as [number, number] },
@@ -454,7 +459,7 @@ export class Plot {
     if (!x.length) return;
     const middle = this.u.valToIdx((this.view.x[0] + this.view.x[1]) / 2);
     const from = (this.u.cursor.left ?? -1) >= 0 ? (this.u.cursor.idx ?? middle) : middle;
-    const value = x[Math.min(Math.max(from + steps, 0), x.length - 1)] as number;
+    const value = x[Math.min(Math.max(from + this.direction * steps, 0), x.length - 1)] as number;
     if (value < this.view.x[0] || value > this.view.x[1]) return;
     const first = this.#content.series[0]?.y[this.u.valToIdx(value)];
     this.u.setCursor({

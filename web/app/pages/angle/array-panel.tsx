@@ -1,6 +1,6 @@
 /** The array: where its elements are, its response from boresight, and the numbers that follow. */
 import { useMemo } from 'preact/hooks';
-import { ANGLE_STEPS } from '../../estimates.ts';
+import { AZIMUTH } from '../../plots/axes.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { bands, markers } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -121,7 +121,10 @@ export function ArrayPanel({ scene }: { scene: Scene }) {
           name="elements"
           height="short"
           content={layout}
-          options={{ x: { label: 'y (half wavelengths), positive left' }, y: { label: 'z (half wavelengths)' } }}
+          options={{
+            x: { label: 'y (half wavelengths), positive left', descending: true },
+            y: { label: 'z (half wavelengths)' },
+          }}
           readout={({ x, y }) => `y ${signed(x, 2)}   z ${signed(y, 2)}`}
           csv={() =>
             toCsv(
@@ -141,7 +144,7 @@ export function ArrayPanel({ scene }: { scene: Scene }) {
           name="pattern"
           height="short"
           content={response}
-          options={{ x: { label: 'Azimuth (°), positive left', steps: ANGLE_STEPS }, y: { label: 'Response (dB)' } }}
+          options={{ x: AZIMUTH, y: { label: 'Response (dB)' } }}
           readout={({ x, index }) =>
             `Azimuth ${signed(x, 2)}°   Response ${fixed(pattern.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB`
           }

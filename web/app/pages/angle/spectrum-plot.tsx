@@ -1,7 +1,8 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
 import { useMemo, useRef } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { ANGLE_STEPS, type Curve, curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
+import { type Curve, curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
+import { AZIMUTH } from '../../plots/axes.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { Handles } from '../../plots/handles.ts';
 import { bands, horizontalLine, type Layer, markers } from '../../plots/layers.ts';
@@ -164,7 +165,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       onPlot={attach}
       keys="Tab to a target to move it."
       options={{
-        x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS },
+        x: AZIMUTH,
         y: { label: 'Level (dB re 0 dB target)' },
         onDoubleClick: ({ x, y }) => {
           if (targets.length < LIMITS.targets) addTarget({ azimuthDeg: x, powerDb: y });

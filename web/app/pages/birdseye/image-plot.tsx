@@ -3,7 +3,8 @@
 import type { MethodInfo } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { aheadUp, carOutline } from '../../plots/car.ts';
+import { AHEAD, LEFT } from '../../plots/axes.ts';
+import { carOutline } from '../../plots/car.ts';
 import { decibels, fixed, signed } from '../../plots/format.ts';
 import { COLOR_BAR_HEIGHT, colorBarBelow, heatImage } from '../../plots/heat.ts';
 import { faded } from '../../plots/layers.ts';
@@ -111,7 +112,7 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
       extent: { x: yM, y: xM },
       below: [faded(heat, opacity / 100)],
       above: [
-        ...(looked?.street ? [carOutline(aheadUp)] : []),
+        ...(looked?.street ? [carOutline()] : []),
         ...(fields
           ? [
               fieldsOfView(
@@ -137,8 +138,8 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
       imageLegend={legendItems()}
       imageRemarks={[remark(image)]}
       options={{
-        x: { label: 'y, left (m)', descending: true },
-        y: { label: 'x, ahead (m)' },
+        x: LEFT,
+        y: AHEAD,
         bottom: COLOR_BAR_HEIGHT,
         equal: true,
         navigate: true,

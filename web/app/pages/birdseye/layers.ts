@@ -1,6 +1,6 @@
 /** What is drawn over an image: the street as it truly is, and where the radars sit and look. */
 import type { StreetScene } from 'boresight';
-import { aheadUp } from '../../plots/car.ts';
+import { ground } from '../../plots/car.ts';
 import { clipToPlot, type Layer } from '../../plots/layers.ts';
 import type { Point, Radar } from './input.ts';
 
@@ -14,7 +14,7 @@ function along({ mounting: { xM, yM, yawDeg } }: Radar, angleDeg: number, rangeM
 export function fieldsOfView(radars: readonly { radar: Radar; rangeM: number }[]): Layer {
   return (context) => {
     const { ctx, plot, ratio } = context;
-    const at = aheadUp(context);
+    const at = ground(context);
     clipToPlot(ctx, plot);
     for (const { radar, rangeM } of radars) {
       const half = radar.fieldOfViewDeg;
@@ -46,7 +46,7 @@ function stroke(ctx: CanvasRenderingContext2D, path: Path2D, color: string, rati
 export function truth(street: StreetScene | null, points: readonly Point[]): Layer {
   return (context) => {
     const { ctx, plot, ratio } = context;
-    const at = aheadUp(context);
+    const at = ground(context);
     clipToPlot(ctx, plot);
     const shapes = new Path2D();
     for (const { xM, yM } of street?.outlines ?? []) {

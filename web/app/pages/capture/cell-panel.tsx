@@ -3,7 +3,8 @@
 import type { Cell, FrameResult, Method } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { ANGLE_STEPS, curve, highest, onOneGrid, series, sourceMarkers } from '../../estimates.ts';
+import { curve, highest, onOneGrid, series, sourceMarkers } from '../../estimates.ts';
+import { AZIMUTH } from '../../plots/axes.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { bands, markers, verticalLines } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -85,7 +86,7 @@ export function CellPanel({
         line: spectrum,
       }))}
       options={{
-        x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS },
+        x: AZIMUTH,
         y: { label: 'Power (dBFS)' },
       }}
       readout={({ x, index }) =>

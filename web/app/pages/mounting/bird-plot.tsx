@@ -1,6 +1,7 @@
 /** The frame from above, in the car's frame, with the angle applied. */
 import { useMemo } from 'preact/hooks';
-import { carOutline } from '../../plots/car.ts';
+import { AHEAD, LEFT } from '../../plots/axes.ts';
+import { carOutline, ground } from '../../plots/car.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import type { Layer } from '../../plots/layers.ts';
 import { toCsv } from '../../plots/save.ts';
@@ -30,11 +31,11 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
       ) ?? [-20, 20];
       return [Math.min(low, -3) - 2, Math.max(high, 6) + 2];
     };
-    return { x: along(0), y: along(1) };
+    return { x: along(1), y: along(0) };
   }, [drive, sample.value, at?.nominalDeg]);
   const places = useMemo(() => {
     const all = Array.from(view.azimuthDeg, (azimuth, i) => inCar(view.rangeM?.[i] ?? Number.NaN, azimuth, angleDeg));
-    return { x: all.map(([x]) => x), y: all.map(([, y]) => y) };
+    return { ahead: all.map(([x]) => x), left: all.map(([, y]) => y) };
   }, [view, angleDeg, at]);
   const content = useMemo(
     () => ({
@@ -42,7 +43,7 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
       series: [],
       extent,
       below: [carOutline(), boresight(at?.xM ?? 0, at?.yM ?? 0, at?.nominalDeg ?? null, angleDeg)],
-      above: [detectionLayer(places.x, places.y, view)],
+      above: [detectionLayer(places.left, places.ahead, view)],
     }),
     [places, view, extent, at?.nominalDeg, angleDeg],
   );
@@ -69,13 +70,13 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
       content={content}
       legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."
-      options={{ x: { label: 'Ahead of the rear axle (m)' }, y: { label: 'Left (m)' }, equal: true, onKey: frameKey }}
+      options={{ x: LEFT, y: AHEAD, equal: true, onKey: frameKey }}
       readout={(position) => {
-        const i = nearest(places.x, places.y, position, extent);
-        if (i === null) return `Ahead ${signed(position.x, 1)} m   left ${signed(position.y, 1)} m`;
+        const i = nearest(places.left, places.ahead, position, extent);
+        if (i === null) return `Ahead ${signed(position.y, 1)} m   left ${signed(position.x, 1)} m`;
         const rcs = view.rcsDbsm?.[i];
         return (
-          `Detection ${i + 1}: ahead ${signed(places.x[i] as number, 1)} m   left ${signed(places.y[i] as number, 1)} m   range ${fixed(view.rangeM?.[i] ?? Number.NaN, 1)} m` +
+          `Detection ${i + 1}: ahead ${signed(places.ahead[i] as number, 1)} m   left ${signed(places.left[i] as number, 1)} m   range ${fixed(view.rangeM?.[i] ?? Number.NaN, 1)} m` +
           (rcs !== undefined && Number.isFinite(rcs) ? `   RCS ${signed(rcs, 1)} dBsm` : '')
         );
       }}
@@ -83,8 +84,8 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
         toCsv(
           ['x_m', 'y_m', 'range_m', 'azimuth_deg', 'rcs_dbsm', 'weight'],
           Array.from(view.azimuthDeg, (azimuth, i) => [
-            places.x[i],
-            places.y[i],
+            places.ahead[i],
+            places.left[i],
             view.rangeM?.[i],
             azimuth,
             view.rcsDbsm?.[i],
@@ -106,15 +107,16 @@ const BORESIGHT = { color: ACCENT_STYLE.color };
 
 /** The radar and where it looks: as found, and as it should. */
 function boresight(xM: number, yM: number, nominalDeg: number | null, angleDeg: number): Layer {
-  return ({ ctx, plot, themeName, ratio, x, y }) => {
+  return (context) => {
+    const { ctx, plot, themeName, ratio } = context;
     const reach = Math.hypot(plot.bbox.width, plot.bbox.height);
-    const [px, py] = [x(xM), y(yM)];
+    const [px, py] = ground(context)(xM, yM);
     const ray = (direction: number, dash: number[]): void => {
       const radians = (direction * Math.PI) / 180;
       ctx.setLineDash(dash.map((d) => d * ratio));
       ctx.beginPath();
       ctx.moveTo(px, py);
-      ctx.lineTo(px + reach * Math.cos(radians), py - reach * Math.sin(radians));
+      ctx.lineTo(px - reach * Math.sin(radians), py - reach * Math.cos(radians));
       ctx.stroke();
     };
     ctx.strokeStyle = BORESIGHT.color[themeName];

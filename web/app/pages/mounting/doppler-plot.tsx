@@ -1,5 +1,6 @@
 /** Range rate against azimuth of one frame, with the curve of what stands. */
 import { useMemo } from 'preact/hooks';
+import { AZIMUTH } from '../../plots/axes.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { COLOR_BAR_WIDTH, colorBar } from '../../plots/heat.ts';
 import { type Layer, polyline } from '../../plots/layers.ts';
@@ -91,7 +92,7 @@ export function DopplerPlot({ view, label }: { view: FrameView; label: string })
       legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."
       options={{
-        x: { label: 'Azimuth (°), positive to the left of boresight' },
+        x: AZIMUTH,
         y: { label: residual ? 'Residual (m/s)' : 'Range rate (m/s), + receding' },
         right: COLOR_BAR_WIDTH,
         onKey: frameKey,

@@ -1,7 +1,8 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
 import { useMemo } from 'preact/hooks';
-import { ANGLE_STEPS, curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
+import { curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
 import { type Sight, sightOf } from '../../networks/models.ts';
+import { AZIMUTH } from '../../plots/axes.ts';
 import { fixed, milliseconds, signed } from '../../plots/format.ts';
 import { bands, markers } from '../../plots/layers.ts';
 import { download, fileName, toCsv } from '../../plots/save.ts';
@@ -150,7 +151,7 @@ function ScenePlot({ shown }: { shown: Attempt }) {
         })),
       ]}
       options={{
-        x: { label: 'Azimuth (°), positive to the left of boresight', steps: ANGLE_STEPS },
+        x: AZIMUTH,
         y: { label: onRegion ? 'Level (dB re the strongest)' : 'Level (dB re 0 dB target)' },
       }}
       readout={({ x, y }) => `Azimuth ${signed(x, 2)}°   Level ${fixed(y, 1)}\u00a0dB`}
