@@ -7,9 +7,12 @@ import { BirdseyePage } from './pages/birdseye/page.tsx';
 import { CapturePage } from './pages/capture/page.tsx';
 import { MountingPage } from './pages/mounting/page.tsx';
 import { NetworksPage } from './pages/networks/page.tsx';
+import { misread } from './state/address.ts';
 import { announcement } from './state/announce.ts';
 import { lastParams, type Page, pageAddress, route } from './state/route.ts';
 import { type ThemeChoice, themeChoice } from './state/theme.ts';
+import { dropProblem, watchDrops } from './ui/drop.ts';
+import { Notice } from './ui/notice.tsx';
 
 const TITLES: Record<Page, string> = {
   angle: 'Angle lab',
@@ -30,6 +33,7 @@ export function App() {
       (error: unknown) => setProblem(describeError(error)),
     );
   }, []);
+  useEffect(watchDrops, []);
   useEffect(() => {
     document.title = `${TITLES[page]} – Boresight`;
   }, [page]);
@@ -75,6 +79,27 @@ export function App() {
       </header>
       <main id="content" tabIndex={-1}>
         <h1 class="visually-hidden">{TITLES[page]}</h1>
+        {misread.value.length > 0 && (
+          <Notice
+            name="link"
+            onClose={() => {
+              misread.value = [];
+            }}
+          >
+            Of this link, {misread.value.map((part) => `“${part}”`).join(', ')}{' '}
+            {misread.value.length > 1 ? 'were' : 'was'} not understood; what usually is stands there instead.
+          </Notice>
+        )}
+        {dropProblem.value && (
+          <Notice
+            name="drop"
+            onClose={() => {
+              dropProblem.value = null;
+            }}
+          >
+            {dropProblem.value}
+          </Notice>
+        )}
         {problem ? (
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>Boresight could not start.</strong> {problem.message}

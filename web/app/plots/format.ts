@@ -79,3 +79,8 @@ export function byteSize(bytes: number): string {
 export function count(value: number): string {
   return value.toLocaleString('en').replaceAll(',', '\u202f');
 }
+
+/** A share as a percentage. */
+export function percentage(share: number): string {
+  return `${significant(100 * share, 2)}\u00a0%`;
+}

@@ -1,9 +1,13 @@
 /** Binds a page's state to the address. */
-import { useSignalEffect } from '@preact/signals';
+import { signal, useSignalEffect } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { lastParams, type Page, type Route, route, writeParams } from './route.ts';
 
+/** What of the address was not understood, as it stands there. */
+export const misread = signal<readonly string[]>([]);
+
 export interface Binding {
+  codec: { unreadable(params: URLSearchParams): string[] };
   /** Takes the state from parameters: those of the address, or where it has none those the page was left with. */
   restore(params: URLSearchParams): void;
   /** What runs while the page is there; returns what ends it. */
@@ -13,10 +17,12 @@ export interface Binding {
 }
 
 /** Restores a page's state before its first drawing and when the address changes, and writes it back. */
-export function useAddress(page: Page, { restore, start, write }: Binding): void {
+export function useAddress(page: Page, { codec, restore, start, write }: Binding): void {
   const ready = useRef(false);
   const read = (now: Route): void => {
-    if (now.page === page) restore(now.params.size ? now.params : (lastParams(page) ?? now.params));
+    if (now.page !== page) return;
+    misread.value = codec.unreadable(now.params);
+    restore(now.params.size ? now.params : (lastParams(page) ?? now.params));
   };
   useState(() => read(route.peek()));
   useEffect(() => {

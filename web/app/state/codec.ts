@@ -89,6 +89,8 @@ export interface Codec<F> {
   fields: F;
   defaults: StateOf<F>;
   read(params: URLSearchParams): StateOf<F>;
+  /** Of parameters, those that no field reads, as they stand there. */
+  unreadable(params: URLSearchParams): string[];
   /** Everything but defaults that are not in `always`. */
   write(state: StateOf<F>): URLSearchParams;
 }
@@ -109,6 +111,11 @@ export function codec<F extends { [K in keyof F]: Field<F[K] extends Field<infer
           return [key, (given === null ? undefined : field.read(given)) ?? field.fallback];
         }),
       ) as S,
+    unreadable: (params) =>
+      [...params].flatMap(([key, value]) => {
+        const field = all.find(([name]) => name === key)?.[1];
+        return field?.read(value) === undefined ? [`${key}=${value}`] : [];
+      }),
     write: (state) => {
       const params = new URLSearchParams();
       for (const [key, field] of all) {

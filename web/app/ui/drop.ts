@@ -1,33 +1,93 @@
-/** Files dropped anywhere on the page. */
-import { type Signal, useSignal } from '@preact/signals';
+/** Files dropped anywhere go to the page that opens their kind. */
+import { type ReadonlySignal, signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
+import { describeError } from '../data.ts';
+import { type Page, pageAddress, route } from '../state/route.ts';
+import { droppedFiles, type NamedFile } from './entries.ts';
 
-/** Whether files are held over the page; `take` gets what is dropped. */
-export function useFileDrop(take: (transfer: DataTransfer) => void): Signal<boolean> {
-  const over = useSignal(false);
+type Take = (files: readonly NamedFile[]) => void;
+
+/** `address`: what of a page's state keeps it from opening something by itself. */
+const KINDS: readonly { page: Page; names: RegExp; what: string; address?: Record<string, string> }[] = [
+  {
+    page: 'capture',
+    names: /\.(bin|cfg|dat)$/i,
+    what: 'captures (.bin with .cfg, and .dat)',
+    address: { source: 'files' },
+  },
+  {
+    page: 'mounting',
+    names: /\.(csv|csv\.gz|h5|hdf5)$/i,
+    what: 'drives (.csv, .csv.gz, .h5, or a folder of them)',
+    address: { source: 'files' },
+  },
+  { page: 'networks', names: /\.onnx$/i, what: 'networks (.onnx)' },
+];
+
+const over = signal(false);
+/** Why dropped files went nowhere. */
+export const dropProblem = signal<string | null>(null);
+
+let taker: { page: Page; take: Take } | null = null;
+/** Files on their way to a page that is not there yet. */
+let waiting: { page: Page; files: readonly NamedFile[] } | null = null;
+
+/** The page that is shown takes what it can make something of, and what nobody can: it has words for that. */
+function hand(files: readonly NamedFile[]): void {
+  const pages = KINDS.filter(({ names }) => files.some(({ name }) => names.test(name))).map(({ page }) => page);
+  const here = route.peek().page;
+  const page = pages.includes(here) ? here : (pages[0] ?? taker?.page);
+  if (!page) {
+    const kinds = KINDS.map(({ what }) => what).join(', ');
+    dropProblem.value = `${files[0]?.name ?? 'The folder'}: no page opens this. What can be opened: ${kinds}.`;
+  } else if (taker?.page === page) taker.take(files);
+  else {
+    waiting = { page, files };
+    const { address } = KINDS.find((kind) => kind.page === page) ?? {};
+    location.hash = pageAddress(page, new URLSearchParams(address));
+  }
+}
+
+/** Watches for files; a browser would leave the demo for one that nobody takes. */
+export function watchDrops(): () => void {
+  const holdsFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
+  const drag = (event: DragEvent): void => {
+    if (!holdsFiles(event)) return;
+    event.preventDefault();
+    over.value = true;
+  };
+  const leave = (event: DragEvent): void => {
+    if (event.relatedTarget === null) over.value = false;
+  };
+  const drop = (event: DragEvent): void => {
+    if (!holdsFiles(event) || !event.dataTransfer) return;
+    event.preventDefault();
+    over.value = false;
+    dropProblem.value = null;
+    droppedFiles(event.dataTransfer).then(hand, (error: unknown) => {
+      dropProblem.value = describeError(error).message;
+    });
+  };
+  addEventListener('dragover', drag);
+  addEventListener('dragleave', leave);
+  addEventListener('drop', drop);
+  return () => {
+    removeEventListener('dragover', drag);
+    removeEventListener('dragleave', leave);
+    removeEventListener('drop', drop);
+  };
+}
+
+/** Whether files are held over the page; `take` gets what is dropped for it. */
+export function useFileDrop(page: Page, take: Take): ReadonlySignal<boolean> {
   useEffect(() => {
-    const holdsFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
-    const drag = (event: DragEvent): void => {
-      if (!holdsFiles(event)) return;
-      event.preventDefault();
-      over.value = true;
-    };
-    const leave = (event: DragEvent): void => {
-      if (event.relatedTarget === null) over.value = false;
-    };
-    const drop = (event: DragEvent): void => {
-      if (!holdsFiles(event) || !event.dataTransfer) return;
-      event.preventDefault();
-      over.value = false;
-      take(event.dataTransfer);
-    };
-    addEventListener('dragover', drag);
-    addEventListener('dragleave', leave);
-    addEventListener('drop', drop);
+    const mine = { page, take };
+    taker = mine;
+    const brought = waiting;
+    waiting = null;
+    if (brought?.page === page) take(brought.files);
     return () => {
-      removeEventListener('dragover', drag);
-      removeEventListener('dragleave', leave);
-      removeEventListener('drop', drop);
+      if (taker === mine) taker = null;
     };
   }, []);
   return over;

@@ -12,6 +12,7 @@ import { angleCodec, angleState } from './state.ts';
 
 export function AnglePage() {
   useAddress('angle', {
+    codec: angleCodec,
     restore: (params) => {
       angleState.value = angleCodec.read(params);
     },

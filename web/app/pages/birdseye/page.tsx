@@ -21,6 +21,7 @@ function restore(params: URLSearchParams): void {
 
 export function BirdseyePage() {
   useAddress('birdseye', {
+    codec: birdseyeCodec,
     restore,
     start,
     write: () => birdseyeCodec.write({ ...birdseyeState.value, view: zoom.value }),

@@ -39,7 +39,7 @@ export function Controls() {
       <ControlsHead
         but="; the files stay"
         onDefaults={() => {
-          captureState.value = captureCodec.defaults;
+          captureState.value = { ...captureCodec.defaults, source: captureState.value.source };
         }}
       />
       <Group title="Files">
@@ -171,7 +171,7 @@ function Network({ method }: { method: Method }) {
 }
 
 function Files() {
-  const over = useFileDrop((transfer) => void openFiles([...transfer.files]));
+  const over = useFileDrop('capture', (files) => void openFiles(files.map(({ file }) => file)));
   const input = useRef<HTMLInputElement>(null);
   const { files, missing } = waiting.value ?? { files: loaded.value?.files ?? [], missing: [] };
   return (

@@ -1,5 +1,5 @@
 /** Files that are open: the bundled capture, or what the user chose or dropped. */
-import { batch, signal } from '@preact/signals';
+import { batch, computed, effect, signal } from '@preact/signals';
 import type { BoardLog, CaptureInfo } from 'boresight';
 import type { PoolCapture } from 'boresight/worker';
 import licenceAddress from '../../../../recordings/awr1642/LICENSE?url';
@@ -7,7 +7,7 @@ import cfgAddress from '../../../../recordings/awr1642/profile.cfg?url';
 import binAddress from '../../../../recordings/awr1642/xwr16xx_crw_dca_module_2018_1015v2.bin?url';
 import datAddress from '../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat?url';
 import { api, describeError, FileProblem, type Problem, pool } from '../../data.ts';
-import { update } from './state.ts';
+import { captureState, update } from './state.ts';
 
 const KINDS = ['bin', 'cfg', 'dat'] as const;
 type Kind = (typeof KINDS)[number];
@@ -40,6 +40,9 @@ export const waiting = signal<Waiting | null>(null);
 export const boardLog = signal<BoardLog | null>(null);
 export const fileProblem = signal<(Problem & { file?: string }) | null>(null);
 
+/** Whether a link asks for files that only its maker has. */
+export const filesWanted = computed(() => captureState.value.source === 'files' && !loaded.value && !waiting.value);
+
 /** What a tab can hold beside its copies in workers. */
 const LARGEST_BYTES = 512 * 1024 * 1024;
 
@@ -68,6 +71,7 @@ async function attempt(work: () => Promise<Opened | null>): Promise<void> {
   try {
     const next = await work();
     const before = loaded.peek();
+    const linked = filesWanted.peek();
     if (mine !== opening) {
       if (next?.loaded?.kept !== before?.kept) next?.loaded?.kept.free();
       return;
@@ -80,7 +84,8 @@ async function attempt(work: () => Promise<Opened | null>): Promise<void> {
       loaded.value = next.loaded;
       boardLog.value = next.log;
       const other = before?.kept !== next.loaded?.kept;
-      if (other && next.loaded && !next.loaded.bundled) update({ frame: 'all', cell: null, board: 'last' });
+      update({ source: next.loaded?.bundled ? 'bundled' : 'files' });
+      if (other && next.loaded && !next.loaded.bundled && !linked) update({ frame: 'all', cell: null, board: 'last' });
       if (other) before?.kept.free();
     });
   } catch (error) {
@@ -90,6 +95,23 @@ async function attempt(work: () => Promise<Opened | null>): Promise<void> {
         ? { code: error.code, message: error.message, file: error.file }
         : describeError(error);
   }
+}
+
+/** Opens what the state names when it names something else. */
+export function startFiles(): () => void {
+  const source = computed(() => captureState.value.source);
+  return effect(() => {
+    const wanted = source.value;
+    const open = loaded.peek();
+    if (wanted === 'bundled' ? open?.bundled : !open?.bundled) return;
+    if (wanted === 'bundled') void openBundled();
+    else {
+      opening += 1;
+      loaded.value = null;
+      boardLog.value = null;
+      open?.kept.free();
+    }
+  });
 }
 
 export function openBundled(): Promise<void> {

@@ -6,7 +6,8 @@ import { About } from '../../ui/about.tsx';
 import { CellPanel } from './cell-panel.tsx';
 import { Controls } from './controls.tsx';
 import { DetectionTable } from './detection-table.tsx';
-import { boardLog, fileProblem, loaded, openBundled, type Waiting, waiting } from './files.ts';
+import { doubtsOf } from './doubts.ts';
+import { boardLog, fileProblem, filesWanted, loaded, openBundled, startFiles, type Waiting, waiting } from './files.ts';
 import { FrameBar } from './frame-bar.tsx';
 import { compare } from './match.ts';
 import { cellResults, processProblem, result, type Shown, start, usedArray, wasCancelled, working } from './process.ts';
@@ -19,12 +20,12 @@ import { shownCell } from './view.ts';
 
 export function CapturePage() {
   useAddress('capture', {
+    codec: captureCodec,
     restore: (params) => {
       captureState.value = captureCodec.read(params);
     },
     start: () => {
-      if (!loaded.peek() && !waiting.peek()) void openBundled();
-      const stops = [start(), startRegions()];
+      const stops = [startFiles(), start(), startRegions()];
       return () => {
         for (const stop of stops) stop();
       };
@@ -57,6 +58,15 @@ export function CapturePage() {
           </p>
         )}
         {waiting.value && <WaitingFor {...waiting.value} />}
+        {filesWanted.value && (
+          <p class="notice" role="status" data-notice="files">
+            This link is of a capture that is not here. Open or drop its .bin and .cfg to see it with these settings, or{' '}
+            <button type="button" onClick={() => void openBundled()}>
+              open the bundled capture
+            </button>
+          </p>
+        )}
+        {result.value && <Doubts shown={result.value} />}
         {processProblem.value && (
           <p class="alert" role="alert" data-error={processProblem.value.code}>
             <strong>Cannot process with these settings.</strong> {processProblem.value.message}{' '}
@@ -69,6 +79,7 @@ export function CapturePage() {
           <Plots {...result.value} />
         ) : (
           !waiting.value &&
+          !filesWanted.value &&
           !processProblem.value &&
           !wasCancelled.value &&
           (capture || !problem) && (
@@ -196,6 +207,21 @@ function Plots({ capture, frame, view }: Shown) {
       <RegionsPanel fileParts={fileParts} />
       <Remarks capture={capture} view={view} />
     </>
+  );
+}
+
+/** What speaks against the files, above what is drawn from them. */
+function Doubts({ shown }: { shown: Shown }) {
+  const doubts = doubtsOf(shown);
+  if (!doubts.length) return null;
+  return (
+    <ul class="notice doubts" role="status" aria-label="Doubts about the capture">
+      {doubts.map(({ code, message }) => (
+        <li key={code} data-doubt={code}>
+          {message} <code>{code}</code>
+        </li>
+      ))}
+    </ul>
   );
 }
 

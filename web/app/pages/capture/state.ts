@@ -32,6 +32,7 @@ const region = optionsOf('RegionChainOptions');
 
 export const captureCodec = codec(
   {
+    source: choice('bundled', ['bundled', 'files']),
     frame,
     cell,
     array: choice('auto', ['auto', ...PRESETS]),

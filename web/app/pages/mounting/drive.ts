@@ -6,7 +6,7 @@ import radarAddress from '../../../../recordings/delphi/front_radar.csv.gz?url';
 import licenceAddress from '../../../../recordings/delphi/LICENSE?url';
 import poseAddress from '../../../../recordings/delphi/pose_10hz.csv.gz?url';
 import { aborted, describeError, FileProblem, type Problem, pool } from '../../data.ts';
-import type { NamedFile } from './entries.ts';
+import type { NamedFile } from '../../ui/entries.ts';
 import { type MountingState, mountingState, update } from './state.ts';
 
 export interface Loaded {
@@ -30,7 +30,9 @@ export const opening = signal<{ what: string; share: number | null } | null>(nul
 export const interrupted = signal(false);
 export const driveProblem = signal<(Problem & { file?: string }) | null>(null);
 /** Said where a link names files that only its maker has. */
-export const filesWanted = signal(false);
+export const filesWanted = computed(
+  () => mountingState.value.source === 'files' && loaded.value === null && opening.value === null,
+);
 
 /** The radar that is looked at. */
 export const sensor = computed<DriveSensor | null>(() => {
@@ -67,7 +69,6 @@ async function open(
   controller = mine;
   opening.value = { what, share: null };
   interrupted.value = false;
-  filesWanted.value = false;
   const onProgress = (done: number, total: number): void => {
     if (controller === mine && total > 1) opening.value = { what, share: done / total };
   };
@@ -138,11 +139,12 @@ export function openBundled(): Promise<void> {
   });
 }
 
-export function openFiles(given: readonly NamedFile[] | Promise<readonly NamedFile[]>): Promise<void> {
+export function openFiles(all: readonly NamedFile[]): Promise<void> {
+  // A link to files comes with where their radar is.
+  const linked = filesWanted.peek();
   return open(
     'Reading the files',
     async (signal, job) => {
-      const all = await given;
       const drives = all.filter(({ name }) => DRIVES.test(name));
       const first = all[0];
       if (!first)
@@ -199,7 +201,7 @@ export function openFiles(given: readonly NamedFile[] | Promise<readonly NamedFi
         throw new FileProblem(code, what, message);
       }
     },
-    () => update({ ...OWN, source: 'files' }),
+    () => update({ ...(linked ? {} : OWN), source: 'files' }),
   );
 }
 
@@ -258,11 +260,7 @@ export function start(): () => void {
         },
         open ? 400 : 0,
       );
-    } else if (open?.source !== 'files' && opening.peek() === null) {
-      void openBundled().then(() => {
-        filesWanted.value = loaded.peek()?.source === 'delphi';
-      });
-    }
+    } else if (open?.source !== 'files') loaded.value = null;
   });
   return () => {
     clearTimeout(timer);

@@ -7,7 +7,16 @@ import { AnglePlot } from './angle-plot.tsx';
 import { BirdPlot } from './bird-plot.tsx';
 import { Controls } from './controls.tsx';
 import { DopplerPlot } from './doppler-plot.tsx';
-import { driveProblem, filesWanted, loaded, opening, scans, sensor, start as startDrive } from './drive.ts';
+import {
+  chooseSource,
+  driveProblem,
+  filesWanted,
+  loaded,
+  opening,
+  scans,
+  sensor,
+  start as startDrive,
+} from './drive.ts';
 import { frameView } from './frame.ts';
 import { frame, playing, start as startClock, telling, time } from './playhead.ts';
 import { results, shownMethod, start as startProcess, where, working } from './process.ts';
@@ -66,6 +75,7 @@ function startPage(): () => void {
 
 export function MountingPage() {
   useAddress('mounting', {
+    codec: mountingCodec,
     restore,
     start: startPage,
     write: () => {
@@ -96,8 +106,11 @@ export function MountingPage() {
           </p>
         )}
         {filesWanted.value && (
-          <p class="notice" role="status">
-            This link is of files that are not here. Open or drop them to see them with its settings.
+          <p class="notice" role="status" data-notice="files">
+            This link is of files that are not here. Open or drop them to see them with its settings, or{' '}
+            <button type="button" onClick={() => chooseSource('delphi')}>
+              open the bundled drive
+            </button>
           </p>
         )}
         {open && where.value?.xM === null && (
@@ -110,7 +123,8 @@ export function MountingPage() {
         {open ? (
           <Plots />
         ) : (
-          !problem && (
+          !problem &&
+          !filesWanted.value && (
             <div class="panel loading" role="status">
               <Progress />
             </div>

@@ -3,17 +3,17 @@ import { useRef } from 'preact/hooks';
 import { byteSize } from '../../plots/format.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
+import { pickedFiles } from '../../ui/entries.ts';
 import { Licence } from '../../ui/licence.tsx';
 import { SeedField } from '../../ui/seed-field.tsx';
 import { Control } from './control.ts';
 import { chooseSource, loaded, openFiles } from './drive.ts';
-import { droppedFiles, pickedFiles } from './entries.ts';
 import { mountingState, update } from './state.ts';
 
 export function Source() {
   const files = useRef<HTMLInputElement>(null);
   const folder = useRef<HTMLInputElement>(null);
-  const over = useFileDrop((transfer) => void openFiles(droppedFiles(transfer)));
+  const over = useFileDrop('mounting', (files) => void openFiles(files));
   const state = mountingState.value;
   const open = loaded.value;
   const pick = (event: { currentTarget: HTMLInputElement }): void => {

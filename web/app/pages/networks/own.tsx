@@ -46,7 +46,7 @@ async function open(files: readonly File[]): Promise<void> {
 }
 
 export function OwnNetwork() {
-  const over = useFileDrop((transfer) => void open([...transfer.files]));
+  const over = useFileDrop('networks', (files) => void open(files.map(({ file }) => file)));
   const input = useRef<HTMLInputElement>(null);
   return (
     <div class={`drop${over.value ? ' over' : ''}`}>

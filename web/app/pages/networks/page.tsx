@@ -17,6 +17,7 @@ import { TimingPanel } from './timing-panel.tsx';
 
 export function NetworksPage() {
   useAddress('networks', {
+    codec: networksCodec,
     restore: (params) => {
       networksState.value = networksCodec.read(params);
     },
