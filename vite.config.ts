@@ -11,6 +11,8 @@ const later = process.env.BORESIGHT_NETWORKS;
 export default defineConfig({
   root: path('web/app'),
   base: './',
+  // The demo is one page: another address is no part of it.
+  appType: 'mpa',
   define: { NETWORKS_LATER: JSON.stringify(later !== undefined) },
   plugins: later === undefined ? [] : [networksLater(later)],
   resolve: {

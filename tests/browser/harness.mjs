@@ -27,11 +27,11 @@ after(async () => {
 
 /**
  * A test on a page of the demo. Options: `path`, `viewport` (`desktop`, `phone`), `scheme`
- * (`light`, `dark`), `served` (gives another site than the built demo), and any of Playwright's context
+ * (`light`, `dark`), `served` (gives another site than the built demo), `timeout` (ms), and any of Playwright's context
  * options. On failure the page is pictured in tests/.output/screenshots.
  */
-export function browserTest(name, { served, ...options }, body) {
-  test(name, { skip: skipWithoutBrowser, timeout: 90_000 }, async (context) => {
+export function browserTest(name, { served, timeout = 90_000, ...options }, body) {
+  test(name, { skip: skipWithoutBrowser, timeout }, async (context) => {
     const [browser, demo] = await site();
     const server = served ? await served() : demo;
     const view = await openPage(browser, server.url, options);

@@ -12,6 +12,7 @@ import { announcement } from './state/announce.ts';
 import { lastParams, type Page, pageAddress, route } from './state/route.ts';
 import { type ThemeChoice, themeChoice } from './state/theme.ts';
 import { dropProblem, watchDrops } from './ui/drop.ts';
+import { Introduction } from './ui/introduction.tsx';
 import { Notice } from './ui/notice.tsx';
 
 const TITLES: Record<Page, string> = {
@@ -42,13 +43,13 @@ export function App() {
       {/* biome-ignore lint/a11y/useValidAnchor: it is a link, whose hash must not replace the page's route. */}
       <a
         class="skip"
-        href="#content"
+        href="#plots"
         onClick={(event) => {
           event.preventDefault();
-          document.getElementById('content')?.focus();
+          (document.getElementById('plots') ?? document.getElementById('content'))?.focus();
         }}
       >
-        Skip to the content
+        Skip to the plots
       </a>
       <header class="site-head">
         <p class="brand">
@@ -100,6 +101,7 @@ export function App() {
             {dropProblem.value}
           </Notice>
         )}
+        <Introduction page={page} />
         {problem ? (
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>Boresight could not start.</strong> {problem.message}

@@ -97,7 +97,7 @@ function titleOf(card: Card): string {
     .join(', ');
 }
 
-export const MODELS: readonly Model[] = Object.entries(cards)
+const shipped = Object.entries(cards)
   .flatMap(([path, card]): Model[] => {
     const address = addresses[path.replace(/json$/, 'onnx')];
     const cardAddress = cardAddresses[path];
@@ -111,6 +111,13 @@ export const MODELS: readonly Model[] = Object.entries(cards)
       (a.card.parameters ?? 0) - (b.card.parameters ?? 0) ||
       a.name.localeCompare(b.name),
   );
+
+/** Titles of two networks are never the same: their names then tell which is which. */
+export const MODELS: readonly Model[] = shipped.map((model) =>
+  shipped.some(({ name, title }) => name !== model.name && title === model.title)
+    ? { ...model, title: `${model.title} (${model.name})` }
+    : model,
+);
 
 /** Whether it sees one snapshot of many targets, the covariance of many snapshots, or a region of interest. */
 export function sightOf({ network }: Card): Sight {

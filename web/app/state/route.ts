@@ -36,6 +36,9 @@ export function lastParams(page: Page): URLSearchParams | undefined {
   return last.get(page);
 }
 
+/** The parameters of the page that is shown, as they are or soon will be in the address. */
+export const shownParams = signal<URLSearchParams>(route.peek().params);
+
 let pending: { page: Page; params: URLSearchParams } | null = null;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -48,6 +51,7 @@ function flush(): void {
 /** Puts the state into the address without a new history entry; browsers limit how often. */
 export function writeParams(page: Page, params: URLSearchParams): void {
   last.set(page, params);
+  if (page === route.peek().page) shownParams.value = params;
   pending = { page, params };
   timer ??= setTimeout(() => {
     const write = pending;

@@ -2,6 +2,7 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
+import { api } from '../data.ts';
 import type { LegendEntry } from '../plots/picture.ts';
 import { type CursorPosition, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
 import { download, fileName } from '../plots/save.ts';
@@ -44,6 +45,15 @@ export interface PlotFrameProps {
   view?: View | null;
   onPlot?(plot: Plot): (() => void) | undefined;
   overlay?: ComponentChildren;
+}
+
+/** The longest that is readable in one line of a small image. */
+const MOST_OF_LINK = 150;
+
+/** Where a saved image is from. */
+function origin(): string {
+  const link = location.href;
+  return `Boresight ${api.version()}: ${link.length > MOST_OF_LINK ? `${link.slice(0, MOST_OF_LINK)}…` : link}`;
 }
 
 export function PlotFrame(props: PlotFrameProps) {
@@ -98,7 +108,7 @@ export function PlotFrame(props: PlotFrameProps) {
     const image = await plot.current?.png(
       props.detail ? `${props.title}, ${props.detail}` : props.title,
       props.imageLegend ?? props.legend,
-      props.imageRemarks ?? props.remarks,
+      [...(props.imageRemarks ?? props.remarks ?? []), origin()],
     );
     if (image) download(image, fileName(parts, 'png'));
   };
@@ -137,10 +147,10 @@ export function PlotFrame(props: PlotFrameProps) {
         </div>
       </div>
       <Readout cursor={cursor} text={props.readout} />
-      <div ref={host} class={`plot-host ${props.height}`} />
+      <div ref={host} class={`plot-host ${props.height}`} aria-describedby={`${id}-shows`} />
       {props.overlay}
       {props.legend && props.legend.length > 0 && (
-        <ul class="legend" aria-label="Legend">
+        <ul id={`${id}-shows`} class="legend" aria-label="Legend">
           {props.legend.map((item) => (
             <li key={item.id} data-series={item.id}>
               <Swatch style={item.style} line={item.line} hollow={item.hollow ?? false} />

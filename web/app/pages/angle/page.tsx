@@ -3,6 +3,7 @@ import { fixed, signed } from '../../plots/format.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
+import { MainColumn } from '../../ui/main-column.tsx';
 import { ArrayPanel } from './array-panel.tsx';
 import { results, scene, sceneProblem, start } from './compute.ts';
 import { Controls } from './controls.tsx';
@@ -32,7 +33,7 @@ export function AnglePage() {
   return (
     <div class="page">
       <Controls />
-      <div class="main-column">
+      <MainColumn>
         {problem && (
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>Cannot simulate this.</strong> {problem.message} <code>{problem.code}</code>
@@ -69,7 +70,7 @@ export function AnglePage() {
             one for fluctuating targets, else the deterministic one. Imperfections of the array are not in them.
           </p>
         </About>
-      </div>
+      </MainColumn>
     </div>
   );
 }

@@ -10,6 +10,7 @@ import type { Plot } from '../../plots/plot.ts';
 import { toCsv } from '../../plots/save.ts';
 import { methodStyle, TRUTH_STYLE } from '../../plots/theme.ts';
 import { announce } from '../../state/announce.ts';
+import { hasMoved, rememberMoved } from '../../state/settings.ts';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { results, type Scene } from './compute.ts';
 import { addTarget, angleState, LIMITS, removeTarget, setTarget } from './state.ts';
@@ -122,8 +123,12 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       requestAnimationFrame(() => (index >= 0 ? handles.current?.focus(index) : plot.host.focus()));
     };
     const made = new Handles(plot, {
-      move: (index, azimuthDeg, powerDb) => setTarget(index, { azimuthDeg, powerDb }),
+      move: (index, azimuthDeg, powerDb) => {
+        rememberMoved();
+        setTarget(index, { azimuthDeg, powerDb });
+      },
       nudge: (index, dx, dy, coarse) => {
+        rememberMoved();
         const target = angleState.value.targets[index];
         if (!target) return;
         setTarget(index, {
@@ -164,6 +169,13 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       legend={legend}
       onPlot={attach}
       keys="Tab to a target to move it."
+      overlay={
+        !hasMoved.value && targets.length > 0 ? (
+          <p class="plot-hint" data-hint>
+            Drag a ring to move its target; double-click to add or remove one.
+          </p>
+        ) : null
+      }
       options={{
         x: AZIMUTH,
         y: { label: 'Level (dB re 0 dB target)' },

@@ -4,6 +4,8 @@ import { count, fixed } from '../../plots/format.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
+import { MainColumn } from '../../ui/main-column.tsx';
+import { ProgressLine, Stopped } from '../../ui/progress.tsx';
 import { fileProblem, loaded, openBundled, waiting } from '../capture/files.ts';
 import { Controls } from './controls.tsx';
 import { ImagePlot, saveAll } from './image-plot.tsx';
@@ -47,7 +49,7 @@ export function BirdseyePage() {
   return (
     <div class="page">
       <Controls />
-      <div class="main-column" aria-busy={working.value}>
+      <MainColumn busy={working.value}>
         {problems.map((problem) => (
           <p key={problem.code} class="alert" role="alert" data-error={problem.code}>
             <strong>No image with these settings.</strong> {problem.message} <code>{problem.code}</code>
@@ -73,7 +75,7 @@ export function BirdseyePage() {
         <ResultsTable />
         <Counts />
         <Help />
-      </div>
+      </MainColumn>
     </div>
   );
 }
@@ -99,25 +101,15 @@ function Bar() {
 
 function Progress() {
   const state = progress.value;
-  if (state) {
-    return (
-      <div class="progress-line" data-progress>
-        <progress max={1} value={state.share} aria-label={state.what} />
-        <span>{state.what}</span>
-        <button type="button" data-action="cancel" onClick={cancel}>
-          Cancel
-        </button>
-      </div>
-    );
-  }
+  if (state) return <ProgressLine {...state} cancel="cancel" onCancel={cancel} />;
   if (wasCancelled.value) {
     return (
-      <div class="progress-line" data-cancelled>
-        <span class="muted">Cancelled: what is greyed is of other settings</span>
-        <button type="button" data-action="resume" onClick={restart}>
-          Compute again
-        </button>
-      </div>
+      <Stopped
+        text="Cancelled: what is greyed is of other settings"
+        action="resume"
+        label="Compute again"
+        onResume={restart}
+      />
     );
   }
   return (

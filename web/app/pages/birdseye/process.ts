@@ -19,7 +19,7 @@ import type {
 } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
-import { whyUnsuited } from '../../methods.ts';
+import { quickestFirst, whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
@@ -60,7 +60,13 @@ export interface MethodImage {
 export const images = signal<ReadonlyMap<Method, MethodImage>>(new Map());
 export const frames = signal<readonly RadarFrame[]>([]);
 export const frameProblem = signal<Problem | null>(null);
-export const progress = signal<{ share: number; what: string } | null>(null);
+export const progress = signal<{
+  share: number;
+  what: string;
+  text: string;
+  /** The present method's work alone: others take as long as they take. */
+  of: { what: string; share: number };
+} | null>(null);
 export const wasCancelled = signal(false);
 /** Whether what is shown is about to be replaced. */
 export const working = signal(false);
@@ -201,8 +207,16 @@ async function run(
   const total = radars.length * (1 + methods.length);
   let done = 0;
   let what = '';
+  /** What is yet to come after the present method, and where it began. */
+  let [then, from] = ['', 0];
   const say = (part = 0): void => {
-    if (current()) progress.value = { share: Math.min((done + part) / Math.max(total, 1), 1), what };
+    if (!current()) return;
+    progress.value = {
+      share: Math.min((done + part) / Math.max(total, 1), 1),
+      what,
+      text: `${what}${then}`,
+      of: { what, share: Math.min((done + part - from) / Math.max(radars.length, 1), 1) },
+    };
   };
   try {
     what = looked.street ? 'Simulating the street' : 'Detecting';
@@ -217,7 +231,10 @@ async function run(
     );
     if (!current()) return;
     frames.value = made;
-    for (const method of methods) {
+    for (const [at, method] of quickestFirst(methods).entries()) {
+      from = done;
+      const more = methods.length - at - 1;
+      then = more > 0 ? `, then ${more} more` : '';
       what = `Estimating by ${api.methods().find(({ name }) => name === method)?.title ?? method}`;
       let image: MethodImage;
       try {

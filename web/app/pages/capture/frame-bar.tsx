@@ -2,6 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { significant } from '../../plots/format.ts';
+import { ProgressLine, Stopped } from '../../ui/progress.tsx';
 import { loaded } from './files.ts';
 import { cancel, progress, restart, result, wasCancelled } from './process.ts';
 import { captureState, update } from './state.ts';
@@ -78,29 +79,30 @@ export function FrameBar() {
 }
 
 function Progress() {
+  const percent = ({ done, total }: { done: number; total: number }): string =>
+    `${Math.round((100 * done) / Math.max(total, 1))} %`;
   const state = progress.value;
   if (state) {
     return (
-      <div class="progress-line" data-progress>
-        <progress max={1} value={state.total > 0 ? state.done / state.total : 0} aria-label="Processing" />
-        <span>{Math.round((100 * state.done) / Math.max(state.total, 1))} %</span>
-        <button type="button" data-action="cancel" onClick={cancel}>
-          Cancel
-        </button>
+      <ProgressLine
+        what="Processing"
+        text={percent(state)}
+        share={state.total > 0 ? state.done / state.total : 0}
+        cancel="cancel"
+        onCancel={cancel}
+      >
         {result.value && <span class="muted">Shown until then: the settings before</span>}
-      </div>
+      </ProgressLine>
     );
   }
   if (wasCancelled.value) {
     return (
-      <div class="progress-line" data-cancelled>
-        <span class="muted">
-          Cancelled at {Math.round((100 * wasCancelled.value.done) / Math.max(wasCancelled.value.total, 1))} %
-        </span>
-        <button type="button" data-action="resume" onClick={restart}>
-          Process again
-        </button>
-      </div>
+      <Stopped
+        text={`Cancelled at ${percent(wasCancelled.value)}`}
+        action="resume"
+        label="Process again"
+        onResume={restart}
+      />
     );
   }
   return null;

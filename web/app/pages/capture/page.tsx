@@ -3,6 +3,7 @@ import { count, fixed, signed } from '../../plots/format.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
+import { MainColumn } from '../../ui/main-column.tsx';
 import { CellPanel } from './cell-panel.tsx';
 import { Controls } from './controls.tsx';
 import { DetectionTable } from './detection-table.tsx';
@@ -49,7 +50,7 @@ export function CapturePage() {
   return (
     <div class="page">
       <Controls />
-      <div class="main-column" aria-busy={working.value}>
+      <MainColumn busy={working.value}>
         {problem && (
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>{problem.file ? `${problem.file}: ` : ''}</strong>
@@ -108,7 +109,7 @@ export function CapturePage() {
             frame, which methods that need a covariance call for. It is meant for scenes that stay in their cells.
           </p>
         </About>
-      </div>
+      </MainColumn>
     </div>
   );
 }

@@ -3,6 +3,7 @@ import { count, fixed, signed } from '../../plots/format.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
+import { MainColumn } from '../../ui/main-column.tsx';
 import { AnglePlot } from './angle-plot.tsx';
 import { BirdPlot } from './bird-plot.tsx';
 import { Controls } from './controls.tsx';
@@ -97,7 +98,7 @@ export function MountingPage() {
   return (
     <div class="page">
       <Controls />
-      <div class="main-column" aria-busy={working.value || opening.value !== null}>
+      <MainColumn busy={working.value || opening.value !== null}>
         {problem && (
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>{problem.file ? `${problem.file}: ` : ''}</strong>
@@ -153,7 +154,7 @@ export function MountingPage() {
             all columns.
           </p>
         </About>
-      </div>
+      </MainColumn>
     </div>
   );
 }

@@ -10,6 +10,7 @@ import { type MethodResult, results, where } from './process.ts';
 import { calibrationOptions, mountingState } from './state.ts';
 import { fileParts } from './time-plot.tsx';
 import { relativeErrors, SEGMENT_M } from './trajectory.ts';
+import { determined, Verdict } from './verdict.tsx';
 import { about, WAYS, type Way } from './ways.ts';
 
 interface Row extends MethodResult {
@@ -57,7 +58,8 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
       title: 'Angle (°)',
       csv: 'angle_deg',
       help: 'Yaw of boresight in the car’s frame, positive to the left',
-      value: (r) => r.angleDeg,
+      // Where the drive does not tell, the angle is where the search began.
+      value: (r) => (determined(r) ? r.angleDeg : null),
       show: (v) => signed(v, 3),
       reference: (_, stated) => signed(stated, 3),
     },
@@ -80,6 +82,7 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
       help: `Less the angle that is ${open.truth ? 'true' : 'stated by the data set'}`,
       // The shorter way round.
       value: (r) => {
+        if (!determined(r)) return null;
         const error = r.angleDeg - trueDeg;
         return error - 360 * Math.round(error / 360);
       },
@@ -103,7 +106,7 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
       title: 'Misaligned',
       csv: 'misaligned',
       help: 'The angle differs from the nominal one beyond limit and chance',
-      value: (r) => r.misaligned,
+      value: (r) => (determined(r) ? r.misaligned : null),
       show: String,
     },
     {
@@ -180,6 +183,9 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
   ];
 }
 
+/** Groups of columns that stand in a table of their own. */
+const OF_FRAMES: ReadonlySet<string> = new Set(['Frames', 'Work']);
+
 const display = (value: Value, show: (value: number) => string): string =>
   value == null || Number.isNaN(value) ? '–' : typeof value === 'boolean' ? (value ? 'yes' : 'no') : show(value);
 
@@ -189,14 +195,11 @@ export function ResultsTable() {
   if (!open || !radar) return null;
   const trueDeg = open.statedDeg.get(radar.id);
   const list = columns(trueDeg, open);
-  const starts = new Set(list.filter(({ group }, i) => list[i - 1]?.group !== group).map(({ key }) => key));
-  const groups = list
-    .filter(({ key }) => starts.has(key))
-    .map(({ group }) => ({ group, size: list.filter((column) => column.group === group).length }));
   const rows = WAYS.flatMap((method): Row[] => {
     const result = results.value.get(method);
     return result ? [{ ...result, method, title: about(method).title, result: result.calibration?.result }] : [];
   });
+  const shared = { rows, open, trueDeg };
   const csv = (): string =>
     toCsv(
       ['method', ...list.map((column) => column.csv), 'warnings'],
@@ -237,85 +240,9 @@ export function ResultsTable() {
           </button>
         </div>
       </div>
-      <div class="table-scroll" tabIndex={0} role="region" aria-label="Mounting angles, scrollable">
-        <table class="data">
-          <thead>
-            <tr>
-              <th rowSpan={2} scope="col" class="text">
-                Method
-              </th>
-              {groups.map(({ group, size }) => (
-                <th key={group} colSpan={size} scope="colgroup" class="group-head">
-                  {group}
-                </th>
-              ))}
-            </tr>
-            <tr>
-              {list.map(({ key, title, help }) => (
-                <th key={key} scope="col" class={starts.has(key) ? 'group-start' : ''} title={help}>
-                  {title}
-                </th>
-              ))}
-            </tr>
-          </thead>
-          <tbody>
-            {trueDeg !== undefined && (
-              <tr class="reference">
-                <th scope="row" class="text">
-                  {open.truth ? 'Truth' : 'Stated by the data set'}
-                </th>
-                {list.map(({ key, reference }) => (
-                  <td
-                    key={key}
-                    class={starts.has(key) ? 'group-start' : ''}
-                    data-field={key === 'angleDeg' ? 'truth' : undefined}
-                    data-value={key === 'angleDeg' ? trueDeg : undefined}
-                  >
-                    {reference?.(open, trueDeg)}
-                  </td>
-                ))}
-              </tr>
-            )}
-            {rows.map((row) => (
-              <tr key={row.method} class={row.stale ? 'stale' : ''} data-row={row.method}>
-                <th scope="row" class="text">
-                  <Swatch style={methodStyle(row.method)} line /> {row.title}
-                </th>
-                {row.problem ? (
-                  <td class="text problem" colSpan={list.length}>
-                    {row.problem.message} <code>{row.problem.code}</code>
-                  </td>
-                ) : !row.result ? (
-                  <td class="text muted" colSpan={list.length}>
-                    –
-                  </td>
-                ) : (
-                  list.map(({ key, value, show }) => {
-                    const is = value(row.result as CalibrationResult, row);
-                    return (
-                      <td
-                        key={key}
-                        data-field={key}
-                        data-value={is ?? undefined}
-                        class={`${starts.has(key) ? 'group-start' : ''}${key === 'misaligned' && is ? ' bad' : ''}`}
-                      >
-                        {display(is, show)}
-                      </td>
-                    );
-                  })
-                )}
-              </tr>
-            ))}
-            {rows.length === 0 && (
-              <tr>
-                <td class="text muted" colSpan={list.length + 1}>
-                  No method is chosen, or the radar’s place is not known.
-                </td>
-              </tr>
-            )}
-          </tbody>
-        </table>
-      </div>
+      <Verdict />
+      <Columns list={list.filter(({ group }) => !OF_FRAMES.has(group))} label="Mounting angles" {...shared} />
+      <Columns list={list.filter(({ group }) => OF_FRAMES.has(group))} label="Frames and work" {...shared} />
       {warnings.size > 0 && (
         <ul class="warnings" aria-label="Warnings">
           {[...warnings].map(([code, { message, titles }]) => (
@@ -326,6 +253,107 @@ export function ResultsTable() {
         </ul>
       )}
     </section>
+  );
+}
+
+/** Some of the columns of all rows, as a table. */
+function Columns({
+  list,
+  label,
+  rows,
+  open,
+  trueDeg,
+}: {
+  list: readonly Column[];
+  label: string;
+  rows: readonly Row[];
+  open: Loaded;
+  trueDeg: number | undefined;
+}) {
+  const starts = new Set(list.filter(({ group }, i) => list[i - 1]?.group !== group).map(({ key }) => key));
+  const groups = list
+    .filter(({ key }) => starts.has(key))
+    .map(({ group }) => ({ group, size: list.filter((column) => column.group === group).length }));
+  return (
+    <div class="table-scroll" tabIndex={0} role="region" aria-label={`${label}, scrollable`}>
+      <table class="data">
+        <thead>
+          <tr>
+            <th rowSpan={2} scope="col" class="text">
+              Method
+            </th>
+            {groups.map(({ group, size }) => (
+              <th key={group} colSpan={size} scope="colgroup" class="group-head">
+                {group}
+              </th>
+            ))}
+          </tr>
+          <tr>
+            {list.map(({ key, title, help }) => (
+              <th key={key} scope="col" class={starts.has(key) ? 'group-start' : ''} title={help}>
+                {title}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>
+          {trueDeg !== undefined && list.some(({ reference }) => reference) && (
+            <tr class="reference">
+              <th scope="row" class="text">
+                {open.truth ? 'Truth' : 'Stated by the data set'}
+              </th>
+              {list.map(({ key, reference }) => (
+                <td
+                  key={key}
+                  class={starts.has(key) ? 'group-start' : ''}
+                  data-field={key === 'angleDeg' ? 'truth' : undefined}
+                  data-value={key === 'angleDeg' ? trueDeg : undefined}
+                >
+                  {reference?.(open, trueDeg)}
+                </td>
+              ))}
+            </tr>
+          )}
+          {rows.map((row) => (
+            <tr key={row.method} class={row.stale ? 'stale' : ''} data-row={row.method}>
+              <th scope="row" class="text">
+                <Swatch style={methodStyle(row.method)} line /> {row.title}
+              </th>
+              {row.problem ? (
+                <td class="text problem" colSpan={list.length}>
+                  {row.problem.message} <code>{row.problem.code}</code>
+                </td>
+              ) : !row.result ? (
+                <td class="text muted" colSpan={list.length}>
+                  –
+                </td>
+              ) : (
+                list.map(({ key, value, show }) => {
+                  const is = value(row.result as CalibrationResult, row);
+                  return (
+                    <td
+                      key={key}
+                      data-field={key}
+                      data-value={is ?? undefined}
+                      class={`${starts.has(key) ? 'group-start' : ''}${key === 'misaligned' && is ? ' bad' : ''}`}
+                    >
+                      {display(is, show)}
+                    </td>
+                  );
+                })
+              )}
+            </tr>
+          ))}
+          {rows.length === 0 && (
+            <tr>
+              <td class="text muted" colSpan={list.length + 1}>
+                No method is chosen, or the radar’s place is not known.
+              </td>
+            </tr>
+          )}
+        </tbody>
+      </table>
+    </div>
   );
 }
 

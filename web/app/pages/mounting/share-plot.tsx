@@ -142,16 +142,17 @@ function smoothed(x: Float64Array, values: Float32Array): Float32Array {
 
 function lanes(times: Float64Array, verdicts: Uint8Array): Layer {
   return ({ ctx, plot, theme, ratio, x, y }) => {
-    clipToPlot(ctx, plot);
     const { left } = plot.bbox;
     const height = Math.abs(y(0) - y(LANE));
     ctx.font = `${10 * ratio}px ${theme.font}`;
     ctx.textBaseline = 'middle';
-    ctx.textAlign = 'left';
+    ctx.textAlign = 'right';
     LANES.forEach(([name, label], lane) => {
       const code = api.frameVerdicts.indexOf(name);
       const top = y(-LANE * (lane + 0.5));
       ctx.fillStyle = lane === 0 ? theme.accent : theme.muted;
+      ctx.save();
+      clipToPlot(ctx, plot);
       for (let i = 0; i < times.length; i++) {
         if (verdicts[i] !== code) continue;
         const start = i;
@@ -160,13 +161,9 @@ function lanes(times: Float64Array, verdicts: Uint8Array): Layer {
         const from = x(times[start] as number);
         ctx.fillRect(from, top + 0.15 * height, Math.max(x(end) - from, ratio), 0.7 * height);
       }
-      ctx.fillStyle = theme.background;
-      ctx.globalAlpha = 0.8;
-      const width = ctx.measureText(label).width;
-      ctx.fillRect(left + ratio, top, width + 6 * ratio, height);
-      ctx.globalAlpha = 1;
+      ctx.restore();
       ctx.fillStyle = theme.text;
-      ctx.fillText(label, left + 4 * ratio, top + height / 2);
+      ctx.fillText(label, left - 6 * ratio, top + height / 2);
     });
   };
 }

@@ -1,5 +1,6 @@
 /** The moment that is shown: slider, playback, speed; progress of the work and its end. */
 import { fixed } from '../../plots/format.ts';
+import { ProgressLine, Stopped } from '../../ui/progress.tsx';
 import { cancelOpening, interrupted, openAgain, opening, scans, sensor } from './drive.ts';
 import { frame, playing, showFrame, time, togglePlaying } from './playhead.ts';
 import { cancel, progress, restart, wasCancelled } from './process.ts';
@@ -65,47 +66,35 @@ export function Progress() {
   const being = opening.value;
   if (being) {
     return (
-      <div class="progress-line" data-opening>
-        <progress max={1} value={being.share ?? undefined} aria-label={being.what} />
-        <span>{being.what}</span>
-        <button type="button" data-action="cancel-opening" onClick={cancelOpening}>
-          Cancel
-        </button>
-      </div>
+      <ProgressLine
+        mark="data-opening"
+        what={being.what}
+        share={being.share}
+        cancel="cancel-opening"
+        onCancel={cancelOpening}
+      />
     );
   }
   if (interrupted.value) {
     return (
-      <div class="progress-line" data-interrupted>
-        <span class="muted">Cancelled</span>
-        <button type="button" data-action="open-again" onClick={openAgain}>
-          Open again
-        </button>
-      </div>
+      <Stopped text="Cancelled" mark="data-interrupted" action="open-again" label="Open again" onResume={openAgain} />
     );
   }
   const state = progress.value;
   if (state) {
     const share = state.total > 0 ? state.done / state.total : 0;
     return (
-      <div class="progress-line" data-progress>
-        <progress max={1} value={share} aria-label="Calibrating" />
-        <span>{Math.round(100 * share)} %</span>
-        <button type="button" data-action="cancel" onClick={cancel}>
-          Cancel
-        </button>
-      </div>
+      <ProgressLine
+        what="Calibrating"
+        text={`${Math.round(100 * share)} %`}
+        share={share}
+        cancel="cancel"
+        onCancel={cancel}
+      />
     );
   }
   if (wasCancelled.value && sensor.value) {
-    return (
-      <div class="progress-line" data-cancelled>
-        <span class="muted">Cancelled</span>
-        <button type="button" data-action="resume" onClick={restart}>
-          Calibrate again
-        </button>
-      </div>
-    );
+    return <Stopped text="Cancelled" action="resume" label="Calibrate again" onResume={restart} />;
   }
   return null;
 }

@@ -1,5 +1,5 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
-import { useMemo } from 'preact/hooks';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
 import { type Sight, sightOf } from '../../networks/models.ts';
 import { AZIMUTH } from '../../plots/axes.ts';
@@ -36,6 +36,14 @@ const SCENES: Record<Sight, string> = {
 };
 
 export function AttemptPanel() {
+  const place = useRef<HTMLElement>(null);
+  const { run } = networksState.value;
+  const wasRun = useRef(run);
+  // It may be asked for far from here.
+  useEffect(() => {
+    if (run && !wasRun.current) place.current?.scrollIntoView({ block: 'nearest' });
+    wasRun.current = run;
+  }, [run]);
   const model = selected.value;
   const made = attempt.value;
   const problem = attemptProblem.value;
@@ -43,13 +51,14 @@ export function AttemptPanel() {
   const shown = made && made.model === model.name ? made : null;
   return (
     <section
+      ref={place}
       class="stack"
       aria-labelledby="try-title"
       aria-busy={trying.value}
       data-attempt={shown && !trying.value ? shown.scene : undefined}
     >
       <div class="panel experiment-head">
-        <h2 id="try-title">Try it</h2>
+        <h2 id="try-title">Try it: {model.title}</h2>
         <p class="remark">{SCENES[sightOf(model.card)]}</p>
         <p class="row choices">
           {networksState.value.run ? (

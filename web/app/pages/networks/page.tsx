@@ -2,6 +2,7 @@ import { useSignalEffect } from '@preact/signals';
 import { moduleBuild } from '../../networks/module.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
+import { MainColumn } from '../../ui/main-column.tsx';
 import { ModuleNote } from '../../ui/module-note.tsx';
 import { AboutNetworks } from './about.tsx';
 import { attempt, selected, start } from './attempt.ts';
@@ -37,7 +38,7 @@ export function NetworksPage() {
   return (
     <div class="page">
       <Controls />
-      <div class="main-column">
+      <MainColumn>
         {problem && (
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>{problem.file}: </strong>
@@ -49,6 +50,7 @@ export function NetworksPage() {
             <ModuleNote />
           </p>
         )}
+        <AttemptPanel />
         <Overview />
         {model && (
           <div class="wide-narrow">
@@ -57,11 +59,10 @@ export function NetworksPage() {
           </div>
         )}
         {model && <LearningPanel model={model} />}
-        <AttemptPanel />
         <TimingPanel />
         <Experiments />
         <AboutNetworks />
-      </div>
+      </MainColumn>
     </div>
   );
 }

@@ -2,6 +2,7 @@
 import { engineering, fixed, milliseconds } from '../../plots/format.ts';
 import { download, fileName, toCsv } from '../../plots/save.ts';
 import { methodStyle } from '../../plots/theme.ts';
+import { ProgressLine } from '../../ui/progress.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { selected } from './attempt.ts';
 import { BATCHES, type Batch, cancelTiming, type Spread, timeModel, timing, timingProblem, timings } from './timing.ts';
@@ -58,12 +59,8 @@ export function TimingPanel() {
         </div>
       </div>
       {mine && (
-        <div class="progress-line timing-progress" data-progress>
-          <progress max={1} value={mine.share} aria-label={mine.what} />
-          <span>{mine.what}</span>
-          <button type="button" data-action="cancel-timing" onClick={cancelTiming}>
-            Cancel
-          </button>
+        <div class="timing-progress">
+          <ProgressLine what={mine.what} share={mine.share} cancel="cancel-timing" onCancel={cancelTiming} />
         </div>
       )}
       {problem && (
