@@ -1,5 +1,6 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
+import { compressed } from './scripts/lib/compressed.mjs';
 import { networksLater } from './web/networks-later.ts';
 
 const path = (name: string) => fileURLToPath(new URL(name, import.meta.url));
@@ -14,7 +15,7 @@ export default defineConfig({
   // The demo is one page: another address is no part of it.
   appType: 'mpa',
   define: { NETWORKS_LATER: JSON.stringify(later !== undefined) },
-  plugins: later === undefined ? [] : [networksLater(later)],
+  plugins: [...(later === undefined ? [] : [networksLater(later)]), compressed()],
   resolve: {
     alias: [
       { find: /^boresight$/, replacement: path('dist/lib/browser.js') },

@@ -29,6 +29,7 @@ for (const { name, path, ready: fresh } of pages) {
           (at) => document.querySelectorAll('.introduction a')[at]?.getAttribute('aria-current') === 'true',
           i,
         );
+        assert.equal(await page.locator('.introduction [aria-current]').count(), 1, title);
         assert.equal(await page.locator('[data-notice]').count(), 0, `${title}: all of its link is understood`);
         await page.waitForSelector(ready, patient);
         if (path.includes('networks')) await page.waitForSelector('[data-attempt]', patient);

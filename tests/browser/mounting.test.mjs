@@ -216,8 +216,9 @@ browserTest(
     await page.waitForFunction(() =>
       /radar_data, radarscenes/.test(document.querySelector('[data-fact="name"]').textContent),
     );
-    await ready(page);
+    await page.waitForSelector(`[aria-busy="false"] ${cell('recursive', 'sigmaDeg')}[data-value]`);
     assert.equal(await page.locator(cell('recursive', 'sigmaDeg')).innerText(), 'not determined');
+    assert.equal(await page.locator(cell('recursive', 'angleDeg')).innerText(), '–');
     assert.match(await page.locator('[data-table="results"] .warnings').innerText(), /no-frames/);
     assert.equal(await page.locator('select[name="sensor"] option').count(), 2);
     assert.match(

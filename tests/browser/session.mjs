@@ -2,6 +2,7 @@
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { browserArguments, browserMissing, findBrowser } from '../../scripts/lib/browser.mjs';
+import { compressed } from '../../scripts/lib/compressed.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
 
 export const viewports = {
@@ -18,6 +19,8 @@ export async function serve(siteRoot = join(root, 'web', 'app'), options = {}) {
     configFile: false,
     root: siteRoot,
     logLevel: 'error',
+    appType: 'mpa',
+    plugins: [compressed()],
     preview: { host: '127.0.0.1', port: 0, open: false },
     ...options,
   });

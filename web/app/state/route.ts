@@ -23,6 +23,11 @@ addEventListener('hashchange', () => {
   route.value = parse(location.hash);
 });
 
+/** The address of what is shown now, which the browser may be told of only later. */
+export function link(): string {
+  return `${location.href.split('#')[0]}${pageAddress(route.peek().page, shownParams.peek())}`;
+}
+
 export function pageAddress(page: Page, params?: URLSearchParams): string {
   const query = params?.toString();
   // Commas and colons may stand in a fragment as they are, and read better.

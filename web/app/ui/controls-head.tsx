@@ -1,8 +1,47 @@
 /** What stands above the controls of every page. */
+import { signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import { undo } from '../state/address.ts';
+import { announce } from '../state/announce.ts';
+import { canRedo, canUndo } from '../state/history.ts';
+import { link } from '../state/route.ts';
 import { showHelp } from '../state/settings.ts';
 import { CheckField } from './field.tsx';
 
+/** What became of the last link, for a moment. */
+const copied = signal<'Copied' | 'Not copied' | null>(null);
+const SHOWN_MS = 2500;
+
+async function copyLink(): Promise<void> {
+  setTimeout(() => {
+    copied.value = null;
+  }, SHOWN_MS);
+  try {
+    await navigator.clipboard.writeText(link());
+    copied.value = 'Copied';
+    announce('The link is copied.', 0);
+  } catch {
+    copied.value = 'Not copied';
+    announce('The browser does not let pages copy; the link is in the address bar.', 0);
+  }
+}
+
+/** A text being typed has an undo of its own. */
+const typing = (target: EventTarget | null): boolean =>
+  target instanceof HTMLInputElement && target.type === 'text' && document.activeElement === target;
+
 export function ControlsHead({ but = '', onDefaults }: { but?: string; onDefaults(): void }) {
+  useEffect(() => {
+    const key = (event: KeyboardEvent): void => {
+      if (!(event.ctrlKey || event.metaKey) || event.altKey || typing(event.target)) return;
+      const name = event.key.toLowerCase();
+      if (name !== 'z' && name !== 'y') return;
+      event.preventDefault();
+      undo(name === 'y' || event.shiftKey ? 1 : -1);
+    };
+    addEventListener('keydown', key);
+    return () => removeEventListener('keydown', key);
+  }, []);
   return (
     <div class="controls-head">
       <CheckField
@@ -13,14 +52,44 @@ export function ControlsHead({ but = '', onDefaults }: { but?: string; onDefault
           showHelp.value = on;
         }}
       />
-      <button
-        type="button"
-        class="plain"
-        title={`Back to the settings a fresh visit starts with${but}`}
-        onClick={onDefaults}
-      >
-        Defaults
-      </button>
+      <div class="row">
+        <button
+          type="button"
+          data-action="undo"
+          aria-label="Undo"
+          title="Take back the last change of settings (Ctrl+Z)"
+          disabled={!canUndo.value}
+          onClick={() => undo(-1)}
+        >
+          {'↶'}
+        </button>
+        <button
+          type="button"
+          data-action="redo"
+          aria-label="Redo"
+          title="Make it again (Ctrl+Shift+Z)"
+          disabled={!canRedo.value}
+          onClick={() => undo(1)}
+        >
+          {'↷'}
+        </button>
+        <button
+          type="button"
+          data-action="copy-link"
+          title="Copy a link to this page with these settings; files of your own are not in it"
+          onClick={() => void copyLink()}
+        >
+          {copied.value ?? 'Copy link'}
+        </button>
+        <button
+          type="button"
+          class="plain"
+          title={`Back to the settings a fresh visit starts with${but}`}
+          onClick={onDefaults}
+        >
+          Defaults
+        </button>
+      </div>
     </div>
   );
 }

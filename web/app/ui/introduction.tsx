@@ -1,16 +1,16 @@
 /** What a page is for, and examples to begin with. */
 import { INTRODUCTIONS } from '../examples.ts';
+import { canonical } from '../state/address.ts';
+import { LOOKING } from '../state/history.ts';
 import { type Page, pageAddress, shownParams } from '../state/route.ts';
 
-/** Parameters that say where one looks, whatever the example. */
-const LOOKING = ['t', 'view', 'cell', 'frame'];
-
-/** Whether the page shows an example: what its address leaves out is as it usually is. */
-function isShown(example: URLSearchParams): boolean {
-  const shown = shownParams.value;
-  const keys = new Set([...example.keys(), ...shown.keys()]);
-  for (const key of LOOKING) if (!example.has(key)) keys.delete(key);
-  return [...keys].every((key) => example.has(key) && (!shown.has(key) || shown.get(key) === example.get(key)));
+/** Whether the page shows an example. */
+function isShown(page: Page, example: URLSearchParams): boolean {
+  const [wanted, shown] = [canonical(page, example), new URLSearchParams(shownParams.value)].map((params) => {
+    for (const key of LOOKING) if (!example.has(key)) params.delete(key);
+    return params.toString();
+  });
+  return wanted === shown;
 }
 
 export function Introduction({ page }: { page: Page }) {
@@ -27,7 +27,7 @@ export function Introduction({ page }: { page: Page }) {
                 class="chip"
                 href={pageAddress(page, example)}
                 title={shows}
-                aria-current={isShown(example) ? 'true' : undefined}
+                aria-current={isShown(page, example) ? 'true' : undefined}
               >
                 {title}
               </a>

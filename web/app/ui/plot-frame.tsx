@@ -7,6 +7,7 @@ import type { LegendEntry } from '../plots/picture.ts';
 import { type CursorPosition, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
 import { download, fileName } from '../plots/save.ts';
 import { announce } from '../state/announce.ts';
+import { link } from '../state/route.ts';
 import { theme } from '../state/theme.ts';
 import { Swatch } from './swatch.tsx';
 
@@ -52,8 +53,8 @@ const MOST_OF_LINK = 150;
 
 /** Where a saved image is from. */
 function origin(): string {
-  const link = location.href;
-  return `Boresight ${api.version()}: ${link.length > MOST_OF_LINK ? `${link.slice(0, MOST_OF_LINK)}…` : link}`;
+  const from = link();
+  return `Boresight ${api.version()}: ${from.length > MOST_OF_LINK ? `${from.slice(0, MOST_OF_LINK)}…` : from}`;
 }
 
 export function PlotFrame(props: PlotFrameProps) {

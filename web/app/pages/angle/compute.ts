@@ -5,11 +5,11 @@
 import { batch, effect, signal } from '@preact/signals';
 import type {
   ArrayGeometry,
-  ArrayInput,
   Estimate,
   EstimatorOptions,
   Method,
   MethodInfo,
+  SnapshotOptions,
   SnapshotResult,
 } from 'boresight';
 import { api, describeError, type Problem, pool } from '../../data.ts';
@@ -128,45 +128,48 @@ function fluctuationOf({ snapshots, fluctuation }: AngleState): AngleState['fluc
   return snapshots === 1 && fluctuation === 'complex-normal' ? 'random-phase' : fluctuation;
 }
 
-function simulate(state: AngleState): Scene {
-  const array = arrayInput(state.array);
-  const geometry = api.array(array);
-  const snapshots = api.simulateSnapshots({
-    array,
+/** What the simulation is told of a state. */
+export function simulationOf(state: AngleState): SnapshotOptions {
+  return {
+    array: arrayInput(state.array),
     targets: state.targets,
     snrDb: state.snr,
     snapshots: state.snapshots,
     fluctuation: fluctuationOf(state),
     seed: state.seed,
     ...imperfections(state),
-  });
-  const made: Scene = {
-    state,
-    geometry,
-    snapshots,
-    boundKind: state.snapshots > 1 && state.fluctuation === 'complex-normal' ? 'stochastic' : 'deterministic',
   };
+}
+
+function simulate(state: AngleState): Scene {
+  const geometry = api.array(arrayInput(state.array));
+  const snapshots = api.simulateSnapshots(simulationOf(state));
+  const made: Scene = { state, geometry, snapshots, boundKind: boundKind(state) };
   try {
-    made.bound = state.targets.length ? bound(made, array) : new Float64Array(0);
+    made.bound = boundOf(state, snapshots.truth[0]);
   } catch (error) {
     made.boundProblem = describeError(error);
   }
   return made;
 }
 
+const boundKind = ({ snapshots, fluctuation }: AngleState): Scene['boundKind'] =>
+  snapshots > 1 && fluctuation === 'complex-normal' ? 'stochastic' : 'deterministic';
+
 /**
  * The bound for the signals drawn. Coherent targets repeat one snapshot N times, which is one
  * snapshot of N times the power, with the phases that were drawn.
  */
-function bound({ state, boundKind, snapshots }: Scene, array: ArrayInput): Float64Array {
+export function boundOf(state: AngleState, truth: SnapshotResult['truth'][number] | undefined): Float64Array {
+  if (!state.targets.length) return new Float64Array(0);
   const fixed = state.snapshots === 1 || state.fluctuation === 'coherent';
   const repeats = fixed ? 10 * Math.log10(state.snapshots) : 0;
   return api.cramerRaoBound({
-    array,
+    array: arrayInput(state.array),
     snapshots: fixed ? 1 : state.snapshots,
-    kind: boundKind,
+    kind: boundKind(state),
     targets: state.targets.map((target, i) => {
-      const phaseDeg = snapshots.truth[0]?.[i]?.phaseDeg;
+      const phaseDeg = truth?.[i]?.phaseDeg;
       return {
         azimuthDeg: target.azimuthDeg,
         snrDb: state.snr + target.powerDb + repeats,

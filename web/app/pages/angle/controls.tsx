@@ -16,7 +16,7 @@ import { networkFor, results, scene, unavailable } from './compute.ts';
 import { angleCodec, angleState, LIMITS, positionsProblem, update } from './state.ts';
 import { TargetTable } from './target-table.tsx';
 
-const Control = controlOf(angleCodec, angleState, update);
+export const Control = controlOf(angleCodec, angleState, update);
 
 export function Controls() {
   const state = angleState.value;

@@ -10,6 +10,7 @@ import { Controls } from './controls.tsx';
 import { ResultsTable } from './results-table.tsx';
 import { SpectrumPlot } from './spectrum-plot.tsx';
 import { angleCodec, angleState } from './state.ts';
+import { SweepPanel } from './sweep-panel.tsx';
 
 export function AnglePage() {
   useAddress('angle', {
@@ -43,6 +44,7 @@ export function AnglePage() {
           <>
             <SpectrumPlot scene={scene.value} />
             <ResultsTable scene={scene.value} />
+            <SweepPanel />
             <ArrayPanel scene={scene.value} />
           </>
         ) : (

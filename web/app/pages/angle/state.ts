@@ -3,7 +3,7 @@ import { signal } from '@preact/signals';
 import type { ArrayInput, Method, Position } from 'boresight';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
-import { choice, codec, type Field, names, number, text } from '../../state/codec.ts';
+import { choice, codec, type Field, names, number, optional, text } from '../../state/codec.ts';
 import { seed } from '../../state/seed.ts';
 
 export interface Target {
@@ -17,6 +17,9 @@ export const LIMITS = {
   elements: [2, 128],
   targets: 12,
 } as const;
+
+/** What a Monte-Carlo run may vary. */
+export const SWEPT = ['snr', 'separation', 'snapshots'] as const;
 
 export const PRESETS = ['awr1642', 'awr1843', 'cascade86', 'lrr48'] as const;
 
@@ -75,6 +78,11 @@ export const angleCodec = codec(
     refine: estimator.field('refine'),
     networks: networkNames,
     smoothing: estimator.maybe('smoothing'),
+    /** Of the Monte-Carlo runs: what is varied, between what, and how often each is drawn. */
+    sweep: choice('snr', SWEPT),
+    from: optional(number(0, [-30, 2000])),
+    to: optional(number(0, [-30, 2000])),
+    runs: number(200, [10, 5000], 'integer'),
   },
   ['array', 'targets', 'snr', 'snapshots', 'seed', 'methods'],
 );

@@ -1,0 +1,72 @@
+/**
+ * How the demo comes over a line of 10 Mbit/s and 40 ms, nothing cached: times are printed, not judged, since they are
+ * those of the machine as well. What is sent, and how, is judged.
+ */
+import assert from 'node:assert/strict';
+import { browserTest } from './harness.mjs';
+import { patient } from './trial.mjs';
+
+const LINE = { offline: false, latency: 40, downloadThroughput: 10e6 / 8, uploadThroughput: 10e6 / 8 };
+
+/** When a page's first useful picture is there, s as asked for, and the most it may fetch until then, bytes. */
+const PAGES = [
+  { page: 'angle', ready: '[data-row="music"] [data-field="azimuth"][data-value]', asked: 1.8, most: 0.68e6 },
+  { page: 'capture', ready: '[data-table="detections"] [data-field="rangeM"][data-value]', asked: 2.5, most: 1.5e6 },
+  { page: 'mounting', ready: '[data-row] [data-field="angleDeg"][data-value]', asked: 4, most: 5.2e6 },
+  { page: 'birdseye', ready: '[data-row] [data-field="outsideDb"][data-value]', asked: 4, most: 0.7e6 },
+  { page: 'networks', ready: '[data-card]', asked: 1.5, most: 0.69e6 },
+  {
+    page: 'networks',
+    query: '?run=1&model=learned-pursuit',
+    ready: '[data-attempt] [data-row]',
+    asked: 6,
+    most: 5.3e6,
+  },
+];
+
+for (const { page: name, query = '', ready, asked, most } of PAGES) {
+  browserTest(`loading: ${name}${query} over 10 Mbit/s`, { path: '#/networks' }, async ({ browser, url, test }) => {
+    // Nothing of the page that the test began with.
+    const context = await browser.newContext();
+    const page = await context.newPage();
+    const session = await context.newCDPSession(page);
+    await session.send('Network.enable');
+    await session.send('Network.emulateNetworkConditions', LINE);
+    const started = performance.now();
+    await page.goto(`${url}#/${name}${query}`, { waitUntil: 'commit' });
+    await page.waitForSelector(ready, patient);
+    const seconds = (performance.now() - started) / 1000;
+    const bytes = await page.evaluate(() =>
+      performance
+        .getEntriesByType('resource')
+        .concat(performance.getEntriesByType('navigation'))
+        .reduce((sum, { transferSize }) => sum + transferSize, 0),
+    );
+    test.diagnostic(
+      `loading: ${name}${query}: ${seconds.toFixed(1)} s to the first useful picture (asked ${asked}), ${(bytes / 1e6).toFixed(2)} MB sent`,
+    );
+    await context.close();
+    assert.ok(bytes > 1e5 && bytes < most, `${bytes} bytes`);
+  });
+}
+
+browserTest(
+  'loading: files come compressed, and those with a digest are kept',
+  { path: '#/angle' },
+  async ({ page, url }) => {
+    await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
+    const names = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
+    const assets = names.filter((name) => /\/assets\/.*\.(js|css|wasm)$/.test(name));
+    assert.ok(assets.length >= 3);
+    for (const name of assets) {
+      const response = await page.request.get(name, { headers: { 'Accept-Encoding': 'br, gzip' } });
+      assert.equal(response.headers()['content-encoding'], 'br', name);
+      assert.match(response.headers()['cache-control'], /immutable/);
+      const other = await page.request.get(name, { headers: { 'Accept-Encoding': 'gzip' } });
+      assert.equal(other.headers()['content-encoding'], 'gzip', name);
+    }
+    const index = await page.request.get(url);
+    assert.match(index.headers()['cache-control'], /no-cache/);
+    assert.equal((await page.request.get(`${url}nothing/here.html`)).status(), 404);
+  },
+);
