@@ -216,7 +216,7 @@ browserTest(
     await page.waitForFunction(() =>
       /radar_data, radarscenes/.test(document.querySelector('[data-fact="name"]').textContent),
     );
-    await page.waitForSelector(`[aria-busy="false"] ${cell('recursive', 'sigmaDeg')}[data-value]`);
+    await page.waitForSelector(`${cell('recursive', 'sigmaDeg')}[data-value]`);
     assert.equal(await page.locator(cell('recursive', 'sigmaDeg')).innerText(), 'not determined');
     assert.equal(await page.locator(cell('recursive', 'angleDeg')).innerText(), '–');
     assert.match(await page.locator('[data-table="results"] .warnings').innerText(), /no-frames/);
