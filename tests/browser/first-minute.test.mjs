@@ -153,3 +153,41 @@ browserTest('first minute: the result of a run is in view', { path: '#/networks'
   const { height } = page.viewportSize();
   assert.ok(box.y >= 0 && box.y < height - 100, `the scene begins at ${box.y}`);
 });
+
+browserTest('first minute: the examples of the angle lab show what they say', { path: '#/angle' }, async ({ page }) => {
+  await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
+  const show = async (title) => {
+    await page.locator('.introduction a', { hasText: title }).click();
+    await page.waitForFunction(
+      () =>
+        document.querySelector('.introduction [aria-current]') &&
+        !document.querySelector('tr.stale') &&
+        document.querySelector('[data-table="results"] [data-row]'),
+    );
+    // Slow methods answer from a worker.
+    await page.waitForTimeout(300);
+    await page.waitForFunction(() => !document.querySelector('tr.stale'));
+    return Object.fromEntries(
+      await page
+        .locator('[data-table="results"] [data-row]')
+        .evaluateAll((rows) =>
+          rows.map((row) => [
+            row.dataset.row,
+            [...row.querySelectorAll('[data-field="error"]')].map(({ dataset }) =>
+              dataset.value === undefined ? null : Math.abs(Number(dataset.value)),
+            ),
+          ]),
+        ),
+    );
+  };
+  const near = (errors, limit) => errors.every((error) => error !== null && error < limit);
+  const beam = await show('Two targets inside a beam');
+  assert.ok(beam.bartlett.includes(null) && near(beam.music, 0.2) && near(beam.capon, 0.2), JSON.stringify(beam));
+  const paths = await show('Coherent multipath');
+  assert.ok(!near(paths.music, 0.15) && near(paths.iaa, 0.1), JSON.stringify(paths));
+  assert.ok(near(paths['maximum-likelihood'], 0.1));
+  const sparse = await show('48-element sparse array');
+  assert.ok(sparse.bartlett.includes(null) && near(sparse.iaa, 0.1) && near(sparse.nomp, 0.1), JSON.stringify(sparse));
+  const masking = await show('Masking');
+  assert.ok(!near(masking.bartlett, 1) && near(masking.iaa, 0.5) && near(masking.nomp, 0.5), JSON.stringify(masking));
+});

@@ -21,13 +21,14 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
       {
         title: 'Coherent multipath',
         about:
-          'Two paths of one echo: MUSIC and Capon fail, for the covariance has rank one. Averaging and smoothing, under Estimation, bring them back; IAA and maximum likelihood need neither.',
+          'Two paths of one echo: the covariance has rank one, so MUSIC is off by many bounds and Capon loses the power. Averaging and smoothing, under Estimation, bring them back; IAA and maximum likelihood need neither.',
         params:
           'array=ula16&targets=-8:0,6:-3&snr=20&snapshots=50&seed=1&fluctuation=coherent&methods=capon,music,iaa,maximum-likelihood',
       },
       {
         title: 'Grating lobes',
-        about: 'Elements a wavelength apart: the same target appears twice, and no method can tell which one it is.',
+        about:
+          'Elements a wavelength apart: spectra are the same at 20 and at −41 degrees, and no method can tell which one it is.',
         params: 'array=at:0,2,4,6,8,10,12,14&targets=20:0&snr=20&snapshots=20&seed=1&methods=bartlett,capon,iaa',
       },
       {
@@ -44,8 +45,8 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
       },
       {
         title: 'Masking',
-        about: 'A target 25 dB weaker, in the side lobes of a strong one: the FFT hides it, IAA and NOMP do not.',
-        params: 'array=ula16&targets=0:0,16:-25&snr=30&snapshots=20&seed=1&methods=bartlett,capon,iaa,nomp',
+        about: 'A target 18 dB weaker, in the side lobes of a strong one: the FFT hides it, IAA and NOMP do not.',
+        params: 'array=ula16&targets=0:0,16:-18&snr=30&snapshots=20&seed=1&methods=bartlett,capon,iaa,nomp',
       },
     ],
   },
