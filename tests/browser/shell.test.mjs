@@ -77,3 +77,22 @@ browserTest(
     await parametersWith(page, (params) => params.get('array') === 'ula10' && params.get('snr') === '20');
   },
 );
+
+browserTest(
+  'shell: paper is light, and has plots and tables without controls',
+  { path: '#/angle', scheme: 'dark' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
+    assert.equal(await theme(page), 'dark');
+    await page.emulateMedia({ media: 'print' });
+    await page.waitForFunction(() => document.documentElement.dataset.theme === 'light');
+    for (const gone of ['.sidebar', 'nav', '.introduction ul', '[data-plot="spectrum"] .tools']) {
+      assert.ok(!(await page.locator(gone).first().isVisible()), gone);
+    }
+    for (const there of ['[data-plot="spectrum"] canvas', '[data-table="results"]', '.introduction p']) {
+      assert.ok(await page.locator(there).first().isVisible(), there);
+    }
+    await page.emulateMedia({ media: 'screen' });
+    await page.waitForFunction(() => document.documentElement.dataset.theme === 'dark');
+  },
+);

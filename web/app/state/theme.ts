@@ -20,7 +20,16 @@ function stored(): ThemeChoice {
 }
 
 export const themeChoice = signal<ThemeChoice>(stored());
-export const theme = computed<ThemeName>(() => (themeChoice.value === 'auto' ? system.value : themeChoice.value));
+/** Paper is light. */
+const print = matchMedia('print');
+const printing = signal(print.matches);
+print.addEventListener('change', () => {
+  printing.value = print.matches;
+});
+
+export const theme = computed<ThemeName>(() =>
+  printing.value ? 'light' : themeChoice.value === 'auto' ? system.value : themeChoice.value,
+);
 
 effect(() => {
   document.documentElement.dataset.theme = theme.value;
