@@ -300,3 +300,27 @@ browserTest(
     );
   },
 );
+
+browserTest(
+  'bird’s-eye view: nobody waits for quick methods behind slow ones, and what is left is told',
+  { path: `${small.replace(/methods=[^&]*/, 'methods=bartlett,sparse-bayesian,learned-pursuit')}` },
+  async ({ page }) => {
+    const bar = page.locator('[data-progress]');
+    await page.waitForFunction(
+      () => /sparse Bayesian/i.test(document.querySelector('[data-progress]')?.textContent ?? ''),
+      undefined,
+      { timeout: 60_000 },
+    );
+    for (const method of ['bartlett', 'learned-pursuit']) {
+      assert.equal(
+        await page.locator(`[data-row="${method}"] [data-field="outsideDb"][data-value]`).count(),
+        1,
+        `${method} is there before`,
+      );
+    }
+    await page.waitForSelector('[data-progress] [data-left]', { timeout: 60_000 });
+    assert.match(await bar.innerText(), /about \d+ (s|min) left/);
+    await bar.locator('[data-action="cancel"]').click();
+    await page.waitForSelector('[data-cancelled]');
+  },
+);

@@ -33,12 +33,19 @@ export function whyUnsuited(
   return reason && (words[reason] ?? WHY[reason]);
 }
 
-/** Those that take longest a cell, the longest last; networks come after what needs none. */
-const SLOW: readonly Method[] = ['nomp', 'iaa', 'maximum-likelihood', 'atomic-norm', 'sparse-bayesian'];
+/** Those that take long a cell, the longest last; what is not here is quick. */
+const SLOW: readonly (Method | 'network')[] = [
+  'nomp',
+  'iaa',
+  'network',
+  'maximum-likelihood',
+  'atomic-norm',
+  'sparse-bayesian',
+];
 
 /** In the order in which they answer soonest: nobody waits for a quick method behind a slow one. */
 export function quickestFirst(methods: readonly Method[]): Method[] {
   const networks = new Set(api.methods().flatMap(({ name, network }) => (network ? [name] : [])));
-  const rank = (method: Method): number => SLOW.indexOf(method) + (networks.has(method) ? SLOW.length + 1 : 0);
+  const rank = (method: Method): number => SLOW.indexOf(networks.has(method) ? 'network' : method);
   return [...methods].sort((a, b) => rank(a) - rank(b));
 }
