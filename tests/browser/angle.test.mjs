@@ -153,7 +153,8 @@ browserTest('angle lab: plots and tables are saved as PNG and CSV', { path }, as
     await saved(page, '[data-plot="spectrum"] [data-export="csv"]'),
     'azimuth_deg,bartlett_db,capon_db,music_db',
   );
-  assert.equal(rows.length, 1024);
+  // The grid, and 90 degrees.
+  assert.equal(rows.length, 1025);
   assertCsv(
     await saved(page, '[data-plot="elements"] [data-export="csv"]'),
     'element,x_half_wavelengths,y_half_wavelengths,z_half_wavelengths,tx,rx',
@@ -182,3 +183,43 @@ browserTest('angle lab: a drag zooms, the cursor reads out, a key resets', { pat
   await page.mouse.move(over.x + over.width / 2 + 1, over.y + over.height / 2);
   assert.match(await label(), /Azimuth [+−]?0\.\d\d°/);
 });
+
+browserTest(
+  'angle lab: the table’s file has the estimates that belong to no target',
+  { path: '#/angle?array=ula10&targets=-3:0,3:0&snr=20&snapshots=100&seed=1&methods=bartlett,music' },
+  async ({ page }) => {
+    await shown(page, 'music');
+    const extra = Number(await page.locator('[data-row="bartlett"] td[title]').last().innerText());
+    assert.ok(extra >= 1, `${extra} beside the targets`);
+    const rows = assertCsv(
+      await saved(page, '[data-table="results"] [data-export="csv"]'),
+      'method,target,true_azimuth_deg,true_power_db,azimuth_deg,error_deg,power_db,stated_sigma_deg,crb_sigma_deg,time_ms',
+    );
+    const beside = rows.filter(([method, target]) => method === 'bartlett' && target === '');
+    assert.equal(beside.length, extra);
+    for (const [, , , , azimuth, error] of beside) assert.ok(Number.isFinite(Number(azimuth)) && error === '');
+    assert.equal(rows.filter(([method]) => method === 'music').length, 2);
+  },
+);
+
+browserTest(
+  'angle lab: spectra reach 90 degrees where they are there what they are at -90',
+  { path: '#/angle?array=ula10&targets=-5:0&snr=20&snapshots=100&seed=1&methods=bartlett,music' },
+  async ({ page }) => {
+    await shown(page, 'music');
+    const csv = async () =>
+      assertCsv(
+        await saved(page, '[data-plot="spectrum"] [data-export="csv"]'),
+        'azimuth_deg,bartlett_db,music_db',
+      ).map((row) => row.map(Number));
+    const whole = await csv();
+    assert.deepEqual(whole.at(-1), [90, ...whole[0].slice(1)]);
+    await page.locator('select[name="array"]').selectOption('at');
+    await typeText(page.locator('input[name="positions"]'), '0, 1.3, 2.9, 4.1');
+    await parametersWith(page, (params) => params.get('array') === 'at:0,1.3,2.9,4.1');
+    await page.waitForFunction(() =>
+      /at|positions/.test(document.querySelector('[data-plot="spectrum"] figcaption').innerText),
+    );
+    assert.ok((await csv()).at(-1)[0] < 89);
+  },
+);

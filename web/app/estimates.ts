@@ -1,5 +1,5 @@
 /** Estimates as the plots show them. */
-import type { Estimate, Method, Source } from 'boresight';
+import type { Estimate, Method, Position, Source } from 'boresight';
 import type { Marker } from './plots/layers.ts';
 import type { PlotSeries } from './plots/plot.ts';
 import { methodStyle } from './plots/theme.ts';
@@ -22,9 +22,10 @@ export function cut(elevationDeg: Float64Array): number {
 
 /**
  * The spectrum at zero elevation. A pseudo-spectrum has no power of its own: it is shifted so that
- * its highest peak meets the strongest estimated power.
+ * its highest peak meets the strongest estimated power. The grid ends a step before 90 degrees; where the array `closes`
+ * it, a spectrum goes on to where it began.
  */
-export function curve(estimate: Estimate, title: string): Curve | null {
+export function curve(estimate: Estimate, title: string, periodic = false): Curve | null {
   const { spectrum } = estimate;
   if (!spectrum) return null;
   const size = spectrum.azimuthDeg.length;
@@ -34,7 +35,25 @@ export function curve(estimate: Estimate, title: string): Curve | null {
     const shift = (estimate.sources[0]?.powerDb ?? 0) - highest(valuesDb);
     valuesDb = valuesDb.map((value) => value + shift);
   }
-  return { method: estimate.method, title, azimuthDeg: spectrum.azimuthDeg, valuesDb };
+  const { azimuthDeg } = spectrum;
+  const whole = periodic && (azimuthDeg[0] ?? 0) < -89.9;
+  return {
+    method: estimate.method,
+    title,
+    azimuthDeg: whole ? appended(azimuthDeg, 90) : azimuthDeg,
+    valuesDb: whole ? appended(valuesDb, valuesDb[0] ?? Number.NaN) : valuesDb,
+  };
+}
+
+/** Whether what an array sees at 90 degrees is what it sees at -90: its elements are whole half wavelengths apart. */
+export const closes = (positions: readonly Position[]): boolean =>
+  positions.every(([, y]) => Math.abs(y - (positions[0]?.[1] ?? 0) - Math.round(y - (positions[0]?.[1] ?? 0))) < 1e-6);
+
+function appended(values: Float64Array, last: number): Float64Array {
+  const longer = new Float64Array(values.length + 1);
+  longer.set(values);
+  longer[values.length] = last;
+  return longer;
 }
 
 /** Curves on the grid of the finest; those of coarser grids are lines between their points, and nothing beyond. */

@@ -33,23 +33,25 @@ export function ResultsTable({ scene }: { scene: Scene }) {
         'crb_sigma_deg',
         'time_ms',
       ],
-      rows.flatMap(({ info, result, sources, assignment }) =>
-        targets.map((target, i) => {
-          const source = sources[assignment.matched[i] ?? -1];
-          return [
-            info.name,
-            i + 1,
-            target.azimuthDeg,
-            target.powerDb,
-            source?.azimuthDeg,
-            source && source.azimuthDeg - target.azimuthDeg,
-            source?.powerDb,
-            source?.deviation?.azimuthDeg,
-            sigma(i),
-            result?.milliseconds,
-          ];
-        }),
-      ),
+      rows.flatMap(({ info, result, sources, assignment }) => {
+        // Estimates of no target stand below those of targets.
+        const pairs = [
+          ...targets.map((target, i) => ({ target, i, source: sources[assignment.matched[i] ?? -1] })),
+          ...assignment.extra.map((k) => ({ target: undefined, i: undefined, source: sources[k] })),
+        ];
+        return pairs.map(({ target, i, source }) => [
+          info.name,
+          i === undefined ? '' : i + 1,
+          target?.azimuthDeg,
+          target?.powerDb,
+          source?.azimuthDeg,
+          source && target && source.azimuthDeg - target.azimuthDeg,
+          source?.powerDb,
+          source?.deviation?.azimuthDeg,
+          i === undefined ? undefined : sigma(i),
+          result?.milliseconds,
+        ]);
+      }),
     );
   return (
     <section class="panel" aria-labelledby="results-title" data-table="results">

@@ -1,7 +1,7 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
 import { useMemo, useRef } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { type Curve, curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
+import { type Curve, closes, curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
 import { AZIMUTH } from '../../plots/axes.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { Handles } from '../../plots/handles.ts';
@@ -17,11 +17,11 @@ import { addTarget, angleState, LIMITS, removeTarget, setTarget } from './state.
 
 const EXTENT = { x: [-90, 90], y: [-50, 14] } as const;
 
-function curves(): Curve[] {
+function curves({ geometry }: Scene): Curve[] {
   return onOneGrid(
     api.methods().map(({ name, title }) => {
       const estimate = results.value.get(name)?.estimate;
-      return estimate ? curve(estimate, title) : null;
+      return estimate ? curve(estimate, title, closes(geometry.positions)) : null;
     }),
   );
 }
@@ -67,7 +67,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
   const handles = useRef<Handles | null>(null);
   const { targets, snr } = scene.state;
   const found = results.value;
-  const shown = curves();
+  const shown = curves(scene);
   const content = useMemo(() => {
     const { unambiguousDeg } = scene.geometry;
     const outside: [number, number][] =

@@ -1,9 +1,9 @@
 /** Angle spectrum of the chosen cell by several methods, and what each finds there. */
 
-import type { Cell, FrameResult, Method } from 'boresight';
+import type { ArrayGeometry, Cell, FrameResult, Method } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { curve, highest, onOneGrid, series, sourceMarkers } from '../../estimates.ts';
+import { closes, curve, highest, onOneGrid, series, sourceMarkers } from '../../estimates.ts';
 import { AZIMUTH } from '../../plots/axes.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { bands, markers, verticalLines } from '../../plots/layers.ts';
@@ -20,6 +20,7 @@ export function CellPanel({
   results,
   boardDeg,
   unambiguousDeg,
+  positions,
   label,
   fileParts,
 }: {
@@ -29,6 +30,8 @@ export function CellPanel({
   /** Azimuth of the board's object in this cell, if it has one. */
   boardDeg: number | undefined;
   unambiguousDeg: number;
+  /** Of the array's elements. */
+  positions: ArrayGeometry['positions'] | undefined;
   label: string;
   fileParts: readonly (string | number)[];
 }) {
@@ -38,7 +41,7 @@ export function CellPanel({
       onOneGrid(
         infos.map(({ name, title }) => {
           const estimate = results.get(name)?.estimate;
-          return estimate ? curve(estimate, title) : null;
+          return estimate ? curve(estimate, title, positions !== undefined && closes(positions)) : null;
         }),
       ),
     [results],

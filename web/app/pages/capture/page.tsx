@@ -161,6 +161,7 @@ function Plots({ capture, frame, view }: Shown) {
           results={cellResults.value}
           boardDeg={here?.azimuthDeg}
           unambiguousDeg={geometry?.unambiguousDeg ?? 90}
+          positions={geometry?.positions}
           label={label}
           fileParts={fileParts}
         />
