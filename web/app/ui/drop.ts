@@ -2,6 +2,7 @@
 import { type ReadonlySignal, signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { describeError } from '../data.ts';
+import { CAPTURES, DRIVES, NETWORKS } from '../kinds.ts';
 import { type Page, pageAddress, route } from '../state/route.ts';
 import { droppedFiles, type NamedFile } from './entries.ts';
 
@@ -11,17 +12,17 @@ type Take = (files: readonly NamedFile[]) => void;
 const KINDS: readonly { page: Page; names: RegExp; what: string; address?: Record<string, string> }[] = [
   {
     page: 'capture',
-    names: /\.(bin|cfg|dat)$/i,
+    names: CAPTURES,
     what: 'captures (.bin with .cfg, and .dat)',
     address: { source: 'files' },
   },
   {
     page: 'mounting',
-    names: /\.(csv|csv\.gz|h5|hdf5)$/i,
+    names: DRIVES,
     what: 'drives (.csv, .csv.gz, .h5, or a folder of them)',
     address: { source: 'files' },
   },
-  { page: 'networks', names: /\.onnx$/i, what: 'networks (.onnx)' },
+  { page: 'networks', names: NETWORKS, what: 'networks (.onnx)' },
 ];
 
 const over = signal(false);

@@ -7,10 +7,10 @@ import cfgAddress from '../../../../recordings/awr1642/profile.cfg?url';
 import binAddress from '../../../../recordings/awr1642/xwr16xx_crw_dca_module_2018_1015v2.bin?url';
 import datAddress from '../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat?url';
 import { api, describeError, FileProblem, type Problem, pool } from '../../data.ts';
+import { CAPTURE_KINDS } from '../../kinds.ts';
 import { captureState, update } from './state.ts';
 
-const KINDS = ['bin', 'cfg', 'dat'] as const;
-type Kind = (typeof KINDS)[number];
+type Kind = (typeof CAPTURE_KINDS)[number];
 
 export interface OpenFile {
   kind: Kind;
@@ -158,7 +158,7 @@ export function openFiles(files: readonly File[]): Promise<void> {
       const { bin, cfg, dat } = next;
       const before = own.bin ? loaded.peek() : null;
       const text = cfg && (before && cfg === own.cfg ? before.cfg : await cfg.text());
-      const opened = KINDS.flatMap((kind): OpenFile[] => {
+      const opened = CAPTURE_KINDS.flatMap((kind): OpenFile[] => {
         const file = next[kind];
         return file ? [{ kind, name: file.name, bytes: file.size }] : [];
       });
@@ -203,5 +203,5 @@ function chosen(files: readonly File[]): Partial<Record<Kind, File>> {
 
 function kindOf(name: string): Kind | undefined {
   const extension = name.toLowerCase().split('.').pop();
-  return KINDS.find((kind) => kind === extension);
+  return CAPTURE_KINDS.find((kind) => kind === extension);
 }

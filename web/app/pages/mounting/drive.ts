@@ -6,6 +6,7 @@ import radarAddress from '../../../../recordings/delphi/front_radar.csv.gz?url';
 import licenceAddress from '../../../../recordings/delphi/LICENSE?url';
 import poseAddress from '../../../../recordings/delphi/pose_10hz.csv.gz?url';
 import { aborted, describeError, FileProblem, type Problem, pool } from '../../data.ts';
+import { DRIVES } from '../../kinds.ts';
 import type { NamedFile } from '../../ui/entries.ts';
 import { type MountingState, mountingState, update } from './state.ts';
 
@@ -50,8 +51,7 @@ export const scans = computed(() => {
   return { scan, timeS: Float64Array.from(scan, (i) => all.timeS[i] as number) };
 });
 
-/** Tables and HDF5 files, and what stands beside the latter. */
-const DRIVES = /\.(csv|csv\.gz|h5|hdf5)$/i;
+/** What stands beside an HDF5 file. */
 const BESIDE = /(^|\/)(scenes|sensors|sequences)\.json$/i;
 /** What a tab can hold beside its copies in workers. */
 const LARGEST_BYTES = 1024 ** 3;

@@ -1,0 +1,8 @@
+/** Which files are what, by their names. */
+
+/** Of a capture: raw samples, the radar's configuration, the board's log. */
+export const CAPTURE_KINDS = ['bin', 'cfg', 'dat'] as const;
+export const CAPTURES = new RegExp(`\\.(${CAPTURE_KINDS.join('|')})$`, 'i');
+/** Tables and HDF5 files. */
+export const DRIVES = /\.(csv|csv\.gz|h5|hdf5)$/i;
+export const NETWORKS = /\.onnx$/i;
