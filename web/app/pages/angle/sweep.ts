@@ -116,10 +116,9 @@ export async function runSweep(state: AngleState): Promise<void> {
   try {
     const geometry = api.array(arrayInput(state.array));
     const values = valuesOf(state);
-    const methods = quickestFirst(state.methods).filter((name) => {
-      const info = api.methods().find((one) => one.name === name);
-      return info && values.some((value) => whyNot(info, geometry, stateAt(state, value)) === null);
-    });
+    const methods = quickestFirst(state.methods)
+      .flatMap((name) => api.methods().filter((info) => info.name === name))
+      .filter((info) => values.some((value) => whyNot(info, geometry, stateAt(state, value)) === null));
     const made: Sweep = {
       state,
       swept: state.sweep,
@@ -130,7 +129,7 @@ export async function runSweep(state: AngleState): Promise<void> {
     };
     const total = values.length * (methods.length + 1);
     let done = 0;
-    const scores = new Map<Method, Score[]>(methods.map((name) => [name, []]));
+    const scores = new Map<Method, Score[]>(methods.map(({ name }) => [name, []]));
     for (const value of values) {
       const at = stateAt(state, value);
       const say = (what: string, part: number): void => {
@@ -141,19 +140,22 @@ export async function runSweep(state: AngleState): Promise<void> {
       const drawn = await draw(at, stop);
       made.boundDeg.push(meanBound(at, drawn));
       done += 1;
-      for (const name of methods) {
-        const title = api.methods().find((one) => one.name === name)?.title ?? name;
-        const info = api.methods().find((one) => one.name === name);
-        const suits = info && whyNot(info, geometry, at) === null;
+      for (const info of methods) {
+        const suits = whyNot(info, geometry, at) === null;
         const score = suits
-          ? await scoreOf(name, at, drawn, made.gateDeg, stop, (part) => say(`${place}: ${title}`, part))
+          ? await scoreOf(info.name, at, drawn, made.gateDeg, stop, (part) => say(`${place}: ${info.title}`, part))
           : { rmseDeg: Number.NaN, found: Number.NaN };
-        scores.get(name)?.push(score);
+        scores.get(info.name)?.push(score);
         done += 1;
       }
       if (!current()) return;
       // What is there already is shown.
-      sweep.value = { ...made, values: values.slice(0, made.boundDeg.length), scores: new Map(scores) };
+      sweep.value = {
+        ...made,
+        values: values.slice(0, made.boundDeg.length),
+        boundDeg: [...made.boundDeg],
+        scores: new Map([...scores].map(([name, list]) => [name, [...list]])),
+      };
     }
   } catch (error) {
     if (!current()) return;
