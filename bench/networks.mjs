@@ -1,24 +1,16 @@
 // Networks: our module beside onnxruntime-web, one thread each, the same ONNX files and inputs.
 import { readFileSync } from 'node:fs';
 import { basename } from 'node:path';
+import { generator } from '../scripts/lib/generator.mjs';
 import { compare, here, median } from './measure.mjs';
 
 const BATCHES = [1, 32];
 /** Largest difference, relative to the largest number or 1, at which the two count as the same. */
 const DIFFER = 1e-4;
 
-/** A generator of numbers in [-1, 1), the same each time. */
-function numbers(seed) {
-  let state = seed >>> 0;
-  return () => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return state / 2 ** 31 - 1;
-  };
-}
-
 /** Inputs of a network for a batch: positions are those of `lrr48`, all else is drawn. */
 function inputsOf(ports, batch, positions) {
-  const draw = numbers(7);
+  const draw = generator(7);
   return Object.fromEntries(
     ports.map(({ name, axes }) => {
       const shape = axes.map((axis) =>
@@ -26,7 +18,7 @@ function inputsOf(ports, batch, positions) {
       );
       const data = new Float32Array(shape.reduce((product, length) => product * length, 1));
       for (let i = 0; i < data.length; i++)
-        data[i] = name === 'positions' ? positions[Math.trunc(i / 3)][i % 3] : draw();
+        data[i] = name === 'positions' ? positions[Math.trunc(i / 3)][i % 3] : 2 * draw() - 1;
       return [name, { data, shape }];
     }),
   );

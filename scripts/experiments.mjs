@@ -115,13 +115,15 @@ const cards = readdirSync(shipped)
     onnx: join('models', file.replace(/json$/, 'onnx')),
   }));
 
-/** Removes records of networks that are no longer those shipped. */
+/** Removes records of networks, or of regions they counted, that are no longer those shipped. */
 function forgetOld(folder, name) {
-  for (const { name: network, sha256 } of cards) {
-    const records = join(folder, `${name}-${network}.jsonl`);
-    if (!existsSync(records)) continue;
-    const [head] = readFileSync(records, 'utf8').split('\n', 1);
-    if (JSON.parse(head).options.networks[0].sha256 !== sha256) rmSync(records);
+  const current = new Map(cards.map((card) => [card.name, card.sha256]));
+  for (const file of existsSync(folder) ? readdirSync(folder) : []) {
+    if (!file.startsWith(name) || !file.endsWith('.jsonl')) continue;
+    const [head] = readFileSync(join(folder, file), 'utf8').split('\n', 1);
+    const { networks = [], endToEnd } = JSON.parse(head).options;
+    const used = [...networks, endToEnd?.counting].filter(Boolean);
+    if (used.some((network) => current.get(network.name) !== network.sha256)) rmSync(join(folder, file));
   }
 }
 

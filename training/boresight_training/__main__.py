@@ -79,7 +79,7 @@ def parser() -> argparse.ArgumentParser:
     write = commands.add_parser("export", help="write the network of a training folder as ONNX, with its card")
     write.add_argument("folder", type=Path)
     write.add_argument("out", type=Path, metavar="F.onnx")
-    write.add_argument("--half", action="store_true", help="store weights in half precision")
+    write.add_argument("--precision", choices=export.STORED_AS, default="single", help="of large weights")
     write.add_argument("--count", type=int, default=4000, help="examples a condition for the card's metrics")
     beside = "show the learning curve of another run on the card, too; may be given several times"
     write.add_argument("--beside", type=Path, action="append", default=[], metavar="DIR", help=beside)
@@ -147,7 +147,7 @@ def main() -> int:
             result = evaluate(arguments)
         else:
             a = arguments
-            result = export.export(a.folder, a.out, a.half, a.count, a.golden, a.weights, tuple(a.beside))
+            result = export.export(a.folder, a.out, a.precision, a.count, a.golden, a.weights, tuple(a.beside))
     except (ValueError, FileNotFoundError) as error:
         print(f"boresight_training: {error}", file=sys.stderr)
         return 2

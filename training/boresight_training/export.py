@@ -14,11 +14,15 @@ import torch
 from onnx import TensorProto, helper, numpy_helper
 
 from . import checkpoint
+from .classifiers import folded
 from .learning import learning_curve
 from .tasks import Task, task
 
 OPSET = 16
-HALF_FROM = 256
+STORED_AS = {"single": "float32", "half": "float16", "bfloat16": "float16 of 8 significant bits"}
+"""Precisions of weights, and how the file has them. Half precision is what every runtime reads; our module reads large
+layers of 8 significant bits in half the time."""
+ROUNDED_FROM = 256
 """Smaller weights stay in single precision."""
 SHAPING = (
     "batch",
@@ -52,23 +56,23 @@ def restore(folder: Path) -> tuple[dict, Task, torch.nn.Module]:
 
 
 def exported_form(
-    what: Task, network: torch.nn.Module, half: bool, deviations: list[float] | None = None
+    what: Task, network: torch.nn.Module, precision: str, deviations: list[float] | None = None
 ) -> torch.nn.Module:
-    """What is exported, in PyTorch; with `half` its weights are rounded to half precision, in place."""
+    """What is exported, in PyTorch, with its weights rounded to a precision in place."""
     form = what.export_form(network, deviations).eval()
-    if half:
-        with torch.no_grad():
-            for value in form.parameters():
-                if value.numel() >= HALF_FROM:
-                    value.copy_(value.half())
+    with torch.no_grad():
+        for value in form.parameters():
+            if precision != "single" and value.numel() >= ROUNDED_FROM:
+                rounded = value.bfloat16() if precision == "bfloat16" else value
+                value.copy_(rounded.half())
     return form
 
 
-def to_onnx(what: Task, form: torch.nn.Module, path: Path, half: bool = False) -> float:
+def to_onnx(what: Task, form: torch.nn.Module, path: Path, precision: str = "single") -> float:
     """Writes the exported form and returns its largest difference from PyTorch.
 
-    With `half` the weights are stored in half precision and widened when the model loads; `form` has them rounded, so
-    that the difference speaks of the export alone.
+    Weights that are not of single precision are stored in half precision and widened when the model loads; `form` has
+    them rounded, so that the difference speaks of the export alone.
     """
     generator = torch.Generator().manual_seed(SEEDS["example"])
     example = what.example(3, generator)
@@ -93,7 +97,7 @@ def to_onnx(what: Task, form: torch.nn.Module, path: Path, half: bool = False) -
         for axis, dimension in zip(port.axes, value.type.tensor_type.shape.dim, strict=True):
             if isinstance(axis, int):
                 dimension.dim_value = axis
-    if half:
+    if precision != "single":
         _store_half(model.graph)
     onnx.checker.check_model(model, full_check=True)
     onnx.save(model, path)
@@ -119,7 +123,7 @@ def _store_half(graph) -> None:
     casts = []
     for weight in graph.initializer:
         values = numpy_helper.to_array(weight)
-        if values.dtype == np.float32 and values.size >= HALF_FROM:
+        if values.dtype == np.float32 and values.size >= ROUNDED_FROM:
             name = weight.name
             weight.CopyFrom(numpy_helper.from_array(values.astype(np.float16), f"{name}_half"))
             casts.append(helper.make_node("Cast", [f"{name}_half"], [name], to=TensorProto.FLOAT))
@@ -140,7 +144,7 @@ def golden(what: Task, form: torch.nn.Module, folder: Path) -> None:
 def export(
     folder: Path,
     path: Path,
-    half: bool = False,
+    precision: str = "single",
     count: int = 4000,
     golden_in: Path | None = None,
     weights: Path | None = None,
@@ -152,12 +156,16 @@ def export(
     run can start from. The card has the learning curve of the folder, and of those `beside`.
     """
     saved, what, network = restore(folder)
+    parameters = sum(p.numel() for p in network.parameters())
+    if isinstance(network, torch.nn.Sequential):
+        # The metrics below are then those of the rounded weights.
+        network = folded(network)
     if weights is not None:
         torch.save(checkpoint.weights(saved), weights)
     path.parent.mkdir(parents=True, exist_ok=True)
     deviations = what.deviations(network, count, torch.Generator().manual_seed(SEEDS["deviations"]))
-    form = exported_form(what, network, half, deviations)
-    difference = to_onnx(what, form, path, half)
+    form = exported_form(what, network, precision, deviations)
+    difference = to_onnx(what, form, path, precision)
     if golden_in is not None:
         golden(what, form, golden_in / path.stem)
     with torch.no_grad():
@@ -177,7 +185,7 @@ def export(
         **({} if deviations is None else {"deviation_factors": [round(factor, 4) for factor in deviations]}),
         "inputs": _ports(what.inputs),
         "outputs": _ports(what.outputs),
-        "parameters": sum(p.numel() for p in network.parameters()),
+        "parameters": parameters,
         **what.describe(),
         "legs": [_leg(leg) for leg in legs],
         "samplesSeen": sum(leg["samples"] for leg in legs),
@@ -186,7 +194,7 @@ def export(
         "metrics": [{name: _rounded(value) for name, value in condition.items()} for condition in metrics],
         "metricsExamples": count,
         **({"learning": curves} if curves else {}),
-        "onnx": {"opset": OPSET, "weights": "float16" if half else "float32", "parity": difference},
+        "onnx": {"opset": OPSET, "weights": STORED_AS[precision], "parity": difference},
         "bytes": path.stat().st_size,
         "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
     }

@@ -1,9 +1,11 @@
 """Networks: the papers' sizes, symmetries, and exported files that give the same numbers."""
 
+import numpy as np
 import onnx
 import onnxruntime
 import pytest
 import torch
+from onnx import numpy_helper
 
 from boresight_training import export
 from boresight_training.aaetr import CONFIGS, Aaetr
@@ -227,13 +229,22 @@ def test_exports_equal_pytorch_with_common_operators(tmp_path, name, config, tar
             assert (port.name, list(port.axes)) == (value.name, axes)
 
 
-def test_half_precision_halves_the_file(tmp_path):
+def test_weights_are_rounded_to_the_precision_asked_for(tmp_path):
     torch.manual_seed(0)
     what = task("dnn", "small", 1)
     network = what.model().eval()
-    for name, half in (("full.onnx", False), ("half.onnx", True)):
-        export.to_onnx(what, export.exported_form(what, network, half), tmp_path / name, half)
-    assert (tmp_path / "half.onnx").stat().st_size < 0.52 * (tmp_path / "full.onnx").stat().st_size
+    sizes, largest = {}, {}
+    for precision in export.STORED_AS:
+        path = tmp_path / f"{precision}.onnx"
+        export.to_onnx(what, export.exported_form(what, network, precision), path, precision)
+        weights = [numpy_helper.to_array(weight) for weight in onnx.load(path).graph.initializer]
+        sizes[precision], largest[precision] = path.stat().st_size, max(weights, key=lambda weight: weight.size)
+    assert max(sizes["half"], sizes["bfloat16"]) < 0.52 * sizes["single"]
+    single, half, short = (largest[precision].astype(np.float32) for precision in export.STORED_AS)
+    normal = np.abs(single) > 2.0**-14
+    assert np.abs(half / single - 1)[normal].max() <= 2.0**-11
+    assert np.abs(short / single - 1)[normal].max() <= 2.0**-8
+    assert not np.any(short.view(np.uint32) & 0xFFFF)
 
 
 def test_an_export_that_differs_is_refused(tmp_path, monkeypatch):

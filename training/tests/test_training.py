@@ -275,7 +275,7 @@ def test_the_command_line_trains_evaluates_and_exports(tmp_path):
     for condition in scores:
         classes = [condition[f"accuracy_of_{name}"] for name in ("none", "one", "two")]
         assert min(classes) <= condition["accuracy"] <= max(classes) and min(classes) >= 0 and max(classes) <= 1
-    finish(command("export", folder, path, "--half", "--count", 50))
+    finish(command("export", folder, path, "--precision", "half", "--count", 50))
     card = json.loads(path.with_suffix(".json").read_text())
     assert card["samplesSeen"] > 0 and card["architecture"] and card["differences"]
     (leg,) = card["legs"]
