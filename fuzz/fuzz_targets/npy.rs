@@ -13,7 +13,9 @@ fuzz_target!(|bytes: &[u8]| {
         let Ok(again) = NpyArray::parse(&written) else { panic!("what is written is read") };
         assert_eq!(again.shape, array.shape);
         let bits = |z: &[_]| {
-            z.iter().map(|z: &num_complex::Complex64| (z.re.to_bits(), z.im.to_bits())).collect::<Vec<_>>()
+            z.iter()
+                .map(|z: &num_complex::Complex64| (z.re.to_bits(), z.im.to_bits()))
+                .collect::<Vec<_>>()
         };
         assert_eq!(bits(&again.to_complex64()), bits(&numbers));
     }

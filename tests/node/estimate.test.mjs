@@ -236,6 +236,15 @@ describe('a batch', () => {
     assert.deepEqual(spectra.shape, [3, 9, 64]);
     assert.deepEqual([spectra.elevationDeg.length, spectra.power.length], [9, 3 * 9 * 64]);
   });
+
+  test('has no spectra of more points than may be kept, and works on', () => {
+    const estimator = new Estimator({ method: 'bartlett', array: 'ula4', gridPoints: 65_536 });
+    const cells = { data: new Float32Array(2 * 4 * 8000).fill(1), shape: [8000, 4] };
+    throwsTyped(() => estimator.estimateBatch({ snapshots: cells }, { spectra: true }), 'too-large', 'the spectra');
+    const few = { data: cells.data.subarray(0, 16), shape: [2, 4] };
+    assert.deepEqual(estimator.estimateBatch({ snapshots: few }, { spectra: true }).spectra.shape, [2, 65_536]);
+    estimator.free();
+  });
 });
 
 describe('handles', () => {

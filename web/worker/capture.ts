@@ -3,7 +3,7 @@ import type { Capture } from '../lib/capture/capture.js';
 import { failure } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
 import type { Pool } from './api.js';
-import type { JobOptions } from './pool.js';
+import type { JobOptions } from './job.js';
 import type { AllPromised } from './promised.js';
 import type { OperationName, Operations } from './protocol.js';
 

@@ -17,7 +17,7 @@ import type * as version from '../lib/runtime/version.js';
 import type * as simulate from '../lib/simulate/simulate.js';
 import type * as street from '../lib/simulate/street.js';
 import type { BytesInput, TextInput } from '../lib/types.js';
-import type { JobOptions } from './pool.js';
+import type { JobOptions } from './job.js';
 
 // biome-ignore lint/suspicious/noExplicitAny: functions of any arguments
 type AnyFunction = (...args: any) => unknown;

@@ -6,9 +6,13 @@ use crate::estimate::{Estimate, Source, SpectrumKind, Warning};
 use crate::estimator::Estimator;
 use crate::method::Method;
 use boresight_core::describe::{Described, remark};
+use boresight_core::error::check_size;
 use boresight_core::{Complex64, CoreError, Remark};
 use ndarray::{ArrayView3, Axis};
 use serde::Serialize;
+
+/// Most points that the spectra of a batch may have together (256 MiB).
+pub const MAX_SPECTRA: usize = 1 << 26;
 
 /// Results of many cells, flat.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,7 +150,7 @@ impl Estimator {
     ///
     /// # Errors
     /// [`AoaError`] when the data is malformed or does not suit the method; then there is no result
-    /// for any cell.
+    /// for any cell. [`CoreError::TooLarge`] for spectra of more than [`MAX_SPECTRA`] points together.
     pub fn estimate_batch(
         &mut self,
         snapshots: ArrayView3<'_, Complex64>,
@@ -184,6 +188,10 @@ impl Estimator {
         for portion in snapshots.axis_chunks_iter(Axis(0), at_once) {
             let estimates = &mut scratch[..portion.dim().0];
             self.estimate_cells(portion, estimates)?;
+            if let Some(spectrum) = estimates.first().and_then(|first| first.spectrum.as_ref()) {
+                let kept = if spectra { cells } else { 0 };
+                check_size("the spectra", &[kept, spectrum.values.len()], MAX_SPECTRA)?;
+            }
             for estimate in estimates {
                 out.add(estimate, spectra);
             }

@@ -159,7 +159,8 @@ pub struct Estimate {
     /// The spectrum, from methods that have one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spectrum: Option<Spectrum>,
-    /// Whether all sources asked for or counted were found.
+    /// Whether all sources asked for or counted were found. Methods that take no number of sources list the peaks there
+    /// are, of noise alone too, and always say so.
     pub resolved: bool,
     /// Iterations done, 0 for closed forms.
     pub iterations: usize,

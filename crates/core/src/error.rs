@@ -75,6 +75,16 @@ pub enum CoreError {
         /// The number given.
         given: f64,
     },
+    /// More numbers than one call may fill memory with.
+    #[error("{what} would take {given} values; expected at most {most}")]
+    TooLarge {
+        /// What would be allocated.
+        what: String,
+        /// Most values it may hold.
+        most: usize,
+        /// Values it would hold.
+        given: f64,
+    },
     /// A name that is not in a fixed list.
     #[error("{what} {given:?} is not known; expected one of {expected}")]
     Unknown {
@@ -104,6 +114,7 @@ impl Diagnose for CoreError {
             Self::NotFinite { .. } => "not-finite",
             Self::Shape { .. } => "shape",
             Self::OutOfRange { .. } => "out-of-range",
+            Self::TooLarge { .. } => "too-large",
             Self::Unknown { .. } => "unknown-name",
             Self::NotPositiveDefinite { .. } => "not-positive-definite",
         }
@@ -120,6 +131,9 @@ impl Diagnose for CoreError {
             }
             Self::OutOfRange { what, expected, given } => {
                 Details::new(what, expected, given.to_string())
+            }
+            Self::TooLarge { what, most, given } => {
+                Details::new(what, format!("at most {most} values"), given.to_string())
             }
             Self::Unknown { what, expected, given } => Details::new(what, expected, given),
             Self::NotPositiveDefinite { what, index, given } => Details::new(
@@ -165,6 +179,19 @@ pub fn check_range(what: &str, given: f64, low: f64, high: f64) -> Result<(), Co
     Err(CoreError::OutOfRange { what: what.into(), expected, given })
 }
 
+/// The product of the sizes of what would be allocated, where it is at most `most`.
+///
+/// # Errors
+/// [`CoreError::TooLarge`].
+pub fn check_size(what: &str, sizes: &[usize], most: usize) -> Result<usize, CoreError> {
+    let given = sizes.iter().map(|&size| size as f64).product();
+    if given > most as f64 {
+        return Err(CoreError::TooLarge { what: what.into(), most, given });
+    }
+    // As whole as the sizes are, and small enough to be exact; a product of sizes may overflow before a 0.
+    Ok(given as usize)
+}
+
 /// Checks that a number is finite and greater than zero.
 ///
 /// # Errors
@@ -191,4 +218,20 @@ pub fn check_finite(what: &str, numbers: impl IntoIterator<Item = f64>) -> Resul
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_multiplied_without_overflow() {
+        let most = 100;
+        assert_eq!(check_size("a", &[4, 5], most), Ok(20));
+        assert_eq!(check_size("a", &[10, 10], most), Ok(100));
+        assert_eq!(check_size("a", &[usize::MAX, usize::MAX, 0], most), Ok(0));
+        let refused = check_size("a", &[usize::MAX, 2], most);
+        assert!(matches!(refused, Err(CoreError::TooLarge { given, .. }) if given > 1e9));
+        assert_eq!(check_size("a", &[101], most).map_err(|error| error.code()), Err("too-large"));
+    }
 }

@@ -5,7 +5,7 @@ use crate::axis::Axis;
 use crate::error::ImageError;
 use boresight_core::CoreError;
 use boresight_core::describe::Described;
-use boresight_core::error::{check_finite, check_range};
+use boresight_core::error::{check_finite, check_range, check_size};
 use ndarray::{Array2, Array3, Axis as Dimension, s};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
@@ -34,7 +34,7 @@ impl Grid {
     ///
     /// # Errors
     /// [`CoreError::OutOfRange`] for a range below 0 or a field of view beyond 90 deg;
-    /// [`ImageError::TooLarge`] for too many cells.
+    /// [`CoreError::TooLarge`] for too many cells.
     pub fn new(
         range_m: [f64; 2],
         ranges: usize,
@@ -48,7 +48,7 @@ impl Grid {
             range_m: Axis::new("range_m", range_m[0], range_m[1], ranges)?,
             sine: Axis::new("azimuths", -limit, limit, azimuths)?,
         };
-        ImageError::check_cells("the map", [ranges, azimuths], MAX_CELLS)?;
+        check_size("the map", &[ranges, azimuths], MAX_CELLS)?;
         Ok(grid)
     }
 
@@ -185,10 +185,10 @@ impl RangeAzimuthDoppler {
     /// An empty cube; without `rate_mps` one that is its own sum over Doppler.
     ///
     /// # Errors
-    /// [`ImageError::TooLarge`].
+    /// [`CoreError::TooLarge`].
     pub fn new(grid: Grid, rate_mps: Option<Axis>) -> Result<Self, ImageError> {
         let shape = [grid.range_m.len(), rate_mps.map_or(1, |axis| axis.len()), grid.sine.len()];
-        ImageError::check_cells("the range-azimuth-Doppler cube", shape, MAX_CELLS)?;
+        check_size("the range-azimuth-Doppler cube", &shape, MAX_CELLS)?;
         Ok(Self { grid, rate_mps, power: Array3::zeros(shape), outside: Outside::default() })
     }
 

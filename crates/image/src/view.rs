@@ -5,7 +5,7 @@ use crate::error::ImageError;
 use crate::splat::RangeAzimuthMap;
 use boresight_core::CoreError;
 use boresight_core::drive::Mounting;
-use boresight_core::error::{check_finite, check_range};
+use boresight_core::error::{check_finite, check_range, check_size};
 use ndarray::Array2;
 
 /// Most cells of a view.
@@ -33,7 +33,7 @@ impl ViewGrid {
     /// of them.
     ///
     /// # Errors
-    /// Edges that do not ascend, fewer than two cells a side; [`ImageError::TooLarge`].
+    /// Edges that do not ascend, fewer than two cells a side; [`CoreError::TooLarge`].
     pub fn new(x_m: [f64; 2], y_m: [f64; 2], cell_m: f64) -> Result<Self, ImageError> {
         check_range("cell_m", cell_m, 1e-3, 1e3)?;
         let axis = |what, [from, to]: [f64; 2]| {
@@ -41,7 +41,7 @@ impl ViewGrid {
             Axis::new(what, from + 0.5 * cell_m, from + (cells as f64 - 0.5) * cell_m, cells)
         };
         let grid = Self { x_m: axis("x_m", x_m)?, y_m: axis("y_m", y_m)?, cell_m };
-        ImageError::check_cells("the view", [grid.x_m.len(), grid.y_m.len()], MAX_CELLS)?;
+        check_size("the view", &[grid.x_m.len(), grid.y_m.len()], MAX_CELLS)?;
         Ok(grid)
     }
 }

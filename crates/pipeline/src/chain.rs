@@ -61,8 +61,12 @@ impl Chain {
         array: &Array,
         options: &ChainOptions,
     ) -> Result<Self, PipelineError> {
-        let angle = suited(options.angle.method, array, &options.angle.options);
-        let estimators = || Estimators::new(options.angle.method, array, &angle, options.threads);
+        let ChainOptions { angle, threads, .. } = options;
+        // Options are checked before: what suits the array is found on a grid.
+        let estimators = || {
+            let suited = suited(angle.method, array, &angle.options);
+            Estimators::new(angle.method, array, &suited, *threads)
+        };
         Self::plan(waveform, receivers, array, options, estimators)
     }
 
@@ -78,8 +82,10 @@ impl Chain {
         counter: &Arc<dyn CountSources>,
     ) -> Result<Self, PipelineError> {
         let ChainOptions { angle, threads, .. } = options;
-        let suited = suited(angle.method, array, &angle.options);
-        let estimators = || Estimators::counted(angle.method, array, &suited, *threads, counter);
+        let estimators = || {
+            let suited = suited(angle.method, array, &angle.options);
+            Estimators::counted(angle.method, array, &suited, *threads, counter)
+        };
         Self::plan(waveform, receivers, array, options, estimators)
     }
 
@@ -211,6 +217,7 @@ impl Chain {
         method: Method,
         options: &EstimatorOptions,
     ) -> Result<Estimate, PipelineError> {
+        options.check()?;
         let options = suited(method, &self.array, options);
         let mut estimator = Estimator::new(method, &self.array, &options)?;
         Ok(estimator.estimate(Data::Snapshots(snapshots))?)

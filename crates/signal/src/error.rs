@@ -10,16 +10,6 @@ pub enum SignalError {
     /// An argument is wrong in itself.
     #[error(transparent)]
     Argument(#[from] CoreError),
-    /// The result would take more memory than a plan may hold.
-    #[error("{what} would take {given} values; expected at most {most}")]
-    TooLarge {
-        /// What would be allocated.
-        what: &'static str,
-        /// Most values it may hold.
-        most: usize,
-        /// Values it would hold.
-        given: usize,
-    },
     /// Guard and training cells around the cell under test do not fit the map.
     #[error("a CFAR window of {given} cells along {axis} does not fit a map of {cells}")]
     Window {
@@ -36,7 +26,6 @@ impl Diagnose for SignalError {
     fn code(&self) -> &'static str {
         match self {
             Self::Argument(error) => error.code(),
-            Self::TooLarge { .. } => "too-large",
             Self::Window { .. } => "cfar-window",
         }
     }
@@ -44,9 +33,6 @@ impl Diagnose for SignalError {
     fn details(&self) -> Details {
         match self {
             Self::Argument(error) => error.details(),
-            Self::TooLarge { what, most, given } => {
-                Details::new(*what, format!("at most {most} values"), given.to_string())
-            }
             Self::Window { axis, cells, given } => Details::new(
                 format!("CFAR window along {axis}"),
                 format!("at most {cells} cells"),

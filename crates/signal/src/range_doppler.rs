@@ -6,6 +6,7 @@ use crate::power::accumulate_power;
 use crate::range::{RowTransform, range_axis_m};
 use crate::window::Window;
 use boresight_core::describe::Described;
+use boresight_core::error::{check_range, check_size};
 use boresight_core::{Complex32, Complex64, CoreError, Waveform};
 use ndarray::{Array1, Array2, Array3, ArrayView4, Axis};
 use serde::{Deserialize, Serialize};
@@ -93,31 +94,23 @@ impl RangeDoppler {
     ///
     /// # Errors
     /// [`CoreError::OutOfRange`] for a waveform, a window or a padding out of range,
-    /// [`SignalError::TooLarge`] where the result would exceed [`MAX_CUBE_VALUES`].
+    /// [`CoreError::TooLarge`] where the result would exceed [`MAX_CUBE_VALUES`].
     pub fn new(
         waveform: &Waveform,
         receivers: usize,
         options: &RangeDopplerOptions,
     ) -> Result<Self, SignalError> {
         waveform.check()?;
-        boresight_core::error::check_range("receivers", receivers as f64, 1.0, 1024.0)?;
-        let values = [
+        check_range("receivers", receivers as f64, 1.0, 1024.0)?;
+        let sizes = [
             waveform.samples,
             options.range_padding,
             waveform.loops,
             options.doppler_padding,
             waveform.transmitters,
             receivers,
-        ]
-        .into_iter()
-        .fold(1, usize::saturating_mul);
-        if values > MAX_CUBE_VALUES {
-            return Err(SignalError::TooLarge {
-                what: "the range-Doppler cube",
-                most: MAX_CUBE_VALUES,
-                given: values,
-            });
-        }
+        ];
+        check_size("the range-Doppler cube", &sizes, MAX_CUBE_VALUES)?;
         let range =
             RowTransform::new(options.range_window, waveform.samples, options.range_padding)?;
         let mut doppler =

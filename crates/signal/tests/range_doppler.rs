@@ -198,7 +198,7 @@ fn wrong_shapes_and_sizes_are_named() {
     let huge = Waveform { sample_rate_hz: 5e9, ..huge };
     let error = RangeDoppler::new(&huge, 64, &options).err();
     assert!(
-        matches!(error, Some(SignalError::TooLarge { given, .. }) if given > MAX_CUBE_VALUES),
+        matches!(error, Some(SignalError::Argument(CoreError::TooLarge { given, .. })) if given > MAX_CUBE_VALUES as f64),
         "{error:?}"
     );
     let padded = RangeDopplerOptions { range_padding: 0, ..options };

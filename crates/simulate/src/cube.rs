@@ -8,12 +8,12 @@
 //!
 //! Phases in the far and in the near field are those of `crate::paths`.
 
-use crate::error::{SimulateError, check_values};
+use crate::error::SimulateError;
 use crate::paths::{Paths, moved};
 use boresight_core::array::{MAX_ELEMENTS, Position};
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
-use boresight_core::error::check_range;
+use boresight_core::error::{check_range, check_size};
 use boresight_core::steering::cis;
 use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_amplitude, db_to_power};
 use boresight_core::{
@@ -111,7 +111,7 @@ pub struct CubeOptions {
 /// [`CoreError::OutOfRange`] for a number out of range, among them a target that is, at any time,
 /// not between the radar and the waveform's unambiguous range; [`CoreError::Shape`] if waveform
 /// and array have different numbers of transmitters or the imperfections another number of
-/// elements; [`SimulateError::TooLarge`] above [`MAX_VALUES`].
+/// elements; [`CoreError::TooLarge`] above [`MAX_VALUES`].
 pub fn simulate_cube(
     waveform: &Waveform,
     array: &Array,
@@ -121,7 +121,7 @@ pub fn simulate_cube(
     check(waveform, array, targets, options)?;
     let (tx, rx) = (array.tx().len(), array.rx().len());
     let shape = [options.frames, waveform.loops, tx, rx, waveform.samples];
-    check_values("the data cube", &shape, MAX_VALUES)?;
+    check_size("the data cube", &shape, MAX_VALUES)?;
     let model = Model::new(waveform, array, options);
     let mut phases = Random::new(options.seed, 0);
     let echoes: Vec<Echo> = targets.iter().map(|t| model.echo(t, &mut phases)).collect();

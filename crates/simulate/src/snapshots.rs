@@ -8,12 +8,12 @@
 //! ([`Array::channels`]). An array that was given by positions alone has one transmitter at the origin and its
 //! receivers there.
 
-use crate::error::{SimulateError, check_values};
+use crate::error::SimulateError;
 use crate::paths::{Paths, moved};
 use boresight_core::array::Position;
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
-use boresight_core::error::check_range;
+use boresight_core::error::{check_range, check_size};
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::units::{db_to_amplitude, db_to_power};
 use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections, Random};
@@ -194,10 +194,10 @@ impl SnapshotSimulator {
     /// Snapshots (elements x snapshots) and targets of scene `index`.
     ///
     /// # Errors
-    /// [`SimulateError::TooLarge`] above [`MAX_VALUES`].
+    /// [`CoreError::TooLarge`] above [`MAX_VALUES`].
     pub fn scene(&self, index: u64) -> Result<(Array2<Complex64>, Vec<Target>), SimulateError> {
         let shape = [self.array.len(), self.options.snapshots];
-        check_values("the snapshots", &shape, MAX_VALUES)?;
+        check_size("the snapshots", &shape, MAX_VALUES)?;
         let mut values = Array2::zeros(shape);
         let truth = self.fill(index, values.view_mut());
         Ok((values, truth))
@@ -206,10 +206,10 @@ impl SnapshotSimulator {
     /// Scenes `first` to `first + count - 1`.
     ///
     /// # Errors
-    /// [`SimulateError::TooLarge`] above [`MAX_VALUES`].
+    /// [`CoreError::TooLarge`] above [`MAX_VALUES`].
     pub fn scenes(&self, first: u64, count: usize) -> Result<Snapshots, SimulateError> {
         let shape = [count, self.array.len(), self.options.snapshots];
-        check_values("the snapshots", &shape, MAX_VALUES)?;
+        check_size("the snapshots", &shape, MAX_VALUES)?;
         let mut values = Array3::zeros(shape);
         let truth = values
             .axis_iter_mut(Axis(0))

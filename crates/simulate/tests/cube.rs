@@ -245,7 +245,7 @@ fn what_cannot_be_simulated_is_named() {
     assert!(run(&waveform, &array, good, &short).contains("errors"));
     let long = CubeOptions { frames: 100_000, ..options.clone() };
     let error = simulate_cube(&waveform, &array, &[good], &long).unwrap_err();
-    assert!(matches!(error, SimulateError::TooLarge { .. }));
+    assert!(matches!(error, SimulateError::Argument(CoreError::TooLarge { .. })));
     let none = CubeOptions { frames: 0, ..options };
     let error = simulate_cube(&waveform, &array, &[good], &none).unwrap_err();
     assert!(matches!(error, SimulateError::Argument(CoreError::OutOfRange { .. })));

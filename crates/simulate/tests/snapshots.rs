@@ -246,7 +246,10 @@ fn too_much_and_too_little_are_named() {
     let array = preset("lrr48").unwrap();
     let good = options(given(&[]), Fluctuation::RandomPhase, 10.0, 1);
     let simulator = SnapshotSimulator::new(&array, &good).unwrap();
-    assert!(matches!(simulator.scenes(0, usize::MAX), Err(SimulateError::TooLarge { .. })));
+    assert!(matches!(
+        simulator.scenes(0, usize::MAX),
+        Err(SimulateError::Argument(CoreError::TooLarge { .. }))
+    ));
     assert_eq!(simulator.scenes(0, 0).unwrap().truth.len(), 0);
     let none = SnapshotOptions { snapshots: 0, ..good.clone() };
     assert!(matches!(

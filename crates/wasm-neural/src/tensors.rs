@@ -4,11 +4,12 @@ use boresight_core::CoreError;
 use boresight_core::describe::columns;
 use boresight_wasm::carry;
 use boresight_wasm::error::Fallible;
+use boresight_wasm::given;
 use boresight_wasm::read::{Fields, Read, wrong_type};
-use js_sys::{Array, Float32Array, Object, Reflect};
+use js_sys::{Float32Array, Reflect};
 use ndarray::ArrayD;
 use serde::{Serialize, Serializer};
-use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen::JsValue;
 
 /// Numbers in C order with their shape.
 struct Tensor(ArrayD<f32>);
@@ -19,15 +20,14 @@ impl Read for Tensor {
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
         let mut fields = Fields::new(value, path)?;
         let data = fields.raw("data")?.unwrap_or(JsValue::UNDEFINED);
-        let data = data
-            .dyn_ref::<Float32Array>()
-            .ok_or_else(|| wrong_type(&format!("{path}.data"), "a Float32Array", &data))?
-            .to_vec();
+        let own = format!("{path}.data");
+        let data = given::numbers::<Float32Array, f32>(&data, &own)?
+            .ok_or_else(|| wrong_type(&own, "a Float32Array", &data))?;
         let shape: Vec<usize> = fields.required("shape")?;
         fields.finish()?;
         let given = data.len();
         let array = ArrayD::from_shape_vec(&*shape, data).map_err(|_| CoreError::Shape {
-            what: format!("{path}.data"),
+            what: own,
             expected: format!("1 number for each entry of shape {shape:?}"),
             given: vec![given],
         })?;
@@ -37,20 +37,17 @@ impl Read for Tensor {
 
 /// The tensors of an object by its keys.
 pub fn read_tensors(value: &JsValue) -> Fallible<Vec<(String, ArrayD<f32>)>> {
-    if !value.is_object() || Array::is_array(value) {
+    if !given::is_plain(value) {
         return Err(wrong_type("inputs", "an object of tensors", value));
     }
-    let object: &Object = value.unchecked_ref();
-    Object::entries(object)
-        .iter()
-        .map(|entry| {
-            let name = Reflect::get_u32(&entry, 0).ok().and_then(|name| name.as_string());
-            let name = name.unwrap_or_default();
-            let tensor = Reflect::get_u32(&entry, 1).unwrap_or(JsValue::UNDEFINED);
-            let Tensor(array) = Tensor::read(&tensor, &format!("inputs.{name}"))?;
-            Ok((name, array))
-        })
-        .collect()
+    let tensor = |key: JsValue| {
+        let name = key.as_string().unwrap_or_default();
+        let path = format!("inputs.{name}");
+        let tensor = Reflect::get(value, &key).map_err(|_| given::throws(path.clone()))?;
+        let Tensor(array) = Tensor::read(&tensor, &path)?;
+        Ok((name, array))
+    };
+    given::keys(value, &|| "inputs".into())?.into_iter().map(tensor).collect()
 }
 
 /// An object of tensors by their names.

@@ -1,11 +1,12 @@
 //! Numbers out of typed arrays with their shape.
 
 use crate::error::{BindingError, Fallible};
+use crate::given;
 use crate::read::{Fields, Read, wrong_type};
 use boresight_core::{Complex32, Complex64, CoreError};
 use js_sys::{Float32Array, Float64Array};
 use ndarray::ArrayView4;
-use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen::JsValue;
 
 /// Complex numbers in C order with their shape.
 pub struct ComplexData {
@@ -77,15 +78,14 @@ impl Read for Cube {
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
         let mut fields = Fields::new(value, path)?;
         let data_path = fields.path_of("data");
-        let given = fields.raw("data")?;
-        let Some(array) = given.as_ref().and_then(|value| value.dyn_ref::<Float32Array>()) else {
+        let single = match fields.raw("data")? {
+            Some(data) => given::numbers::<Float32Array, f32>(&data, &data_path)?,
+            None => None,
+        };
+        let Some(numbers) = single else {
             let all = ComplexData::of(Fields::new(value, path)?)?;
             return Ok(Self { data: all.to_complex32(), shape: all.shape });
         };
-        let mut numbers = zeros(&data_path, array.length() as usize, 0.0_f32)?;
-        if !numbers.is_empty() {
-            array.copy_to(&mut numbers);
-        }
         let shape: Vec<usize> = fields.required("shape")?;
         fields.finish()?;
         check_length(data_path, &shape, numbers.len(), 2, Fewest::One)?;
@@ -135,22 +135,11 @@ pub fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<(Vec<f64
     let value = fields
         .raw(name)?
         .ok_or_else(|| BindingError::Missing { what: path.clone(), expected: expected.into() })?;
-    // A detached array has no length, and copying from it throws.
-    if let Some(array) = value.dyn_ref::<Float64Array>() {
-        let mut numbers = zeros(&path, array.length() as usize, 0.0)?;
-        if !numbers.is_empty() {
-            array.copy_to(&mut numbers);
-        }
-        Ok((numbers, false))
-    } else if let Some(array) = value.dyn_ref::<Float32Array>() {
-        let mut numbers = zeros(&path, array.length() as usize, 0.0_f32)?;
-        if !numbers.is_empty() {
-            array.copy_to(&mut numbers);
-        }
-        Ok((numbers.into_iter().map(f64::from).collect(), true))
-    } else {
-        Err(wrong_type(&path, expected, &value))
+    if let Some(numbers) = given::numbers::<Float64Array, _>(&value, &path)? {
+        return Ok((numbers, false));
     }
+    let numbers = given::numbers::<Float32Array, _>(&value, &path)?;
+    numbers.map(|numbers| (numbers, true)).ok_or_else(|| wrong_type(&path, expected, &value))
 }
 
 /// `len` copies of `zero`, or an error where memory does not hold them.

@@ -3,6 +3,7 @@
 
 use crate::carry;
 use crate::error::Fallible;
+use crate::given;
 use crate::read::items;
 use boresight_calibrate::{AngleEstimate, Calibrator, FrameInput, Joint};
 use boresight_core::Detection;
@@ -62,7 +63,7 @@ impl DriveCalibrator {
         speed_mps: Vec<f64>,
         max_gap_s: f64,
     ) -> Fallible<Self> {
-        let inner = if js_sys::Array::is_array(options) {
+        let inner = if given::is_array(options) {
             let mut radars = vec![];
             for (place, (item, _)) in (0..=u8::MAX).zip(items(options, "sensors")?) {
                 radars.push((place, carry::read(&item)?));

@@ -4,6 +4,7 @@ use crate::carry;
 use crate::complex::float_array;
 use crate::error::{BindingError, Fallible};
 use crate::estimate::shape_error;
+use crate::given;
 use crate::read::{Fields, Read, wrong_type};
 use boresight_aoa::{Method, SpectrumKind};
 use boresight_core::describe::Described;
@@ -20,8 +21,8 @@ use boresight_pipeline::{AngleOptions, ChainOptions, suited};
 use js_sys::{Int8Array, Uint32Array};
 use ndarray::Array2;
 use serde::Serialize;
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
-use wasm_bindgen::{JsCast, JsValue};
 
 /// Adds the targets or spectra of a frame's cells up to a map.
 #[wasm_bindgen(js_name = rangeAzimuthMap)]
@@ -74,11 +75,9 @@ fn add_targets(
     cells: &Cells,
     estimates: &mut Fields,
 ) -> Fallible<()> {
-    let cell: Vec<u32> = match estimates.raw("cell")? {
-        Some(value) => match value.dyn_ref::<Uint32Array>() {
-            Some(array) => array.to_vec(),
-            None => return Err(wrong_type("estimates.cell", "a Uint32Array", &value)),
-        },
+    let cell: Vec<f64> = match estimates.raw("cell")? {
+        Some(value) => given::numbers::<Uint32Array, f64>(&value, "estimates.cell")?
+            .ok_or_else(|| wrong_type("estimates.cell", "a Uint32Array", &value))?,
         None => return Err(missing("estimates.cell", "a Uint32Array")),
     };
     let azimuth_deg = float_array(estimates, "azimuthDeg")?.0;
@@ -97,7 +96,7 @@ fn add_targets(
     }
     for (index, &cell) in cell.iter().enumerate() {
         let last = cells.range_m.len() as f64 - 1.0;
-        check_range("cell of an estimate", f64::from(cell), 0.0, last)?;
+        check_range("cell of an estimate", cell, 0.0, last)?;
         image.add_target(&Target {
             range_m: cells.range_m[cell as usize],
             rate_mps: 0.0,
@@ -220,13 +219,12 @@ fn read_view(mut fields: Fields) -> Fallible<BirdsEyeView> {
     let shape = (x_m.len(), y_m.len());
     let power = powers(&mut fields, shape)?;
     let radar = match fields.raw("radar")? {
-        Some(value) => match value.dyn_ref::<Int8Array>() {
-            Some(array) => array.to_vec(),
-            None => return Err(wrong_type("view.radar", "an Int8Array", &value)),
-        },
+        Some(value) => given::numbers::<Int8Array, f64>(&value, "view.radar")?
+            .ok_or_else(|| wrong_type("view.radar", "an Int8Array", &value))?,
         None => return Err(missing("view.radar", "an Int8Array")),
     };
     let given = [radar.len()];
+    let radar = radar.into_iter().map(|radar| radar as i8).collect();
     let radar = Array2::from_shape_vec(shape, radar)
         .map_err(|_| shape_error("view.radar", "a radar for each cell", &given))?;
     let mountings: Vec<Mounting> = fields.described_required("mountings")?;

@@ -43,6 +43,7 @@ mod drive_calibrator;
 pub mod error;
 #[cfg(feature = "chain")]
 pub mod estimate;
+pub mod given;
 #[cfg(feature = "core")]
 pub mod image;
 #[cfg(feature = "core")]

@@ -2,9 +2,10 @@
 
 use crate::carry::{Known, Reader, read_named};
 use crate::error::{BindingError, Fallible};
+use crate::given;
 use boresight_core::CoreError;
 use boresight_core::describe::{At, Described, Naming};
-use js_sys::{Array, BigInt, Object};
+use js_sys::{BigInt, Object};
 use serde::de::DeserializeOwned;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -34,8 +35,7 @@ impl Fields {
     /// Reads `value`, which must be a plain object; `path` is its name in errors, empty for the
     /// argument itself.
     pub fn new(value: &JsValue, path: &str) -> Fallible<Self> {
-        let plain = value.is_object() && !Array::is_array(value) && !value.is_function();
-        if !plain {
+        if !given::is_plain(value) {
             let what = if path.is_empty() { "options" } else { path };
             return Err(wrong_type(what, "an object", value));
         }
@@ -58,11 +58,7 @@ impl Fields {
 
     /// The raw value of a field; nothing if absent or `undefined`.
     pub fn raw(&mut self, name: &'static str) -> Fallible<Option<JsValue>> {
-        self.known.get(&self.object, name).map_err(|_| BindingError::Type {
-            what: self.path_of(name),
-            expected: "a value".into(),
-            given: "a property that throws".into(),
-        })
+        self.known.get(&self.object, name).map_err(|_| given::throws(self.path_of(name)))
     }
 
     /// A field that may be absent.
@@ -142,17 +138,21 @@ pub fn choice<T: Copy>(value: &JsValue, path: &str, choices: &[(&str, T)]) -> Fa
     }
 }
 
+/// How many items an array has; `path` names it in errors.
+pub fn item_count(value: &JsValue, path: &dyn Fn() -> String) -> Fallible<u32> {
+    if !given::is_array(value) {
+        return Err(wrong_type(&path(), "an array", value));
+    }
+    given::length(value).filter(|&length| length <= MOST_ITEMS).ok_or_else(|| {
+        wrong_type(&path(), &format!("an array of at most {MOST_ITEMS} items"), value)
+    })
+}
+
 /// The items of an array with their paths.
 pub fn items(value: &JsValue, path: &str) -> Fallible<Vec<(JsValue, String)>> {
-    if !Array::is_array(value) {
-        return Err(wrong_type(path, "an array", value));
-    }
-    let array: &Array = value.unchecked_ref();
-    if array.length() > MOST_ITEMS {
-        return Err(wrong_type(path, &format!("an array of at most {MOST_ITEMS} items"), value));
-    }
-    let path_of = |index: usize| [path, "[", &index.to_string(), "]"].concat();
-    Ok(array.iter().enumerate().map(|(i, item)| (item, path_of(i))).collect())
+    let path_of = |index: u32| [path, "[", &index.to_string(), "]"].concat();
+    let read = |index| Ok((given::item(value, index, &|| path_of(index))?, path_of(index)));
+    (0..item_count(value, &|| path.into())?).map(read).collect()
 }
 
 /// A value in words, short enough for a message.
@@ -167,9 +167,10 @@ fn describe(value: &JsValue) -> String {
         value if value.is_null() => "null".into(),
         value if value.is_undefined() => "undefined".into(),
         value if value.is_function() => "a function".into(),
-        value if Array::is_array(value) => {
-            format!("an array of {}", value.unchecked_ref::<Array>().length())
-        }
+        value if given::is_array(value) => match given::length(value) {
+            Some(length) => format!("an array of {length}"),
+            None => "an array without a length".into(),
+        },
         value if value.is_object() => "an object".into(),
         value => match value.as_bool() {
             Some(truth) => truth.to_string(),

@@ -2,6 +2,7 @@
 
 use crate::carry;
 use crate::error::Fallible;
+use crate::given;
 use crate::read::{Fields, Read};
 use boresight_core::{Array, Waveform};
 use boresight_simulate::{CubeColumns, CubeRequest, CubeTarget, Scene, SnapshotRequest};
@@ -35,7 +36,7 @@ impl Read for Scene {
     const EXPECTED: &'static str = "an array of targets, or { count, ... } to sample them";
 
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        if js_sys::Array::is_array(value) {
+        if given::is_array(value) {
             return carry::read_named(value, path).map(Self::Given);
         }
         Ok(Self::Sampled(carry::read_named(value, path)?))

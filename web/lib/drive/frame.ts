@@ -1,6 +1,7 @@
 // Scans of a drive as frames, one by one.
 import * as glue from '../../wasm/boresight_drives.js';
 import { failure } from '../runtime/errors.js';
+import { describe } from '../runtime/given.js';
 import type { DriveData, DriveFrame, MotionGap, ScanMotion } from '../types.js';
 import { drives } from './drive.js';
 import { ascending, doubles, extent, floats, gapOf, motionOf, Reader, viewOf } from './view.js';
@@ -30,7 +31,7 @@ export function driveFrame(drive: DriveData, scan: number, motion: ScanMotion): 
     throw failure('out-of-range', {
       what: 'scan',
       expected: `a whole number below ${view.timeS.length}`,
-      given: String(scan),
+      given: describe(scan),
     });
   }
   const [start, end] = extent(view, scan);

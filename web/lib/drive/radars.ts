@@ -1,5 +1,6 @@
 // Which radars of a drive are calibrated, and how each sits on the car.
-import { failure, own, wrong } from '../runtime/errors.js';
+import { failure, own, reading, wrong } from '../runtime/errors.js';
+import { isArray } from '../runtime/given.js';
 import type { CalibrateDriveOptions, CalibrationOptions, DriveSensor, JointCalibrationOptions } from '../types.js';
 import { gapOf, positive, type View } from './view.js';
 
@@ -36,11 +37,10 @@ export function jointTaskOf(view: View, options: JointCalibrationOptions | undef
         given: 'one of a single radar',
       });
   }
-  const asked: unknown = sensors ?? view.sensors.map(({ id }) => id);
-  if (!Array.isArray(asked) || asked.length === 0 || asked.length > 256) {
-    throw wrong('sensors', 'an array of 1 to 256 radars', asked);
-  }
-  const radars = Array.from(asked, (item: unknown, index) => {
+  const given: unknown = sensors ?? view.sensors.map(({ id }) => id);
+  const asked = reading('sensors', () => (isArray(given) && given.length <= 256 ? Array.from(given) : []));
+  if (asked.length === 0) throw wrong('sensors', 'an array of 1 to 256 radars', given);
+  const radars = asked.map((item, index) => {
     const path = `sensors[${index}]`;
     const { sensor, xM, yM, nominalDeg, ...others } =
       typeof item === 'object' ? own(item as RadarOptions, path) : { sensor: item };

@@ -1,5 +1,6 @@
 // The parts of a drive, checked: drives come from anywhere.
-import { failure, wrong } from '../runtime/errors.js';
+import { failure, own, reading, wrong } from '../runtime/errors.js';
+import { isArray, type Kind, typedArray } from '../runtime/given.js';
 import type { DriveData, DriveSensor, MotionGap } from '../types.js';
 
 export type Floats = Float32Array | Float64Array;
@@ -28,7 +29,7 @@ export class Reader {
   readonly #path: string;
 
   constructor(value: unknown, path: string) {
-    if (typeof value !== 'object' || value === null || Array.isArray(value)) throw wrong(path, 'an object', value);
+    if (typeof value !== 'object' || value === null || isArray(value)) throw wrong(path, 'an object', value);
     this.#object = value;
     this.#path = path;
   }
@@ -39,15 +40,7 @@ export class Reader {
 
   /** The value of a field; undefined for null too. */
   get(name: string): unknown {
-    try {
-      return (this.#object as Record<string, unknown>)[name] ?? undefined;
-    } catch (cause) {
-      throw failure(
-        'wrong-type',
-        { what: this.path(name), expected: 'a value', given: 'a property that throws' },
-        cause,
-      );
-    }
+    return reading(this.path(name), () => (this.#object as Record<string, unknown>)[name] ?? undefined);
   }
 
   part(name: string): Reader {
@@ -55,14 +48,10 @@ export class Reader {
   }
 
   /** A typed array of one of these kinds, of a length unless that is its own; undefined if absent. */
-  maybe<T extends { length: number }>(
-    name: string,
-    kinds: readonly (new (length: number) => T)[],
-    length?: number,
-  ): T | undefined {
+  maybe<T extends { length: number }>(name: string, kinds: readonly Kind<T>[], length?: number): T | undefined {
     const value = this.get(name);
     if (value === undefined) return undefined;
-    const array = kinds.find((kind) => value instanceof kind) ? (value as T) : undefined;
+    const array = typedArray(value, kinds);
     if (!array) throw wrong(this.path(name), `a ${kinds.map((kind) => kind.name).join(' or ')}`, value);
     if (length !== undefined && array.length !== length) {
       throw failure('shape', { what: this.path(name), expected: `${length} entries`, given: `${array.length}` });
@@ -70,7 +59,7 @@ export class Reader {
     return array;
   }
 
-  array<T extends { length: number }>(name: string, kinds: readonly (new (length: number) => T)[], length?: number): T {
+  array<T extends { length: number }>(name: string, kinds: readonly Kind<T>[], length?: number): T {
     const array = this.maybe(name, kinds, length);
     if (array !== undefined) return array;
     const expected = `a ${kinds.map((kind) => kind.name).join(' or ')}`;
@@ -78,7 +67,7 @@ export class Reader {
   }
 }
 
-export const floats: readonly (new (length: number) => Floats)[] = [Float64Array, Float32Array];
+export const floats: readonly Kind<Floats>[] = [Float64Array, Float32Array];
 
 /** Numbers in double precision. */
 export const doubles = (values: Floats): Float64Array =>
@@ -116,9 +105,9 @@ export function motionOf(motion: Reader): View['motion'] {
 }
 
 function sensorsOf(value: unknown): DriveSensor[] {
-  if (!Array.isArray(value) || value.length > 256)
-    throw wrong('drive.sensors', 'an array of at most 256 radars', value);
-  const sensors = Array.from(value, (item, index): DriveSensor => {
+  const items = reading('drive.sensors', () => (isArray(value) && value.length <= 256 ? Array.from(value) : undefined));
+  if (!items) throw wrong('drive.sensors', 'an array of at most 256 radars', value);
+  const sensors = items.map((item, index): DriveSensor => {
     const fields = new Reader(item, `drive.sensors[${index}]`);
     const number = (name: string): number | null => {
       const given = fields.get(name) ?? null;
@@ -184,7 +173,7 @@ export function positive(what: string, given: unknown): number {
 
 /** The longest gap that is bridged. */
 export function gapOf(gap: MotionGap | undefined): number {
-  return positive('maxGapS', gap?.maxGapS ?? MAX_GAP_S);
+  return positive('maxGapS', own(gap ?? undefined, 'gap').maxGapS ?? MAX_GAP_S);
 }
 
 /** The scans of some radars in arrays of their own, with what calibration reads, and their numbers in the drive. */

@@ -191,7 +191,10 @@ export interface Estimate {
   sources: Source[];
   /** The spectrum, from methods that have one. */
   spectrum?: Spectrum;
-  /** Whether all sources asked for or counted were found. */
+  /**
+   * Whether all sources asked for or counted were found. Methods that take no number of sources list the peaks there
+   * are, of noise alone too, and always say so.
+   */
   resolved: boolean;
   /** Iterations done, 0 for closed forms. */
   iterations: number;

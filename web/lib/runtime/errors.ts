@@ -1,3 +1,5 @@
+import { describe, isArray } from './given.js';
+
 /** What was wrong, what would have been accepted and what was given. */
 export interface ErrorDetails {
   readonly what: string;
@@ -53,18 +55,22 @@ export function failure(code: string, details: ErrorDetails, cause?: unknown): B
 
 /** For a value of another type than expected. */
 export function wrong(what: string, expected: string, value: unknown): BoresightError {
-  const given = value === null ? 'null' : Array.isArray(value) ? `an array of ${value.length}` : typeof value;
-  return failure('wrong-type', { what, expected, given: typeof value === 'number' ? String(value) : given });
+  return failure('wrong-type', { what, expected, given: describe(value) });
+}
+
+/** Reads arguments; what they throw by themselves becomes a typed error that names them. */
+export function reading<T>(what: string, read: () => T): T {
+  try {
+    return read();
+  } catch (cause) {
+    if (cause instanceof BoresightError) throw cause;
+    throw failure('wrong-type', { what, expected: 'a value', given: 'a property that throws' }, cause);
+  }
 }
 
 /** A copy of options; none of them where there are no options. */
 export function own<T extends object>(options: T | undefined, what: string): { [K in keyof T]?: unknown } {
   if (options === undefined) return {};
-  if (typeof options !== 'object' || options === null || Array.isArray(options))
-    throw wrong(what, 'an object', options);
-  try {
-    return { ...options };
-  } catch (cause) {
-    throw failure('wrong-type', { what, expected: 'an object', given: 'one with a property that throws' }, cause);
-  }
+  if (typeof options !== 'object' || options === null || isArray(options)) throw wrong(what, 'an object', options);
+  return reading(what, () => ({ ...options }));
 }

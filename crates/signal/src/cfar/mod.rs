@@ -19,7 +19,7 @@ mod threshold;
 use crate::error::SignalError;
 use boresight_core::CoreError;
 use boresight_core::describe::{self, Described, Naming};
-use boresight_core::error::check_range;
+use boresight_core::error::{check_range, check_size};
 use ndarray::{Array2, ArrayView2};
 use serde::{Deserialize, Serialize};
 use stencil::{Rectangle, Stencil};
@@ -128,7 +128,7 @@ impl Cfar {
     ///
     /// # Errors
     /// [`CoreError::OutOfRange`] for an option out of range, [`SignalError::Window`] where the
-    /// window is larger than the map, [`SignalError::TooLarge`] above [`MAX_CELLS`].
+    /// window is larger than the map, [`CoreError::TooLarge`] above [`MAX_CELLS`].
     pub fn new(ranges: usize, dopplers: usize, options: &CfarOptions) -> Result<Self, SignalError> {
         describe::check(options, Naming::Rust)?;
         check_range("looks", options.looks as f64, 1.0, 1024.0)?;
@@ -139,11 +139,7 @@ impl Cfar {
         }
         check_range("range bins", ranges as f64, 1.0, MAX_CELLS as f64)?;
         check_range("Doppler bins", dopplers as f64, 1.0, MAX_CELLS as f64)?;
-        let cells = ranges.saturating_mul(dopplers);
-        if cells > MAX_CELLS {
-            let what = "the range-Doppler map";
-            return Err(SignalError::TooLarge { what, most: MAX_CELLS, given: cells });
-        }
+        check_size("the range-Doppler map", &[ranges, dopplers], MAX_CELLS)?;
         let stencil = Stencil::new(ranges, dopplers, options)?;
         let reach = stencil.doppler_reach();
         let ordered = matches!(options.kind, CfarKind::OrderedStatistic);

@@ -2,6 +2,7 @@
 
 use super::names::property;
 use crate::error::{BindingError, Fallible};
+use crate::given;
 use crate::read::shortened;
 use boresight_core::describe::At;
 use js_sys::{Object, Reflect};
@@ -17,7 +18,7 @@ pub struct Known {
 }
 
 thread_local! {
-    static PLAIN: Object = Object::get_prototype_of(&Object::new());
+    static PLAIN: Object = Object::get_prototype_of(&Object::new().into());
 }
 
 impl Known {
@@ -42,19 +43,20 @@ impl Known {
     /// # Errors
     /// [`BindingError::UnknownField`] for the first.
     pub fn refuse_others(&self, object: &Object, at: &At<'_>) -> Fallible<()> {
-        let keys = Object::keys(object);
+        let keys = given::keys(object, &|| at.path())?;
         // As many as there are without looking at each: none else, unless some are inherited.
-        let is_plain = PLAIN.with(|plain| Object::get_prototype_of(object) == *plain);
-        if is_plain && keys.length() == self.present.get() {
+        let prototype = Reflect::get_prototype_of(object);
+        let is_plain = prototype.is_ok_and(|own| PLAIN.with(|plain| own == *plain));
+        if is_plain && keys.len() == self.present.get() as usize {
             return Ok(());
         }
         let known = self.names.borrow();
-        for key in keys.iter() {
+        for key in &keys {
             let name = key.as_string().unwrap_or_default();
             if known.contains(&name.as_str()) {
                 continue;
             }
-            let given = Reflect::get(object, &key).unwrap_or(JsValue::NULL);
+            let given = Reflect::get(object, key).unwrap_or(JsValue::NULL);
             if !given.is_undefined() {
                 let name = if name.is_empty() { "\"\"".into() } else { shortened(&name) };
                 let above = at.path();

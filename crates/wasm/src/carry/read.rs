@@ -5,10 +5,11 @@ use super::names::property;
 use super::refusal::ReadError;
 use super::walk::{Entries, FieldsOf, Items};
 use crate::error::{BindingError, Fallible};
-use crate::read::{MOST_ITEMS, shortened, wrong_type};
+use crate::given;
+use crate::read::{item_count, shortened, wrong_type};
 use boresight_core::CoreError;
 use boresight_core::describe::{At, Described, Kind, Naming};
-use js_sys::{Array, Object, Reflect};
+use js_sys::{Object, Reflect};
 use serde::de::value::StringDeserializer;
 use serde::de::{DeserializeOwned, Deserializer, IntoDeserializer, Visitor};
 use serde::forward_to_deserialize_any;
@@ -80,9 +81,7 @@ impl<'a> Reader<'a> {
     }
 
     fn wrong_type(&self, expected: &str) -> ReadError {
-        let path = self.at.path();
-        let what = if path.is_empty() { "options" } else { &path };
-        wrong_type(what, expected, &self.value).into()
+        wrong_type(&self.name(), expected, &self.value).into()
     }
 
     fn out_of_range(&self, expected: &str, given: f64) -> ReadError {
@@ -94,13 +93,15 @@ impl<'a> Reader<'a> {
         .into()
     }
 
-    fn is_plain(&self) -> bool {
-        self.value.is_object() && !Array::is_array(&self.value) && !self.value.is_function()
-    }
-
     /// What serde-wasm-bindgen reads of the value.
     fn leaf(&self) -> serde_wasm_bindgen::Deserializer {
         serde_wasm_bindgen::Deserializer::from(self.value.clone())
+    }
+
+    #[inline(never)]
+    fn items(&self) -> Reading<Items<'_>> {
+        let length = item_count(&self.value, &|| self.name())?;
+        Ok(Items::new(&self.value, length, &self.at, self.is_angle))
     }
 
     fn number(&self) -> Reading<f64> {
@@ -111,15 +112,10 @@ impl<'a> Reader<'a> {
         Ok(if self.is_angle { given.to_radians() } else { given })
     }
 
-    fn items(&self) -> Reading<&Array> {
-        if !Array::is_array(&self.value) {
-            return Err(self.wrong_type("an array"));
-        }
-        let array: &Array = self.value.unchecked_ref();
-        if array.length() > MOST_ITEMS {
-            return Err(self.wrong_type(&format!("an array of at most {MOST_ITEMS} items")));
-        }
-        Ok(array)
+    /// How the value is called in errors.
+    fn name(&self) -> String {
+        let path = self.at.path();
+        if path.is_empty() { "options".into() } else { path }
     }
 
     // What follows is no part of the functions that read each struct, which there are many of.
@@ -129,7 +125,7 @@ impl<'a> Reader<'a> {
         names: &'static [&'static str],
         own: &'b Known,
     ) -> Reading<FieldsOf<'b>> {
-        if !self.is_plain() {
+        if !given::is_plain(&self.value) {
             return Err(self.wrong_type("an object"));
         }
         let known = self.known.unwrap_or(own);
@@ -137,7 +133,7 @@ impl<'a> Reader<'a> {
     }
 
     #[inline(never)]
-    fn name(&self, names: &[&str]) -> Reading<StringDeserializer<ReadError>> {
+    fn choice(&self, names: &[&str]) -> Reading<StringDeserializer<ReadError>> {
         match self.value.as_string() {
             Some(name) => Ok(shortened(&name).into_deserializer()),
             None => Err(self.wrong_type(&format!("one of {}", names.join(", ")))),
@@ -146,7 +142,7 @@ impl<'a> Reader<'a> {
 
     #[inline(never)]
     fn check_length(&self, expected: usize) -> Reading<()> {
-        let given = self.items()?.length() as usize;
+        let given = self.items()?.length();
         if given == expected {
             return Ok(());
         }
@@ -192,10 +188,10 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         if let Some(text) = self.value.as_string() {
             return visitor.visit_string(text).map_err(placed);
         }
-        if Array::is_array(&self.value) {
+        if given::is_array(&self.value) {
             return self.deserialize_seq(visitor);
         }
-        if self.value.is_object() && !self.value.is_function() {
+        if given::is_plain(&self.value) {
             return self.deserialize_map(visitor);
         }
         let expected = Expected(&visitor).to_string();
@@ -246,7 +242,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         variants: &'static [&'static str],
         visitor: V,
     ) -> Reading<V::Value> {
-        let name = self.name(variants)?;
+        let name = self.choice(variants)?;
         visitor.visit_enum(name).map_err(|error| error.at(&self.at))
     }
 
@@ -266,8 +262,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
-        let array = self.items()?;
-        visitor.visit_seq(Items::new(array, &self.at, self.is_angle))
+        visitor.visit_seq(self.items()?)
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Reading<V::Value> {
@@ -276,10 +271,10 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
-        if !self.is_plain() {
+        if !given::is_plain(&self.value) {
             return Err(self.wrong_type("an object"));
         }
-        let entries = Entries::new(self.value.unchecked_ref(), &self.at, self.is_angle);
+        let entries = Entries::new(self.value.unchecked_ref(), &self.at, self.is_angle)?;
         visitor.visit_map(entries).map_err(|error| error.at(&self.at))
     }
 

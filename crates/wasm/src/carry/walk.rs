@@ -4,14 +4,14 @@ use super::known::Known;
 use super::names::property;
 use super::read::{Reader, Reading};
 use super::refusal::ReadError;
-use crate::error::BindingError;
+use crate::given;
 use boresight_core::describe::At;
-use js_sys::{Array, Object, Reflect};
-use serde::de::value::StringDeserializer;
+use js_sys::{Object, Reflect};
 use serde::de::{DeserializeSeed, IntoDeserializer, MapAccess, SeqAccess};
 use std::iter::Zip;
 use std::ops::RangeFrom;
 use std::slice::Iter;
+use std::vec::IntoIter;
 use wasm_bindgen::JsValue;
 
 /// The fields of a struct out of an object.
@@ -42,11 +42,8 @@ impl<'a> FieldsOf<'a> {
                 self.next = Some((field, self.object.clone().into(), false));
                 return Ok(Some(place));
             }
-            let value = self.known.get(self.object, field).map_err(|_| BindingError::Type {
-                what: self.at.field(field).path(),
-                expected: "a value".into(),
-                given: "a property that throws".into(),
-            })?;
+            let value = self.known.get(self.object, field);
+            let value = value.map_err(|_| given::throws(self.at.field(field).path()))?;
             if let Some(value) = value {
                 self.next = Some((field, value, property(field).is_angle));
                 return Ok(Some(place));
@@ -83,15 +80,31 @@ impl<'de> MapAccess<'de> for FieldsOf<'_> {
 
 /// The items of an array.
 pub(super) struct Items<'a> {
-    array: &'a Array,
+    array: &'a JsValue,
+    length: u32,
     at: &'a At<'a>,
     is_angle: bool,
     next: u32,
 }
 
 impl<'a> Items<'a> {
-    pub fn new(array: &'a Array, at: &'a At<'a>, is_angle: bool) -> Self {
-        Self { array, at, is_angle, next: 0 }
+    pub fn new(array: &'a JsValue, length: u32, at: &'a At<'a>, is_angle: bool) -> Self {
+        Self { array, length, at, is_angle, next: 0 }
+    }
+
+    pub fn length(&self) -> usize {
+        self.length as usize
+    }
+
+    #[inline(never)]
+    fn advance(&mut self) -> Reading<Option<Reader<'a>>> {
+        if self.next >= self.length {
+            return Ok(None);
+        }
+        let at = self.at.item(self.next as usize);
+        let value = given::item(self.array, self.next, &|| at.path())?;
+        self.next += 1;
+        Ok(Some(Reader { value, at, is_angle: self.is_angle, known: None }))
     }
 }
 
@@ -99,33 +112,38 @@ impl<'de> SeqAccess<'de> for Items<'_> {
     type Error = ReadError;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Reading<Option<T::Value>> {
-        if self.next >= self.array.length() {
-            return Ok(None);
-        }
-        let at = self.at.item(self.next as usize);
-        let value = self.array.get(self.next);
-        self.next += 1;
-        let reader = Reader { value, at, is_angle: self.is_angle, known: None };
+        let Some(reader) = self.advance()? else { return Ok(None) };
+        let at = reader.at;
         seed.deserialize(reader).map_err(|error| error.at(&at)).map(Some)
     }
 
     fn size_hint(&self) -> Option<usize> {
-        Some((self.array.length() - self.next) as usize)
+        Some((self.length - self.next) as usize)
     }
 }
 
 /// All entries of an object whose keys are not known beforehand.
 pub(super) struct Entries<'a> {
     object: &'a Object,
-    keys: Array,
+    keys: IntoIter<JsValue>,
     at: &'a At<'a>,
     is_angle: bool,
-    next: u32,
+    next: JsValue,
 }
 
 impl<'a> Entries<'a> {
-    pub fn new(object: &'a Object, at: &'a At<'a>, is_angle: bool) -> Self {
-        Self { object, keys: Object::keys(object), at, is_angle, next: 0 }
+    pub fn new(object: &'a Object, at: &'a At<'a>, is_angle: bool) -> Reading<Self> {
+        let keys = given::keys(object, &|| at.path())?.into_iter();
+        Ok(Self { object, keys, at, is_angle, next: JsValue::UNDEFINED })
+    }
+
+    /// The name of the next entry that is not `undefined`.
+    #[inline(never)]
+    fn advance(&mut self) -> Option<String> {
+        let absent =
+            |key: &JsValue| Reflect::get(self.object, key).is_ok_and(|value| value.is_undefined());
+        self.next = self.keys.find(|key| !absent(key))?;
+        Some(self.next.as_string().unwrap_or_default())
     }
 }
 
@@ -133,29 +151,16 @@ impl<'de> MapAccess<'de> for Entries<'_> {
     type Error = ReadError;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Reading<Option<K::Value>> {
-        while self.next < self.keys.length() {
-            let key = self.keys.get(self.next);
-            if Reflect::get(self.object, &key).is_ok_and(|value| value.is_undefined()) {
-                self.next += 1;
-                continue;
-            }
-            let name: StringDeserializer<ReadError> =
-                key.as_string().unwrap_or_default().into_deserializer();
-            return seed.deserialize(name).map(Some);
+        match self.advance() {
+            Some(name) => seed.deserialize(name.into_deserializer()).map(Some),
+            None => Ok(None),
         }
-        Ok(None)
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Reading<V::Value> {
-        let key = self.keys.get(self.next);
-        self.next += 1;
-        let name = key.as_string().unwrap_or_default();
+        let name = self.next.as_string().unwrap_or_default();
         let at = self.at.field(&name);
-        let value = Reflect::get(self.object, &key).map_err(|_| BindingError::Type {
-            what: at.path(),
-            expected: "a value".into(),
-            given: "a property that throws".into(),
-        })?;
+        let value = Reflect::get(self.object, &self.next).map_err(|_| given::throws(at.path()))?;
         let reader = Reader { value, at, is_angle: self.is_angle, known: None };
         seed.deserialize(reader).map_err(|error| error.at(&at))
     }
