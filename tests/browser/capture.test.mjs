@@ -7,6 +7,7 @@ import {
   parameters,
   parametersWith,
   recording,
+  reload,
   saved,
   values,
 } from './demo.mjs';
@@ -307,7 +308,7 @@ browserTest('capture: a click on a cell does not send the capture again', { path
       return post.call(this, message, transfer);
     };
   });
-  await page.reload();
+  await reload(page);
   await ready(page);
   await cellReady(page);
   const pick = async (nth) => {

@@ -18,6 +18,7 @@ import { Sidebar } from '../../ui/sidebar.tsx';
 import { fileProblem, loaded, openBundled, openFiles, waiting } from './files.ts';
 import { cellUnavailable, networkFor, usedArray } from './process.ts';
 import { captureCodec, captureState, update } from './state.ts';
+import { isStudio } from './studio.ts';
 
 const Control = controlOf(captureCodec, captureState, update);
 
@@ -143,6 +144,15 @@ export function Controls() {
         <Control label="Turn to the coarse angle" name="rotation" labels={{ outside: 'beyond ±10.5°' }} />
         <Control label="Refine by Gauss-Newton" name="regionRefine" />
       </Group>
+      <Group title="Over time">
+        <Control
+          label="Range gate ±"
+          name="gate"
+          unit="m"
+          step={0.05}
+          help="Ranges whose powers the micro-Doppler adds up, to both sides of the chosen cell, or of the strongest detection of all frames. Its time step is a frame."
+        />
+      </Group>
       <Group title="Display">
         <Control label="Colour span" name="span" labels={(span) => `${span} dB`} help="From the strongest cell down." />
         <Control
@@ -174,12 +184,13 @@ function Files() {
   const over = useFileDrop('capture', (files) => void openFiles(files.map(({ file }) => file)));
   const input = useRef<HTMLInputElement>(null);
   const { files, missing } = waiting.value ?? { files: loaded.value?.files ?? [], missing: [] };
+  const parts = files.filter(({ kind }) => kind === 'bin').length;
   return (
     <div class={`drop${over.value ? ' over' : ''}`}>
       <ul class="files" aria-label="Open files">
         {files.map(({ kind, name, bytes }) => (
-          <li key={kind}>
-            <span class="kind">.{kind}</span>
+          <li key={name}>
+            <span class="kind">.{isStudio(name) ? 'json' : kind}</span>
             <span class="file">{name}</span>
             <span class="muted">{byteSize(bytes)}</span>
           </li>
@@ -191,6 +202,11 @@ function Files() {
           </li>
         ))}
       </ul>
+      {parts > 1 && (
+        <p class="small" role="status" data-parts={parts}>
+          The {parts} .bin files are one recording, in the order of their numbers, as listed.
+        </p>
+      )}
       {loaded.value?.bundled && (
         <Licence
           address={loaded.value.bundled.licence}
@@ -202,7 +218,7 @@ function Files() {
         <button
           type="button"
           onClick={() => input.current?.click()}
-          title="A raw capture (.bin) with its configuration (.cfg), and the board’s log (.dat) if there is one"
+          title="A raw capture (.bin, or all the numbered .bin of one recording) with its configuration (.cfg, or mmWave Studio’s .mmwave.json with .setup.json), and the board’s log (.dat) if there is one"
         >
           Open files
         </button>
@@ -218,7 +234,7 @@ function Files() {
           type="file"
           multiple
           hidden
-          accept=".bin,.cfg,.dat,.txt"
+          accept=".bin,.cfg,.dat,.json"
           aria-label="Capture files"
           onChange={(event) => {
             const list = [...(event.currentTarget.files ?? [])];
@@ -228,7 +244,8 @@ function Files() {
         />
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>
-        Or drop a .bin with its .cfg, and a .dat, anywhere on the page. Nothing is uploaded.
+        Or drop a .bin with its .cfg (or .mmwave.json and .setup.json), and a .dat, anywhere on the page; all .bin of
+        one recording together. Nothing is uploaded.
       </p>
     </div>
   );

@@ -258,7 +258,7 @@ export function DetectionTable({
                         type="button"
                         class="cell-button"
                         aria-pressed={chosen}
-                        aria-label={`Show the cell at ${fixed(row.rangeM, 2)} metres`}
+                        aria-label={`${row.rangeBin}, ${row.dopplerBin}: show the cell at ${fixed(row.rangeM, 2)} metres`}
                         title={`Range bin ${row.rangeBin}, Doppler bin ${row.dopplerBin}`}
                       >
                         {row.rangeBin}, {row.dopplerBin}

@@ -1,5 +1,7 @@
 /** Signs that a capture is not what it is taken for. */
 import { count, fixed, percentage } from '../../plots/format.ts';
+import type { Loaded } from './files.ts';
+import { otherLoopLength } from './loop-length.ts';
 import type { Shown } from './process.ts';
 import { captureState } from './state.ts';
 
@@ -41,12 +43,28 @@ export function doubtsOf({ capture, frame, view }: Shown): Doubt[] {
   const begins = String.fromCharCode(...bin.subarray(0, 4));
   const kind = BEGINNINGS.find(([bytes]) => begins.startsWith(bytes));
   if (kind) doubt('other-file', `The .bin begins as ${kind[1]} does. Open the raw samples that the board recorded.`);
+  if (capture.missingParts.length > 0) {
+    doubt(
+      'missing-part',
+      `Of this recording ${capture.missingParts.join(', ')} ${capture.missingParts.length > 1 ? 'are' : 'is'} missing. What follows is read as if nothing lay between, so times are wrong from there on, and frames as well where the file before does not end with a whole one. Open all files of the recording together.`,
+    );
+  }
   const below = shareBelowZero(bin);
   if (below < LEAST_SHARE_BELOW || below > 1 - LEAST_SHARE_BELOW) {
     doubt(
       'one-sided',
       `${percentage(below)} of the samples are below zero, where echoes are as often below as above. The .bin may be something else than raw samples.`,
     );
+  }
+  if (doubts.every(({ code }) => code === 'missing-part')) {
+    const other = knownLoopLength(capture);
+    const { transmitters, samples } = info.config.waveform;
+    if (other !== null) {
+      doubt(
+        'loop-length',
+        `The samples repeat every ${count(other)}, as a loop of chirps does; by the .cfg a loop has ${count(samples * info.config.receivers * transmitters)} (${samples} samples, ${info.config.receivers} receivers, ${transmitters} transmitters). It may be that of another recording. Open the .cfg that this .bin was recorded with.`,
+      );
+    }
   }
   for (const { code, message } of info.warnings) {
     if (OF_SIZE.includes(code)) doubt(code, `${sentence(message)} Open the .cfg that this .bin was recorded with.`);
@@ -72,6 +90,19 @@ export function doubtsOf({ capture, frame, view }: Shown): Doubt[] {
     );
   }
   return doubts;
+}
+
+const loopLengths = new WeakMap<Loaded, number | null>();
+
+/** Looked for once a capture. */
+function knownLoopLength(capture: Loaded): number | null {
+  const { waveform, receivers } = capture.info.config;
+  const chirp = waveform.samples;
+  const known = loopLengths.get(capture);
+  if (known !== undefined) return known;
+  const made = otherLoopLength(capture.bin, { loop: chirp * receivers * waveform.transmitters, chirp });
+  loopLengths.set(capture, made);
+  return made;
 }
 
 /** Of 16-bit samples spread over the file. */

@@ -8,9 +8,14 @@ import binAddress from '../../../../recordings/awr1642/xwr16xx_crw_dca_module_20
 import datAddress from '../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat?url';
 import { api, describeError, FileProblem, type Problem, pool } from '../../data.ts';
 import { CAPTURE_KINDS } from '../../kinds.ts';
+import type { NamedFile } from '../../ui/entries.ts';
+import { type Parts, partsOf } from './parts.ts';
 import { captureState, update } from './state.ts';
+import { configOfStudio, isSetup, isStudio } from './studio.ts';
 
-type Kind = (typeof CAPTURE_KINDS)[number];
+/** The setup is what mmWave Studio says of the board, beside the configuration. */
+const KINDS = [...CAPTURE_KINDS, 'setup'] as const;
+type Kind = (typeof KINDS)[number];
 
 export interface OpenFile {
   kind: Kind;
@@ -27,6 +32,8 @@ export interface Loaded {
   /** The same on the workers. */
   kept: PoolCapture;
   bundled: { licence: string } | null;
+  /** Of files missing between those of the recording, the names. */
+  missingParts: Parts['missing'];
 }
 
 /** Files of the user's own that are not enough for a capture yet. */
@@ -52,14 +59,17 @@ const NEEDED = [
 ] as const;
 
 /** The user's own files, open or waiting for others: the bundled ones are never among them. */
-let own: Partial<Record<Kind, File>> = {};
+let own: Own = {};
+
+/** A recording may be in several files. */
+type Own = Partial<Record<Exclude<Kind, 'bin'>, File>> & { bin?: Parts };
 
 /** The latest opening wins, should two overlap. */
 let opening = 0;
 
 /** What an opening comes to: files of the user's own, and what is shown then. */
 interface Opened {
-  own: typeof own;
+  own: Own;
   loaded: Loaded | null;
   waiting: Waiting | null;
   log: BoardLog | null;
@@ -95,6 +105,38 @@ async function attempt(work: () => Promise<Opened | null>): Promise<void> {
         ? { code: error.code, message: error.message, file: error.file }
         : describeError(error);
   }
+}
+
+/** Of the capture that is open. */
+export const fileNames = (): string =>
+  loaded
+    .peek()
+    ?.files.map(({ name }) => name)
+    .join(', ') ?? 'no files';
+
+/** The user's own, open or waiting for others. */
+export const ownFiles = (): NamedFile[] => listed(own).map(({ file }) => ({ name: file.name, file }));
+
+/** Every file of these with its kind, those of a split recording in their order. */
+const listed = (of: Own): { kind: Kind; file: File }[] =>
+  KINDS.flatMap((kind) => {
+    const files = kind === 'bin' ? (of.bin?.files ?? []) : of[kind] ? [of[kind]] : [];
+    return files.map((file) => ({ kind, file }));
+  });
+
+/** Puts the user's own files away. */
+export function closeOwn(): void {
+  if (!ownFiles().length) return;
+  opening += 1;
+  own = {};
+  const before = loaded.peek();
+  batch(() => {
+    loaded.value = null;
+    waiting.value = null;
+    boardLog.value = null;
+    fileProblem.value = null;
+  });
+  before?.kept.free();
 }
 
 /** Opens what the state names when it names something else. */
@@ -133,6 +175,7 @@ export function openBundled(): Promise<void> {
       info: kept.info,
       kept,
       bundled: { licence: licenceAddress },
+      missingParts: [],
     };
     return { own: {}, loaded: next, waiting: null, log };
   });
@@ -145,63 +188,98 @@ async function fetched(address: string): Promise<Uint8Array> {
   return new Uint8Array(await response.arrayBuffer());
 }
 
-/** Any of a .bin, a .cfg and a .dat, with what is open or waits of the user's own; without both of the first two it waits. */
-export function openFiles(files: readonly File[]): Promise<void> {
+/**
+ * Any of a .bin, in one file or several, a .cfg and a .dat, with what is open or waits of the user's own unless they are to
+ * stand alone; without both of the first two it waits.
+ */
+export function openFiles(files: readonly File[], alone = false): Promise<void> {
   return attempt(async () => {
     const given = chosen(files);
     if (Object.keys(given).length === 0) return null;
-    const next = { ...own, ...given };
+    const next = alone ? given : { ...own, ...given };
     // A log belongs to its capture; one that waits has none yet.
     if (given.bin && !given.dat && own.bin) delete next.dat;
-    const blame = given.bin ?? given.cfg ?? given.dat;
+    // What mmWave Studio says of a board goes with its configuration; one that waits has none yet.
+    if (given.cfg && !given.setup && own.cfg) delete next.setup;
+    const blame = given.bin?.files[0] ?? given.cfg ?? given.dat ?? given.setup;
     try {
-      const { bin, cfg, dat } = next;
+      const { bin, cfg, dat, setup } = next;
       const before = own.bin ? loaded.peek() : null;
-      const text = cfg && (before && cfg === own.cfg ? before.cfg : await cfg.text());
-      const opened = CAPTURE_KINDS.flatMap((kind): OpenFile[] => {
-        const file = next[kind];
-        return file ? [{ kind, name: file.name, bytes: file.size }] : [];
-      });
+      const known = before && cfg === own.cfg && setup === own.setup;
+      const text = known ? before.cfg : await configText(cfg, setup);
+      const opened = listed(next).map(({ kind, file }): OpenFile => ({ kind, name: file.name, bytes: file.size }));
       if (!bin || text === undefined) {
         if (text !== undefined) api.parseConfig(text);
         const missing = NEEDED.filter(({ kind }) => !next[kind]);
         return { own: next, loaded: null, waiting: { files: opened, missing }, log: null };
       }
       const log = dat ? api.parseBoardLog(new Uint8Array(await dat.arrayBuffer()), text) : null;
-      const samples = before && bin === own.bin ? before.bin : new Uint8Array(await bin.arrayBuffer());
+      const samples =
+        before && bin === own.bin ? before.bin : new Uint8Array(await new Blob([...bin.files]).arrayBuffer());
       const same = before?.bin === samples && before.cfg === text;
       const kept = same ? before.kept : await pool().loadCapture(samples, text);
       const { info } = kept;
-      const complete = { files: opened, bin: samples, cfg: text, info, kept, bundled: null };
+      const missingParts = bin.missing;
+      const complete = { files: opened, bin: samples, cfg: text, info, kept, bundled: null, missingParts };
       return { own: next, loaded: complete, waiting: null, log };
     } catch (error) {
+      if (error instanceof FileProblem) throw error;
       const { code, message } = describeError(error);
       throw new FileProblem(code, blame?.name ?? '', message);
     }
   });
 }
 
-/** One file of a kind at most, none too large. */
-function chosen(files: readonly File[]): Partial<Record<Kind, File>> {
-  const given: Partial<Record<Kind, File>> = {};
+/** The configuration as the text of a .cfg. */
+async function configText(cfg: File | undefined, setup: File | undefined): Promise<string | undefined> {
+  if (cfg && setup && !isStudio(cfg.name))
+    throw new FileProblem('ambiguous', setup.name, `a .mmwave.json is expected with it, not “${cfg.name}”`);
+  if (!cfg || !isStudio(cfg.name)) return cfg?.text();
+  const read = async (file: File) => ({ name: file.name, text: await file.text() });
+  return configOfStudio(await read(cfg), setup ? await read(setup) : null);
+}
+
+/** One file of a kind at most but of samples, none too large. */
+function chosen(files: readonly File[]): Own {
+  const given: Own = {};
+  const samples: File[] = [];
   for (const file of files) {
     const kind = kindOf(file.name);
     if (!kind)
-      throw new FileProblem('unknown-file', file.name, `a .bin, .cfg or .dat file is expected, not “${file.name}”`);
-    if (given[kind]) throw new FileProblem('ambiguous', file.name, `one .${kind} file is expected, and there are two`);
-    if (file.size > LARGEST_BYTES) {
       throw new FileProblem(
-        'too-large',
+        'unknown-file',
         file.name,
-        `${Math.round(file.size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected`,
+        `a .bin, .cfg, .dat or .mmwave.json file is expected, not “${file.name}”`,
       );
-    }
-    given[kind] = file;
+    if (kind === 'bin') samples.push(file);
+    else if (given[kind])
+      throw new FileProblem(
+        'ambiguous',
+        file.name,
+        `one ${kind === 'cfg' ? 'configuration (.cfg or .mmwave.json)' : `.${kind} file`} is expected, and there are two`,
+      );
+    else given[kind] = within(file, file.size);
+  }
+  if (samples.length > 0) {
+    given.bin = partsOf(samples);
+    const bytes = samples.reduce((sum, { size }) => sum + size, 0);
+    within(given.bin.files[0] as File, bytes);
   }
   return given;
 }
 
+function within(file: File, bytes: number): File {
+  if (bytes <= LARGEST_BYTES) return file;
+  throw new FileProblem(
+    'too-large',
+    file.name,
+    `${Math.round(bytes / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected`,
+  );
+}
+
 function kindOf(name: string): Kind | undefined {
+  if (isSetup(name)) return 'setup';
+  if (isStudio(name)) return 'cfg';
   const extension = name.toLowerCase().split('.').pop();
   return CAPTURE_KINDS.find((kind) => kind === extension);
 }

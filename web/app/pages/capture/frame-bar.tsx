@@ -1,9 +1,9 @@
 /** Frames: slider, playback, all together; progress of the work and its end. */
-import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { significant } from '../../plots/format.ts';
 import { ProgressLine, Stopped } from '../../ui/progress.tsx';
 import { loaded } from './files.ts';
+import { frameAt, playing, playOn, showFrame, togglePlaying } from './playback.ts';
 import { cancel, progress, restart, result, wasCancelled } from './process.ts';
 import { captureState, update } from './state.ts';
 
@@ -13,22 +13,21 @@ const SHORTEST_MS = 200;
 export function FrameBar() {
   const capture = loaded.value;
   const { frame } = captureState.value;
-  const playing = useSignal(false);
   const frames = capture?.info.frames ?? 0;
   const interval = capture?.info.config.waveform.frameIntervalS ?? 0;
   useEffect(() => {
     if (!playing.value || frames < 2) return undefined;
-    const timer = setInterval(
-      () => {
-        const now = captureState.value.frame;
-        update({ frame: now === 'all' ? 0 : (now + 1) % frames });
-      },
-      Math.max(interval * 1000, SHORTEST_MS),
-    );
+    const timer = setInterval(playOn, Math.max(interval * 1000, SHORTEST_MS));
     return () => clearInterval(timer);
   }, [playing.value, frames, interval]);
+  useEffect(
+    () => () => {
+      playing.value = false;
+    },
+    [],
+  );
   if (!capture) return null;
-  const at = frame === 'all' ? 0 : Math.min(frame, frames - 1);
+  const at = frameAt();
   return (
     <section class="panel frame-bar" aria-label="Frames">
       <button
@@ -49,9 +48,7 @@ export function FrameBar() {
         data-action="play"
         disabled={frames < 2}
         title="Step through the frames"
-        onClick={() => {
-          playing.value = !playing.value;
-        }}
+        onClick={togglePlaying}
       >
         {playing.value ? 'Pause' : 'Play'}
       </button>
@@ -65,10 +62,7 @@ export function FrameBar() {
         name="frame"
         disabled={frames < 2}
         aria-valuetext={frame === 'all' ? 'all frames' : `frame ${at + 1} of ${frames}`}
-        onInput={(event) => {
-          playing.value = false;
-          update({ frame: Number(event.currentTarget.value) });
-        }}
+        onInput={(event) => showFrame(Number(event.currentTarget.value))}
       />
       <output>
         {frame === 'all' ? 'all combined' : `frame ${at + 1} of ${frames}, ${significant(at * interval * 1000)} ms`}

@@ -5,18 +5,25 @@ import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
 import { CellPanel } from './cell-panel.tsx';
+import { caption, start as startCompare } from './compare.ts';
+import { ComparePanel } from './compare-panel.tsx';
 import { Controls } from './controls.tsx';
 import { DetectionTable } from './detection-table.tsx';
 import { doubtsOf } from './doubts.ts';
 import { boardLog, fileProblem, filesWanted, loaded, openBundled, startFiles, type Waiting, waiting } from './files.ts';
 import { FrameBar } from './frame-bar.tsx';
 import { compare } from './match.ts';
+import { startOverTime } from './over-time.ts';
 import { cellResults, processProblem, result, type Shown, start, usedArray, wasCancelled, working } from './process.ts';
+import { startRangeAzimuth } from './range-azimuth.ts';
+import { RangeAzimuth } from './range-azimuth-plot.tsx';
 import { RangeDopplerMap, RangeProfile } from './range-plots.tsx';
 import { startRegions } from './regions.ts';
 import { RegionsPanel } from './regions-panel.tsx';
 import { captureCodec, captureState, update } from './state.ts';
+import { isStudio } from './studio.ts';
 import { Summary } from './summary.tsx';
+import { TimePlots } from './time-plots.tsx';
 import { shownCell } from './view.ts';
 
 export function CapturePage() {
@@ -26,12 +33,13 @@ export function CapturePage() {
       captureState.value = captureCodec.read(params);
     },
     start: () => {
-      const stops = [startFiles(), start(), startRegions()];
+      const stops = [startFiles(), start(), startOverTime(), startRangeAzimuth(), startRegions(), startCompare()];
       return () => {
         for (const stop of stops) stop();
       };
     },
     write: () => captureCodec.write(captureState.value),
+    caption,
   });
 
   const capture = loaded.value;
@@ -72,6 +80,13 @@ export function CapturePage() {
           <p class="alert" role="alert" data-error={processProblem.value.code}>
             <strong>Cannot process with these settings.</strong> {processProblem.value.message}{' '}
             <code>{processProblem.value.code}</code>
+            {capture && !usedArray.value && (
+              <>
+                {' '}
+                The configuration does not name the board: choose it under Detection, Virtual array
+                {capture.files.some(({ name }) => isStudio(name)) && ', or open the .setup.json with the .mmwave.json'}.
+              </>
+            )}
           </p>
         )}
         {capture && <Summary info={capture.info} geometry={usedArray.value} />}
@@ -91,10 +106,12 @@ export function CapturePage() {
         )}
         <About title="About this page">
           <p>
-            A capture is the raw samples of a DCA1000 board (.bin) and the configuration the radar ran with (.cfg); the
-            log of the board’s own detections (.dat) may come with it. Samples are windowed and transformed along range
-            and Doppler; transmitters that take turns are aligned for the motion between them; cells over the threshold
-            become detections, and the phases across the virtual array give their angle.
+            A capture is the raw samples of a DCA1000 board (.bin) and the configuration the radar ran with (.cfg, or
+            mmWave Studio’s .mmwave.json, with .setup.json for the board); the log of the board’s own detections (.dat)
+            may come with it. A recording in several numbered .bin files is opened by giving all of them together.
+            Samples are windowed and transformed along range and Doppler; transmitters that take turns are aligned for
+            the motion between them; cells over the threshold become detections, and the phases across the virtual array
+            give their angle.
           </p>
           <p>
             <b>Signs.</b> Azimuth is positive to the left of boresight; range rate is positive when receding. The
@@ -107,6 +124,12 @@ export function CapturePage() {
           <p>
             <b>All frames</b> averages the power maps, detects in the mean, and estimates each angle from one snapshot a
             frame, which methods that need a covariance call for. It is meant for scenes that stay in their cells.
+          </p>
+          <p>
+            <b>Over time</b> each frame is a column. The range-time plot has the frame’s range profile, the
+            micro-Doppler its Doppler spectrum within a range gate around the chosen cell. Both step in whole frames, as
+            the spectrum of a frame takes all its chirps: what moves back and forth within a frame widens the line, and
+            is not followed.
           </p>
         </About>
       </MainColumn>
@@ -166,6 +189,7 @@ function Plots({ capture, frame, view }: Shown) {
           fileParts={fileParts}
         />
       </div>
+      <ComparePanel view={view} />
       <DetectionTable
         view={view}
         cell={cell}
@@ -206,6 +230,8 @@ function Plots({ capture, frame, view }: Shown) {
           )
         }
       />
+      <TimePlots view={view} fileParts={fileParts} />
+      <RangeAzimuth fileParts={fileParts} />
       <RegionsPanel fileParts={fileParts} />
       <Remarks capture={capture} view={view} />
     </>

@@ -10,7 +10,7 @@ import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
 import { type Loaded, loaded } from './files.ts';
 import { estimateCell, runChain } from './source.ts';
-import { captureState, chainOptions, sourceOption } from './state.ts';
+import { type CaptureState, captureState, chainOptions, sourceOption } from './state.ts';
 import { shownCell } from './view.ts';
 
 export interface CellResult {
@@ -48,25 +48,25 @@ const cellOptions = computed(() => {
 const attempts = signal(0);
 
 /** The same with the network its method needs, which is loaded first. */
-async function withNetwork(angle: AngleOptions): Promise<AngleOptions> {
-  const model = angle.method && networkFor(angle.method);
+export async function withNetwork(angle: AngleOptions, state = captureState.value): Promise<AngleOptions> {
+  const model = angle.method && networkFor(angle.method, state);
   return model ? { ...angle, network: (await load(model.name)).id } : angle;
 }
 
 /** The network that a method would use on this capture. */
-export function networkFor(method: Method): Model | undefined {
-  const geometry = usedArray.value;
-  const sources = sourceOption(captureState.value);
+export function networkFor(method: Method, state = captureState.value): Model | undefined {
+  const geometry = arrayOf(state);
+  const sources = sourceOption(state);
   return geometry
-    ? modelFor(method, [geometry], typeof sources === 'number' ? sources : null, captureState.value.networks)
+    ? modelFor(method, [geometry], typeof sources === 'number' ? sources : null, state.networks)
     : undefined;
 }
 
 /** The configuration's array, or the one chosen; null where the platform is not known. */
-export const usedArray = computed(() => {
-  const { array } = captureState.value;
-  return array === 'auto' ? (loaded.value?.info.array ?? null) : api.array(array);
-});
+const arrayOf = ({ array }: CaptureState) => (array === 'auto' ? (loaded.value?.info.array ?? null) : api.array(array));
+
+/** That of the present settings. */
+export const usedArray = computed(() => arrayOf(captureState.value));
 
 /** Methods that cannot work on a cell of this capture, with the reason. */
 export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
@@ -114,8 +114,7 @@ function keyOf(capture: Loaded, chain: string): string {
 }
 
 /** The frame that is shown, kept within the capture. */
-function shownFrame(capture: Loaded): number | 'all' {
-  const { frame } = captureState.value;
+export function shownFrame(capture: Loaded, { frame } = captureState.value): number | 'all' {
   return frame === 'all' ? 'all' : Math.min(frame, capture.info.frames - 1);
 }
 

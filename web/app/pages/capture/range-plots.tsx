@@ -3,13 +3,15 @@ import { signal } from '@preact/signals';
 import type { BoardObject, Cell, FrameResult } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import { fixed, signed } from '../../plots/format.ts';
-import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage } from '../../plots/heat.ts';
-import { clipToPlot, type Layer, verticalLines } from '../../plots/layers.ts';
+import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../plots/heat.ts';
+import { clipToPlot, type Layer, polyline, strokeTwice, verticalLines } from '../../plots/layers.ts';
 import type { View as Zoom } from '../../plots/plot.ts';
 import { toCsv } from '../../plots/save.ts';
-import { ACCENT_STYLE } from '../../plots/theme.ts';
+import { ACCENT_STYLE, faint, TRUTH_STYLE } from '../../plots/theme.ts';
 import { announce } from '../../state/announce.ts';
+import { KeepButton } from '../../ui/comparison.tsx';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
+import { compared, keptView } from './compare.ts';
 import { captureState, update } from './state.ts';
 import { colorLimits } from './view.ts';
 
@@ -25,20 +27,23 @@ interface Props {
   fileParts: readonly (string | number)[];
 }
 
+/** A's profile. */
+const FAINT = faint({ color: TRUTH_STYLE.color });
+
 const RANGE_AXIS = { label: 'Range (m)' };
 
 export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
+  const a = keptView.value;
   const extentY = useMemo((): [number, number] => {
     let low = Number.POSITIVE_INFINITY;
     let high = Number.NEGATIVE_INFINITY;
-    for (let i = 0; i < view.rangeProfileDb.length; i++) {
-      const value = view.rangeProfileDb[i] as number;
+    for (const value of [...view.rangeProfileDb, ...(a?.rangeProfileDb ?? [])]) {
       if (!Number.isFinite(value)) continue;
       low = Math.min(low, value);
       high = Math.max(high, value);
     }
     return Number.isFinite(low) ? [Math.floor(low / 10) * 10, Math.ceil((high + 4) / 10) * 10] : [-100, 0];
-  }, [view]);
+  }, [view, a]);
   const extentX = useMemo(() => cellExtent(view.rangeM), [view]);
   const content = useMemo(
     () => ({
@@ -46,6 +51,7 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
       series: [{ id: 'profile', label: 'Profile', y: view.rangeProfileDb, style: { color: ACCENT_STYLE.color } }],
       extent: { x: extentX, y: extentY },
       above: [
+        ...(a ? [polyline(a.rangeM, a.rangeProfileDb, FAINT)] : []),
         verticalLines(
           board.map(({ rangeM }) => ({ x: rangeM })),
           { dash: [2, 4], color: (t) => t.muted },
@@ -53,7 +59,7 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
         detectionTicks(view),
       ],
     }),
-    [view, board],
+    [view, board, a],
   );
   const zoom = rangeZoom.value;
   const shown: Zoom | null = zoom ? { x: zoom, y: extentY } : null;
@@ -64,6 +70,15 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
       height="short"
       content={content}
       view={shown}
+      tools={<KeepButton of={compared} />}
+      {...(a
+        ? {
+            legend: [
+              { id: 'b', label: 'B', style: { color: ACCENT_STYLE.color }, line: true },
+              { id: 'a', label: 'A', style: FAINT, line: true },
+            ],
+          }
+        : {})}
       options={{
         x: RANGE_AXIS,
         y: { label: 'Power (dBFS)' },
@@ -108,7 +123,7 @@ function detectionTicks(view: FrameResult): Layer {
 
 export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
   const { span, colors } = captureState.value;
-  const limits = useMemo(() => colorLimits(view, Number(span)), [view, span]);
+  const limits = useMemo(() => colorLimits(view.rangeDopplerDb, Number(span)), [view, span]);
   const image = useMemo(
     () => heatImage({ x: view.rangeM, y: view.rateMps, values: view.rangeDopplerDb, limits, colors }),
     [view, limits[0], limits[1], colors],
@@ -136,13 +151,6 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
       `Range ${fixed(view.rangeM[range] ?? 0, 2)} metres, rate ${signed(view.rateMps[doppler] ?? 0, 2)} metres per second, ${fixed(level(range, doppler), 1)} dB.`,
       300,
     );
-  };
-  const nearest = (values: Float64Array, wanted: number): number => {
-    let best = 0;
-    values.forEach((value, i) => {
-      if (Math.abs(value - wanted) < Math.abs((values[best] as number) - wanted)) best = i;
-    });
-    return best;
   };
   const step = (by: number): void => {
     const rows = [...view.detections].sort((a, b) => b.powerDb - a.powerDb);
@@ -193,7 +201,8 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
         right: COLOR_BAR_WIDTH,
         grid: false,
         cursorKey: 'range',
-        onClick: ({ x, y }) => select({ rangeBin: nearest(view.rangeM, x), dopplerBin: nearest(view.rateMps, y) }),
+        onClick: ({ x, y }) =>
+          select({ rangeBin: nearestCell(x, view.rangeM), dopplerBin: nearestCell(y, view.rateMps) }),
         onKey: key,
         onView: (next, zoomed) => {
           rangeZoom.value = zoomed && (next.x[0] > extent.x[0] || next.x[1] < extent.x[1]) ? next.x : null;
@@ -201,7 +210,7 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
         },
       }}
       readout={({ x, y }) => {
-        const [range, doppler] = [nearest(view.rangeM, x), nearest(view.rateMps, y)];
+        const [range, doppler] = [nearestCell(x, view.rangeM), nearestCell(y, view.rateMps)];
         return `Range ${fixed(view.rangeM[range] ?? Number.NaN, 3)} m   Rate ${signed(view.rateMps[doppler] ?? Number.NaN, 3)} m/s   Power ${fixed(level(range, doppler), 1)} dBFS   bin ${range}, ${doppler}`;
       }}
       csv={() =>
@@ -221,25 +230,16 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
   );
 }
 
-/** A light line with a dark one beneath shows on every colour of a map. */
-function outlined(ctx: CanvasRenderingContext2D, ratio: number, path: Path2D): void {
-  ctx.strokeStyle = 'rgba(0, 0, 0, 0.75)';
-  ctx.lineWidth = 3.5 * ratio;
-  ctx.stroke(path);
-  ctx.strokeStyle = '#ffffff';
-  ctx.lineWidth = 1.5 * ratio;
-  ctx.stroke(path);
-}
-
 function detectionBoxes(view: FrameResult): Layer {
   return ({ ctx, plot, ratio, x, y }) => {
     clipToPlot(ctx, plot);
     const r = 5 * ratio;
-    const path = new Path2D();
-    for (const row of view.detections) {
-      path.rect(x(row.rangeM) - r, y(view.rateMps[row.dopplerBin] ?? row.rateMps) - r, 2 * r, 2 * r);
-    }
-    outlined(ctx, ratio, path);
+    const boxes = (path: CanvasPath): void => {
+      for (const row of view.detections)
+        path.rect(x(row.rangeM) - r, y(view.rateMps[row.dopplerBin] ?? row.rateMps) - r, 2 * r, 2 * r);
+    };
+    const under = { color: 'rgba(0, 0, 0, 0.75)', width: 3.5 * ratio };
+    strokeTwice(ctx, boxes, under, { color: '#ffffff', width: 1.5 * ratio });
   };
 }
 
@@ -249,20 +249,20 @@ function selection(view: FrameResult, cell: Cell): Layer {
     const { left, top, width, height } = plot.bbox;
     const [px, py] = [x(view.rangeM[cell.rangeBin] ?? 0), y(view.rateMps[cell.dopplerBin] ?? 0)];
     const gap = 9 * ratio;
-    const path = new Path2D();
+    ctx.beginPath();
     for (const [ax, ay, bx, by] of [
       [left, py, px - gap, py],
       [px + gap, py, left + width, py],
       [px, top, px, py - gap],
       [px, py + gap, px, top + height],
     ] as const) {
-      path.moveTo(ax, ay);
-      path.lineTo(bx, by);
+      ctx.moveTo(ax, ay);
+      ctx.lineTo(bx, by);
     }
     ctx.globalAlpha = 0.75;
     ctx.setLineDash([5 * ratio, 4 * ratio]);
     ctx.strokeStyle = '#ffffff';
     ctx.lineWidth = ratio;
-    ctx.stroke(path);
+    ctx.stroke();
   };
 }

@@ -8,6 +8,7 @@ import { fitting } from '../../networks/choose.ts';
 import { load, models, readyNetworks } from '../../networks/load.ts';
 import { arrayProblem, type Model, targetsOf, trainedOnBoards } from '../../networks/models.ts';
 import { type Loaded, loaded } from './files.ts';
+import { frameAt } from './playback.ts';
 import { usedArray } from './process.ts';
 import { captureState } from './state.ts';
 
@@ -42,12 +43,6 @@ export const trio = computed<Trio | string | null>(() => {
   return (any && arrayProblem(any.card, geometry)) ?? 'has no networks for this array';
 });
 
-/** The frame whose regions are shown: of all frames the first, for networks take one at a time. */
-export function regionFrame(capture: Loaded): number {
-  const { frame } = captureState.value;
-  return frame === 'all' ? 0 : Math.min(frame, capture.info.frames - 1);
-}
-
 /** As text, so that effects run when they change. */
 const options = computed(() => {
   const { array, regionWindow, regionReach, countLoading, rotation, regionRefine, falseAlarm, nearest, farthest } =
@@ -72,7 +67,8 @@ export function cancelRegions(): void {
 }
 
 export function startRegions(): () => void {
-  const frame = computed(() => (loaded.value ? regionFrame(loaded.value) : 0));
+  // Of all frames the first: networks take one at a time.
+  const frame = computed(frameAt);
   const wanted = computed(() => captureState.value.regions);
   const stop = effect(() => {
     void readyNetworks.value;

@@ -5,6 +5,7 @@ import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
 import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
+import { keptField } from '../../state/comparison.ts';
 import { PRESETS } from '../angle/state.ts';
 
 /** `all`, or a frame's number. */
@@ -71,9 +72,12 @@ export const captureCodec = codec(
     countLoading: region.field('countLoading', { fallback: 1, max: 1000 }),
     rotation: region.field('rotation'),
     regionRefine: region.field('refine'),
+    /** To both sides of the chosen cell's range, m. */
+    gate: number(0.25, [0, 1000]),
     span: choice('60', ['30', '40', '50', '60', '80']),
     colors: choice('viridis', COLOR_MAPS),
     board: text('last', (value) => value === 'last' || /^\d{1,7}$/.test(value)),
+    a: keptField,
   },
   ['frame', 'methods'],
 );
@@ -83,6 +87,18 @@ export const captureState = signal<CaptureState>(captureCodec.defaults);
 
 export function update(patch: Partial<CaptureState>): void {
   captureState.value = { ...captureState.value, ...patch };
+}
+
+/** For those who see a plot alone. */
+export function settingsOf(state: CaptureState): string {
+  const { frame, window, dopplerWindow, cfar, falseAlarm, clutter, angle } = state;
+  return [
+    frame === 'all' ? 'all frames' : `frame ${frame + 1}`,
+    `windows ${window} and ${dopplerWindow}`,
+    `CFAR ${cfar}, false alarms ${falseAlarm}`,
+    ...(clutter ? ['static clutter removed'] : []),
+    `angles by ${angle}`,
+  ].join(', ');
 }
 
 /** The part of the state that detection depends on, as the package takes it. */

@@ -18,10 +18,14 @@ export function shownCell(view: FrameResult, cell: Cell | null): Cell {
   };
 }
 
-/** Limits of the colours: from the strongest cell down. */
-export function colorLimits(view: FrameResult, spanDb: number): [number, number] {
+/** Limits of the colours: from the strongest of all powers down. */
+export function colorLimits(powersDb: Float32Array, spanDb: number): [number, number] {
   let top = Number.NEGATIVE_INFINITY;
-  for (let i = 0; i < view.rangeDopplerDb.length; i++) top = Math.max(top, view.rangeDopplerDb[i] as number);
-  const ceiling = Number.isFinite(top) ? Math.ceil(top / 5) * 5 : 0;
+  for (const power of powersDb) if (power > top) top = power;
+  return limitsBelow(top, spanDb);
+}
+
+export function limitsBelow(topDb: number, spanDb: number): [number, number] {
+  const ceiling = Number.isFinite(topDb) ? Math.ceil(topDb / 5) * 5 : 0;
   return [ceiling - spanDb, ceiling];
 }

@@ -1,0 +1,216 @@
+/**
+ * The JSON that mmWave Studio writes (.mmwave.json, and .setup.json for the board), as the text of a .cfg, which the
+ * package reads. Names of fields are those of TI's mmWaveLink.
+ */
+import { api, FileProblem } from '../../data.ts';
+
+/** A part of the file with the way to it. */
+class Part {
+  readonly file: string;
+  readonly path: string;
+  readonly value: unknown;
+
+  constructor(file: string, path: string, value: unknown) {
+    this.file = file;
+    this.path = path;
+    this.value = value;
+  }
+
+  fail(expected: string, given = shown(this.value)): never {
+    throw new FileProblem('config-value', this.file, `${this.path || 'the file'} is ${given}; expected ${expected}`);
+  }
+
+  /** What stands under a name, if anything does. */
+  at(...names: readonly string[]): Part {
+    return names.reduce<Part>((part, name) => {
+      const { value } = part;
+      const inner = typeof value === 'object' && value !== null && !Array.isArray(value) && Object.hasOwn(value, name);
+      const path = part.path ? `${part.path}.${name}` : name;
+      return new Part(part.file, path, inner ? (value as Record<string, unknown>)[name] : undefined);
+    }, this);
+  }
+
+  get there(): boolean {
+    return this.value !== undefined && this.value !== null;
+  }
+
+  list(expected: string): Part[] {
+    if (!Array.isArray(this.value) || !this.value.length)
+      return this.fail(expected, this.there ? undefined : 'missing');
+    return this.value.map((one, i) => new Part(this.file, `${this.path}[${i}]`, one));
+  }
+
+  /** A number; masks are written as hexadecimal texts. */
+  number(): number {
+    const { value } = this;
+    if (!this.there) return this.fail('a number', 'missing');
+    const number = typeof value === 'string' && value.trim() !== '' ? Number(value) : value;
+    return typeof number === 'number' && Number.isFinite(number) ? number : this.fail('a number');
+  }
+
+  /** Refuses what is there with another value than one that can be read. */
+  only(allowed: readonly (number | string)[], meaning: string): void {
+    if (!this.there) return;
+    const fits = allowed.some((one) => (typeof one === 'number' ? this.number() === one : this.value === one));
+    if (!fits) this.fail(meaning);
+  }
+}
+
+function shown(value: unknown): string {
+  if (value === undefined) return 'missing';
+  const text = JSON.stringify(value);
+  return text.length > 40 ? `${text.slice(0, 40)}…` : text;
+}
+
+function opened(file: string, text: string): Part {
+  let value: unknown;
+  try {
+    value = JSON.parse(text);
+  } catch {
+    throw new FileProblem('config-value', file, 'is no JSON; expected what mmWave Studio writes');
+  }
+  return new Part(file, '', value);
+}
+
+export const isStudio = (name: string): boolean => /\.json$/i.test(name);
+export const isSetup = (name: string): boolean => /\.setup\.json$/i.test(name);
+
+export interface TextFile {
+  name: string;
+  text: string;
+}
+
+/** A line of the .cfg and what of the JSON it comes from. */
+interface Line {
+  text: string;
+  from: string;
+}
+
+/** The text of a .cfg that says what the JSON does; throws, with the field's name, where that cannot be read. */
+export function configOfStudio(mmwave: TextFile, setup: TextFile | null): string {
+  const platform = setup ? platformOf(setup) : null;
+  const lines = [...(platform ? [platform] : []), ...linesOf(opened(mmwave.name, mmwave.text))];
+  const text = `${lines.map((line) => line.text).join('\n')}\n`;
+  try {
+    api.parseConfig(text);
+  } catch (error) {
+    if (!(error instanceof api.BoresightError)) throw error;
+    // The package names a line of a text that the user has not got.
+    const [, number, , what = ''] = /^line (\d+): (\w+): (.*)$/.exec(error.details.what ?? '') ?? [];
+    const from = lines[Number(number) - 1]?.from;
+    if (!from) throw error;
+    const { given, expected } = error.details;
+    throw new FileProblem(error.code, mmwave.name, `${from}: ${what} is ${given}; expected ${expected}`);
+  }
+  return text;
+}
+
+function platformOf({ name, text }: TextFile): Line {
+  const device = opened(name, text).at('mmWaveDevice');
+  if (typeof device.value !== 'string' || !/^[a-z]{3}\d{4}\w*$/i.test(device.value))
+    return device.fail('the name of a device, such as "awr1843"');
+  return { text: `% Platform:${device.value}`, from: device.path };
+}
+
+function linesOf(file: Part): Line[] {
+  const devices = file.at('mmWaveDevices').list('a device, as mmWave Studio writes it in .mmwave.json');
+  if (devices.length > 1)
+    file.at('mmWaveDevices').fail('one device: no captures of cascaded boards are read', `${devices.length} devices`);
+  const device = devices[0] as Part;
+  const rf = device.at('rfConfig');
+  rf.at('waveformType').only(['legacyFrameChirp'], '"legacyFrameChirp": frames of chirps that are all alike');
+  rf.at('MIMOScheme').only(['TDM'], '"TDM": transmitters that take turns');
+  allZero(rf.at('rlBpmChirps'), 'rlBpmChirpCfg_t', ['constBpmVal'], 'no phase coding');
+  return [
+    channels(rf.at('rlChanCfg_t')),
+    samples(rf.at('rlAdcOutCfg_t', 'fmt')),
+    layout(device.at('rawDataCaptureConfig')),
+    ...rf
+      .at('rlProfiles')
+      .list('a profile')
+      .map((one) => profile(one.at('rlProfileCfg_t'))),
+    ...rf
+      .at('rlChirps')
+      .list('chirps')
+      .map((one) => chirps(one.at('rlChirpCfg_t'))),
+    frame(rf.at('rlFrameCfg_t')),
+  ];
+}
+
+function line(command: string, of: Part, values: readonly (number | string)[]): Line {
+  return { text: [command, ...values].join(' '), from: of.path };
+}
+
+/** Settings of a list that need not be there, but are zero where they are. */
+function allZero(list: Part, name: string, fields: readonly string[], expected: string): void {
+  if (!Array.isArray(list.value)) return;
+  list.value.forEach((_, i) => {
+    for (const field of fields) {
+      const one = new Part(list.file, `${list.path}[${i}]`, (list.value as unknown[])[i]).at(name, field);
+      if (one.there && one.number() !== 0) one.fail(`0: ${expected}`);
+    }
+  });
+}
+
+function channels(of: Part): Line {
+  of.at('cascading').only([0], '0: one chip');
+  return line('channelCfg', of, [of.at('rxChannelEn').number(), of.at('txChannelEn').number(), 0]);
+}
+
+function samples(of: Part): Line {
+  of.at('b2AdcBits').only([0, 1, 2], '0, 1 or 2 (12, 14 or 16 bits)');
+  of.at('b2AdcOutFmt').only([1, 2], '1 or 2: complex samples');
+  return line('adcCfg', of, [of.at('b2AdcBits').number(), of.at('b2AdcOutFmt').number()]);
+}
+
+function layout(of: Part): Line {
+  of.at('rlDevDataPathCfg_t', 'intfSel').only([1], '1: LVDS, as the DCA1000 records');
+  of.at('rlDevDataPathCfg_t', 'transferFmtPkt0').only([1], '0x1: samples alone');
+  of.at('rlDevDataPathCfg_t', 'transferFmtPkt1').only([0], '0x0: no second packet');
+  of.at('rlDevLaneEnable_t', 'laneEn').only([3], '0x3: two lanes (xWR16xx, xWR18xx, xWR68xx)');
+  const format = of.at('rlDevDataFmtCfg_t');
+  format.at('chInterleave').only([1], '1: receivers one after another (two-lane boards)');
+  format.at('iqSwapSel').only([0, 1], '0 (I first) or 1 (Q first)');
+  return line('adcbufCfg', format, [-1, 0, format.at('iqSwapSel').number(), format.at('chInterleave').number(), 0]);
+}
+
+function profile(of: Part): Line {
+  const value = (name: string): number => of.at(name).number();
+  return line('profileCfg', of, [
+    value('profileId'),
+    value('startFreqConst_GHz'),
+    value('idleTimeConst_usec'),
+    value('adcStartTimeConst_usec'),
+    value('rampEndTime_usec'),
+    ...[0, 0],
+    value('freqSlopeConst_MHz_usec'),
+    0,
+    value('numAdcSamples'),
+    value('digOutSampleRate'),
+    ...[0, 0, 0],
+  ]);
+}
+
+function chirps(of: Part): Line {
+  const value = (name: string): number => of.at(name).number();
+  for (const name of ['startFreqVar_MHz', 'freqSlopeVar_KHz_usec', 'idleTimeVar_usec', 'adcStartTimeVar_usec'])
+    of.at(name).only([0], '0: all chirps alike');
+  const transmitters = of.at('txEnable');
+  const mask = transmitters.number();
+  // One bit.
+  if (!(Number.isInteger(mask) && mask > 0 && (mask & (mask - 1)) === 0))
+    transmitters.fail('the bit of one transmitter a chirp (they take turns)');
+  return line('chirpCfg', of, [value('chirpStartIdx'), value('chirpEndIdx'), value('profileId'), 0, 0, 0, 0, mask]);
+}
+
+function frame(of: Part): Line {
+  const value = (name: string): number => of.at(name).number();
+  return line('frameCfg', of, [
+    value('chirpStartIdx'),
+    value('chirpEndIdx'),
+    value('numLoops'),
+    value('numFrames'),
+    value('framePeriodicity_msec'),
+    ...[1, 0],
+  ]);
+}
