@@ -1,7 +1,9 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vite';
 import { compressed } from './scripts/lib/compressed.mjs';
+import { bundledDrive } from './scripts/lib/read-columns.mjs';
 import { networksLater } from './web/networks-later.ts';
+import { offline } from './web/offline.ts';
 
 const path = (name: string) => fileURLToPath(new URL(name, import.meta.url));
 
@@ -15,7 +17,13 @@ export default defineConfig({
   // The demo is one page: another address is no part of it.
   appType: 'mpa',
   define: { NETWORKS_LATER: JSON.stringify(later !== undefined) },
-  plugins: [...(later === undefined ? [] : [networksLater(later)]), compressed()],
+  // A site without its module of networks is not yet what is to be kept.
+  plugins: [
+    bundledDrive(),
+    ...(later === undefined ? [] : [networksLater(later)]),
+    offline(later === undefined),
+    compressed(),
+  ],
   resolve: {
     alias: [
       { find: /^boresight$/, replacement: path('dist/lib/browser.js') },

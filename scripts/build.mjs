@@ -20,6 +20,9 @@ const wasmFeatures = [
   'sign-ext',
 ].map((name) => `--enable-${name}`);
 
+// The second round, knowing which values can flow where, takes another 0.5 % off with Brotli.
+const wasmPasses = ['-Os', '--gufa', '-Os'];
+
 /** Crates that a module of them only depends on: their changes do not touch the others. */
 const crates = (...names) => names.map((name) => `crates/${name}`);
 const shared = crates(
@@ -127,10 +130,10 @@ async function bind({ name, crate, profile, wasmOpt }, runner = run) {
     '--experimental-reset-state-function',
   ]);
   if (!wasmOpt) return;
-  say('wasm-opt -Os');
+  say('wasm-opt');
   const file = join(dist, 'wasm', `${name}_bg.wasm`);
   const program = join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt');
-  await runner(process.execPath, [program, '-Os', ...wasmFeatures, file, '-o', file]);
+  await runner(process.execPath, [program, ...wasmPasses, ...wasmFeatures, file, '-o', file]);
 }
 
 export async function buildLibrary() {
@@ -155,6 +158,9 @@ export async function buildDemo(variables = {}) {
   const inputs = [
     'package-lock.json',
     'vite.config.ts',
+    'scripts/lib/compressed.mjs',
+    'scripts/lib/read-columns.mjs',
+    'web/offline.ts',
     'web',
     'recordings',
     'models',

@@ -1,6 +1,6 @@
 // The built demo as a server should give it: with a Brotli and a gzip file beside each that gains by it, names that tell
 // the contents kept for good, and the page itself asked for anew.
-import { readdirSync, statSync, writeFileSync } from 'node:fs';
+import { readdirSync, writeFileSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { promisify } from 'node:util';
@@ -9,8 +9,6 @@ import sirv from 'sirv';
 
 /** Weights and recordings that are compressed already gain next to nothing. */
 const GAINS = /\.(html|js|css|json|svg|wasm|bin|dat)$/;
-/** Smaller files fit into a packet. */
-const LEAST_BYTES = 1024;
 /** The best quality takes some 2 s a MB; the next is some percent larger and ten times as fast. */
 const BEST_BELOW_BYTES = 2 ** 21;
 
@@ -21,8 +19,7 @@ const zip = promisify(gzip);
 export async function compressFolder(folder) {
   const files = readdirSync(folder, { recursive: true, withFileTypes: true })
     .filter((entry) => entry.isFile() && GAINS.test(entry.name))
-    .map((entry) => join(entry.parentPath, entry.name))
-    .filter((file) => statSync(file).size >= LEAST_BYTES);
+    .map((entry) => join(entry.parentPath, entry.name));
   await Promise.all(
     files.map(async (file) => {
       const bytes = await readFile(file);

@@ -1,5 +1,6 @@
 // Entry for browsers and bundlers: the wasm is fetched from beside this file.
 import { drives } from './drive/drive.js';
+import { fetchModule } from './runtime/fetch-module.js';
 import { core } from './runtime/instance.js';
 import type { WasmSource } from './runtime/module.js';
 
@@ -7,7 +8,7 @@ export * from './api.js';
 
 /** Loads the module once; docs/javascript.md says where `source` is needed. */
 export function init(source?: WasmSource | Promise<WasmSource>): Promise<void> {
-  return core.start(() => source ?? new URL('../wasm/boresight_bg.wasm', import.meta.url));
+  return core.start(() => source ?? fetchModule(new URL('../wasm/boresight_bg.wasm', import.meta.url)));
 }
 
 /**
@@ -15,5 +16,5 @@ export function init(source?: WasmSource | Promise<WasmSource>): Promise<void> {
  * {@link Calibration}, {@link calibrateDrive} and {@link jointCalibration} need.
  */
 export function initDrives(source?: WasmSource | Promise<WasmSource>): Promise<void> {
-  return drives.start(() => source ?? new URL('../wasm/boresight_drives_bg.wasm', import.meta.url));
+  return drives.start(() => source ?? fetchModule(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)));
 }

@@ -1,14 +1,14 @@
 // Entry for Node: the wasm is read from beside this file.
-import { readFile } from 'node:fs/promises';
 import { drives } from './drive/drive.js';
 import { core } from './runtime/instance.js';
 import type { WasmSource } from './runtime/module.js';
+import { readModule } from './runtime/read-module.js';
 
 export * from './api.js';
 
 /** Loads the module once; docs/javascript.md says where `source` is needed. */
 export function init(source?: WasmSource | Promise<WasmSource>): Promise<void> {
-  return core.start(() => source ?? readFile(new URL('../wasm/boresight_bg.wasm', import.meta.url)));
+  return core.start(() => source ?? readModule(new URL('../wasm/boresight_bg.wasm', import.meta.url)));
 }
 
 /**
@@ -16,5 +16,5 @@ export function init(source?: WasmSource | Promise<WasmSource>): Promise<void> {
  * {@link Calibration}, {@link calibrateDrive} and {@link jointCalibration} need.
  */
 export function initDrives(source?: WasmSource | Promise<WasmSource>): Promise<void> {
-  return drives.start(() => source ?? readFile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)));
+  return drives.start(() => source ?? readModule(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)));
 }

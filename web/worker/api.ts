@@ -6,7 +6,8 @@ import { wrong } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { type OnKept, PoolCapture } from './capture.js';
-import { Crew, type JobOptions, type Piece, type Runtime } from './pool.js';
+import { checkedJob, type JobOptions, rejectTyped } from './job.js';
+import { Crew, type Piece, type Runtime } from './pool.js';
 import { argumentCounts, type PromisedFunctions } from './promised.js';
 import type { OperationName, Operations } from './protocol.js';
 import { split } from './split.js';
@@ -43,6 +44,11 @@ export class Pool {
       };
       Object.defineProperty(Pool.prototype, name, { value, configurable: true, writable: true });
     }
+    const inPlace = ['constructor', 'workers', 'unloadNetwork', 'terminate'];
+    rejectTyped(
+      Pool.prototype,
+      Object.getOwnPropertyNames(Pool.prototype).filter((name) => !inPlace.includes(name)),
+    );
   }
 
   /** @internal */
@@ -214,7 +220,7 @@ export class Pool {
     gap?: lib.MotionGap,
     job?: JobOptions,
   ): Promise<lib.ScanMotion> {
-    job?.signal?.throwIfAborted();
+    checkedJob(job).signal?.throwIfAborted();
     const { scans, motion } = drive;
     return this.#one('scanMotion', [{ scans, motion }, gap], job);
   }
@@ -225,7 +231,7 @@ export class Pool {
     options?: lib.CalibrateDriveOptions,
     job: JobOptions = {},
   ): Promise<lib.DriveCalibration> {
-    job.signal?.throwIfAborted();
+    checkedJob(job).signal?.throwIfAborted();
     const { radars } = taskOf(viewOf(drive), options);
     const part = selected(
       drive,
@@ -241,7 +247,7 @@ export class Pool {
     options?: lib.JointCalibrationOptions,
     job: JobOptions = {},
   ): Promise<lib.DriveCalibration[]> {
-    job.signal?.throwIfAborted();
+    checkedJob(job).signal?.throwIfAborted();
     const { radars } = jointTaskOf(viewOf(drive), options);
     const part = selected(
       drive,
@@ -295,7 +301,7 @@ export class Pool {
     options: lib.ImageFrameOptions,
     job: JobOptions = {},
   ): Promise<lib.ImageFrame> {
-    const { onProgress: _, ...quiet } = job;
+    const { onProgress: _, ...quiet } = checkedJob(job);
     const { chain } = await this.imagePlan(options, quiet);
     const cells = await this.frameCells(cube, chain, quiet);
     return this.imageCells(cells, options, { ...job, transfer: false });
@@ -307,7 +313,7 @@ export class Pool {
     options: lib.ImageFrameOptions,
     job: JobOptions = {},
   ): Promise<lib.ImageFrame> {
-    const { onProgress: _, ...quiet } = job;
+    const { onProgress: _, ...quiet } = checkedJob(job);
     const { estimator, from, grid } = await this.imagePlan(options, quiet);
     const spectra = from === 'spectra';
     const estimates = await this.estimateBatch({ snapshots: cells.snapshots }, { ...estimator, spectra }, job);
@@ -324,8 +330,9 @@ export class Pool {
   async #stretches(
     bytes: lib.BytesInput,
     config: lib.TextInput,
-    { signal }: JobOptions,
+    job: JobOptions,
   ): Promise<{ part: Uint8Array; first: number; count: number }[]> {
+    const { signal } = checkedJob(job);
     const { frameBytes } = await this.parseConfig(config, signal ? { signal } : {});
     const all = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
     // Without a whole frame one worker gets the bytes, for its error.

@@ -1,28 +1,20 @@
 // Entry for browsers and bundlers.
+import { fetchModule } from '../lib/runtime/fetch-module.js';
 import { Pool, type PoolOptions } from './api.js';
 import type { Runtime } from './pool.js';
 import type { Reply } from './protocol.js';
 
 export { BoresightError } from '../lib/runtime/errors.js';
 export type { PoolCapture } from './capture.js';
-export type { JobOptions } from './pool.js';
+export type { JobOptions } from './job.js';
 export { Pool, type PoolOptions };
-
-async function compile(address: URL): Promise<WebAssembly.Module> {
-  const response = await fetch(address);
-  if (!response.ok) throw new Error(`${response.url} answered ${response.status}`);
-  // Streaming needs the right media type, which not every server sends.
-  const typed = response.headers.get('Content-Type')?.startsWith('application/wasm');
-  if (typed) return WebAssembly.compileStreaming(response);
-  return WebAssembly.compile(await response.arrayBuffer());
-}
 
 const runtime: Runtime = {
   workers: () => Math.min(navigator.hardwareConcurrency || 2, 8),
 
-  compile: () => compile(new URL('../wasm/boresight_bg.wasm', import.meta.url)),
-  compileDrives: () => compile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)),
-  compileNeural: () => compile(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url)),
+  compile: () => fetchModule(new URL('../wasm/boresight_bg.wasm', import.meta.url)),
+  compileDrives: () => fetchModule(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)),
+  compileNeural: () => fetchModule(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url)),
 
   spawn(events) {
     const worker = new Worker(new URL('./browser-worker.js', import.meta.url), { type: 'module' });

@@ -1,24 +1,22 @@
 // Entry for Node.
-import { readFile } from 'node:fs/promises';
 import { availableParallelism } from 'node:os';
 import { type TransferListItem, Worker } from 'node:worker_threads';
+import { readModule } from '../lib/runtime/read-module.js';
 import { Pool, type PoolOptions } from './api.js';
 import type { Runtime } from './pool.js';
 import type { Reply } from './protocol.js';
 
 export { BoresightError } from '../lib/runtime/errors.js';
 export type { PoolCapture } from './capture.js';
-export type { JobOptions } from './pool.js';
+export type { JobOptions } from './job.js';
 export { Pool, type PoolOptions };
 
 const runtime: Runtime = {
   workers: () => Math.min(availableParallelism(), 8),
 
-  compile: async () => WebAssembly.compile(await readFile(new URL('../wasm/boresight_bg.wasm', import.meta.url))),
-  compileDrives: async () =>
-    WebAssembly.compile(await readFile(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url))),
-  compileNeural: async () =>
-    WebAssembly.compile(await readFile(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url))),
+  compile: () => readModule(new URL('../wasm/boresight_bg.wasm', import.meta.url)),
+  compileDrives: () => readModule(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)),
+  compileNeural: () => readModule(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url)),
 
   spawn(events) {
     const worker = new Worker(new URL('./node-worker.js', import.meta.url));

@@ -1,17 +1,8 @@
 // A pool of single-thread workers: queue, progress, cancelling, replacement of what died.
 import { BoresightError, failure } from '../lib/runtime/errors.js';
+import { checkedJob, type JobOptions, passedOn } from './job.js';
 import type { Files, OperationName, Operations, Reply, Setup, WorkerEvents, WorkerLike } from './protocol.js';
 import { packed } from './transfer.js';
-
-/** Options of one job. */
-export interface JobOptions {
-  /** Cancels the job, which then rejects with the signal's reason, an `AbortError` by default. */
-  signal?: AbortSignal;
-  /** Called as pieces of the job are done, in the job's own units (inputs, frames, scenes). */
-  onProgress?: (done: number, total: number) => void;
-  /** Gives the typed arrays among the arguments away instead of copying them. */
-  transfer?: boolean;
-}
 
 /** A piece of a job for one worker. */
 export interface Piece<N extends OperationName> {
@@ -168,10 +159,8 @@ export class Crew {
   }
 
   /** Runs the pieces on the workers; their results in the order of the pieces. */
-  async run<N extends OperationName>(
-    pieces: Piece<N>[],
-    options: JobOptions = {},
-  ): Promise<ReturnType<Operations[N]>[]> {
+  async run<N extends OperationName>(pieces: Piece<N>[], given?: JobOptions): Promise<ReturnType<Operations[N]>[]> {
+    const options = checkedJob(given);
     options.signal?.throwIfAborted();
     if (this.#terminated) throw terminated();
     const needed = pieces.flatMap(needs);
@@ -369,7 +358,7 @@ export class Crew {
     try {
       job.options.onProgress?.(done, total);
     } catch (thrown) {
-      job.reject(thrown);
+      job.reject(passedOn(thrown));
     }
   }
 

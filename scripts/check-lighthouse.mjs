@@ -1,0 +1,82 @@
+// Lighthouse over the built, compressed demo: a table of performance, which is the machine's too and only printed, and of
+// accessibility, which has to be 100. `-- angle,capture` takes some pages.
+import { existsSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { buildDemo, buildPackage } from './build.mjs';
+import { browserArguments, browserMissing, findBrowser } from './lib/browser.mjs';
+import { tools } from './lib/paths.mjs';
+import { main, run } from './lib/run.mjs';
+import { setup } from './setup.mjs';
+
+/** Lighthouse brings 200 packages of 185 MB: whoever runs this check has them, beside those of the project. */
+const VERSION = '12.8.2';
+const folder = join(tools, 'lighthouse');
+
+async function lighthouseModules() {
+  const { resolve } = createRequire(join(folder, 'index.js'));
+  if (!existsSync(join(folder, 'node_modules', 'lighthouse', 'package.json'))) {
+    console.log(`setup: lighthouse ${VERSION} into .tools (about a minute)`);
+    await run('npm', ['install', '--prefix', folder, '--no-save', '--no-audit', '--no-fund', `lighthouse@${VERSION}`]);
+  }
+  const load = (name) => import(pathToFileURL(resolve(name)).href);
+  const [{ default: lighthouse, desktopConfig }, { launch }] = await Promise.all(
+    ['lighthouse', 'chrome-launcher'].map(load),
+  );
+  return { lighthouse, desktopConfig, launch };
+}
+
+await main(async () => {
+  const chromePath = findBrowser();
+  if (!chromePath) throw new Error(browserMissing);
+  await setup();
+  await buildPackage();
+  await buildDemo();
+  const { lighthouse, desktopConfig, launch } = await lighthouseModules();
+  const { serve } = await import('../tests/browser/session.mjs');
+  const { pages } = await import('../tests/browser/pages.mjs');
+  const wanted = process.argv[2]?.split(',');
+  const server = await serve();
+  const rows = [];
+  const problems = [];
+  try {
+    for (const { name, path } of pages.filter((page) => !wanted || wanted.includes(page.path.slice(2)))) {
+      for (const [form, config] of [
+        ['desktop', desktopConfig],
+        ['mobile', undefined],
+      ]) {
+        const chrome = await launch({ chromePath, chromeFlags: ['--headless=new', ...browserArguments] });
+        try {
+          const flags = { port: chrome.port, logLevel: 'error', onlyCategories: ['performance', 'accessibility'] };
+          const { lhr } = await lighthouse(`${server.url}${path}`, flags, config);
+          const score = (category) => Math.round(100 * (lhr.categories[category].score ?? Number.NaN));
+          const seconds = (audit) => ((lhr.audits[audit].numericValue ?? Number.NaN) / 1000).toFixed(1);
+          rows.push({
+            page: name,
+            form,
+            performance: score('performance'),
+            accessibility: score('accessibility'),
+            'first paint, s': seconds('first-contentful-paint'),
+            'largest paint, s': seconds('largest-contentful-paint'),
+            'blocked, s': seconds('total-blocking-time'),
+          });
+          if (score('accessibility') !== 100) {
+            const found = lhr.categories.accessibility.auditRefs
+              .map(({ id }) => lhr.audits[id])
+              .filter((audit) => audit.score !== null && audit.score < 1);
+            problems.push(
+              `${name}, ${form}: ${found.map(({ id, title }) => `${id} (${title})`).join('; ') || 'no score'}`,
+            );
+          }
+        } finally {
+          chrome.kill();
+        }
+      }
+    }
+  } finally {
+    await server.close();
+  }
+  console.table(rows);
+  if (problems.length > 0) throw new Error(`accessibility is not 100:\n${problems.join('\n')}`);
+});
