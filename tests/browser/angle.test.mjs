@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { assertCsv, assertPng, parameters, parametersWith, saved, values } from './demo.mjs';
+import { assertCsv, assertPng, parameters, parametersWith, reload, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 import { typeNumber, typeText } from './type.mjs';
 
@@ -73,7 +73,7 @@ browserTest('angle lab: the address reproduces the numbers', { path }, async ({ 
   await shown(other, 'root-music');
   assert.deepEqual(await estimates(other, 'root-music'), first);
   assert.equal(await other.locator('input[name="snr"]').inputValue(), '13');
-  await page.reload();
+  await reload(page);
   await shown(page, 'root-music');
   assert.deepEqual(await estimates(page, 'root-music'), first);
 });

@@ -16,6 +16,12 @@ export const values = (page, selector) =>
       cells.flatMap(({ dataset }) => (dataset.value === undefined ? [] : [Number(dataset.value)])),
     );
 
+/** Loads the page again once its pictures are there: a request that is under way would fail. */
+export async function reload(page) {
+  await page.waitForFunction(() => [...document.images].every(({ complete }) => complete));
+  await page.reload();
+}
+
 /** The state in the address. */
 export const parameters = (page) => new URLSearchParams(new URL(page.url()).hash.split('?')[1]);
 

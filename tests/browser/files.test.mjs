@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { drop, parameters, parametersWith, recording, recordings } from './demo.mjs';
+import { drop, parameters, parametersWith, recording, recordings, reload } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
@@ -62,6 +62,82 @@ browserTest('files: what is no capture is doubted above the plots', { path: '#/c
   await page.waitForFunction(() => !document.querySelector('[data-doubt]'));
 });
 
+/** The text of the .cfg with other lines. */
+const other = (changes) => Buffer.from(changes.reduce((text, [from, to]) => text.replace(from, to), String(cfg)));
+
+/** Samples by the same .cfg: of targets that all move, at the same power, and of nothing that stands. */
+function moving() {
+  const bytes = Buffer.alloc(bin.length);
+  const targets = [0.1, 1.3, 2.6, -2].map((turn, i) => ({ turn, beat: 2 * Math.PI * (0.05 + 0.08 * i), angle: i - 1 }));
+  let at = 0;
+  for (let chirp = 0; chirp < 8 * 32; chirp++) {
+    for (let receiver = 0; receiver < 4; receiver++) {
+      for (let sample = 0; sample < 256; sample += 2) {
+        for (const part of [Math.cos, Math.sin]) {
+          for (const next of [0, 1]) {
+            const phase = ({ turn, beat, angle }) =>
+              beat * (sample + next) + angle * (receiver + 4 * (chirp % 2)) + (turn * chirp) / 2;
+            const value = targets.reduce((sum, target) => sum + part(phase(target)), 0);
+            at = bytes.writeInt16LE(Math.round(1000 * value), at);
+          }
+        }
+      }
+    }
+  }
+  return bytes;
+}
+
+browserTest(
+  'files: a .cfg of other chirps is doubted though its frames fit the file',
+  { path: '#/capture' },
+  async ({ page }) => {
+    await processed(page);
+    // A frame has as many bytes by each of them.
+    for (const [name, changes] of [
+      [
+        'fewer samples',
+        [
+          ['60 1 256 5209', '60 1 128 5209'],
+          ['frameCfg 0 1 16', 'frameCfg 0 1 32'],
+        ],
+      ],
+      [
+        'one transmitter',
+        [
+          ['channelCfg 15 3 0', 'channelCfg 15 1 0'],
+          ['frameCfg 0 1 16', 'frameCfg 0 0 32'],
+        ],
+      ],
+      [
+        'two receivers',
+        [
+          ['channelCfg 15 3 0', 'channelCfg 3 3 0'],
+          ['frameCfg 0 1 16', 'frameCfg 0 1 32'],
+        ],
+      ],
+    ]) {
+      await drop(page, [
+        { name: `${name}.bin`, bytes: bin },
+        { name: `${name}.cfg`, bytes: other(changes) },
+      ]);
+      await opened(page, `${name}.cfg`);
+      await page.waitForSelector('[data-doubt="loop-length"]');
+      assert.deepEqual(await doubts(page), ['loop-length'], name);
+      assert.match(await page.locator('.doubts').innerText(), /repeat every 2.?048.*by the \.cfg a loop has 1.?024/s);
+      await drop(page, [{ name: 'mine.cfg', bytes: cfg }]);
+      await opened(page, 'mine.cfg');
+      await page.waitForFunction(() => !document.querySelector('[data-doubt]'));
+    }
+    await drop(page, [
+      { name: 'moving.bin', bytes: moving() },
+      { name: 'mine.cfg', bytes: cfg },
+    ]);
+    await opened(page, 'moving.bin');
+    await processed(page);
+    assert.deepEqual(await doubts(page), [], 'what moves is not doubted for it');
+  },
+);
+
 browserTest('files: a link to one’s own capture waits for it', { path: '#/capture' }, async ({ page, context }) => {
   await processed(page);
   const files = [
@@ -83,7 +159,7 @@ browserTest('files: a link to one’s own capture waits for it', { path: '#/capt
   await processed(other);
   assert.equal(parameters(other).get('frame'), frame, 'with the settings of the link');
   assert.equal(await other.locator('[data-notice="files"]').count(), 0);
-  await page.reload();
+  await reload(page);
   await page.locator('[data-notice="files"] button').click();
   await opened(page, 'xwr16xx');
   await parametersWith(page, (params) => (params.get('source') ?? 'bundled') === 'bundled');

@@ -1,6 +1,6 @@
 /** The first minute: what each page is for, examples to begin with, hints, verdicts, and where things stand. */
 import assert from 'node:assert/strict';
-import { drop } from './demo.mjs';
+import { drop, reload } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 import { pages } from './pages.mjs';
 import { patient } from './trial.mjs';
@@ -55,7 +55,7 @@ browserTest(
     await page.mouse.move(box.x - 30, box.y + 10, { steps: 4 });
     await page.mouse.up();
     await page.waitForFunction(() => !document.querySelector('[data-hint]'));
-    await page.reload();
+    await reload(page);
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
     assert.equal(await page.locator('[data-hint]').count(), 0);
   },

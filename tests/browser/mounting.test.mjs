@@ -10,6 +10,7 @@ import {
   drop,
   parametersWith,
   recordings,
+  reload,
   saved,
   values,
 } from './demo.mjs';
@@ -165,7 +166,7 @@ browserTest(
     );
     assert.match(await page.locator('[data-plot="trajectory"] .legend').innerText(), /Speed and yaw rate as measured/);
     await parametersWith(page, (params) => params.get('source') === 'files' && params.get('xM') === '3.5');
-    await page.reload();
+    await reload(page);
     await page.waitForSelector('[role="status"].notice');
     assert.match(await page.locator('[role="status"].notice').innerText(), /files that are not here/);
   },
@@ -325,7 +326,7 @@ browserTest(
       await value(page, 'recursive', 'angleDeg'),
       await value(page, 'kabsch', 'angleDeg'),
     ];
-    await page.reload();
+    await reload(page);
     await ready(page);
     await ready(page, 'kabsch');
     assert.deepEqual(

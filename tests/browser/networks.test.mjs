@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
-import { assertCsv, assertPng, drop, parametersWith, saved, values } from './demo.mjs';
+import { assertCsv, assertPng, drop, parametersWith, reload, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 import { card, cell, file, models, patient, tried } from './trial.mjs';
 import { typeNumber, typeText } from './type.mjs';
@@ -75,7 +75,7 @@ browserTest(
       assert.ok(before[method][0] < 0.3, `${method}: ${before[method]} deg`);
     }
     await parametersWith(page, (params) => params.get('run') === '1');
-    await page.reload();
+    await reload(page);
     await tried(page);
     for (const method of ['learned-pursuit', 'iaa', 'nomp'])
       assert.deepEqual(await cell(page, method, 'rmse'), before[method]);

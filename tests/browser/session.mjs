@@ -43,6 +43,8 @@ export async function openPage(browser, url, { viewport = 'desktop', scheme = 'l
     colorScheme: scheme,
     reducedMotion: 'reduce',
     hasTouch: viewport === 'phone',
+    // Each test asks the server, and finds what it gives; those of offline use let the worker work.
+    serviceWorkers: 'block',
     ...rest,
   });
   const problems = [];

@@ -1,5 +1,5 @@
 import assert from 'node:assert/strict';
-import { parameters, parametersWith } from './demo.mjs';
+import { parameters, parametersWith, reload } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const theme = (page) => page.evaluate(() => document.documentElement.dataset.theme);
@@ -34,7 +34,7 @@ browserTest(
     assert.equal(await theme(page), 'dark');
     await page.locator('select[name="theme"]').selectOption('light');
     assert.equal(await theme(page), 'light');
-    await page.reload();
+    await reload(page);
     await page.waitForSelector('[data-plot="spectrum"]');
     assert.equal(await theme(page), 'light');
   },

@@ -1,27 +1,25 @@
 /** The shell: heading, pages, footer; loads the package before a page is shown. */
 import { useEffect, useState } from 'preact/hooks';
 import { api, describeError, load, type Problem } from './data.ts';
-import icon from './icon.svg?url';
+import icon from './icon.svg?inline';
+import { keepOffline, newRelease } from './offline/release.ts';
 import { AnglePage } from './pages/angle/page.tsx';
 import { BirdseyePage } from './pages/birdseye/page.tsx';
 import { CapturePage } from './pages/capture/page.tsx';
+import { askAhead } from './pages/mounting/ahead.ts';
 import { MountingPage } from './pages/mounting/page.tsx';
 import { NetworksPage } from './pages/networks/page.tsx';
+import { sessionProblem } from './session/session.ts';
+import { SessionBar } from './session/session-bar.tsx';
 import { misread } from './state/address.ts';
 import { announcement } from './state/announce.ts';
-import { lastParams, type Page, pageAddress, route } from './state/route.ts';
+import { lastParams, type Page, pageAddress, route, TITLES } from './state/route.ts';
 import { type ThemeChoice, themeChoice } from './state/theme.ts';
 import { dropProblem, watchDrops } from './ui/drop.ts';
 import { Introduction } from './ui/introduction.tsx';
+import { KeptNote } from './ui/kept.tsx';
 import { Notice } from './ui/notice.tsx';
 
-const TITLES: Record<Page, string> = {
-  angle: 'Angle lab',
-  capture: 'Capture',
-  mounting: 'Mounting angle',
-  birdseye: 'Bird’s-eye view',
-  networks: 'Networks',
-};
 const DOCS = 'https://github.com/boresight/boresight';
 
 export function App() {
@@ -33,8 +31,10 @@ export function App() {
       () => setReady(true),
       (error: unknown) => setProblem(describeError(error)),
     );
+    if (page === 'mounting') askAhead(route.peek().params);
   }, []);
   useEffect(watchDrops, []);
+  useEffect(() => void keepOffline(), []);
   useEffect(() => {
     document.title = `${TITLES[page]} – Boresight`;
   }, [page]);
@@ -62,6 +62,7 @@ export function App() {
             </a>
           ))}
         </nav>
+        <SessionBar ready={ready} />
         <label class="theme">
           <span class="visually-hidden">Colours</span>
           <select
@@ -80,6 +81,19 @@ export function App() {
       </header>
       <main id="content" tabIndex={-1}>
         <h1 class="visually-hidden">{TITLES[page]}</h1>
+        {newRelease.value && (
+          <Notice
+            name="release"
+            onClose={() => {
+              newRelease.value = null;
+            }}
+          >
+            A new version of this site is there.{' '}
+            <button type="button" data-action="start-release" onClick={newRelease.value.start}>
+              Reload
+            </button>
+          </Notice>
+        )}
         {misread.value.length > 0 && (
           <Notice
             name="link"
@@ -99,6 +113,16 @@ export function App() {
             }}
           >
             {dropProblem.value}
+          </Notice>
+        )}
+        {sessionProblem.value && (
+          <Notice
+            name="session"
+            onClose={() => {
+              sessionProblem.value = null;
+            }}
+          >
+            {sessionProblem.value}
           </Notice>
         )}
         <Introduction page={page} />
@@ -123,6 +147,7 @@ export function App() {
         )}
       </main>
       <footer class="site-foot">
+        <KeptNote />
         <p title="The page’s content security policy forbids connections to anywhere but its own server.">
           Computed in this tab. Your data never leaves your machine.
         </p>

@@ -33,11 +33,14 @@ export function aborted(error: unknown): boolean {
   return error instanceof Error && error.name === 'AbortError';
 }
 
+/** What runs at the same time. */
+export const WORKERS = Math.min(Math.max((navigator.hardwareConcurrency || 2) - 1, 1), 4);
+
 let workers: Pool | undefined;
 
 /** Workers start with the first call that needs them. */
 export function pool(): Pool {
-  workers ??= createPool({ workers: Math.min(Math.max((navigator.hardwareConcurrency || 2) - 1, 1), 4) });
+  workers ??= createPool({ workers: WORKERS });
   return workers;
 }
 

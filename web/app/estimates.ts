@@ -80,14 +80,14 @@ function resampled({ azimuthDeg, valuesDb }: Curve, onto: Float64Array): Pick<Cu
   return { azimuthDeg: onto, valuesDb: onto.map(between) };
 }
 
-export function series(curves: readonly Curve[]): PlotSeries[] {
-  return curves.map(({ method, title, valuesDb }) => ({
-    id: method,
-    label: title,
-    y: valuesDb,
-    style: methodStyle(method),
-  }));
-}
+export const oneSeries = ({ method, title, valuesDb }: Curve): PlotSeries => ({
+  id: method,
+  label: title,
+  y: valuesDb,
+  style: methodStyle(method),
+});
+
+export const series = (curves: readonly Curve[]): PlotSeries[] => curves.map(oneSeries);
 
 /** Sources of a method on its spectrum, with bars of the deviations they state. */
 export function sourceMarkers(method: Method, sources: readonly Source[]): Marker[] {

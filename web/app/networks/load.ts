@@ -2,6 +2,8 @@
 import { computed, signal } from '@preact/signals';
 import type { NetworkInfo } from 'boresight';
 import { aborted, describeError, FileProblem, type Problem, pool } from '../data.ts';
+import { NETWORKS } from '../kinds.ts';
+import type { NamedFile } from '../ui/entries.ts';
 import { MODELS, type Model } from './models.ts';
 import { moduleBuild, moduleReady } from './module.ts';
 
@@ -32,6 +34,8 @@ export function stopped(name: string | undefined): boolean {
 }
 
 const bytes = new Map<string, Uint8Array>();
+/** Texts of the cards that came with a user's own. */
+const ownCards = new Map<string, string>();
 const pending = new Map<string, { promise: Promise<NetworkInfo>; controller: AbortController }>();
 
 function say(name: string, loading: Loading): void {
@@ -136,8 +140,34 @@ export async function addModel(name: string, onnx: Uint8Array, card: string | un
   const before = loadings.peek().get(model.name)?.info;
   if (before) pool().unloadNetwork(before.id);
   bytes.set(model.name, onnx);
+  if (card === undefined) ownCards.delete(model.name);
+  else ownCards.set(model.name, card);
   pending.set(model.name, { promise: Promise.resolve(info), controller: new AbortController() });
   say(model.name, { status: 'ready', done: onnx.byteLength, total: onnx.byteLength, info });
   ownModels.value = [...ownModels.peek().filter((one) => one.name !== model.name), model];
   return model;
+}
+
+/** A user's own files: networks, and the card of each beside it. */
+export function ownFiles(): NamedFile[] {
+  return ownModels.peek().flatMap(({ name, card }) => {
+    const content = bytes.get(name);
+    if (!content) return [];
+    const text = ownCards.get(name);
+    return [
+      { name: card.name, file: new File([content as Uint8Array<ArrayBuffer>], card.name) },
+      ...(text === undefined ? [] : [{ name: cardName(card.name), file: new File([text], cardName(card.name)) }]),
+    ];
+  });
+}
+
+const cardName = (onnx: string): string => onnx.replace(/(\.onnx)?$/i, '.json');
+
+/** Takes in what `ownFiles` gave. */
+export async function openOwn(files: readonly NamedFile[]): Promise<void> {
+  for (const { name, file } of files) {
+    if (!NETWORKS.test(name)) continue;
+    const card = files.find((other) => other.name === cardName(name));
+    await addModel(name, new Uint8Array(await file.arrayBuffer()), await card?.file.text());
+  }
 }

@@ -13,13 +13,14 @@ export function carOutline(): Layer {
   return (context) => {
     const { ctx, theme, ratio } = context;
     const at = ground(context);
-    const [ax, ay] = at(-CAR.behind, CAR.half);
-    const [bx, by] = at(CAR.ahead, -CAR.half);
+    const [left, rear] = at(-CAR.behind, CAR.half);
+    const [right, front] = at(CAR.ahead, -CAR.half);
+    const [width, length] = [right - left, rear - front];
     ctx.fillStyle = theme.shade;
     ctx.strokeStyle = theme.muted;
     ctx.lineWidth = 1.5 * ratio;
     ctx.beginPath();
-    ctx.roundRect(ax, ay, bx - ax, by - ay, Math.min(4 * ratio, Math.abs(bx - ax) / 3, Math.abs(by - ay) / 3));
+    ctx.roundRect(left, front, width, length, Math.min(4 * ratio, width / 3, length / 3));
     ctx.fill();
     ctx.stroke();
     // The windscreen tells front from back, the line is the rear axle.

@@ -24,27 +24,49 @@ export function cellExtent(centres: ArrayLike<number>): [number, number] {
   return [first - half, last + half];
 }
 
-/** The image, painted once; the layer only scales it. */
+/** The cell whose centre is nearest to a value. */
+export function nearestCell(value: number, centres: ArrayLike<number>): number {
+  const first = centres[0] ?? 0;
+  const step = (centres[1] ?? first + 1) - first;
+  return Math.min(Math.max(Math.round((value - first) / step), 0), centres.length - 1);
+}
+
+/** Pixels of an image's side that any browser's canvas has room for. */
+const MOST_PIXELS = 8192;
+
+/** The image, painted once; the layer only scales it. Where cells share a pixel the highest is seen. */
 export function heatImage(map: HeatMap): Layer {
   const columns = map.x.length;
   const rows = map.y.length;
   if (!columns || !rows) return () => {};
   const image = document.createElement('canvas');
-  image.width = columns;
-  image.height = rows;
+  const width = Math.min(columns, MOST_PIXELS);
+  const height = Math.min(rows, MOST_PIXELS);
+  image.width = width;
+  image.height = height;
   const target = image.getContext('2d');
   if (!target) return () => {};
-  const pixels = target.createImageData(columns, rows);
+  const pixels = target.createImageData(width, height);
   const table = new Uint32Array(colorTable(map.colors).slice().buffer);
   const out = new Uint32Array(pixels.data.buffer);
   const [low, high] = map.limits;
   const scale = 255 / (high - low || 1);
-  for (let i = 0; i < columns; i++) {
-    for (let j = 0; j < rows; j++) {
-      const value = map.values[i * rows + j] as number;
-      if (Number.isNaN(value)) continue;
-      const level = Math.min(Math.max(Math.round((value - low) * scale), 0), 255);
-      out[(rows - 1 - j) * columns + i] = table[level] as number;
+  for (let px = 0; px < width; px++) {
+    const fromX = Math.floor((px * columns) / width);
+    const toX = Math.floor(((px + 1) * columns) / width);
+    for (let py = 0; py < height; py++) {
+      const fromY = Math.floor((py * rows) / height);
+      const toY = Math.floor(((py + 1) * rows) / height);
+      let highest = Number.NaN;
+      for (let i = fromX; i < toX; i++) {
+        for (let j = fromY; j < toY; j++) {
+          const value = map.values[i * rows + j] as number;
+          if (!(value <= highest)) highest = Number.isNaN(value) ? highest : value;
+        }
+      }
+      if (Number.isNaN(highest)) continue;
+      const level = Math.min(Math.max(Math.round((highest - low) * scale), 0), 255);
+      out[(height - 1 - py) * width + px] = table[level] as number;
     }
   }
   target.putImageData(pixels, 0, 0);

@@ -97,7 +97,12 @@ export function bands(intervals: readonly (readonly [number, number])[], fill: (
 const MOST_POINTS = 4000;
 
 /** A line through points; parts with a missing number are left out. */
-export function polyline(px: ArrayLike<number>, py: ArrayLike<number>, style: SeriesStyle): Layer {
+export function polyline(
+  px: ArrayLike<number>,
+  py: ArrayLike<number | null>,
+  style: SeriesStyle,
+  most = MOST_POINTS,
+): Layer {
   return ({ ctx, plot, themeName, ratio, x, y }) => {
     clipToPlot(ctx, plot);
     ctx.strokeStyle = style.color[themeName];
@@ -106,9 +111,9 @@ export function polyline(px: ArrayLike<number>, py: ArrayLike<number>, style: Se
     ctx.setLineDash((style.dash ?? []).map((d) => d * ratio));
     ctx.beginPath();
     let drawing = false;
-    const every = Math.max(Math.floor(px.length / MOST_POINTS), 1);
+    const every = Math.max(Math.floor(px.length / most), 1);
     for (let i = 0; i < px.length; i += every) {
-      const [a, b] = [x(px[i] as number), y(py[i] as number)];
+      const [a, b] = [x(px[i] as number), y(py[i] ?? Number.NaN)];
       if (!Number.isFinite(a) || !Number.isFinite(b)) drawing = false;
       else if (drawing) ctx.lineTo(a, b);
       else {
@@ -178,6 +183,21 @@ export function clipToPlot(ctx: CanvasRenderingContext2D, { bbox: { left, top, w
   ctx.beginPath();
   ctx.rect(left, top, width, height);
   ctx.clip();
+}
+
+/** A line in two colours and widths, one over the other, that shows on every colour of a map. */
+export function strokeTwice(
+  ctx: CanvasRenderingContext2D,
+  trace: (path: CanvasPath) => void,
+  ...looks: readonly [under: { color: string; width: number }, over: { color: string; width: number }]
+): void {
+  for (const { color, width } of looks) {
+    ctx.strokeStyle = color;
+    ctx.lineWidth = width;
+    ctx.beginPath();
+    trace(ctx);
+    ctx.stroke();
+  }
 }
 
 export interface Marker {
@@ -255,102 +275,106 @@ export function drawMarker(
   r: number,
   look: { stroke: string; fill: string | null; halo?: string; ratio: number },
 ): void {
-  const path = new Path2D();
   const polygon = (corners: [number, number][]): void => {
-    corners.forEach(([dx, dy], i) => (i ? path.lineTo(x + dx * r, y + dy * r) : path.moveTo(x + dx * r, y + dy * r)));
-    path.closePath();
+    corners.forEach(([dx, dy], i) => (i ? ctx.lineTo(x + dx * r, y + dy * r) : ctx.moveTo(x + dx * r, y + dy * r)));
+    ctx.closePath();
   };
-  let open = false;
-  switch (shape) {
-    case 'circle':
-      path.arc(x, y, r * 0.95, 0, 2 * Math.PI);
-      break;
-    case 'square':
-      path.rect(x - r * 0.85, y - r * 0.85, 1.7 * r, 1.7 * r);
-      break;
-    case 'diamond':
-      polygon([
-        [0, -1.25],
-        [1.1, 0],
-        [0, 1.25],
-        [-1.1, 0],
-      ]);
-      break;
-    case 'up':
-      polygon([
-        [0, -1.15],
-        [1.1, 0.85],
-        [-1.1, 0.85],
-      ]);
-      break;
-    case 'down':
-      polygon([
-        [0, 1.15],
-        [1.1, -0.85],
-        [-1.1, -0.85],
-      ]);
-      break;
-    case 'left':
-      polygon([
-        [-1.15, 0],
-        [0.85, 1.1],
-        [0.85, -1.1],
-      ]);
-      break;
-    case 'right':
-      polygon([
-        [1.15, 0],
-        [-0.85, 1.1],
-        [-0.85, -1.1],
-      ]);
-      break;
-    case 'star':
-      polygon(
-        Array.from({ length: 10 }, (_, i) => {
-          const radius = i % 2 ? 0.55 : 1.35;
-          const angle = (i * Math.PI) / 5 - Math.PI / 2;
-          return [radius * Math.cos(angle), radius * Math.sin(angle)] as [number, number];
-        }),
-      );
-      break;
-    case 'plus':
-    case 'cross':
-    case 'bar': {
-      open = true;
-      const strokes: [number, number, number, number][] =
-        shape === 'plus'
-          ? [
-              [-1.2, 0, 1.2, 0],
-              [0, -1.2, 0, 1.2],
-            ]
-          : shape === 'cross'
+  const open = shape === 'plus' || shape === 'cross' || shape === 'bar';
+  const trace = (): void => {
+    ctx.beginPath();
+    switch (shape) {
+      case 'circle':
+        ctx.arc(x, y, r * 0.95, 0, 2 * Math.PI);
+        break;
+      case 'square':
+        ctx.rect(x - r * 0.85, y - r * 0.85, 1.7 * r, 1.7 * r);
+        break;
+      case 'diamond':
+        polygon([
+          [0, -1.25],
+          [1.1, 0],
+          [0, 1.25],
+          [-1.1, 0],
+        ]);
+        break;
+      case 'up':
+        polygon([
+          [0, -1.15],
+          [1.1, 0.85],
+          [-1.1, 0.85],
+        ]);
+        break;
+      case 'down':
+        polygon([
+          [0, 1.15],
+          [1.1, -0.85],
+          [-1.1, -0.85],
+        ]);
+        break;
+      case 'left':
+        polygon([
+          [-1.15, 0],
+          [0.85, 1.1],
+          [0.85, -1.1],
+        ]);
+        break;
+      case 'right':
+        polygon([
+          [1.15, 0],
+          [-0.85, 1.1],
+          [-0.85, -1.1],
+        ]);
+        break;
+      case 'star':
+        polygon(
+          Array.from({ length: 10 }, (_, i) => {
+            const radius = i % 2 ? 0.55 : 1.35;
+            const angle = (i * Math.PI) / 5 - Math.PI / 2;
+            return [radius * Math.cos(angle), radius * Math.sin(angle)] as [number, number];
+          }),
+        );
+        break;
+      case 'plus':
+      case 'cross':
+      case 'bar': {
+        const strokes: [number, number, number, number][] =
+          shape === 'plus'
             ? [
-                [-1, -1, 1, 1],
-                [-1, 1, 1, -1],
+                [-1.2, 0, 1.2, 0],
+                [0, -1.2, 0, 1.2],
               ]
-            : [
-                [0, -1.4, 0, 1.4],
-                [-0.7, -1.4, 0.7, -1.4],
-                [-0.7, 1.4, 0.7, 1.4],
-              ];
-      for (const [ax, ay, bx, by] of strokes) {
-        path.moveTo(x + ax * r, y + ay * r);
-        path.lineTo(x + bx * r, y + by * r);
+            : shape === 'cross'
+              ? [
+                  [-1, -1, 1, 1],
+                  [-1, 1, 1, -1],
+                ]
+              : [
+                  [0, -1.4, 0, 1.4],
+                  [-0.7, -1.4, 0.7, -1.4],
+                  [-0.7, 1.4, 0.7, 1.4],
+                ];
+        for (const [ax, ay, bx, by] of strokes) {
+          ctx.moveTo(x + ax * r, y + ay * r);
+          ctx.lineTo(x + bx * r, y + by * r);
+        }
       }
     }
-  }
+  };
   if (look.halo) {
     ctx.strokeStyle = look.halo;
     ctx.lineWidth = (open ? 4.5 : 3) * look.ratio;
-    ctx.stroke(path);
+    trace();
+    ctx.stroke();
   }
   if (!open && look.fill) {
     ctx.fillStyle = look.fill;
-    ctx.fill(path);
+    trace();
+    ctx.fill();
   }
   ctx.strokeStyle = look.stroke;
   ctx.lineWidth = (open ? 2 : 1.5) * look.ratio;
-  ctx.stroke(path);
+  trace();
+  ctx.stroke();
 }
 
 /** Size of a series' sign in a legend, CSS pixels. */

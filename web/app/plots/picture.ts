@@ -1,12 +1,23 @@
-/** A plot as a picture to save. */
+/** Plots as pictures to save: a heading above, legend and caption below. */
 import { drawSwatch, SWATCH } from './layers.ts';
+import type { Plot } from './plot.ts';
 import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
+
+/** Of what is on the screen: pictures are printed and projected. */
+const SCALE = 2;
 
 export interface LegendEntry {
   label: string;
   style: SeriesStyle;
   line: boolean;
   hollow?: boolean;
+}
+
+export interface Picture {
+  heading: string;
+  legend: readonly LegendEntry[];
+  /** What is shown and where it is from: a paragraph each. */
+  caption: readonly string[];
 }
 
 /** Where the entries of a legend go, row by row, from the widths of their labels. */
@@ -25,60 +36,136 @@ function legendPlaces(widths: readonly number[], available: number, ratio: numbe
   });
 }
 
-export interface Picture {
-  heading: string;
-  legend: readonly LegendEntry[];
-  remarks: readonly string[];
-  /** Pixels of the canvas for one of the page. */
-  ratio: number;
-  theme: ThemeName;
+/** Lines no wider than there is room for, broken between words, and within those that are wider themselves. */
+export function wrap(text: string, fits: (line: string) => boolean): string[] {
+  const lines: string[] = [];
+  let line = '';
+  for (let word of text.split(' ')) {
+    const longer = line ? `${line} ${word}` : word;
+    if (fits(longer)) {
+      line = longer;
+      continue;
+    }
+    if (line) lines.push(line);
+    while (!fits(word)) {
+      let [low, high] = [1, word.length - 1];
+      while (low < high) {
+        const middle = Math.ceil((low + high) / 2);
+        if (fits(word.slice(0, middle))) low = middle;
+        else high = middle - 1;
+      }
+      if (low >= word.length) break;
+      lines.push(word.slice(0, low));
+      word = word.slice(low);
+    }
+    line = word;
+  }
+  return line ? [...lines, line] : lines;
 }
 
-/** A canvas with a heading above, a legend and remarks below, as PNG. */
-export function picture(
-  source: HTMLCanvasElement,
-  { heading, legend, remarks, ratio, theme: name }: Picture,
-): Promise<Blob> {
-  const theme = THEMES[name];
+function context(width: number, height: number): CanvasRenderingContext2D {
   const canvas = document.createElement('canvas');
+  [canvas.width, canvas.height] = [width, height];
   const ctx = canvas.getContext('2d');
-  if (!ctx) return Promise.reject(new Error('This browser gives no 2-D canvas to draw the image on.'));
+  if (!ctx) throw new Error('This browser gives no 2-D canvas to draw the image on.');
+  return ctx;
+}
+
+interface Layout {
+  width: number;
+  height: number;
+  /** Draws all but the plot; gives the space above that. */
+  draw(ctx: CanvasRenderingContext2D): void;
+  top: number;
+}
+
+function layout(plot: Plot, { heading, legend, caption }: Picture): Layout {
+  const ratio = plot.ratio * SCALE;
+  const { width, height: plotHeight } = plot.sizeAt(SCALE);
+  const themeName: ThemeName = plot.theme;
+  const theme = THEMES[themeName];
   const small = `${11 * ratio}px ${theme.font}`;
   const margin = 12 * ratio;
   const line = 17 * ratio;
-  ctx.font = small;
+  const room = width - 2 * margin;
+  const measure = context(1, 1);
+  const fits = (text: string): boolean => measure.measureText(text).width <= room;
+  measure.font = `600 ${13 * ratio}px ${theme.font}`;
+  const headings = wrap(heading, fits);
+  measure.font = small;
+  const lines = caption.flatMap((text) => wrap(text, fits));
   const places = legendPlaces(
-    legend.map(({ label }) => ctx.measureText(label).width),
-    source.width - 2 * margin,
+    legend.map(({ label }) => measure.measureText(label).width),
+    room,
     ratio,
   );
-  const rows = (places.at(-1)?.row ?? -1) + 1 + remarks.length;
-  const top = 30 * ratio;
-  canvas.width = source.width;
-  canvas.height = source.height + top + (rows ? rows * line + 8 * ratio : 0);
-  ctx.fillStyle = theme.background;
-  ctx.fillRect(0, 0, canvas.width, canvas.height);
-  ctx.drawImage(source, 0, top);
-  ctx.textBaseline = 'middle';
-  ctx.fillStyle = theme.text;
-  ctx.font = `600 ${13 * ratio}px ${theme.font}`;
-  ctx.fillText(heading, margin, top / 2, canvas.width - 2 * margin);
-  ctx.font = small;
-  const rowY = (row: number): number => top + source.height + (row + 0.5) * line;
-  legend.forEach((entry, i) => {
-    const { x, row } = places[i] ?? { x: 0, row: 0 };
-    drawSwatch(ctx, entry, { x: margin + x, y: rowY(row), ratio }, theme, name);
-    ctx.fillStyle = theme.text;
-    ctx.fillText(entry.label, margin + x + (SWATCH.width + 5) * ratio, rowY(row));
-  });
-  ctx.fillStyle = theme.muted;
-  remarks.forEach((remark, i) => {
-    ctx.fillText(remark, margin, rowY(rows - remarks.length + i), canvas.width - 2 * margin);
-  });
+  const legendRows = (places.at(-1)?.row ?? -1) + 1;
+  const top = (12 + 18 * headings.length) * ratio;
+  const rows = legendRows + lines.length;
+  return {
+    width,
+    height: plotHeight + top + (rows ? rows * line + 8 * ratio : 0),
+    top,
+    draw: (ctx) => {
+      ctx.textAlign = 'left';
+      ctx.textBaseline = 'middle';
+      ctx.fillStyle = theme.text;
+      ctx.font = `600 ${13 * ratio}px ${theme.font}`;
+      headings.forEach((text, i) => {
+        ctx.fillText(text, margin, (15 + 18 * i) * ratio);
+      });
+      ctx.font = small;
+      const rowY = (row: number): number => top + plotHeight + (row + 0.5) * line;
+      legend.forEach((entry, i) => {
+        const { x, row } = places[i] ?? { x: 0, row: 0 };
+        drawSwatch(ctx, entry, { x: margin + x, y: rowY(row), ratio }, theme, themeName);
+        ctx.fillStyle = theme.text;
+        ctx.fillText(entry.label, margin + x + (SWATCH.width + 5) * ratio, rowY(row));
+      });
+      ctx.fillStyle = theme.muted;
+      lines.forEach((text, i) => {
+        ctx.fillText(text, margin, rowY(legendRows + i));
+      });
+    },
+  };
+}
+
+function background(ctx: CanvasRenderingContext2D, plot: Plot, { width, height }: Layout): void {
+  ctx.fillStyle = THEMES[plot.theme].background;
+  ctx.fillRect(0, 0, width, height);
+}
+
+/** At twice the screen's resolution. */
+export function png(plot: Plot, what: Picture): Promise<Blob> {
+  const placed = layout(plot, what);
+  const ctx = context(placed.width, placed.height);
+  background(ctx, plot, placed);
+  ctx.drawImage(plot.drawAgain(SCALE), 0, placed.top);
+  placed.draw(ctx);
   return new Promise((resolve, reject) => {
-    canvas.toBlob(
+    ctx.canvas.toBlob(
       (blob) => (blob ? resolve(blob) : reject(new Error('The browser could not encode the image.'))),
       'image/png',
     );
   });
+}
+
+/** Lines as paths and text as text; as large as on the screen wherever it is shown at its own size. */
+export async function svg(plot: Plot, what: Picture): Promise<Blob> {
+  const { vectors } = await import('./vectors.ts');
+  const placed = layout(plot, what);
+  const { ctx, finish } = vectors(placed.width, placed.height);
+  ctx.save();
+  background(ctx, plot, placed);
+  ctx.restore();
+  ctx.save();
+  ctx.translate(0, placed.top);
+  plot.drawAgain(SCALE, ctx);
+  ctx.restore();
+  placed.draw(ctx);
+  const shown = plot.ratio * SCALE;
+  return finish(
+    { title: what.heading, description: what.caption.join('\n') },
+    { width: placed.width / shown, height: placed.height / shown },
+  );
 }

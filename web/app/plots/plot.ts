@@ -5,10 +5,10 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import './plot.css';
+import { divert } from './divert.ts';
 import { significant, ticks } from './format.ts';
-import type { Layer, LayerContext } from './layers.ts';
+import { clipToPlot, type Layer, type LayerContext, polyline } from './layers.ts';
 import { navigate } from './navigate.ts';
-import { type LegendEntry, picture } from './picture.ts';
 import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
 
 export type Interval = readonly [number, number];
@@ -221,9 +221,46 @@ export class Plot {
     this.setView({ x: moved(this.#view.x, x), y: moved(this.#view.y, y) }, true);
   }
 
-  /** The plot as an image with a heading, a legend and remarks, at the screen's resolution. */
-  png(heading: string, legend: readonly LegendEntry[] = [], remarks: readonly string[] = []): Promise<Blob> {
-    return picture(this.u.ctx.canvas, { heading, legend, remarks, ratio: uPlot.pxRatio, theme: this.#theme });
+  /** Device pixels a CSS pixel. */
+  get ratio(): number {
+    return uPlot.pxRatio;
+  }
+
+  /** Device pixels it takes when it is drawn so many times as large. */
+  sizeAt(scale: number): { width: number; height: number } {
+    const { width, height } = this.u;
+    return { width: Math.round(width * scale * this.ratio), height: Math.round(height * scale * this.ratio) };
+  }
+
+  /** What is shown, drawn afresh and larger on a canvas of its own, or on a context that is given. */
+  drawAgain(scale: number, onto?: CanvasRenderingContext2D): HTMLCanvasElement {
+    const size = { width: this.u.width * scale, height: this.u.height * scale };
+    const lines = this.#content.series.map(({ y, style }) => polyline(this.#content.x, y, style, Infinity));
+    const copy = new uPlot(
+      {
+        ...this.#uplotOptions(scale),
+        ...size,
+        cursor: { show: false },
+        hooks: {
+          drawClear: [(u) => this.#drawBelow(u, scale)],
+          draw: [(u) => this.#drawLayers([...lines, ...(this.#content.above ?? [])], u, scale)],
+        },
+      },
+      [[], []],
+      (u, start) => {
+        if (onto) divert(u.ctx, onto);
+        start();
+      },
+    );
+    // All at once: what is drawn on takes no second drawing.
+    copy.batch((u: uPlot) => {
+      const { x, y } = this.#drawn(u);
+      u.setScale('x', { min: x[0], max: x[1] });
+      u.setScale('y', { min: y[0], max: y[1] });
+    });
+    const { canvas } = copy.ctx;
+    copy.destroy();
+    return canvas;
   }
 
   destroy(): void {
@@ -234,24 +271,24 @@ export class Plot {
     this.u.destroy();
   }
 
-  #uplotOptions(): uPlot.Options {
+  #uplotOptions(scale = 1): uPlot.Options {
     const theme = () => THEMES[this.#theme];
     const family = THEMES.light.font;
     const axis = (options: AxisOptions, side: number, size: number): uPlot.Axis => ({
       scale: side === 2 ? 'x' : 'y',
       side,
-      size,
+      size: size * scale,
       label: options.label,
-      labelSize: 18,
+      labelSize: 18 * scale,
       labelGap: 0,
-      gap: 4,
-      font: `11px ${family}`,
-      labelFont: `12px ${family}`,
-      space: side === 2 ? 54 : 28,
+      gap: 4 * scale,
+      font: `${11 * scale}px ${family}`,
+      labelFont: `${12 * scale}px ${family}`,
+      space: (side === 2 ? 54 : 28) * scale,
       stroke: () => theme().muted,
-      grid: { show: this.#options.grid ?? true, stroke: () => theme().grid, width: 1 },
-      ticks: { show: true, stroke: () => theme().muted, width: 1, size: 4 },
-      border: { show: true, stroke: () => theme().muted, width: 1 },
+      grid: { show: this.#options.grid ?? true, stroke: () => theme().grid, width: scale },
+      ticks: { show: true, stroke: () => theme().muted, width: scale, size: 4 * scale },
+      border: { show: true, stroke: () => theme().muted, width: scale },
       values: (_u, splits, _axis, _space, step) =>
         ticks(splits, step).map((text, i) =>
           (splits[i] as number) < (options.from ?? Number.NEGATIVE_INFINITY) ? '' : text,
@@ -268,7 +305,7 @@ export class Plot {
     return {
       width: 300,
       height: 200,
-      padding: [8, options.right ?? 14, options.bottom ?? 0, 0],
+      padding: [8 * scale, (options.right ?? 14) * scale, (options.bottom ?? 0) * scale, 0],
       legend: { show: false },
       scales: {
         x: {
@@ -310,8 +347,8 @@ export class Plot {
           : {}),
       },
       hooks: {
-        drawClear: [() => this.#drawBelow()],
-        draw: [() => this.#drawAbove()],
+        drawClear: [(u) => this.#drawBelow(u)],
+        draw: [(u) => this.#drawAbove(u)],
         setCursor: [(u) => this.#reportCursor(u)],
         setSelect: [(u) => this.#select(u)],
       },
@@ -481,44 +518,39 @@ export class Plot {
     this.#options.onCursor?.({ x, y: u.posToVal(top, 'y'), index: this.#content.x.length ? u.valToIdx(x) : null });
   }
 
-  #context(): LayerContext {
-    const u = this.u;
+  #context(u: uPlot, scale: number): LayerContext {
     return {
       ctx: u.ctx,
       plot: u,
       theme: THEMES[this.#theme],
       themeName: this.#theme,
-      ratio: uPlot.pxRatio,
+      ratio: this.ratio * scale,
       x: (value) => u.valToPos(value, 'x', true),
       y: (value) => u.valToPos(value, 'y', true),
     };
   }
 
-  #drawBelow(): void {
-    const { ctx, bbox, width, height } = this.u;
+  #drawLayers(layers: readonly Layer[], u: uPlot, scale: number): void {
+    const context = this.#context(u, scale);
+    for (const layer of layers) {
+      u.ctx.save();
+      layer(context);
+      u.ctx.restore();
+    }
+  }
+
+  #drawBelow(u: uPlot, scale = 1): void {
+    const { ctx, width, height } = u;
     ctx.save();
     ctx.fillStyle = THEMES[this.#theme].background;
-    ctx.fillRect(0, 0, width * uPlot.pxRatio, height * uPlot.pxRatio);
-    ctx.beginPath();
-    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
-    ctx.clip();
-    const context = this.#context();
-    for (const layer of this.#content.below ?? []) {
-      ctx.save();
-      layer(context);
-      ctx.restore();
-    }
+    ctx.fillRect(0, 0, width * this.ratio, height * this.ratio);
+    clipToPlot(ctx, u);
+    this.#drawLayers(this.#content.below ?? [], u, scale);
     ctx.restore();
   }
 
-  #drawAbove(): void {
-    const { ctx } = this.u;
-    const context = this.#context();
-    for (const layer of this.#content.above ?? []) {
-      ctx.save();
-      layer(context);
-      ctx.restore();
-    }
+  #drawAbove(u: uPlot): void {
+    this.#drawLayers(this.#content.above ?? [], u, 1);
     for (const listener of this.#listeners) listener();
   }
 }

@@ -25,11 +25,11 @@ export function download(content: Blob | string, name: string): void {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** Images side by side, as many in a row as go into about two screens' width. */
+/** Images side by side, as many in a row as go into about two screens' width at twice their resolution. */
 export async function sideBySide(images: readonly Blob[]): Promise<Blob> {
   const all = await Promise.all(images.map((image) => createImageBitmap(image)));
   const [width, height] = [Math.max(...all.map((one) => one.width)), Math.max(...all.map((one) => one.height))];
-  const columns = Math.min(all.length, Math.max(Math.floor(3200 / width), 1));
+  const columns = Math.min(all.length, Math.max(Math.floor(6400 / width), 1));
   const canvas = new OffscreenCanvas(width * columns, height * Math.ceil(all.length / columns));
   const ctx = canvas.getContext('2d');
   if (!ctx) throw new Error('This browser gives no 2-D canvas to draw the image on.');

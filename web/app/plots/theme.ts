@@ -1,4 +1,5 @@
 /** Colours of everything drawn on a canvas, in both themes, and the look of each method's series. */
+import { parseColor } from './colormap.ts';
 
 export type ThemeName = 'light' | 'dark';
 
@@ -125,3 +126,13 @@ export function weightColor(weight: number, theme: ThemeName): string {
 }
 
 export const TRUTH_STYLE: SeriesStyle = { color: { light: '#23292f', dark: '#f0f3f5' }, marker: 'cross' };
+
+/** The same colour, fainter and dashed: what is there to compare with. */
+export function faint({ color, marker }: SeriesStyle): SeriesStyle {
+  const seen = (text: string): string => `rgba(${parseColor(text).slice(0, 3).join(', ')}, 0.6)`;
+  return {
+    color: { light: seen(color.light), dark: seen(color.dark) },
+    dash: [4, 4],
+    ...(marker ? { marker } : {}),
+  };
+}

@@ -1,8 +1,9 @@
 /** Binds a page's state to the address. */
 import { signal, useSignalEffect } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { unreadable } from './comparison.ts';
 import { note, step } from './history.ts';
-import { lastParams, type Page, type Route, route, writeParams } from './route.ts';
+import { lastParams, type Page, pageAddress, type Route, route, setParams, writeParams } from './route.ts';
 
 /** What of the address was not understood, as it stands there. */
 export const misread = signal<readonly string[]>([]);
@@ -14,7 +15,24 @@ interface AnyCodec {
   unreadable(params: URLSearchParams): string[];
 }
 
-let present: { page: Page; codec: AnyCodec; restore(params: URLSearchParams): void } | null = null;
+/** What is shown, said where it is seen without its page. */
+export interface Caption {
+  /** Files, or what was simulated. */
+  data: string;
+  /** The settings that matter most. */
+  settings: string;
+}
+
+let present: {
+  page: Page;
+  codec: AnyCodec;
+  restore(params: URLSearchParams): void;
+  caption(): Caption;
+} | null = null;
+
+export function caption(): Caption | null {
+  return present?.caption() ?? null;
+}
 
 /** Parameters as the page that is shown would write them. */
 export function canonical(page: Page, params: URLSearchParams): URLSearchParams {
@@ -29,6 +47,13 @@ export function undo(by: -1 | 1): void {
   if (params) present?.restore(params);
 }
 
+/** Puts parameters in place of a page's own, and shows the page if it is to be shown. */
+export function goTo(page: Page, params: URLSearchParams, show: boolean): void {
+  setParams(page, params);
+  if (present?.page === page && route.peek().page === page) present.restore(params);
+  else if (show) location.hash = pageAddress(page, params);
+}
+
 export interface Binding {
   codec: AnyCodec;
   /** Takes the state from parameters: those of the address, or where it has none those the page was left with. */
@@ -37,15 +62,16 @@ export interface Binding {
   start(): () => void;
   /** The state as parameters; runs again when signals it reads change. */
   write(): URLSearchParams;
+  caption(): Caption;
 }
 
 /** Restores a page's state before its first drawing and when the address changes, and writes it back. */
-export function useAddress(page: Page, { codec, restore, start, write }: Binding): void {
+export function useAddress(page: Page, { codec, restore, start, write, caption }: Binding): void {
   const ready = useRef(false);
   const read = (now: Route): void => {
     if (now.page !== page) return;
-    present = { page, codec, restore };
-    misread.value = codec.unreadable(now.params);
+    present = { page, codec, restore, caption };
+    misread.value = unreadable(codec, now.params);
     restore(now.params.size ? now.params : (lastParams(page) ?? now.params));
   };
   useState(() => read(route.peek()));

@@ -4,6 +4,14 @@ import { signal } from '@preact/signals';
 export const PAGES = ['angle', 'capture', 'mounting', 'birdseye', 'networks'] as const;
 export type Page = (typeof PAGES)[number];
 
+export const TITLES: Record<Page, string> = {
+  angle: 'Angle lab',
+  capture: 'Capture',
+  mounting: 'Mounting angle',
+  birdseye: 'Bird’s-eye view',
+  networks: 'Networks',
+};
+
 export interface Route {
   page: Page;
   params: URLSearchParams;
@@ -29,16 +37,25 @@ export function link(): string {
 }
 
 export function pageAddress(page: Page, params?: URLSearchParams): string {
-  const query = params?.toString();
-  // Commas and colons may stand in a fragment as they are, and read better.
-  return `#/${page}${query ? `?${query.replaceAll('%2C', ',').replaceAll('%3A', ':').replaceAll('%3B', ';')}` : ''}`;
+  const query = params && readable(params);
+  return `#/${page}${query ? `?${query}` : ''}`;
 }
+
+/** Commas and colons may stand in a fragment as they are, and read better. */
+export const readable = (params: URLSearchParams): string =>
+  params.toString().replaceAll('%2C', ',').replaceAll('%3A', ':').replaceAll('%3B', ';');
 
 /** Each page's last parameters, so that going back to it finds it as it was. */
 const last = new Map<Page, URLSearchParams>();
 
 export function lastParams(page: Page): URLSearchParams | undefined {
   return last.get(page);
+}
+
+/** What a page is found with when it is shown next; without parameters, as on a fresh visit. */
+export function setParams(page: Page, params: URLSearchParams | null): void {
+  if (params) last.set(page, params);
+  else last.delete(page);
 }
 
 /** The parameters of the page that is shown, as they are or soon will be in the address. */

@@ -3,6 +3,7 @@ import type { ReadonlySignal } from '@preact/signals';
 import type { VNode } from 'preact';
 import type { OfOption } from '../options.ts';
 import type { ChoiceField, Field, NumberField } from '../state/codec.ts';
+import { remember } from '../state/labels.ts';
 import { CheckField, SelectField } from './field.tsx';
 import { NumberField as NumberControl } from './number-field.tsx';
 
@@ -68,6 +69,7 @@ export function controlOf<F, S>(
     const given = props as unknown as Loose;
     const { name } = given;
     const held = state.value[name as keyof S];
+    remember(fields as object, name, given.label, given.unit);
     return (
       <Control
         {...given}

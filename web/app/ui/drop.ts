@@ -2,7 +2,8 @@
 import { type ReadonlySignal, signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { describeError } from '../data.ts';
-import { CAPTURES, DRIVES, NETWORKS } from '../kinds.ts';
+import { CAPTURES, DRIVES, NETWORKS, SESSIONS } from '../kinds.ts';
+import { openDropped } from '../session/session.ts';
 import { type Page, pageAddress, route } from '../state/route.ts';
 import { droppedFiles, type NamedFile } from './entries.ts';
 
@@ -13,7 +14,7 @@ const KINDS: readonly { page: Page; names: RegExp; what: string; address?: Recor
   {
     page: 'capture',
     names: CAPTURES,
-    what: 'captures (.bin with .cfg, and .dat)',
+    what: 'captures (.bin with .cfg or .mmwave.json, and .dat)',
     address: { source: 'files' },
   },
   {
@@ -35,11 +36,15 @@ let waiting: { page: Page; files: readonly NamedFile[] } | null = null;
 
 /** The page that is shown takes what it can make something of, and what nobody can: it has words for that. */
 function hand(files: readonly NamedFile[]): void {
+  if (files.some(({ name }) => SESSIONS.test(name))) {
+    openDropped(files);
+    return;
+  }
   const pages = KINDS.filter(({ names }) => files.some(({ name }) => names.test(name))).map(({ page }) => page);
   const here = route.peek().page;
   const page = pages.includes(here) ? here : (pages[0] ?? taker?.page);
   if (!page) {
-    const kinds = KINDS.map(({ what }) => what).join(', ');
+    const kinds = [...KINDS.map(({ what }) => what), 'sessions (.boresight)'].join(', ');
     dropProblem.value = `${files[0]?.name ?? 'The folder'}: no page opens this. What can be opened: ${kinds}.`;
   } else if (taker?.page === page) taker.take(files);
   else {

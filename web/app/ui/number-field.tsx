@@ -20,6 +20,11 @@ const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 /** What may become a number by further keys. */
 const BEGINNING = /^[+-]?(\d+\.?\d*|\.\d*)?(e[+-]?)?$/i;
 
+/** As attributes of accessibility have numbers, without an exponent; Preact's types know them as numbers. */
+const decimal = (value: number): number | undefined =>
+  Number.isFinite(value)
+    ? (value.toLocaleString('en', { useGrouping: false, maximumFractionDigits: 20 }) as unknown as number)
+    : undefined;
 const textOf = (value: number): string => (Number.isFinite(value) ? String(value) : '');
 
 type Reading = { value: number } | 'empty' | 'unfinished' | 'invalid';
@@ -97,9 +102,9 @@ function useNumber(props: NumberProps) {
       name: props.name,
       disabled: props.disabled,
       value: draft.text ?? textOf(value),
-      'aria-valuenow': Number.isFinite(value) ? value : undefined,
-      'aria-valuemin': Number.isFinite(min) ? min : undefined,
-      'aria-valuemax': Number.isFinite(max) ? max : undefined,
+      'aria-valuenow': decimal(value),
+      'aria-valuemin': decimal(min),
+      'aria-valuemax': decimal(max),
       'aria-invalid': wrong ? ('true' as const) : undefined,
       onInput: (event: { currentTarget: HTMLInputElement }) => input(event.currentTarget.value),
       onFocus: () => setFocused(true),

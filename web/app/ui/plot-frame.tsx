@@ -2,13 +2,12 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
-import { api } from '../data.ts';
-import type { LegendEntry } from '../plots/picture.ts';
+import { type LegendEntry, png, svg } from '../plots/picture.ts';
 import { type CursorPosition, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
 import { download, fileName } from '../plots/save.ts';
 import { announce } from '../state/announce.ts';
-import { link } from '../state/route.ts';
 import { theme } from '../state/theme.ts';
+import { captionLines } from './caption.ts';
 import { Swatch } from './swatch.tsx';
 
 export interface LegendItem extends LegendEntry {
@@ -46,15 +45,6 @@ export interface PlotFrameProps {
   view?: View | null;
   onPlot?(plot: Plot): (() => void) | undefined;
   overlay?: ComponentChildren;
-}
-
-/** The longest that is readable in one line of a small image. */
-const MOST_OF_LINK = 150;
-
-/** Where a saved image is from. */
-function origin(): string {
-  const from = link();
-  return `Boresight ${api.version()}: ${from.length > MOST_OF_LINK ? `${from.slice(0, MOST_OF_LINK)}…` : from}`;
 }
 
 export function PlotFrame(props: PlotFrameProps) {
@@ -105,13 +95,14 @@ export function PlotFrame(props: PlotFrameProps) {
   useSignalEffect(() => plot.current?.setTheme(theme.value));
 
   const parts = [props.name, ...(props.fileParts ?? [])];
-  const savePng = async (): Promise<void> => {
-    const image = await plot.current?.png(
-      props.detail ? `${props.title}, ${props.detail}` : props.title,
-      props.imageLegend ?? props.legend,
-      [...(props.imageRemarks ?? props.remarks ?? []), origin()],
-    );
-    if (image) download(image, fileName(parts, 'png'));
+  const save = async (draw: typeof png, extension: string): Promise<void> => {
+    if (!plot.current) return;
+    const image = await draw(plot.current, {
+      heading: props.detail ? `${props.title}, ${props.detail}` : props.title,
+      legend: props.imageLegend ?? props.legend ?? [],
+      caption: captionLines(props.imageRemarks ?? props.remarks),
+    });
+    download(image, fileName(parts, extension));
   };
   return (
     <figure class="panel plot-frame" data-plot={props.name} aria-labelledby={`${id}-title`}>
@@ -134,8 +125,21 @@ export function PlotFrame(props: PlotFrameProps) {
           <button type="button" title="Show everything again (0)" onClick={() => plot.current?.resetZoom()}>
             Reset
           </button>
-          <button type="button" title="Save the plot as an image" data-export="png" onClick={() => void savePng()}>
+          <button
+            type="button"
+            title="Save the plot as an image, at twice the screen’s resolution"
+            data-export="png"
+            onClick={() => void save(png, 'png')}
+          >
             PNG
+          </button>
+          <button
+            type="button"
+            title="Save the plot as a drawing, whose lines and text stay sharp"
+            data-export="svg"
+            onClick={() => void save(svg, 'svg')}
+          >
+            SVG
           </button>
           <button
             type="button"

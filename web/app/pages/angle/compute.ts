@@ -220,6 +220,25 @@ function recompute(state: AngleState): void {
   for (const method of waiting.keys()) void runThere(method);
 }
 
+/** Another state's scene and what its methods make of it, each told as soon as it is there. */
+export async function computeApart(
+  state: AngleState,
+  tell: (scene: Scene, results: ReadonlyMap<Method, MethodResult>) => void,
+): Promise<void> {
+  const made = simulate(state);
+  const found = new Map<Method, MethodResult>();
+  tell(made, found);
+  const methods = api
+    .methods()
+    .filter((info) => state.methods.includes(info.name) && !whyNot(info, made.geometry, state));
+  await Promise.all(
+    methods.map(async ({ name }) => {
+      found.set(name, await onWorker(name, made));
+      tell(made, new Map(found));
+    }),
+  );
+}
+
 const warm = new Set<Method>();
 
 function runHere(method: Method, made: Scene): MethodResult {

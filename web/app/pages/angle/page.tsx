@@ -5,6 +5,8 @@ import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
 import { ArrayPanel } from './array-panel.tsx';
+import { caption, start as startCompare } from './compare.ts';
+import { ComparePanel } from './compare-panel.tsx';
 import { results, scene, sceneProblem, start } from './compute.ts';
 import { Controls } from './controls.tsx';
 import { ResultsTable } from './results-table.tsx';
@@ -18,8 +20,14 @@ export function AnglePage() {
     restore: (params) => {
       angleState.value = angleCodec.read(params);
     },
-    start,
+    start: () => {
+      const stops = [start(), startCompare()];
+      return () => {
+        for (const stop of stops) stop();
+      };
+    },
     write: () => angleCodec.write(angleState.value),
+    caption,
   });
   useSignalEffect(() => {
     const lines = [...results.value]
@@ -43,6 +51,7 @@ export function AnglePage() {
         {scene.value ? (
           <>
             <SpectrumPlot scene={scene.value} />
+            <ComparePanel scene={scene.value} />
             <ResultsTable scene={scene.value} />
             <SweepPanel />
             <ArrayPanel scene={scene.value} />

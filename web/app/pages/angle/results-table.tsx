@@ -4,19 +4,18 @@ import { fixed, milliseconds, signed } from '../../plots/format.ts';
 import { download, fileName, toCsv } from '../../plots/save.ts';
 import { methodStyle } from '../../plots/theme.ts';
 import { Swatch } from '../../ui/swatch.tsx';
-import { assign } from './assign.ts';
 import { results, type Scene } from './compute.ts';
+import { assigned } from './score.ts';
 
 export function ResultsTable({ scene }: { scene: Scene }) {
   const { targets } = scene.state;
-  const truth = targets.map((target) => target.azimuthDeg);
   const rows = api
     .methods()
     .filter(({ name }) => results.value.has(name))
     .map((info) => {
       const result = results.value.get(info.name);
       const sources = result?.estimate?.sources ?? [];
-      return { info, result, sources, assignment: assign(truth, sources, Math.max(scene.geometry.resolutionDeg, 1)) };
+      return { info, result, sources, assignment: assigned(scene, sources) };
     });
   const sigma = (i: number): number => scene.bound?.[i] ?? Number.NaN;
   const csv = (): string =>

@@ -1,30 +1,35 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
 import { useMemo, useRef } from 'preact/hooks';
 import { api } from '../../data.ts';
-import { type Curve, closes, curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
+import { type Curve, closes, curve, oneSeries, onOneGrid, sourceMarkers, withBars } from '../../estimates.ts';
 import { AZIMUTH } from '../../plots/axes.ts';
 import { fixed, signed } from '../../plots/format.ts';
 import { Handles } from '../../plots/handles.ts';
 import { bands, horizontalLine, type Layer, markers } from '../../plots/layers.ts';
 import type { Plot } from '../../plots/plot.ts';
 import { toCsv } from '../../plots/save.ts';
-import { methodStyle, TRUTH_STYLE } from '../../plots/theme.ts';
+import { faint, methodStyle, TRUTH_STYLE } from '../../plots/theme.ts';
 import { announce } from '../../state/announce.ts';
 import { hasMoved, rememberMoved } from '../../state/settings.ts';
+import { KeepButton } from '../../ui/comparison.tsx';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { compared, type Kept, kept } from './compare.ts';
 import { results, type Scene } from './compute.ts';
-import { addTarget, angleState, LIMITS, removeTarget, setTarget } from './state.ts';
+import { addTarget, angleState, LIMITS, removeTarget, setTarget, setupOf } from './state.ts';
 
 const EXTENT = { x: [-90, 90], y: [-50, 14] } as const;
 
-function curves({ geometry }: Scene): Curve[] {
-  return onOneGrid(
-    api.methods().map(({ name, title }) => {
-      const estimate = results.value.get(name)?.estimate;
-      return estimate ? curve(estimate, title, closes(geometry.positions)) : null;
-    }),
-  );
+function curves({ scene: { geometry }, results }: Kept): (Curve | null)[] {
+  return api.methods().map(({ name, title }) => {
+    const estimate = results.get(name)?.estimate;
+    return estimate ? curve(estimate, title, closes(geometry.positions)) : null;
+  });
 }
+
+/** A's curves by the side of B's. */
+const ofA = (curve: Curve): Curve => ({ ...curve, method: `${curve.method}-a`, title: `A: ${curve.title}` });
+
+const SHIFTED = 'Pseudo-spectra (MUSIC, min-norm) are shifted to the strongest estimated power.';
 
 const TRUTH_RING = { ...TRUTH_STYLE, marker: 'circle' } as const;
 
@@ -67,7 +72,10 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
   const handles = useRef<Handles | null>(null);
   const { targets, snr } = scene.state;
   const found = results.value;
-  const shown = curves(scene);
+  const a = kept.value;
+  const own = curves({ scene, results: found });
+  const shown = onOneGrid([...own, ...(a ? curves(a).map((item) => item && ofA(item)) : [])]);
+  const methodOfA = new Map(a ? [...a.results.keys()].map((name) => [`${name}-a`, name]) : []);
   const content = useMemo(() => {
     const { unambiguousDeg } = scene.geometry;
     const outside: [number, number][] =
@@ -86,12 +94,29 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
     const estimates = [...found].flatMap(([method, { estimate }]) => sourceMarkers(method, estimate?.sources ?? []));
     return {
       x: shown[0]?.azimuthDeg ?? [],
-      series: series(shown),
+      series: shown.map((item) => {
+        const method = methodOfA.get(item.method);
+        return { ...oneSeries(item), ...(method ? { style: faint(methodStyle(method)) } : {}) };
+      }),
       extent: EXTENT,
       below: [bands(outside, (t) => t.shade), bands(bound, (t) => t.band)],
-      above: [horizontalLine(-snr, 'noise at one element'), markers(estimates), truthLayer(targets)],
+      above: [
+        horizontalLine(-snr, 'noise at one element'),
+        markers(
+          [...(a?.results ?? [])].flatMap(([method, { estimate }]) =>
+            sourceMarkers(method, estimate?.sources ?? []).map(({ x, y }) => ({
+              x,
+              y,
+              style: faint(methodStyle(method)),
+              hollow: true,
+            })),
+          ),
+        ),
+        markers(estimates),
+        truthLayer(targets),
+      ],
     };
-  }, [scene, found]);
+  }, [scene, found, a]);
 
   handles.current?.set(
     targets.map((target, i) => ({
@@ -116,6 +141,18 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
           ...(curve ? { value: ({ index }) => `${fixed(curve.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB` } : {}),
         };
       }),
+    ...api
+      .methods()
+      .filter(({ name }) => a?.results.has(name))
+      .map(
+        (info): LegendItem => ({
+          id: `${info.name}-a`,
+          label: `A: ${info.title}`,
+          style: faint(methodStyle(info.name)),
+          line: info.spectrum,
+          hollow: true,
+        }),
+      ),
   ];
 
   const attach = (plot: Plot): (() => void) => {
@@ -157,9 +194,6 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
   };
 
   const { state } = scene;
-  const setup =
-    `${state.array.startsWith('at:') ? `positions ${state.array.slice(3)}` : state.array}, SNR ${fixed(state.snr, 1)} dB, ` +
-    `${state.snapshots} snapshot${state.snapshots === 1 ? '' : 's'}${state.fluctuation === 'complex-normal' || state.snapshots === 1 ? '' : `, ${state.fluctuation.replace('-', ' ')}`}, seed ${state.seed}`;
   return (
     <PlotFrame
       title="Angle spectrum"
@@ -169,6 +203,7 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       legend={legend}
       onPlot={attach}
       keys="Tab to a target to move it."
+      tools={<KeepButton of={compared} />}
       overlay={
         !hasMoved.value && targets.length > 0 ? (
           <p class="plot-hint" data-hint>
@@ -194,7 +229,8 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
         )
       }
       fileParts={[state.array.split(':')[0] ?? '', `seed${state.seed}`]}
-      remarks={[`${setup}. Pseudo-spectra (MUSIC, min-norm) are shifted to the strongest estimated power.`]}
+      remarks={[`${setupOf(state)}, seed ${state.seed}. ${SHIFTED}`]}
+      imageRemarks={[SHIFTED]}
     />
   );
 }

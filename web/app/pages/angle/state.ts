@@ -3,7 +3,10 @@ import { signal } from '@preact/signals';
 import type { ArrayInput, Method, Position } from 'boresight';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
+import { fixed, signed } from '../../plots/format.ts';
+import type { Caption } from '../../state/address.ts';
 import { choice, codec, type Field, names, number, optional, text } from '../../state/codec.ts';
+import { keptField } from '../../state/comparison.ts';
 import { seed } from '../../state/seed.ts';
 
 export interface Target {
@@ -83,6 +86,7 @@ export const angleCodec = codec(
     from: optional(number(0, [-30, 2000])),
     to: optional(number(0, [-30, 2000])),
     runs: number(200, [10, 5000], 'integer'),
+    a: keptField,
   },
   ['array', 'targets', 'snr', 'snapshots', 'seed', 'methods'],
 );
@@ -92,6 +96,26 @@ export const angleState = signal<AngleState>(angleCodec.defaults);
 
 export function update(patch: Partial<AngleState>): void {
   angleState.value = { ...angleState.value, ...patch };
+}
+
+/** Array, noise and snapshots in words. */
+export function setupOf({ array, snr, snapshots, fluctuation }: AngleState): string {
+  const told = snapshots === 1 || fluctuation === 'complex-normal' ? '' : `, ${fluctuation.replace('-', ' ')}`;
+  return (
+    `${array.startsWith('at:') ? `elements at ${array.slice(3)}` : array}, SNR ${fixed(snr, 1)} dB, ` +
+    `${snapshots} snapshot${snapshots === 1 ? '' : 's'}${told}`
+  );
+}
+
+/** For those who see a plot alone. */
+export function captionOf(state: AngleState): Caption {
+  const targets = state.targets.map(
+    ({ azimuthDeg, powerDb }) => `${signed(azimuthDeg, 1)}°${powerDb ? ` at ${signed(powerDb, 1)} dB` : ''}`,
+  );
+  return {
+    data: `simulated, seed ${state.seed}`,
+    settings: `${setupOf(state)}, targets: ${targets.join(', ') || 'none'}`,
+  };
 }
 
 const clamp = (value: number, [low, high]: readonly [number, number]): number => Math.min(Math.max(value, low), high);

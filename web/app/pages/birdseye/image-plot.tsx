@@ -8,8 +8,10 @@ import { carOutline } from '../../plots/car.ts';
 import { decibels, fixed, signed } from '../../plots/format.ts';
 import { COLOR_BAR_HEIGHT, colorBarBelow, heatImage } from '../../plots/heat.ts';
 import { faded } from '../../plots/layers.ts';
+import { png } from '../../plots/picture.ts';
 import type { Plot, PlotContent, View } from '../../plots/plot.ts';
 import { download, fileName, sideBySide, toCsv } from '../../plots/save.ts';
+import { captionLines } from '../../ui/caption.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { boardPoints, grid, input, type Point, shownRadars } from './input.ts';
 import { fieldsOfView, truth } from './layers.ts';
@@ -38,7 +40,9 @@ export async function saveAll(): Promise<void> {
   const shown = api.methods().flatMap((info) => {
     const plot = plots.get(info.name);
     const image = images.peek().get(info.name);
-    return plot && image ? [plot.png(`${info.title}, ${detailOf(image)}`, legendItems(), [remark(image)])] : [];
+    return plot && image
+      ? [png(plot, { heading: `${info.title}, ${detailOf(image)}`, legend: legendItems(), caption: captionLines() })]
+      : [];
   });
   if (shown.length) download(await sideBySide(await Promise.all(shown)), fileName(['birdseye', ...fileParts()], 'png'));
 }
@@ -52,14 +56,6 @@ function detailOf({ stale, problem, from, measure }: MethodImage): string {
   if (problem) return 'no image';
   const made = stale ? (working.value ? 'computing' : 'not of these settings') : (from ?? '');
   return `${made}${measure ? `, ${decibels(measure.outsideDb)} outside` : ''}`;
-}
-
-/** What the image is of, for those who see it alone. */
-function remark({ radars = [] }: MethodImage): string {
-  const { source, seed, frame, speed } = birdseyeState.peek();
-  const scene =
-    source === 'street' ? `Simulated street, seed ${seed}, own speed ${speed} m/s` : `Capture, frame ${frame + 1}`;
-  return `${scene}. Radars: ${radars.map(({ title }) => title.toLowerCase()).join(', ') || 'none'}.`;
 }
 
 /** A view's cell at a place. */
@@ -136,7 +132,6 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
       view={view}
       keys="Arrows move, with Shift the cursor."
       imageLegend={legendItems()}
-      imageRemarks={[remark(image)]}
       options={{
         x: LEFT,
         y: AHEAD,

@@ -1,7 +1,7 @@
 /** What is drawn over an image: the street as it truly is, and where the radars sit and look. */
 import type { StreetScene } from 'boresight';
 import { ground } from '../../plots/car.ts';
-import { clipToPlot, type Layer } from '../../plots/layers.ts';
+import { clipToPlot, type Layer, strokeTwice } from '../../plots/layers.ts';
 import type { Point, Radar } from './input.ts';
 
 /** A ray's end in the car's frame. */
@@ -18,28 +18,24 @@ export function fieldsOfView(radars: readonly { radar: Radar; rangeM: number }[]
     clipToPlot(ctx, plot);
     for (const { radar, rangeM } of radars) {
       const half = radar.fieldOfViewDeg;
-      const path = new Path2D();
-      path.moveTo(...at(radar.mounting.xM, radar.mounting.yM));
-      for (let angle = -half; angle <= half; angle += half / 24) path.lineTo(...at(...along(radar, angle, rangeM)));
-      path.closePath();
       ctx.setLineDash([5 * ratio, 5 * ratio]);
-      stroke(ctx, path, 'rgba(255, 255, 255, 0.75)', ratio);
-      const dot = new Path2D();
-      dot.arc(...at(radar.mounting.xM, radar.mounting.yM), 2.5 * ratio, 0, 2 * Math.PI);
+      const edges = (path: CanvasPath): void => {
+        path.moveTo(...at(radar.mounting.xM, radar.mounting.yM));
+        for (let angle = -half; angle <= half; angle += half / 24) path.lineTo(...at(...along(radar, angle, rangeM)));
+        path.closePath();
+      };
+      stroke(ctx, edges, 'rgba(255, 255, 255, 0.75)', ratio);
       ctx.setLineDash([]);
+      const dot = (path: CanvasPath): void =>
+        path.arc(...at(radar.mounting.xM, radar.mounting.yM), 2.5 * ratio, 0, 2 * Math.PI);
       stroke(ctx, dot, '#ffffff', ratio);
     }
   };
 }
 
 /** A thin line with a dark one beneath. */
-function stroke(ctx: CanvasRenderingContext2D, path: Path2D, color: string, ratio: number): void {
-  ctx.lineWidth = 2.2 * ratio;
-  ctx.strokeStyle = 'rgba(0, 0, 0, 0.5)';
-  ctx.stroke(path);
-  ctx.lineWidth = ratio;
-  ctx.strokeStyle = color;
-  ctx.stroke(path);
+function stroke(ctx: CanvasRenderingContext2D, trace: (path: CanvasPath) => void, color: string, ratio: number): void {
+  strokeTwice(ctx, trace, { color: 'rgba(0, 0, 0, 0.5)', width: 2.2 * ratio }, { color, width: ratio });
 }
 
 /** Shapes of the things beside the road, and the points of them that scatter into a radar. */
@@ -48,25 +44,30 @@ export function truth(street: StreetScene | null, points: readonly Point[]): Lay
     const { ctx, plot, ratio } = context;
     const at = ground(context);
     clipToPlot(ctx, plot);
-    const shapes = new Path2D();
-    for (const { xM, yM } of street?.outlines ?? []) {
-      for (let i = 0; i < xM.length; i++) shapes[i ? 'lineTo' : 'moveTo'](...at(xM[i] as number, yM[i] as number));
-      if (xM.length > 2) shapes.closePath();
-    }
+    const shapes = (path: CanvasPath): void => {
+      for (const { xM, yM } of street?.outlines ?? []) {
+        for (let i = 0; i < xM.length; i++) path[i ? 'lineTo' : 'moveTo'](...at(xM[i] as number, yM[i] as number));
+        if (xM.length > 2) path.closePath();
+      }
+    };
     stroke(ctx, shapes, 'rgba(255, 255, 255, 0.8)', ratio);
     // From afar they are many to a pixel; near, rings that leave the image beneath to be seen.
     const size = Math.abs(at(0, 0.2)[0] - at(0, 0)[0]);
-    const [dots, rings] = [new Path2D(), new Path2D()];
-    for (const { xM, yM } of points) {
-      const [px, py] = at(xM, yM);
-      if (size < 4 * ratio) dots.rect(px - 0.75 * ratio, py - 0.75 * ratio, 1.5 * ratio, 1.5 * ratio);
-      else {
-        rings.moveTo(px + Math.min(size, 6 * ratio), py);
-        rings.arc(px, py, Math.min(size, 6 * ratio), 0, 2 * Math.PI);
-      }
+    const places = points.map(({ xM, yM }) => at(xM, yM));
+    if (size < 4 * ratio) {
+      ctx.fillStyle = TRUTH_COLOR;
+      ctx.beginPath();
+      for (const [px, py] of places) ctx.rect(px - 0.75 * ratio, py - 0.75 * ratio, 1.5 * ratio, 1.5 * ratio);
+      ctx.fill();
+      return;
     }
-    ctx.fillStyle = TRUTH_COLOR;
-    ctx.fill(dots);
+    const radius = Math.min(size, 6 * ratio);
+    const rings = (path: CanvasPath): void => {
+      for (const [px, py] of places) {
+        path.moveTo(px + radius, py);
+        path.arc(px, py, radius, 0, 2 * Math.PI);
+      }
+    };
     stroke(ctx, rings, TRUTH_COLOR, ratio);
   };
 }

@@ -6,14 +6,14 @@ import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
 import { ProgressLine, Stopped } from '../../ui/progress.tsx';
-import { fileProblem, loaded, openBundled, waiting } from '../capture/files.ts';
+import { fileNames, fileProblem, loaded, openBundled, waiting } from '../capture/files.ts';
 import { Controls } from './controls.tsx';
 import { ImagePlot, saveAll } from './image-plot.tsx';
 import { gridProblem, input, problemOfInput, shownRadars } from './input.ts';
 import { Legend } from './legend.tsx';
 import { cancel, frameProblem, frames, images, progress, restart, start, wasCancelled, working } from './process.ts';
 import { ResultsTable } from './results-table.tsx';
-import { birdseyeCodec, birdseyeState, zoom } from './state.ts';
+import { birdseyeCodec, birdseyeState, captionOf, zoom } from './state.ts';
 
 function restore(params: URLSearchParams): void {
   const { view, ...state } = birdseyeCodec.read(params);
@@ -27,6 +27,7 @@ export function BirdseyePage() {
     restore,
     start,
     write: () => birdseyeCodec.write({ ...birdseyeState.value, view: zoom.value }),
+    caption: () => captionOf(birdseyeState.peek(), shownRadars.peek(), fileNames()),
   });
   useSignalEffect(() => {
     if (birdseyeState.value.source === 'capture' && !loaded.peek() && !waiting.peek()) void openBundled();

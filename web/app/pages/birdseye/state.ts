@@ -5,6 +5,7 @@ import { networkNames, singleSnapshotMethods } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
 import { COLOR_MAPS } from '../../plots/colormap.ts';
 import type { View } from '../../plots/plot.ts';
+import type { Caption } from '../../state/address.ts';
 import { choice, codec, type Field, flag, names, number, optional } from '../../state/codec.ts';
 import { seed } from '../../state/seed.ts';
 
@@ -73,6 +74,17 @@ const { view: _, ...defaults } = birdseyeCodec.defaults;
 export const birdseyeState = signal<BirdseyeState>(defaults);
 /** Where all images are zoomed to. It changes with every move of a drag, so it stands apart. */
 export const zoom = signal<View | null>(null);
+
+/** For those who see an image alone. */
+export function captionOf(state: BirdseyeState, radars: readonly { title: string }[], file: string): Caption {
+  const { source, seed, frame, speed } = state;
+  const street = source === 'street';
+  const seen = radars.map(({ title }) => title.toLowerCase()).join(', ') || 'none';
+  return {
+    data: street ? `simulated street, seed ${seed}` : file,
+    settings: `${street ? `own speed ${speed} m/s` : `frame ${frame + 1}`}, radars: ${seen}, from ${state.from}`,
+  };
+}
 
 export function restoreDefaults(): void {
   birdseyeState.value = { ...defaults, source: birdseyeState.value.source };

@@ -22,6 +22,8 @@ export interface Loaded {
   /** The angle stated by those who recorded it, by radar. */
   statedDeg: ReadonlyMap<number, number>;
   licence: string | null;
+  /** The user's own files, as they can be read again. */
+  own: readonly NamedFile[];
 }
 
 export const loaded = signal<Loaded | null>(null);
@@ -34,6 +36,13 @@ export const driveProblem = signal<(Problem & { file?: string }) | null>(null);
 export const filesWanted = computed(
   () => mountingState.value.source === 'files' && loaded.value === null && opening.value === null,
 );
+
+export const ownFiles = (): readonly NamedFile[] => loaded.peek()?.own ?? [];
+
+/** Puts the user's own files away. */
+export function closeOwn(): void {
+  if (ownFiles().length) loaded.value = null;
+}
 
 /** The radar that is looked at. */
 export const sensor = computed<DriveSensor | null>(() => {
@@ -111,14 +120,16 @@ export function openAgain(): void {
 /** A drive of one's own has its own radars and places. */
 const OWN = { sensor: null, xM: null, yM: null, nominal: null, minSpeed: null } as const;
 
+/** Names and addresses of the bundled drive's files. */
+export const bundledFiles = [
+  ['front_radar.csv.gz', radarAddress],
+  ['pose_10hz.csv.gz', poseAddress],
+] as const;
+
 export function openBundled(): Promise<void> {
   return open('Loading the bundled drive', async (signal, job) => {
-    const addresses = [
-      ['front_radar.csv.gz', radarAddress],
-      ['pose_10hz.csv.gz', poseAddress],
-    ] as const;
     const files = await Promise.all(
-      addresses.map(async ([name, address]) => {
+      bundledFiles.map(async ([name, address]) => {
         const response = await fetch(address, { signal });
         if (!response.ok)
           throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
@@ -135,6 +146,7 @@ export function openBundled(): Promise<void> {
       truth: null,
       statedDeg: new Map([[1, -1.96]]),
       licence: licenceAddress,
+      own: [],
     };
   });
 }
@@ -194,6 +206,7 @@ export function openFiles(all: readonly NamedFile[]): Promise<void> {
           truth: null,
           statedDeg: new Map(),
           licence: null,
+          own: kept,
         };
       } catch (error) {
         if (aborted(error)) throw error;
@@ -228,6 +241,7 @@ function openSimulated(options: SimulateDriveOptions): Promise<void> {
       truth,
       statedDeg: new Map(truth.sensors.map(({ id, yawDeg }) => [id, yawDeg])),
       licence: null,
+      own: [],
     };
   });
 }

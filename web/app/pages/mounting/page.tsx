@@ -1,6 +1,6 @@
 import { effect, useSignalEffect } from '@preact/signals';
 import { count, fixed, signed } from '../../plots/format.ts';
-import { useAddress } from '../../state/address.ts';
+import { type Caption, useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
@@ -23,7 +23,7 @@ import { frame, playing, start as startClock, telling, time } from './playhead.t
 import { results, shownMethod, start as startProcess, where, working } from './process.ts';
 import { ResultsTable } from './results-table.tsx';
 import { SharePlot } from './share-plot.tsx';
-import { mountingCodec, mountingState } from './state.ts';
+import { minSpeed, mountingCodec, mountingState } from './state.ts';
 import { Progress, TimeBar } from './time-bar.tsx';
 import { frameKey } from './time-plot.tsx';
 import { TrajectoryPlot } from './trajectory-plot.tsx';
@@ -74,6 +74,20 @@ function startPage(): () => void {
   };
 }
 
+function caption(): Caption {
+  const state = mountingState.peek();
+  const open = loaded.peek();
+  const files = open?.files.map(({ name }) => name).join(', ');
+  return {
+    data: files || (open?.source === 'simulated' ? `simulated, ${open.name}` : 'no drive'),
+    settings: [
+      `radar ${sensor.peek()?.id ?? 'none'}`,
+      ...(open?.source === 'simulated' ? [`${state.duration} s, misaligned by ${state.misalignment}°`] : []),
+      `frames from ${minSpeed(state, open?.drive.format ?? '')} m/s`,
+    ].join(', '),
+  };
+}
+
 export function MountingPage() {
   useAddress('mounting', {
     codec: mountingCodec,
@@ -85,6 +99,7 @@ export function MountingPage() {
       const t = loaded.value && at !== undefined ? Number(at.toFixed(3)) : wantedTime;
       return mountingCodec.write({ ...mountingState.value, t });
     },
+    caption,
   });
   useSignalEffect(() => {
     if (working.value || !loaded.value) return;

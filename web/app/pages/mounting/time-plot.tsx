@@ -1,5 +1,7 @@
 /** A plot over driving time: one zoom and one cursor for all, the playhead, and a click that goes there. */
+
 import { effect, signal, useSignal } from '@preact/signals';
+import { frameKeys } from '../../plots/frame-keys.ts';
 import { Playhead } from '../../plots/playhead.ts';
 import type { AxisOptions, Interval, Plot, View } from '../../plots/plot.ts';
 import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
@@ -67,21 +69,7 @@ export function TimePlot({ y, ...props }: Props) {
 }
 
 /** Keys that all plots of the page share. */
-export function frameKey(event: KeyboardEvent): boolean {
-  switch (event.key) {
-    case ' ':
-      togglePlaying();
-      return true;
-    case 'ArrowLeft':
-      step(event.shiftKey ? -10 : -1);
-      return true;
-    case 'ArrowRight':
-      step(event.shiftKey ? 10 : 1);
-      return true;
-    default:
-      return false;
-  }
-}
+export const frameKey = frameKeys(togglePlaying, step);
 
 /** What names the drive in a file's name. */
 export function fileParts(): (string | number)[] {

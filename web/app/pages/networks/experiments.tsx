@@ -123,7 +123,7 @@ function Snapshots({ report }: { report: AoaReport }) {
           />
         </div>
       </div>
-      <Losses figures={figures} />
+      <Losses figures={figures} of="aoa" />
       {list}
       <div class="two">
         <PrecisionRecall report={report} chosen={chosen} />
@@ -172,7 +172,7 @@ function Regions({ report }: { report: DoaReport }) {
           />
         </div>
       </div>
-      <Losses figures={figures} />
+      <Losses figures={figures} of="doa" />
       {list}
       <div class="two">
         {figures.map((figure) => (
@@ -184,7 +184,7 @@ function Regions({ report }: { report: DoaReport }) {
 }
 
 /** What the figures say of the networks, counted from them. */
-function Losses({ figures }: { figures: readonly Figure[] }) {
+function Losses({ figures, of }: { figures: readonly Figure[]; of: 'aoa' | 'doa' }) {
   const rows = figures.flatMap((figure) => verdicts(figure).networks.map((network) => ({ figure, network })));
   if (!rows.length)
     return (
@@ -193,9 +193,9 @@ function Losses({ figures }: { figures: readonly Figure[] }) {
       </p>
     );
   return (
-    <section class="panel" aria-label="Networks against the classical methods" data-verdict="counted">
+    <section class="panel" aria-labelledby={`${of}-losses ${of}-title`} data-verdict="counted">
       <div class="panel-head">
-        <h3>Networks against the classical methods</h3>
+        <h3 id={`${of}-losses`}>Networks against the classical methods</h3>
       </div>
       <ul class="outcomes">
         {rows.map(({ figure, network }) => {

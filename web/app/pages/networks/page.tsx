@@ -13,7 +13,7 @@ import { Experiments } from './experiments.tsx';
 import { LearningPanel } from './learning.tsx';
 import { Overview } from './overview.tsx';
 import { ownProblem } from './own.tsx';
-import { networksCodec, networksState } from './state.ts';
+import { captionOf, networksCodec, networksState } from './state.ts';
 import { TimingPanel } from './timing-panel.tsx';
 
 export function NetworksPage() {
@@ -24,6 +24,7 @@ export function NetworksPage() {
     },
     start,
     write: () => networksCodec.write(networksState.value),
+    caption: () => captionOf(networksState.peek(), selected.peek()),
   });
   useSignalEffect(() => {
     const made = attempt.value;

@@ -1,7 +1,9 @@
 /** State of the page Networks: all of it in the address but a user's own files. */
 import { signal } from '@preact/signals';
-import { MODELS } from '../../networks/models.ts';
+import { models } from '../../networks/load.ts';
+import { MODELS, type Model } from '../../networks/models.ts';
 import { optionsOf } from '../../options.ts';
+import type { Caption } from '../../state/address.ts';
 import { choice, codec, flag, number, text } from '../../state/codec.ts';
 import { seed } from '../../state/seed.ts';
 
@@ -19,7 +21,7 @@ const first = MODELS[0]?.name ?? '';
 
 export const networksCodec = codec(
   {
-    model: text(first, (name) => MODELS.some((model) => model.name === name)),
+    model: text(first, (name) => models.peek().some((model) => model.name === name)),
     targets: number(6, TARGET_RANGE, 'integer'),
     snr: number(15, [-30, 60]),
     seed,
@@ -39,6 +41,14 @@ export const networksCodec = codec(
 
 export type NetworksState = typeof networksCodec.defaults;
 export const networksState = signal<NetworksState>(networksCodec.defaults);
+
+/** For those who see a plot alone. */
+export function captionOf({ targets, snr, seed }: NetworksState, model: Model | undefined): Caption {
+  return {
+    data: `network ${model?.title ?? 'unknown'}, and scenes simulated from seed ${seed}`,
+    settings: `${targets} targets, SNR ${snr} dB`,
+  };
+}
 
 export function update(patch: Partial<NetworksState>): void {
   networksState.value = { ...networksState.value, ...patch };
