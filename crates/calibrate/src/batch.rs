@@ -5,6 +5,7 @@ use crate::angle::{
     Sample, Setting, Solution, kabsch, least_squares, orthogonal_distance, weighted_mean, wrap,
 };
 use crate::calibrator::check_time;
+use crate::estimate::CHANCE;
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, FrameCounts, FrameInput, FrameMotion,
     FrameOutcome, Method, Motion, MotionPlan, Remark, Verdict,
@@ -12,10 +13,10 @@ use crate::{
 
 /// A radar slower than this stands, m/s, if its detections allow for that.
 const STANDSTILL_MPS: f64 = 0.05;
+/// Nor does a car whose own sensors have it at this speed, m/s.
+const STANDSTILL_MEASURED_MPS: f64 = 0.5;
 /// A car that turns faster does not stand, rad/s, whatever its radar sees: no bias is as large.
 const STANDSTILL_RADPS: f64 = 0.05;
-/// Standard deviations that chance is granted.
-const CHANCE: f64 = 3.0;
 /// Standard deviation of the angle from which it counts as undetermined, rad (1 deg).
 const UNDETERMINED_ANGLE_RAD: f64 = 0.017_453_292_519_943_295;
 /// Standard deviation of the scale from which it counts as undetermined.
@@ -94,31 +95,30 @@ impl Batch {
         let Some(yaw_rate_radps) = frame.yaw_rate_radps.filter(|rate| rate.is_finite()) else {
             return (Verdict::WithoutMotion, None);
         };
-        let [vx, vy] = motion.velocity_mps;
-        let [[xx, xy], [_, yy]] = motion.covariance;
-        let speed = vx.hypot(vy);
-        if stands(speed, xx + yy, motion) && yaw_rate_radps.abs() < STANDSTILL_RADPS {
+        let polar = motion.polar();
+        let (speed, variance) = (polar.speed_mps, motion.total_variance());
+        let measured = frame.speed_mps.filter(|speed| speed.is_finite());
+        let may_stand = measured.is_none_or(|speed| speed.abs() < STANDSTILL_MEASURED_MPS);
+        if may_stand && stands(speed, variance, motion) && yaw_rate_radps.abs() < STANDSTILL_RADPS {
             return (Verdict::Standing, None);
         }
-        if speed < o.min_speed_mps || speed <= CHANCE * (xx + yy).sqrt() {
+        if speed < o.min_speed_mps || speed <= CHANCE * variance.sqrt() {
             return (Verdict::Slow, None);
         }
         if yaw_rate_radps.abs() > o.max_yaw_rate_radps {
             return (Verdict::Turning, None);
         }
-        let speed_mps = frame.speed_mps.filter(|speed| speed.is_finite());
-        if o.method == Method::Kabsch && speed_mps.is_none() {
+        if o.method == Method::Kabsch && measured.is_none() {
             return (Verdict::WithoutMotion, None);
         }
-        let squared = speed * speed;
         let sample = Sample {
             time_s: frame.time_s,
             yaw_rate_radps,
             radar_speed_mps: speed,
-            beta_rad: vy.atan2(vx),
-            beta_variance: (vy * vy * xx - 2.0 * vx * vy * xy + vx * vx * yy) / (squared * squared),
-            speed_variance: (vx * vx * xx + 2.0 * vx * vy * xy + vy * vy * yy) / squared,
-            speed_mps: speed_mps.unwrap_or(f64::NAN),
+            beta_rad: polar.direction_rad,
+            beta_variance: polar.direction_variance,
+            speed_variance: polar.speed_variance,
+            speed_mps: measured.unwrap_or(f64::NAN),
         };
         let sound = sample.beta_variance > 0.0
             && sample.beta_variance.is_finite()
@@ -129,12 +129,10 @@ impl Batch {
     fn solve(&self, samples: &[Sample]) -> Option<Solution> {
         let known = self.bias.sigma().is_finite();
         let setting = Setting {
-            x_m: self.options.x_m,
-            y_m: self.options.y_m,
             bias_radps: self.bias.mean(),
             bias_sigma_radps: if known { self.bias.sigma() } else { self.options.bias_sigma_radps },
             yaw_rate_sigma_radps: self.bias.noise(),
-            nominal_rad: self.options.nominal_rad,
+            options: &self.options,
         };
         match self.options.method {
             Method::WeightedMean => weighted_mean::solve(samples, &setting),
@@ -188,6 +186,13 @@ impl Batch {
             covariance,
             bias_radps: self.bias.mean(),
             bias_sigma_radps: self.bias.sigma(),
+            slip_gradient: 0.0,
+            slip_gradient_sigma: 0.0,
+            delay_s: 0.0,
+            delay_sigma_s: 0.0,
+            speed_scale: 1.0,
+            speed_scale_sigma: 0.0,
+            changed_s: None,
             inlier_share,
             frames,
             converged,

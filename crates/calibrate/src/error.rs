@@ -10,6 +10,26 @@ pub enum CalibrateError {
     /// An argument is wrong.
     #[error(transparent)]
     Core(#[from] CoreError),
+    /// Bytes that are no snapshot, or one of another version.
+    #[error("malformed snapshot: expected {expected}, given {given}")]
+    MalformedSnapshot {
+        /// What was expected.
+        expected: String,
+        /// What was given.
+        given: String,
+    },
+    /// Snapshots that are not of one radar.
+    #[error(
+        "snapshots of one radar are merged: {what} is {expected} in the first and {given} in another"
+    )]
+    UnlikeSnapshots {
+        /// The option that differs.
+        what: &'static str,
+        /// Its value in the first.
+        expected: f64,
+        /// Its value in the other.
+        given: f64,
+    },
     /// A frame is older than the one before.
     #[error("time runs backwards: {given} s after {previous} s")]
     TimeBackwards {
@@ -24,6 +44,8 @@ impl Diagnose for CalibrateError {
     fn code(&self) -> &'static str {
         match self {
             Self::Core(error) => error.code(),
+            Self::MalformedSnapshot { .. } => "malformed-snapshot",
+            Self::UnlikeSnapshots { .. } => "unlike-snapshots",
             Self::TimeBackwards { .. } => "time-backwards",
         }
     }
@@ -31,6 +53,12 @@ impl Diagnose for CalibrateError {
     fn details(&self) -> Details {
         match self {
             Self::Core(error) => error.details(),
+            Self::MalformedSnapshot { expected, given } => {
+                Details::new("snapshot", expected, given)
+            }
+            Self::UnlikeSnapshots { what, expected, given } => {
+                Details::new(*what, expected.to_string(), given.to_string())
+            }
             Self::TimeBackwards { previous, given } => {
                 Details::new("time", format!("at least {previous} s"), format!("{given} s"))
             }

@@ -3,11 +3,14 @@
 use crate::Verdict;
 use boresight_core::describe::remark::Coded;
 use boresight_core::describe::{Described, remark};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt::{Display, Formatter};
 
+/// Standard deviations that chance is granted before an angle counts as misaligned.
+pub(crate) const CHANCE: f64 = 3.0;
+
 /// How many frames became what; every frame given is counted once.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
 #[option(name = "CalibrationCounts")]
 pub struct FrameCounts {
     /// Frames given.
@@ -22,6 +25,8 @@ pub struct FrameCounts {
     pub turning: u64,
     /// Too few detections or inliers.
     pub sparse: u64,
+    /// What agrees is not the car's own measured speed.
+    pub off_speed: u64,
     /// Without a yaw rate (or speed) at their time.
     pub without_motion: u64,
 }
@@ -36,6 +41,7 @@ impl FrameCounts {
             Verdict::Slow => &mut self.slow,
             Verdict::Turning => &mut self.turning,
             Verdict::Sparse => &mut self.sparse,
+            Verdict::OffSpeed => &mut self.off_speed,
             Verdict::WithoutMotion => &mut self.without_motion,
         } += 1;
     }
@@ -55,6 +61,24 @@ pub enum Remark {
     BiasUndetermined,
     /// Fewer than half of the detections of the frames used were static.
     FewInliers,
+    /// So few of the frames of a driving car could be used that what they agree on may be traffic.
+    FewFrames,
+    /// Most frames do not agree with the car's measured speed.
+    OffSpeed,
+    /// Most detections stand relative to the radar while the car drives: range rates without the car's motion, or a queue.
+    StillWhileDriving,
+    /// The angle depends on the yaw rate with the wrong sign, and is nearer to the nominal one mirrored.
+    AzimuthMirrored,
+    /// The angle depends on the yaw rate with the wrong sign.
+    YawRateReversed,
+    /// The angle depends on the yaw rate as if it were in degrees per second.
+    YawRateUnit,
+    /// Azimuths beyond half a turn: degrees in place of radians.
+    AzimuthUnit,
+    /// Scale, bias, slip or delay come out as no car has them.
+    Implausible,
+    /// The angle changed during the drive; it is the one since then.
+    Changed,
     /// The angle differs from the nominal one by more than the alarm's limit, beyond chance.
     Misaligned,
     /// The angle still changes by more than its standard deviation allows.
@@ -69,6 +93,15 @@ impl Coded for Remark {
             Self::ScaleUndetermined => "scale-undetermined",
             Self::BiasUndetermined => "bias-undetermined",
             Self::FewInliers => "few-inliers",
+            Self::FewFrames => "few-frames",
+            Self::OffSpeed => "off-speed",
+            Self::StillWhileDriving => "still-while-driving",
+            Self::AzimuthMirrored => "azimuth-mirrored",
+            Self::YawRateReversed => "yaw-rate-reversed",
+            Self::YawRateUnit => "yaw-rate-unit",
+            Self::AzimuthUnit => "azimuth-unit",
+            Self::Implausible => "implausible",
+            Self::Changed => "changed",
             Self::Misaligned => "misaligned",
             Self::NotConverged => "not-converged",
         }
@@ -83,6 +116,30 @@ impl Display for Remark {
             Self::ScaleUndetermined => "the drive does not determine the scale of the yaw rate",
             Self::BiasUndetermined => "the bias of the yaw rate is only assumed to be small",
             Self::FewInliers => "fewer than half of the detections were static",
+            Self::FewFrames => {
+                "so few frames could be used that what they agree on may be traffic"
+            }
+            Self::OffSpeed => "most frames do not agree with the car's measured speed",
+            Self::StillWhileDriving => {
+                "most detections stand relative to the radar while the car drives: their range rates may have the \
+                 car's motion taken out, or they are a queue of cars"
+            }
+            Self::AzimuthMirrored => {
+                "the angle goes with the yaw rate the wrong way and near the mirrored nominal one: azimuths may be \
+                 positive to the right"
+            }
+            Self::YawRateReversed => {
+                "the angle goes with the yaw rate the wrong way: the yaw rate or the azimuths may be positive to the \
+                 right"
+            }
+            Self::YawRateUnit => {
+                "the angle goes with the yaw rate as if it were in degrees per second"
+            }
+            Self::AzimuthUnit => "azimuths lie beyond half a turn: they may be degrees taken for radians",
+            Self::Implausible => {
+                "scale, bias, slip or delay come out as no car has them, so the angle may be wrong"
+            }
+            Self::Changed => "the angle changed during the drive; this is the one since then",
             Self::Misaligned => {
                 "the angle differs from the nominal one beyond the limit and chance"
             }
@@ -110,6 +167,21 @@ pub struct AngleEstimate {
     pub bias_radps: f64,
     /// Its standard deviation; infinite where nothing is known of it.
     pub bias_sigma_radps: f64,
+    /// Side slip of the rear axle for each m/s^2 of lateral acceleration, rad s^2/m; 0 where it was not estimated.
+    pub slip_gradient: f64,
+    /// Its standard deviation; 0 where it was not estimated.
+    pub slip_gradient_sigma: f64,
+    /// How long before its time stamp a scan was measured; 0 where it was not estimated.
+    pub delay_s: f64,
+    /// Its standard deviation; 0 where it was not estimated.
+    pub delay_sigma_s: f64,
+    /// Scale factor of the car's measured speed (measured over the radar's); 1 where it was not estimated.
+    pub speed_scale: f64,
+    /// Its standard deviation; 0 where it was not estimated.
+    pub speed_scale_sigma: f64,
+    /// When the angle last changed by a knock, on the clock of the frames.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub changed_s: Option<f64>,
     /// Static detections over all, of the frames used; 0 without any.
     pub inlier_share: f64,
     /// What became of the frames.

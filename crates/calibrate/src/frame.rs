@@ -34,6 +34,38 @@ pub struct Motion {
     pub detections: usize,
 }
 
+impl Motion {
+    /// Speed and direction with their variances.
+    pub(crate) fn polar(&self) -> Polar {
+        let [vx, vy] = self.velocity_mps;
+        let [[xx, xy], [_, yy]] = self.covariance;
+        let squared = vx * vx + vy * vy;
+        Polar {
+            speed_mps: squared.sqrt(),
+            speed_variance: (vx * vx * xx + 2.0 * vx * vy * xy + vy * vy * yy) / squared,
+            direction_rad: vy.atan2(vx),
+            direction_variance: (vy * vy * xx - 2.0 * vx * vy * xy + vx * vx * yy)
+                / (squared * squared),
+        }
+    }
+
+    /// Variance of the velocity, both components together, m^2/s^2.
+    pub(crate) fn total_variance(&self) -> f64 {
+        self.covariance[0][0] + self.covariance[1][1]
+    }
+}
+
+/// A radar's motion as speed and direction in the radar's frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Polar {
+    pub(crate) speed_mps: f64,
+    /// m^2/s^2.
+    pub(crate) speed_variance: f64,
+    pub(crate) direction_rad: f64,
+    /// rad^2.
+    pub(crate) direction_variance: f64,
+}
+
 /// What became of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -49,6 +81,8 @@ pub enum Verdict {
     Turning,
     /// Too few detections or inliers for a motion.
     Sparse,
+    /// What most detections agree on is not the car's own measured speed.
+    OffSpeed,
     /// No yaw rate (or, for the full-velocity method, no speed) at this time.
     WithoutMotion,
 }

@@ -1,9 +1,9 @@
 //! Several radars of one car: an angle each, one yaw-rate sensor.
 
-use crate::recursive::information::{Matrix, UNKNOWNS, Vector};
+use crate::recursive::information::{Information, Matrix, UNKNOWNS, Vector};
 use crate::small::{inverse, times};
 use crate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Recursive,
+    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Recursive, Verdict,
 };
 use boresight_core::CoreError;
 
@@ -25,17 +25,16 @@ pub struct Joint {
     radars: Vec<(u8, Recursive)>,
 }
 
-/// One radar's part of the joint normal equations, about its own estimate.
+/// One radar's part of the joint normal equations, about the reference, with its angle eliminated.
 struct Part {
-    x: Vector,
-    /// Information on the angle, prior included.
+    known: Information,
+    /// Information on the angle, prior included, and its right-hand side.
     angle: f64,
-    /// Prior's share of it.
-    angle_prior: f64,
-    score: Vector,
+    right: f64,
     /// Change of the angle with the shared unknowns, sign turned.
     gain: SharedVector,
-    n: Matrix,
+    shared: SharedMatrix,
+    shared_right: SharedVector,
 }
 
 impl Joint {
@@ -67,138 +66,110 @@ impl Joint {
         Ok(Self { radars: result })
     }
 
-    /// Takes one frame of a radar.
+    /// Takes one frame of a radar. The speed that it finds leads the other radars: one that sees little traffic guards those
+    /// that see much.
     ///
     /// # Errors
     /// Those of [`Recursive::add`]; [`CoreError::OutOfRange`] for a radar that was not named. The frame
     /// is then not counted.
     pub fn add(&mut self, sensor: u8, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
-        match self.radars.iter_mut().find(|(id, _)| *id == sensor) {
-            Some((_, radar)) => radar.add(frame),
-            None => Err(CoreError::OutOfRange {
+        let Some(at) = self.radars.iter().position(|(id, _)| *id == sensor) else {
+            return Err(CoreError::OutOfRange {
                 what: "sensor".into(),
                 expected: "a radar of the calibration".into(),
                 given: f64::from(sensor),
             }
-            .into()),
+            .into());
+        };
+        let outcome = self.radars[at].1.add(frame)?;
+        if outcome.verdict == Verdict::Used
+            && let Some(speed) = self.radars[at].1.speed()
+        {
+            for (_, other) in &mut self.radars {
+                other.tell_speed(speed);
+            }
         }
+        Ok(outcome)
     }
 
-    /// The angles as they stand, with one scale and one bias for all.
+    /// The angles as they stand, with one scale, bias, slip and delay for all.
     pub fn estimate(&self) -> Vec<(u8, AngleEstimate)> {
+        let parts: Vec<Part> =
+            self.radars.iter().map(|(_, radar)| Part::new(radar.information())).collect();
         // The prior of the shared unknowns: the narrowest each, as standstill narrows the bias.
-        let mut mean = [0.0; SHARED];
-        let mut prior = [0.0; SHARED];
-        for (_, radar) in &self.radars {
-            let (means, inverse_variances) = radar.information().prior();
-            for i in 0..SHARED {
-                if inverse_variances[i + 1] > prior[i] {
-                    prior[i] = inverse_variances[i + 1];
-                    mean[i] = means[i + 1];
-                }
-            }
-        }
-        let mut parts: Vec<Part> = Vec::with_capacity(self.radars.len());
-        let mut total: SharedMatrix = [[0.0; SHARED]; SHARED];
-        let mut right = [0.0; SHARED];
+        let (mut total, mut right) = ([[0.0; SHARED]; SHARED], [0.0; SHARED]);
         for i in 0..SHARED {
-            total[i][i] = prior[i];
-        }
-        for (_, radar) in &self.radars {
-            let part = Part::new(radar, &mean);
-            for i in 0..SHARED {
-                right[i] += part.score[i + 1] - part.gain[i] * part.score[0];
-                for j in 0..SHARED {
-                    total[i][j] += part.n[i + 1][j + 1] - part.gain[i] * part.n[0][j + 1];
+            for part in &parts {
+                let (mean, inverse_variance) = part.known.prior();
+                if inverse_variance[i + 1] > total[i][i] {
+                    total[i][i] = inverse_variance[i + 1];
+                    right[i] =
+                        inverse_variance[i + 1] * (mean[i + 1] - part.known.reference()[i + 1]);
                 }
             }
-            parts.push(part);
         }
-        let Some(inverse) = inverse(&total) else {
+        for part in &parts {
+            for i in 0..SHARED {
+                right[i] += part.shared_right[i];
+                for j in 0..SHARED {
+                    total[i][j] += part.shared[i][j];
+                }
+            }
+        }
+        let Some(shared_covariance) = inverse(&total) else {
             return self.radars.iter().map(|(id, radar)| (*id, radar.estimate())).collect();
         };
-        let step = times(&inverse, &right);
-        let shared: SharedVector = std::array::from_fn(|i| mean[i] + step[i]);
-        for part in &mut parts {
-            let moved: f64 = (0..SHARED).map(|i| part.gain[i] * step[i]).sum();
-            part.x[0] += part.score[0] / part.angle - moved;
-            part.x[1..].copy_from_slice(&shared);
-        }
-        let middles: Vec<Matrix> = parts
-            .iter()
-            .zip(&self.radars)
-            .map(|(part, (_, radar))| radar.information().middle(&part.x))
-            .collect();
+        let shared = times(&shared_covariance, &right);
         self.radars
             .iter()
-            .enumerate()
-            .map(|(index, (id, radar))| {
-                let covariance = covariance(index, &parts, &middles, &inverse, &prior);
-                (*id, radar.conclude(&parts[index].x, &covariance))
+            .zip(&parts)
+            .map(|((id, radar), part)| {
+                let (x, covariance) = part.solution(&shared, &shared_covariance);
+                (*id, radar.conclude(&part.known, &x, &covariance))
             })
             .collect()
     }
 }
 
 impl Part {
-    /// The equations about the radar's own angle and the common prior's means.
-    fn new(radar: &Recursive, mean: &SharedVector) -> Self {
-        let information = radar.information();
-        let mut x = information.mean();
-        x[1..].copy_from_slice(mean);
-        let (n, mut score) = information.score(&x);
-        let (prior_mean, prior) = information.prior();
-        score[0] += prior[0] * (prior_mean[0] - x[0]);
-        let angle = n[0][0] + prior[0];
-        let gain = std::array::from_fn(|i| n[0][i + 1] / angle);
-        Self { x, angle, angle_prior: prior[0], score, gain, n }
+    fn new(known: Information) -> Self {
+        let (n, y) = known.tempered();
+        let (mean, inverse_variance) = known.prior();
+        let angle = n[0][0] + inverse_variance[0];
+        let right = y[0] + inverse_variance[0] * (mean[0] - known.reference()[0]);
+        let gain: SharedVector = std::array::from_fn(|i| n[0][i + 1] / angle);
+        Self {
+            angle,
+            right,
+            gain,
+            shared: std::array::from_fn(|i| {
+                std::array::from_fn(|j| n[i + 1][j + 1] - gain[i] * n[0][j + 1])
+            }),
+            shared_right: std::array::from_fn(|i| y[i + 1] - gain[i] * right),
+            known,
+        }
     }
-}
 
-/// Covariance of one radar's angle and the shared unknowns: the estimate is linear in the radars'
-/// scores, whose covariances are the middles.
-fn covariance(
-    radar: usize,
-    parts: &[Part],
-    middles: &[Matrix],
-    inverse: &SharedMatrix,
-    prior: &SharedVector,
-) -> Matrix {
-    let gain = parts[radar].gain;
-    // Row 0 takes shared unknowns to the angle, the others to themselves.
-    let outer: [SharedVector; UNKNOWNS] = std::array::from_fn(|i| {
-        std::array::from_fn(|j| {
-            if i == 0 {
-                -(0..SHARED).map(|k| gain[k] * inverse[k][j]).sum::<f64>()
-            } else {
-                inverse[i - 1][j]
-            }
-        })
-    });
-    let mut result = [[0.0; UNKNOWNS]; UNKNOWNS];
-    for (index, (part, middle)) in parts.iter().zip(middles).enumerate() {
-        let mut map: Matrix = std::array::from_fn(|i| {
-            std::array::from_fn(|j| match j {
-                0 => -(0..SHARED).map(|k| outer[i][k] * part.gain[k]).sum::<f64>(),
-                _ => outer[i][j - 1],
+    /// The radar's unknowns and their covariance, from the shared ones.
+    fn solution(&self, shared: &SharedVector, covariance: &SharedMatrix) -> (Vector, Matrix) {
+        let dot =
+            |a: &SharedVector, b: &SharedVector| -> f64 { (0..SHARED).map(|i| a[i] * b[i]).sum() };
+        let pulled = times(covariance, &self.gain);
+        let reference = self.known.reference();
+        let x = std::array::from_fn(|i| {
+            reference[i]
+                + match i {
+                    0 => self.right / self.angle - dot(&self.gain, shared),
+                    i => shared[i - 1],
+                }
+        });
+        let full = std::array::from_fn(|i| {
+            std::array::from_fn(|j| match (i, j) {
+                (0, 0) => 1.0 / self.angle + dot(&self.gain, &pulled),
+                (0, k) | (k, 0) => -pulled[k - 1],
+                (i, j) => covariance[i - 1][j - 1],
             })
         });
-        let mut middle = *middle;
-        middle[0][0] += part.angle_prior;
-        if index == radar {
-            map[0][0] += 1.0 / part.angle;
-        }
-        let half: Matrix = std::array::from_fn(|i| times(&middle, &map[i]));
-        for i in 0..UNKNOWNS {
-            for j in 0..UNKNOWNS {
-                result[i][j] += (0..UNKNOWNS).map(|k| map[i][k] * half[j][k]).sum::<f64>();
-            }
-        }
+        (x, full)
     }
-    for i in 0..UNKNOWNS {
-        for j in 0..UNKNOWNS {
-            result[i][j] += (0..SHARED).map(|k| outer[i][k] * prior[k] * outer[j][k]).sum::<f64>();
-        }
-    }
-    result
 }

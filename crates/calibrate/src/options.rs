@@ -75,9 +75,34 @@ pub struct CalibrationOptions {
     /// Standard deviation of a detection's azimuth.
     #[option(default = 0.5_f64.to_radians(), range = 0..=180)]
     pub azimuth_sigma_rad: f64,
+    /// Standard deviation of what all azimuths of the radar, and the way the car points as it goes straight, are off by, beyond the
+    /// mounting: no drive tells it from the angle.
+    #[option(default = 0.045_f64.to_radians(), range = 0..=180)]
+    pub azimuth_bias_sigma_rad: f64,
+    /// Standard deviation of the error that the angles of all frames within five seconds share, before the drive tells it.
+    #[option(default = 0.1_f64.to_radians(), positive)]
+    pub lasting_sigma_rad: f64,
     /// Standard deviation of the yaw rate's bias before anything is known of it.
     #[option(default = 0.1_f64.to_radians(), positive)]
     pub bias_sigma_radps: f64,
+    /// Standard deviation of the yaw rate's scale before anything is known of it.
+    #[option(default = 0.02, positive)]
+    pub scale_sigma: f64,
+    /// Side slip of the rear axle for each m/s^2 of lateral acceleration that is expected, rad s^2/m.
+    #[option(default = 0.0035, range = -0.1..=0.1)]
+    pub slip_gradient: f64,
+    /// Its standard deviation before anything is known of it.
+    #[option(default = 0.0025, positive)]
+    pub slip_gradient_sigma: f64,
+    /// How long before its time stamp a scan is expected to have been measured.
+    #[option(default = 0.04, range = -1..=1)]
+    pub delay_s: f64,
+    /// Its standard deviation before anything is known of it.
+    #[option(default = 0.03, positive)]
+    pub delay_sigma_s: f64,
+    /// Time of driving after which what was seen counts for a third (recursive method).
+    #[option(default = 3600.0, range = 60..=1e9)]
+    pub memory_s: f64,
     /// Frames below this speed of the radar are left out.
     #[option(default = 1.0, range = 0..=1000)]
     pub min_speed_mps: f64,

@@ -76,14 +76,15 @@ fn covariances_are_those_of_the_errors_over_drives() {
             t.within, t.angle, t.both, t.bias
         );
         // Shares of 150 drives scatter by 0.038, mean squares by 0.115, those of two unknowns by 0.08; a
-        // bias from 30 readings whose scatter is measured too adds 2/27. The recursive method allows for
-        // slip and for errors that last, which these drives have none of, and claims that much more.
-        let least = if way.0 == Method::Recursive { 0.4 } else { 0.67 };
-        assert!((0.56..0.85).contains(&t.within), "{way:?}");
+        // bias from 30 readings whose scatter is measured too adds 2/27. Errors that last are looked for where there
+        // are none, and never taken as nothing: deviations are that much wider.
+        let least = 0.35;
+        assert!((0.56..0.9).contains(&t.within), "{way:?}");
         assert!((least..1.4).contains(&t.angle), "{way:?}");
         assert!((least..1.6).contains(&t.bias), "{way:?}");
         if !matches!(way.0, Method::WeightedMean | Method::Kabsch) {
-            assert!((least..1.3).contains(&t.both), "{way:?}");
+            // Deviations are measured from sixteen blocks: two unknowns scatter by 14/11 (Hotelling), and three times 0.08 beyond.
+            assert!((least..1.51).contains(&t.both), "{way:?}");
         }
     }
 }

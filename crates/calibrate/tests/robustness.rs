@@ -115,7 +115,8 @@ fn feed(calibrator: &mut Calibrator, frames: &[Frame]) -> Result<f64, TestCaseEr
     prop_assert!(e.bias_radps.is_finite() && e.bias_sigma_radps > 0.0, "{:?}", e);
     prop_assert!((0.0..=1.0).contains(&e.inlier_share), "{:?}", e);
     let f = e.frames;
-    let counted = f.used + f.standing + f.slow + f.turning + f.sparse + f.without_motion;
+    let counted =
+        f.used + f.standing + f.slow + f.turning + f.sparse + f.off_speed + f.without_motion;
     prop_assert_eq!((f.given, counted), (given, given));
     Ok(time_s)
 }

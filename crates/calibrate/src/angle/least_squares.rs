@@ -1,5 +1,6 @@
 //! Weighted least squares in angle and inverse scale (equations 10 to 13 of Zhu et al.).
 
+use super::account::{Influence, covariance};
 use super::{MAX_SINE, Row, Sample, Setting, Solution, rows, wrap};
 use crate::symmetric::Symmetric;
 
@@ -84,23 +85,29 @@ pub(crate) fn regress(
         }
     }
     let (mut normal, mut middle) = (Symmetric::default(), Symmetric::default());
-    let (mut squares, mut used, mut pull) = (0.0, 0usize, [0.0; 2]);
+    let mut squares = 0.0;
+    let mut influences = Vec::with_capacity(rows.len());
     for row in rows {
         let p = point(row, state);
         let Some(line) = Line::new(row, p, state) else { continue };
-        used += 1;
         normal.add(1.0, -line.slope, p.weight);
         middle.add(1.0, -line.slope, p.weight * p.weight * p.variance);
         squares += line.residual * line.residual / p.variance;
-        let lever = p.weight * state[1] * row.lever_s * line.steepness;
-        pull[0] += lever;
-        pull[1] -= lever * line.slope;
+        influences.push(Influence {
+            sample: row.sample,
+            on: [p.weight, -p.weight * line.slope],
+            residual: line.residual,
+            lever_s: state[1] * row.lever_s * line.steepness,
+        });
     }
     let inverse = normal.inverse()?;
+    let used = influences.len();
+    for influence in &mut influences {
+        influence.on = inverse.times(influence.on);
+    }
     let inflation = (squares / used.saturating_sub(2).max(1) as f64).max(1.0);
-    let mut covariance = inverse.sandwich(middle).scaled(inflation);
-    let pull = inverse.times(pull);
-    covariance.add(pull[0], pull[1], setting.bias_sigma_radps.powi(2));
+    let independent = inverse.sandwich(middle).scaled(inflation);
+    let covariance = covariance(independent, &influences, &setting.untold(false));
     if covariance.yy.is_nan() || covariance.yy >= UNKNOWN_SCALE_SIGMA.powi(2) {
         return fixed_scale(rows, setting, &point);
     }
@@ -156,8 +163,8 @@ fn fixed_scale(
     point: &impl Fn(&Row, [f64; 2]) -> Point,
 ) -> Option<Solution> {
     let state = start(rows, point)?;
-    let (mut total, mut middle, mut squares) = (0.0, 0.0, 0.0);
-    let (mut slope, mut pull) = (0.0, 0.0);
+    let (mut total, mut middle, mut squares, mut slope) = (0.0, 0.0, 0.0, 0.0);
+    let mut influences = Vec::with_capacity(rows.len());
     for row in rows {
         let p = point(row, [state[0], 1.0]);
         let p = Point { chi: row.chi, ..p };
@@ -166,16 +173,24 @@ fn fixed_scale(
         middle += p.weight * p.weight * p.variance;
         squares += line.residual * line.residual / p.variance;
         slope += p.weight * line.slope;
-        pull += p.weight * row.lever_s * line.steepness;
+        influences.push(Influence {
+            sample: row.sample,
+            on: [p.weight, 0.0],
+            residual: line.residual,
+            lever_s: row.lever_s * line.steepness,
+        });
+    }
+    for influence in &mut influences {
+        influence.on[0] /= total;
     }
     let inflation = (squares / rows.len().saturating_sub(1).max(1) as f64).max(1.0);
-    let variance = inflation * middle / (total * total)
-        + (slope / total * UNKNOWN_SCALE_SIGMA).powi(2)
-        + (pull / total * setting.bias_sigma_radps).powi(2);
+    let independent = Symmetric { xx: inflation * middle / (total * total), xy: 0.0, yy: 0.0 };
+    let mut covariance = covariance(independent, &influences, &setting.untold(false));
+    covariance.xx += (slope / total * UNKNOWN_SCALE_SIGMA).powi(2);
     Some(Solution {
         angle_rad: state[0],
         inverse_scale: 1.0,
-        covariance: Symmetric { xx: variance, xy: 0.0, yy: f64::INFINITY },
+        covariance: Symmetric { xy: 0.0, yy: f64::INFINITY, ..covariance },
         gated: 0,
     })
 }

@@ -3,13 +3,16 @@
 //! Every frame says `theta = asin(s' chi) - beta` with `chi = (yaw rate - bias) x_s / |V|`
 //! (equations 7 and 10 of Zhu et al.), or `pi - asin(s' chi) - beta` in reverse.
 
+pub(crate) mod account;
 pub(crate) mod bias;
 pub(crate) mod kabsch;
 pub(crate) mod least_squares;
 pub(crate) mod orthogonal_distance;
 pub(crate) mod weighted_mean;
 
+use crate::CalibrationOptions;
 use crate::symmetric::Symmetric;
+use account::Untold;
 use std::f64::consts::{PI, TAU};
 
 /// What a frame that passed the gates leaves behind.
@@ -33,19 +36,27 @@ pub(crate) struct Sample {
 
 /// What all frames share when the angle is sought.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Setting {
-    /// The radar's place, m.
-    pub x_m: f64,
-    /// See `x_m`.
-    pub y_m: f64,
+pub(crate) struct Setting<'a> {
     /// Bias of the yaw rate, rad/s.
     pub bias_radps: f64,
     /// Its standard deviation (of its prior, where there was no standstill), rad/s.
     pub bias_sigma_radps: f64,
     /// Standard deviation of the yaw rate's noise, rad/s.
     pub yaw_rate_sigma_radps: f64,
-    /// Where the angle is expected, rad.
-    pub nominal_rad: Option<f64>,
+    /// What is expected of the radar and the car.
+    pub options: &'a CalibrationOptions,
+}
+
+impl<'a> Setting<'a> {
+    /// What methods leave out.
+    pub fn untold(&self, fixed_scale: bool) -> Untold<'a> {
+        Untold {
+            options: self.options,
+            bias_radps: self.bias_radps,
+            bias_sigma_radps: self.bias_sigma_radps,
+            fixed_scale,
+        }
+    }
 }
 
 /// An angle with the inverse scale and their covariance.
@@ -65,10 +76,6 @@ pub(crate) struct Solution {
 /// rest on the steep end of the arcsine.
 pub(crate) const MAX_SINE: f64 = 0.9;
 
-/// Standard deviation of an automotive yaw-rate sensor's scale, for methods that take it as 1: their angle
-/// is only as sure as that.
-pub(crate) const ASSUMED_SCALE_SIGMA: f64 = 0.02;
-
 /// An angle brought to `(-pi, pi]`.
 pub(crate) fn wrap(angle: f64) -> f64 {
     let wrapped = angle - TAU * (angle / TAU).round();
@@ -78,6 +85,8 @@ pub(crate) fn wrap(angle: f64) -> f64 {
 /// A frame as the regressions see it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Row {
+    /// The frame.
+    pub sample: Sample,
     /// `chi` of equation 10.
     pub chi: f64,
     /// Direction of motion, turned about where the car reverses: `theta = asin(s' chi) - beta`.
@@ -101,7 +110,7 @@ pub(crate) fn rows(samples: &[Sample], setting: &Setting) -> (Vec<Row>, f64, usi
     let mut result = Vec::with_capacity(samples.len());
     let mut sum = [0.0; 2];
     for sample in samples {
-        let lever_s = setting.x_m / sample.radar_speed_mps;
+        let lever_s = setting.options.x_m / sample.radar_speed_mps;
         let chi = (sample.yaw_rate_radps - setting.bias_radps) * lever_s;
         if chi.abs() > MAX_SINE {
             gated += 1;
@@ -110,6 +119,7 @@ pub(crate) fn rows(samples: &[Sample], setting: &Setting) -> (Vec<Row>, f64, usi
         let chi_variance = (lever_s * setting.yaw_rate_sigma_radps).powi(2)
             + chi * chi * sample.speed_variance / sample.radar_speed_mps.powi(2);
         let row = Row {
+            sample: *sample,
             chi,
             beta: sample.beta_rad,
             variance: sample.beta_variance,
@@ -123,7 +133,7 @@ pub(crate) fn rows(samples: &[Sample], setting: &Setting) -> (Vec<Row>, f64, usi
         sum[1] += sin / row.variance;
         result.push(row);
     }
-    let reference = setting.nominal_rad.unwrap_or_else(|| sum[1].atan2(sum[0]));
+    let reference = setting.options.nominal_rad.unwrap_or_else(|| sum[1].atan2(sum[0]));
     for row in &mut result {
         if wrap(row.chi.asin() - row.beta - reference).abs() > PI / 2.0 {
             row.beta -= PI;

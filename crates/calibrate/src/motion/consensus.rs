@@ -29,6 +29,11 @@ impl Consensus {
         }
     }
 
+    /// Draws from here on as for the frame of this number, whatever has been drawn before.
+    pub fn draw_for(&mut self, frame: u64) {
+        self.random = Random::new(self.options.seed, frame);
+    }
+
     /// The motion, by a `fit` of the inliers that begins with the velocity of the search and may select others. `None`
     /// where fewer than `min_inliers` detections agree, or their azimuths do not span a plane.
     pub fn estimate(

@@ -34,6 +34,11 @@ impl Ransac {
         Self { consensus: Consensus::new(options), least_mps }
     }
 
+    /// Draws for the frame of this number, whatever frames came before.
+    pub fn draw_for(&mut self, frame: u64) {
+        self.consensus.draw_for(frame);
+    }
+
     /// The motion in a frame; needs its detections alone.
     pub fn motion(&mut self, detections: &[Detection], weights: &mut Vec<f32>) -> Option<Motion> {
         self.consensus.estimate(detections, weights, |columns, inliers, _| {

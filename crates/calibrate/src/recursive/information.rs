@@ -1,58 +1,76 @@
-//! What all frames so far say of the unknowns they share, in constant memory.
+//! What all blocks of frames so far say of the unknowns they share, in constant memory.
+//!
+//! Errors of real drives last for seconds, so that a frame more is not an observation more. All frames of a block therefore
+//! share an error of the angle, which is eliminated from the block's equations. How large that error is, and how much of it
+//! lasts from block to block, is learnt from the scatter of the blocks about the solution, beginning with what real drives have.
 
-use crate::small::{inverse, times};
+use super::block::Sum;
+use crate::small::{add_outer, inverse, times};
+use serde::{Deserialize, Serialize};
 
 /// Unknowns: mounting angle (rad), inverse scale, bias times inverse scale (rad/s), slip gradient
 /// (rad per m/s^2), delay of the radar (s).
 pub(crate) const UNKNOWNS: usize = 5;
-const MOMENTS: usize = UNKNOWNS + UNKNOWNS * (UNKNOWNS + 1) / 2;
-/// Blocks that the assumption of independent frames is worth in the covariance.
-const PRIOR_BLOCKS: f64 = 3.0;
+/// The error that a block's frames share is never taken as less than a twentieth of that expected.
+const LEAST_LASTING: f64 = 0.05;
+/// Blocks that this prior knowledge counts as.
+pub(crate) const PRIOR_BLOCKS: f64 = 2.0;
+/// Correlation of neighbouring blocks beyond which they are not believed to be: it would be a drift.
+pub(crate) const MAX_CORRELATION: f64 = 0.8;
 
 pub(crate) type Vector = [f64; UNKNOWNS];
 pub(crate) type Matrix = [[f64; UNKNOWNS]; UNKNOWNS];
+/// A block's residual as a linear function of the unknowns: constant and slopes.
+type Residual = [f64; UNKNOWNS + 1];
+type Moments = [[f64; UNKNOWNS + 1]; UNKNOWNS + 1];
 
-/// Normal equations `n x = y` of a prior and of all frames, with the moments of blocks of frames that
-/// a covariance robust against correlation between neighbouring frames needs.
-///
-/// The score of a block at the solution, `y_b - n_b x`, is linear in the block's own sums, so the sum
-/// over blocks of its outer product (the middle of the sandwich of Huber 1967 and, for clusters, of
-/// Liang and Zeger 1986) follows from the second moments of those sums, whatever `x` turns out to be.
-#[derive(Debug, Clone)]
+/// Normal equations `n (x - reference) = y` of all blocks, with a prior, and second moments of the blocks' residuals, from which
+/// their scatter about any solution follows.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Information {
+    reference: Vector,
     prior_mean: Vector,
+    /// Inverse variances.
     prior: Vector,
     n: Matrix,
     y: Vector,
-    block_n: Matrix,
-    block_y: Vector,
-    block_frames: usize,
-    moments: [[f64; MOMENTS]; MOMENTS],
+    /// Of residuals, of residuals over their expected deviation, and of the latter with those of the block before.
+    plain: Moments,
+    scaled: Moments,
+    lagged: Moments,
+    last: Residual,
     blocks: f64,
+    /// Sum of the blocks' own variances, rad^2.
+    own: f64,
+    /// Variance of the error that a block's frames share before anything is known of it, rad^2.
+    expected_lasting: f64,
+    design_effect: f64,
     x: Vector,
-    formal: Matrix,
+    covariance: Matrix,
 }
 
 impl Information {
-    /// From a prior's means and standard deviations.
-    pub(crate) fn new(prior_mean: Vector, prior_sigma: Vector) -> Self {
-        let prior = prior_sigma.map(|sigma| 1.0 / (sigma * sigma));
+    /// From a prior's means and standard deviations, and that of the error which a block's frames share, rad.
+    pub(crate) fn new(prior_mean: Vector, prior_sigma: Vector, lasting_rad: f64) -> Self {
+        let zero = [[0.0; UNKNOWNS + 1]; UNKNOWNS + 1];
         let mut result = Self {
+            reference: prior_mean,
             prior_mean,
-            prior,
+            prior: prior_sigma.map(|sigma| 1.0 / (sigma * sigma)),
             n: [[0.0; UNKNOWNS]; UNKNOWNS],
             y: [0.0; UNKNOWNS],
-            block_n: [[0.0; UNKNOWNS]; UNKNOWNS],
-            block_y: [0.0; UNKNOWNS],
-            block_frames: 0,
-            moments: [[0.0; MOMENTS]; MOMENTS],
+            plain: zero,
+            scaled: zero,
+            lagged: zero,
+            last: [0.0; UNKNOWNS + 1],
             blocks: 0.0,
+            own: 0.0,
+            expected_lasting: lasting_rad * lasting_rad,
+            design_effect: 1.0,
             x: prior_mean,
-            formal: [[0.0; UNKNOWNS]; UNKNOWNS],
+            covariance: [[0.0; UNKNOWNS]; UNKNOWNS],
         };
-        for i in 0..UNKNOWNS {
-            result.formal[i][i] = prior_sigma[i] * prior_sigma[i];
-        }
+        result.solve();
         result
     }
 
@@ -61,252 +79,190 @@ impl Information {
         self.x
     }
 
-    /// Covariance of the estimate if frames are independent.
-    pub(crate) fn formal(&self) -> &Matrix {
-        &self.formal
+    /// Its covariance.
+    pub(crate) fn covariance(&self) -> &Matrix {
+        &self.covariance
     }
 
-    /// Adds a frame: its information matrix and score at the present estimate.
-    pub(crate) fn add_frame(&mut self, n: &Matrix, score: &Vector) {
-        let shifted = times(n, &std::array::from_fn(|i| self.x[i] - self.prior_mean[i]));
+    /// What blocks' equations are written about: their observations are of the unknowns less these.
+    pub(crate) fn reference(&self) -> &Vector {
+        &self.reference
+    }
+
+    /// Means and inverse variances of the prior.
+    pub(crate) fn prior(&self) -> (&Vector, &Vector) {
+        (&self.prior_mean, &self.prior)
+    }
+
+    /// Blocks added and not forgotten.
+    pub(crate) fn blocks(&self) -> f64 {
+        self.blocks
+    }
+
+    /// Variance of the error that a block's frames share, rad^2.
+    pub(crate) fn lasting(&self) -> f64 {
+        let prior = self.expected_lasting;
+        let learnt = PRIOR_BLOCKS * prior + self.scatter(&self.plain) - self.own;
+        let freedom = PRIOR_BLOCKS + (self.blocks - self.decided()).max(0.0);
+        (learnt / freedom).max(LEAST_LASTING * LEAST_LASTING * prior)
+    }
+
+    /// How many blocks count as one that is independent of the others.
+    pub(crate) fn design_effect(&self) -> f64 {
+        self.design_effect
+    }
+
+    fn learn_design_effect(&mut self) {
+        let squares = self.scatter(&self.scaled);
+        let correlation =
+            (self.scatter(&self.lagged) / (squares + PRIOR_BLOCKS)).clamp(0.0, MAX_CORRELATION);
+        let freedom = PRIOR_BLOCKS + (self.blocks - self.decided()).max(0.0);
+        self.design_effect =
+            (PRIOR_BLOCKS + squares) / freedom * (1.0 + correlation) / (1.0 - correlation);
+    }
+
+    /// Whether its numbers are such as blocks lead to.
+    pub(crate) fn is_sound(&self) -> bool {
+        let finite = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
+        finite(self.x.as_slice())
+            && finite(self.reference.as_slice())
+            && finite(self.prior_mean.as_slice())
+            && self.prior.iter().all(|weight| *weight > 0.0 && weight.is_finite())
+            && self.design_effect > 0.0
+            && self.expected_lasting > 0.0
+            && (0..UNKNOWNS).all(|i| self.covariance[i][i] > 0.0 && finite(&self.covariance[i]))
+            && finite(self.n.as_flattened())
+            && finite(self.y.as_slice())
+    }
+
+    /// Adds a block.
+    pub(crate) fn add(&mut self, block: &Sum) {
+        let lasting = self.lasting();
+        let (n, y) = block.with_lasting(lasting);
         for i in 0..UNKNOWNS {
-            self.block_y[i] += score[i] + shifted[i];
-            self.y[i] += score[i] + shifted[i];
+            self.y[i] += y[i];
             for j in 0..UNKNOWNS {
-                self.block_n[i][j] += n[i][j];
                 self.n[i][j] += n[i][j];
             }
         }
-        self.block_frames += 1;
+        let residual = block.residual();
+        // A block of few frames says little of the scatter: it counts as that share of one.
+        let own = block.own_variance();
+        let share = lasting / (lasting + own);
+        add_outer(&mut self.plain, &residual, share);
+        self.own += share * own;
+        let deviation = (lasting + own).sqrt();
+        let scaled = residual.map(|entry| entry * share.sqrt() / deviation);
+        add_outer(&mut self.scaled, &scaled, 1.0);
+        for i in 0..=UNKNOWNS {
+            for j in 0..=UNKNOWNS {
+                self.lagged[i][j] += 0.5 * (scaled[i] * self.last[j] + self.last[i] * scaled[j]);
+            }
+        }
+        self.last = scaled;
+        self.blocks += share;
         self.solve();
+        self.learn_design_effect();
+        self.solve();
+    }
+
+    /// The same with a block that is not complete yet.
+    pub(crate) fn with(&self, block: &Sum) -> Self {
+        let mut result = *self;
+        if block.frames() > 0 {
+            let (n, y) = block.with_lasting(self.lasting());
+            for i in 0..UNKNOWNS {
+                result.y[i] += y[i];
+                for j in 0..UNKNOWNS {
+                    result.n[i][j] += n[i][j];
+                }
+            }
+            result.solve();
+        }
+        result
+    }
+
+    /// Lets all blocks so far count for a share of what they did.
+    pub(crate) fn forget(&mut self, share: f64) {
+        let scale = |moments: &mut Moments| {
+            for entry in moments.iter_mut().flatten() {
+                *entry *= share;
+            }
+        };
+        scale(&mut self.plain);
+        scale(&mut self.scaled);
+        scale(&mut self.lagged);
+        for i in 0..UNKNOWNS {
+            self.y[i] *= share;
+            for j in 0..UNKNOWNS {
+                self.n[i][j] *= share;
+            }
+        }
+        self.blocks *= share;
+        self.own *= share;
+    }
+
+    /// Begins anew with the angle, which has changed, and keeps what is known of the other unknowns and of the scatter.
+    pub(crate) fn reset_angle(&mut self, angle_rad: f64, sigma_rad: f64) {
+        let (lasting, known) = (self.lasting(), self.covariance);
+        let mut prior_mean = self.x;
+        prior_mean[0] = angle_rad;
+        let mut sigma: Vector = std::array::from_fn(|i| known[i][i].sqrt());
+        sigma[0] = sigma_rad;
+        let reference = self.reference;
+        *self = Self::new(prior_mean, sigma, self.expected_lasting.sqrt());
+        self.reference = reference;
+        // What was learnt of the scatter, as that many blocks.
+        self.plain[0][0] = PRIOR_BLOCKS * lasting;
+        self.blocks = PRIOR_BLOCKS;
+        self.scaled[0][0] = PRIOR_BLOCKS;
     }
 
     /// Sets what is known of the bias from standstill, in the place of its prior.
     pub(crate) fn set_bias(&mut self, mean: f64, sigma: f64) {
-        let shift = mean - self.prior_mean[2];
-        for i in 0..UNKNOWNS {
-            self.y[i] -= self.n[i][2] * shift;
-            self.block_y[i] -= self.block_n[i][2] * shift;
-        }
-        // Past blocks: z = (y, n) becomes (y - n e_2 shift, n), a linear map of their moments.
-        for i in 0..UNKNOWNS {
-            let from = packed(i, 2);
-            for j in 0..MOMENTS {
-                self.moments[i][j] -= shift * self.moments[from][j];
-            }
-        }
-        for i in 0..UNKNOWNS {
-            let from = packed(i, 2);
-            for row in &mut self.moments {
-                row[i] -= shift * row[from];
-            }
-        }
         self.prior_mean[2] = mean;
         self.prior[2] = 1.0 / (sigma * sigma);
         self.solve();
     }
 
-    /// Begins anew at another angle, keeping what is known of the bias; no frame may have been added.
-    pub(crate) fn restart(&mut self, angle_rad: f64, sigma_rad: f64) {
-        self.prior_mean[0] = angle_rad;
-        self.prior[0] = 1.0 / (sigma_rad * sigma_rad);
+    /// Takes over what another has learnt of the bias from standstill.
+    pub(crate) fn take_bias(&mut self, other: &Self) {
+        self.prior_mean[2] = other.prior_mean[2];
+        self.prior[2] = other.prior[2];
         self.solve();
     }
 
-    /// Closes the block of frames that are taken as correlated.
-    pub(crate) fn end_block(&mut self) {
-        if self.block_frames == 0 {
-            return;
-        }
-        let z = moments_of(&self.block_y, &self.block_n);
-        crate::small::add_outer(&mut self.moments, &z, 1.0);
-        self.blocks += 1.0;
-        self.block_n = [[0.0; UNKNOWNS]; UNKNOWNS];
-        self.block_y = [0.0; UNKNOWNS];
-        self.block_frames = 0;
+    /// The blocks' information about the reference, tempered, without the prior.
+    pub(crate) fn tempered(&self) -> (Matrix, Vector) {
+        let share = 1.0 / self.design_effect;
+        (self.n.map(|row| row.map(|entry| share * entry)), self.y.map(|entry| share * entry))
     }
 
     fn solve(&mut self) {
-        let mut a = self.n;
+        let (mut a, mut right) = self.tempered();
         for i in 0..UNKNOWNS {
             a[i][i] += self.prior[i];
+            right[i] += self.prior[i] * (self.prior_mean[i] - self.reference[i]);
         }
-        if let Some(formal) = inverse(&a) {
-            let step = times(&formal, &self.y);
-            self.x = std::array::from_fn(|i| self.prior_mean[i] + step[i]);
-            self.formal = formal;
+        if let Some(covariance) = inverse(&a) {
+            let step = times(&covariance, &right);
+            self.x = std::array::from_fn(|i| self.reference[i] + step[i]);
+            self.covariance = covariance;
         }
     }
 
-    /// Covariance of the estimate that holds where frames of one block are correlated: a sandwich of
-    /// the blocks' scores.
-    pub(crate) fn covariance(&self) -> Matrix {
-        let mut middle = self.middle(&self.x);
-        for i in 0..UNKNOWNS {
-            middle[i][i] += self.prior[i];
-        }
-        let half: Matrix = std::array::from_fn(|i| {
-            std::array::from_fn(|j| (0..UNKNOWNS).map(|k| self.formal[i][k] * middle[k][j]).sum())
+    /// Unknowns that the blocks rather than the prior decide.
+    fn decided(&self) -> f64 {
+        (0..UNKNOWNS).map(|i| 1.0 - self.covariance[i][i] * self.prior[i]).sum::<f64>().max(0.0)
+    }
+
+    /// Sum of squares of residuals at the estimate, by their moments.
+    fn scatter(&self, moments: &Moments) -> f64 {
+        let t: Residual = std::array::from_fn(|i| match i {
+            0 => 1.0,
+            i => self.reference[i - 1] - self.x[i - 1],
         });
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| (0..UNKNOWNS).map(|k| half[i][k] * self.formal[k][j]).sum())
-        })
-    }
-
-    /// Covariance of the frames' score at `x`: that of the blocks, averaged with the information of
-    /// independent frames, which counts as three blocks, so that a short drive has a covariance too.
-    pub(crate) fn middle(&self, x: &Vector) -> Matrix {
-        let mut blocks = self.blocks;
-        let mut moments = self.moments;
-        if self.block_frames > 0 {
-            let z = moments_of(&self.block_y, &self.block_n);
-            crate::small::add_outer(&mut moments, &z, 1.0);
-            blocks += 1.0;
-        }
-        let dx: Vector = std::array::from_fn(|i| x[i] - self.prior_mean[i]);
-        // Row i of t maps a block's sums to entry i of its score.
-        let mut t = [[0.0; MOMENTS]; UNKNOWNS];
-        for i in 0..UNKNOWNS {
-            t[i][i] = 1.0;
-            for j in 0..UNKNOWNS {
-                t[i][packed(i, j)] -= dx[j];
-            }
-        }
-        let tm: [[f64; MOMENTS]; UNKNOWNS] = std::array::from_fn(|i| {
-            std::array::from_fn(|k| (0..MOMENTS).map(|j| t[i][j] * moments[j][k]).sum())
-        });
-        // Each unknown that the frames rather than the prior decide takes a degree of freedom.
-        let decided: f64 = (0..UNKNOWNS).map(|i| 1.0 - self.formal[i][i] * self.prior[i]).sum();
-        let correction = blocks / (blocks - decided).max(1.0);
-        let share = blocks / (blocks + PRIOR_BLOCKS);
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                let scores: f64 = (0..MOMENTS).map(|k| tm[i][k] * t[j][k]).sum();
-                share * correction * scores + (1.0 - share) * self.n[i][j]
-            })
-        })
-    }
-
-    /// The frames' information and their score at `x`, without the prior.
-    pub(crate) fn score(&self, x: &Vector) -> (Matrix, Vector) {
-        let shifted = times(&self.n, &std::array::from_fn(|i| x[i] - self.prior_mean[i]));
-        (self.n, std::array::from_fn(|i| self.y[i] - shifted[i]))
-    }
-
-    /// Means and inverse variances of the prior.
-    pub(crate) fn prior(&self) -> (Vector, Vector) {
-        (self.prior_mean, self.prior)
-    }
-}
-
-/// Place of entry `(i, j)` of a symmetric matrix among the moments.
-fn packed(i: usize, j: usize) -> usize {
-    let (low, high) = if i < j { (i, j) } else { (j, i) };
-    UNKNOWNS + high * (high + 1) / 2 + low
-}
-
-fn moments_of(y: &Vector, n: &Matrix) -> [f64; MOMENTS] {
-    let mut z = [0.0; MOMENTS];
-    z[..UNKNOWNS].copy_from_slice(y);
-    for i in 0..UNKNOWNS {
-        for j in 0..=i {
-            z[packed(i, j)] = n[i][j];
-        }
-    }
-    z
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use boresight_core::Random;
-
-    const SIGMA: Vector = [10.0; UNKNOWNS];
-
-    fn frame(random: &mut Random, truth: &Vector, at: &Vector, noise: f64) -> (Matrix, Vector) {
-        let row: Vector = std::array::from_fn(|_| random.normal());
-        let residual = (0..UNKNOWNS).map(|i| row[i] * (truth[i] - at[i])).sum::<f64>() + noise;
-        let mut n = [[0.0; UNKNOWNS]; UNKNOWNS];
-        crate::small::add_outer(&mut n, &row, 1.0);
-        (n, row.map(|r| r * residual))
-    }
-
-    #[test]
-    fn noise_free_frames_give_the_truth_wherever_they_are_linearised() {
-        let truth = [0.3, 1.1, -0.2, 0.05, 0.4];
-        let mut information = Information::new([0.0, 1.0, 0.0, 0.0, 0.0], [1e6; UNKNOWNS]);
-        let mut random = Random::new(1, 0);
-        for _ in 0..50 {
-            let (n, score) = frame(&mut random, &truth, &information.mean(), 0.0);
-            information.add_frame(&n, &score);
-        }
-        for i in 0..UNKNOWNS {
-            assert!((information.mean()[i] - truth[i]).abs() < 1e-9);
-        }
-    }
-
-    #[test]
-    fn the_sandwich_sees_correlation_that_the_formal_covariance_does_not() {
-        // Frames of a block share their noise: the variance is that of one frame a block.
-        let (mut squares, mut formal, mut robust) = (0.0, 0.0, 0.0);
-        let trials = 300;
-        for trial in 0..trials {
-            let mut random = Random::new(2, trial);
-            let mut information = Information::new([0.0; UNKNOWNS], SIGMA);
-            for _ in 0..40 {
-                let noise = random.normal();
-                for _ in 0..10 {
-                    let mut n = [[0.0; UNKNOWNS]; UNKNOWNS];
-                    n[0][0] = 1.0;
-                    let mut score = [0.0; UNKNOWNS];
-                    score[0] = noise - information.mean()[0];
-                    information.add_frame(&n, &score);
-                }
-                information.end_block();
-            }
-            squares += information.mean()[0].powi(2);
-            formal += information.formal()[0][0];
-            robust += information.covariance()[0][0];
-        }
-        // A variance from 300 trials is good to 8 % (one standard error); the three extra blocks of
-        // the shrinkage take 6 % off.
-        assert!(squares / formal > 7.0, "{}", squares / formal);
-        assert!((squares / robust - 1.0).abs() < 0.3, "{}", squares / robust);
-    }
-
-    #[test]
-    fn a_bias_that_becomes_known_later_leaves_the_scores_consistent() {
-        let build = |early: bool| {
-            let mut random = Random::new(3, 0);
-            let mut information = Information::new([0.0; UNKNOWNS], SIGMA);
-            if early {
-                information.set_bias(0.2, 0.1);
-            }
-            for index in 0..60 {
-                let (n, score) = frame(
-                    &mut random,
-                    &[0.1, 0.2, 0.3, 0.4, 0.5],
-                    &[0.0; UNKNOWNS],
-                    0.01 * f64::from(index % 7),
-                );
-                // The frame is linear: move its score from the origin to the present estimate.
-                let moved = times(&n, &information.mean());
-                information.add_frame(&n, &std::array::from_fn(|i| score[i] - moved[i]));
-                if index % 10 == 9 {
-                    information.end_block();
-                }
-            }
-            if !early {
-                information.set_bias(0.2, 0.1);
-            }
-            information
-        };
-        let (early, late) = (build(true), build(false));
-        for i in 0..UNKNOWNS {
-            assert!((early.mean()[i] - late.mean()[i]).abs() < 1e-10);
-            for j in 0..UNKNOWNS {
-                assert!((early.covariance()[i][j] - late.covariance()[i][j]).abs() < 1e-10);
-            }
-        }
+        let half = times(moments, &t);
+        (0..=UNKNOWNS).map(|i| t[i] * half[i]).sum()
     }
 }

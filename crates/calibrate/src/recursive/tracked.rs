@@ -8,11 +8,10 @@ const MAX_ACCELERATION: f64 = 8.0;
 const MAX_CANDIDATES: usize = 64;
 /// Range of range rates over which moving detections are taken as spread, m/s.
 const MOVING_SPREAD_MPS: f64 = 20.0;
-/// How far the speed that fits may be from the car's own, m/s and as a share of it.
-const SPEED_WIDTH_MPS: f64 = 0.5;
-const SPEED_WIDTH: f64 = 0.1;
-/// What a speed further off is worth: the car's own may be wrong.
-const DOUBT: f64 = 0.2;
+/// What a speed is worth that the car's own sensors rule out: found only where nothing else is, so that it can be told.
+const DOUBT: f64 = 0.02;
+/// Standard deviations that the car's own speed is granted.
+const GATE: f64 = 4.0;
 /// Half the width of the band about a motion in which detections count as static, in standard deviations.
 const BAND: f64 = 2.0;
 /// Rounds of expectation and maximisation.
@@ -25,6 +24,25 @@ pub(crate) struct Limits {
     pub(crate) azimuth_sigma_rad: f64,
     pub(crate) inlier_threshold: f64,
     pub(crate) min_inliers: usize,
+}
+
+/// Speed of the car by its own sensors, m/s, and its standard deviation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SpeedEvidence {
+    pub(crate) mps: f64,
+    pub(crate) sigma_mps: f64,
+}
+
+impl SpeedEvidence {
+    /// Half the width of what it allows, m/s.
+    pub(crate) fn gate_mps(&self) -> f64 {
+        GATE * self.sigma_mps
+    }
+
+    /// Whether a speed is ruled out.
+    pub(crate) fn rules_out(&self, speed_mps: f64) -> bool {
+        (speed_mps - self.mps).abs() > self.gate_mps()
+    }
 }
 
 /// What is known before a frame is looked at.
@@ -43,13 +61,18 @@ pub(crate) struct Prediction {
     /// Speed of the car one frame ago and how long that is ago.
     pub(crate) speed: Option<(f64, f64)>,
     /// Speed of the car as its own sensors have it now.
-    pub(crate) measured_speed: Option<f64>,
+    pub(crate) measured_speed: Option<SpeedEvidence>,
 }
 
 impl Prediction {
+    /// Distance of the radar ahead of the point that does not slip at a speed of the car, m.
+    pub(crate) fn lever(&self, speed: f64) -> f64 {
+        self.x_m - self.slip * speed * speed
+    }
+
     /// Velocity of the radar across the car, m/s, at a speed of the car.
     pub(crate) fn lateral(&self, speed: f64) -> f64 {
-        self.yaw_rate_radps * (self.x_m - self.slip * speed * speed)
+        self.yaw_rate_radps * self.lever(speed)
     }
 }
 
@@ -65,8 +88,6 @@ pub(crate) struct Fit {
     pub(crate) inliers: usize,
     /// Weighted squares of the residuals over their degrees of freedom.
     pub(crate) reduced_squares: f64,
-    /// Factor of the angle's variance for not knowing which detections are static (Louis 1982).
-    pub(crate) missing: f64,
     /// Logarithm of the mixture's likelihood.
     pub(crate) likelihood: f64,
 }
@@ -155,8 +176,8 @@ impl Cloud {
                 let kernel = (1.0 - distance * distance).max(0.0);
                 score += kernel * kernel;
             }
-            if let Some(speed) = prediction.measured_speed {
-                let distance = (candidate - speed) / (SPEED_WIDTH_MPS + SPEED_WIDTH * speed.abs());
+            if let Some(speed) = &prediction.measured_speed {
+                let distance = (candidate - speed.mps) / speed.gate_mps();
                 score *= DOUBT + (1.0 - DOUBT) * (1.0 - distance * distance).max(0.0);
             } else if let Some((speed, age)) = prediction.speed {
                 let width = 0.5 + MAX_ACCELERATION * age;
@@ -186,6 +207,11 @@ impl Cloud {
             return None;
         }
         let (sin0, cos0) = prediction.angle_rad.sin_cos();
+        // The car's own speed is one more observation of the motion along the car.
+        let evidence = prediction.measured_speed.map(|speed| {
+            let along = speed.mps - prediction.yaw_rate_radps * prediction.y_m;
+            (along, 1.0 / (speed.sigma_mps * speed.sigma_mps))
+        });
         let mut velocity = match start {
             Some(velocity) => velocity,
             None => {
@@ -226,6 +252,13 @@ impl Cloud {
                 right[1] += w * sin * self.closing[i];
                 squares += w * residual * residual;
                 sum += weight;
+            }
+            if let Some((along, w)) = evidence {
+                normal[0] += w * cos0 * cos0;
+                normal[1] -= w * cos0 * sin0;
+                normal[2] += w * sin0 * sin0;
+                right[0] += w * cos0 * along;
+                right[1] -= w * sin0 * along;
             }
             let determinant = normal[0] * normal[2] - normal[1] * normal[1];
             let trace = normal[0] + normal[2];
@@ -272,7 +305,7 @@ impl Cloud {
         for entry in covariance.iter_mut().flatten() {
             *entry *= inflation;
         }
-        Some(Fit { velocity, covariance, speed, inliers, reduced_squares, missing, likelihood })
+        Some(Fit { velocity, covariance, speed, inliers, reduced_squares, likelihood })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Where to begin: a vote of frames on the angle, one degree a bin.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 const BINS: usize = 360;
@@ -7,15 +8,15 @@ const BINS: usize = 360;
 const ENOUGH: f64 = 12.0;
 
 /// A circular histogram of the angles that frames give by themselves.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Vote {
-    bins: Box<[f64; BINS]>,
+    bins: Vec<f64>,
     total: f64,
 }
 
 impl Vote {
     pub(crate) fn new() -> Self {
-        Self { bins: Box::new([0.0; BINS]), total: 0.0 }
+        Self { bins: vec![0.0; BINS], total: 0.0 }
     }
 
     /// Adds a frame's angle with a weight of 0 to 1.
@@ -24,6 +25,11 @@ impl Vote {
         let bin = ((turn * BINS as f64) as usize).min(BINS - 1);
         self.bins[bin] += weight;
         self.total += weight;
+    }
+
+    /// Whether it has the bins that votes fall into.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.bins.len() == BINS && self.bins.iter().all(|bin| bin.is_finite())
     }
 
     /// The angle most frames agree on, once enough do: the mean of the five bins around the peak,

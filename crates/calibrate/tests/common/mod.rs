@@ -1,8 +1,12 @@
 //! Drives for the tests: a car without side slip and the point clouds of one of its radars.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
+#[path = "../support/clean.rs"]
+mod clean;
+
 use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput, Method};
 use boresight_core::{Detection, Random};
+pub use clean::without_real_errors;
 
 #[derive(Debug, Clone, Copy)]
 pub struct Drive {
@@ -113,7 +117,12 @@ impl Drive {
     }
 
     pub fn options(&self, method: Method) -> CalibrationOptions {
-        CalibrationOptions { method, x_m: self.x_m, y_m: self.y_m, ..CalibrationOptions::default() }
+        CalibrationOptions {
+            method,
+            x_m: self.x_m,
+            y_m: self.y_m,
+            ..without_real_errors(CalibrationOptions::default())
+        }
     }
 
     /// A calibration that has seen the drive.

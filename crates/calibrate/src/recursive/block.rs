@@ -1,0 +1,159 @@
+//! Some seconds of frames, whose errors are taken as correlated.
+
+use super::information::{Matrix, UNKNOWNS, Vector};
+use crate::small::add_outer;
+use serde::{Deserialize, Serialize};
+
+/// Length of a block, s.
+pub(crate) const BLOCK_S: f64 = 5.0;
+/// A block ends early with this many frames: memory is bounded whatever the rate.
+const MAX_FRAMES: usize = 512;
+/// Degrees of freedom of the frames' Student-t weights.
+const FREEDOM: f64 = 4.0;
+const ROUNDS: usize = 8;
+
+/// One frame's equation `value = row . (x - reference) + noise`, where the row's first entry is 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Row {
+    pub(crate) row: Vector,
+    pub(crate) value: f64,
+    /// Variance by the frame's own account, rad^2.
+    pub(crate) variance: f64,
+}
+
+/// Frames of the block that is not complete yet.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Block {
+    start_s: f64,
+    rows: Vec<Row>,
+}
+
+/// What a block comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Sum {
+    n: Matrix,
+    y: Vector,
+    frames: usize,
+    /// Mean square of the residuals beyond the frames' own variances, rad^2.
+    pub(crate) excess: f64,
+}
+
+impl Block {
+    /// Whether a frame at this time begins another block.
+    pub(crate) fn is_full(&self, time_s: f64) -> bool {
+        !self.rows.is_empty() && (time_s - self.start_s >= BLOCK_S || self.rows.len() >= MAX_FRAMES)
+    }
+
+    /// Whether a block could have become so.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.rows.len() <= MAX_FRAMES
+            && self.rows.iter().all(|row| row.variance > 0.0 && row.value.is_finite())
+    }
+
+    pub(crate) fn add(&mut self, time_s: f64, row: Row) {
+        if self.rows.is_empty() {
+            self.start_s = time_s;
+        }
+        self.rows.push(row);
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.rows.clear();
+    }
+
+    /// Sums of the frames with Student-t weights (Lange, Little and Taylor 1989) about the angle that they agree on by themselves, so
+    /// that an angle that has changed is seen. `x` has the other unknowns less their reference, `excess` is the variance of frames
+    /// beyond their own.
+    pub(crate) fn sum(&self, x: &Vector, excess: f64) -> Sum {
+        let residual =
+            |row: &Row| row.value - (1..UNKNOWNS).map(|i| row.row[i] * x[i]).sum::<f64>();
+        let mut level = median(self.rows.iter().map(residual).collect());
+        for _ in 0..ROUNDS {
+            let (mut sum, mut total) = (0.0, 0.0);
+            for row in &self.rows {
+                let variance = row.variance + excess;
+                let residual = residual(row);
+                let weight = student((residual - level).powi(2) / variance) / variance;
+                sum += weight * residual;
+                total += weight;
+            }
+            level = if total > 0.0 { sum / total } else { level };
+        }
+        let mut result = Sum {
+            n: [[0.0; UNKNOWNS]; UNKNOWNS],
+            y: [0.0; UNKNOWNS],
+            frames: self.rows.len(),
+            excess: 0.0,
+        };
+        let mut squares = 0.0;
+        for row in &self.rows {
+            let variance = row.variance + excess;
+            let square = (residual(row) - level).powi(2);
+            let student = student(square / variance);
+            add_outer(&mut result.n, &row.row, student / variance);
+            for i in 0..UNKNOWNS {
+                result.y[i] += student / variance * row.row[i] * row.value;
+            }
+            squares += student * square - row.variance;
+        }
+        result.excess = squares / (self.rows.len() as f64 - 1.0).max(1.0);
+        result
+    }
+}
+
+impl Sum {
+    pub(crate) fn frames(&self) -> usize {
+        self.frames
+    }
+
+    pub(crate) fn is_sound(&self) -> bool {
+        self.n[0][0] > 0.0
+            && self.excess.is_finite()
+            && self.n.as_flattened().iter().chain(&self.y).all(|number| number.is_finite())
+    }
+
+    /// Variance of the block's angle if its frames are independent, rad^2.
+    pub(crate) fn own_variance(&self) -> f64 {
+        1.0 / self.n[0][0]
+    }
+
+    /// Normal equations with the error eliminated that all frames of the block share, of variance `lasting`.
+    pub(crate) fn with_lasting(&self, lasting: f64) -> (Matrix, Vector) {
+        let share = 1.0 / (self.n[0][0] + 1.0 / lasting);
+        let (mut n, mut y) = (self.n, self.y);
+        for i in 0..UNKNOWNS {
+            y[i] -= share * self.n[i][0] * self.y[0];
+            for j in 0..UNKNOWNS {
+                n[i][j] -= share * self.n[i][0] * self.n[0][j];
+            }
+        }
+        (n, y)
+    }
+
+    /// The block's residual as a function of the unknowns less their reference: constant and slopes, rad.
+    pub(crate) fn residual(&self) -> [f64; UNKNOWNS + 1] {
+        let scale = 1.0 / self.n[0][0];
+        std::array::from_fn(|i| match i {
+            0 => scale * self.y[0],
+            i => scale * self.n[0][i - 1],
+        })
+    }
+
+    /// The residual at a state less the reference, rad.
+    pub(crate) fn residual_at(&self, x: &Vector) -> f64 {
+        let residual = self.residual();
+        residual[0] - (0..UNKNOWNS).map(|i| residual[i + 1] * x[i]).sum::<f64>()
+    }
+}
+
+fn student(normalised: f64) -> f64 {
+    (FREEDOM + 1.0) / (FREEDOM + normalised)
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    let middle = values.len() / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}

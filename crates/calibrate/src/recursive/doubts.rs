@@ -1,0 +1,123 @@
+//! What a drive tells against its own data: signs and units that no car has.
+
+use super::information::{Information, Vector};
+use crate::Remark;
+use crate::angle::wrap;
+use crate::frame::FrameInput;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// A car that drives faster does not see a world at rest, m/s.
+const DRIVING_MPS: f64 = 3.0;
+/// Share of detections beyond half a turn, and of frames, from which something is wrong with all.
+const WRONG_AZIMUTHS: f64 = 0.02;
+const MOST: f64 = 0.5;
+/// Share of a driving car's frames below which those used are exceptions.
+const FEW: f64 = 0.2;
+/// Standard deviations by which the yaw rate's part in the angle must be told.
+const DEVIATIONS: f64 = 4.0;
+/// Least standard deviation, rad (2 deg), of an angle that is in doubt.
+const DOUBTED_RAD: f64 = 0.034_906_585_039_886_6;
+/// Frames from which shares are believed.
+const ENOUGH: u64 = 50;
+
+/// Counts over the drive.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Doubts {
+    detections: u64,
+    beyond: u64,
+    driving: u64,
+    driving_still: u64,
+    off_speed: u64,
+    used: u64,
+    tried: u64,
+}
+
+impl Doubts {
+    /// Looks at a frame before anything is done with it.
+    pub(crate) fn look(&mut self, frame: &FrameInput, share_at_rest: f64) {
+        self.detections += frame.detections.len() as u64;
+        let beyond = |azimuth: f32| f64::from(azimuth.abs()) > PI * (1.0 + 1e-6);
+        self.beyond += frame.detections.iter().filter(|d| beyond(d.azimuth_rad)).count() as u64;
+        if frame.speed_mps.is_some_and(|speed| speed.abs() > DRIVING_MPS)
+            && !frame.detections.is_empty()
+        {
+            self.driving += 1;
+            self.driving_still += u64::from(share_at_rest >= MOST);
+        }
+    }
+
+    /// A frame of a driving car became of use, or did not, or did not agree with the speed.
+    pub(crate) fn tried(&mut self, used: bool, off_speed: bool) {
+        self.tried += 1;
+        self.used += u64::from(used);
+        self.off_speed += u64::from(off_speed);
+    }
+
+    /// What they come to, with the standard deviation that they add to the angle, rad.
+    pub(crate) fn remarks(
+        &self,
+        known: &Information,
+        nominal_rad: Option<f64>,
+    ) -> (Vec<Remark>, f64) {
+        let mut remarks = Vec::new();
+        let mut say = |holds: bool, remark| {
+            if holds {
+                remarks.push(remark);
+            }
+        };
+        let share = |part: u64, whole: u64| part as f64 / whole.max(1) as f64;
+        say(share(self.beyond, self.detections) > WRONG_AZIMUTHS, Remark::AzimuthUnit);
+        let driven = self.driving >= ENOUGH;
+        say(driven && share(self.driving_still, self.driving) > MOST, Remark::StillWhileDriving);
+        let tried = self.tried >= ENOUGH;
+        say(tried && share(self.off_speed, self.tried) > MOST, Remark::OffSpeed);
+        say(tried && share(self.used, self.tried) < FEW, Remark::FewFrames);
+        if let Some((inverse_scale, sigma)) = free_scale(known) {
+            let near = |value: f64| (inverse_scale - value).abs() < (DEVIATIONS * sigma).max(0.3);
+            if near(-1.0) && inverse_scale + DEVIATIONS * sigma < 0.0 {
+                let angle = known.mean()[0];
+                let mirrored = nominal_rad.is_some_and(|nominal| {
+                    wrap(angle + nominal).abs() < wrap(angle - nominal).abs()
+                });
+                say(mirrored, Remark::AzimuthMirrored);
+                say(!mirrored, Remark::YawRateReversed);
+            }
+            let degrees = PI / 180.0;
+            say(
+                (inverse_scale - degrees).abs() < 0.1 && DEVIATIONS * sigma < 0.3,
+                Remark::YawRateUnit,
+            );
+        }
+        say(implausible(known), Remark::Implausible);
+        let doubt = if remarks.is_empty() { 0.0 } else { DOUBTED_RAD };
+        (remarks, doubt)
+    }
+}
+
+/// Inverse scale of the yaw rate and its standard deviation by the frames alone, with the other unknowns but the angle at their
+/// estimates; `None` where the frames do not tell.
+fn free_scale(known: &Information) -> Option<(f64, f64)> {
+    let (n, y) = known.tempered();
+    let others: Vector = std::array::from_fn(|i| match i {
+        0 | 1 => 0.0,
+        i => known.mean()[i] - known.reference()[i],
+    });
+    let right: [f64; 2] =
+        std::array::from_fn(|i| y[i] - (2..others.len()).map(|j| n[i][j] * others[j]).sum::<f64>());
+    let determinant = n[0][0] * n[1][1] - n[0][1] * n[1][0];
+    if !(determinant > 1e-9 * n[0][0] * n[1][1]) {
+        return None;
+    }
+    let change = (n[0][0] * right[1] - n[1][0] * right[0]) / determinant;
+    let sigma = (n[0][0] / determinant).sqrt();
+    (change.is_finite() && sigma.is_finite()).then(|| (known.reference()[1] + change, sigma))
+}
+
+/// Whether an unknown ended where its prior has it once in 16,000 times.
+fn implausible(known: &Information) -> bool {
+    let (mean, inverse_variance) = known.prior();
+    (1..mean.len()).any(|i| {
+        (known.mean()[i] - mean[i]).powi(2) * inverse_variance[i] > DEVIATIONS * DEVIATIONS
+    })
+}

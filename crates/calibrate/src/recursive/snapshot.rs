@@ -1,0 +1,80 @@
+//! A calibration as bytes, to go on with elsewhere or later.
+//!
+//! `BSCA`, a version (one byte), options and state by postcard, and the CRC-32 of all before it, little endian.
+
+use super::{Recursive, State};
+use crate::{CalibrateError, CalibrationOptions};
+
+const MAGIC: &[u8; 4] = b"BSCA";
+/// Counts up where options or state change.
+const VERSION: u8 = 1;
+const CHECKSUM: usize = 4;
+
+impl Recursive {
+    /// The calibration as bytes: some kilobytes, whatever the drive's length. [`Recursive::restore`] makes of them one that goes on
+    /// to the last digit as this one does.
+    pub fn snapshot(&self) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        bytes.push(VERSION);
+        // Writing to memory numbers, sequences and options of them cannot fail.
+        if let Ok(written) = postcard::to_extend(&(&self.options, &self.state), bytes) {
+            let mut bytes: Vec<u8> = written;
+            bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+            return bytes;
+        }
+        Vec::new()
+    }
+
+    /// The calibration that a snapshot is of.
+    ///
+    /// # Errors
+    /// [`CalibrateError::MalformedSnapshot`] for other bytes, a snapshot of another version, and one that was damaged; those of
+    /// [`CalibrationOptions::validate`].
+    pub fn restore(snapshot: &[u8]) -> Result<Self, CalibrateError> {
+        let malformed = |expected: &str, given: String| CalibrateError::MalformedSnapshot {
+            expected: expected.into(),
+            given,
+        };
+        let Some((body, checksum)) = snapshot
+            .split_last_chunk::<CHECKSUM>()
+            .filter(|(body, _)| body.starts_with(MAGIC) && body.len() > MAGIC.len())
+        else {
+            let given = format!("{} bytes that begin otherwise", snapshot.len());
+            return Err(malformed("a calibration's snapshot, which begins with BSCA", given));
+        };
+        let version = body[MAGIC.len()];
+        if version != VERSION {
+            return Err(malformed(&format!("version {VERSION}"), format!("version {version}")));
+        }
+        if crc32fast::hash(body) != u32::from_le_bytes(*checksum) {
+            return Err(malformed("bytes as they were written", "a wrong checksum".into()));
+        }
+        let (options, state): (CalibrationOptions, State) =
+            postcard::from_bytes(&body[MAGIC.len() + 1..])
+                .map_err(|error| malformed("options and state", error.to_string()))?;
+        options.validate()?;
+        if !state.is_sound() {
+            return Err(malformed(
+                "a state that holds together",
+                "numbers that no calibration has".into(),
+            ));
+        }
+        Ok(Self::with_state(&options, state))
+    }
+}
+
+impl State {
+    /// Whether lengths and numbers are such as the code relies on.
+    fn is_sound(&self) -> bool {
+        self.vote.as_ref().is_none_or(super::Vote::is_sound)
+            && self.before.is_sound()
+            && self.now.is_sound()
+            && self.recent.is_sound()
+            && self.block.is_sound()
+            && self.time_s.is_none_or(f64::is_finite)
+            && self.noise_scale > 0.0
+            && self.noise_scale.is_finite()
+            && self.excess.0 > 0.0
+            && self.excess.1 >= 0.0
+    }
+}
