@@ -11,6 +11,10 @@ const MAX_FRAMES: usize = 512;
 /// Degrees of freedom of the frames' Student-t weights.
 const FREEDOM: f64 = 4.0;
 const ROUNDS: usize = 8;
+/// Variance of frames beyond their own where it is not learnt, rad^2 (0.2 deg).
+const SCATTER: f64 = 1.2e-5;
+/// Frames that count as one observation where no block's error is told from them.
+const CORRELATED: f64 = 10.0;
 
 /// One frame's equation `value = row . (x - reference) + noise`, where the row's first entry is 1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -19,6 +23,10 @@ pub(crate) struct Row {
     pub(crate) value: f64,
     /// Variance by the frame's own account, rad^2.
     pub(crate) variance: f64,
+    /// What the yaw rate turns the radar's motion by, with scale 1 and the slip expected, rad, and the angle less its reference that the frame
+    /// then has, rad.
+    pub(crate) turn: f64,
+    pub(crate) angle: f64,
 }
 
 /// Frames of the block that is not complete yet.
@@ -101,6 +109,48 @@ impl Block {
     }
 }
 
+/// Regression, within blocks, of the frames' angles on what the yaw rate does to them: the inverse scale by the frames alone, whatever
+/// it and the angle are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct FreeScale {
+    /// Sums of squares of one, of products of both and of squares of the other, about the means of blocks.
+    xx: f64,
+    xy: f64,
+    yy: f64,
+    freedom: f64,
+}
+
+impl FreeScale {
+    /// Adds a block.
+    pub(crate) fn add(&mut self, block: &Block) {
+        let points =
+            block.rows.iter().map(|row| (row.turn, row.angle, 1.0 / (row.variance + SCATTER)));
+        let (mut total, mut means) = (0.0, [0.0; 2]);
+        for (x, y, weight) in points.clone() {
+            total += weight;
+            means[0] += weight * x;
+            means[1] += weight * y;
+        }
+        let means = means.map(|mean| mean / total);
+        for (x, y, weight) in points {
+            let [x, y] = [x - means[0], y - means[1]];
+            self.xx += weight * x * x;
+            self.xy += weight * x * y;
+            self.yy += weight * y * y;
+        }
+        self.freedom += (block.rows.len() as f64 - 1.0).max(0.0);
+    }
+
+    /// Inverse scale and its standard deviation, if so many frames as are correlated count as one.
+    pub(crate) fn estimate(&self) -> Option<(f64, f64)> {
+        let slope = self.xy / self.xx;
+        let rest = (self.yy - slope * self.xy).max(0.0) / (self.freedom / CORRELATED - 1.0);
+        let sigma = (rest / self.xx).sqrt();
+        (slope.is_finite() && sigma.is_finite() && self.freedom > 2.0 * CORRELATED)
+            .then_some((1.0 - slope, sigma))
+    }
+}
+
 impl Sum {
     pub(crate) fn frames(&self) -> usize {
         self.frames
@@ -146,7 +196,8 @@ impl Sum {
     }
 }
 
-fn student(normalised: f64) -> f64 {
+/// Weight of an observation by its squared residual over its variance.
+pub(crate) fn student(normalised: f64) -> f64 {
     (FREEDOM + 1.0) / (FREEDOM + normalised)
 }
 

@@ -1,9 +1,10 @@
 //! What a drive tells against its own data: signs and units that no car has.
 
-use super::information::{Information, Vector};
-use crate::Remark;
+use super::block::FreeScale;
+use super::information::Information;
 use crate::angle::wrap;
 use crate::frame::FrameInput;
+use crate::{Remark, Verdict};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -18,6 +19,9 @@ const FEW: f64 = 0.2;
 const DEVIATIONS: f64 = 4.0;
 /// Least standard deviation, rad (2 deg), of an angle that is in doubt.
 const DOUBTED_RAD: f64 = 0.034_906_585_039_886_6;
+/// Standard deviation, rad (5 deg), of an angle where most of what is seen moves and nothing tells the car's speed: it may be that of
+/// the traffic.
+const LED_ASTRAY_RAD: f64 = 0.087_266_462_599_716_5;
 /// Frames from which shares are believed.
 const ENOUGH: u64 = 50;
 
@@ -31,6 +35,8 @@ pub(crate) struct Doubts {
     off_speed: u64,
     used: u64,
     tried: u64,
+    with_speed: u64,
+    pub(crate) free_scale: FreeScale,
 }
 
 impl Doubts {
@@ -47,11 +53,12 @@ impl Doubts {
         }
     }
 
-    /// A frame of a driving car became of use, or did not, or did not agree with the speed.
-    pub(crate) fn tried(&mut self, used: bool, off_speed: bool) {
+    /// What a frame of a driving car came to, and whether the car's speed was known.
+    pub(crate) fn tried(&mut self, verdict: Verdict, with_speed: bool) {
         self.tried += 1;
-        self.used += u64::from(used);
-        self.off_speed += u64::from(off_speed);
+        self.used += u64::from(verdict == Verdict::Used);
+        self.off_speed += u64::from(verdict == Verdict::OffSpeed);
+        self.with_speed += u64::from(with_speed);
     }
 
     /// What they come to, with the standard deviation that they add to the angle, rad.
@@ -59,6 +66,7 @@ impl Doubts {
         &self,
         known: &Information,
         nominal_rad: Option<f64>,
+        inlier_share: f64,
     ) -> (Vec<Remark>, f64) {
         let mut remarks = Vec::new();
         let mut say = |holds: bool, remark| {
@@ -73,7 +81,7 @@ impl Doubts {
         let tried = self.tried >= ENOUGH;
         say(tried && share(self.off_speed, self.tried) > MOST, Remark::OffSpeed);
         say(tried && share(self.used, self.tried) < FEW, Remark::FewFrames);
-        if let Some((inverse_scale, sigma)) = free_scale(known) {
+        if let Some((inverse_scale, sigma)) = self.free_scale.estimate() {
             let near = |value: f64| (inverse_scale - value).abs() < (DEVIATIONS * sigma).max(0.3);
             if near(-1.0) && inverse_scale + DEVIATIONS * sigma < 0.0 {
                 let angle = known.mean()[0];
@@ -90,28 +98,15 @@ impl Doubts {
             );
         }
         say(implausible(known), Remark::Implausible);
-        let doubt = if remarks.is_empty() { 0.0 } else { DOUBTED_RAD };
+        let mut doubt = if remarks.is_empty() { 0.0 } else { DOUBTED_RAD };
+        if self.used > 0 && inlier_share < MOST {
+            remarks.push(Remark::FewInliers);
+            if 2 * self.with_speed < self.tried {
+                doubt = LED_ASTRAY_RAD;
+            }
+        }
         (remarks, doubt)
     }
-}
-
-/// Inverse scale of the yaw rate and its standard deviation by the frames alone, with the other unknowns but the angle at their
-/// estimates; `None` where the frames do not tell.
-fn free_scale(known: &Information) -> Option<(f64, f64)> {
-    let (n, y) = known.tempered();
-    let others: Vector = std::array::from_fn(|i| match i {
-        0 | 1 => 0.0,
-        i => known.mean()[i] - known.reference()[i],
-    });
-    let right: [f64; 2] =
-        std::array::from_fn(|i| y[i] - (2..others.len()).map(|j| n[i][j] * others[j]).sum::<f64>());
-    let determinant = n[0][0] * n[1][1] - n[0][1] * n[1][0];
-    if !(determinant > 1e-9 * n[0][0] * n[1][1]) {
-        return None;
-    }
-    let change = (n[0][0] * right[1] - n[1][0] * right[0]) / determinant;
-    let sigma = (n[0][0] / determinant).sqrt();
-    (change.is_finite() && sigma.is_finite()).then(|| (known.reference()[1] + change, sigma))
 }
 
 /// Whether an unknown ended where its prior has it once in 16,000 times.

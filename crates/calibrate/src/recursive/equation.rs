@@ -49,7 +49,12 @@ impl Equation {
         let variance =
             motion.direction_variance + (steepness * lever * YAW_RATE_NOISE_RADPS).powi(2);
         let value = innovation + known;
+        let expected = prediction.x_m - reference[3] * speed_mps * speed_mps;
+        let turn = (prediction.reading_radps * expected / motion.speed_mps).clamp(-1.0, 1.0).asin();
+        let turn = if forward { turn } else { -turn };
+        let angle = innovation + x[0] - reference[0] + turn
+            - wrap(direction - if forward { 0.0 } else { PI });
         (value.is_finite() && variance.is_finite())
-            .then_some(Self { row: Row { row, value, variance }, innovation })
+            .then_some(Self { row: Row { row, value, variance, turn, angle }, innovation })
     }
 }

@@ -4,7 +4,7 @@
 //! share an error of the angle, which is eliminated from the block's equations. How large that error is, and how much of it
 //! lasts from block to block, is learnt from the scatter of the blocks about the solution, beginning with what real drives have.
 
-use super::block::Sum;
+use super::block::{Sum, student};
 use crate::small::{add_outer, inverse, times};
 use serde::{Deserialize, Serialize};
 
@@ -138,13 +138,7 @@ impl Information {
     /// Adds a block.
     pub(crate) fn add(&mut self, block: &Sum) {
         let lasting = self.lasting();
-        let (n, y) = block.with_lasting(lasting);
-        for i in 0..UNKNOWNS {
-            self.y[i] += y[i];
-            for j in 0..UNKNOWNS {
-                self.n[i][j] += n[i][j];
-            }
-        }
+        self.gather(block, lasting);
         let residual = block.residual();
         // A block of few frames says little of the scatter: it counts as that share of one.
         let own = block.own_variance();
@@ -166,17 +160,25 @@ impl Information {
         self.solve();
     }
 
+    /// Adds a block's equations, with a weight that falls where it lies far off all before.
+    fn gather(&mut self, block: &Sum, lasting: f64) {
+        let x: Vector = std::array::from_fn(|i| self.x[i] - self.reference[i]);
+        let variance = lasting + block.own_variance() + self.covariance[0][0];
+        let weight = student(block.residual_at(&x).powi(2) / variance);
+        let (n, y) = block.with_lasting(lasting);
+        for i in 0..UNKNOWNS {
+            self.y[i] += weight * y[i];
+            for j in 0..UNKNOWNS {
+                self.n[i][j] += weight * n[i][j];
+            }
+        }
+    }
+
     /// The same with a block that is not complete yet.
     pub(crate) fn with(&self, block: &Sum) -> Self {
         let mut result = *self;
         if block.frames() > 0 {
-            let (n, y) = block.with_lasting(self.lasting());
-            for i in 0..UNKNOWNS {
-                result.y[i] += y[i];
-                for j in 0..UNKNOWNS {
-                    result.n[i][j] += n[i][j];
-                }
-            }
+            result.gather(block, self.lasting());
             result.solve();
         }
         result

@@ -57,6 +57,8 @@ const EXCESS_RAD: f64 = 0.003_490_658_503_988_66;
 const EXCESS_BLOCKS: [f64; 2] = [1.0, 60.0];
 /// Blocks before which each frame moves the angle at once.
 const FIRST_BLOCKS: u64 = 3;
+/// A frame whose angle lies further off all before is of something else, rad (20 deg).
+const GATE_RAD: f64 = 0.35;
 /// Frames in vain after which the nominal angle is doubted.
 const MISSES: usize = 50;
 /// A frame that votes knows its angle to this, rad (5 deg).
@@ -194,10 +196,9 @@ impl Recursive {
         outcome.verdict = self.take(&frame, &mut outcome);
         self.state.counts.add(outcome.verdict);
         match outcome.verdict {
-            Verdict::Used | Verdict::Sparse | Verdict::OffSpeed => self.state.doubts.tried(
-                outcome.verdict == Verdict::Used || self.state.vote.is_some(),
-                outcome.verdict == Verdict::OffSpeed,
-            ),
+            Verdict::Used | Verdict::Sparse | Verdict::OffSpeed => {
+                self.state.doubts.tried(outcome.verdict, frame.speed_mps.is_some());
+            }
             _ => {}
         }
         Ok(outcome)
@@ -278,6 +279,11 @@ impl Recursive {
         let Some(equation) = Equation::new(&polar, fit.speed, &prediction, &x, &reference) else {
             return Verdict::Turning;
         };
+        if equation.innovation.abs() > GATE_RAD {
+            self.miss();
+            outcome.weights.fill(0.0);
+            return Verdict::Sparse;
+        }
         self.inform(frame.time_s, &equation, outcome);
         self.state.inliers += fit.inliers as f64;
         self.state.detections += frame.detections.len() as f64;
@@ -471,6 +477,7 @@ impl Recursive {
     fn end_block(&mut self, time_s: f64) {
         let state = &mut self.state;
         let block = state.block.sum(&offset(&state.now), state.excess.0);
+        state.doubts.free_scale.add(&state.block);
         state.block.clear();
         state.speed_scale.end_block();
         state.blocks += 1;
@@ -523,16 +530,16 @@ impl Recursive {
         let (options, state) = (&self.options, &self.state);
         let none = state.counts.used == 0;
         let sigma = |i: usize| covariance[i][i].max(0.0).sqrt();
-        let (doubts, doubt_rad) = state.doubts.remarks(known, options.nominal_rad);
+        let inlier_share = if none { 0.0 } else { state.inliers / state.detections.max(1.0) };
+        let (doubts, doubt_rad) = state.doubts.remarks(known, options.nominal_rad, inlier_share);
         let variance =
             covariance[0][0] + options.azimuth_bias_sigma_rad.powi(2) + doubt_rad * doubt_rad;
         let sigma_rad = if none { f64::INFINITY } else { variance.sqrt() };
         let inverse_scale = x[1].max(0.1);
-        let inlier_share = if none { 0.0 } else { state.inliers / state.detections.max(1.0) };
         let angle_rad = wrap(x[0]);
         let settled = state.angles[2]
             .is_some_and(|before| wrap(angle_rad - before).abs() <= options.converged_rad);
-        let converged = settled && sigma_rad <= options.converged_rad && doubts.is_empty();
+        let converged = settled && sigma_rad <= options.converged_rad;
         let misaligned = options.nominal_rad.map(|nominal| {
             wrap(angle_rad - nominal).abs() > options.alarm_rad + CHANCE * sigma_rad
         });
@@ -542,7 +549,6 @@ impl Recursive {
             (Remark::AngleUndetermined, sigma_rad > 1.0_f64.to_radians()),
             (Remark::ScaleUndetermined, unknown(1, options.scale_sigma)),
             (Remark::BiasUndetermined, unknown(2, options.bias_sigma_radps)),
-            (Remark::FewInliers, !none && inlier_share < 0.5),
         ];
         let after = [
             (Remark::Changed, state.changed_s.is_some()),

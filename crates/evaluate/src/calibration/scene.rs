@@ -176,6 +176,8 @@ fn options(candidate: &Candidate, radar: &Radar) -> CalibrationOptions {
         x_m: radar.truth.x_m,
         y_m: radar.truth.y_m,
         nominal_rad: Some(radar.nominal_rad),
+        // Azimuths of these drives have no bias.
+        azimuth_bias_sigma_rad: 0.0,
         ..CalibrationOptions::default()
     }
 }
