@@ -51,6 +51,10 @@ impl Batch {
         }
     }
 
+    pub(crate) fn method(&self) -> Method {
+        self.options.method
+    }
+
     pub(crate) fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
         check_time(self.last_time_s, frame.time_s)?;
         self.last_time_s = Some(frame.time_s);

@@ -57,6 +57,30 @@ impl Calibrator {
         Ok(Self { inner: Inner::Batch(Box::new(Batch::new(options, motion))) })
     }
 
+    /// The calibration as bytes, from which [`Calibrator::restore`] makes one that goes on to the last digit as this one does.
+    ///
+    /// # Errors
+    /// [`CoreError::Unknown`] for the methods that weigh all frames at once: they keep all of them.
+    pub fn snapshot(&self) -> Result<Vec<u8>, CalibrateError> {
+        match &self.inner {
+            Inner::Recursive(recursive) => Ok(recursive.snapshot()),
+            Inner::Batch(batch) => Err(CoreError::Unknown {
+                what: "method of a snapshot".into(),
+                expected: "recursive".into(),
+                given: batch.method().name().into(),
+            }
+            .into()),
+        }
+    }
+
+    /// The calibration that a snapshot is of, with its options.
+    ///
+    /// # Errors
+    /// Those of [`Recursive::restore`].
+    pub fn restore(snapshot: &[u8]) -> Result<Self, CalibrateError> {
+        Ok(Self { inner: Inner::Recursive(Box::new(Recursive::restore(snapshot)?)) })
+    }
+
     /// Takes one frame.
     ///
     /// # Errors

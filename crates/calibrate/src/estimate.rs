@@ -31,6 +31,19 @@ pub struct FrameCounts {
     pub without_motion: u64,
 }
 
+impl std::ops::AddAssign for FrameCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.given += other.given;
+        self.used += other.used;
+        self.standing += other.standing;
+        self.slow += other.slow;
+        self.turning += other.turning;
+        self.sparse += other.sparse;
+        self.off_speed += other.off_speed;
+        self.without_motion += other.without_motion;
+    }
+}
+
 impl FrameCounts {
     /// Counts one more frame.
     pub(crate) fn add(&mut self, verdict: Verdict) {

@@ -120,6 +120,15 @@ pub(crate) struct FreeScale {
     freedom: f64,
 }
 
+impl std::ops::AddAssign for FreeScale {
+    fn add_assign(&mut self, other: Self) {
+        self.xx += other.xx;
+        self.xy += other.xy;
+        self.yy += other.yy;
+        self.freedom += other.freedom;
+    }
+}
+
 impl FreeScale {
     /// Adds a block.
     pub(crate) fn add(&mut self, block: &Block) {

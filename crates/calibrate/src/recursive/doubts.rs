@@ -39,6 +39,20 @@ pub(crate) struct Doubts {
     pub(crate) free_scale: FreeScale,
 }
 
+impl std::ops::AddAssign for Doubts {
+    fn add_assign(&mut self, other: Self) {
+        self.detections += other.detections;
+        self.beyond += other.beyond;
+        self.driving += other.driving;
+        self.driving_still += other.driving_still;
+        self.off_speed += other.off_speed;
+        self.used += other.used;
+        self.tried += other.tried;
+        self.with_speed += other.with_speed;
+        self.free_scale += other.free_scale;
+    }
+}
+
 impl Doubts {
     /// Looks at a frame before anything is done with it.
     pub(crate) fn look(&mut self, frame: &FrameInput, share_at_rest: f64) {

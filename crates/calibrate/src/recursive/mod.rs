@@ -503,6 +503,27 @@ impl Recursive {
         self.conclude(&known, &known.mean(), known.covariance())
     }
 
+    /// What it was begun with.
+    pub fn options(&self) -> &CalibrationOptions {
+        &self.options
+    }
+
+    /// Adds the counts of another drive with the same radar.
+    pub(crate) fn absorb(&mut self, other: &Self) {
+        let (state, other) = (&mut self.state, &other.state);
+        state.counts += other.counts;
+        state.doubts += other.doubts;
+        state.inliers += other.inliers;
+        state.detections += other.detections;
+        state.speed_scale.absorb(&other.speed_scale);
+        state.changed_s = None;
+    }
+
+    /// Takes an angle as the one that was there all the time.
+    pub(crate) fn settle(&mut self, angle_rad: f64) {
+        self.state.angles = [Some(angle_rad); 3];
+    }
+
     /// The car's speed at the last frame that had one, m/s, and its time, s.
     pub(crate) fn speed(&self) -> Option<(f64, f64)> {
         self.state.speed

@@ -16,13 +16,11 @@ impl Recursive {
     pub fn snapshot(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         bytes.push(VERSION);
-        // Writing to memory numbers, sequences and options of them cannot fail.
-        if let Ok(written) = postcard::to_extend(&(&self.options, &self.state), bytes) {
-            let mut bytes: Vec<u8> = written;
-            bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
-            return bytes;
-        }
-        Vec::new()
+        // Numbers, options and sequences of them are written to memory, which cannot fail.
+        let mut bytes =
+            postcard::to_extend(&(&self.options, &self.state), bytes).unwrap_or_default();
+        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        bytes
     }
 
     /// The calibration that a snapshot is of.

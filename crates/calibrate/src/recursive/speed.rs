@@ -59,6 +59,12 @@ impl Speed {
         (self.block_frames, self.block_sum) = (0.0, 0.0);
     }
 
+    /// Adds what another drive tells of the scale.
+    pub(crate) fn absorb(&mut self, other: &Self) {
+        self.blocks += other.blocks;
+        self.sum += other.sum;
+    }
+
     /// Measured over true speed.
     pub(crate) fn scale(&self) -> f64 {
         let (data, prior) = (self.blocks / SCALE_A_BLOCK.powi(2), 1.0 / SCALE_PRIOR.powi(2));

@@ -176,8 +176,10 @@ fn options(candidate: &Candidate, radar: &Radar) -> CalibrationOptions {
         x_m: radar.truth.x_m,
         y_m: radar.truth.y_m,
         nominal_rad: Some(radar.nominal_rad),
-        // Azimuths of these drives have no bias.
+        // Of what these drives are known not to have: a bias of azimuths, slip; range rates are measured within 40 ms.
         azimuth_bias_sigma_rad: 0.0,
+        slip_gradient: 0.0,
+        delay_s: 0.02,
         ..CalibrationOptions::default()
     }
 }
