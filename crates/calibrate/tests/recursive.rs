@@ -5,7 +5,7 @@
 mod support;
 
 use boresight_calibrate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, Recursive, Remark,
+    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, Recursive, Remark, Verdict,
 };
 use boresight_core::{Diagnose, Random};
 use support::{Drive, detection, without_real_errors};
@@ -174,4 +174,73 @@ fn poor_frames_are_counted_and_change_nothing() {
     );
     let refused = recursive.add(FrameInput { time_s: f64::NAN, ..backwards }).unwrap_err();
     assert_eq!((refused.code(), &*refused.details().what), ("not-finite", "timeS"));
+}
+
+#[test]
+fn a_knock_raises_the_alarm_within_half_a_minute_and_is_followed_within_one() {
+    for (seed, knock_rad) in [(1, 2.0_f64.to_radians()), (2, -2.0_f64.to_radians())] {
+        let before = Drive { seed, duration_s: 3600.0, detections: 30, ..Drive::default() };
+        let after = Drive {
+            seed: seed + 10,
+            angle_rad: before.angle_rad + knock_rad,
+            duration_s: 75.0,
+            ..before
+        };
+        // What is expected of real drives, in a clean one.
+        let options = CalibrationOptions {
+            nominal_rad: Some(before.angle_rad),
+            x_m: before.x_m,
+            y_m: before.y_m,
+            ..CalibrationOptions::default()
+        };
+        let mut recursive = Recursive::new(&options).unwrap();
+        let (mut driven_s, mut alarm_s, mut followed_s) = (0.0, None, None);
+        let (mut last_s, mut knocked_s) = (0.0, 0.0);
+        for (drive, start_s) in [(&before, 0.0), (&after, 3600.0)] {
+            for frame in drive.frames() {
+                let time_s = start_s + frame.time_s;
+                let input = FrameInput {
+                    time_s,
+                    detections: &frame.detections,
+                    yaw_rate_radps: Some(frame.yaw_rate_radps),
+                    speed_mps: None,
+                };
+                let outcome = recursive.add(input).unwrap();
+                if start_s == 0.0 {
+                    knocked_s = time_s;
+                    last_s = time_s;
+                    continue;
+                }
+                if outcome.verdict == Verdict::Used {
+                    driven_s += time_s - last_s;
+                }
+                last_s = time_s;
+                let e = recursive.estimate();
+                if alarm_s.is_none() && e.misaligned == Some(true) {
+                    alarm_s = Some(driven_s);
+                }
+                let off = (e.angle_rad - after.angle_rad).abs();
+                match followed_s {
+                    None if off < 0.2_f64.to_radians() => followed_s = Some(driven_s),
+                    Some(_) if off > 0.2_f64.to_radians() => followed_s = None,
+                    _ => {}
+                }
+            }
+            if start_s == 0.0 {
+                let e = recursive.estimate();
+                assert!(e.changed_s.is_none() && e.misaligned == Some(false), "{e:?}");
+            }
+        }
+        let e = recursive.estimate();
+        println!(
+            "alarm after {alarm_s:?} s, followed after {followed_s:?} s, {:.3} +- {:.3} deg off",
+            (e.angle_rad - after.angle_rad).to_degrees(),
+            e.sigma_rad.to_degrees()
+        );
+        assert!(alarm_s.is_some_and(|time| time < 30.0), "{alarm_s:?}");
+        assert!(followed_s.is_some_and(|time| time < 60.0), "{followed_s:?}");
+        assert!(e.changed_s.is_some_and(|time| time > knocked_s), "{e:?}");
+        assert!(e.remarks.contains(&Remark::Changed), "{e:?}");
+        assert!((e.angle_rad - after.angle_rad).abs() < 3.0 * e.sigma_rad, "{e:?}");
+    }
 }

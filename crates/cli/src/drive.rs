@@ -2,9 +2,11 @@
 
 use crate::error::CliError;
 use crate::files::Files;
+use boresight_core::DriveLog;
 use boresight_formats::drive_log::{is_hdf5, is_table, no_drive_log, open_owned};
 use boresight_formats::radarscenes::{Companions, read_path, sequence_names};
 use boresight_formats::{DriveFormat, DriveRead, ReadReport};
+use std::error::Error;
 use std::path::{Path, PathBuf};
 
 const RADAR_DATA: &str = "radar_data.h5";
@@ -62,6 +64,25 @@ pub fn open_path(
         contents.push((name(path), files.read(path)?));
     }
     Ok(open_owned(contents, format)?)
+}
+
+/// The drives in a folder, by name: the sequences of a data set of RadarScenes, or else the folders in it; without any the folder itself.
+pub fn drives_in(folder: &Path, files: &Files) -> Result<Vec<(String, PathBuf)>, CliError> {
+    if let Some(set) = Sequences::find(folder, files)? {
+        let place = |name: &String| (name.clone(), set.folder.join(name));
+        return Ok(set.names.iter().map(place).collect());
+    }
+    let folders: Vec<PathBuf> = entries(folder)?.into_iter().filter(|path| path.is_dir()).collect();
+    let drives = if folders.is_empty() { vec![folder.to_owned()] } else { folders };
+    Ok(drives.into_iter().map(|path| (name(&path), path)).collect())
+}
+
+/// The log of one drive, for experiments.
+pub fn load(path: &Path) -> Result<DriveLog, Box<dyn Error + Send + Sync>> {
+    // A message in place of the error, which may not leave its thread.
+    open_path(&[path], None, None, &Files::new(false))
+        .map(|read| read.log)
+        .map_err(|error| error.to_string().into())
 }
 
 /// Refuses `--sequence` where there is nothing to choose from.

@@ -36,6 +36,14 @@ pub enum EvaluateError {
         /// Its name.
         name: String,
     },
+    /// A drive cannot be read.
+    #[error("drive {name}: {source}")]
+    Drive {
+        /// Its name.
+        name: String,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
     /// A calibration refused.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
@@ -127,6 +135,7 @@ impl Diagnose for EvaluateError {
             Self::Angle(error) => error.code(),
             Self::Network(error) => error.code(),
             Self::NoModel { .. } => "needs-model",
+            Self::Drive { .. } => "unreadable-drive",
             Self::Calibrate(error) => error.code(),
             Self::Pipeline(error) => error.code(),
             Self::Image(error) => error.code(),
@@ -147,6 +156,9 @@ impl Diagnose for EvaluateError {
             Self::Signal(error) => error.details(),
             Self::Angle(error) => error.details(),
             Self::Network(error) => error.details(),
+            Self::Drive { name, source } => {
+                Details::new(name, "a drive that can be read", source.to_string())
+            }
             Self::NoModel { name } => Details::new(name, "a network's model", "its name only"),
             Self::Calibrate(error) => error.details(),
             Self::Pipeline(error) => error.details(),

@@ -103,6 +103,9 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
     match name {
         aoa::AoaExperiment::NAME => merge_as::<aoa::AoaExperiment>(gathered, sources),
         arrays::ArraysExperiment::NAME => merge_as::<arrays::ArraysExperiment>(gathered, sources),
+        calibration::DrivesExperiment::NAME => {
+            merge_as::<calibration::DrivesExperiment>(gathered, sources)
+        }
         calibration::CalibrationExperiment::NAME => {
             merge_as::<calibration::CalibrationExperiment>(gathered, sources)
         }
@@ -124,7 +127,7 @@ pub fn merge(sources: &[PathBuf]) -> Result<Merged, EvaluateError> {
         _ => Err(CoreError::Unknown {
             what: format!("experiment of {}", first.first.display()),
             expected:
-                "aoa, arrays, calibration, doa, images, imperfections, low-snr, near-field, resolution, straddling"
+                "aoa, arrays, calibration, calibration-drives, doa, images, imperfections, low-snr, near-field, resolution, straddling"
                     .into(),
             given: name.into(),
         }

@@ -12,8 +12,8 @@ pub use augment::AugmentArguments;
 pub use drives::{CalibrateArguments, LogArguments};
 pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
 pub use evaluate::{
-    AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCommand,
-    EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
+    AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCalibrationArguments,
+    EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
 };
 pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 pub use regions::RegionsArguments;

@@ -1,10 +1,11 @@
 //! `boresight evaluate`.
 
 use crate::arguments::{
-    AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCommand,
-    EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
+    AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCalibrationArguments,
+    EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
 };
 use crate::destination::Destination;
+use crate::drive;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::network;
@@ -43,6 +44,21 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                 return times(&options);
             }
             answered(&options, &arguments.shared, &arguments.answers, files)
+        }
+        EvaluateCommand::Calibration(EvaluateCalibrationArguments {
+            shared,
+            drives: Some(folder),
+            pieces,
+            ..
+        }) => {
+            let (drives, paths) = drive::drives_in(folder, files)?.into_iter().unzip();
+            let options = calibration::DrivesExperiment {
+                drives,
+                pieces_s: pieces.clone(),
+                paths,
+                load: Some(drive::load),
+            };
+            evaluate(&options, shared, files)
         }
         EvaluateCommand::Calibration(arguments) => {
             let options = calibration::CalibrationExperiment {

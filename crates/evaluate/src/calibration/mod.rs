@@ -4,16 +4,20 @@
 //! Scenes with even numbers are drives over all kinds of roads with up to 30 % moving detections, those with
 //! odd numbers are dense traffic with 40 to 80 %.
 
+pub mod drives;
+pub mod drives_report;
 pub mod figures;
 pub mod report;
 pub mod scene;
 
+pub use drives::DrivesExperiment;
+pub use drives_report::DrivesReport;
 pub use report::CalibrationReport;
 pub use scene::SceneRecord;
 
 use crate::EvaluateError;
 use crate::experiment::Experiment;
-use boresight_calibrate::{Method, MotionMethod};
+use boresight_calibrate::{CalibrationOptions, FrameInput, Method, MotionMethod};
 use boresight_core::error::check_range;
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +39,18 @@ pub struct Candidate {
     pub joint: bool,
     /// Whether Figure 6 shows it.
     pub convergence: bool,
+}
+
+impl Candidate {
+    /// The options of a radar with this method.
+    fn options(&self, radar: &CalibrationOptions) -> CalibrationOptions {
+        CalibrationOptions { method: self.method, motion: Some(self.motion), ..*radar }
+    }
+
+    /// A frame as the method may see it.
+    fn told<'a>(&self, frame: &FrameInput<'a>) -> FrameInput<'a> {
+        FrameInput { speed_mps: frame.speed_mps.filter(|_| self.speed), ..*frame }
+    }
 }
 
 const fn candidate(

@@ -358,7 +358,7 @@ impl Convergence {
 }
 
 /// Share of errors within one and two standard deviations.
-fn within(errors: impl Iterator<Item = (f64, f64)>) -> [f64; 2] {
+pub(super) fn within(errors: impl Iterator<Item = (f64, f64)>) -> [f64; 2] {
     let (mut one, mut two, mut all) = (0_usize, 0_usize, 0_usize);
     for (error, sigma) in errors {
         one += usize::from(error.abs() <= sigma);
@@ -372,7 +372,7 @@ fn mean(numbers: impl Iterator<Item = f64>) -> f64 {
     Summary::of(&numbers.collect::<Vec<_>>()).mean
 }
 
-fn percent([one, two]: [f64; 2]) -> String {
+pub(super) fn percent([one, two]: [f64; 2]) -> String {
     format!("{:.0} %, {:.0} %", 100.0 * one, 100.0 * two)
 }
 

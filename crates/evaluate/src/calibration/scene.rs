@@ -169,14 +169,13 @@ fn share(drive: &SimulatedDrive) -> f64 {
     moving as f64 / (all as f64).max(1.0)
 }
 
-fn options(candidate: &Candidate, radar: &Radar) -> CalibrationOptions {
+/// The radar's options, with what these drives are known not to have: a bias of azimuths and slip; range rates are measured within
+/// 40 ms.
+fn options(radar: &Radar) -> CalibrationOptions {
     CalibrationOptions {
-        method: candidate.method,
-        motion: Some(candidate.motion),
         x_m: radar.truth.x_m,
         y_m: radar.truth.y_m,
         nominal_rad: Some(radar.nominal_rad),
-        // Of what these drives are known not to have: a bias of azimuths, slip; range rates are measured within 40 ms.
         azimuth_bias_sigma_rad: 0.0,
         slip_gradient: 0.0,
         delay_s: 0.02,
@@ -189,16 +188,11 @@ fn calibrate(
     radar: &Radar,
     frames: &[FrameInput],
 ) -> Result<AngleEstimate, EvaluateError> {
-    let mut calibrator = Calibrator::new(options(candidate, radar))?;
+    let mut calibrator = Calibrator::new(candidate.options(&options(radar)))?;
     for frame in frames {
-        calibrator.add(told(candidate, frame))?;
+        calibrator.add(candidate.told(frame))?;
     }
     Ok(calibrator.estimate())
-}
-
-/// A frame as the method may see it.
-fn told<'a>(candidate: &Candidate, frame: &FrameInput<'a>) -> FrameInput<'a> {
-    FrameInput { speed_mps: frame.speed_mps.filter(|_| candidate.speed), ..*frame }
 }
 
 /// The estimate of all radars together, in their order.
@@ -206,12 +200,22 @@ fn joint(drive: &SimulatedDrive, radars: &[Radar]) -> Result<Vec<AngleEstimate>,
     let Some(candidate) = CANDIDATES.iter().find(|candidate| candidate.joint) else {
         return Ok(vec![]);
     };
-    let named: Vec<_> = radars.iter().map(|r| (r.sensor, options(candidate, r))).collect();
-    let mut joint = Joint::new(&named)?;
-    let known = |sensor| radars.iter().any(|radar| radar.sensor == sensor);
+    let named: Vec<_> = radars.iter().map(|r| (r.sensor, candidate.options(&options(r)))).collect();
     let gap = CalibrationOptions::default().max_gap_s;
-    for (sensor, frame) in Frames::of(&drive.log, known, gap) {
-        joint.add(sensor, told(candidate, &frame))?;
+    joint_estimates(candidate, &named, Frames::of(&drive.log, |_| true, gap))
+}
+
+/// Estimates of radars together from the frames of a log, in the order of the radars; frames of others are left out.
+pub(super) fn joint_estimates<'a>(
+    candidate: &Candidate,
+    radars: &[(u8, CalibrationOptions)],
+    frames: impl Iterator<Item = (u8, FrameInput<'a>)>,
+) -> Result<Vec<AngleEstimate>, EvaluateError> {
+    let mut joint = Joint::new(radars)?;
+    for (sensor, frame) in frames {
+        if radars.iter().any(|(id, _)| *id == sensor) {
+            joint.add(sensor, candidate.told(&frame))?;
+        }
     }
     Ok(joint.estimate().into_iter().map(|(_, estimate)| estimate).collect())
 }
@@ -230,7 +234,7 @@ fn record(
         } else {
             calibrate(candidate, radar, &radar.frames)?
         };
-        let error_deg = error_deg(radar, &estimate);
+        let error_deg = error_deg(radar.truth.yaw_rad, &estimate);
         estimates.push(EstimateRecord {
             error_deg,
             sigma_deg: error_deg.map(|_| estimate.sigma_rad.to_degrees()),
@@ -258,8 +262,9 @@ fn record(
     })
 }
 
-fn error_deg(radar: &Radar, estimate: &AngleEstimate) -> Option<f64> {
-    let error = (estimate.angle_rad - radar.truth.yaw_rad + PI).rem_euclid(TAU) - PI;
+/// Estimated less true angle, deg; `None` where there is no estimate.
+pub(super) fn error_deg(true_rad: f64, estimate: &AngleEstimate) -> Option<f64> {
+    let error = (estimate.angle_rad - true_rad + PI).rem_euclid(TAU) - PI;
     (error.is_finite() && estimate.sigma_rad.is_finite()).then(|| error.to_degrees())
 }
 
@@ -273,7 +278,7 @@ fn cut(candidate: &Candidate, radar: &Radar, length_s: f64) -> Result<PartRecord
         driven += usize::from(*driving);
         if driven == frames_a_part {
             let estimate = calibrate(candidate, radar, &radar.frames[start..=i])?;
-            match error_deg(radar, &estimate) {
+            match error_deg(radar.truth.yaw_rad, &estimate) {
                 Some(error) => part.errors_deg.push(error),
                 None => part.without += 1,
             }
@@ -296,7 +301,7 @@ impl Track {
         let tracked = CANDIDATES.iter().find(|c| c.method == Method::Recursive && c.speed);
         let mut track = Self { motions: vec![], truth: vec![], mounting: radar.truth };
         let Some(tracked) = tracked else { return Ok(track) };
-        let mut calibrator = Calibrator::new(options(tracked, radar))?;
+        let mut calibrator = Calibrator::new(tracked.options(&options(radar)))?;
         for &frame in &radar.frames {
             if let Some(motion) = calibrator.add(frame)?.motion {
                 let velocity_mps = motion.velocity_mps;
