@@ -65,7 +65,7 @@ browserTest(
     assert.equal(await page.locator(cell('weighted-mean', 'scaleSigma')).innerText(), 'fixed');
     assert.equal(await page.locator(cell('recursive', 'misaligned')).innerText(), 'yes');
     const counted = await Promise.all(
-      ['used', 'standing', 'slow', 'turning', 'sparse', 'withoutMotion'].map((field) =>
+      ['used', 'standing', 'slow', 'turning', 'sparse', 'offSpeed', 'withoutMotion'].map((field) =>
         value(page, 'recursive', field),
       ),
     );

@@ -1,6 +1,6 @@
 // What every runtime's entry offers beside its own init().
 
-export { Calibration, calibrationMethods } from './calibrate/calibrate.js';
+export { Calibration, calibrationMethods, mergeCalibrations } from './calibrate/calibrate.js';
 export { Capture, frameCells, processCube } from './capture/capture.js';
 export { strongestRegion } from './capture/region.js';
 export { calibrateDrive, frameVerdicts, jointCalibration } from './drive/calibration.js';

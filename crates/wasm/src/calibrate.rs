@@ -1,9 +1,10 @@
 //! The mounting angle of a radar, one frame at a time.
 
+use crate::bytes::Bytes;
 use crate::carry;
 use crate::complex::float_array;
 use crate::error::Fallible;
-use crate::read::{Fields, Read};
+use crate::read::{Fields, Read, items};
 use boresight_calibrate::{self as calibrate, FrameInput};
 use boresight_core::error::check_finite;
 use boresight_core::{CoreError, Detection};
@@ -41,6 +42,27 @@ impl Calibration {
     pub fn estimate(&self) -> JsValue {
         carry::write(&self.inner.estimate())
     }
+
+    /// The calibration as bytes.
+    pub fn snapshot(&self) -> Fallible<Vec<u8>> {
+        Ok(self.inner.snapshot()?)
+    }
+
+    /// The calibration that bytes are of.
+    pub fn restore(snapshot: &JsValue) -> Fallible<Self> {
+        let bytes = Bytes::read(snapshot, "snapshot")?.0;
+        Ok(Self { inner: calibrate::Calibrator::restore(&bytes)? })
+    }
+}
+
+/// The angle from several drives with one radar, each as the bytes of its calibration.
+#[wasm_bindgen(js_name = mergeCalibrations)]
+pub fn merge_calibrations(snapshots: &JsValue) -> Fallible<JsValue> {
+    let mut drives = vec![];
+    for (item, path) in items(snapshots, "snapshots")? {
+        drives.push(calibrate::Recursive::restore(&Bytes::read(&item, &path)?.0)?);
+    }
+    Ok(carry::write(&calibrate::merge(&drives)?))
 }
 
 struct Frame {

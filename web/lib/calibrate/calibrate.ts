@@ -16,10 +16,31 @@ export function calibrationMethods(): CalibrationMethodInfo[] {
   return call(() => core.calibrationMethods() as CalibrationMethodInfo[]);
 }
 
+/** The angle from several drives with one radar of one car, each as the snapshot of its calibration. */
+export function mergeCalibrations(snapshots: readonly (Uint8Array | ArrayBuffer)[]): CalibrationResult {
+  return drives.call(() => glue.mergeCalibrations(snapshots) as CalibrationResult);
+}
+
+class Kept {
+  constructor(readonly snapshot: Uint8Array | ArrayBuffer) {}
+}
+
 /** Finds the angle a radar is mounted at from its frames while the car drives. */
 export class Calibration extends Handle<glue.Calibration> {
   constructor(options: CalibrationOptions) {
-    super(drives, () => new glue.Calibration(options));
+    super(drives, () =>
+      options instanceof Kept ? glue.Calibration.restore(options.snapshot) : new glue.Calibration(options),
+    );
+  }
+
+  /** The calibration that a snapshot is of, with its options: it goes on to the last digit as the one that was kept. */
+  static restore(snapshot: Uint8Array | ArrayBuffer): Calibration {
+    return new Calibration(new Kept(snapshot) as unknown as CalibrationOptions);
+  }
+
+  /** The calibration as some kilobytes, whatever the drive's length (recursive method). */
+  snapshot(): Uint8Array {
+    return this.use((raw) => raw.snapshot());
   }
 
   /** Takes the next frame and says what became of it. A frame that is refused leaves no trace. */

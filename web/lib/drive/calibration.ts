@@ -22,6 +22,7 @@ export const frameVerdicts: readonly FrameVerdict[] = [
   'slow',
   'turning',
   'sparse',
+  'off-speed',
   'without-motion',
 ];
 

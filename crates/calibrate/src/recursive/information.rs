@@ -117,8 +117,10 @@ impl Information {
         let correlation =
             (self.scatter(&self.lagged) / (squares + PRIOR_BLOCKS)).clamp(0.0, MAX_CORRELATION);
         let freedom = PRIOR_BLOCKS + (self.blocks - self.decided()).max(0.0);
-        self.design_effect =
-            (PRIOR_BLOCKS + squares) / freedom * (1.0 + correlation) / (1.0 - correlation);
+        // What is told within blocks, scale, slip and delay, is no better known where blocks agree more closely than expected.
+        self.design_effect = ((PRIOR_BLOCKS + squares) / freedom * (1.0 + correlation)
+            / (1.0 - correlation))
+            .max(1.0);
     }
 
     /// Whether its numbers are such as blocks lead to.

@@ -148,6 +148,42 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
       show: sigma(4),
     },
     {
+      key: 'slipGradient',
+      group: 'Car',
+      title: 'Slip (mrad s²/m)',
+      csv: 'slip_gradient',
+      help: 'Side slip of the rear axle for each m/s² of lateral acceleration, with its standard deviation; cars have 3 to 6. Bounded by what cars have where the drive does not tell',
+      value: (r) => (r.slipGradientSigma > 0 ? r.slipGradient : null),
+      show: (v) => fixed(1000 * v, 2),
+    },
+    {
+      key: 'slipGradientSigma',
+      group: 'Car',
+      title: 'σ',
+      csv: 'slip_gradient_sigma',
+      help: 'Standard deviation of the slip',
+      value: (r) => (r.slipGradientSigma > 0 ? r.slipGradientSigma : null),
+      show: (v) => fixed(1000 * v, 2),
+    },
+    {
+      key: 'delayS',
+      group: 'Car',
+      title: 'Delay (ms)',
+      csv: 'delay_s',
+      help: 'How long before its time stamp a scan was measured',
+      value: (r) => (r.delaySigmaS > 0 ? r.delayS : null),
+      show: (v) => fixed(1000 * v, 0),
+    },
+    {
+      key: 'speedScale',
+      group: 'Car',
+      title: 'Speed scale',
+      csv: 'speed_scale',
+      help: 'The car’s measured speed over the radar’s',
+      value: (r) => (r.speedScaleSigma > 0 ? r.speedScale : null),
+      show: (v) => fixed(v, 4),
+    },
+    {
       key: 'rte',
       group: 'Trajectory',
       title: `RTE ${SEGMENT_M} m (m)`,
@@ -170,6 +206,7 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
     frames('slow', 'Slow', 'Left out: slower than the limit'),
     frames('turning', 'Turning', 'Left out: turning faster than the limit'),
     frames('sparse', 'Sparse', 'Left out: too few detections, or too few of them static'),
+    frames('offSpeed', 'Off speed', 'Left out: what most detections agree on is not the car’s own measured speed'),
     frames('withoutMotion', 'No motion', 'Left out: the log has no yaw rate (or speed) at their time'),
     {
       key: 'time',
@@ -184,7 +221,7 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
 }
 
 /** Groups of columns that stand in a table of their own. */
-const OF_FRAMES: ReadonlySet<string> = new Set(['Frames', 'Work']);
+const OF_FRAMES: ReadonlySet<string> = new Set(['Car', 'Frames', 'Work']);
 
 const display = (value: Value, show: (value: number) => string): string =>
   value == null || Number.isNaN(value) ? '–' : typeof value === 'boolean' ? (value ? 'yes' : 'no') : show(value);

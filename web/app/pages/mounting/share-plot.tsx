@@ -20,6 +20,7 @@ const LANES = [
   ['slow', 'slow'],
   ['turning', 'turning'],
   ['sparse', 'sparse'],
+  ['off-speed', 'off speed'],
   ['without-motion', 'no motion'],
 ] as const;
 const LANE = 0.085;

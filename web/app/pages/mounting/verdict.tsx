@@ -27,6 +27,7 @@ function whyNone(result: CalibrationResult): string {
     ['standing', 'the car stood'],
     ['slow', 'the car was slower than the slowest speed under “Frames and noise”'],
     ['turning', 'the car turned faster than the limit under “Frames and noise”'],
+    ['offSpeed', 'what the radar sees does not move at the speed that the log states'],
     ['sparse', 'frames have too few detections, or too few of them stand still'],
   ];
   const most = reasons.reduce((best, one) => (frames[one[0]] > frames[best[0]] ? one : best));

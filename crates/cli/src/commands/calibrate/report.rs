@@ -3,6 +3,7 @@
 use super::Calibrated;
 use super::track::SEGMENT_M;
 use crate::json;
+use boresight_calibrate::AngleEstimate;
 use serde_json::{Value, json};
 
 /// The result as JSON.
@@ -24,6 +25,24 @@ pub(super) fn json(result: &Calibrated) -> Value {
     json::beside(e, further)
 }
 
+/// What was estimated of the car beside the angle.
+fn car(e: &AngleEstimate) -> String {
+    let line = |name: &str, value: f64, sigma: f64, digits: usize, unit: &str| {
+        if sigma > 0.0 {
+            format!("{name:13}{value:.digits$} +- {sigma:.digits$}{unit}\n")
+        } else {
+            String::new()
+        }
+    };
+    [
+        line("slip", 1e3 * e.slip_gradient, 1e3 * e.slip_gradient_sigma, 2, " mrad s^2/m"),
+        line("delay", 1e3 * e.delay_s, 1e3 * e.delay_sigma_s, 0, " ms"),
+        line("speed scale", e.speed_scale, e.speed_scale_sigma, 4, ""),
+        e.changed_s.map_or(String::new(), |time| format!("changed      at {time:.1} s\n")),
+    ]
+    .concat()
+}
+
 /// The result as text.
 pub(super) fn text(result: &Calibrated) -> String {
     let Calibrated { sensor, options, estimate: e, track, joint } = result;
@@ -41,10 +60,11 @@ pub(super) fn text(result: &Calibrated) -> String {
     let f = e.frames;
     let mut text = format!(
         "sensor       {sensor}, {}{}\nangle        {angle} deg\nscale        {scale}\nbias         {bias} deg/s\n\
-         inliers      {:.1} %\nframes       {} of {} used; {} standing, {} slow, {} turning, {} sparse, {} \
-         without motion\nconverged    {}\n",
+{}inliers      {:.1} %\nframes       {} of {} used; {} standing, {} slow, {} turning, {} sparse, {} off the measured \
+         speed, {} without motion\nconverged    {}\n",
         options.method.title(),
         if *joint { ", with all radars" } else { "" },
+        car(e),
         100.0 * e.inlier_share,
         f.used,
         f.given,
@@ -52,6 +72,7 @@ pub(super) fn text(result: &Calibrated) -> String {
         f.slow,
         f.turning,
         f.sparse,
+        f.off_speed,
         f.without_motion,
         if e.converged { "yes" } else { "no" },
     );
