@@ -92,7 +92,7 @@ pub fn reference_drive() -> Result<u64, SimulateError> {
         seed: 9,
         duration_s: 30.0,
         moving_share: Some(0.33),
-        slip_gradient_rad: 0.002,
+        slip_gradient_rad: Some(-0.002),
         ..DriveOptions::default()
     })
 }
