@@ -125,6 +125,7 @@ pub fn simulate_drive_reporting(
 
     let mut sensors = options.sensors.clone();
     sensors.sort_by_key(|(id, _)| *id);
+    let scene = realistic::SceneFactors::new(&mut realism);
     let mut radars: Vec<radar::Radar> = vec![];
     for (id, mounting) in &sensors {
         let id = u64::from(*id);
@@ -137,11 +138,12 @@ pub fn simulate_drive_reporting(
             delay_s: car.delay_s,
             realism: realistic.then(|| {
                 let mut of_car = Random::new(options.car, BIASES + id);
-                realistic::Realism::new(mounting.yaw_rad, &mut of_car, &mut drawn)
+                realistic::Realism::new(mounting.yaw_rad, &scene, &mut of_car, &mut drawn)
             }),
         };
         if realistic {
-            realistic::set_gain(&mut radar, &world, options.duration_s, &mut drawn);
+            let share = moving_share.unwrap_or(0.0);
+            realistic::set_gain(&mut radar, &world, options.duration_s, share);
         }
         radars.push(radar);
     }

@@ -34,6 +34,9 @@ const BINS: usize = 120;
 const REFERENCE_DBSM: f64 = -6.0;
 const REFERENCE_M: f64 = 40.0;
 
+/// Loss by the antenna's pattern at 60 deg, dB; it grows with the square of azimuth.
+const EDGE_LOSS_DB: f64 = 8.0;
+
 /// A detection and where it comes from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Labelled {
@@ -76,6 +79,8 @@ pub(crate) struct View {
     pub(crate) cos: f64,
     /// Azimuths within which it sees.
     field_of_view_rad: f64,
+    /// Loss by the antenna's pattern at 60 deg, dB.
+    edge_loss_db: f64,
     /// Nearest thing that throws a shadow, and the shadow's loss, by azimuth.
     shadows: [(f64, f64); BINS],
 }
@@ -196,15 +201,17 @@ impl Radar<'_> {
         let (sin, cos) = libm::sincos(car.yaw_rad);
         let at = &self.mounting;
         let (boresight_sin, boresight_cos) = libm::sincos(car.yaw_rad + at.yaw_rad);
+        let [field_of_view_rad, edge_loss_db] = match &self.realism {
+            Some(_) => [realistic::FIELD_OF_VIEW_RAD, realistic::model::EDGE_LOSS_DB],
+            None => [FIELD_OF_VIEW_RAD, EDGE_LOSS_DB],
+        };
         View {
             x_m: car.x_m + at.x_m * cos - at.y_m * sin,
             y_m: car.y_m + at.x_m * sin + at.y_m * cos,
             sin: boresight_sin,
             cos: boresight_cos,
-            field_of_view_rad: self
-                .realism
-                .as_ref()
-                .map_or(FIELD_OF_VIEW_RAD, |_| realistic::FIELD_OF_VIEW_RAD),
+            field_of_view_rad,
+            edge_loss_db,
             shadows: [(f64::INFINITY, 0.0); BINS],
         }
     }
@@ -222,7 +229,8 @@ impl Radar<'_> {
             random.integer(1, 3)
         } else {
             let most = (2.0 + 70.0 / centre_m.max(4.0)) * (0.6 + 0.09 * mover.length_m);
-            (most * random.uniform(0.6, 1.1)) as u64
+            let more = self.realism.as_ref().map_or(1.0, |_| realistic::MOVER_FACTOR);
+            (most * more * random.uniform(0.6, 1.1)) as u64
         };
         let (sin, cos) = libm::sincos(mover.pose.yaw_rad);
         let (to_x, to_y) = (view.x_m - mover.pose.x_m, view.y_m - mover.pose.y_m);
@@ -433,7 +441,7 @@ fn strength_db(echo: &Echo, view: &View, observed_dbsm: f64) -> f64 {
     let edge = echo.azimuth_rad / FIELD_OF_VIEW_RAD;
     // Within 8 m sensitivity no longer grows, as in every receiver that must not saturate.
     let spreading = 40.0 * libm::log10(REFERENCE_M / echo.range_m.max(8.0));
-    observed_dbsm + spreading - 8.0 * edge * edge - shadow - REFERENCE_DBSM
+    observed_dbsm + spreading - view.edge_loss_db * edge * edge - shadow - REFERENCE_DBSM
 }
 
 /// Detects an echo or not: exponentially fluctuating power (Swerling 1) over a threshold.

@@ -31,6 +31,8 @@ pub(crate) struct Reflector {
     pub(crate) y_m: f64,
     /// Height above the ground, m; only the profile "radarscenes" has heights.
     pub(crate) height_m: f64,
+    /// Unit vector away from the road.
+    pub(crate) outward: [f64; 2],
     /// Half of its extent: the echo comes from anywhere within.
     pub(crate) half_m: [f64; 2],
     /// Mean cross-section, dBsm.
@@ -190,7 +192,9 @@ impl Builder<'_> {
         }
         let (sin, cos) = libm::sincos(p.yaw_rad + turned_rad);
         let half_m = [half_m * cos, half_m * sin];
-        self.world.push(Reflector { x_m: p.x_m, y_m: p.y_m, half_m, ..rest });
+        let (sin, cos) = libm::sincos(p.yaw_rad);
+        let outward = [-sin * left_m.signum(), cos * left_m.signum()];
+        self.world.push(Reflector { x_m: p.x_m, y_m: p.y_m, outward, half_m, ..rest });
     }
 
     fn line(&mut self, scenario: Scenario, kind: Side, left: bool, from_m: f64, to_m: f64) {
@@ -336,6 +340,15 @@ impl Builder<'_> {
 }
 
 fn reflector(kind: Kind, rcs_dbsm: f64, flat: bool, shadow_db: f64) -> Reflector {
-    let [x_m, y_m, height_m] = [0.0; 3];
-    Reflector { kind, x_m, y_m, height_m, half_m: [0.0; 2], rcs_dbsm, flat, shadow_db }
+    Reflector {
+        kind,
+        x_m: 0.0,
+        y_m: 0.0,
+        height_m: 0.0,
+        outward: [0.0; 2],
+        half_m: [0.0; 2],
+        rcs_dbsm,
+        flat,
+        shadow_db,
+    }
 }

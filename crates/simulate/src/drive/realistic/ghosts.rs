@@ -66,14 +66,24 @@ impl Ghosts {
         time_s: f64,
         random: &mut Random,
     ) -> Vec<GhostEcho> {
-        self.ghosts.retain(|ghost| time_s < ghost.until_s);
+        self.ghosts.retain(|ghost| time_s < ghost.until_s && ghost.seen(view, time_s));
         let [fewest, most] = model::GHOST_DETECTIONS;
         let [shortest, longest] = model::GHOST_LIFE_S;
-        let each = 0.5 * (fewest + most) * 0.5 * (shortest + longest);
-        let born = poisson(self.wanted * (time_s - self.time_s).max(0.0) / each, random);
+        // What leaves the view is made up for, so that the mean is what is wanted: births at the rate
+        // (1.5 wanted - present) / 1 s balance deaths after 2 s where present is wanted.
+        let present: f64 = self.ghosts.iter().map(|ghost| ghost.detections).sum();
+        let lacking = (1.5 * self.wanted - present).max(0.0);
+        let interval_s = (time_s - self.time_s).clamp(0.0, 1.0);
+        let born = poisson(lacking * interval_s * 2.0 / (fewest + most), random);
         self.time_s = time_s;
         for _ in 0..born {
-            let course = birth(view, motion, traffic, random);
+            let mut course = birth(view, motion, traffic, random);
+            for _ in 0..BIRTHS {
+                if course.seen(view, 0.0) {
+                    break;
+                }
+                course = birth(view, motion, traffic, random);
+            }
             self.ghosts.push(Ghost {
                 course,
                 detections: random.uniform(fewest, most),
@@ -91,7 +101,27 @@ impl Ghosts {
     }
 }
 
-/// A ghost in the radar's view.
+/// Ghosts drawn at most until one is in view.
+const BIRTHS: usize = 8;
+
+impl Course {
+    /// Whether it is in view after an age.
+    fn seen(&self, view: &View, age_s: f64) -> bool {
+        match *self {
+            Self::Body { x_m, y_m, velocity_mps: [vx, vy] } => {
+                let (range_m, azimuth_rad) = view.polar(x_m + age_s * vx, y_m + age_s * vy);
+                view.holds(range_m, azimuth_rad)
+            }
+            Self::DoubleBounce { x_m, y_m, .. } => {
+                let (range_m, azimuth_rad) = view.polar(x_m, y_m);
+                view.holds(2.0 * range_m, azimuth_rad)
+            }
+            Self::OwnCar { .. } => true,
+        }
+    }
+}
+
+/// A ghost around the radar.
 fn birth(view: &View, motion: &TrueMotion, traffic: &Traffic, random: &mut Random) -> Course {
     let [own_car, mirror, bounce] = model::GHOST_KINDS;
     let draw = random.unit();
@@ -151,6 +181,10 @@ fn pick(traffic: &Traffic, view: &View, random: &mut Random) -> Option<([f64; 2]
 }
 
 impl Ghost {
+    fn seen(&self, view: &View, time_s: f64) -> bool {
+        self.course.seen(view, time_s - self.since_s)
+    }
+
     fn echo(
         &self,
         radar: &Radar,

@@ -11,7 +11,7 @@ mod patches;
 pub(crate) mod world;
 
 pub use car::CarErrors;
-pub(crate) use model::{FIELD_OF_VIEW_RAD, MAX_DETECTIONS};
+pub(crate) use model::{FIELD_OF_VIEW_RAD, MAX_DETECTIONS, MOVER_FACTOR};
 
 use super::motion::motion_at;
 use super::radar::{Echo, Labelled, Radar, STATIC_CLASS, View, received};
@@ -36,20 +36,48 @@ pub(crate) struct Realism {
     bias: AzimuthBias,
     patches: Patches,
     ghosts: Ghosts,
+    /// Mean detections a scan.
+    count: f64,
+    soft_share: f64,
     gain_db: f64,
+}
+
+/// How a scene differs from the mean of scenes.
+pub(crate) struct SceneFactors {
+    /// Detections.
+    count: f64,
+    /// Share of ghosts.
+    ghosts: f64,
+}
+
+impl SceneFactors {
+    pub(crate) fn new(random: &mut Random) -> Self {
+        let [from, to] = model::GHOST_FACTOR;
+        Self {
+            count: (1.0 + model::COUNT_SPREAD * random.normal()).clamp(0.5, 1.5),
+            ghosts: random.uniform(from, to),
+        }
+    }
 }
 
 impl Realism {
     /// That of a radar that looks `yaw_rad` to the left: its bias from the car, the rest from the
     /// drive.
-    pub(crate) fn new(yaw_rad: f64, car: &mut Random, drive: &mut Random) -> Self {
-        let [from, to] = model::GHOST_FACTOR;
-        let count = model::by_direction(&model::MEAN_COUNT, yaw_rad);
-        let share = model::by_direction(&model::GHOST_SHARE, yaw_rad) * drive.uniform(from, to);
+    pub(crate) fn new(
+        yaw_rad: f64,
+        scene: &SceneFactors,
+        car: &mut Random,
+        drive: &mut Random,
+    ) -> Self {
+        let own = (1.0 + model::COUNT_SPREAD_OF_RADAR * drive.normal()).max(0.5);
+        let count = own * scene.count * model::by_direction(&model::MEAN_COUNT, yaw_rad);
+        let share = scene.ghosts * model::by_direction(&model::GHOST_SHARE, yaw_rad);
         Self {
+            count,
             bias: AzimuthBias::new(car),
-            patches: Patches::new(drive),
+            patches: Patches::new(yaw_rad, drive),
             ghosts: Ghosts::new(share * count),
+            soft_share: model::by_direction(&model::SOFT_SHARE, yaw_rad),
             gain_db: 0.0,
         }
     }
@@ -73,14 +101,14 @@ impl Realism {
         let motion = motion_at(radar.motion, instant);
         let mut range_rate = radar.range_rate(echo, view, &motion);
         let moving = echo.class != STATIC_CLASS;
-        if !moving && radar.random.unit() < model::SOFT_SHARE {
+        if !moving && radar.random.unit() < self.soft_share {
             let [from, to] = model::SOFT_MPS;
             range_rate += sign(&mut radar.random) * radar.random.uniform(from, to);
         }
         let mut azimuth_rad = echo.azimuth_rad;
         if !moving {
             let [x, y] = view.place(echo.range_m, echo.azimuth_rad);
-            azimuth_rad += self.patches.offset(x, y, echo.range_m);
+            azimuth_rad += self.patches.offset(x, y);
         }
         let detection = self.measure(
             radar,
@@ -152,9 +180,7 @@ impl Realism {
 
 /// Sets the gain of a radar by what it will see of the world each second, so that it gives as many
 /// detections as its kind does, more or less by scene.
-pub(crate) fn set_gain(radar: &mut Radar, world: &World, duration_s: f64, random: &mut Random) {
-    let scene = (1.0 + model::COUNT_SPREAD * random.normal()).clamp(0.5, 1.5);
-    let count = scene * model::by_direction(&model::MEAN_COUNT, radar.mounting.yaw_rad);
+pub(crate) fn set_gain(radar: &mut Radar, world: &World, duration_s: f64, moving_share: f64) {
     let mut strengths_db = vec![];
     // At most ten minutes' worth of seconds, evenly over the drive.
     let scans = (duration_s.ceil().max(1.0) as usize).min(600);
@@ -163,6 +189,8 @@ pub(crate) fn set_gain(radar: &mut Radar, world: &World, duration_s: f64, random
         strengths_db.extend(radar.mean_strengths_db(time_s, world));
     }
     if let Some(realism) = &mut radar.realism {
-        realism.gain_db = gain::gain_db(&strengths_db, scans, count - realism.ghosts.wanted());
+        let moving = moving::share_of(moving_share, radar.mounting.yaw_rad);
+        let standing = realism.count * (1.0 - moving) - realism.ghosts.wanted();
+        realism.gain_db = gain::gain_db(&strengths_db, scans, standing);
     }
 }

@@ -13,14 +13,17 @@ pub(crate) const FIELD_OF_VIEW_RAD: f64 = 70.0 * DEG;
 /// Most detections a scan.
 pub(crate) const MAX_DETECTIONS: usize = 500;
 
+/// Loss by the antenna's pattern at 60 deg, dB; it grows with the square of azimuth.
+pub(crate) const EDGE_LOSS_DB: f64 = 28.0;
+
 /// Standard deviation of azimuth, rad: `sigma (1 + growth (azimuth / 60 deg)^2)`.
-pub(crate) const AZIMUTH_SIGMA_RAD: f64 = 0.18 * DEG;
-pub(crate) const AZIMUTH_GROWTH: f64 = 3.5;
+pub(crate) const AZIMUTH_SIGMA_RAD: f64 = 0.07 * DEG;
+pub(crate) const AZIMUTH_GROWTH: f64 = 4.0;
 pub(crate) const AZIMUTH_GROWTH_AT_RAD: f64 = 60.0 * DEG;
 
 /// Standard deviation of range rate at standstill, m/s, and its growth with speed.
-pub(crate) const RANGE_RATE_SIGMA_MPS: f64 = 0.045;
-pub(crate) const RANGE_RATE_SIGMA_PER_SPEED: f64 = 0.0015;
+pub(crate) const RANGE_RATE_SIGMA_MPS: f64 = 0.03;
+pub(crate) const RANGE_RATE_SIGMA_PER_SPEED: f64 = 0.001;
 
 /// Standard deviation of range, m.
 pub(crate) const RANGE_SIGMA_M: f64 = 0.1;
@@ -41,11 +44,14 @@ pub(crate) const BIAS_EDGE_RAD: [f64; 2] = [58.0 * DEG, 62.0 * DEG];
 /// Within this azimuth the curve has no mean (which would be a mounting angle), and its rms is told.
 pub(crate) const BIAS_WITHIN_RAD: f64 = 55.0 * DEG;
 
-/// Lasting azimuth offset of the reflectors of a patch of ground: side of a patch, m; standard
-/// deviation near and far, rad; the ranges between which it grows, m.
-pub(crate) const PATCH_M: f64 = 8.0;
-pub(crate) const PATCH_SIGMA_RAD: [f64; 2] = [0.15 * DEG, 0.35 * DEG];
-pub(crate) const PATCH_RANGE_M: [f64; 2] = [30.0, 50.0];
+/// Azimuth offsets that all reflectors of a patch of ground share, of radars that look aside: sides
+/// of small and of large patches, m, and standard deviations of their offsets, rad.
+pub(crate) const PATCHES_M: [f64; 2] = [8.0, 80.0];
+pub(crate) const PATCH_SIGMAS_RAD: [f64; 2] = [0.12 * DEG, 0.06 * DEG];
+/// By how much offsets are larger, by the direction of the radar: deg to the left, factor. Those that
+/// look ahead see rails, walls and columns of cars at grazing angles.
+pub(crate) const PATCH_FACTOR: [[f64; 2]; 4] =
+    [[-85.0, 1.0], [-25.0, 2.7], [25.0, 2.7], [85.0, 1.0]];
 
 /// Height of a radar above the ground, m.
 pub(crate) const RADAR_HEIGHT_M: f64 = 0.5;
@@ -57,28 +63,29 @@ pub(crate) const GANTRY_HEIGHT_M: f64 = 5.5;
 pub(crate) const GANTRY_EVERY_M: f64 = 400.0;
 pub(crate) const GANTRY_REFLECTORS: usize = 12;
 
-/// Further reflectors around each of the clean world: their mean number; how far they lie along
-/// (at most) and across (standard deviation), m; their strength less the first's and its spread, dB;
-/// the side of the squares of ground that are more or less crowded, m, and the spread of that as a
-/// logarithm.
+/// Further reflectors around each of the clean world: their mean number; how far they lie along the
+/// road (at most) and away from it (mean of an exponential), m; their strength less the first's and
+/// its spread, dB; the side of the squares of ground that are more or less crowded, m, and the spread
+/// of that as a logarithm.
 pub(crate) const COPIES: f64 = 4.0;
 pub(crate) const COPY_ALONG_M: f64 = 3.0;
-pub(crate) const COPY_ACROSS_M: f64 = 0.7;
+pub(crate) const COPY_AWAY_M: f64 = 16.0;
 pub(crate) const COPY_DB: f64 = -2.0;
-pub(crate) const COPY_SPREAD_DB: f64 = 3.0;
-pub(crate) const CROWD_M: f64 = 40.0;
-pub(crate) const CROWD_SIGMA: f64 = 0.5;
+pub(crate) const COPY_SPREAD_DB: f64 = 6.0;
+pub(crate) const CROWD_M: f64 = 80.0;
+pub(crate) const CROWD_SIGMA: f64 = 0.45;
 
 /// Mean number of detections a scan by the direction of the radar: deg to the left, count.
 pub(crate) const MEAN_COUNT: [[f64; 2]; 4] =
     [[-85.0, 115.0], [-25.0, 225.0], [25.0, 225.0], [85.0, 125.0]];
-/// Relative spread of it from scene to scene.
-pub(crate) const COUNT_SPREAD: f64 = 0.25;
+/// Relative spread of it from scene to scene, and of one radar in it.
+pub(crate) const COUNT_SPREAD: f64 = 0.22;
+pub(crate) const COUNT_SPREAD_OF_RADAR: f64 = 0.1;
 
 /// Mean share of ghosts by the direction of the radar: deg to the left, share; factors from scene
 /// to scene from and to; what they are stronger than standing things, dB.
 pub(crate) const GHOST_SHARE: [[f64; 2]; 4] =
-    [[-85.0, 0.04], [-25.0, 0.06], [25.0, 0.06], [85.0, 0.04]];
+    [[-85.0, 0.05], [-25.0, 0.09], [25.0, 0.11], [85.0, 0.06]];
 pub(crate) const GHOST_FACTOR: [f64; 2] = [0.6, 1.4];
 pub(crate) const GHOST_GAIN_DB: f64 = 6.0;
 /// Detections of a ghost a scan, mean of each: from and to.
@@ -89,9 +96,14 @@ pub(crate) const GHOST_KINDS: [f64; 3] = [0.1, 0.3, 0.2];
 /// How long a ghost lives, s: from and to.
 pub(crate) const GHOST_LIFE_S: [f64; 2] = [1.0, 5.0];
 
-/// Share of soft outliers, and their error of range rate, m/s: from and to, either sign.
-pub(crate) const SOFT_SHARE: f64 = 0.03;
+/// Share of soft outliers by the direction of the radar: deg to the left, share; their error of range
+/// rate, m/s: from and to, either sign.
+pub(crate) const SOFT_SHARE: [[f64; 2]; 4] =
+    [[-85.0, 0.015], [-25.0, 0.035], [25.0, 0.035], [85.0, 0.02]];
 pub(crate) const SOFT_MPS: [f64; 2] = [0.3, 1.0];
+
+/// Points of a vehicle over those of the clean profile, whose radars give fewer detections.
+pub(crate) const MOVER_FACTOR: f64 = 3.0;
 
 /// Moving share over the one asked for, by the direction of the radar: deg to the left, factor.
 pub(crate) const MOVING_FACTOR: [[f64; 2]; 4] =

@@ -7,25 +7,29 @@ use boresight_core::Random;
 /// Offsets of the patches as one radar sees them.
 #[derive(Debug, Clone)]
 pub(crate) struct Patches {
-    key: u64,
+    keys: [u64; 2],
+    factor: f64,
 }
 
 impl Patches {
-    pub(crate) fn new(random: &mut Random) -> Self {
-        Self { key: random.bits() }
+    /// Those of a radar that looks `yaw_rad` to the left.
+    pub(crate) fn new(yaw_rad: f64, random: &mut Random) -> Self {
+        let factor = model::by_direction(&model::PATCH_FACTOR, yaw_rad);
+        Self { keys: [random.bits(), random.bits()], factor }
     }
 
-    /// The azimuth offset of what stands at a place on the ground and is seen at a range, rad.
-    pub(crate) fn offset(&self, x_m: f64, y_m: f64, range_m: f64) -> f64 {
-        let [x, y] = [x_m, y_m].map(|at| (at / model::PATCH_M).floor() as i32);
-        let stream = u64::from(x.cast_unsigned()) << 32 | u64::from(y.cast_unsigned());
-        sigma_rad(range_m) * Random::new(self.key, stream).normal()
+    /// The azimuth offset of what stands at a place on the ground, rad.
+    pub(crate) fn offset(&self, x_m: f64, y_m: f64) -> f64 {
+        let sizes = self.keys.iter().zip(model::PATCHES_M).zip(model::PATCH_SIGMAS_RAD);
+        let sum: f64 = sizes
+            .map(|((key, side_m), sigma)| sigma * square(*key, x_m, y_m, side_m).normal())
+            .sum();
+        self.factor * sum
     }
 }
 
-/// Standard deviation of the offsets at a range, rad.
-pub(crate) fn sigma_rad(range_m: f64) -> f64 {
-    let [from, to] = model::PATCH_RANGE_M;
-    let [near, far] = model::PATCH_SIGMA_RAD;
-    near + (far - near) * ((range_m - from) / (to - from)).clamp(0.0, 1.0)
+/// Random numbers of the square of ground that a place lies in.
+pub(crate) fn square(key: u64, x_m: f64, y_m: f64, side_m: f64) -> Random {
+    let [x, y] = [x_m, y_m].map(|at| (at / side_m).floor() as i32);
+    Random::new(key, u64::from(x.cast_unsigned()) << 32 | u64::from(y.cast_unsigned()))
 }

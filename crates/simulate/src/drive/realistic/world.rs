@@ -1,6 +1,7 @@
 //! A world as dense and as high as radars of today see it.
 
 use super::model;
+use super::patches::square;
 use crate::drive::motion::Path;
 use crate::drive::scenario::{Scenario, sign};
 use crate::drive::world::{Kind, Reflector, World};
@@ -17,11 +18,11 @@ pub(crate) fn enrich(world: World, path: &Path, scenario: Scenario, random: &mut
         while first || random.unit() < copies {
             let mut copy = Reflector { height_m: height_m(reflector.kind, random), ..reflector };
             if !first {
-                let [x, y] = direction(&reflector);
+                let [x, y] = reflector.outward;
                 let along = random.uniform(-1.0, 1.0) * model::COPY_ALONG_M;
-                let across = model::COPY_ACROSS_M * random.normal();
-                copy.x_m += along * x - across * y;
-                copy.y_m += along * y + across * x;
+                let away = -model::COPY_AWAY_M * libm::log(1.0 - random.unit());
+                copy.x_m += away * x - along * y;
+                copy.y_m += away * y + along * x;
                 copy.rcs_dbsm += model::COPY_DB + model::COPY_SPREAD_DB * random.normal();
                 copy.shadow_db = 0.0;
                 copies -= 1.0;
@@ -38,17 +39,9 @@ pub(crate) fn enrich(world: World, path: &Path, scenario: Scenario, random: &mut
 
 /// How much more or less than elsewhere stands in a square of ground.
 fn crowding(key: u64, reflector: &Reflector) -> f64 {
-    let [x, y] = [reflector.x_m, reflector.y_m].map(|at| (at / model::CROWD_M).floor() as i32);
-    let stream = u64::from(x.cast_unsigned()) << 32 | u64::from(y.cast_unsigned());
     let sigma = model::CROWD_SIGMA;
-    libm::exp(sigma * Random::new(key, stream).normal() - 0.5 * sigma * sigma)
-}
-
-/// Unit vector along what the reflector belongs to.
-fn direction(reflector: &Reflector) -> [f64; 2] {
-    let [x, y] = reflector.half_m;
-    let half = (x * x + y * y).sqrt().max(1e-9);
-    [x / half, y / half]
+    let mut random = square(key, reflector.x_m, reflector.y_m, model::CROWD_M);
+    libm::exp(sigma * random.normal() - 0.5 * sigma * sigma)
 }
 
 /// Height above the ground of a reflection, m.
@@ -75,6 +68,7 @@ fn gantries(world: &mut World, path: &Path, random: &mut Random) {
                 x_m: at.x_m,
                 y_m: at.y_m,
                 height_m: model::GANTRY_HEIGHT_M,
+                outward: [0.0; 2],
                 half_m: [0.0; 2],
                 rcs_dbsm: 4.0 + 4.0 * random.normal(),
                 flat: false,
