@@ -105,3 +105,69 @@ impl LowPass {
         next
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_low_pass_follows_a_ramp_its_time_constant_behind() {
+        for lag_s in [0.05, 0.016] {
+            let mut low_pass = LowPass::new(lag_s);
+            let mut last = 0.0;
+            for i in 0..400 {
+                last = low_pass.next(MOTION_STEP_S * f64::from(i));
+            }
+            // Sampled, it lags by its share's own: `step (1 / share - 1)`, within a step of the constant.
+            let behind = MOTION_STEP_S * 399.0 - last;
+            assert!((behind - lag_s).abs() < 0.6 * MOTION_STEP_S, "{behind} {lag_s}");
+        }
+        let mut open = LowPass::new(0.0);
+        assert_eq!([open.next(1.0), open.next(-3.0)], [1.0, -3.0]);
+    }
+
+    #[test]
+    fn sensors_of_yaw_rate_are_what_they_are_called() {
+        let drawn = |sensor, seed| {
+            let options = DriveOptions { yaw_rate_sensor: sensor, ..DriveOptions::default() };
+            YawRateErrors::new(&options, &mut Random::new(seed, 0))
+        };
+        let navigation = |seed| drawn(Some(YawRateSensor::Navigation), seed);
+        let squares = |of: fn(YawRateErrors) -> f64| {
+            ((0..1000).map(|seed| of(navigation(seed)).powi(2)).sum::<f64>() / 1000.0).sqrt()
+        };
+        // A deviation by 1000 values is good to 2.2 %.
+        let scale = squares(|errors| errors.scale - 1.0) / model::NAVIGATION_SCALE_SIGMA;
+        let bias = squares(|errors| errors.bias_radps) / model::NAVIGATION_BIAS_RADPS;
+        assert!((scale - 1.0).abs() < 0.11 && (bias - 1.0).abs() < 0.11, "{scale} {bias}");
+        assert_eq!(drawn(Some(YawRateSensor::Series), 3), drawn(None, 3));
+    }
+
+    #[test]
+    fn the_bias_of_a_series_sensor_walks_by_a_fiftieth_of_a_degree_in_a_minute() {
+        let motion = TrueMotion {
+            time_s: 0.0,
+            pose: boresight_core::Pose { x_m: 0.0, y_m: 0.0, yaw_rad: 0.0 },
+            speed_mps: 0.0,
+            yaw_rate_radps: 0.0,
+            acceleration_mps2: 0.0,
+            slip_rad: 0.0,
+            travelled_m: 0.0,
+        };
+        let standing = vec![motion; 6001];
+        let walked = |sensor| {
+            let options = DriveOptions { yaw_rate_sensor: sensor, ..DriveOptions::default() };
+            let car = CarErrors::clean(&options);
+            let errors = YawRateErrors { scale: 1.0, bias_radps: 0.0, sigma_radps: 0.0 };
+            let squares = (0..400).map(|seed| {
+                let random = &mut Random::new(seed, 0);
+                let samples = measure(&standing, &errors, &car, &options, random);
+                samples[6000].yaw_rate_radps.to_degrees().powi(2)
+            });
+            (squares.sum::<f64>() / 400.0).sqrt()
+        };
+        // A deviation by 400 values is good to 3.5 %.
+        assert!((walked(Some(YawRateSensor::Series)) / 0.02 - 1.0).abs() < 0.18);
+        assert_eq!(walked(None), 0.0);
+    }
+}

@@ -95,7 +95,7 @@ pub(crate) struct Echo {
     pub(crate) class: u8,
     pub(crate) track: u32,
     /// Extent towards the radar of what it belongs to, m: it throws no shadow on itself.
-    depth_m: f64,
+    pub(crate) depth_m: f64,
     /// Cosine of its elevation: 1 where everything is flat.
     pub(crate) elevation_cos: f64,
 }
@@ -196,7 +196,7 @@ impl Radar<'_> {
         echoes.iter().map(|echo| strength_db(echo, &view, echo.rcs_dbsm)).collect()
     }
 
-    fn view(&self, time_s: f64) -> View {
+    pub(crate) fn view(&self, time_s: f64) -> View {
         let car = motion_at(self.motion, time_s).pose;
         let (sin, cos) = libm::sincos(car.yaw_rad);
         let at = &self.mounting;

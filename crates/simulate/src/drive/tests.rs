@@ -218,7 +218,7 @@ fn drive_repeats_bit_for_bit_and_seeds_differ() {
 #[test]
 fn drive_bad_options_are_typed_errors() {
     let good = || options(Scenario::City, 0, 5.0);
-    let bad: [(DriveOptions, &str); 12] = [
+    let bad: [(DriveOptions, &str); 13] = [
         (DriveOptions { duration_s: 0.0, ..good() }, "out-of-range"),
         (DriveOptions { duration_s: f64::NAN, ..good() }, "out-of-range"),
         (DriveOptions { duration_s: 1e9, ..good() }, "out-of-range"),
@@ -242,6 +242,14 @@ fn drive_bad_options_are_typed_errors() {
                 ..good()
             },
             "out-of-range",
+        ),
+        (
+            DriveOptions {
+                profile: DriveProfile::Radarscenes,
+                noise: RadarNoise { clutter: 2.0, ..RadarNoise::default() },
+                ..good()
+            },
+            "unknown-name",
         ),
     ];
     for (options, code) in bad {

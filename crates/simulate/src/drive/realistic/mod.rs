@@ -10,6 +10,9 @@ pub(crate) mod moving;
 mod patches;
 pub(crate) mod world;
 
+#[cfg(test)]
+mod tests;
+
 pub use car::CarErrors;
 pub(crate) use model::{FIELD_OF_VIEW_RAD, MAX_DETECTIONS, MOVER_FACTOR};
 
