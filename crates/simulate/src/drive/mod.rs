@@ -23,7 +23,10 @@ mod tests;
 pub use columns::{TrueMotionColumns, TrueSensor, TruthColumns};
 pub use inertial::YawRateErrors;
 pub use motion::{MOTION_STEP_S, TrueMotion};
-pub use options::{DriveOptions, MAX_DURATION_S, MAX_MOVING_SHARE, MAX_SENSOR_SECONDS, RadarNoise};
+pub use options::{
+    DriveOptions, MAX_DENSE_SENSOR_SECONDS, MAX_DURATION_S, MAX_MOVING_SHARE, MAX_SENSOR_SECONDS,
+    RadarNoise,
+};
 pub use profile::{DriveProfile, YawRateSensor};
 pub use radar::{CYCLE_S, FIELD_OF_VIEW_RAD, MAX_DETECTIONS, RANGE_M, STATIC_CLASS};
 pub use realistic::CarErrors;

@@ -218,11 +218,15 @@ fn drive_repeats_bit_for_bit_and_seeds_differ() {
 #[test]
 fn drive_bad_options_are_typed_errors() {
     let good = || options(Scenario::City, 0, 5.0);
-    let bad: [(DriveOptions, &str); 13] = [
+    let bad: [(DriveOptions, &str); 14] = [
         (DriveOptions { duration_s: 0.0, ..good() }, "out-of-range"),
         (DriveOptions { duration_s: f64::NAN, ..good() }, "out-of-range"),
         (DriveOptions { duration_s: 1e9, ..good() }, "out-of-range"),
         (DriveOptions { duration_s: 7000.0, ..good() }, "out-of-range"),
+        (
+            DriveOptions { profile: DriveProfile::Radarscenes, duration_s: 1201.0, ..good() },
+            "out-of-range",
+        ),
         (DriveOptions { sensors: vec![], ..good() }, "empty"),
         (
             DriveOptions {
