@@ -57,6 +57,7 @@ pub mod motion;
 pub mod options;
 pub mod recursive;
 mod small;
+pub mod statistics;
 mod symmetric;
 pub mod trajectory;
 

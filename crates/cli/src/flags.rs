@@ -380,7 +380,7 @@ mod tests {
         every_flag::<boresight_pipeline::ChainOptions>(16);
         every_flag::<boresight_pipeline::regions::RegionChainOptions>(19);
         every_flag::<boresight_calibrate::CalibrationOptions>(19);
-        every_flag::<boresight_simulate::DriveOptions>(16);
+        every_flag::<boresight_simulate::DriveOptions>(19);
         every_flag::<boresight_simulate::SnapshotRequest>(10);
         every_flag::<boresight_simulate::SceneSampling>(4);
         every_flag::<boresight_simulate::CubeRequest>(8);

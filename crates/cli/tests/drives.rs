@@ -206,6 +206,58 @@ fn what_is_no_drive_is_refused_by_log_and_calibrate() {
 }
 
 #[test]
+fn statistics_of_a_log_are_a_table_or_json_and_say_what_is_lacking() {
+    let folder = folder("statistics");
+    let out = folder.to_str().unwrap();
+    let arguments = [
+        "simulate",
+        "drive",
+        "--profile",
+        "radarscenes",
+        "--seed",
+        "2",
+        "--duration",
+        "20",
+        "--sensor",
+        "2",
+        "--sensor",
+        "3",
+        "--slip-gradient",
+        "0.3",
+        "--out",
+        out,
+    ];
+    stdout(&arguments);
+    let truth: Value =
+        serde_json::from_slice(&std::fs::read(folder.join("truth.json")).unwrap()).unwrap();
+    assert_eq!(truth["profile"], "radarscenes");
+    assert!((truth["car"]["slipGradientDeg"].as_f64().unwrap() - 0.3).abs() < 1e-12);
+    assert!((0.02..0.1).contains(&truth["car"]["delayS"].as_f64().unwrap()));
+    assert!(truth["sensors"][0]["azimuthBiasRmsDeg"].as_f64().unwrap() > 0.01);
+
+    let sequence = folder.join("data/sequence_1");
+    let path = sequence.to_str().unwrap();
+    let all = parsed(&stdout(&["log", path, "--statistics", "--json"]));
+    let all = all.as_array().unwrap();
+    assert_eq!([&all[0]["sensor"], &all[1]["sensor"]], [2, 3]);
+    let held = parsed(&stdout(&["log", path, "--json"]));
+    assert_eq!(all[0]["detections"], held["sensors"][0]["detections"]);
+    let span = all[0]["azimuthSpanDeg"].as_array().unwrap();
+    assert!(span[0].as_f64().unwrap() < -60.0 && span[1].as_f64().unwrap() <= 70.0);
+    let text = stdout(&["log", path, "--statistics"]);
+    let mean = all[0]["meanCount"].as_f64().unwrap();
+    let line = text.lines().find(|line| line.starts_with("detections a scan, mean")).unwrap();
+    assert!(line.contains(&format!("{mean:.1}")), "{line}");
+
+    // Tables hold neither mountings nor labels.
+    let tables = folder.join("tables");
+    stdout(&["log", path, "--export", tables.to_str().unwrap()]);
+    let text = stdout(&["log", tables.to_str().unwrap(), "--statistics"]);
+    assert!(text.contains("sensor 2: no moving share: the log has no labels"), "{text}");
+    assert!(text.contains("the log does not state where the radar sits"), "{text}");
+}
+
+#[test]
 fn radars_of_a_simulated_drive_are_chosen() {
     let folder = folder("radars");
     let out = folder.to_str().unwrap();

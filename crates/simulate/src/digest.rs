@@ -1,7 +1,7 @@
 //! Digests of simulated numbers, by which every platform can check that it gets the same bits.
 
 use crate::cube::{CubeOptions, CubeTarget, Field, simulate_cube};
-use crate::drive::{DriveOptions, Scenario, simulate_drive};
+use crate::drive::{DriveOptions, DriveProfile, Scenario, simulate_drive};
 use crate::error::SimulateError;
 use crate::snapshots::{Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator};
 use crate::street::{Street, StreetOptions};
@@ -18,6 +18,9 @@ pub const REFERENCE_CUBE: u64 = 0xb0e4_f2ee_454c_6c6e;
 
 /// What [`reference_drive`] returns on every platform.
 pub const REFERENCE_DRIVE: u64 = 0x39e9_07b6_0d8a_cd56;
+
+/// What [`reference_radarscenes_drive`] returns on every platform.
+pub const REFERENCE_RADARSCENES_DRIVE: u64 = 0xf867_d71c_ba52_2fdb;
 
 /// What [`reference_street`] returns on every platform.
 pub const REFERENCE_STREET: u64 = 0x2a7a_5931_4dbd_85fb;
@@ -92,7 +95,22 @@ pub fn reference_drive() -> Result<u64, SimulateError> {
         seed: 9,
         duration_s: 30.0,
         moving_share: Some(0.33),
-        slip_gradient_rad: 0.002,
+        slip_gradient_rad: Some(-0.002),
+        ..DriveOptions::default()
+    })
+}
+
+/// Digest of ten seconds of a motorway with the errors of `RadarScenes`.
+///
+/// # Errors
+/// None, unless the simulator is broken.
+pub fn reference_radarscenes_drive() -> Result<u64, SimulateError> {
+    drive_digest(&DriveOptions {
+        profile: DriveProfile::Radarscenes,
+        scenario: Scenario::Motorway,
+        seed: 10,
+        car: 3,
+        duration_s: 10.0,
         ..DriveOptions::default()
     })
 }
@@ -150,6 +168,12 @@ mod tests {
     fn drives_have_the_bits_they_always_had() {
         let digest = reference_drive().unwrap();
         assert_eq!(digest, REFERENCE_DRIVE, "{digest:#x}");
+    }
+
+    #[test]
+    fn drives_as_radarscenes_have_the_bits_they_always_had() {
+        let digest = reference_radarscenes_drive().unwrap();
+        assert_eq!(digest, REFERENCE_RADARSCENES_DRIVE, "{digest:#x}");
     }
 
     #[test]

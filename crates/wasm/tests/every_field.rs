@@ -28,7 +28,7 @@ fn options_of_calibration() {
 
 #[wasm_bindgen_test]
 fn options_of_drives() {
-    every_field::<boresight_simulate::DriveOptions>(19);
+    every_field::<boresight_simulate::DriveOptions>(22);
 }
 
 #[wasm_bindgen_test]

@@ -10,8 +10,9 @@ use boresight_core::presets::preset;
 use boresight_core::steering::cis;
 use boresight_core::{Complex32, Complex64, Direction, Random};
 use boresight_simulate::digest::{
-    REFERENCE_CUBE, REFERENCE_DRIVE, REFERENCE_SNAPSHOTS, REFERENCE_STREET, reference_cube,
-    reference_drive, reference_snapshots, reference_street,
+    REFERENCE_CUBE, REFERENCE_DRIVE, REFERENCE_RADARSCENES_DRIVE, REFERENCE_SNAPSHOTS,
+    REFERENCE_STREET, reference_cube, reference_drive, reference_radarscenes_drive,
+    reference_snapshots, reference_street,
 };
 use boresight_simulate::{Fluctuation, Scene, SnapshotOptions, SnapshotSimulator, Target};
 use ndarray::Array2;
@@ -83,6 +84,7 @@ fn simulations_have_the_same_bits() {
     assert_eq!(reference_snapshots().unwrap(), REFERENCE_SNAPSHOTS);
     assert_eq!(reference_cube().unwrap(), REFERENCE_CUBE);
     assert_eq!(reference_drive().unwrap(), REFERENCE_DRIVE);
+    assert_eq!(reference_radarscenes_drive().unwrap(), REFERENCE_RADARSCENES_DRIVE);
     assert_eq!(reference_street().unwrap(), REFERENCE_STREET);
 }
 

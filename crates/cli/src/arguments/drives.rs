@@ -21,6 +21,10 @@ pub struct LogArguments {
     /// Write the log as general tables, detections.csv and motion.csv, to this folder.
     #[arg(long, value_name = "DIR")]
     pub export: Option<PathBuf>,
+    /// Print statistics of each radar in place of what the log holds: counts, outliers, noise, how
+    /// its angle scatters and how long that lasts, slip, delay, speed.
+    #[arg(long)]
+    pub statistics: bool,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,

@@ -1,5 +1,6 @@
 //! `boresight log`: what is in a drive log.
 
+use super::log_statistics;
 use crate::arguments::LogArguments;
 use crate::destination::Destination;
 use crate::drive::open_path;
@@ -24,6 +25,9 @@ pub fn run(arguments: &LogArguments, files: &Files) -> Result<String, CliError> 
         files::make_folder(folder)?;
         export(files, detections, |out| write_detections(&read.log, out))?;
         export(files, motion, |out| write_motion(&read.log, out))?;
+    }
+    if arguments.statistics {
+        return log_statistics::run(&read.log, arguments.json);
     }
     Ok(if arguments.json { format!("{:#}\n", as_json(&read)) } else { as_text(&read) })
 }

@@ -12,6 +12,7 @@ mod frame;
 pub mod image;
 pub mod lists;
 pub mod log;
+pub mod log_statistics;
 pub mod network;
 pub mod regions;
 pub mod simulate;

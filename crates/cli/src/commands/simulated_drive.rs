@@ -5,6 +5,7 @@ use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::run::Run;
 use crate::{json, pairs};
+use boresight_core::describe::Named;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_formats::radarscenes::{Packing, write};
 use boresight_pipeline::Progress;
@@ -109,18 +110,24 @@ fn truth(options: &DriveOptions, drive: &SimulatedDrive) -> Value {
         .sensors
         .iter()
         .zip(&drive.log.sensors)
-        .map(|((id, mounting), sensor)| {
+        .zip(&truth.azimuth_bias_rms_rad)
+        .map(|(((id, mounting), sensor), rms)| {
             let nominal = sensor.mounting.map(|m| m.yaw_rad.to_degrees());
-            json::beside(mounting, json!({ "id": id, "nominalYawDeg": nominal }))
+            let bias = rms.to_degrees();
+            json::beside(
+                mounting,
+                json!({ "id": id, "nominalYawDeg": nominal, "azimuthBiasRmsDeg": bias }),
+            )
         })
         .collect();
     json!({
         "scenario": options.scenario.name(),
+        "profile": options.profile.name(),
         "seed": options.seed,
         "durationS": options.duration_s,
         "sensors": sensors,
         "yawRate": json::result(&truth.yaw_rate),
-        "slipDegPerMps2": options.slip_gradient_rad.to_degrees(),
+        "car": json::result(&truth.car),
         "movingShare": moving_share(drive),
     })
 }

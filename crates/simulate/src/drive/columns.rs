@@ -1,6 +1,6 @@
 //! The truth behind a drive as columns of numbers, which cost a program in another language little.
 
-use super::{SimulatedDrive, YawRateErrors};
+use super::{CarErrors, SimulatedDrive, YawRateErrors};
 use boresight_core::describe::{Described, columns};
 use boresight_core::drive::Mounting;
 use serde::Serialize;
@@ -13,6 +13,8 @@ pub struct TruthColumns {
     pub sensors: Vec<TrueSensor>,
     /// Errors of the yaw-rate sensor.
     pub yaw_rate: YawRateErrors,
+    /// How the car slips, and what its radars and its speed are late or off by.
+    pub car: CarErrors,
     /// The car's motion at the times of the drive's.
     pub motion: TrueMotionColumns,
     /// For each detection, 1 where it comes from a moving road user.
@@ -31,6 +33,8 @@ pub struct TrueSensor {
     /// Its place and direction.
     #[serde(rename = "..mounting")]
     pub mounting: Mounting,
+    /// Root mean square of its azimuth bias within 55 deg.
+    pub azimuth_bias_rms_rad: f64,
 }
 
 /// The car's true motion.
@@ -54,9 +58,15 @@ impl SimulatedDrive {
             sensors: truth
                 .sensors
                 .iter()
-                .map(|&(id, mounting)| TrueSensor { id, mounting })
+                .zip(&truth.azimuth_bias_rms_rad)
+                .map(|(&(id, mounting), &azimuth_bias_rms_rad)| TrueSensor {
+                    id,
+                    mounting,
+                    azimuth_bias_rms_rad,
+                })
                 .collect(),
             yaw_rate: truth.yaw_rate,
+            car: truth.car,
             motion: TrueMotionColumns {
                 yaw_rate_radps: truth.motion.iter().map(|motion| motion.yaw_rate_radps).collect(),
                 speed_mps: truth.motion.iter().map(|motion| motion.speed_mps).collect(),

@@ -1,5 +1,6 @@
 //! How the car moves along its route.
 
+use super::realistic::CarErrors;
 use super::scenario::{Route, Scenario};
 use boresight_core::Random;
 use boresight_core::drive::{Mounting, Pose};
@@ -41,7 +42,7 @@ pub(crate) fn drive(
     route: &Route,
     scenario: Scenario,
     duration_s: f64,
-    slip_gradient: f64,
+    slips: &CarErrors,
     random: &mut Random,
 ) -> Vec<TrueMotion> {
     let count = (duration_s / MOTION_STEP_S).floor() as usize + 1;
@@ -65,7 +66,7 @@ pub(crate) fn drive(
         let direction = route.direction(travelled);
         let signed = direction * speed;
         let yaw_rate = route.curvature(travelled) * signed;
-        let slip = slip_gradient * signed * yaw_rate;
+        let slip = slips.crab_rad - slips.slip_gradient_rad * signed * yaw_rate;
         samples.push(TrueMotion {
             time_s: i as f64 * MOTION_STEP_S,
             pose,

@@ -1,5 +1,6 @@
 //! What to simulate.
 
+use super::profile::{DriveProfile, YawRateSensor};
 use super::scenario::Scenario;
 use super::wire;
 use boresight_core::CoreError;
@@ -13,6 +14,10 @@ pub const MAX_DURATION_S: f64 = 7200.0;
 
 /// Most radars times seconds of one drive: four radars for an hour.
 pub const MAX_SENSOR_SECONDS: f64 = 14_400.0;
+
+/// Most radars times seconds of one drive of the profile "radarscenes", whose scans hold five times as
+/// much: four radars for twenty minutes.
+pub const MAX_DENSE_SENSOR_SECONDS: f64 = 4800.0;
 
 /// Highest share of moving detections that can be asked for.
 pub const MAX_MOVING_SHARE: f64 = 0.8;
@@ -51,9 +56,14 @@ pub struct RadarNoise {
 pub struct DriveOptions {
     /// Roads and traffic.
     pub scenario: Scenario,
+    /// What the errors of radars and car are like.
+    pub profile: DriveProfile,
     /// Everything random comes from it.
     pub seed: u64,
-    /// Length of the drive; four radars for an hour at most, or as much by fewer.
+    /// The car, by which drives of the profile "radarscenes" share azimuth biases and slip.
+    pub car: u64,
+    /// Length of the drive; four radars for an hour at most, or as much by fewer; in the profile
+    /// "radarscenes" for twenty minutes.
     #[option(default = 60.0, range = 1.0..=MAX_DURATION_S)]
     pub duration_s: f64,
     /// The radars by number, where they truly sit and look; those of RadarScenes if absent.
@@ -66,29 +76,37 @@ pub struct DriveOptions {
     #[serde(with = "wire::misalignments")]
     pub misalignment_rad: Vec<(u8, f64)>,
     /// Share of moving detections over the scans taken at more than 1 m/s, by leaving out whole
-    /// movers or detections of standing things; what the scenario's traffic gives if absent.
+    /// movers or detections of standing things. If absent, what the scenario's traffic gives; in the
+    /// profile "radarscenes", where front radars see more of it than the sides, as scenes have it.
     #[option(range = 0.0..=MAX_MOVING_SHARE)]
     pub moving_share: Option<f64>,
-    /// How well radars measure.
+    /// How well radars measure; the profile "radarscenes" has numbers of its own.
     pub noise: RadarNoise,
-    /// Measured over true yaw rate; drawn from 0.98 to 1.02 if absent.
+    /// What measures the yaw rate, where scale, bias and noise are not given. If absent, a series
+    /// sensor of constant bias, and in the profile "radarscenes" navigation.
+    pub yaw_rate_sensor: Option<YawRateSensor>,
+    /// Measured over true yaw rate; drawn as the sensor has it if absent, from 0.98 to 1.02 in series.
     #[option(range = 0.5..=2.0)]
     pub yaw_rate_scale: Option<f64>,
-    /// Yaw rate measured at standstill; drawn from -0.2 to 0.2 deg/s if absent.
+    /// Yaw rate measured at standstill; drawn as the sensor has it if absent, from -0.2 to 0.2 deg/s
+    /// in series.
     #[option(range = -50..=50)]
     pub yaw_rate_bias_radps: Option<f64>,
-    /// Standard deviation of a sample's white noise; drawn from 0.07 to 0.13 deg/s if absent.
+    /// Standard deviation of a sample's white noise; if absent 0.03 deg/s of navigation, and drawn from
+    /// 0.07 to 0.13 deg/s in series.
     #[option(range = 0..=50)]
     pub yaw_rate_sigma_radps: Option<f64>,
-    /// Measured over true speed.
-    #[option(default = 1.0, range = 0.5..=2.0)]
-    pub speed_scale: f64,
-    /// Standard deviation of a sample of speed. At standstill the speed reads zero.
-    #[option(default = 0.03, range = 0..=5)]
-    pub speed_sigma_mps: f64,
-    /// Slip angle of the rear axle over lateral acceleration, rad/(m/s^2); outside Rust in degrees.
+    /// Measured over true speed; if absent 1, and drawn in the profile "radarscenes".
+    #[option(range = 0.5..=2.0)]
+    pub speed_scale: Option<f64>,
+    /// Standard deviation of a sample of speed; 0.03 m/s if absent. At standstill the speed reads
+    /// zero.
+    #[option(range = 0..=5)]
+    pub speed_sigma_mps: Option<f64>,
+    /// Slip angle of the rear axle over lateral acceleration, rad/(m/s^2), outside Rust in degrees;
+    /// outwards, as tyres slip. If absent 0, and drawn in the profile "radarscenes".
     #[option(range = -1..=1)]
-    pub slip_gradient_rad: f64,
+    pub slip_gradient_rad: Option<f64>,
 }
 
 impl DriveOptions {
@@ -99,6 +117,13 @@ impl DriveOptions {
     /// a radar named twice, or a misaligned radar that is not there.
     pub fn check(&self) -> Result<(), CoreError> {
         describe::check(self, Naming::Rust)?;
+        if self.profile == DriveProfile::Radarscenes && self.noise != RadarNoise::default() {
+            return Err(CoreError::Unknown {
+                what: "noise".into(),
+                expected: "its defaults: the profile radarscenes has numbers of its own".into(),
+                given: "other numbers".into(),
+            });
+        }
         if self.sensors.is_empty() {
             return Err(CoreError::Empty {
                 what: "sensors".into(),
@@ -106,7 +131,11 @@ impl DriveOptions {
             });
         }
         let sensor_seconds = self.sensors.len() as f64 * self.duration_s;
-        check_range("sensors times duration_s", sensor_seconds, 0.0, MAX_SENSOR_SECONDS)?;
+        let most = match self.profile {
+            DriveProfile::Clean => MAX_SENSOR_SECONDS,
+            DriveProfile::Radarscenes => MAX_DENSE_SENSOR_SECONDS,
+        };
+        check_range("sensors times duration_s", sensor_seconds, 0.0, most)?;
         for (i, (id, mounting)) in self.sensors.iter().enumerate() {
             check_range("x_m of a sensor", mounting.x_m, -20.0, 20.0)?;
             check_range("y_m of a sensor", mounting.y_m, -20.0, 20.0)?;
@@ -122,6 +151,14 @@ impl DriveOptions {
             }
         }
         Ok(())
+    }
+
+    /// What measures the yaw rate; nothing for the clean profile's own.
+    pub(crate) fn yaw_rate_sensor(&self) -> Option<YawRateSensor> {
+        self.yaw_rate_sensor.or(match self.profile {
+            DriveProfile::Clean => None,
+            DriveProfile::Radarscenes => Some(YawRateSensor::Navigation),
+        })
     }
 
     /// The misalignment of a radar, rad.

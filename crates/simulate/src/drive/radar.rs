@@ -2,6 +2,7 @@
 
 use super::motion::{TrueMotion, motion_at};
 use super::options::{DriveOptions, RadarNoise};
+use super::realistic::{self, Realism};
 use super::traffic::{Mover, Traffic};
 use super::world::World;
 use boresight_core::Random;
@@ -26,12 +27,15 @@ pub const CYCLE_S: [f64; 2] = [0.073, 0.075];
 /// Slower road users count as standing, m/s.
 pub(crate) const MOVING_MPS: f64 = 0.1;
 
-/// Bins of the shadows over the field of view: one degree.
+/// Bins of the shadows over the field of view: one degree where that is plus and minus 60.
 const BINS: usize = 120;
 
 /// Cross-section that is detected half the time at [`REFERENCE_M`] on boresight, dBsm.
 const REFERENCE_DBSM: f64 = -6.0;
 const REFERENCE_M: f64 = 40.0;
+
+/// Loss by the antenna's pattern at 60 deg, dB; it grows with the square of azimuth.
+const EDGE_LOSS_DB: f64 = 8.0;
 
 /// A detection and where it comes from.
 #[derive(Debug, Clone, Copy)]
@@ -40,10 +44,10 @@ pub(crate) struct Labelled {
     pub(crate) class: u8,
     pub(crate) moving: bool,
     pub(crate) track: u32,
-    strength_db: f64,
+    pub(crate) strength_db: f64,
 }
 
-/// Times of a radar's scans: its own phase, cycles that jitter around its own mean.
+/// Times of a radar's scans in a clean drive: its own phase, cycles that jitter around its own mean.
 pub(crate) fn scan_times(duration_s: f64, random: &mut Random) -> Vec<f64> {
     let mean = random.uniform(0.0736, 0.0744);
     let mut time = 0.08 + random.uniform(0.0, mean);
@@ -61,38 +65,91 @@ pub(crate) struct Radar<'a> {
     pub(crate) options: &'a DriveOptions,
     pub(crate) motion: &'a [TrueMotion],
     pub(crate) random: Random,
+    /// By how much range rates lag their time stamp, s.
+    pub(crate) delay_s: f64,
+    /// What the profile "radarscenes" adds.
+    pub(crate) realism: Option<Realism>,
 }
 
 /// Where the radar is during a scan.
-struct View {
-    x_m: f64,
-    y_m: f64,
-    sin: f64,
-    cos: f64,
+pub(crate) struct View {
+    pub(crate) x_m: f64,
+    pub(crate) y_m: f64,
+    pub(crate) sin: f64,
+    pub(crate) cos: f64,
+    /// Azimuths within which it sees.
+    field_of_view_rad: f64,
+    /// Loss by the antenna's pattern at 60 deg, dB.
+    edge_loss_db: f64,
     /// Nearest thing that throws a shadow, and the shadow's loss, by azimuth.
     shadows: [(f64, f64); BINS],
 }
 
 /// Something that may be detected, relative to the radar.
-struct Echo {
-    range_m: f64,
-    azimuth_rad: f64,
-    rcs_dbsm: f64,
+pub(crate) struct Echo {
+    pub(crate) range_m: f64,
+    pub(crate) azimuth_rad: f64,
+    pub(crate) rcs_dbsm: f64,
     /// Velocity on the ground, m/s.
-    velocity_mps: [f64; 2],
-    class: u8,
-    track: u32,
+    pub(crate) velocity_mps: [f64; 2],
+    pub(crate) class: u8,
+    pub(crate) track: u32,
     /// Extent towards the radar of what it belongs to, m: it throws no shadow on itself.
-    depth_m: f64,
+    pub(crate) depth_m: f64,
+    /// Cosine of its elevation: 1 where everything is flat.
+    pub(crate) elevation_cos: f64,
+}
+
+impl Echo {
+    /// The echo of a point.
+    pub(crate) fn new(range_m: f64, azimuth_rad: f64, velocity_mps: [f64; 2], class: u8) -> Self {
+        Self {
+            range_m,
+            azimuth_rad,
+            rcs_dbsm: 0.0,
+            velocity_mps,
+            class,
+            track: 0,
+            depth_m: 0.0,
+            elevation_cos: 1.0,
+        }
+    }
 }
 
 impl Radar<'_> {
-    /// The scan with the given time stamp. Everything stands where it is in the middle of the
-    /// coherent interval, which ends at the time stamp.
+    /// The scan with the given time stamp. Everything stands where it was the delay before.
     pub(crate) fn scan(&mut self, time_s: f64, world: &World, traffic: &Traffic) -> Vec<Labelled> {
-        let noise = self.options.noise;
-        let mut view = self.view(time_s - 0.5 * noise.coherent_interval_s);
+        let mut view = self.view(time_s - self.delay_s);
         let mut echoes = vec![];
+        self.echoes_of_world(world, &mut view, &mut echoes);
+        for mover in &traffic.movers {
+            if !mover.vulnerable() {
+                view.shade(&mover.corners(), 14.0);
+            }
+            self.echoes_of(mover, &view, &mut echoes);
+        }
+        let mut detections = vec![];
+        let limit = if let Some(mut realism) = self.realism.take() {
+            for echo in &echoes {
+                detections.extend(realism.detect(self, echo, &view, time_s));
+            }
+            realism.ghosts(self, &view, traffic, time_s, &mut detections);
+            self.realism = Some(realism);
+            realistic::MAX_DETECTIONS
+        } else {
+            detections.extend(echoes.iter().filter_map(|echo| self.detect(echo, &view, time_s)));
+            self.clutter(time_s, &mut detections);
+            MAX_DETECTIONS
+        };
+        if detections.len() > limit {
+            detections.sort_by(|a, b| b.strength_db.total_cmp(&a.strength_db));
+            detections.truncate(limit);
+        }
+        detections
+    }
+
+    /// Echoes of what stands, each from a random point of its extent; it throws shadows.
+    fn echoes_of_world(&mut self, world: &World, view: &mut View, echoes: &mut Vec<Echo>) {
         for r in world.near(view.x_m, view.y_m, RANGE_M[1]) {
             let ends = [-1.0, 1.0].map(|e| [r.x_m + e * r.half_m[0], r.y_m + e * r.half_m[1]]);
             if r.shadow_db > 0.0 {
@@ -101,9 +158,15 @@ impl Radar<'_> {
             let along = self.random.uniform(-1.0, 1.0);
             let (x, y) = (r.x_m + along * r.half_m[0], r.y_m + along * r.half_m[1]);
             let (range_m, azimuth_rad) = view.polar(x, y);
-            if !visible(range_m, azimuth_rad) {
+            if !view.holds(range_m, azimuth_rad) {
                 continue;
             }
+            let elevation_cos = if self.realism.is_some() {
+                let Some(cos) = realistic::elevation_cos(r.height_m, range_m) else { continue };
+                cos
+            } else {
+                1.0
+            };
             let mut rcs_dbsm = r.rcs_dbsm;
             if r.flat {
                 // Loss away from the normal, for walls that are rough in parts.
@@ -120,34 +183,35 @@ impl Radar<'_> {
                 class: STATIC_CLASS,
                 track: 0,
                 depth_m: 2.5,
+                elevation_cos,
             });
         }
-        for mover in &traffic.movers {
-            if !mover.vulnerable() {
-                view.shade(&mover.corners(), 14.0);
-            }
-            self.echoes_of(mover, &view, &mut echoes);
-        }
-        let mut detections: Vec<Labelled> =
-            echoes.iter().filter_map(|echo| self.detect(echo, &view, time_s)).collect();
-        self.clutter(time_s, &mut detections);
-        if detections.len() > MAX_DETECTIONS {
-            detections.sort_by(|a, b| b.strength_db.total_cmp(&a.strength_db));
-            detections.truncate(MAX_DETECTIONS);
-        }
-        detections
     }
 
-    fn view(&self, time_s: f64) -> View {
+    /// Mean strengths, dB over the threshold, of the echoes of what stands at a time.
+    pub(crate) fn mean_strengths_db(&mut self, time_s: f64, world: &World) -> Vec<f64> {
+        let mut view = self.view(time_s);
+        let mut echoes = vec![];
+        self.echoes_of_world(world, &mut view, &mut echoes);
+        echoes.iter().map(|echo| strength_db(echo, &view, echo.rcs_dbsm)).collect()
+    }
+
+    pub(crate) fn view(&self, time_s: f64) -> View {
         let car = motion_at(self.motion, time_s).pose;
         let (sin, cos) = libm::sincos(car.yaw_rad);
         let at = &self.mounting;
         let (boresight_sin, boresight_cos) = libm::sincos(car.yaw_rad + at.yaw_rad);
+        let [field_of_view_rad, edge_loss_db] = match &self.realism {
+            Some(_) => [realistic::FIELD_OF_VIEW_RAD, realistic::model::EDGE_LOSS_DB],
+            None => [FIELD_OF_VIEW_RAD, EDGE_LOSS_DB],
+        };
         View {
             x_m: car.x_m + at.x_m * cos - at.y_m * sin,
             y_m: car.y_m + at.x_m * sin + at.y_m * cos,
             sin: boresight_sin,
             cos: boresight_cos,
+            field_of_view_rad,
+            edge_loss_db,
             shadows: [(f64::INFINITY, 0.0); BINS],
         }
     }
@@ -165,7 +229,8 @@ impl Radar<'_> {
             random.integer(1, 3)
         } else {
             let most = (2.0 + 70.0 / centre_m.max(4.0)) * (0.6 + 0.09 * mover.length_m);
-            (most * random.uniform(0.6, 1.1)) as u64
+            let more = self.realism.as_ref().map_or(1.0, |_| realistic::MOVER_FACTOR);
+            (most * more * random.uniform(0.6, 1.1)) as u64
         };
         let (sin, cos) = libm::sincos(mover.pose.yaw_rad);
         let (to_x, to_y) = (view.x_m - mover.pose.x_m, view.y_m - mover.pose.y_m);
@@ -205,63 +270,62 @@ impl Radar<'_> {
                 1.0
             };
             let rcs_dbsm = mean_dbsm + 3.5 * random.normal();
-            if visible(range_m, azimuth_rad) {
-                let velocity_mps = [velocity[0] * factor, velocity[1] * factor];
-                let depth_m = 1.0 + mover.length_m;
-                let echo =
-                    Echo { range_m, azimuth_rad, rcs_dbsm, velocity_mps, class, track, depth_m };
-                echoes.push(echo);
+            if view.holds(range_m, azimuth_rad) {
+                echoes.push(Echo {
+                    range_m,
+                    azimuth_rad,
+                    rcs_dbsm,
+                    velocity_mps: [velocity[0] * factor, velocity[1] * factor],
+                    class,
+                    track,
+                    depth_m: 1.0 + mover.length_m,
+                    elevation_cos: 1.0,
+                });
             }
         }
     }
 
-    /// Detects an echo or not: exponentially fluctuating power (Swerling 1) over a threshold, with
-    /// range to the fourth, the antenna's pattern and shadows.
+    /// Detects an echo or not, and measures it with white noise.
     fn detect(&mut self, echo: &Echo, view: &View, time_s: f64) -> Option<Labelled> {
         let noise: RadarNoise = self.options.noise;
-        let bin = bin_of(echo.azimuth_rad);
-        let (shadow_from_m, shadow_db) = view.shadows[bin];
-        let shadow = if echo.range_m > shadow_from_m + echo.depth_m { shadow_db } else { 0.0 };
-        let edge = echo.azimuth_rad / FIELD_OF_VIEW_RAD;
-        let fluctuation = 10.0 * libm::log10((-libm::log(1.0 - self.random.unit())).max(1e-9));
-        let observed_dbsm = echo.rcs_dbsm + fluctuation;
-        // Within 8 m sensitivity no longer grows, as in every receiver that must not saturate.
-        let spreading = 40.0 * libm::log10(REFERENCE_M / echo.range_m.max(8.0));
-        let strength_db = observed_dbsm + spreading - 8.0 * edge * edge - shadow - REFERENCE_DBSM;
-        if strength_db < 0.0 {
-            return None;
-        }
+        let received = received(echo, view, 0.0, &mut self.random)?;
         let instant = time_s - noise.coherent_interval_s * self.random.unit();
+        let edge = echo.azimuth_rad / FIELD_OF_VIEW_RAD;
         let sigma = noise.azimuth_sigma_rad * (1.0 + noise.azimuth_growth * edge * edge);
         let azimuth = echo.azimuth_rad + sigma * self.random.normal();
         let range_m = echo.range_m + noise.range_sigma_m * self.random.normal();
-        if !visible(range_m, azimuth) {
+        if !view.holds(range_m, azimuth) {
             return None;
         }
         let motion = motion_at(self.motion, instant);
-        let [vx, vy] = motion.radar_velocity(&self.mounting);
-        let (sin, cos) = libm::sincos(echo.azimuth_rad);
-        // The line of sight on the ground, for velocities there.
-        let sight = [view.cos * cos - view.sin * sin, view.sin * cos + view.cos * sin];
-        let own = echo.velocity_mps[0] * sight[0] + echo.velocity_mps[1] * sight[1];
-        let mut range_rate =
-            own - (vx * cos + vy * sin) + noise.range_rate_sigma_mps * self.random.normal();
+        let mut range_rate = self.range_rate(echo, view, &motion)
+            + noise.range_rate_sigma_mps * self.random.normal();
         let moving = echo.class != STATIC_CLASS;
         if !moving && self.random.unit() < noise.ghost_share {
             range_rate = self.random_range_rate(motion.speed_mps);
         }
         Some(Labelled {
             detection: Detection {
-                azimuth_rad: within_view(azimuth),
+                azimuth_rad: view.within(azimuth),
                 range_rate_mps: range_rate as f32,
                 range_m: range_m as f32,
-                rcs_dbsm: observed_dbsm as f32,
+                rcs_dbsm: received.observed_dbsm as f32,
             },
             class: echo.class,
             moving,
             track: echo.track,
-            strength_db,
+            strength_db: received.strength_db,
         })
+    }
+
+    /// Range rate of an echo without errors, m/s.
+    pub(crate) fn range_rate(&self, echo: &Echo, view: &View, motion: &TrueMotion) -> f64 {
+        let [vx, vy] = motion.radar_velocity(&self.mounting);
+        let (sin, cos) = libm::sincos(echo.azimuth_rad);
+        // The line of sight on the ground, for velocities there.
+        let sight = [view.cos * cos - view.sin * sin, view.sin * cos + view.cos * sin];
+        let own = echo.velocity_mps[0] * sight[0] + echo.velocity_mps[1] * sight[1];
+        (own - (vx * cos + vy * sin)) * echo.elevation_cos
     }
 
     fn random_range_rate(&mut self, speed_mps: f64) -> f64 {
@@ -283,7 +347,7 @@ impl Radar<'_> {
             let rcs = -15.0 + 5.0 * self.random.normal();
             detections.push(Labelled {
                 detection: Detection {
-                    azimuth_rad: within_view(azimuth),
+                    azimuth_rad: within(azimuth, FIELD_OF_VIEW_RAD),
                     range_rate_mps: range_rate as f32,
                     range_m: range as f32,
                     rcs_dbsm: rcs as f32,
@@ -299,10 +363,19 @@ impl Radar<'_> {
 
 impl View {
     /// Range and azimuth of a place on the ground.
-    fn polar(&self, x_m: f64, y_m: f64) -> (f64, f64) {
+    pub(crate) fn polar(&self, x_m: f64, y_m: f64) -> (f64, f64) {
         let (dx, dy) = (x_m - self.x_m, y_m - self.y_m);
         let (forward, left) = (dx * self.cos + dy * self.sin, dy * self.cos - dx * self.sin);
         ((dx * dx + dy * dy).sqrt(), libm::atan2(left, forward))
+    }
+
+    /// The place on the ground at a range and azimuth.
+    pub(crate) fn place(&self, range_m: f64, azimuth_rad: f64) -> [f64; 2] {
+        let (sin, cos) = libm::sincos(azimuth_rad);
+        [
+            self.x_m + range_m * (self.cos * cos - self.sin * sin),
+            self.y_m + range_m * (self.sin * cos + self.cos * sin),
+        ]
     }
 
     /// Shades what lies behind an outline.
@@ -317,32 +390,69 @@ impl View {
         // Behind the radar azimuths wrap around; nothing there throws a shadow into view.
         if nearest > RANGE_M[1]
             || high - low > 2.5
-            || high < -FIELD_OF_VIEW_RAD
-            || low > FIELD_OF_VIEW_RAD
+            || high < -self.field_of_view_rad
+            || low > self.field_of_view_rad
         {
             return;
         }
-        for bin in bin_of(low)..=bin_of(high) {
+        for bin in self.bin_of(low)..=self.bin_of(high) {
             let shadow = &mut self.shadows[bin];
             if nearest < shadow.0 || loss_db > shadow.1 + 8.0 {
                 *shadow = (nearest, loss_db);
             }
         }
     }
+
+    /// Whether the radar sees there.
+    pub(crate) fn holds(&self, range_m: f64, azimuth_rad: f64) -> bool {
+        azimuth_rad.abs() <= self.field_of_view_rad && (RANGE_M[0]..=RANGE_M[1]).contains(&range_m)
+    }
+
+    fn bin_of(&self, azimuth_rad: f64) -> usize {
+        let place = (azimuth_rad / self.field_of_view_rad + 1.0) * 0.5 * BINS as f64;
+        (place.max(0.0) as usize).min(BINS - 1)
+    }
+
+    /// The azimuth in single precision, rounded into the field of view.
+    pub(crate) fn within(&self, azimuth_rad: f64) -> f32 {
+        within(azimuth_rad, self.field_of_view_rad)
+    }
 }
 
-fn visible(range_m: f64, azimuth_rad: f64) -> bool {
-    azimuth_rad.abs() <= FIELD_OF_VIEW_RAD && (RANGE_M[0]..=RANGE_M[1]).contains(&range_m)
-}
-
-fn bin_of(azimuth_rad: f64) -> usize {
-    let place = (azimuth_rad / FIELD_OF_VIEW_RAD + 1.0) * 0.5 * BINS as f64;
-    (place.max(0.0) as usize).min(BINS - 1)
-}
-
-/// The azimuth in single precision, rounded into the field of view.
-fn within_view(azimuth_rad: f64) -> f32 {
-    // The nearest single is a little above 60 degrees.
-    let most = std::f32::consts::FRAC_PI_3.next_down();
+fn within(azimuth_rad: f64, field_of_view_rad: f64) -> f32 {
+    // The single nearest to the limit may lie above it.
+    let most = (field_of_view_rad as f32).next_down();
     (azimuth_rad as f32).clamp(-most, most)
+}
+
+/// What arrives of an echo that is detected.
+pub(crate) struct Received {
+    /// Cross-section as this scan sees it, dBsm.
+    pub(crate) observed_dbsm: f64,
+    /// Strength over the threshold, dB.
+    pub(crate) strength_db: f64,
+}
+
+/// Strength over the threshold, dB, of an observed cross-section: range to the fourth, the antenna's
+/// pattern and shadows.
+fn strength_db(echo: &Echo, view: &View, observed_dbsm: f64) -> f64 {
+    let (shadow_from_m, shadow_db) = view.shadows[view.bin_of(echo.azimuth_rad)];
+    let shadow = if echo.range_m > shadow_from_m + echo.depth_m { shadow_db } else { 0.0 };
+    let edge = echo.azimuth_rad / FIELD_OF_VIEW_RAD;
+    // Within 8 m sensitivity no longer grows, as in every receiver that must not saturate.
+    let spreading = 40.0 * libm::log10(REFERENCE_M / echo.range_m.max(8.0));
+    observed_dbsm + spreading - view.edge_loss_db * edge * edge - shadow - REFERENCE_DBSM
+}
+
+/// Detects an echo or not: exponentially fluctuating power (Swerling 1) over a threshold.
+pub(crate) fn received(
+    echo: &Echo,
+    view: &View,
+    gain_db: f64,
+    random: &mut Random,
+) -> Option<Received> {
+    let fluctuation = 10.0 * libm::log10((-libm::log(1.0 - random.unit())).max(1e-9));
+    let observed_dbsm = echo.rcs_dbsm + fluctuation;
+    let strength_db = strength_db(echo, view, observed_dbsm) + gain_db;
+    (strength_db >= 0.0).then_some(Received { observed_dbsm, strength_db })
 }

@@ -40,7 +40,7 @@ fn drive_noise_free_static_detections_lie_on_the_curve_of_the_radars_motion() {
     for (scenario, slip_gradient) in [(Scenario::City, 0.0), (Scenario::CarPark, 0.004)] {
         let options = DriveOptions {
             noise: noise_free(),
-            slip_gradient_rad: slip_gradient,
+            slip_gradient_rad: Some(slip_gradient),
             ..options(scenario, 3, 40.0)
         };
         let drive = simulate_drive(&options).unwrap();
@@ -72,7 +72,8 @@ fn drive_noise_free_static_detections_lie_on_the_curve_of_the_radars_motion() {
 #[test]
 fn drive_poses_integrate_speed_yaw_rate_and_slip() {
     for scenario in Scenario::ALL {
-        let options = DriveOptions { slip_gradient_rad: 0.003, ..options(scenario, 5, 120.0) };
+        let options =
+            DriveOptions { slip_gradient_rad: Some(0.003), ..options(scenario, 5, 120.0) };
         let truth = simulate_drive(&options).unwrap().truth.motion;
         for pair in truth.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
@@ -115,7 +116,7 @@ fn drive_yaw_rate_is_measured_with_scale_bias_and_noise() {
         yaw_rate_scale: Some(1.015),
         yaw_rate_bias_radps: Some(0.003),
         yaw_rate_sigma_radps: Some(0.002),
-        speed_scale: 1.01,
+        speed_scale: Some(1.01),
         ..options(Scenario::City, 6, 200.0)
     };
     let drive = simulate_drive(&options).unwrap();
@@ -217,11 +218,15 @@ fn drive_repeats_bit_for_bit_and_seeds_differ() {
 #[test]
 fn drive_bad_options_are_typed_errors() {
     let good = || options(Scenario::City, 0, 5.0);
-    let bad: [(DriveOptions, &str); 12] = [
+    let bad: [(DriveOptions, &str); 14] = [
         (DriveOptions { duration_s: 0.0, ..good() }, "out-of-range"),
         (DriveOptions { duration_s: f64::NAN, ..good() }, "out-of-range"),
         (DriveOptions { duration_s: 1e9, ..good() }, "out-of-range"),
         (DriveOptions { duration_s: 7000.0, ..good() }, "out-of-range"),
+        (
+            DriveOptions { profile: DriveProfile::Radarscenes, duration_s: 1201.0, ..good() },
+            "out-of-range",
+        ),
         (DriveOptions { sensors: vec![], ..good() }, "empty"),
         (
             DriveOptions {
@@ -233,7 +238,7 @@ fn drive_bad_options_are_typed_errors() {
         (DriveOptions { misalignment_rad: vec![(9, 0.1)], ..good() }, "out-of-range"),
         (DriveOptions { misalignment_rad: vec![(1, 9.1)], ..good() }, "out-of-range"),
         (DriveOptions { moving_share: Some(0.9), ..good() }, "out-of-range"),
-        (DriveOptions { slip_gradient_rad: f64::INFINITY, ..good() }, "out-of-range"),
+        (DriveOptions { slip_gradient_rad: Some(f64::INFINITY), ..good() }, "out-of-range"),
         (DriveOptions { yaw_rate_scale: Some(0.0), ..good() }, "out-of-range"),
         (
             DriveOptions {
@@ -241,6 +246,14 @@ fn drive_bad_options_are_typed_errors() {
                 ..good()
             },
             "out-of-range",
+        ),
+        (
+            DriveOptions {
+                profile: DriveProfile::Radarscenes,
+                noise: RadarNoise { clutter: 2.0, ..RadarNoise::default() },
+                ..good()
+            },
+            "unknown-name",
         ),
     ];
     for (options, code) in bad {

@@ -9,11 +9,12 @@ pub(crate) const COUNTED_MPS: f64 = 1.0;
 
 /// Leaves out whole movers, the last of them in part, where too much moves, and detections of
 /// standing things where too little does.
-pub(crate) fn trim(scans: &mut [Vec<Labelled>], counted: &[bool], share: f64, random: &mut Random) {
+/// Each scan comes with whether it counts.
+pub(crate) fn trim(scans: &mut [(&mut Vec<Labelled>, bool)], share: f64, random: &mut Random) {
     let (mut standing, mut moving) = (0.0, 0.0);
     let mut tracks: BTreeMap<u32, f64> = BTreeMap::new();
-    for (scan, _) in scans.iter().zip(counted).filter(|(_, counted)| **counted) {
-        for one in scan {
+    for (scan, _) in scans.iter().filter(|(_, counted)| *counted) {
+        for one in scan.iter() {
             if one.moving {
                 moving += 1.0;
                 *tracks.entry(one.track).or_default() += 1.0;
@@ -34,7 +35,7 @@ pub(crate) fn trim(scans: &mut [Vec<Labelled>], counted: &[bool], share: f64, ra
             keep.insert(track, 1.0 - (excess / count).clamp(0.0, 1.0));
             excess = (excess - count).max(0.0);
         }
-        for scan in scans.iter_mut() {
+        for (scan, _) in scans.iter_mut() {
             scan.retain(|one| {
                 let keep = keep.get(&one.track).copied().unwrap_or(1.0);
                 let draw = random.unit();
@@ -43,7 +44,7 @@ pub(crate) fn trim(scans: &mut [Vec<Labelled>], counted: &[bool], share: f64, ra
         }
     } else if share > 0.0 && moving > 0.0 {
         let keep = moving * (1.0 - share) / (share * standing.max(1.0));
-        for scan in scans.iter_mut() {
+        for (scan, _) in scans.iter_mut() {
             scan.retain(|one| {
                 let draw = random.unit();
                 one.moving || draw < keep

@@ -11,11 +11,28 @@ const CELL_M: f64 = 20.0;
 /// The car touches nothing this close to the path of its rear axle, m.
 const CLEARANCE_M: f64 = 1.9;
 
+/// What a reflector belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    ParkedCar,
+    Wall,
+    Tree,
+    Rail,
+    /// Kerbs, grass, gravel.
+    Ground,
+    Pole,
+}
+
 /// Something that stands and reflects.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reflector {
+    pub(crate) kind: Kind,
     pub(crate) x_m: f64,
     pub(crate) y_m: f64,
+    /// Height above the ground, m; only the profile "radarscenes" has heights.
+    pub(crate) height_m: f64,
+    /// Unit vector away from the road.
+    pub(crate) outward: [f64; 2],
     /// Half of its extent: the echo comes from anywhere within.
     pub(crate) half_m: [f64; 2],
     /// Mean cross-section, dBsm.
@@ -66,6 +83,17 @@ impl World {
             builder.furniture(scenario, left);
         }
         builder.world
+    }
+
+    /// Adds a reflector.
+    pub(crate) fn push(&mut self, reflector: Reflector) {
+        let place = cell(reflector.x_m, reflector.y_m, CELL_M);
+        self.cells.entry(place).or_default().push(reflector);
+    }
+
+    /// Takes everything, square by square.
+    pub(crate) fn into_reflectors(self) -> impl Iterator<Item = Reflector> {
+        self.cells.into_values().flatten()
     }
 
     /// Everything within `range_m` of a place, with squares around it.
@@ -164,8 +192,9 @@ impl Builder<'_> {
         }
         let (sin, cos) = libm::sincos(p.yaw_rad + turned_rad);
         let half_m = [half_m * cos, half_m * sin];
-        let reflector = Reflector { x_m: p.x_m, y_m: p.y_m, half_m, ..rest };
-        self.world.cells.entry(cell(p.x_m, p.y_m, CELL_M)).or_default().push(reflector);
+        let (sin, cos) = libm::sincos(p.yaw_rad);
+        let outward = [-sin * left_m.signum(), cos * left_m.signum()];
+        self.world.push(Reflector { x_m: p.x_m, y_m: p.y_m, outward, half_m, ..rest });
     }
 
     fn line(&mut self, scenario: Scenario, kind: Side, left: bool, from_m: f64, to_m: f64) {
@@ -187,7 +216,7 @@ impl Builder<'_> {
                 let mut along = from_m;
                 while along < to_m {
                     let rcs_dbsm = -9.0 + 6.0 * self.random.normal();
-                    let wall = reflector(rcs_dbsm, true, 30.0);
+                    let wall = reflector(Kind::Wall, rcs_dbsm, true, 30.0);
                     let left = offset + 0.2 * self.random.normal();
                     self.put(along, left, 0.8, 0.0, wall);
                     along += 1.6;
@@ -204,7 +233,7 @@ impl Builder<'_> {
                         side * (offset + depth),
                         0.3,
                         0.0,
-                        reflector(rcs_dbsm, false, 3.0),
+                        reflector(Kind::Tree, rcs_dbsm, false, 3.0),
                     );
                     along += self.random.uniform(1.0, 6.0);
                 }
@@ -213,13 +242,19 @@ impl Builder<'_> {
                 let mut along = from_m;
                 while along < to_m {
                     let rcs_dbsm = -9.0 + 3.0 * self.random.normal();
-                    self.put(along, side * (edge + 0.5), 0.1, 0.0, reflector(rcs_dbsm, false, 2.0));
+                    self.put(
+                        along,
+                        side * (edge + 0.5),
+                        0.1,
+                        0.0,
+                        reflector(Kind::Rail, rcs_dbsm, false, 2.0),
+                    );
                     self.put(
                         along + 1.0,
                         side * (edge + 0.5),
                         1.0,
                         0.0,
-                        reflector(-12.0, true, 2.0),
+                        reflector(Kind::Rail, -12.0, true, 2.0),
                     );
                     along += 2.0;
                 }
@@ -228,7 +263,13 @@ impl Builder<'_> {
                 let mut along = from_m;
                 while along < to_m {
                     let rcs_dbsm = -11.0 + 4.0 * self.random.normal();
-                    self.put(along, side * (edge + 1.5), 0.4, 0.0, reflector(rcs_dbsm, false, 1.0));
+                    self.put(
+                        along,
+                        side * (edge + 1.5),
+                        0.4,
+                        0.0,
+                        reflector(Kind::Rail, rcs_dbsm, false, 1.0),
+                    );
                     along += 1.5;
                 }
             }
@@ -239,7 +280,7 @@ impl Builder<'_> {
         while along < to_m {
             let offset = side * (edge + 9.0 * self.random.unit());
             let rcs_dbsm = -13.0 + 5.0 * self.random.normal();
-            self.put(along, offset, 0.1, 0.0, reflector(rcs_dbsm, false, 0.0));
+            self.put(along, offset, 0.1, 0.0, reflector(Kind::Ground, rcs_dbsm, false, 0.0));
             along += self.random.uniform(0.4, 2.0);
         }
     }
@@ -256,12 +297,18 @@ impl Builder<'_> {
                 let turned = if across { std::f64::consts::FRAC_PI_2 } else { 0.0 };
                 for (da, dl) in [(-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)] {
                     let rcs_dbsm = -4.0 + 4.0 * self.random.normal();
-                    let corner = reflector(rcs_dbsm, false, 0.0);
+                    let corner = reflector(Kind::ParkedCar, rcs_dbsm, false, 0.0);
                     self.put(along + da * ahead, offset + dl * aside, 0.25, turned, corner);
                 }
                 // Flank and end, which also throw the shadow.
-                self.put(along, offset, 0.45 * long, turned, reflector(0.0, true, 12.0));
-                let end = reflector(-3.0, true, 12.0);
+                self.put(
+                    along,
+                    offset,
+                    0.45 * long,
+                    turned,
+                    reflector(Kind::ParkedCar, 0.0, true, 12.0),
+                );
+                let end = reflector(Kind::ParkedCar, -3.0, true, 12.0);
                 self.put(along, offset, 0.45 * wide, turned + std::f64::consts::FRAC_PI_2, end);
             }
             along += ahead
@@ -286,12 +333,22 @@ impl Builder<'_> {
         while along < self.path.length_m() + 110.0 {
             let rcs_dbsm = 1.0 + 4.0 * self.random.normal();
             let offset = side + 0.3 * self.random.normal();
-            self.put(along, offset, 0.05, 0.0, reflector(rcs_dbsm, false, 1.0));
+            self.put(along, offset, 0.05, 0.0, reflector(Kind::Pole, rcs_dbsm, false, 1.0));
             along += apart * self.random.uniform(0.6, 1.4);
         }
     }
 }
 
-fn reflector(rcs_dbsm: f64, flat: bool, shadow_db: f64) -> Reflector {
-    Reflector { x_m: 0.0, y_m: 0.0, half_m: [0.0; 2], rcs_dbsm, flat, shadow_db }
+fn reflector(kind: Kind, rcs_dbsm: f64, flat: bool, shadow_db: f64) -> Reflector {
+    Reflector {
+        kind,
+        x_m: 0.0,
+        y_m: 0.0,
+        height_m: 0.0,
+        outward: [0.0; 2],
+        half_m: [0.0; 2],
+        rcs_dbsm,
+        flat,
+        shadow_db,
+    }
 }

@@ -219,10 +219,11 @@ export function openFiles(all: readonly NamedFile[]): Promise<void> {
 }
 
 function simulation(state: MountingState): SimulateDriveOptions {
-  const { scenario, seed, duration, moving, misalignment } = state;
+  const { scenario, profile, seed, duration, moving, misalignment } = state;
   const misalignmentDeg = Object.fromEntries([1, 2, 3, 4].map((id) => [id, misalignment]));
   return {
     scenario,
+    profile,
     seed,
     durationS: duration,
     misalignmentDeg,

@@ -399,7 +399,7 @@ const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.s
 /** Everything a result rests on; infinite deviations become null. */
 function report(open: Loaded, radar: number, rows: readonly Row[]): string {
   const { name, files, drive, source, truth } = open;
-  const { scenario, seed, duration, moving, misalignment } = mountingState.value;
+  const { scenario, profile, seed, duration, moving, misalignment } = mountingState.value;
   const trajectory = relativeErrors.value;
   const stated = open.statedDeg.get(radar);
   return JSON.stringify(
@@ -414,7 +414,16 @@ function report(open: Loaded, radar: number, rows: readonly Row[]): string {
         counts: drive.counts,
         warnings: drive.warnings satisfies Warning[],
         ...(source === 'simulated'
-          ? { simulated: { scenario, seed, durationS: duration, movingPercent: moving, misalignmentDeg: misalignment } }
+          ? {
+              simulated: {
+                scenario,
+                profile,
+                seed,
+                durationS: duration,
+                movingPercent: moving,
+                misalignmentDeg: misalignment,
+              },
+            }
           : {}),
       },
       sensor: radar,

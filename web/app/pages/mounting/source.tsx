@@ -101,6 +101,7 @@ function Simulation() {
   return (
     <>
       <Control label="Scenario" name="scenario" />
+      <Control label="Errors" name="profile" />
       <Control label="Duration" name="duration" />
       <Control label="Moving share" name="moving" />
       <Control

@@ -16,6 +16,7 @@ export const mountingCodec = codec(
   {
     source: choice('delphi', ['delphi', 'simulated', 'files']),
     scenario: drive.field('scenario'),
+    profile: drive.field('profile'),
     seed,
     /** At most what four radars may last. */
     duration: drive.field('durationS', { max: 3600 }),
@@ -60,8 +61,8 @@ export const mountingState = signal<MountingState>(defaults);
 
 /** Back to the settings of a fresh visit; the drive stays. */
 export function restoreDefaults(): void {
-  const { source, scenario, seed, duration, moving, misalignment } = mountingState.value;
-  mountingState.value = { ...defaults, source, scenario, seed, duration, moving, misalignment };
+  const { source, scenario, profile, seed, duration, moving, misalignment } = mountingState.value;
+  mountingState.value = { ...defaults, source, scenario, profile, seed, duration, moving, misalignment };
 }
 
 export function update(patch: Partial<MountingState>): void {

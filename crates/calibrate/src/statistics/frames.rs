@@ -1,0 +1,71 @@
+//! The motion of a radar in each of its scans, and what is left of its detections.
+
+use crate::{CalibrateError, CalibrationOptions, Motion, MotionEstimator, MotionMethod};
+use boresight_core::{Detection, Scan};
+
+use super::STATIC_LABEL;
+
+/// Slower scans say little of angles and residuals, m/s.
+const MIN_SPEED_MPS: f64 = 3.0;
+
+/// A scan in which the radar's motion was found.
+pub(super) struct Frame<'a> {
+    pub(super) scan: &'a Scan,
+    pub(super) motion: Motion,
+}
+
+/// What the Doppler curve leaves of a detection.
+pub(super) struct Residual {
+    /// Azimuth, rad.
+    pub(super) azimuth_rad: f64,
+    /// Minus range rate less the curve's, m/s.
+    pub(super) residual_mps: f64,
+    /// Change of the curve with azimuth, m/s a radian.
+    pub(super) slope_mps: f64,
+}
+
+/// The scans in which RANSAC and least squares (equation 3 of Zhu et al.) find a motion faster than
+/// 3 m/s.
+pub(super) fn frames<'a>(scans: &[&'a Scan]) -> Result<Vec<Frame<'a>>, CalibrateError> {
+    let options = CalibrationOptions::default();
+    let mut estimator = MotionEstimator::new(&options, MotionMethod::Ransac)?;
+    Ok(scans
+        .iter()
+        .filter_map(|&scan| {
+            let motion = estimator.estimate(&scan.detections)?;
+            let [vx, vy] = motion.velocity_mps;
+            (vx.hypot(vy) > MIN_SPEED_MPS).then_some(Frame { scan, motion })
+        })
+        .collect())
+}
+
+impl Frame<'_> {
+    /// Speed of the radar, m/s.
+    pub(super) fn speed_mps(&self) -> f64 {
+        self.motion.velocity_mps[0].hypot(self.motion.velocity_mps[1])
+    }
+
+    /// Residuals of the detections labelled static; of all, where there are no labels.
+    pub(super) fn residuals(&self) -> impl Iterator<Item = Residual> {
+        let [vx, vy] = self.motion.velocity_mps;
+        let labels = &self.scan.labels;
+        self.scan
+            .detections
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| labels.get(*i).is_none_or(|label| *label == STATIC_LABEL))
+            .filter_map(move |(_, detection)| residual(detection, vx, vy))
+    }
+}
+
+fn residual(detection: &Detection, vx: f64, vy: f64) -> Option<Residual> {
+    let azimuth_rad = f64::from(detection.azimuth_rad);
+    let (sin, cos) = azimuth_rad.sin_cos();
+    let residual_mps = -f64::from(detection.range_rate_mps) - vx * cos - vy * sin;
+    let slope_mps = vy * cos - vx * sin;
+    (residual_mps.is_finite() && slope_mps.is_finite()).then_some(Residual {
+        azimuth_rad,
+        residual_mps,
+        slope_mps,
+    })
+}
