@@ -180,10 +180,10 @@ pub struct AngleEstimate {
     pub bias_radps: f64,
     /// Its standard deviation; infinite where nothing is known of it.
     pub bias_sigma_radps: f64,
-    /// Side slip of the rear axle for each m/s^2 of lateral acceleration, rad s^2/m; 0 where it was not estimated.
-    pub slip_gradient: f64,
+    /// Slip angle of the rear axle over lateral acceleration, rad/(m/s^2), outside Rust in degrees; 0 where it was not estimated.
+    pub slip_gradient_rad: f64,
     /// Its standard deviation; 0 where it was not estimated.
-    pub slip_gradient_sigma: f64,
+    pub slip_gradient_sigma_rad: f64,
     /// How long before its time stamp a scan was measured; 0 where it was not estimated.
     pub delay_s: f64,
     /// Its standard deviation; 0 where it was not estimated.

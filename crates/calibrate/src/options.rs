@@ -88,12 +88,12 @@ pub struct CalibrationOptions {
     /// Standard deviation of the yaw rate's scale before anything is known of it.
     #[option(default = 0.02, positive)]
     pub scale_sigma: f64,
-    /// Side slip of the rear axle for each m/s^2 of lateral acceleration that is expected, rad s^2/m.
-    #[option(default = 0.0035, range = -0.1..=0.1)]
-    pub slip_gradient: f64,
+    /// Slip angle of the rear axle over lateral acceleration that is expected, rad/(m/s^2), outside Rust in degrees.
+    #[option(default = 0.2_f64.to_radians(), range = -5..=5)]
+    pub slip_gradient_rad: f64,
     /// Its standard deviation before anything is known of it.
-    #[option(default = 0.0025, positive)]
-    pub slip_gradient_sigma: f64,
+    #[option(default = 0.15_f64.to_radians(), positive)]
+    pub slip_gradient_sigma_rad: f64,
     /// How long before its time stamp a scan is expected to have been measured.
     #[option(default = 0.04, range = -1..=1)]
     pub delay_s: f64,

@@ -129,7 +129,7 @@ fn what_the_drive_cannot_tell_is_flagged() {
     let real = CalibrationOptions::default();
     let options = options(&circle);
     let options = CalibrationOptions {
-        slip_gradient_sigma: real.slip_gradient_sigma,
+        slip_gradient_sigma_rad: real.slip_gradient_sigma_rad,
         delay_sigma_s: real.delay_sigma_s,
         ..options
     };

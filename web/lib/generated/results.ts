@@ -743,9 +743,10 @@ export interface CalibrationMethodInfo {
  * - `slow`: The radar moved more slowly than the gate.
  * - `turning`: The car turned faster than the gate.
  * - `sparse`: Too few detections or inliers for a motion.
+ * - `off-speed`: What most detections agree on is not the car's own measured speed.
  * - `without-motion`: No yaw rate (or, for the full-velocity method, no speed) at this time.
  */
-export type FrameVerdict = 'used' | 'standing' | 'slow' | 'turning' | 'sparse' | 'without-motion';
+export type FrameVerdict = 'used' | 'standing' | 'slow' | 'turning' | 'sparse' | 'off-speed' | 'without-motion';
 
 /** The radar's own motion, from one frame. */
 export interface RadarMotion {
@@ -789,6 +790,8 @@ export interface CalibrationCounts {
   turning: number;
   /** Too few detections or inliers. */
   sparse: number;
+  /** What agrees is not the car's own measured speed. */
+  offSpeed: number;
   /** Without a yaw rate (or speed) at their time. */
   withoutMotion: number;
 }
@@ -807,6 +810,23 @@ export interface CalibrationResult {
   biasDegps: number;
   /** Its standard deviation; infinite where nothing is known of it. */
   biasSigmaDegps: number;
+  /**
+   * Slip angle of the rear axle over lateral acceleration, rad/(m/s^2), outside Rust in degrees; 0 where it was not
+   * estimated.
+   */
+  slipGradientDeg: number;
+  /** Its standard deviation; 0 where it was not estimated. */
+  slipGradientSigmaDeg: number;
+  /** How long before its time stamp a scan was measured; 0 where it was not estimated. */
+  delayS: number;
+  /** Its standard deviation; 0 where it was not estimated. */
+  delaySigmaS: number;
+  /** Scale factor of the car's measured speed (measured over the radar's); 1 where it was not estimated. */
+  speedScale: number;
+  /** Its standard deviation; 0 where it was not estimated. */
+  speedScaleSigma: number;
+  /** When the angle last changed by a knock, on the clock of the frames. */
+  changedS?: number;
   /** Static detections over all, of the frames used; 0 without any. */
   inlierShare: number;
   /** What became of the frames. */
@@ -1023,6 +1043,8 @@ export interface TrueSensor {
   yM: number;
   /** Direction of boresight, counter-clockwise from the car's x. */
   yawDeg: number;
+  /** Root mean square of its azimuth bias within 55 deg. */
+  azimuthBiasRmsDeg: number;
 }
 
 /** Errors of a yaw-rate sensor. */
@@ -1033,6 +1055,24 @@ export interface YawRateErrors {
   biasDegps: number;
   /** Standard deviation of a sample's white noise. */
   sigmaDegps: number;
+}
+
+/** How a car moves and measures, beside its yaw rate. */
+export interface CarErrors {
+  /** Slip angle of the rear axle over lateral acceleration, outwards, rad/(m/s^2); outside Rust in degrees. */
+  slipGradientDeg: number;
+  /** Direction of the rear axle's way straight ahead, to the left of the car's x. */
+  crabDeg: number;
+  /** By how much range rates lag their time stamp. */
+  delayS: number;
+  /** Measured over true speed. */
+  speedScale: number;
+  /** Standard deviation of a sample of speed. */
+  speedSigmaMps: number;
+  /** Lag of the measured speed. */
+  speedLagS: number;
+  /** Lag of the measured yaw rate. */
+  yawRateLagS: number;
 }
 
 /** The car's true motion. */
@@ -1049,6 +1089,8 @@ export interface DriveTruth {
   sensors: TrueSensor[];
   /** Errors of the yaw-rate sensor. */
   yawRate: YawRateErrors;
+  /** How the car slips, and what its radars and its speed are late or off by. */
+  car: CarErrors;
   /** The car's motion at the times of the drive's. */
   motion: TrueMotion;
   /** For each detection, 1 where it comes from a moving road user. */

@@ -49,7 +49,7 @@ pub(crate) fn covariance(
     // Lateral acceleration over the slope of equation 7, which is near 1.
     let slipped = |i: &Influence| i.sample.radar_speed_mps * turn(i);
     let scale_sigma = if untold.fixed_scale { options.scale_sigma } else { 0.0 };
-    let slip_sigma = options.slip_gradient.hypot(options.slip_gradient_sigma);
+    let slip_sigma = options.slip_gradient_rad.hypot(options.slip_gradient_sigma_rad);
     // What scale and slip do is told below, and is no error that lasts.
     let [by_scale, by_slip] =
         explained(influences, [(&stretched, scale_sigma), (&slipped, slip_sigma)]);

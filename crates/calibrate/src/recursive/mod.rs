@@ -585,8 +585,8 @@ impl Recursive {
             covariance: [[variance, covariance[0][1]], [covariance[1][0], covariance[1][1]]],
             bias_radps: x[2] / inverse_scale,
             bias_sigma_radps: sigma(2) / inverse_scale,
-            slip_gradient: x[3],
-            slip_gradient_sigma: sigma(3),
+            slip_gradient_rad: x[3],
+            slip_gradient_sigma_rad: sigma(3),
             delay_s: x[4],
             delay_sigma_s: sigma(4),
             speed_scale: state.speed_scale.scale(),
@@ -614,12 +614,12 @@ fn offset(known: &Information) -> Vector {
 fn prior(angle_rad: f64, options: &CalibrationOptions) -> Information {
     let o = options;
     Information::new(
-        [angle_rad, 1.0, 0.0, o.slip_gradient, o.delay_s],
+        [angle_rad, 1.0, 0.0, o.slip_gradient_rad, o.delay_s],
         [
             ANGLE_PRIOR_RAD,
             o.scale_sigma,
             o.bias_sigma_radps,
-            o.slip_gradient_sigma,
+            o.slip_gradient_sigma_rad,
             o.delay_sigma_s,
         ],
         o.lasting_sigma_rad,

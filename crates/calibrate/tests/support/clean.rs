@@ -7,8 +7,8 @@ pub fn without_real_errors(options: CalibrationOptions) -> CalibrationOptions {
     CalibrationOptions {
         azimuth_bias_sigma_rad: 0.0,
         lasting_sigma_rad: 1e-6,
-        slip_gradient: 0.0,
-        slip_gradient_sigma: 1e-7,
+        slip_gradient_rad: 0.0,
+        slip_gradient_sigma_rad: 1e-7,
         delay_s: 0.0,
         delay_sigma_s: 1e-7,
         ..options

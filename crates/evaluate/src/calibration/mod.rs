@@ -2,7 +2,8 @@
 //! Angle Estimation in Operational Driving Conditions".
 //!
 //! Scenes with even numbers are drives over all kinds of roads with up to 30 % moving detections, those with
-//! odd numbers are dense traffic with 40 to 80 %.
+//! odd numbers are dense traffic with 40 to 80 %. The first half has the clean profile of errors, the second half the same
+//! drives with those of RadarScenes.
 
 pub mod drives;
 pub mod drives_report;
@@ -19,6 +20,7 @@ use crate::EvaluateError;
 use crate::experiment::Experiment;
 use boresight_calibrate::{CalibrationOptions, FrameInput, Method, MotionMethod};
 use boresight_core::error::check_range;
+use boresight_simulate::drive::DriveProfile;
 use serde::{Deserialize, Serialize};
 
 /// Driving times of Figure 6, s.
@@ -100,11 +102,14 @@ pub const CANDIDATES: [Candidate; 11] = [
     ),
 ];
 
+/// Errors of radars and car in the halves of the scenes.
+pub const PROFILES: [DriveProfile; 2] = [DriveProfile::Clean, DriveProfile::Radarscenes];
+
 /// What to run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct CalibrationExperiment {
-    /// Drives of each kind.
+    /// Drives of each kind and profile.
     pub scenes: u64,
     /// Everything random comes from it.
     pub seed: u64,
@@ -114,6 +119,7 @@ pub struct CalibrationExperiment {
 
 impl Experiment for CalibrationExperiment {
     const NAME: &'static str = "calibration";
+    const REVISION: u32 = 1;
     type Plan = ();
     type Record = SceneRecord;
     type Report = CalibrationReport;
@@ -128,7 +134,7 @@ impl Experiment for CalibrationExperiment {
     }
 
     fn scenes(&self) -> u64 {
-        2 * self.scenes
+        2 * PROFILES.len() as u64 * self.scenes
     }
 
     fn scene(&self, (): &(), number: u64) -> Result<SceneRecord, EvaluateError> {

@@ -5,7 +5,16 @@ use super::{CANDIDATES, CalibrationExperiment, DRIVING_TIMES_S, figures};
 use crate::EvaluateError;
 use crate::statistics::Summary;
 use crate::table::table;
+use boresight_simulate::drive::DriveProfile;
 use serde::Serialize;
+
+/// Kinds of drives: errors, whether traffic is dense, name.
+const CONDITIONS: [(DriveProfile, bool, &str); 4] = [
+    (DriveProfile::Clean, false, "clean, up to 30 % moving"),
+    (DriveProfile::Clean, true, "clean, dense traffic, 40 to 80 % moving"),
+    (DriveProfile::Radarscenes, false, "as RadarScenes, up to 30 % moving"),
+    (DriveProfile::Radarscenes, true, "as RadarScenes, dense traffic, 40 to 80 % moving"),
+];
 
 /// The experiment's result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -15,7 +24,7 @@ pub struct CalibrationReport {
     pub seed: u64,
     /// Length of each drive, s.
     pub duration_s: f64,
-    /// Drives with up to 30 % moving detections, then dense traffic.
+    /// Drives with up to 30 % moving detections, then dense traffic, of the clean profile, then of that as RadarScenes.
     pub conditions: Vec<Condition>,
 }
 
@@ -85,6 +94,8 @@ pub struct RadarResult {
     pub without: usize,
     /// Drives in which the method called itself converged.
     pub converged: usize,
+    /// Drives in which it did and is more than three of its standard deviations off.
+    pub confidently_wrong: usize,
     /// Mean relative trajectory error, m.
     pub rte_m: f64,
 }
@@ -109,14 +120,16 @@ impl CalibrationReport {
         options: &CalibrationExperiment,
         records: impl Iterator<Item = SceneRecord>,
     ) -> Self {
-        let (dense, mixed): (Vec<_>, Vec<_>) = records.partition(|record| record.dense);
+        let records: Vec<SceneRecord> = records.collect();
+        let condition = |(profile, dense, name): (DriveProfile, bool, &'static str)| {
+            let of: Vec<&SceneRecord> =
+                records.iter().filter(|r| r.profile == profile && r.dense == dense).collect();
+            Condition::new(name, &of)
+        };
         Self {
             seed: options.seed,
             duration_s: options.duration_s,
-            conditions: vec![
-                Condition::new("up to 30 % moving", &mixed),
-                Condition::new("dense traffic, 40 to 80 % moving", &dense),
-            ],
+            conditions: CONDITIONS.map(condition).into(),
         }
     }
 }
@@ -153,7 +166,13 @@ impl crate::experiment::Report for CalibrationReport {
         text
     }
 
-    const FIGURES: &'static [&'static str] = &["convergence.svg", "angles.svg", "angles-dense.svg"];
+    const FIGURES: &'static [&'static str] = &[
+        "convergence.svg",
+        "angles.svg",
+        "angles-dense.svg",
+        "angles-radarscenes.svg",
+        "angles-radarscenes-dense.svg",
+    ];
 
     fn figures(&self) -> Result<Vec<String>, EvaluateError> {
         let mut drawn = vec![figures::convergence(self)?];
@@ -165,7 +184,7 @@ impl crate::experiment::Report for CalibrationReport {
 }
 
 impl Condition {
-    fn new(name: &'static str, records: &[SceneRecord]) -> Self {
+    fn new(name: &'static str, records: &[&SceneRecord]) -> Self {
         let shares: Vec<f64> = records.iter().map(|record| record.moving_share).collect();
         let shares = Summary::of(&shares);
         let sensors: Vec<u8> =
@@ -230,8 +249,9 @@ impl Condition {
             .iter()
             .map(|r| format!("radar {} ({:.2} deg)", r.sensor, r.true_deg))
             .collect();
-        text += "Errors of the angle: mean in deg and variance in deg^2 (drives without an angle), and the share of errors \
-                 within one and two stated standard deviations (Tables II and IV).\n\n";
+        text += "Errors of the angle: mean in deg and variance in deg^2 (drives without an angle), the share of errors \
+                 within one and two stated standard deviations (Tables II and IV), and how many answers are called converged and \
+                 how many of these are more than three deviations off.\n\n";
         let cells = |method: &MethodResult| {
             let mut cells: Vec<String> = method
                 .radars
@@ -249,10 +269,12 @@ impl Condition {
                 })
                 .collect();
             cells.push(percent(method.within));
+            let sum = |of: fn(&RadarResult) -> usize| method.radars.iter().map(of).sum::<usize>();
+            cells.push(format!("{}, {}", sum(|r| r.converged), sum(|r| r.confidently_wrong)));
             cells
         };
         let mut heads: Vec<&str> = radars.iter().map(String::as_str).collect();
-        heads.push("within 1, 2 sigma");
+        heads.extend(["within 1, 2 sigma", "converged, 3 sigma off"]);
         let rows: Vec<_> = self.methods.iter().map(|m| (m.name, cells(m))).collect();
         text += &table("method", &heads, &rows);
         text += &format!(
@@ -265,7 +287,7 @@ impl Condition {
             .map(|m| (m.name, m.radars.iter().map(|r| format!("{:.3}", r.rte_m)).collect()))
             .collect();
         rows.push(("true angle", self.radars.iter().map(|r| format!("{:.3}", r.rte_m)).collect()));
-        heads.pop();
+        heads.truncate(heads.len() - 2);
         text += &table("angle from", &heads, &rows);
         text += "\nMean absolute error in deg and variance in deg^2 against driving time, all radars (Figure 6).\n\n";
         let times: Vec<String> = DRIVING_TIMES_S.iter().map(|time| format!("{time} s")).collect();
@@ -332,6 +354,7 @@ impl RadarResult {
             mean_sigma_deg: error_deg.mean_sigma(),
             without: of().count() - errors.len(),
             converged: of().filter(|e| e.converged).count(),
+            confidently_wrong: of().filter(|e| confidently_wrong(e)).count(),
             rte_m: mean(of().filter_map(|e| e.rte_m)),
         }
     }
@@ -355,6 +378,12 @@ impl Convergence {
             without: lengths.map(|i| of(i).map(|part| part.without).sum()).collect(),
         }
     }
+}
+
+/// Whether an answer is called converged and lies more than three of its standard deviations off.
+fn confidently_wrong(e: &EstimateRecord) -> bool {
+    let off = e.error_deg.zip(e.sigma_deg).is_some_and(|(error, sigma)| error.abs() > 3.0 * sigma);
+    e.converged && off
 }
 
 /// Share of errors within one and two standard deviations.
@@ -397,6 +426,7 @@ mod tests {
         SceneRecord {
             scene: number,
             scenario: "city".into(),
+            profile: DriveProfile::Clean,
             dense: number % 2 == 1,
             moving_share: 0.1 * number as f64,
             driven_m: 500.0,
@@ -417,7 +447,7 @@ mod tests {
         let errors = [Some(0.1), None, Some(-0.3), None, Some(0.5), None, None, None];
         let records = errors.iter().zip(0..).map(|(error, number)| scene(number, *error));
         let report = CalibrationReport::new(&options, records);
-        let [mixed, dense] = &report.conditions[..] else { panic!("two conditions") };
+        let [mixed, dense, _, _] = &report.conditions[..] else { panic!("four conditions") };
         assert_eq!((mixed.scenes, dense.scenes), (4, 4));
         assert!((mixed.driven_km - 2.0).abs() < 1e-12 && (mixed.driven_h - 0.1).abs() < 1e-12);
         assert!((mixed.moving_share[0] - 0.3).abs() < 1e-12);
@@ -435,6 +465,6 @@ mod tests {
         let curve = &mixed.convergence[0];
         assert_eq!((curve.error_deg[0].count, curve.without[0]), (8, 4));
         assert_eq!(dense.methods[0].radars[0].without, 4);
-        assert!(report.tables().contains("| +0.1000, 0.1600 (1) | 33 %, 67 % |"));
+        assert!(report.tables().contains("| +0.1000, 0.1600 (1) | 33 %, 67 % | 3, 0 |"));
     }
 }

@@ -1,6 +1,6 @@
 //! One drive: every method on every radar.
 
-use super::{CANDIDATES, CalibrationExperiment, Candidate, DRIVING_TIMES_S};
+use super::{CANDIDATES, CalibrationExperiment, Candidate, DRIVING_TIMES_S, PROFILES};
 use crate::EvaluateError;
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
 use boresight_calibrate::{
@@ -9,7 +9,7 @@ use boresight_calibrate::{
 use boresight_core::Random;
 use boresight_core::drive::{Mounting, Pose, RADARSCENES_SENSORS};
 use boresight_simulate::drive::{
-    CYCLE_S, DriveOptions, MOTION_STEP_S, Scenario, SimulatedDrive, TrueMotion, simulate_drive,
+    CYCLE_S, DriveOptions, DriveProfile, MOTION_STEP_S, Scenario, SimulatedDrive, TrueMotion, simulate_drive,
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -28,6 +28,8 @@ pub struct SceneRecord {
     pub scene: u64,
     /// Roads and traffic.
     pub scenario: String,
+    /// Errors of radars and car.
+    pub profile: DriveProfile,
     /// Whether it is one of those with 40 to 80 % moving detections.
     pub dense: bool,
     /// Share of detections from moving road users, of scans at more than 1 m/s.
@@ -85,7 +87,7 @@ pub struct PartRecord {
 struct Radar<'a> {
     sensor: u8,
     truth: Mounting,
-    nominal_rad: f64,
+    options: CalibrationOptions,
     frames: Vec<FrameInput<'a>>,
     /// Whether the car drove at each frame.
     driving: Vec<bool>,
@@ -95,7 +97,10 @@ struct Radar<'a> {
 ///
 /// # Errors
 /// Those of the simulation and the calibration.
-pub fn run(options: &CalibrationExperiment, number: u64) -> Result<SceneRecord, EvaluateError> {
+pub fn run(options: &CalibrationExperiment, scene: u64) -> Result<SceneRecord, EvaluateError> {
+    // The same drives with each profile.
+    let each = 2 * options.scenes;
+    let (profile, number) = (PROFILES[(scene / each) as usize], scene % each);
     let mut random = Random::new(options.seed, number);
     let dense = number % 2 == 1;
     let kinds = Scenario::ALL.len() as u64;
@@ -106,6 +111,9 @@ pub fn run(options: &CalibrationExperiment, number: u64) -> Result<SceneRecord, 
     let moving_share = if dense { random.uniform(0.4, 0.8) } else { random.uniform(0.0, 0.3) };
     let drive = simulate_drive(&DriveOptions {
         scenario,
+        profile,
+        // A car each.
+        car: number,
         seed: random.bits(),
         duration_s: options.duration_s,
         moving_share: Some(moving_share),
@@ -115,12 +123,14 @@ pub fn run(options: &CalibrationExperiment, number: u64) -> Result<SceneRecord, 
             .collect(),
         ..DriveOptions::default()
     })?;
-    let radars: Vec<Radar> = drive.truth.sensors.iter().map(|s| radar(&drive, *s)).collect();
+    let radars: Vec<Radar> =
+        drive.truth.sensors.iter().map(|s| radar(&drive, profile, *s)).collect();
     let joint = joint(&drive, &radars)?;
     let step = |m: &TrueMotion| m.speed_mps.abs() > DRIVING_MPS;
     Ok(SceneRecord {
-        scene: number,
+        scene,
         scenario: scenario.name().into(),
+        profile,
         dense,
         moving_share: share(&drive),
         driven_m: drive.truth.motion.last().map_or(0.0, |m| m.travelled_m),
@@ -133,7 +143,11 @@ pub fn run(options: &CalibrationExperiment, number: u64) -> Result<SceneRecord, 
     })
 }
 
-fn radar(drive: &SimulatedDrive, (sensor, truth): (u8, Mounting)) -> Radar<'_> {
+fn radar(
+    drive: &SimulatedDrive,
+    profile: DriveProfile,
+    (sensor, truth): (u8, Mounting),
+) -> Radar<'_> {
     let log = &drive.log;
     let gap = CalibrationOptions::default().max_gap_s;
     let nominal = log.sensors.iter().find(|s| s.id == sensor).and_then(|s| s.mounting);
@@ -142,7 +156,11 @@ fn radar(drive: &SimulatedDrive, (sensor, truth): (u8, Mounting)) -> Radar<'_> {
     Radar {
         sensor,
         truth,
-        nominal_rad: nominal.map_or(truth.yaw_rad, |mounting| mounting.yaw_rad),
+        options: options(
+            profile,
+            truth,
+            nominal.map_or(truth.yaw_rad, |mounting| mounting.yaw_rad),
+        ),
         driving: frames
             .iter()
             .map(|frame| truth_at(drive, frame.time_s).speed_mps.abs() > DRIVING_MPS)
@@ -169,17 +187,23 @@ fn share(drive: &SimulatedDrive) -> f64 {
     moving as f64 / (all as f64).max(1.0)
 }
 
-/// The radar's options, with what these drives are known not to have: a bias of azimuths and slip; range rates are measured within
-/// 40 ms.
-fn options(radar: &Radar) -> CalibrationOptions {
-    CalibrationOptions {
-        x_m: radar.truth.x_m,
-        y_m: radar.truth.y_m,
-        nominal_rad: Some(radar.nominal_rad),
-        azimuth_bias_sigma_rad: 0.0,
-        slip_gradient: 0.0,
-        delay_s: 0.02,
+/// The radar's options. Of drives with the clean profile it is known that they have no bias of azimuths, no slip, and that range rates are
+/// measured within 40 ms.
+fn options(profile: DriveProfile, place: Mounting, nominal_rad: f64) -> CalibrationOptions {
+    let options = CalibrationOptions {
+        x_m: place.x_m,
+        y_m: place.y_m,
+        nominal_rad: Some(nominal_rad),
         ..CalibrationOptions::default()
+    };
+    match profile {
+        DriveProfile::Clean => CalibrationOptions {
+            azimuth_bias_sigma_rad: 0.0,
+            slip_gradient_rad: 0.0,
+            delay_s: 0.02,
+            ..options
+        },
+        DriveProfile::Radarscenes => options,
     }
 }
 
@@ -188,7 +212,7 @@ fn calibrate(
     radar: &Radar,
     frames: &[FrameInput],
 ) -> Result<AngleEstimate, EvaluateError> {
-    let mut calibrator = Calibrator::new(candidate.options(&options(radar)))?;
+    let mut calibrator = Calibrator::new(candidate.options(&radar.options))?;
     for frame in frames {
         calibrator.add(candidate.told(frame))?;
     }
@@ -200,7 +224,7 @@ fn joint(drive: &SimulatedDrive, radars: &[Radar]) -> Result<Vec<AngleEstimate>,
     let Some(candidate) = CANDIDATES.iter().find(|candidate| candidate.joint) else {
         return Ok(vec![]);
     };
-    let named: Vec<_> = radars.iter().map(|r| (r.sensor, candidate.options(&options(r)))).collect();
+    let named: Vec<_> = radars.iter().map(|r| (r.sensor, candidate.options(&r.options))).collect();
     let gap = CalibrationOptions::default().max_gap_s;
     joint_estimates(candidate, &named, Frames::of(&drive.log, |_| true, gap))
 }
@@ -301,7 +325,7 @@ impl Track {
         let tracked = CANDIDATES.iter().find(|c| c.method == Method::Recursive && c.speed);
         let mut track = Self { motions: vec![], truth: vec![], mounting: radar.truth };
         let Some(tracked) = tracked else { return Ok(track) };
-        let mut calibrator = Calibrator::new(tracked.options(&options(radar)))?;
+        let mut calibrator = Calibrator::new(tracked.options(&radar.options))?;
         for &frame in &radar.frames {
             if let Some(motion) = calibrator.add(frame)?.motion {
                 let velocity_mps = motion.velocity_mps;

@@ -35,7 +35,13 @@ fn car(e: &AngleEstimate) -> String {
         }
     };
     [
-        line("slip", 1e3 * e.slip_gradient, 1e3 * e.slip_gradient_sigma, 2, " mrad s^2/m"),
+        line(
+            "slip",
+            e.slip_gradient_rad.to_degrees(),
+            e.slip_gradient_sigma_rad.to_degrees(),
+            3,
+            " deg/(m/s^2)",
+        ),
         line("delay", 1e3 * e.delay_s, 1e3 * e.delay_sigma_s, 0, " ms"),
         line("speed scale", e.speed_scale, e.speed_scale_sigma, 4, ""),
         e.changed_s.map_or(String::new(), |time| format!("changed      at {time:.1} s\n")),
