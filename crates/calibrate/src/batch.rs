@@ -136,6 +136,7 @@ impl Batch {
             bias_radps: self.bias.mean(),
             bias_sigma_radps: if known { self.bias.sigma() } else { self.options.bias_sigma_radps },
             yaw_rate_sigma_radps: self.bias.noise(),
+            static_share: self.inlier_share(),
             options: &self.options,
         };
         match self.options.method {
@@ -168,8 +169,7 @@ impl Batch {
         let converged = sigma < o.converged_rad && self.moved(angle) <= o.converged_rad;
         let misaligned =
             o.nominal_rad.map(|nominal| wrap(angle - nominal).abs() > o.alarm_rad + CHANCE * sigma);
-        let inlier_share =
-            if self.detections == 0 { 0.0 } else { self.inliers as f64 / self.detections as f64 };
+        let inlier_share = self.inlier_share();
         let remarks = [
             (Remark::NoFrames, solution.is_none()),
             (Remark::AngleUndetermined, sigma.is_nan() || sigma > UNDETERMINED_ANGLE_RAD),
@@ -203,6 +203,11 @@ impl Batch {
             misaligned,
             remarks: remarks.into_iter().filter_map(|(r, holds)| holds.then_some(r)).collect(),
         }
+    }
+
+    /// Static detections over all; 0 without any.
+    fn inlier_share(&self) -> f64 {
+        if self.detections == 0 { 0.0 } else { self.inliers as f64 / self.detections as f64 }
     }
 
     /// How far the angle is from that of all frames but the latest, rad.

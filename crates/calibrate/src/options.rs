@@ -79,6 +79,10 @@ pub struct CalibrationOptions {
     /// mounting: no drive tells it from the angle.
     #[option(default = 0.045_f64.to_radians(), range = 0..=180)]
     pub azimuth_bias_sigma_rad: f64,
+    /// Standard deviation of what detections that move and pass for static would turn the angle by if all moved; it counts by the share of
+    /// detections that do.
+    #[option(default = 0.15_f64.to_radians(), range = 0..=180)]
+    pub traffic_sigma_rad: f64,
     /// Standard deviation of the error that the angles of all frames within five seconds share, before the drive tells it.
     #[option(default = 0.1_f64.to_radians(), positive)]
     pub lasting_sigma_rad: f64,
@@ -139,6 +143,11 @@ impl CalibrationOptions {
     /// [`CoreError::OutOfRange`] naming the option.
     pub fn validate(&self) -> Result<(), CalibrateError> {
         Ok(describe::check(self, Naming::Rust)?)
+    }
+
+    /// Standard deviation of what no drive tells from the angle, at a share of static detections.
+    pub(crate) fn floor_rad(&self, static_share: f64) -> f64 {
+        self.azimuth_bias_sigma_rad.hypot(self.traffic_sigma_rad * (1.0 - static_share))
     }
 
     /// The motion method in use: the one asked for, or the one that belongs to the method.

@@ -35,6 +35,8 @@ pub(crate) struct Untold<'a> {
     pub bias_sigma_radps: f64,
     /// Whether the method takes the scale as 1.
     pub fixed_scale: bool,
+    /// Share of static detections.
+    pub static_share: f64,
 }
 
 /// Covariance of angle and inverse scale, from that which independent frames would give.
@@ -68,7 +70,7 @@ pub(crate) fn covariance(
     add(shift(&stretched), scale_sigma);
     add(shift(&slipped), slip_sigma);
     add(delayed(influences), options.delay_s.hypot(options.delay_sigma_s));
-    add([1.0, 0.0], options.azimuth_bias_sigma_rad);
+    add([1.0, 0.0], options.floor_rad(untold.static_share));
     result
 }
 

@@ -43,6 +43,8 @@ pub(crate) struct Setting<'a> {
     pub bias_sigma_radps: f64,
     /// Standard deviation of the yaw rate's noise, rad/s.
     pub yaw_rate_sigma_radps: f64,
+    /// Share of static detections.
+    pub static_share: f64,
     /// What is expected of the radar and the car.
     pub options: &'a CalibrationOptions,
 }
@@ -55,6 +57,7 @@ impl<'a> Setting<'a> {
             bias_radps: self.bias_radps,
             bias_sigma_radps: self.bias_sigma_radps,
             fixed_scale,
+            static_share: self.static_share,
         }
     }
 }

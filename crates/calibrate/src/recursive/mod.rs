@@ -553,8 +553,8 @@ impl Recursive {
         let sigma = |i: usize| covariance[i][i].max(0.0).sqrt();
         let inlier_share = if none { 0.0 } else { state.inliers / state.detections.max(1.0) };
         let (doubts, doubt_rad) = state.doubts.remarks(known, options.nominal_rad, inlier_share);
-        let variance =
-            covariance[0][0] + options.azimuth_bias_sigma_rad.powi(2) + doubt_rad * doubt_rad;
+        let floor_rad = options.floor_rad(inlier_share);
+        let variance = covariance[0][0] + floor_rad * floor_rad + doubt_rad * doubt_rad;
         let sigma_rad = if none { f64::INFINITY } else { variance.sqrt() };
         let inverse_scale = x[1].max(0.1);
         let angle_rad = wrap(x[0]);

@@ -6,6 +6,7 @@ use boresight_calibrate::CalibrationOptions;
 pub fn without_real_errors(options: CalibrationOptions) -> CalibrationOptions {
     CalibrationOptions {
         azimuth_bias_sigma_rad: 0.0,
+        traffic_sigma_rad: 0.0,
         lasting_sigma_rad: 1e-6,
         slip_gradient_rad: 0.0,
         slip_gradient_sigma_rad: 1e-7,

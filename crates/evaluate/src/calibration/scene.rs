@@ -9,7 +9,8 @@ use boresight_calibrate::{
 use boresight_core::Random;
 use boresight_core::drive::{Mounting, Pose, RADARSCENES_SENSORS};
 use boresight_simulate::drive::{
-    CYCLE_S, DriveOptions, DriveProfile, MOTION_STEP_S, Scenario, SimulatedDrive, TrueMotion, simulate_drive,
+    CYCLE_S, DriveOptions, DriveProfile, MOTION_STEP_S, Scenario, SimulatedDrive, TrueMotion,
+    simulate_drive,
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -199,6 +200,7 @@ fn options(profile: DriveProfile, place: Mounting, nominal_rad: f64) -> Calibrat
     match profile {
         DriveProfile::Clean => CalibrationOptions {
             azimuth_bias_sigma_rad: 0.0,
+            traffic_sigma_rad: 0.0,
             slip_gradient_rad: 0.0,
             delay_s: 0.02,
             ..options
