@@ -29,7 +29,9 @@ fn white_noise_of_a_clean_drive_is_found_and_does_not_last() {
         let (noise, angles) = (&one.noise, &one.angles);
         assert!((one.counts.cycle_s - 0.074).abs() < 0.0005);
         assert!((one.counts.cycle_jitter_s - 0.0002).abs() < 4e-5);
-        assert_eq!((one.counts.moving_share, one.counts.lost_share), (0.0, 0.0));
+        assert_eq!(one.counts.lost_share, 0.0);
+        // Others go on while the car stands, and then count for no share.
+        assert!(one.counts.moving_share < 0.005, "{}", one.counts.moving_share);
         // 1.2 % with a random range rate, and 0.5 of 25 to 50 from nowhere; a sixth of them near the curve.
         assert!((0.01..0.035).contains(&noise.outlier_share), "{noise:?}");
         assert!((noise.range_rate_sigma_mps - 0.05).abs() < 0.02, "{noise:?}");
