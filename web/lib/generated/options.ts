@@ -399,6 +399,14 @@ export interface CalibrationOptions {
  */
 export type DriveScenario = 'city' | 'country-road' | 'motorway' | 'car-park' | 'stop-and-go' | 'dense-traffic';
 
+/**
+ * What the errors of radars and car are like.
+ *
+ * - `clean`: White noise as the options say, and a few false detections: isolates what an estimator does.
+ * - `radarscenes`: Dense scans with lasting errors, heights, ghosts, slip and delay, as in `RadarScenes`.
+ */
+export type DriveProfile = 'clean' | 'radarscenes';
+
 /** A radar of a simulated drive. */
 export interface PlacedRadar {
   /** Its number. */
@@ -432,13 +440,28 @@ export interface RadarNoise {
   clutter?: number;
 }
 
+/**
+ * What measures the yaw rate.
+ *
+ * - `navigation`: An integrated navigation system: scale within 0.2 %, hardly any bias.
+ * - `series`: A series sensor: scale from 0.98 to 1.02, bias from -0.2 to 0.2 deg/s that walks.
+ */
+export type YawRateSensor = 'navigation' | 'series';
+
 /** A drive to simulate. */
 export interface SimulateDriveOptions {
   /** Roads and traffic (default 'city'). */
   scenario?: DriveScenario;
+  /** What the errors of radars and car are like (default 'clean'). */
+  profile?: DriveProfile;
   /** Everything random comes from it (default 0). */
   seed?: number | bigint;
-  /** Length of the drive; four radars for an hour at most, or as much by fewer (1 to 7200 s; default 60). */
+  /** The car, by which drives of the profile "radarscenes" share azimuth biases and slip (default 0). */
+  car?: number | bigint;
+  /**
+   * Length of the drive; four radars for an hour at most, or as much by fewer; in the profile "radarscenes" for twenty
+   * minutes (1 to 7200 s; default 60).
+   */
   durationS?: number;
   /** The radars by number, where they truly sit and look; those of RadarScenes if absent. */
   sensors?: readonly PlacedRadar[];
@@ -446,24 +469,36 @@ export interface SimulateDriveOptions {
   misalignmentDeg?: { readonly [sensor: number]: number };
   /**
    * Share of moving detections over the scans taken at more than 1 m/s, by leaving out whole movers or detections of
-   * standing things; what the scenario's traffic gives if absent (0 to 0.8).
+   * standing things. If absent, what the scenario's traffic gives; in the profile "radarscenes", where front radars
+   * see more of it than the sides, as scenes have it (0 to 0.8).
    */
   movingShare?: number;
-  /** How well radars measure. */
+  /** How well radars measure; the profile "radarscenes" has numbers of its own. */
   noise?: RadarNoise;
-  /** Measured over true yaw rate; drawn from 0.98 to 1.02 if absent (0.5 to 2). */
+  /**
+   * What measures the yaw rate, where scale, bias and noise are not given. If absent, a series sensor of constant
+   * bias, and in the profile "radarscenes" navigation.
+   */
+  yawRateSensor?: YawRateSensor;
+  /** Measured over true yaw rate; drawn as the sensor has it if absent, from 0.98 to 1.02 in series (0.5 to 2). */
   yawRateScale?: number;
-  /** Yaw rate measured at standstill; drawn from -0.2 to 0.2 deg/s if absent (-50 to 50 deg/s). */
+  /**
+   * Yaw rate measured at standstill; drawn as the sensor has it if absent, from -0.2 to 0.2 deg/s in series (-50 to 50
+   * deg/s).
+   */
   yawRateBiasDegps?: number;
-  /** Standard deviation of a sample's white noise; drawn from 0.07 to 0.13 deg/s if absent (0 to 50 deg/s). */
+  /**
+   * Standard deviation of a sample's white noise; if absent 0.03 deg/s of navigation, and drawn from 0.07 to 0.13
+   * deg/s in series (0 to 50 deg/s).
+   */
   yawRateSigmaDegps?: number;
-  /** Measured over true speed (0.5 to 2; default 1). */
+  /** Measured over true speed; if absent 1, and drawn in the profile "radarscenes" (0.5 to 2). */
   speedScale?: number;
-  /** Standard deviation of a sample of speed. At standstill the speed reads zero (0 to 5 m/s; default 0.03). */
+  /** Standard deviation of a sample of speed; 0.03 m/s if absent. At standstill the speed reads zero (0 to 5 m/s). */
   speedSigmaMps?: number;
   /**
-   * Slip angle of the rear axle over lateral acceleration, rad/(m/s^2); outside Rust in degrees (-1 to 1 deg; default
-   * 0).
+   * Slip angle of the rear axle over lateral acceleration, rad/(m/s^2), outside Rust in degrees; outwards, as tyres
+   * slip. If absent 0, and drawn in the profile "radarscenes" (-1 to 1 deg).
    */
   slipGradientDeg?: number;
 }

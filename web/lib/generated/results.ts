@@ -1023,6 +1023,8 @@ export interface TrueSensor {
   yM: number;
   /** Direction of boresight, counter-clockwise from the car's x. */
   yawDeg: number;
+  /** Root mean square of its azimuth bias within 55 deg. */
+  azimuthBiasRmsDeg: number;
 }
 
 /** Errors of a yaw-rate sensor. */
@@ -1033,6 +1035,24 @@ export interface YawRateErrors {
   biasDegps: number;
   /** Standard deviation of a sample's white noise. */
   sigmaDegps: number;
+}
+
+/** How a car moves and measures, beside its yaw rate. */
+export interface CarErrors {
+  /** Slip angle of the rear axle over lateral acceleration, outwards, rad/(m/s^2); outside Rust in degrees. */
+  slipGradientDeg: number;
+  /** Direction of the rear axle's way straight ahead, to the left of the car's x. */
+  crabDeg: number;
+  /** By how much range rates lag their time stamp. */
+  delayS: number;
+  /** Measured over true speed. */
+  speedScale: number;
+  /** Standard deviation of a sample of speed. */
+  speedSigmaMps: number;
+  /** Lag of the measured speed. */
+  speedLagS: number;
+  /** Lag of the measured yaw rate. */
+  yawRateLagS: number;
 }
 
 /** The car's true motion. */
@@ -1049,6 +1069,8 @@ export interface DriveTruth {
   sensors: TrueSensor[];
   /** Errors of the yaw-rate sensor. */
   yawRate: YawRateErrors;
+  /** How the car slips, and what its radars and its speed are late or off by. */
+  car: CarErrors;
   /** The car's motion at the times of the drive's. */
   motion: TrueMotion;
   /** For each detection, 1 where it comes from a moving road user. */
