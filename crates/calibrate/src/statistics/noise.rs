@@ -113,7 +113,7 @@ fn variances(near: &mut [Vec<Near>]) -> Option<([f64; UNKNOWNS], [bool; AT_DEG.l
         used[place + 2] = *seen;
     }
     // What comes out negative is left out, the most negative first.
-    loop {
+    for _ in 0..=UNKNOWNS {
         let (mut normal, mut right) = ([[0.0; UNKNOWNS]; UNKNOWNS], [0.0; UNKNOWNS]);
         for (row, variance, weight) in &rows {
             let row: [f64; UNKNOWNS] = std::array::from_fn(|i| if used[i] { row[i] } else { 0.0 });
@@ -134,4 +134,5 @@ fn variances(near: &mut [Vec<Near>]) -> Option<([f64; UNKNOWNS], [bool; AT_DEG.l
         }
         used[lowest] = false;
     }
+    None
 }

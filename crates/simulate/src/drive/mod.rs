@@ -14,6 +14,7 @@ mod realistic;
 mod scenario;
 mod traffic;
 mod trim;
+mod view;
 pub mod wire;
 mod world;
 
@@ -28,9 +29,10 @@ pub use options::{
     RadarNoise,
 };
 pub use profile::{DriveProfile, YawRateSensor};
-pub use radar::{CYCLE_S, FIELD_OF_VIEW_RAD, MAX_DETECTIONS, RANGE_M, STATIC_CLASS};
+pub use radar::{CYCLE_S, FIELD_OF_VIEW_RAD, MAX_DETECTIONS, STATIC_CLASS};
 pub use realistic::CarErrors;
 pub use scenario::Scenario;
+pub use view::RANGE_M;
 pub use wire::PlacedRadar;
 
 use crate::error::SimulateError;

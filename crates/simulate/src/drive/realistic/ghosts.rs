@@ -2,9 +2,10 @@
 
 use super::model;
 use crate::drive::motion::TrueMotion;
-use crate::drive::radar::{Echo, RANGE_M, Radar, STATIC_CLASS, View};
+use crate::drive::radar::{Radar, STATIC_CLASS};
 use crate::drive::scenario::sign;
 use crate::drive::traffic::Traffic;
+use crate::drive::view::{Echo, RANGE_M, View};
 use boresight_core::Random;
 use std::f64::consts::PI;
 

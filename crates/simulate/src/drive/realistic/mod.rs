@@ -17,9 +17,10 @@ pub use car::CarErrors;
 pub(crate) use model::{FIELD_OF_VIEW_RAD, MAX_DETECTIONS, MOVER_FACTOR};
 
 use super::motion::motion_at;
-use super::radar::{Echo, Labelled, Radar, STATIC_CLASS, View, received};
+use super::radar::{Labelled, Radar, STATIC_CLASS};
 use super::scenario::sign;
 use super::traffic::Traffic;
+use super::view::{Echo, View, received};
 use super::world::World;
 use azimuth_bias::AzimuthBias;
 use boresight_core::Random;
