@@ -6,7 +6,6 @@ import radarAddress from '../../../../recordings/delphi/front_radar.csv.gz?url';
 import licenceAddress from '../../../../recordings/delphi/LICENSE?url';
 import poseAddress from '../../../../recordings/delphi/pose_10hz.csv.gz?url';
 import { aborted, describeError, FileProblem, type Problem, pool } from '../../data.ts';
-import { DRIVES } from '../../kinds.ts';
 import type { NamedFile } from '../../ui/entries.ts';
 import { type MountingState, mountingState, update } from './state.ts';
 
@@ -60,19 +59,15 @@ export const scans = computed(() => {
   return { scan, timeS: Float64Array.from(scan, (i) => all.timeS[i] as number) };
 });
 
-/** What stands beside an HDF5 file. */
-const BESIDE = /(^|\/)(scenes|sensors|sequences)\.json$/i;
-/** What a tab can hold beside its copies in workers. */
-const LARGEST_BYTES = 1024 ** 3;
-
 /** The latest opening wins, and ends the one before. */
 let controller: AbortController | undefined;
 
-async function open(
+/** Opens a drive; gives what kept it from being opened, or null. */
+export async function open(
   what: string,
   work: (signal: AbortSignal, job: JobOptions) => Promise<Omit<Loaded, 'motion'>>,
   opened: () => void = () => {},
-): Promise<void> {
+): Promise<unknown> {
   controller?.abort();
   const mine = new AbortController();
   controller = mine;
@@ -84,16 +79,18 @@ async function open(
   try {
     const next = await work(mine.signal, { signal: mine.signal, onProgress });
     const motion = await pool().scanMotion(next.drive, {}, { signal: mine.signal });
-    if (controller !== mine) return;
+    mine.signal.throwIfAborted();
     opened();
     loaded.value = { ...next, motion };
     driveProblem.value = null;
+    return null;
   } catch (error) {
-    if (controller !== mine || aborted(error)) return;
-    driveProblem.value =
-      error instanceof FileProblem
-        ? { code: error.code, message: error.message, file: error.file }
-        : describeError(error);
+    if (controller === mine && !aborted(error))
+      driveProblem.value =
+        error instanceof FileProblem
+          ? { code: error.code, message: error.message, file: error.file }
+          : describeError(error);
+    return error;
   } finally {
     if (controller === mine) {
       controller = undefined;
@@ -118,7 +115,7 @@ export function openAgain(): void {
 }
 
 /** A drive of one's own has its own radars and places. */
-const OWN = { sensor: null, xM: null, yM: null, nominal: null, minSpeed: null } as const;
+export const OWN = { sensor: null, xM: null, yM: null, nominal: null, minSpeed: null } as const;
 
 /** Names and addresses of the bundled drive's files. */
 export const bundledFiles = [
@@ -126,7 +123,7 @@ export const bundledFiles = [
   ['pose_10hz.csv.gz', poseAddress],
 ] as const;
 
-export function openBundled(): Promise<void> {
+export function openBundled(): Promise<unknown> {
   return open('Loading the bundled drive', async (signal, job) => {
     const files = await Promise.all(
       bundledFiles.map(async ([name, address]) => {
@@ -151,73 +148,6 @@ export function openBundled(): Promise<void> {
   });
 }
 
-export function openFiles(all: readonly NamedFile[]): Promise<void> {
-  // A link to files comes with where their radar is.
-  const linked = filesWanted.peek();
-  return open(
-    'Reading the files',
-    async (signal, job) => {
-      const drives = all.filter(({ name }) => DRIVES.test(name));
-      const first = all[0];
-      if (!first)
-        throw new FileProblem(
-          'no-drive-log',
-          'The folder',
-          'it is empty; a .csv, .csv.gz or .h5 with a drive is expected',
-        );
-      if (drives.length === 0) {
-        const what = all.length === 1 ? first.name : `${all.length} files`;
-        throw new FileProblem(
-          'no-drive-log',
-          what,
-          'no drive is in it; .csv or .csv.gz tables, or the radar_data.h5 of a RadarScenes sequence, are expected',
-        );
-      }
-      const sequences = drives.filter(({ name }) => /\.(h5|hdf5)$/i.test(name)).length;
-      if (sequences > 1)
-        throw new FileProblem(
-          'ambiguous',
-          `${all.length} files`,
-          `${sequences} sequences are in them; one is expected: open the folder of that alone`,
-        );
-      const kept = [...drives, ...all.filter(({ name }) => BESIDE.test(name))];
-      const size = kept.reduce((sum, { file }) => sum + file.size, 0);
-      const what = kept.length === 1 ? (kept[0] as NamedFile).name : `${kept.length} files`;
-      if (size > LARGEST_BYTES) {
-        throw new FileProblem(
-          'too-large',
-          what,
-          `${Math.round(size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected: choose one sequence`,
-        );
-      }
-      const files = await Promise.all(
-        kept.map(async ({ name, file }) => ({ name, bytes: new Uint8Array(await file.arrayBuffer()) })),
-      );
-      signal.throwIfAborted();
-      try {
-        const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
-        const path = (drives[0] as NamedFile).name.split('/');
-        const name = path.at(-2) ?? (path.at(-1) as string).replace(DRIVES, '');
-        return {
-          name,
-          source: 'files',
-          files: kept.map(({ name, file }) => ({ name, bytes: file.size })),
-          drive,
-          truth: null,
-          statedDeg: new Map(),
-          licence: null,
-          own: kept,
-        };
-      } catch (error) {
-        if (aborted(error)) throw error;
-        const { code, message } = describeError(error);
-        throw new FileProblem(code, what, message);
-      }
-    },
-    () => update({ ...(linked ? {} : OWN), source: 'files' }),
-  );
-}
-
 function simulation(state: MountingState): SimulateDriveOptions {
   const { scenario, seed, duration, moving, misalignment } = state;
   const misalignmentDeg = Object.fromEntries([1, 2, 3, 4].map((id) => [id, misalignment]));
@@ -230,7 +160,7 @@ function simulation(state: MountingState): SimulateDriveOptions {
   };
 }
 
-function openSimulated(options: SimulateDriveOptions): Promise<void> {
+function openSimulated(options: SimulateDriveOptions): Promise<unknown> {
   return open('Simulating a drive', async (_, job) => {
     const { truth, ...drive } = await pool().simulateDrive(options, job);
     return {

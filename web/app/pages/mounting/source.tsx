@@ -7,7 +7,8 @@ import { pickedFiles } from '../../ui/entries.ts';
 import { Licence } from '../../ui/licence.tsx';
 import { SeedField } from '../../ui/seed-field.tsx';
 import { Control } from './control.ts';
-import { chooseSource, loaded, openFiles } from './drive.ts';
+import { chooseSource, driveProblem, loaded } from './drive.ts';
+import { changeColumns, openFiles, tables } from './own-files.ts';
 import { mountingState, update } from './state.ts';
 
 export function Source() {
@@ -68,6 +69,16 @@ export function Source() {
           >
             Open a folder
           </button>
+          {tables.value.length > 0 && (driveProblem.value || open?.source === 'files') && (
+            <button
+              type="button"
+              data-action="columns"
+              onClick={() => void changeColumns()}
+              title="Say what the columns of your tables hold, with their units and signs"
+            >
+              Columns
+            </button>
+          )}
           <input
             ref={files}
             type="file"
@@ -89,7 +100,7 @@ export function Source() {
           />
         </div>
         <p class={showHelp.value ? 'help' : 'muted small'}>
-          Or drop the folder of a RadarScenes sequence, Delphi tables or general CSV tables anywhere on the page.
+          Or drop the folder of a RadarScenes sequence, Delphi tables or CSV tables of any columns anywhere on the page.
           Nothing is uploaded.
         </p>
       </div>
