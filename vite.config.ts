@@ -1,17 +1,20 @@
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
+import { bundledDrive } from './scripts/lib/bundled-drive.mjs';
 import { compressed } from './scripts/lib/compressed.mjs';
-import { bundledDrive } from './scripts/lib/read-columns.mjs';
 import { networksLater } from './web/networks-later.ts';
 import { offline } from './web/offline.ts';
 
 const path = (name: string) => fileURLToPath(new URL(name, import.meta.url));
 
-/** What is built has all styles in files; the development server puts them into the page. */
+/**
+ * What is built has its styles in files; the development server puts them into the page. Attributes are allowed: svgcanvas
+ * writes pictures with them.
+ */
 const styles: Plugin = {
   name: 'styles-in-files',
   apply: 'build',
-  transformIndexHtml: (html) => html.replace(" 'unsafe-inline'", ''),
+  transformIndexHtml: (html) => html.replace(" 'unsafe-inline'", "; style-src-attr 'unsafe-inline'"),
 };
 
 /** Set by `npm start` where the module of networks is built while the demo is up: the folder it comes to. */

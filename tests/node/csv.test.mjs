@@ -1,12 +1,9 @@
 // CSV that leaves the demo opens in spreadsheets as what it says.
 import assert from 'node:assert/strict';
-import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
-import { transformWithOxc } from 'vite';
+import { appModule } from './lib/app-module.mjs';
 
-const source = new URL('../../web/app/plots/save.ts', import.meta.url);
-const { code } = await transformWithOxc(await readFile(source, 'utf8'), source.pathname);
-const { toCsv } = await import(`data:text/javascript,${encodeURIComponent(code)}`);
+const { toCsv } = await appModule('plots/save.ts');
 
 test('text that begins as formulas do stays text, and numbers stay numbers', () => {
   const row = ['=1+1', '+cmd|x', '-2+3', '@SUM(A1)', '\t=1', '-1.5', -1.5, '−3', 'a,"b"', null, Number.NaN];

@@ -26,6 +26,11 @@ export interface Loaded {
 }
 
 export const loaded = signal<Loaded | null>(null);
+/** Files and licence of the drive that is open or, of the bundled one, will be. */
+export const shownFiles = computed((): { files: { name: string; bytes?: number }[]; licence: string | null } => {
+  if (loaded.value || mountingState.value.source !== 'delphi') return loaded.value ?? { files: [], licence: null };
+  return { files: bundledFiles.map(([name]) => ({ name })), licence: licenceAddress };
+});
 /** What is being opened, and how far that is where it is known. */
 export const opening = signal<{ what: string; share: number | null } | null>(null);
 /** An opening was ended by the user. */
@@ -119,9 +124,24 @@ export const OWN = { sensor: null, xM: null, yM: null, nominal: null, minSpeed: 
 
 /** Names and addresses of the bundled drive's files. */
 export const bundledFiles = [
-  ['front_radar.csv.gz', radarAddress],
+  ['front_radar.csv', radarAddress],
   ['pose_10hz.csv.gz', poseAddress],
 ] as const;
+
+/** The radar's table out of the form in which it is sent. */
+async function tableOf(sent: Uint8Array, signal: AbortSignal): Promise<Uint8Array> {
+  const worker = new Worker(new URL('./compact-worker.ts', import.meta.url), { type: 'module' });
+  try {
+    return await new Promise((resolve, reject) => {
+      signal.addEventListener('abort', () => reject(signal.reason));
+      worker.onmessage = ({ data }) => resolve(data);
+      worker.onerror = ({ message }) => reject(new FileProblem('damaged', 'front_radar.csv', message));
+      worker.postMessage(sent, [sent.buffer]);
+    });
+  } finally {
+    worker.terminate();
+  }
+}
 
 export function openBundled(): Promise<unknown> {
   return open('Loading the bundled drive', async (signal, job) => {
@@ -130,7 +150,8 @@ export function openBundled(): Promise<unknown> {
         const response = await fetch(address, { signal });
         if (!response.ok)
           throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
-        return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
+        const bytes = new Uint8Array(await response.arrayBuffer());
+        return { name, bytes: address === radarAddress ? await tableOf(bytes, signal) : bytes };
       }),
     );
     const sizes = files.map(({ name, bytes }) => ({ name, bytes: bytes.length }));
