@@ -1,6 +1,7 @@
 /** Tables whose columns are not Boresight's: what they hold is asked, guessed and remembered. */
 import assert from 'node:assert/strict';
 import { gzipSync } from 'node:zlib';
+import { findings } from './axe.mjs';
 import { drop, reload, saved, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 import { typeNumber } from './type.mjs';
@@ -166,7 +167,7 @@ browserTest(
     await select(page, 'detections-azimuth_deg').selectOption('Distance (m)');
     await select(page, 'detections-azimuth_deg-unit').selectOption('rad');
     await page.locator('[data-action="open-columns"]').click();
-    await page.waitForFunction(() => !document.querySelector('[data-columns="problem"]').hidden);
+    await page.waitForSelector('[data-columns="problem"]');
     assert.match(await page.locator('[data-columns="problem"]').innerText(), /at most one turn/);
     await select(page, 'detections-azimuth_deg').selectOption('Azimuth right [rad]');
     await page.locator('[data-action="open-columns"]').click();
@@ -185,3 +186,17 @@ browserTest('columns: templates open as they are', { path }, async ({ page }) =>
   assert.match(await counts(page), /Detections in the files\s*2\s*Motion samples\s*2$/);
   assert.equal(await page.locator(dialog).count(), 0);
 });
+
+for (const [viewport, scheme] of [
+  ['desktop', 'light'],
+  ['phone', 'dark'],
+])
+  browserTest(`columns: axe has no finding, ${viewport}, ${scheme}`, { path, viewport, scheme }, async ({ page }) => {
+    await given(page, foreign());
+    await page.waitForSelector(dialog);
+    assert.deepEqual(await findings(page), []);
+    const { width, right } = await page
+      .locator('[data-field="detections-azimuth_deg"]')
+      .evaluate((row) => ({ width: innerWidth, right: row.getBoundingClientRect().right }));
+    assert.ok(right <= width, `fields end at ${right} of ${width}`);
+  });

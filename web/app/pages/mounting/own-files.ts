@@ -18,6 +18,9 @@ export const tables = signal<readonly NamedFile[]>([]);
 /** Comes when the first table has columns of its own. */
 export const columnsDialog = signal<ComponentType | null>(null);
 
+/** Ends asking for the columns of files given before. */
+let stopAsking = (): void => {};
+
 /** A header without the columns that are needed. */
 function lacksColumns(error: unknown): boolean {
   const cause = error instanceof FileProblem ? error.cause : null;
@@ -30,6 +33,7 @@ function lacksColumns(error: unknown): boolean {
 export async function openFiles(all: readonly NamedFile[]): Promise<void> {
   const given = all.filter(({ name }) => TABLES.test(name));
   tables.value = given;
+  stopAsking();
   const error = await openDrive(all);
   if (lacksColumns(error)) await ask(given, false);
 }
@@ -41,11 +45,12 @@ async function ask(given: readonly NamedFile[], again: boolean): Promise<void> {
   if (given.length === 0) return;
   const before = driveProblem.peek();
   try {
-    const [{ askColumns }, { ColumnsDialog }] = await Promise.all([
+    const [{ askColumns, cancelColumns }, { ColumnsDialog }] = await Promise.all([
       import('./columns/mapping.ts'),
       import('./columns/dialog.tsx'),
     ]);
     columnsDialog.value = ColumnsDialog;
+    stopAsking = cancelColumns;
     const openThem = async (files: readonly NamedFile[]): Promise<string | null> => {
       const error = await openDrive(files, given);
       if (!error) return null;

@@ -115,7 +115,6 @@ export function MountingPage() {
   const ColumnsDialog = columnsDialog.value;
   return (
     <div class="page">
-      {ColumnsDialog && <ColumnsDialog />}
       <Controls />
       <MainColumn busy={working.value || opening.value !== null}>
         {problem && (
@@ -174,6 +173,7 @@ export function MountingPage() {
           </p>
         </About>
       </MainColumn>
+      {ColumnsDialog && <ColumnsDialog />}
     </div>
   );
 }

@@ -48,9 +48,11 @@ export function ColumnsDialog() {
       {asked.tables.map((table) => (
         <FirstRows key={table.name} table={table} />
       ))}
-      <p class="problem" role="alert" data-columns="problem" hidden={!asked.problem}>
-        {asked.problem}
-      </p>
+      {asked.problem && (
+        <p class="problem" role="alert" data-columns="problem">
+          {asked.problem}
+        </p>
+      )}
       <p class="muted" role="status" data-columns="lacking">
         {lack.length > 0 ? `Still to be chosen: ${lack.join(', ')}.` : ''}
       </p>
