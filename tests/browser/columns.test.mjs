@@ -187,6 +187,23 @@ browserTest('columns: templates open as they are', { path }, async ({ page }) =>
   assert.equal(await page.locator(dialog).count(), 0);
 });
 
+browserTest('columns: a session has the tables as they were read', { path }, async ({ page, browser, url }) => {
+  await given(page, foreign());
+  await page.waitForSelector(dialog);
+  await page.locator('[data-action="open-columns"]').click();
+  await page.waitForSelector('[data-notice="place"]');
+  const { bytes } = await saved(page, '[data-action="save-session"]');
+  const context = await browser.newContext();
+  const other = await context.newPage();
+  await other.goto(`${url}#/networks`);
+  await other.waitForSelector('[data-action="save-session"]:enabled');
+  await drop(other, [{ name: 'drive.boresight', bytes }]);
+  await other.waitForSelector('[data-notice="place"]');
+  assert.match(await counts(other), /Detections in the files\s*4.802[\s\S]*Without finite numbers\s*2/);
+  assert.equal(await other.locator(dialog).count(), 0, 'nobody is asked');
+  await context.close();
+});
+
 for (const [viewport, scheme] of [
   ['desktop', 'light'],
   ['phone', 'dark'],
