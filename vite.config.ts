@@ -1,11 +1,21 @@
 import { fileURLToPath } from 'node:url';
-import { defineConfig } from 'vite';
+import { defineConfig, type Plugin } from 'vite';
+import { bundledDrive } from './scripts/lib/bundled-drive.mjs';
 import { compressed } from './scripts/lib/compressed.mjs';
-import { bundledDrive } from './scripts/lib/read-columns.mjs';
 import { networksLater } from './web/networks-later.ts';
 import { offline } from './web/offline.ts';
 
 const path = (name: string) => fileURLToPath(new URL(name, import.meta.url));
+
+/**
+ * What is built has its styles in files; the development server puts them into the page. Attributes are allowed: svgcanvas
+ * writes pictures with them.
+ */
+const styles: Plugin = {
+  name: 'styles-in-files',
+  apply: 'build',
+  transformIndexHtml: (html) => html.replace(" 'unsafe-inline'", "; style-src-attr 'unsafe-inline'"),
+};
 
 /** Set by `npm start` where the module of networks is built while the demo is up: the folder it comes to. */
 const later = process.env.BORESIGHT_NETWORKS;
@@ -19,6 +29,7 @@ export default defineConfig({
   define: { NETWORKS_LATER: JSON.stringify(later !== undefined) },
   // A site without its module of networks is not yet what is to be kept.
   plugins: [
+    styles,
     bundledDrive(),
     ...(later === undefined ? [] : [networksLater(later)]),
     offline(later === undefined),

@@ -159,7 +159,7 @@ export async function buildDemo(variables = {}) {
     'package-lock.json',
     'vite.config.ts',
     'scripts/lib/compressed.mjs',
-    'scripts/lib/read-columns.mjs',
+    'scripts/lib/bundled-drive.mjs',
     'web/offline.ts',
     'web',
     'recordings',

@@ -1,10 +1,11 @@
-//! Options and waveforms as JSON: what passes its check comes back as it was written, and plans are made or refused.
+//! Options, waveforms and positions of arrays as JSON: what passes its check comes back as it was written, and plans are made or refused.
 
 #![no_main]
 
 use boresight_aoa::{Estimator, EstimatorOptions, Method};
+use boresight_core::array::Position;
 use boresight_core::describe::{self, Described, Named, Naming};
-use boresight_core::{Waveform, presets};
+use boresight_core::{Array, Waveform, presets};
 use boresight_pipeline::{Chain, ChainOptions};
 use libfuzzer_sys::fuzz_target;
 use serde::Serialize;
@@ -49,6 +50,18 @@ fuzz_target!(|bytes: &[u8]| {
         && waveform.check().is_ok()
     {
         assert!(waveform.wavelength_m() > 0.0);
+    }
+    if let Ok(positions) = serde_json::from_slice::<Vec<Position>>(json) {
+        let half = positions.len() / 2;
+        let _ = Array::mimo(&positions[..half], &positions[half..]);
+        if let Ok(array) = Array::new(&positions) {
+            assert_eq!(array.len(), positions.len());
+            let _ = Estimator::new(
+                method,
+                &array,
+                &EstimatorOptions { grid_points: MOST, ..Default::default() },
+            );
+        }
     }
     if let Some(mut options) = read::<ChainOptions>(json) {
         options.angle.options.grid_points = options.angle.options.grid_points.min(MOST);

@@ -202,6 +202,24 @@ browserTest(
   },
 );
 
+browserTest('angle lab: without targets the spectra are of noise', { path }, async ({ page }) => {
+  await shown(page, 'music');
+  for (let left = 2; left > 0; left--) await page.locator('button[aria-label="Remove target 1"]').click();
+  await parametersWith(page, (params) => params.get('targets') === '-');
+  for (const method of ['bartlett', 'capon'])
+    assert.doesNotMatch(await page.locator(`[data-row="${method}"]`).innerText(), /expected/);
+  const rows = assertCsv(
+    await saved(page, '[data-plot="spectrum"] [data-export="csv"]'),
+    'azimuth_deg,bartlett_db,capon_db',
+  );
+  const levels = rows.map(([, bartlett]) => Number(bartlett));
+  // Noise is 20 dB down at one element, 30 dB over ten; 100 snapshots leave a spread of 10 %, so 2 dB are five of them.
+  assert.ok(
+    levels.every((level) => Math.abs(level + 30) < 2),
+    `${Math.min(...levels)} to ${Math.max(...levels)} dB`,
+  );
+});
+
 browserTest(
   'angle lab: spectra reach 90 degrees where they are there what they are at -90',
   { path: '#/angle?array=ula10&targets=-5:0&snr=20&snapshots=100&seed=1&methods=bartlett,music' },

@@ -191,3 +191,15 @@ browserTest('first minute: the examples of the angle lab show what they say', { 
   const masking = await show('Masking');
   assert.ok(!near(masking.bartlett, 1) && near(masking.iaa, 0.5) && near(masking.nomp, 0.5), JSON.stringify(masking));
 });
+
+browserTest(
+  'first minute: on a phone the hint to drag covers neither plot nor tools',
+  { path: '#/angle', viewport: 'phone' },
+  async ({ page }) => {
+    const hint = await page.locator('[data-hint]').boundingBox();
+    for (const selector of ['.tools', '.plot-host']) {
+      const box = await page.locator(`[data-plot="spectrum"] ${selector}`).boundingBox();
+      assert.ok(hint.y >= box.y + box.height || hint.y + hint.height <= box.y, `${selector} is covered`);
+    }
+  },
+);

@@ -12,7 +12,7 @@ const LINE = { offline: false, latency: 40, downloadThroughput: 10e6 / 8, upload
 const PAGES = [
   { page: 'angle', ready: '[data-row="music"] [data-field="azimuth"][data-value]', asked: 1.8, most: 0.68e6 },
   { page: 'capture', ready: '[data-table="detections"] [data-field="rangeM"][data-value]', asked: 2.5, most: 1.5e6 },
-  { page: 'mounting', ready: '[data-row] [data-field="angleDeg"][data-value]', asked: 4, most: 4.1e6 },
+  { page: 'mounting', ready: '[data-row] [data-field="angleDeg"][data-value]', asked: 4, most: 2.3e6 },
   { page: 'birdseye', ready: '[data-row] [data-field="outsideDb"][data-value]', asked: 4, most: 0.7e6 },
   { page: 'networks', ready: '[data-card]', asked: 1.5, most: 0.69e6 },
   {

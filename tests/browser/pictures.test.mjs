@@ -125,7 +125,7 @@ browserTest(
 );
 
 for (const [path, ready, plot, settings, data] of [
-  ['#/mounting', READY['#/mounting'], 'angle-history', 'radar 1', 'front_radar.csv.gz, pose_10hz.csv.gz'],
+  ['#/mounting', READY['#/mounting'], 'angle-history', 'radar 1', 'front_radar.csv, pose_10hz.csv.gz'],
   ['#/birdseye', READY['#/birdseye'], 'image-iaa', 'radars: left', 'simulated street, seed 1'],
   ['#/networks', '[data-plot="metrics"] canvas', 'metrics', '6 targets, SNR 15 dB', 'network '],
 ]) {

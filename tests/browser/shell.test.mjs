@@ -96,3 +96,14 @@ browserTest(
     await page.waitForFunction(() => document.documentElement.dataset.theme === 'dark');
   },
 );
+
+browserTest('shell: no style that gets into the page changes it', { path: '#/angle' }, async ({ page, problems }) => {
+  const display = await page.evaluate(() => {
+    const style = document.createElement('style');
+    style.textContent = 'body { display: none }';
+    document.head.append(style);
+    return getComputedStyle(document.body).display;
+  });
+  assert.notEqual(display, 'none');
+  assert.match(problems.splice(0).join(), /Content Security Policy/);
+});

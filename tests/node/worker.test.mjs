@@ -3,6 +3,7 @@ import { after, before, describe, test } from 'node:test';
 import { BoresightError, Capture, Estimator, estimate, init } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { Crew } from '../../dist/worker/pool.js';
+import { serve } from '../../dist/worker/serve.js';
 import { batchOf, planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
 import { bin, cfg } from './lib/recording.mjs';
 
@@ -234,6 +235,32 @@ describe('the crew', () => {
       spawned.map(({ alive }) => alive),
       [false, true],
     );
+  });
+
+  test('replaces a worker whose memory stays large beside the files that it keeps', async () => {
+    let memoryBytes = 900 * 2 ** 20;
+    const { crew, spawned } = crewOf((events, { id }, nth) => events.reply({ id, result: nth, memoryBytes }));
+    const capture = crew.addCapture({ bytes: { byteLength: 300 * 2 ** 20 } });
+    assert.deepEqual(await crew.run([piece]), [1]);
+    memoryBytes = 1800 * 2 ** 20;
+    assert.deepEqual(await crew.run([{ ...piece, capture }]), [1], 'it keeps a large file');
+    memoryBytes = 2000 * 2 ** 20;
+    assert.deepEqual(await crew.run([piece]), [1], 'what is done counts');
+    assert.deepEqual(await crew.run([{ ...piece, capture }]), [2]);
+    assert.deepEqual(
+      spawned.map(({ kept }) => kept),
+      [[capture], [capture]],
+    );
+    assert.equal(spawned[0].alive, false);
+  });
+
+  test('a worker tells what memory it holds', async () => {
+    await init();
+    const replies = [];
+    const answer = serve((reply) => replies.push(reply));
+    answer({ module: new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])) });
+    answer({ id: 1, name: 'version', args: [] });
+    assert.ok(replies[0].memoryBytes >= 2 ** 20, `${replies[0].memoryBytes} bytes`);
   });
 
   test('sends a capture to a worker once, and to no more workers than its size allows', async () => {

@@ -15,8 +15,8 @@ export class FileProblem extends Error {
   readonly code: string;
   readonly file: string;
 
-  constructor(code: string, file: string, message: string) {
-    super(message);
+  constructor(code: string, file: string, message: string, options?: ErrorOptions) {
+    super(message, options);
     this.code = code;
     this.file = file;
   }

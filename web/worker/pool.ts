@@ -41,6 +41,11 @@ const ofDrives: readonly OperationName[] = [
 /** Memory that the copies of one capture in the workers may take, bytes; one worker has it in any case. */
 const COPIES_BYTES = 256 * 1024 * 1024;
 
+/** Memory of modules never shrinks: a worker that holds more than this beside what its kept files need is replaced, bytes. */
+const LARGE_BYTES = 1024 ** 3;
+/** Memory that a kept file needs, by its size: a network has plans beside its weights. */
+const KEPT = 3;
+
 /** How long a cancelled piece may run on before its worker is replaced, ms. */
 const GRACE_MS = 50;
 
@@ -298,6 +303,14 @@ export class Crew {
     member.kept.add(id);
   }
 
+  #keptBytes({ kept }: Member): number {
+    return [...kept].reduce((sum, id) => {
+      const file = this.#kept.get(id)?.file;
+      if (!file) return sum;
+      return sum + KEPT * ('onnx' in file ? file.onnx : file.bytes).byteLength;
+    }, 0);
+  }
+
   #find(kind: keyof Files, id: string): Kept {
     const kept = this.#kept.get(id);
     if (kept?.kind === kind) return kept;
@@ -334,6 +347,7 @@ export class Crew {
       return;
     }
     this.#release(member);
+    if (reply.memoryBytes > LARGE_BYTES + this.#keptBytes(member)) this.#dismiss(member);
     this.#settle(task, reply);
     this.#dispatch();
   }

@@ -27,10 +27,10 @@ export interface Request {
   args: readonly unknown[];
 }
 
-/** Its outcome, or how far it is. */
+/** Its outcome and the memory that the worker holds, or how far it is. */
 export type Reply =
-  | { id: number; result: unknown }
-  | { id: number; error: PlainError }
+  | { id: number; result: unknown; memoryBytes: number }
+  | { id: number; error: PlainError; memoryBytes: number }
   | { id: number; done: number; total: number };
 
 /** What the pool needs of a worker, whichever runtime it lives in. */

@@ -1,9 +1,9 @@
 // The inside of a worker.
 
-import { initDrivesSync } from '../lib/drive/drive.js';
-import { initNeuralSync } from '../lib/neural/network.js';
+import { drives as drivesModule, initDrivesSync } from '../lib/drive/drive.js';
+import { initNeuralSync, neural as neuralModule } from '../lib/neural/network.js';
 import { BoresightError, failure } from '../lib/runtime/errors.js';
-import { initSync } from '../lib/runtime/instance.js';
+import { core, initSync } from '../lib/runtime/instance.js';
 import { forgetCapture, keepCapture } from './captures.js';
 import { forgetNetwork, keepNetwork } from './networks.js';
 import { type Context, operations } from './operations.js';
@@ -48,12 +48,15 @@ export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (
       const operation = operations[name] as (this: Context, ...args: readonly unknown[]) => unknown;
       const report = (done: number, total: number): void => post({ id, done, total }, []);
       const result = operation.apply({ report }, args as unknown[]);
-      post({ id, result }, buffersOf(result));
+      post({ id, result, memoryBytes: memoryBytes() }, buffersOf(result));
     } catch (thrown) {
-      post({ id, error: asTyped(thrown).toPlain() }, []);
+      post({ id, error: asTyped(thrown).toPlain(), memoryBytes: memoryBytes() }, []);
     }
   };
 }
+
+const memoryBytes = (): number =>
+  [core, drivesModule, neuralModule].reduce((sum, instance) => sum + instance.memoryBytes, 0);
 
 function asTyped(thrown: unknown): BoresightError {
   if (thrown instanceof BoresightError) return thrown;

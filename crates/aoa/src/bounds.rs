@@ -93,6 +93,9 @@ pub fn target_bound(
     }
 }
 
+/// Deviations from here on are an infinite one and rounding: no noise that a radar meets makes such.
+const UNDETERMINED_RAD: f64 = 1e9;
+
 /// What is known of the signals.
 #[derive(Debug, Clone, Copy)]
 pub struct Signals<'a> {
@@ -198,7 +201,11 @@ fn bound(
     };
     let covariance =
         covariance.unwrap_or_else(|| Array2::from_elem((angles, angles), f64::INFINITY));
-    let deviation = |i: usize| covariance[[i, i]].sqrt();
+    // Along an array the phases do not change with the angle, but for rounding.
+    let deviation = |i: usize| {
+        let deviation = covariance[[i, i]].sqrt();
+        if deviation < UNDETERMINED_RAD { deviation } else { f64::INFINITY }
+    };
     Ok(Bound {
         azimuth_rad: (0..count).map(deviation).collect(),
         elevation_rad: (angles > count).then(|| (count..angles).map(deviation).collect()),

@@ -225,6 +225,9 @@ fn bounds_of_what_cannot_be_told_apart_are_infinite_and_bad_arguments_are_named(
         }
         assert!(esprit_error(&array, &same, &signals).unwrap()[0] == f64::INFINITY);
     }
+    let along = [Direction::azimuth(0.2), Direction::azimuth(PI / 2.0)];
+    let bound = stochastic_bound(&array, &along, &signals).unwrap().azimuth_rad;
+    assert!(bound[0] < 0.1 && bound[1] == f64::INFINITY, "{bound:?}");
     let coherent = single_snapshot(&[Complex64::new(1.0, 0.0), Complex64::new(0.0, 1.0)]);
     let one = Signals { covariance: coherent.view(), noise_power: 0.1, snapshots: 1 };
     let two = azimuths(&[-10.0, 10.0]);

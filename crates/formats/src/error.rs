@@ -91,6 +91,14 @@ pub enum FormatError {
         /// What was met.
         given: String,
     },
+    /// What was to be written was not: a full disk, say.
+    #[error("{what} cannot be written: {given}")]
+    NotWritten {
+        /// The file.
+        what: &'static str,
+        /// What was met.
+        given: String,
+    },
     /// A JSON file of a recording cannot be used.
     #[error("{file}: {given}; expected {expected}")]
     Json {
@@ -138,6 +146,7 @@ impl Diagnose for FormatError {
             Self::Binary { .. } => "malformed-file",
             Self::Table { .. } => "malformed-table",
             Self::Hdf5 { .. } => "malformed-hdf5",
+            Self::NotWritten { .. } => "not-written",
             Self::Json { .. } => "malformed-json",
             Self::Compressed { .. } => "malformed-gzip",
             Self::TimeBackwards { .. } => "time-backwards",
@@ -167,6 +176,9 @@ impl Diagnose for FormatError {
                 Details::new(format!("line {line}: {what}"), expected, given)
             }
             Self::Hdf5 { what, expected, given } => Details::new(what, expected, given),
+            Self::NotWritten { what, given } => {
+                Details::new(*what, "a place that takes all of it", given)
+            }
             Self::Json { file, expected, given } => Details::new(*file, *expected, given),
             Self::Compressed { given } => {
                 Details::new("compressed data", "a whole gzip file", given)

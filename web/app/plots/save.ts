@@ -1,8 +1,10 @@
 /** What leaves a plot or table as a file. */
 
-/** A field as RFC 4180 wants it. */
+/** A field as RFC 4180 wants it. Spreadsheets would run text that begins as formulas do; an apostrophe keeps it text. */
 function field(value: unknown): string {
-  const text = value == null || (typeof value === 'number' && !Number.isFinite(value)) ? '' : String(value);
+  const given = value == null || (typeof value === 'number' && !Number.isFinite(value)) ? '' : String(value);
+  const text =
+    typeof value === 'string' && /^[=+\-@\t\r]/.test(given) && Number.isNaN(Number(given)) ? `'${given}` : given;
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 

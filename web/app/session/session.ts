@@ -4,6 +4,7 @@ import { api, describeError, FileProblem } from '../data.ts';
 import * as networks from '../networks/load.ts';
 import * as capture from '../pages/capture/files.ts';
 import * as mounting from '../pages/mounting/drive.ts';
+import { openFiles as openDriveFiles } from '../pages/mounting/own-files.ts';
 import { download, fileName } from '../plots/save.ts';
 import { goTo } from '../state/address.ts';
 import { announce } from '../state/announce.ts';
@@ -38,7 +39,7 @@ const OWN: readonly (readonly [Page, Own])[] = [
         ),
     },
   ],
-  ['mounting', { files: mounting.ownFiles, close: mounting.closeOwn, open: mounting.openFiles }],
+  ['mounting', { files: mounting.ownFiles, close: mounting.closeOwn, open: openDriveFiles }],
   // Networks stand beside each other.
   ['networks', { files: networks.ownFiles, close: () => {}, open: networks.openOwn }],
 ];

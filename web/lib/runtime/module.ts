@@ -4,9 +4,13 @@ import { BoresightError, failure, isPlainError } from './errors.js';
 /** Where the wasm comes from: an address, a response, bytes or a compiled module. */
 export type WasmSource = URL | string | Request | Response | BufferSource | WebAssembly.Module;
 
+interface Exports {
+  memory: WebAssembly.Memory;
+}
+
 /** What is used of the bindings of a module. */
 interface Glue {
-  initSync(options: { module: WebAssembly.Module | BufferSource }): unknown;
+  initSync(options: { module: WebAssembly.Module | BufferSource }): Exports;
   __wbg_reset_state(): void;
   lastPanic(): string;
 }
@@ -14,18 +18,19 @@ interface Glue {
 /** One module and its instance. */
 export class Instance {
   readonly #glue: Glue;
-  readonly #instantiate: (options: { module_or_path: WasmSource }) => Promise<unknown>;
+  readonly #instantiate: (options: { module_or_path: WasmSource }) => Promise<Exports>;
   readonly #file: string;
   readonly #init: string;
   #state: 'none' | 'ready' | 'dead' = 'none';
   #pending: Promise<void> | undefined;
   #generation = 0;
   #lastWords = '';
+  #memory: WebAssembly.Memory | undefined;
 
   /** `file` and `init` name the module and what loads it in errors. */
   constructor(
     glue: Glue,
-    instantiate: (options: { module_or_path: WasmSource }) => Promise<unknown>,
+    instantiate: (options: { module_or_path: WasmSource }) => Promise<Exports>,
     names: { file: string; init: string },
   ) {
     this.#glue = glue;
@@ -45,7 +50,7 @@ export class Instance {
     }
     this.#pending ??= (async () => {
       try {
-        await this.#instantiate({ module_or_path: await source() });
+        this.#memory = (await this.#instantiate({ module_or_path: await source() })).memory;
         if (this.#state === 'none') this.#state = 'ready';
       } catch (cause) {
         throw this.#notLoaded(cause);
@@ -63,7 +68,7 @@ export class Instance {
       return;
     }
     try {
-      this.#glue.initSync({ module });
+      this.#memory = this.#glue.initSync({ module }).memory;
       this.#state = 'ready';
     } catch (cause) {
       throw this.#notLoaded(cause);
@@ -92,6 +97,11 @@ export class Instance {
   /** Number of the instance, which changes after a trap. */
   get number(): number {
     return this.#generation;
+  }
+
+  /** Memory of the instance, which grows and never shrinks, bytes. */
+  get memoryBytes(): number {
+    return this.#memory?.buffer.byteLength ?? 0;
   }
 
   /** Runs a function of the bindings and turns what it throws into a {@link BoresightError}. */

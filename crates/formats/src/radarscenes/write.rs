@@ -103,8 +103,14 @@ pub fn write(
         odometry
             .floats(&[sample.speed_mps.unwrap_or(f64::NAN) as f32, sample.yaw_rate_radps as f32]);
     }
-    write_tables(count, rows.0, log.motion.len(), odometry.0, packing, radar_data)
-        .map_err(|error| wrong("radar_data.h5", "a file that can be written", error))?;
+    write_tables(count, rows.0, log.motion.len(), odometry.0, packing, radar_data).map_err(
+        |error| match error {
+            hdf5_pure::Error::Io(error) => {
+                FormatError::NotWritten { what: "radar_data.h5", given: error.to_string() }
+            }
+            other => wrong("radar_data.h5", "a file that can be written", other),
+        },
+    )?;
 
     let entry = SequenceEntry {
         category: "train".into(),

@@ -102,7 +102,8 @@ function arrayOptions(method: Method, state: AngleState): EstimatorOptions {
 export function estimatorOptions(method: Method, state: AngleState): EstimatorOptions {
   return {
     ...arrayOptions(method, state),
-    sources: state.sources === 'known' ? state.targets.length : state.sources,
+    // Of noise alone there is a spectrum, too; methods that must be told of a source do not run.
+    sources: state.sources === 'known' ? Math.max(state.targets.length, 1) : state.sources,
     gridPoints: state.grid,
     ...(state.refine ? { refine: true } : {}),
     ...(state.sources === 'known' ? { maxPeaks: Math.max(state.targets.length, 1) } : {}),

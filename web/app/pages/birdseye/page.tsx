@@ -47,6 +47,8 @@ export function BirdseyePage() {
     frameProblem.value,
     capture ? fileProblem.value : null,
   ].filter((problem) => problem !== null);
+  const begins = images.value.size === 0 && problems.length === 0 && !wasCancelled.value;
+  const awaited = working.value || begins ? birdseyeState.value.methods : [];
   return (
     <div class="page">
       <Controls />
@@ -70,13 +72,26 @@ export function BirdseyePage() {
         <div class="images">
           {api.methods().map((info) => {
             const image = images.value.get(info.name);
-            return image && <ImagePlot key={info.name} info={info} image={image} />;
+            if (image) return <ImagePlot key={info.name} info={info} image={image} />;
+            return awaited.includes(info.name) && <Awaited key={info.name} title={info.title} />;
           })}
         </div>
         <ResultsTable />
         <Counts />
         <Help />
       </MainColumn>
+    </div>
+  );
+}
+
+/** Keeps the place of an image that is being computed. */
+function Awaited({ title }: { title: string }) {
+  return (
+    <div class="panel" data-awaited>
+      <div class="panel-head">
+        <h3 class="muted">{title}</h3>
+      </div>
+      <div class="plot-host portrait" />
     </div>
   );
 }

@@ -99,7 +99,7 @@ export function CapturePage() {
           !processProblem.value &&
           !wasCancelled.value &&
           (capture || !problem) && (
-            <p class="panel loading" role="status">
+            <p key={capture ? 'processing' : 'loading'} class="panel loading" role="status">
               {capture ? 'Processing the capture' : 'Loading the capture'}
             </p>
           )

@@ -9,7 +9,7 @@ export function askAhead(params: URLSearchParams): void {
   if (mountingCodec.read(params).source !== 'delphi') return;
   for (const [, address] of bundledFiles) {
     const link = document.createElement('link');
-    Object.assign(link, { rel: 'preload', as: 'fetch', crossOrigin: 'anonymous', href: address });
+    Object.assign(link, { rel: 'preload', as: 'fetch', crossOrigin: 'anonymous', fetchPriority: 'low', href: address });
     document.head.append(link);
   }
 }

@@ -6,7 +6,6 @@ import radarAddress from '../../../../recordings/delphi/front_radar.csv.gz?url';
 import licenceAddress from '../../../../recordings/delphi/LICENSE?url';
 import poseAddress from '../../../../recordings/delphi/pose_10hz.csv.gz?url';
 import { aborted, describeError, FileProblem, type Problem, pool } from '../../data.ts';
-import { DRIVES } from '../../kinds.ts';
 import type { NamedFile } from '../../ui/entries.ts';
 import { type MountingState, mountingState, update } from './state.ts';
 
@@ -27,6 +26,11 @@ export interface Loaded {
 }
 
 export const loaded = signal<Loaded | null>(null);
+/** Files and licence of the drive that is open or, of the bundled one, will be. */
+export const shownFiles = computed((): { files: { name: string; bytes?: number }[]; licence: string | null } => {
+  if (loaded.value || mountingState.value.source !== 'delphi') return loaded.value ?? { files: [], licence: null };
+  return { files: bundledFiles.map(([name]) => ({ name })), licence: licenceAddress };
+});
 /** What is being opened, and how far that is where it is known. */
 export const opening = signal<{ what: string; share: number | null } | null>(null);
 /** An opening was ended by the user. */
@@ -60,19 +64,15 @@ export const scans = computed(() => {
   return { scan, timeS: Float64Array.from(scan, (i) => all.timeS[i] as number) };
 });
 
-/** What stands beside an HDF5 file. */
-const BESIDE = /(^|\/)(scenes|sensors|sequences)\.json$/i;
-/** What a tab can hold beside its copies in workers. */
-const LARGEST_BYTES = 1024 ** 3;
-
 /** The latest opening wins, and ends the one before. */
 let controller: AbortController | undefined;
 
-async function open(
+/** Opens a drive; gives what kept it from being opened, or null. */
+export async function open(
   what: string,
   work: (signal: AbortSignal, job: JobOptions) => Promise<Omit<Loaded, 'motion'>>,
   opened: () => void = () => {},
-): Promise<void> {
+): Promise<unknown> {
   controller?.abort();
   const mine = new AbortController();
   controller = mine;
@@ -84,16 +84,18 @@ async function open(
   try {
     const next = await work(mine.signal, { signal: mine.signal, onProgress });
     const motion = await pool().scanMotion(next.drive, {}, { signal: mine.signal });
-    if (controller !== mine) return;
+    mine.signal.throwIfAborted();
     opened();
     loaded.value = { ...next, motion };
     driveProblem.value = null;
+    return null;
   } catch (error) {
-    if (controller !== mine || aborted(error)) return;
-    driveProblem.value =
-      error instanceof FileProblem
-        ? { code: error.code, message: error.message, file: error.file }
-        : describeError(error);
+    if (controller === mine && !aborted(error))
+      driveProblem.value =
+        error instanceof FileProblem
+          ? { code: error.code, message: error.message, file: error.file }
+          : describeError(error);
+    return error;
   } finally {
     if (controller === mine) {
       controller = undefined;
@@ -118,22 +120,38 @@ export function openAgain(): void {
 }
 
 /** A drive of one's own has its own radars and places. */
-const OWN = { sensor: null, xM: null, yM: null, nominal: null, minSpeed: null } as const;
+export const OWN = { sensor: null, xM: null, yM: null, nominal: null, minSpeed: null } as const;
 
 /** Names and addresses of the bundled drive's files. */
 export const bundledFiles = [
-  ['front_radar.csv.gz', radarAddress],
+  ['front_radar.csv', radarAddress],
   ['pose_10hz.csv.gz', poseAddress],
 ] as const;
 
-export function openBundled(): Promise<void> {
+/** The radar's table out of the form in which it is sent. */
+async function tableOf(sent: Uint8Array, signal: AbortSignal): Promise<Uint8Array> {
+  const worker = new Worker(new URL('./compact-worker.ts', import.meta.url), { type: 'module' });
+  try {
+    return await new Promise((resolve, reject) => {
+      signal.addEventListener('abort', () => reject(signal.reason));
+      worker.onmessage = ({ data }) => resolve(data);
+      worker.onerror = ({ message }) => reject(new FileProblem('damaged', 'front_radar.csv', message));
+      worker.postMessage(sent, [sent.buffer]);
+    });
+  } finally {
+    worker.terminate();
+  }
+}
+
+export function openBundled(): Promise<unknown> {
   return open('Loading the bundled drive', async (signal, job) => {
     const files = await Promise.all(
       bundledFiles.map(async ([name, address]) => {
         const response = await fetch(address, { signal });
         if (!response.ok)
           throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
-        return { name, bytes: new Uint8Array(await response.arrayBuffer()) };
+        const bytes = new Uint8Array(await response.arrayBuffer());
+        return { name, bytes: address === radarAddress ? await tableOf(bytes, signal) : bytes };
       }),
     );
     const sizes = files.map(({ name, bytes }) => ({ name, bytes: bytes.length }));
@@ -151,73 +169,6 @@ export function openBundled(): Promise<void> {
   });
 }
 
-export function openFiles(all: readonly NamedFile[]): Promise<void> {
-  // A link to files comes with where their radar is.
-  const linked = filesWanted.peek();
-  return open(
-    'Reading the files',
-    async (signal, job) => {
-      const drives = all.filter(({ name }) => DRIVES.test(name));
-      const first = all[0];
-      if (!first)
-        throw new FileProblem(
-          'no-drive-log',
-          'The folder',
-          'it is empty; a .csv, .csv.gz or .h5 with a drive is expected',
-        );
-      if (drives.length === 0) {
-        const what = all.length === 1 ? first.name : `${all.length} files`;
-        throw new FileProblem(
-          'no-drive-log',
-          what,
-          'no drive is in it; .csv or .csv.gz tables, or the radar_data.h5 of a RadarScenes sequence, are expected',
-        );
-      }
-      const sequences = drives.filter(({ name }) => /\.(h5|hdf5)$/i.test(name)).length;
-      if (sequences > 1)
-        throw new FileProblem(
-          'ambiguous',
-          `${all.length} files`,
-          `${sequences} sequences are in them; one is expected: open the folder of that alone`,
-        );
-      const kept = [...drives, ...all.filter(({ name }) => BESIDE.test(name))];
-      const size = kept.reduce((sum, { file }) => sum + file.size, 0);
-      const what = kept.length === 1 ? (kept[0] as NamedFile).name : `${kept.length} files`;
-      if (size > LARGEST_BYTES) {
-        throw new FileProblem(
-          'too-large',
-          what,
-          `${Math.round(size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected: choose one sequence`,
-        );
-      }
-      const files = await Promise.all(
-        kept.map(async ({ name, file }) => ({ name, bytes: new Uint8Array(await file.arrayBuffer()) })),
-      );
-      signal.throwIfAborted();
-      try {
-        const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
-        const path = (drives[0] as NamedFile).name.split('/');
-        const name = path.at(-2) ?? (path.at(-1) as string).replace(DRIVES, '');
-        return {
-          name,
-          source: 'files',
-          files: kept.map(({ name, file }) => ({ name, bytes: file.size })),
-          drive,
-          truth: null,
-          statedDeg: new Map(),
-          licence: null,
-          own: kept,
-        };
-      } catch (error) {
-        if (aborted(error)) throw error;
-        const { code, message } = describeError(error);
-        throw new FileProblem(code, what, message);
-      }
-    },
-    () => update({ ...(linked ? {} : OWN), source: 'files' }),
-  );
-}
-
 function simulation(state: MountingState): SimulateDriveOptions {
   const { scenario, profile, seed, duration, moving, misalignment } = state;
   const misalignmentDeg = Object.fromEntries([1, 2, 3, 4].map((id) => [id, misalignment]));
@@ -231,7 +182,7 @@ function simulation(state: MountingState): SimulateDriveOptions {
   };
 }
 
-function openSimulated(options: SimulateDriveOptions): Promise<void> {
+function openSimulated(options: SimulateDriveOptions): Promise<unknown> {
   return open('Simulating a drive', async (_, job) => {
     const { truth, ...drive } = await pool().simulateDrive(options, job);
     return {

@@ -6,6 +6,7 @@ import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
 import { AnglePlot } from './angle-plot.tsx';
 import { BirdPlot } from './bird-plot.tsx';
+import type { GroupName } from './columns/fields.ts';
 import { Controls } from './controls.tsx';
 import { DopplerPlot } from './doppler-plot.tsx';
 import {
@@ -19,6 +20,7 @@ import {
   start as startDrive,
 } from './drive.ts';
 import { frameView } from './frame.ts';
+import { columnsDialog } from './own-files.ts';
 import { frame, playing, start as startClock, telling, time } from './playhead.ts';
 import { results, shownMethod, start as startProcess, where, working } from './process.ts';
 import { ResultsTable } from './results-table.tsx';
@@ -110,6 +112,7 @@ export function MountingPage() {
 
   const problem = driveProblem.value;
   const open = loaded.value;
+  const ColumnsDialog = columnsDialog.value;
   return (
     <div class="page">
       <Controls />
@@ -164,13 +167,27 @@ export function MountingPage() {
             one: the drive does not tell.
           </p>
           <p>
-            <b>Files.</b> A RadarScenes sequence (radar_data.h5), Delphi ESR tables, or general tables: detections with
-            time_s, azimuth_deg and range_rate_mps, and motion with time_s and yaw_rate_degps; the documentation names
-            all columns.
+            <b>Files.</b> A RadarScenes sequence (radar_data.h5), Delphi ESR tables, or other tables of detections and
+            of the car’s motion (.csv): where their columns have names of their own, it is asked what they hold.
+            <Template group="detections" /> and <Template group="motion" /> are tables to fill.
           </p>
         </About>
       </MainColumn>
+      {ColumnsDialog && <ColumnsDialog />}
     </div>
+  );
+}
+
+function Template({ group }: { group: GroupName }) {
+  return (
+    <button
+      type="button"
+      class="link"
+      data-template={group}
+      onClick={() => void import('./columns/template.ts').then(({ saveTemplate }) => saveTemplate(group))}
+    >
+      template-{group}.csv
+    </button>
   );
 }
 
@@ -251,11 +268,11 @@ function Summary() {
 }
 
 const REASONS: Record<string, string> = {
-  'not-finite': 'Not finite',
+  'not-finite': 'Without finite numbers',
   'invalid-marker': 'Without range rate',
   status: 'Not valid by status',
   duplicate: 'Duplicates',
-  'motion-not-finite': 'Motion not finite',
+  'motion-not-finite': 'Motion without finite numbers',
   'motion-duplicate': 'Motion duplicates',
 };
 

@@ -7,15 +7,17 @@ import { pickedFiles } from '../../ui/entries.ts';
 import { Licence } from '../../ui/licence.tsx';
 import { SeedField } from '../../ui/seed-field.tsx';
 import { Control } from './control.ts';
-import { chooseSource, loaded, openFiles } from './drive.ts';
+import { chooseSource, driveProblem, loaded, shownFiles } from './drive.ts';
+import { changeColumns, openFiles, tables } from './own-files.ts';
 import { mountingState, update } from './state.ts';
 
 export function Source() {
-  const files = useRef<HTMLInputElement>(null);
+  const input = useRef<HTMLInputElement>(null);
   const folder = useRef<HTMLInputElement>(null);
   const over = useFileDrop('mounting', (files) => void openFiles(files));
   const state = mountingState.value;
   const open = loaded.value;
+  const { files, licence } = shownFiles.value;
   const pick = (event: { currentTarget: HTMLInputElement }): void => {
     const list = pickedFiles(event.currentTarget.files);
     event.currentTarget.value = '';
@@ -35,20 +37,20 @@ export function Source() {
       />
       {state.source === 'simulated' && <Simulation />}
       <div class={`drop${over.value ? ' over' : ''}`}>
-        {open && open.files.length > 0 && (
+        {files.length > 0 && (
           <ul class="files own" aria-label="Open files">
-            {open.files.slice(0, 6).map(({ name, bytes }) => (
+            {files.slice(0, 6).map(({ name, bytes }) => (
               <li key={name}>
                 <span class="file">{name}</span>
-                <span class="muted">{byteSize(bytes)}</span>
+                <span class="muted">{bytes === undefined ? '' : byteSize(bytes)}</span>
               </li>
             ))}
-            {open.files.length > 6 && <li class="muted">and {open.files.length - 6} more</li>}
+            {files.length > 6 && <li class="muted">and {files.length - 6} more</li>}
           </ul>
         )}
-        {open?.licence && (
+        {licence && (
           <Licence
-            address={open.licence}
+            address={licence}
             summary="From PJLab-ADG/SensorsCalibration, Apache-2.0"
             remark="The first 600 s of its drive with a Delphi (Aptiv) ESR. These are tracked objects at 20 Hz, not raw detections; the yaw rate is differentiated from the pose."
           />
@@ -56,7 +58,7 @@ export function Source() {
         <div class="row">
           <button
             type="button"
-            onClick={() => files.current?.click()}
+            onClick={() => input.current?.click()}
             title="Tables (.csv, .csv.gz) of detections and motion, or radar_data.h5"
           >
             Open files
@@ -68,8 +70,18 @@ export function Source() {
           >
             Open a folder
           </button>
+          {tables.value.length > 0 && (driveProblem.value || open?.source === 'files') && (
+            <button
+              type="button"
+              data-action="columns"
+              onClick={() => void changeColumns()}
+              title="Say what the columns of your tables hold, with their units and signs"
+            >
+              Columns
+            </button>
+          )}
           <input
-            ref={files}
+            ref={input}
             type="file"
             multiple
             hidden
@@ -89,7 +101,7 @@ export function Source() {
           />
         </div>
         <p class={showHelp.value ? 'help' : 'muted small'}>
-          Or drop the folder of a RadarScenes sequence, Delphi tables or general CSV tables anywhere on the page.
+          Or drop the folder of a RadarScenes sequence, Delphi tables or CSV tables of any columns anywhere on the page.
           Nothing is uploaded.
         </p>
       </div>

@@ -1,4 +1,0 @@
-import type { Plugin } from 'vite';
-
-export function readColumns(packed: Uint8Array): Uint8Array;
-export function bundledDrive(): Plugin;

@@ -1,0 +1,9 @@
+// A module of the demo that imports nothing, as it is in the sources.
+import { readFile } from 'node:fs/promises';
+import { transformWithOxc } from 'vite';
+
+export async function appModule(path) {
+  const source = new URL(`../../../web/app/${path}`, import.meta.url);
+  const { code } = await transformWithOxc(await readFile(source, 'utf8'), source.pathname);
+  return import(`data:text/javascript,${encodeURIComponent(code)}`);
+}
