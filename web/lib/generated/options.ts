@@ -368,6 +368,11 @@ export interface CalibrationOptions {
    */
   azimuthBiasSigmaDeg?: number;
   /**
+   * Standard deviation of what detections that move and pass for static would turn the angle by if all moved; it
+   * counts by the share of detections that do (0 to 180 deg; default 0.15).
+   */
+  trafficSigmaDeg?: number;
+  /**
    * Standard deviation of the error that the angles of all frames within five seconds share, before the drive tells it
    * (more than 0 deg; default 0.1).
    */
