@@ -1,7 +1,7 @@
 // The mounting angle out of frames made here: a car on a winding road, a radar that sees standing points.
 import assert from 'node:assert/strict';
 import { before, describe, test } from 'node:test';
-import { Calibration, calibrationMethods, init, initDrives } from 'boresight';
+import { Calibration, calibrationMethods, init, initDrives, mergeCalibrations } from 'boresight';
 import { createPool } from 'boresight/worker';
 import glue from '../../dist/wasm/boresight_drives.js';
 import { throwsTyped } from './lib/assert.mjs';
@@ -130,6 +130,40 @@ describe('a calibration', () => {
     assert.equal(grown('recursive'), 0);
     // The others keep 56 bytes of each frame, a megabyte here.
     assert.ok(grown('weighted-mean') > 0);
+  });
+
+  test('goes on from a snapshot to the last digit, also in a worker’s merge of drives', async () => {
+    const options = { ...radar, method: 'recursive', nominalDeg: 24 };
+    const whole = new Calibration(options);
+    let cut = new Calibration(options);
+    for (let index = 0; index < 300; index++) {
+      if (index % 50 === 30) {
+        const bytes = cut.snapshot();
+        assert.ok(bytes.length < 16_384, `${bytes.length} bytes`);
+        cut.free();
+        cut = Calibration.restore(bytes);
+      }
+      assert.deepEqual(whole.addFrame(frame(index, 25)), cut.addFrame(frame(index, 25)));
+    }
+    const result = whole.estimate();
+    assert.deepEqual(cut.estimate(), result);
+    assert.ok(result.slipGradientSigmaDeg > 0 && result.delaySigmaS > 0 && result.speedScaleSigma > 0);
+    const snapshots = [whole.snapshot(), cut.snapshot()];
+    const merged = mergeCalibrations(snapshots);
+    assertShape(merged, 'CalibrationResult');
+    assert.equal(merged.frames.given, 600);
+    // The same drive twice: the same angle, and known better.
+    assert.ok(Math.abs(merged.angleDeg - result.angleDeg) < 0.02 && merged.sigmaDeg < result.sigmaDeg);
+    const pool = createPool({ workers: 1 });
+    assert.deepEqual(await pool.mergeCalibrations(snapshots), merged);
+    pool.terminate();
+    throwsTyped(() => Calibration.restore(Uint8Array.of(1, 2, 3)), 'malformed-snapshot', 'snapshot');
+    throwsTyped(() => Calibration.restore('BSCA'), 'wrong-type', 'snapshot');
+    throwsTyped(() => mergeCalibrations([]), 'empty', 'snapshots');
+    throwsTyped(() => mergeCalibrations([new Uint8Array(9)]), 'malformed-snapshot', 'snapshot');
+    const other = new Calibration({ ...radar, method: 'kabsch' });
+    throwsTyped(() => other.snapshot(), 'unknown-name', 'method of a snapshot');
+    for (const calibration of [whole, cut, other]) calibration.free();
   });
 
   test('says what became of each frame', () => {

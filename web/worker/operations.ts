@@ -235,6 +235,7 @@ export const operations = {
   simulateCube: api.simulateCube,
   processCube,
   calibrationMethods: api.calibrationMethods,
+  mergeCalibrations: api.mergeCalibrations,
   readDrive: api.readDrive,
   simulateDrive,
   driveScenarios: api.driveScenarios,

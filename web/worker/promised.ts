@@ -67,6 +67,7 @@ export const argumentCounts = {
   version: 0,
   methods: 0,
   calibrationMethods: 0,
+  mergeCalibrations: 1,
   arrayPresets: 0,
   array: 1,
   unsuited: 2,

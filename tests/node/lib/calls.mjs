@@ -88,6 +88,7 @@ export function goodCalls() {
     calibrateDrive: [drive, of],
     jointCalibration: [drive, { sensors: [1] }],
     scanMotion: [drive, { maxGapS: 0.2 }],
+    mergeCalibrations: [[snapshotOf(calibration, frame)]],
     driveFrame: [drive, 1, boresight.scanMotion(drive)],
     trajectory: [frames, { ...mounting, angleDeg: 10 }],
     relativeTrajectoryError: [path, path, 2],
@@ -103,8 +104,18 @@ export function goodCalls() {
     'BoardLogStream.push': [cfg, Uint8Array.from(dat.subarray(0, 500))],
     'Calibration.addFrame': [calibration, frame],
     'Calibration.estimate': [calibration],
+    'Calibration.snapshot': [calibration],
   };
   return { ...plain, ...methods };
+}
+
+/** A calibration that has taken a frame, as bytes. */
+function snapshotOf(options, frame) {
+  const made = new boresight.Calibration({ ...options, method: 'recursive', motion: 'tracked' });
+  made.addFrame(frame);
+  const bytes = made.snapshot();
+  made.free();
+  return bytes;
 }
 
 /** How many arguments handles are made with. */
