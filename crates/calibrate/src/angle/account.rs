@@ -101,7 +101,7 @@ fn explained(influences: &[Influence], shapes: [(Shape, f64); 2]) -> [f64; 2] {
         squares += weight(influence) * influence.residual.powi(2);
     }
     let scatter = squares / total;
-    if !(scatter > 0.0) {
+    if scatter.is_nan() || scatter <= 0.0 {
         return [0.0; 2];
     }
     // Weights are scaled to the number of frames.

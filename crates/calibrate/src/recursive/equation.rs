@@ -29,7 +29,8 @@ impl Equation {
         reference: &Vector,
     ) -> Option<Self> {
         let sine = prediction.lateral(speed_mps) / motion.speed_mps;
-        if sine.abs() > MAX_SINE || !(motion.direction_variance > 0.0) {
+        let untold = motion.direction_variance.is_nan() || motion.direction_variance <= 0.0;
+        if sine.is_nan() || sine.abs() > MAX_SINE || untold {
             return None;
         }
         let forward = speed_mps >= 0.0;

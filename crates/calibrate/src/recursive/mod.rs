@@ -351,7 +351,8 @@ impl Recursive {
         let share = motion.inliers as f64 / motion.detections.max(1) as f64;
         if sine.abs() >= 1.0
             || share < self.options.inlier_ratio_threshold
-            || !(polar.direction_variance < VOTE_RAD * VOTE_RAD)
+            || polar.direction_variance.is_nan()
+            || polar.direction_variance >= VOTE_RAD * VOTE_RAD
         {
             return Verdict::Sparse;
         }
