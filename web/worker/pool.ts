@@ -36,6 +36,7 @@ const ofDrives: readonly OperationName[] = [
   'scanMotion',
   'calibrateDrive',
   'jointCalibration',
+  'mergeCalibrations',
 ];
 
 /** Memory that the copies of one capture in the workers may take, bytes; one worker has it in any case. */

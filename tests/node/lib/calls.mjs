@@ -104,14 +104,16 @@ export function goodCalls() {
     'BoardLogStream.push': [cfg, Uint8Array.from(dat.subarray(0, 500))],
     'Calibration.addFrame': [calibration, frame],
     'Calibration.estimate': [calibration],
-    'Calibration.snapshot': [calibration],
+    'Calibration.snapshot': [recursive(calibration)],
   };
   return { ...plain, ...methods };
 }
 
+const recursive = (options) => ({ ...options, method: 'recursive', motion: 'tracked' });
+
 /** A calibration that has taken a frame, as bytes. */
 function snapshotOf(options, frame) {
-  const made = new boresight.Calibration({ ...options, method: 'recursive', motion: 'tracked' });
+  const made = new boresight.Calibration(recursive(options));
   made.addFrame(frame);
   const bytes = made.snapshot();
   made.free();

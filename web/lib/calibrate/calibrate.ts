@@ -21,21 +21,18 @@ export function mergeCalibrations(snapshots: readonly (Uint8Array | ArrayBuffer)
   return drives.call(() => glue.mergeCalibrations(snapshots) as CalibrationResult);
 }
 
-class Kept {
-  constructor(readonly snapshot: Uint8Array | ArrayBuffer) {}
-}
-
 /** Finds the angle a radar is mounted at from its frames while the car drives. */
 export class Calibration extends Handle<glue.Calibration> {
-  constructor(options: CalibrationOptions) {
-    super(drives, () =>
-      options instanceof Kept ? glue.Calibration.restore(options.snapshot) : new glue.Calibration(options),
-    );
+  constructor(options: CalibrationOptions);
+  /** What {@link Calibration.restore} calls. */
+  constructor(snapshot: Uint8Array | ArrayBuffer, kept: true);
+  constructor(options: CalibrationOptions | Uint8Array | ArrayBuffer, kept?: true) {
+    super(drives, () => (kept === true ? glue.Calibration.restore(options) : new glue.Calibration(options)));
   }
 
   /** The calibration that a snapshot is of, with its options: it goes on to the last digit as the one that was kept. */
   static restore(snapshot: Uint8Array | ArrayBuffer): Calibration {
-    return new Calibration(new Kept(snapshot) as unknown as CalibrationOptions);
+    return new Calibration(snapshot, true);
   }
 
   /** The calibration as some kilobytes, whatever the drive's length (recursive method). */

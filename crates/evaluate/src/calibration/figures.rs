@@ -2,6 +2,7 @@
 
 use super::CANDIDATES;
 use super::report::{CalibrationReport, Condition, Convergence};
+use super::scene::FIGURE_RADAR;
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
 use crate::statistics::Summary;
@@ -11,7 +12,8 @@ use crate::statistics::Summary;
 /// # Errors
 /// [`EvaluateError::Figure`].
 pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
-    let truth = condition.radars.iter().find(|r| r.sensor == 3).map_or(f64::NAN, |r| r.true_deg);
+    let truth =
+        condition.radars.iter().find(|r| r.sensor == FIGURE_RADAR).map_or(f64::NAN, |r| r.true_deg);
     let scenes = condition.scenes as f64;
     let shown = [0, 1, 5];
     let all = || shown.iter().flat_map(|&k| condition.angles_deg[k].iter().flatten().copied());

@@ -1,6 +1,6 @@
 //! From records to the tables.
 
-use super::scene::{EstimateRecord, PartRecord, RadarRecord, SEGMENT_M, SceneRecord};
+use super::scene::{EstimateRecord, FIGURE_RADAR, PartRecord, RadarRecord, SEGMENT_M, SceneRecord};
 use super::{CANDIDATES, CalibrationExperiment, DRIVING_TIMES_S, figures};
 use crate::EvaluateError;
 use crate::statistics::Summary;
@@ -100,7 +100,7 @@ pub struct RadarResult {
     pub rte_m: f64,
 }
 
-/// Errors against driving time, all radars.
+/// Errors of radar 3 against driving time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Convergence {
@@ -215,7 +215,9 @@ impl Condition {
             .collect();
         let angles_deg = (0..CANDIDATES.len())
             .map(|k| {
-                let third = records.iter().map(|r| r.radars.iter().find(|radar| radar.sensor == 3));
+                let third = records
+                    .iter()
+                    .map(|r| r.radars.iter().find(|radar| radar.sensor == FIGURE_RADAR));
                 let angle =
                     |radar: &RadarRecord| Some(radar.true_deg + radar.estimates[k].error_deg?);
                 third.map(|radar| radar.and_then(angle)).collect()
@@ -289,7 +291,7 @@ impl Condition {
         rows.push(("true angle", self.radars.iter().map(|r| format!("{:.3}", r.rte_m)).collect()));
         heads.truncate(heads.len() - 2);
         text += &table("angle from", &heads, &rows);
-        text += "\nMean absolute error in deg and variance in deg^2 against driving time, all radars (Figure 6).\n\n";
+        text += "\nMean absolute error in deg and variance in deg^2 against driving time, radar 3 (Figure 6).\n\n";
         let times: Vec<String> = DRIVING_TIMES_S.iter().map(|time| format!("{time} s")).collect();
         let heads: Vec<&str> = times.iter().map(String::as_str).collect();
         let rows: Vec<_> = self

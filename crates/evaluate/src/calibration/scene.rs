@@ -19,6 +19,8 @@ use std::f64::consts::{PI, TAU};
 const MISALIGNMENT_RAD: f64 = 0.034_906_585_039_886_59;
 /// Slower is not driving, m/s, as in Zhu et al.
 const DRIVING_MPS: f64 = 1.0;
+/// The radar of Figures 5 and 6.
+pub const FIGURE_RADAR: u8 = 3;
 /// Length of the segments of the relative trajectory error, m.
 pub const SEGMENT_M: f64 = 50.0;
 
@@ -54,7 +56,7 @@ pub struct RadarRecord {
     pub rte_true_m: Option<f64>,
     /// Estimates in the order of [`CANDIDATES`].
     pub estimates: Vec<EstimateRecord>,
-    /// Estimates from parts of the drive, for each of the [`CANDIDATES`] that Figure 6 shows.
+    /// Estimates from parts of the drive, for each of the [`CANDIDATES`] that Figure 6 shows; of its radar only.
     pub parts: Vec<Vec<PartRecord>>,
 }
 
@@ -270,7 +272,7 @@ fn record(
             converged: estimate.converged,
             rte_m: error_deg.and_then(|_| track.error_m(estimate.angle_rad)),
         });
-        if candidate.convergence {
+        if candidate.convergence && radar.sensor == FIGURE_RADAR {
             parts.push(
                 DRIVING_TIMES_S
                     .iter()
