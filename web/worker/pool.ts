@@ -308,7 +308,9 @@ export class Crew {
     return [...kept].reduce((sum, id) => {
       const file = this.#kept.get(id)?.file;
       if (!file) return sum;
-      return sum + KEPT * ('onnx' in file ? file.onnx : file.bytes).byteLength;
+      // What was given may be no such file: its worker says so.
+      const bytes: { byteLength: number } | undefined = 'onnx' in file ? file.onnx : file.bytes;
+      return sum + KEPT * (bytes?.byteLength ?? 0);
     }, 0);
   }
 
