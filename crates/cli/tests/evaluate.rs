@@ -16,10 +16,17 @@ fn a_run_is_kept_goes_on_and_is_not_mixed_with_another() {
     let first = stdout(&short);
     assert!(first.contains("| recursive |"), "{first}");
     let records = std::fs::read_to_string(folder.join("run/calibration.jsonl")).unwrap();
-    assert_eq!(records.lines().count(), 3);
+    assert_eq!(records.lines().count(), 5);
     let read = |run: &str, file: &str| std::fs::read(folder.join(run).join(file)).unwrap();
     assert!(read("run", "calibration.md") == first.as_bytes());
-    for file in ["convergence.svg", "angles.svg", "angles-dense.svg"] {
+    let figures = [
+        "convergence.svg",
+        "angles.svg",
+        "angles-dense.svg",
+        "angles-radarscenes.svg",
+        "angles-radarscenes-dense.svg",
+    ];
+    for file in figures {
         let svg = String::from_utf8(read("run", file)).unwrap();
         assert!(svg.starts_with("<svg") && svg.contains("<polyline"), "{file}");
     }
@@ -34,7 +41,7 @@ fn a_run_is_kept_goes_on_and_is_not_mixed_with_another() {
     // In two parts, one after the other, and put together: the same files.
     let parts = folder.join("parts");
     let parts = parts.to_str().unwrap();
-    for (part, records) in [("1/2", "1 records"), ("2/2", "1 records")] {
+    for (part, records) in [("1/2", "2 records"), ("2/2", "2 records")] {
         let said = stdout(&[&short[..6], &["--out", parts, "--part", part]].concat());
         assert!(said.contains(records), "{said}");
     }
@@ -46,7 +53,7 @@ fn a_run_is_kept_goes_on_and_is_not_mixed_with_another() {
     {
         assert!(read("run", file) == read("whole", file), "{file}");
     }
-    for file in ["angles.svg", "angles-dense.svg", "convergence.svg"] {
+    for file in figures {
         assert!(read("run", file) == read("whole", file), "{file}");
     }
     let sorted = |run: &str| {
@@ -65,4 +72,52 @@ fn a_run_is_kept_goes_on_and_is_not_mixed_with_another() {
     assert!(error.contains("other-run"), "{error}");
     let none = boresight(&["evaluate", "calibration", "--scenes", "0"]);
     assert!(String::from_utf8(none.stderr).unwrap().contains("scenes"));
+}
+
+#[test]
+fn drives_from_files_are_cut_into_pieces_and_taken_up_again() {
+    let folder = folder("evaluate-drives");
+    let drives = folder.join("drives");
+    for seed in ["1", "2"] {
+        let drive = drives.join(format!("drive-{seed}"));
+        let simulated = [
+            "simulate",
+            "drive",
+            "--duration",
+            "14",
+            "--seed",
+            seed,
+            "--scenario",
+            "city",
+            "--out",
+        ];
+        stdout(&[&simulated[..], &[drive.to_str().unwrap()]].concat());
+    }
+    let out = folder.join("run");
+    let run = [
+        "evaluate",
+        "calibration",
+        "--drives",
+        drives.to_str().unwrap(),
+        "--pieces",
+        "6,12",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    let first = stdout(&run);
+    assert!(
+        first.contains("## 2 drives from files") && first.contains("### Pieces of 12 s"),
+        "{first}"
+    );
+    let records = std::fs::read_to_string(out.join("calibration-drives.jsonl")).unwrap();
+    assert_eq!(records.lines().count(), 3);
+    let json: Value = serde_json::from_str(&stdout(&[&run[..], &["--json"]].concat())).unwrap();
+    assert_eq!(json["lengths"][0]["radars"].as_array().unwrap().len(), 4);
+    assert_eq!(std::fs::read_to_string(out.join("calibration-drives.jsonl")).unwrap(), records);
+    // A folder without drives says what is wrong with which.
+    let empty = folder.join("empty");
+    std::fs::create_dir_all(empty.join("nothing")).unwrap();
+    let refused = boresight(&["evaluate", "calibration", "--drives", empty.to_str().unwrap()]);
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert!(!refused.status.success() && said.contains("drive nothing"), "{said}");
 }

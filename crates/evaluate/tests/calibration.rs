@@ -12,7 +12,7 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
     let how = |threads| How { threads, folder: None };
     let report = run(&options, how(2), |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(report, run(&options, how(1), |_| ControlFlow::Continue(())).unwrap());
-    assert_eq!(report.conditions.len(), 2);
+    assert_eq!(report.conditions.len(), 4);
     for condition in &report.conditions {
         assert_eq!((condition.scenes, condition.radars.len()), (2, 4));
         assert!(condition.driven_km > 0.1 && condition.driven_h < 2.0 * 30.0 / 3600.0 + 1e-9);
@@ -28,7 +28,7 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
         for curve in &condition.convergence {
             let parts: Vec<usize> =
                 curve.error_deg.iter().zip(&curve.without).map(|(e, w)| e.count + w).collect();
-            assert!(parts.is_sorted_by(|a, b| a >= b) && parts[0] > 40, "{parts:?}");
+            assert!(parts.is_sorted_by(|a, b| a >= b) && parts[0] > 10, "{parts:?}");
         }
         let svg = figures::angles(condition).unwrap();
         assert!(svg.contains("angle / deg") && svg.contains("Kellner"));
@@ -41,10 +41,12 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
         method.radars.iter().map(|radar| radar.error_deg.largest).fold(0.0, f64::max)
     };
     assert!(worst(0, "recursive") < 0.25, "{}", worst(0, "recursive"));
+    // With errors as RadarScenes a frame in some hundred is independent of the others.
+    assert!(worst(2, "recursive") < 1.0, "{}", worst(2, "recursive"));
     assert!(worst(1, "weighted mean (Kellner et al.)") > 1.0);
     let svg = figures::convergence(&report).unwrap();
     assert!(svg.contains("driving time / s") && svg.contains("dense traffic"));
-    assert_eq!(report.csv().lines().count(), 1 + 2 * CANDIDATES.len() * 4);
+    assert_eq!(report.csv().lines().count(), 1 + 4 * CANDIDATES.len() * 4);
     let tables = report.tables();
     for candidate in &CANDIDATES {
         assert!(tables.contains(&format!("| {} |", candidate.name)), "{}", candidate.name);
