@@ -9,10 +9,10 @@
 //!    the car's own speed or the speed before (one unknown, where RANSAC has two: what moves rarely agrees on it);
 //! 2. the radar's motion and each detection's probability of being static follow by expectation and
 //!    maximisation, with noise in range rate and azimuth and the car's speed as one more observation;
-//! 3. the direction of that motion gives an equation in the shared unknowns ([`equation`]).
+//! 3. the direction of that motion gives an equation in the shared unknowns (`equation`).
 //!
-//! Equations are gathered in blocks of some seconds, whose frames share an error ([`block`], [`information`]). The last blocks are held
-//! against those before ([`recent`]): where the angle has changed, it is sought anew. What is older counts for less.
+//! Equations are gathered in blocks of some seconds, whose frames share an error (`block`, `information`). The last blocks are held
+//! against those before (`recent`): where the angle has changed, it is sought anew. What is older counts for less.
 
 pub(crate) mod block;
 mod doubts;

@@ -220,8 +220,12 @@ function columns(trueDeg: number | undefined, open: Loaded): Column[] {
   ];
 }
 
-/** Groups of columns that stand in a table of their own. */
-const OF_FRAMES: ReadonlySet<string> = new Set(['Car', 'Frames', 'Work']);
+/** Groups of columns, a table each, so that none is wider than the page. */
+const TABLES: readonly { label: string; groups: readonly string[] }[] = [
+  { label: 'Mounting angles', groups: ['Mounting angle', 'Judgement', 'Yaw rate', 'Trajectory'] },
+  { label: 'The car', groups: ['Car'] },
+  { label: 'Frames and work', groups: ['Frames', 'Work'] },
+];
 
 const display = (value: Value, show: (value: number) => string): string =>
   value == null || Number.isNaN(value) ? '–' : typeof value === 'boolean' ? (value ? 'yes' : 'no') : show(value);
@@ -278,8 +282,9 @@ export function ResultsTable() {
         </div>
       </div>
       <Verdict />
-      <Columns list={list.filter(({ group }) => !OF_FRAMES.has(group))} label="Mounting angles" {...shared} />
-      <Columns list={list.filter(({ group }) => OF_FRAMES.has(group))} label="Frames and work" {...shared} />
+      {TABLES.map(({ label, groups }) => (
+        <Columns key={label} list={list.filter(({ group }) => groups.includes(group))} label={label} {...shared} />
+      ))}
       {warnings.size > 0 && (
         <ul class="warnings" aria-label="Warnings">
           {[...warnings].map(([code, { message, titles }]) => (
