@@ -14,20 +14,23 @@
 //! Equations are gathered in blocks of some seconds, whose frames share an error (`block`, `information`). The last blocks are held
 //! against those before (`recent`): where the angle has changed, it is sought anew. What is older counts for less.
 
+mod begin;
 pub(crate) mod block;
+mod conclude;
 mod doubts;
 mod equation;
 pub(crate) mod information;
 mod recent;
 mod snapshot;
 mod speed;
+mod standstill;
 mod tracked;
 mod vote;
 
 use crate::angle::wrap;
 use crate::calibrator::check_time;
 use crate::error::CalibrateError;
-use crate::estimate::{AngleEstimate, CHANCE, FrameCounts, Remark};
+use crate::estimate::{AngleEstimate, FrameCounts};
 use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
 use crate::motion::ransac::Ransac;
 use crate::motion::{FrameMotion, MotionPlan};
@@ -36,11 +39,11 @@ use block::{BLOCK_S, Block};
 use boresight_core::Detection;
 use doubts::Doubts;
 use equation::Equation;
-use information::{Information, Matrix, Vector};
+use information::{Information, Vector};
 use recent::Recent;
 use serde::{Deserialize, Serialize};
 use speed::Speed;
-use tracked::{Cloud, Fit, Limits, Prediction, SpeedEvidence};
+use tracked::{Cloud, Fit, Limits, Prediction};
 use vote::Vote;
 
 /// Standard deviation of the angle about its start before any frame, rad (5 deg).
@@ -59,18 +62,10 @@ const EXCESS_BLOCKS: [f64; 2] = [1.0, 60.0];
 const FIRST_BLOCKS: u64 = 3;
 /// A frame whose angle lies further off all before is of something else, rad (20 deg).
 const GATE_RAD: f64 = 0.35;
-/// Frames in vain after which the nominal angle is doubted.
-const MISSES: usize = 50;
-/// A frame that votes knows its angle to this, rad (5 deg).
-const VOTE_RAD: f64 = 0.09;
 /// Frames used before which the motion is looked for without the prediction, too.
 const START_FRAMES: u64 = 40;
 /// A speed older than this is forgotten, s.
 const SPEED_LIFE_S: f64 = 2.0;
-/// Measured speed below which a car may stand, m/s, and below which it does, if its radar does not say otherwise.
-const STANDSTILL_MPS: [f64; 2] = [0.5, 0.05];
-/// Standard deviations of a prior above which an unknown rests on it.
-const PRIOR_SHARE: f64 = 0.7;
 
 /// The recursive estimator.
 #[derive(Debug, Clone)]
@@ -329,126 +324,6 @@ impl Recursive {
         }
     }
 
-    /// Before there is an angle: a frame's own motion, and its vote.
-    fn begin(
-        &mut self,
-        frame: &FrameInput,
-        measured: f64,
-        evidence: Option<&SpeedEvidence>,
-        outcome: &mut FrameOutcome,
-    ) -> Verdict {
-        let Some(motion) = self.motion_alone(frame.detections) else { return Verdict::Sparse };
-        outcome.weights.copy_from_slice(&self.alone_weights);
-        outcome.motion = Some(motion);
-        let polar = motion.polar();
-        let speed = polar.speed_mps;
-        if speed < self.options.min_speed_mps {
-            return Verdict::Slow;
-        }
-        let [x_m, y_m] = [self.options.x_m, self.options.y_m];
-        let rate = measured - self.state.now.mean()[2];
-        let sine = rate * x_m / speed;
-        let share = motion.inliers as f64 / motion.detections.max(1) as f64;
-        if sine.abs() >= 1.0
-            || share < self.options.inlier_ratio_threshold
-            || polar.direction_variance.is_nan()
-            || polar.direction_variance >= VOTE_RAD * VOTE_RAD
-        {
-            return Verdict::Sparse;
-        }
-        let along = speed * (1.0 - sine * sine).sqrt();
-        if evidence
-            .is_some_and(|e| e.rules_out(along + rate * y_m) && e.rules_out(-along + rate * y_m))
-        {
-            return Verdict::OffSpeed;
-        }
-        let mut angle = wrap(sine.asin() - polar.direction_rad);
-        // In reverse the radar moves the other way, and its place turns it the other way.
-        let backwards = wrap(-sine.asin() - polar.direction_rad - std::f64::consts::PI);
-        let reversing = match (evidence, self.options.nominal_rad) {
-            (Some(evidence), _) => evidence.mps < 0.0,
-            (_, Some(nominal)) => wrap(backwards - nominal).abs() < wrap(angle - nominal).abs(),
-            _ => false,
-        };
-        if reversing {
-            angle = backwards;
-        }
-        if let Some(vote) = &mut self.state.vote {
-            vote.add(angle, share.min(1.0));
-            if let Some(angle) = vote.settled() {
-                self.state.vote = None;
-                let known = self.state.now;
-                self.state.now = prior(angle, &self.options);
-                self.state.now.take_bias(&known);
-                self.state.before = self.state.now;
-            }
-        }
-        Verdict::Sparse
-    }
-
-    /// Frames that fit no speed, one after the other before any has been used, say that the nominal
-    /// angle is not where to begin.
-    fn miss(&mut self) {
-        self.state.misses += 1;
-        if self.state.counts.used == 0 && self.state.misses >= MISSES && self.state.vote.is_none() {
-            self.state.vote = Some(Vote::new());
-            self.state.misses = 0;
-        }
-    }
-
-    /// Most of what the radar sees is at rest relative to it, or the car's own sensors say that it stands; the car does not
-    /// turn, and it was not driving a moment ago.
-    fn stands(&self, measured: f64, at_rest: f64, evidence: Option<&SpeedEvidence>) -> bool {
-        let turning = (measured - self.bias_mean().unwrap_or(0.0)).abs();
-        let slow = |most: f64| evidence.is_some_and(|speed| speed.mps.abs() < most);
-        let share = if slow(STANDSTILL_MPS[1]) { 0.25 } else { 0.6 };
-        self.cloud.len() >= self.limits.min_inliers
-            && at_rest >= share
-            && (evidence.is_none() || slow(STANDSTILL_MPS[0]))
-            && self.state.speed.is_none_or(|(speed, _)| speed.abs() < 1.0)
-            && turning < 0.02
-    }
-
-    /// The motion of a radar that stands, which is none: a trajectory without these frames would run
-    /// on through the stop at the speed before it.
-    fn at_rest(&self, detections: usize, share: f64) -> Motion {
-        let inliers = (share * self.cloud.len() as f64).round();
-        // That of a mean over azimuths all around, of which each component has half.
-        let variance = 2.0 * self.limits.range_rate_sigma_mps.powi(2) / inliers.max(1.0);
-        Motion {
-            velocity_mps: [0.0; 2],
-            covariance: [[variance, 0.0], [0.0, variance]],
-            inliers: inliers as usize,
-            detections,
-        }
-    }
-
-    fn bias_mean(&self) -> Option<f64> {
-        let [count, sum, _] = self.state.bias_sum;
-        (count >= 1.0).then(|| sum / count)
-    }
-
-    /// Equation 5 of Zhu et al., with the prior as one more observation of its own standard deviation.
-    fn learn_bias(&mut self, measured: f64) {
-        let sums = &mut self.state.bias_sum;
-        sums[0] += 1.0;
-        sums[1] += measured;
-        sums[2] += measured * measured;
-        let [count, sum, squares] = *sums;
-        // Samples of one second are not independent: ten count as one.
-        if count < 10.0 {
-            return;
-        }
-        let mean = sum / count;
-        let variance = (squares / count - mean * mean).max(1e-10);
-        let prior = 1.0 / self.options.bias_sigma_radps.powi(2);
-        let information = count / 10.0 / variance;
-        let mean = mean * information / (information + prior);
-        let sigma = 1.0 / (information + prior).sqrt();
-        self.state.before.set_bias(mean, sigma);
-        self.state.now.set_bias(mean, sigma);
-    }
-
     /// Adds the frame's equation.
     fn inform(&mut self, time_s: f64, equation: &Equation, outcome: &mut FrameOutcome) {
         if self.state.block.is_full(time_s) {
@@ -540,70 +415,6 @@ impl Recursive {
     /// What the frames say of the shared unknowns.
     pub(crate) fn information(&self) -> Information {
         self.complete()
-    }
-
-    /// Unknowns and their covariance, with all that is needed to judge them.
-    pub(crate) fn conclude(
-        &self,
-        known: &Information,
-        x: &Vector,
-        covariance: &Matrix,
-    ) -> AngleEstimate {
-        let (options, state) = (&self.options, &self.state);
-        let none = state.counts.used == 0;
-        let sigma = |i: usize| covariance[i][i].max(0.0).sqrt();
-        let inlier_share = if none { 0.0 } else { state.inliers / state.detections.max(1.0) };
-        let (doubts, doubt_rad) = state.doubts.remarks(known, options.nominal_rad, inlier_share);
-        let floor_rad = options.floor_rad(inlier_share);
-        let variance = covariance[0][0] + floor_rad * floor_rad + doubt_rad * doubt_rad;
-        let sigma_rad = if none { f64::INFINITY } else { variance.sqrt() };
-        let inverse_scale = x[1].max(0.1);
-        let angle_rad = wrap(x[0]);
-        let settled = state.angles[2]
-            .is_some_and(|before| wrap(angle_rad - before).abs() <= options.converged_rad);
-        let converged = settled && sigma_rad <= options.converged_rad;
-        let misaligned = options.nominal_rad.map(|nominal| {
-            wrap(angle_rad - nominal).abs() > options.alarm_rad + CHANCE * sigma_rad
-        });
-        let unknown = |i: usize, prior: f64| sigma(i) > PRIOR_SHARE * prior;
-        let before = [
-            (Remark::NoFrames, none),
-            (Remark::AngleUndetermined, sigma_rad > 1.0_f64.to_radians()),
-            (Remark::ScaleUndetermined, unknown(1, options.scale_sigma)),
-            (Remark::BiasUndetermined, unknown(2, options.bias_sigma_radps)),
-        ];
-        let after = [
-            (Remark::Changed, state.changed_s.is_some()),
-            (Remark::Misaligned, misaligned == Some(true)),
-            (Remark::NotConverged, !converged),
-        ];
-        let holding = |(remark, holds): (Remark, bool)| holds.then_some(remark);
-        AngleEstimate {
-            angle_rad,
-            sigma_rad,
-            scale: 1.0 / inverse_scale,
-            scale_sigma: sigma(1) / (inverse_scale * inverse_scale),
-            covariance: [[variance, covariance[0][1]], [covariance[1][0], covariance[1][1]]],
-            bias_radps: x[2] / inverse_scale,
-            bias_sigma_radps: sigma(2) / inverse_scale,
-            slip_gradient_rad: x[3],
-            slip_gradient_sigma_rad: sigma(3),
-            delay_s: x[4],
-            delay_sigma_s: sigma(4),
-            speed_scale: state.speed_scale.scale(),
-            speed_scale_sigma: state.speed_scale.scale_sigma(),
-            changed_s: state.changed_s,
-            inlier_share,
-            frames: state.counts,
-            converged,
-            misaligned,
-            remarks: before
-                .into_iter()
-                .filter_map(holding)
-                .chain(doubts)
-                .chain(after.into_iter().filter_map(holding))
-                .collect(),
-        }
     }
 }
 
