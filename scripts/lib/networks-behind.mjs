@@ -34,8 +34,9 @@ export function expectNetworks() {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
   say({ state: 'waiting' });
-  const file = join(wasm, `${neural.name}.d.ts`);
-  if (!existsSync(file)) writeFileSync(file, types);
+  // Types of an older checkout may stand there, without the module.
+  const file = (end) => join(wasm, neural.name + end);
+  if (!existsSync(file('.js'))) writeFileSync(file('.d.ts'), types);
 }
 
 /** What went wrong, in a line. */
