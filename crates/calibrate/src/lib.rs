@@ -69,5 +69,5 @@ pub use frame::{FrameInput, FrameOutcome, Motion, Verdict};
 pub use joint::Joint;
 pub use merge::merge;
 pub use motion::{FrameMotion, MotionEstimator, MotionPlan};
-pub use options::{CalibrationOptions, Method, MotionMethod};
+pub use options::{CalibrationOptions, FrameWeights, Method, MotionMethod};
 pub use recursive::Recursive;

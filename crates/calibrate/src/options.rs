@@ -41,6 +41,20 @@ pub enum MotionMethod {
     Tracked,
 }
 
+/// What frames weigh in the weighted mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum FrameWeights {
+    /// The inverse variance of the direction of motion.
+    #[default]
+    Direction,
+    /// The inverse of the summed variances of both components of the motion (Zhu et al., equation 13).
+    Motion,
+    /// All the same (Zhu et al., equation 8).
+    Equal,
+}
+
 /// Options of all methods. Those a method has no use for are ignored. The car's frame is centred on
 /// the rear axle, x forward, y left; angles are positive to the left.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
@@ -53,6 +67,8 @@ pub struct CalibrationOptions {
     /// How the motion is estimated; by default in the way that belongs to the method: RANSAC for
     /// the mean and Kabsch, its weighted forms for the regressions, tracking for the recursive one.
     pub motion: Option<MotionMethod>,
+    /// What frames weigh in the weighted mean; the other methods weigh them in their own way.
+    pub frame_weights: FrameWeights,
     /// The radar's place ahead of the rear axle.
     #[option(required, range = -100..=100)]
     pub x_m: f64,

@@ -22,6 +22,9 @@ pub struct Detection {
     pub rcs_dbsm: f32,
 }
 
+/// The label of a standing object, in the numbers of `RadarScenes`.
+pub const STATIC_LABEL: u8 = 11;
+
 /// Detections one radar made at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
@@ -31,7 +34,7 @@ pub struct Scan {
     pub sensor: u8,
     /// The point cloud; may be empty.
     pub detections: Vec<Detection>,
-    /// A class for each detection in the numbers of `RadarScenes` (11 for static), where the log
+    /// A class for each detection in the numbers of `RadarScenes` ([`STATIC_LABEL`]), where the log
     /// has them; empty otherwise. No estimator reads it.
     pub labels: Vec<u8>,
 }

@@ -44,8 +44,20 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
     // With errors as RadarScenes a frame in some hundred is independent of the others.
     assert!(worst(2, "recursive") < 1.0, "{}", worst(2, "recursive"));
     assert!(worst(1, "weighted mean (Kellner et al.)") > 1.0);
-    let svg = figures::convergence(&report).unwrap();
+    let svg = figures::convergence(&report.conditions).unwrap();
     assert!(svg.contains("driving time / s") && svg.contains("dense traffic"));
+    assert!(figures::states(&report.conditions).unwrap().contains("acceleration / (m/s^2)"));
+    for condition in &report.conditions {
+        // All scans of four radars, 30 s of some 74 ms each.
+        let scans: u64 = condition.states[0].iter().sum();
+        assert!(scans > 2500 && scans == condition.states[1].iter().sum::<u64>(), "{scans}");
+        for method in &condition.methods {
+            for radar in &method.radars {
+                let [own, mean] = [radar.rte_m[0], radar.rte_mean_angle_m[0]];
+                assert!(own.is_some_and(|e| e > 0.0) && mean.is_none_or(|e| e > 0.0));
+            }
+        }
+    }
     assert_eq!(report.csv().lines().count(), 1 + 4 * CANDIDATES.len() * 4);
     let tables = report.tables();
     for candidate in &CANDIDATES {

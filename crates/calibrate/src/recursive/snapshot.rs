@@ -7,7 +7,7 @@ use crate::{CalibrateError, CalibrationOptions};
 
 const MAGIC: &[u8; 4] = b"BSCA";
 /// Counts up where options or state change.
-const VERSION: u8 = 1;
+const VERSION: u8 = 2;
 const CHECKSUM: usize = 4;
 
 impl Recursive {

@@ -1,8 +1,9 @@
 //! How often a radar scans, and how much it detects.
 
 use super::robust::{deviation, median, quantile};
-use super::{Counts, Row, STATIC_LABEL, Untold};
+use super::{Counts, Row, Untold};
 use boresight_core::Scan;
+use boresight_core::drive::STATIC_LABEL;
 
 /// A cycle longer than this many medians is one with a lost scan.
 const LOST_CYCLES: f64 = 1.5;

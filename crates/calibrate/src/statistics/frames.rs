@@ -3,7 +3,7 @@
 use crate::{CalibrateError, CalibrationOptions, Motion, MotionEstimator, MotionMethod};
 use boresight_core::{Detection, Scan};
 
-use super::STATIC_LABEL;
+use boresight_core::drive::STATIC_LABEL;
 
 /// Slower scans say little of angles and residuals, m/s.
 const MIN_SPEED_MPS: f64 = 3.0;

@@ -14,9 +14,6 @@ use boresight_core::{DriveLog, Scan};
 use serde::Serialize;
 use std::fmt::{Display, Formatter};
 
-/// Class of standing things in the numbers of `RadarScenes`.
-const STATIC_LABEL: u8 = 11;
-
 /// Statistics of one radar of a log. Numbers that the log does not tell are NaN, and
 /// [`Self::untold`] says why.
 #[derive(Debug, Clone, PartialEq, Serialize)]

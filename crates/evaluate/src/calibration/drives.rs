@@ -1,11 +1,12 @@
 //! Mounting angles on drives from files, whose true angles their logs state: every method on pieces of each drive.
 
 use super::drives_report::DrivesReport;
-use super::scene::{error_deg, joint_estimates};
+use super::whole::{Answer, DRIVING_MPS, Drive, Radar, WholeRecord, joint_estimates, run};
 use super::{CANDIDATES, Candidate};
 use crate::EvaluateError;
 use crate::experiment::Experiment;
-use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput, Frames, Method};
+use boresight_calibrate::{CalibrationOptions, Method};
+use boresight_core::drive::{Mounting, STATIC_LABEL, Scan, Sensor};
 use boresight_core::error::check_range;
 use boresight_core::{CoreError, DriveLog};
 use serde::{Deserialize, Serialize};
@@ -47,6 +48,8 @@ pub struct DriveRecord {
     pub drive: String,
     /// Length of its log, s.
     pub duration_s: f64,
+    /// Every method on all of it.
+    pub whole: WholeRecord,
     /// Pieces of all lengths, radar by radar.
     pub pieces: Vec<PieceRecord>,
 }
@@ -62,25 +65,15 @@ pub struct PieceRecord {
     pub length_s: f64,
     /// Its beginning after that of the drive, s.
     pub start_s: f64,
-    /// Answers in the order of [`CANDIDATES`].
-    pub answers: Vec<PieceAnswer>,
+    /// Answers in the order of [`CANDIDATES`]; `None` where the method gave no angle.
+    pub answers: Vec<Option<Answer>>,
     /// Largest change of the recursive answer in its standard deviations when it begins up to 8 deg off.
     pub start_sigmas: Option<f64>,
 }
 
-/// A method's answer to a piece.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PieceAnswer {
-    /// Estimated less true angle, deg; `None` where the method gave no angle.
-    pub error_deg: Option<f64>,
-    /// Its standard deviation as the method states it, deg.
-    pub sigma_deg: Option<f64>,
-    /// Whether it called itself converged.
-    pub converged: bool,
-}
-
 impl Experiment for DrivesExperiment {
     const NAME: &'static str = "calibration-drives";
+    const REVISION: u32 = 1;
     type Plan = ();
     type Record = DriveRecord;
     type Report = DrivesReport;
@@ -116,18 +109,30 @@ impl Experiment for DrivesExperiment {
             return Err(unreadable("it has no scans".into()));
         };
         let (start_s, duration_s) = (first.time_s, last.time_s - first.time_s);
+        let radars = radars(&log);
+        let gap_s = CalibrationOptions::default().max_gap_s;
+        let whole = run(
+            &Drive {
+                log: &log,
+                radars: radars.clone(),
+                pose_at: &|time_s| log.pose_at(time_s, gap_s),
+                speed_at: &|time_s| log.speed_at(time_s, gap_s),
+                scale: None,
+            },
+            moving_share(&log, gap_s),
+        )?;
         let mut pieces = vec![];
         for &length_s in &self.pieces_s {
             for piece in 0..(duration_s / length_s) as usize {
                 let begin_s = start_s + piece as f64 * length_s;
                 pieces.extend(
-                    run_piece(&log, [begin_s, begin_s + length_s])?.into_iter().map(|record| {
-                        PieceRecord { length_s, start_s: begin_s - start_s, ..record }
-                    }),
+                    run_piece(&log, &radars, [begin_s, begin_s + length_s])?.into_iter().map(
+                        |record| PieceRecord { length_s, start_s: begin_s - start_s, ..record },
+                    ),
                 );
             }
         }
-        Ok(DriveRecord { drive: name.clone(), duration_s, pieces })
+        Ok(DriveRecord { drive: name.clone(), duration_s, whole, pieces })
     }
 
     fn report(&self, (): &(), records: impl Iterator<Item = DriveRecord>) -> DrivesReport {
@@ -135,42 +140,42 @@ impl Experiment for DrivesExperiment {
     }
 }
 
-/// A radar whose true angle is known.
-struct Radar<'a> {
-    sensor: u8,
-    true_rad: f64,
-    options: CalibrationOptions,
-    frames: Vec<FrameInput<'a>>,
+/// The radars whose mounting a log states, which is taken as the truth and as the nominal angle.
+fn radars(log: &DriveLog) -> Vec<(u8, Mounting, CalibrationOptions)> {
+    let stated = |sensor: &Sensor| {
+        let mounting = sensor.mounting?;
+        let options = CalibrationOptions {
+            x_m: mounting.x_m,
+            y_m: mounting.y_m,
+            nominal_rad: Some(mounting.yaw_rad),
+            ..CalibrationOptions::default()
+        };
+        Some((sensor.id, mounting, options))
+    };
+    log.sensors.iter().filter_map(stated).collect()
+}
+
+/// Labels of moving road users over all, of scans while driving; `None` without labels.
+fn moving_share(log: &DriveLog, gap_s: f64) -> Option<f64> {
+    let drives = |scan: &&Scan| {
+        log.speed_at(scan.time_s, gap_s).is_some_and(|speed| speed.abs() > DRIVING_MPS)
+    };
+    let labels = || log.scans.iter().filter(drives).flat_map(|scan| &scan.labels);
+    let all = labels().count();
+    let moving = labels().filter(|label| **label != STATIC_LABEL).count();
+    (all > 0).then(|| moving as f64 / all as f64)
 }
 
 /// All radars with a known mounting on a part of a log.
 fn run_piece(
     log: &DriveLog,
-    [begin_s, end_s]: [f64; 2],
+    radars: &[(u8, Mounting, CalibrationOptions)],
+    times_s: [f64; 2],
 ) -> Result<Vec<PieceRecord>, EvaluateError> {
-    let defaults = CalibrationOptions::default();
-    let radars: Vec<Radar> = log
-        .sensors
+    let radars: Vec<Radar> = radars
         .iter()
-        .filter_map(|sensor| {
-            let mounting = sensor.mounting?;
-            let frames: Vec<FrameInput> = Frames::of(log, |id| id == sensor.id, defaults.max_gap_s)
-                .map(|(_, frame)| frame)
-                .filter(|frame| (begin_s..end_s).contains(&frame.time_s))
-                .collect();
-            let options = CalibrationOptions {
-                x_m: mounting.x_m,
-                y_m: mounting.y_m,
-                nominal_rad: Some(mounting.yaw_rad),
-                ..defaults
-            };
-            (!frames.is_empty()).then_some(Radar {
-                sensor: sensor.id,
-                true_rad: mounting.yaw_rad,
-                options,
-                frames,
-            })
-        })
+        .map(|radar| Radar::new(log, *radar, times_s))
+        .filter(|radar| !radar.frames.is_empty())
         .collect();
     let mut records: Vec<PieceRecord> = vec![];
     for radar in &radars {
@@ -179,17 +184,17 @@ fn run_piece(
         for candidate in &CANDIDATES {
             // The joint ones are filled in below.
             let answer = match candidate.joint {
-                true => PieceAnswer { error_deg: None, sigma_deg: None, converged: false },
+                true => None,
                 false => answer(candidate, radar, 0.0)?,
             };
             if candidate.method == Method::Recursive && candidate.speed && !candidate.joint {
-                start_sigmas = change_with_start(candidate, radar, &answer)?;
+                start_sigmas = change_with_start(candidate, radar, answer)?;
             }
             answers.push(answer);
         }
         records.push(PieceRecord {
             sensor: radar.sensor,
-            true_deg: radar.true_rad.to_degrees(),
+            true_deg: radar.truth.yaw_rad.to_degrees(),
             length_s: 0.0,
             start_s: 0.0,
             answers,
@@ -197,54 +202,41 @@ fn run_piece(
         });
     }
     for (index, candidate) in CANDIDATES.iter().enumerate().filter(|(_, c)| c.joint) {
-        let named: Vec<_> =
-            radars.iter().map(|r| (r.sensor, candidate.options(&r.options))).collect();
-        let frames = Frames::of(log, |_| true, defaults.max_gap_s)
-            .filter(|(_, frame)| (begin_s..end_s).contains(&frame.time_s));
-        for ((record, radar), estimate) in
-            records.iter_mut().zip(&radars).zip(joint_estimates(candidate, &named, frames)?)
-        {
-            record.answers[index] = told(radar, &estimate);
+        let estimates = joint_estimates(candidate, &radars, log, times_s)?;
+        for ((record, radar), estimate) in records.iter_mut().zip(&radars).zip(estimates) {
+            record.answers[index] = Answer::of(radar.truth.yaw_rad, &estimate);
         }
     }
     Ok(records)
 }
 
+/// The answer of a method that begins so far off.
 fn answer(
     candidate: &Candidate,
     radar: &Radar,
     off_deg: f64,
-) -> Result<PieceAnswer, EvaluateError> {
+) -> Result<Option<Answer>, EvaluateError> {
     let nominal_rad = radar.options.nominal_rad.map(|angle| angle + off_deg.to_radians());
-    let options = CalibrationOptions { nominal_rad, ..candidate.options(&radar.options) };
-    let mut calibrator = Calibrator::new(options)?;
-    for frame in &radar.frames {
-        calibrator.add(candidate.told(frame))?;
-    }
-    Ok(told(radar, &calibrator.estimate()))
-}
-
-fn told(radar: &Radar, estimate: &boresight_calibrate::AngleEstimate) -> PieceAnswer {
-    let error_deg = error_deg(radar.true_rad, estimate);
-    PieceAnswer {
-        error_deg,
-        sigma_deg: error_deg.map(|_| estimate.sigma_rad.to_degrees()),
-        converged: estimate.converged,
-    }
+    let begun = Radar {
+        options: CalibrationOptions { nominal_rad, ..radar.options },
+        frames: radar.frames.clone(),
+        ..*radar
+    };
+    Ok(Answer::of(radar.truth.yaw_rad, &begun.calibrate(candidate, &begun.frames)?))
 }
 
 fn change_with_start(
     candidate: &Candidate,
     radar: &Radar,
-    at_truth: &PieceAnswer,
+    at_truth: Option<Answer>,
 ) -> Result<Option<f64>, EvaluateError> {
-    let (Some(error), Some(sigma)) = (at_truth.error_deg, at_truth.sigma_deg) else {
-        return Ok(None);
-    };
+    let Some(at_truth) = at_truth else { return Ok(None) };
     let mut most = 0.0_f64;
     for off_deg in STARTS_DEG {
-        let other = answer(candidate, radar, off_deg)?;
-        most = most.max(other.error_deg.map_or(f64::MAX, |other| (other - error).abs() / sigma));
+        let change = answer(candidate, radar, off_deg)?.map_or(f64::MAX, |other| {
+            (other.error_deg - at_truth.error_deg).abs() / at_truth.sigma_deg
+        });
+        most = most.max(change);
     }
     Ok(Some(most))
 }

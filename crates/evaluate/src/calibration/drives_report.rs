@@ -1,8 +1,11 @@
 //! From records of drives to tables.
 
-use super::drives::{DriveRecord, PieceAnswer, PieceRecord};
-use super::report::{percent, within};
-use super::{CANDIDATES, Candidate};
+use super::accepted::{Accepted, PRECISION_DEG, percent, within};
+use super::condition::Condition;
+use super::drives::{DriveRecord, PieceRecord};
+use super::tables::or_none;
+use super::whole::{Answer, WholeRecord};
+use super::{CANDIDATES, Candidate, figures};
 use crate::EvaluateError;
 use crate::experiment::Report;
 use crate::statistics::Summary;
@@ -18,6 +21,8 @@ pub struct DrivesReport {
     pub drives: usize,
     /// Length of all drives, h.
     pub duration_h: f64,
+    /// Every method on whole drives.
+    pub whole: Condition,
     /// Pieces by their length.
     pub lengths: Vec<Pieces>,
 }
@@ -54,6 +59,8 @@ pub struct PieceResult {
     pub converged: usize,
     /// Pieces called converged that are more than three standard deviations off.
     pub confidently_wrong: usize,
+    /// Pieces called converged beside the reference.
+    pub accepted: Accepted,
 }
 
 impl DrivesReport {
@@ -67,16 +74,36 @@ impl DrivesReport {
                 .filter(|piece| piece.length_s == length_s)
                 .collect()
         };
+        let whole: Vec<&WholeRecord> = records.iter().map(|record| &record.whole).collect();
+        let reference = |sensor| reference_error_deg(&whole, sensor);
         Self {
             drives: records.len(),
             duration_h: records.iter().map(|record| record.duration_s).sum::<f64>() / 3600.0,
-            lengths: lengths_s.iter().map(|&length| Pieces::new(length, &pieces(length))).collect(),
+            lengths: lengths_s
+                .iter()
+                .map(|&length| Pieces::new(length, &pieces(length), &reference))
+                .collect(),
+            whole: Condition::new("whole drives", &whole),
         }
     }
 }
 
+/// Error of the angle that all whole drives together give for a radar, by the method that has all radars together, deg; 0 without any.
+fn reference_error_deg(whole: &[&WholeRecord], sensor: u8) -> f64 {
+    let (mut weights, mut sum) = (0.0, 0.0);
+    for radar in whole.iter().flat_map(|record| &record.radars).filter(|r| r.sensor == sensor) {
+        let joint = CANDIDATES.iter().zip(&radar.estimates).find(|(c, _)| c.joint);
+        if let Some(answer) = joint.and_then(|(_, estimate)| estimate.answer()) {
+            let weight = answer.sigma_deg.powi(-2);
+            weights += weight;
+            sum += weight * answer.error_deg;
+        }
+    }
+    if weights > 0.0 { sum / weights } else { 0.0 }
+}
+
 impl Pieces {
-    fn new(length_s: f64, pieces: &[&PieceRecord]) -> Self {
+    fn new(length_s: f64, pieces: &[&PieceRecord], reference: &dyn Fn(u8) -> f64) -> Self {
         let mut radars: Vec<(u8, f64)> = vec![];
         for piece in pieces {
             if radars.iter().all(|(sensor, _)| *sensor != piece.sensor) {
@@ -89,7 +116,9 @@ impl Pieces {
             methods: CANDIDATES
                 .iter()
                 .enumerate()
-                .map(|(index, candidate)| PieceResult::new(index, candidate, &radars, pieces))
+                .map(|(index, candidate)| {
+                    PieceResult::new(index, candidate, &radars, pieces, reference)
+                })
                 .collect(),
             radars,
             start_sigmas: pieces.iter().filter_map(|piece| piece.start_sigmas).fold(0.0, f64::max),
@@ -103,27 +132,28 @@ impl PieceResult {
         candidate: &Candidate,
         radars: &[(u8, f64)],
         pieces: &[&PieceRecord],
+        reference: &dyn Fn(u8) -> f64,
     ) -> Self {
-        let answers = || pieces.iter().map(|piece| (piece.sensor, &piece.answers[index]));
+        let answers =
+            || pieces.iter().filter_map(|piece| Some((piece.sensor, piece.answers[index]?)));
+        let without = pieces.len() - answers().count();
         let errors = |wanted: &dyn Fn(u8) -> bool| {
-            let errors: Vec<f64> = answers()
-                .filter(|(sensor, _)| wanted(*sensor))
-                .filter_map(|(_, answer)| answer.error_deg)
-                .collect();
-            Summary::of(&errors)
+            let wanted = answers().filter(|(sensor, _)| wanted(*sensor));
+            Summary::of(&wanted.map(|(_, answer)| answer.error_deg).collect::<Vec<_>>())
         };
-        let told = |answer: &PieceAnswer| Some((answer.error_deg?, answer.sigma_deg?));
-        let wrong = |answer: &PieceAnswer| {
-            answer.converged && told(answer).is_some_and(|(error, sigma)| error.abs() > 3.0 * sigma)
+        let beside = |(sensor, answer): (u8, Answer)| Answer {
+            error_deg: answer.error_deg - reference(sensor),
+            ..answer
         };
         Self {
             name: candidate.name,
             radars: radars.iter().map(|(radar, _)| errors(&|sensor| sensor == *radar)).collect(),
             all: errors(&|_| true),
-            without: answers().filter(|(_, answer)| answer.error_deg.is_none()).count(),
-            within: within(answers().filter_map(|(_, answer)| told(answer))),
+            without,
+            within: within(answers().map(|(_, answer)| (answer.error_deg, answer.sigma_deg))),
             converged: answers().filter(|(_, answer)| answer.converged).count(),
-            confidently_wrong: answers().filter(|(_, answer)| wrong(answer)).count(),
+            confidently_wrong: answers().filter(|(_, answer)| answer.confidently_wrong()).count(),
+            accepted: Accepted::of(answers().map(beside), without),
         }
     }
 }
@@ -131,14 +161,16 @@ impl PieceResult {
 impl Report for DrivesReport {
     fn tables(&self) -> String {
         let mut text = format!(
-            "## {} drives from files, {:.2} h\n\nTrue angles are those that the logs state.\n",
+            "# {} drives from files, {:.2} h\n\nTrue angles are those that the logs state.\n\n",
             self.drives, self.duration_h
         );
+        text += &self.whole.tables();
         for pieces in &self.lengths {
             text += &format!(
-                "\n### Pieces of {} s\n\nErrors of the angle: mean in deg and variance in deg^2 by radar, mean absolute error in deg of all \
-                 (pieces without an angle), the share within one and two stated standard deviations, and how many pieces are called \
-                 converged and how many of these are more than three deviations off.\n\n",
+                "\n## Pieces of {} s\n\nErrors of the angle: mean in deg and variance in deg^2 by radar, mean absolute error in deg of all \
+                 (pieces without an angle), the share within one and two stated standard deviations, how many pieces are called \
+                 converged and how many of these are more than three deviations off, and precision and recall: of those called converged the share \
+                 within {PRECISION_DEG} deg of what all whole drives give (recursive, four radars), and their share of all.\n\n",
                 pieces.length_s
             );
             let mut heads: Vec<String> = pieces
@@ -146,7 +178,10 @@ impl Report for DrivesReport {
                 .iter()
                 .map(|(sensor, true_deg)| format!("radar {sensor} ({true_deg:.2} deg)"))
                 .collect();
-            heads.extend(["all", "within 1, 2 sigma", "converged, 3 sigma off"].map(String::from));
+            heads.extend(
+                ["all", "within 1, 2 sigma", "converged, 3 sigma off", "precision, recall"]
+                    .map(String::from),
+            );
             let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
             let rows: Vec<_> = pieces.methods.iter().map(|m| (m.name, m.cells())).collect();
             text += &table("method", &heads, &rows);
@@ -166,29 +201,37 @@ impl Report for DrivesReport {
         let mut text = "length_s,method,radar,pieces,error_mean_deg,error_variance_deg2,error_mean_absolute_deg,\
                         error_largest_deg\n"
             .to_owned();
+        let mut add = |length: &str, method: &str, sensor: u8, e: &Summary| {
+            text += &format!(
+                "{length},\"{method}\",{sensor},{},{},{},{},{}\n",
+                e.count, e.mean, e.variance, e.mean_absolute, e.largest
+            );
+        };
+        for method in &self.whole.methods {
+            for radar in &method.radars {
+                add("whole", method.name, radar.sensor, &radar.error_deg);
+            }
+        }
         for pieces in &self.lengths {
+            let length = pieces.length_s.to_string();
             for method in &pieces.methods {
-                for ((sensor, _), e) in pieces.radars.iter().zip(&method.radars) {
-                    text += &format!(
-                        "{},\"{}\",{sensor},{},{},{},{},{}\n",
-                        pieces.length_s,
-                        method.name,
-                        e.count,
-                        e.mean,
-                        e.variance,
-                        e.mean_absolute,
-                        e.largest
-                    );
+                for ((sensor, _), error) in pieces.radars.iter().zip(&method.radars) {
+                    add(&length, method.name, *sensor, error);
                 }
             }
         }
         text
     }
 
-    const FIGURES: &'static [&'static str] = &[];
+    const FIGURES: &'static [&'static str] = &["convergence.svg", "states.svg", "angles.svg"];
 
     fn figures(&self) -> Result<Vec<String>, EvaluateError> {
-        Ok(vec![])
+        let whole = std::slice::from_ref(&self.whole);
+        Ok(vec![
+            figures::convergence(whole)?,
+            figures::states(whole)?,
+            figures::angles(&self.whole)?,
+        ])
     }
 }
 
@@ -199,10 +242,11 @@ impl PieceResult {
             .iter()
             .map(|error| format!("{:+.4}, {:.4}", error.mean, error.variance))
             .collect();
-        let without = if self.without > 0 { format!(" ({})", self.without) } else { String::new() };
+        let without = or_none(self.without);
         cells.push(format!("{:.3}{without}", self.all.mean_absolute));
         cells.push(percent(self.within));
         cells.push(format!("{}, {}", self.converged, self.confidently_wrong));
+        cells.push(self.accepted.cell());
         cells
     }
 }

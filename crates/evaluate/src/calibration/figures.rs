@@ -1,8 +1,8 @@
-//! Figures 5 and 6, as SVG.
+//! Figures 4 to 6, as SVG.
 
 use super::CANDIDATES;
-use super::report::{CalibrationReport, Condition, Convergence};
-use super::scene::FIGURE_RADAR;
+use super::condition::{Condition, Convergence, chosen};
+use super::whole::{BIN_COUNT, BINS, FIGURE_RADAR};
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
 use crate::statistics::Summary;
@@ -15,12 +15,12 @@ pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
     let truth =
         condition.radars.iter().find(|r| r.sensor == FIGURE_RADAR).map_or(f64::NAN, |r| r.true_deg);
     let scenes = condition.scenes as f64;
-    let shown = [0, 1, 5];
+    let shown: Vec<usize> = chosen(|candidate| candidate.angles).collect();
     let all = || shown.iter().flat_map(|&k| condition.angles_deg[k].iter().flatten().copied());
     let far = all().fold(0.02, |far: f64, angle| far.max(1.1 * (angle - truth).abs()));
     let panels: Vec<Panel> = shown
-        .into_iter()
-        .map(|k| {
+        .iter()
+        .map(|&k| {
             let points: Vec<(f64, f64)> = condition.angles_deg[k]
                 .iter()
                 .enumerate()
@@ -55,7 +55,7 @@ pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
 ///
 /// # Errors
 /// [`EvaluateError::Figure`].
-pub fn convergence(report: &CalibrationReport) -> Result<String, EvaluateError> {
+pub fn convergence(conditions: &[Condition]) -> Result<String, EvaluateError> {
     let panel = |condition: &Condition, what: &str, value: fn(&Summary) -> f64| Panel {
         title: condition.name.into(),
         x: "driving time / s".into(),
@@ -64,13 +64,55 @@ pub fn convergence(report: &CalibrationReport) -> Result<String, EvaluateError> 
         y_limits: None,
         series: condition.convergence.iter().map(|c| series(c, value)).collect(),
     };
-    let panels: Vec<Panel> = report
-        .conditions
+    let panels: Vec<Panel> = conditions
         .iter()
         .map(|c| panel(c, "mean absolute error / deg", |error| error.mean_absolute))
-        .chain(report.conditions.iter().map(|c| panel(c, "variance / deg^2", |e| e.variance)))
+        .chain(conditions.iter().map(|c| panel(c, "variance / deg^2", |e| e.variance)))
         .collect();
     draw(&panels, 2)
+}
+
+/// Figure 4: how often the car had which speed and acceleration, over all scans.
+///
+/// # Errors
+/// [`EvaluateError::Figure`].
+pub fn states(conditions: &[Condition]) -> Result<String, EvaluateError> {
+    let panel = |which: usize, title: &str, x: &str, y: &str, below: f64| Panel {
+        title: title.into(),
+        x: x.into(),
+        y: y.into(),
+        axes: Axes::Linear,
+        y_limits: None,
+        series: conditions
+            .iter()
+            .map(|condition| {
+                let counts = &condition.states[which];
+                let all = counts.iter().sum::<u64>().max(1) as f64 * BINS[which];
+                let middle = |bin: usize| (bin as f64 + 0.5 - below) * BINS[which];
+                let density = |(bin, count): (usize, &u64)| (middle(bin), *count as f64 / all);
+                Series {
+                    name: condition.name.into(),
+                    points: counts.iter().enumerate().map(density).collect(),
+                    dashed: false,
+                    marked: false,
+                }
+            })
+            .collect(),
+    };
+    let half = BIN_COUNT as f64 / 2.0;
+    draw(
+        &[
+            panel(0, "speed of the car", "speed / (m/s)", "density / (s/m)", 0.0),
+            panel(
+                1,
+                "acceleration of the car",
+                "acceleration / (m/s^2)",
+                "density / (s^2/m)",
+                half,
+            ),
+        ],
+        2,
+    )
 }
 
 fn series(convergence: &Convergence, value: fn(&Summary) -> f64) -> Series {

@@ -1,30 +1,38 @@
-//! Mounting angles on simulated drives: Tables II to IV and Figures 5 and 6 of Zhu et al., "Radar Mounting
+//! Mounting angles on simulated drives and on those of files: Tables II to IV and Figures 4 to 6 of Zhu et al., "Radar Mounting
 //! Angle Estimation in Operational Driving Conditions".
 //!
 //! Scenes with even numbers are drives over all kinds of roads with up to 30 % moving detections, those with
 //! odd numbers are dense traffic with 40 to 80 %. The first half has the clean profile of errors, the second half the same
 //! drives with those of RadarScenes.
 
+pub mod accepted;
+pub mod condition;
 pub mod drives;
 pub mod drives_report;
 pub mod figures;
 pub mod report;
 pub mod scene;
+mod tables;
+pub mod whole;
 
 pub use drives::DrivesExperiment;
 pub use drives_report::DrivesReport;
 pub use report::CalibrationReport;
 pub use scene::SceneRecord;
+pub use whole::WholeRecord;
 
 use crate::EvaluateError;
 use crate::experiment::Experiment;
-use boresight_calibrate::{CalibrationOptions, FrameInput, Method, MotionMethod};
+use boresight_calibrate::{CalibrationOptions, FrameInput, FrameWeights, Method, MotionMethod};
 use boresight_core::error::check_range;
 use boresight_simulate::drive::DriveProfile;
 use serde::{Deserialize, Serialize};
 
 /// Driving times of Figure 6, s.
 pub const DRIVING_TIMES_S: [f64; 8] = [2.0, 5.0, 10.0, 15.0, 25.0, 40.0, 60.0, 90.0];
+/// Lengths of the segments of relative trajectory errors, m: that of the paper's example, two between, and the one that its
+/// Tables II and III together imply.
+pub const SEGMENTS_M: [f64; 4] = [50.0, 100.0, 200.0, 233.0];
 
 /// A method of the tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,12 +41,16 @@ pub struct Candidate {
     pub name: &'static str,
     /// How the angle is estimated.
     pub method: Method,
+    /// What frames weigh in a mean.
+    pub weights: FrameWeights,
     /// How the radar's motion is.
     pub motion: MotionMethod,
     /// Whether it is told the car's speed.
     pub speed: bool,
     /// Whether all radars share scale, bias and slip.
     pub joint: bool,
+    /// Whether Figure 5 shows it.
+    pub angles: bool,
     /// Whether Figure 6 shows it.
     pub convergence: bool,
 }
@@ -46,59 +58,80 @@ pub struct Candidate {
 impl Candidate {
     /// The options of a radar with this method.
     fn options(&self, radar: &CalibrationOptions) -> CalibrationOptions {
-        CalibrationOptions { method: self.method, motion: Some(self.motion), ..*radar }
+        CalibrationOptions {
+            method: self.method,
+            motion: Some(self.motion),
+            frame_weights: self.weights,
+            ..*radar
+        }
     }
 
     /// A frame as the method may see it.
     fn told<'a>(&self, frame: &FrameInput<'a>) -> FrameInput<'a> {
         FrameInput { speed_mps: frame.speed_mps.filter(|_| self.speed), ..*frame }
     }
+
+    const fn new(name: &'static str, method: Method, motion: MotionMethod) -> Self {
+        Self {
+            name,
+            method,
+            weights: FrameWeights::Direction,
+            motion,
+            speed: matches!(method, Method::Kabsch) || matches!(motion, MotionMethod::Tracked),
+            joint: false,
+            angles: false,
+            convergence: false,
+        }
+    }
+
+    /// With other weights of frames.
+    const fn weighted(self, weights: FrameWeights) -> Self {
+        Self { weights, ..self }
+    }
+
+    /// Shown in Figure 6, and in Figure 5 too.
+    const fn drawn(self, angles: bool) -> Self {
+        Self { angles, convergence: true, ..self }
+    }
 }
 
-const fn candidate(
-    name: &'static str,
-    method: Method,
-    motion: MotionMethod,
-    convergence: bool,
-) -> Candidate {
-    let speed = matches!(method, Method::Kabsch) || matches!(motion, MotionMethod::Tracked);
-    Candidate { name, method, motion, speed, joint: false, convergence }
-}
-
-/// The methods compared: the two of Table II that have no network, the regressions on RANSAC's motion, ours, then the
-/// formulations of Table IV on our motion.
-pub const CANDIDATES: [Candidate; 11] = [
-    candidate("weighted mean (Kellner et al.)", Method::WeightedMean, MotionMethod::Ransac, true),
-    candidate("Kabsch (Bao et al.)", Method::Kabsch, MotionMethod::Ransac, true),
-    candidate(
+/// The methods compared: the mean of equation 8, the two of Table II that have no network, the regressions on RANSAC's motion, ours,
+/// then the formulations of Table IV on our motion, weighted by equation 13 (orthogonal distances by the variances of both coordinates).
+pub const CANDIDATES: [Candidate; 12] = [
+    Candidate::new("unweighted mean (equation 8)", Method::WeightedMean, MotionMethod::Ransac)
+        .weighted(FrameWeights::Equal),
+    Candidate::new("weighted mean (Kellner et al.)", Method::WeightedMean, MotionMethod::Ransac)
+        .drawn(true),
+    Candidate::new("Kabsch (Bao et al.)", Method::Kabsch, MotionMethod::Ransac).drawn(true),
+    Candidate::new(
         "least squares on RANSAC",
         Method::LeastSquares,
         MotionMethod::WeightedLeastSquares,
-        true,
-    ),
-    candidate(
+    )
+    .drawn(false),
+    Candidate::new(
         "orthogonal distance on RANSAC",
         Method::OrthogonalDistance,
         MotionMethod::OrthogonalDistance,
-        false,
     ),
     Candidate {
         speed: false,
-        ..candidate("recursive, without speed", Method::Recursive, MotionMethod::Tracked, true)
+        ..Candidate::new("recursive, without speed", Method::Recursive, MotionMethod::Tracked)
+            .drawn(false)
     },
-    candidate("recursive", Method::Recursive, MotionMethod::Tracked, true),
+    Candidate::new("recursive", Method::Recursive, MotionMethod::Tracked).drawn(true),
     Candidate {
         joint: true,
-        ..candidate("recursive, four radars", Method::Recursive, MotionMethod::Tracked, false)
+        ..Candidate::new("recursive, four radars", Method::Recursive, MotionMethod::Tracked)
     },
-    candidate("least squares, tracked", Method::LeastSquares, MotionMethod::Tracked, false),
-    candidate("Kabsch, tracked", Method::Kabsch, MotionMethod::Tracked, false),
-    candidate("weighted mean, tracked", Method::WeightedMean, MotionMethod::Tracked, false),
-    candidate(
+    Candidate::new("least squares, tracked", Method::LeastSquares, MotionMethod::Tracked),
+    Candidate::new("Kabsch, tracked", Method::Kabsch, MotionMethod::Tracked),
+    Candidate::new("weighted mean, tracked", Method::WeightedMean, MotionMethod::Tracked)
+        .weighted(FrameWeights::Motion),
+    Candidate::new(
         "orthogonal distance, tracked",
         Method::OrthogonalDistance,
         MotionMethod::Tracked,
-        false,
     ),
 ];
 
@@ -119,7 +152,7 @@ pub struct CalibrationExperiment {
 
 impl Experiment for CalibrationExperiment {
     const NAME: &'static str = "calibration";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
     type Plan = ();
     type Record = SceneRecord;
     type Report = CalibrationReport;

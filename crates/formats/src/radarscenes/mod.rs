@@ -16,7 +16,7 @@ mod json;
 mod write;
 
 pub use json::sequence_names;
-pub use write::{Packing, STATIC_LABEL, SequenceFiles, write};
+pub use write::{Packing, SequenceFiles, write};
 
 use crate::drive_log::scans::Scans;
 use crate::drive_log::{self, DropReason, MountingSource, ReadReport};

@@ -8,7 +8,7 @@ use super::json::{SceneEntry, ScenesFile, SequenceEntry, SequencesFile, sensors_
 use super::wrong;
 use crate::error::FormatError;
 use boresight_core::CoreError;
-use boresight_core::drive::{Detection, DriveLog, MotionSample, Mounting, Scan};
+use boresight_core::drive::{Detection, DriveLog, MotionSample, Mounting, STATIC_LABEL, Scan};
 use hdf5_pure::{
     CharacterSet, CompoundTypeBuilder, Datatype, FileBuilder, LibVer, StringPadding, make_f32_type,
     make_i64_type, make_u8_type,
@@ -16,8 +16,6 @@ use hdf5_pure::{
 use std::collections::BTreeMap;
 use std::io::Write;
 
-/// The class of what stands still.
-pub const STATIC_LABEL: u8 = 11;
 /// The first time stamp written, us; all of one file have as many digits.
 const FIRST_STAMP_US: i64 = 100_000_000_000;
 /// Longest time a file spans, s.

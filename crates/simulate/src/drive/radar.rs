@@ -7,11 +7,9 @@ use super::traffic::{Mover, Traffic};
 use super::view::{BINS, Echo, RANGE_M, View, received, strength_db, within};
 use super::world::World;
 use boresight_core::Random;
+pub use boresight_core::drive::STATIC_LABEL as STATIC_CLASS;
 use boresight_core::drive::{Detection, Mounting};
 use std::f64::consts::FRAC_PI_3;
-
-/// Class of standing things in the numbers of `RadarScenes`.
-pub const STATIC_CLASS: u8 = 11;
 
 /// Detections lie within plus and minus this azimuth, rad.
 pub const FIELD_OF_VIEW_RAD: f64 = FRAC_PI_3;
