@@ -5,7 +5,7 @@ use crate::angle::{
     Sample, Setting, Solution, kabsch, least_squares, orthogonal_distance, weighted_mean, wrap,
 };
 use crate::calibrator::check_time;
-use crate::estimate::CHANCE;
+use crate::estimate::{Alignment, CHANCE};
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, FrameCounts, FrameInput, FrameMotion,
     FrameOutcome, Method, Motion, MotionPlan, Remark, Verdict,
@@ -167,8 +167,8 @@ impl Batch {
             frames.turning += s.gated as u64;
         }
         let converged = sigma < o.converged_rad && self.moved(angle) <= o.converged_rad;
-        let misaligned =
-            o.nominal_rad.map(|nominal| wrap(angle - nominal).abs() > o.alarm_rad + CHANCE * sigma);
+        let alignment = Alignment::of(angle, sigma, o);
+        let misaligned = alignment.map(|alignment| alignment == Alignment::Misaligned);
         let inlier_share = self.inlier_share();
         let remarks = [
             (Remark::NoFrames, solution.is_none()),
@@ -201,6 +201,7 @@ impl Batch {
             frames,
             converged,
             misaligned,
+            alignment,
             remarks: remarks.into_iter().filter_map(|(r, holds)| holds.then_some(r)).collect(),
         }
     }

@@ -4,7 +4,7 @@ use crate::batch::Batch;
 use crate::motion::plan::plan;
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Method,
-    MotionMethod, MotionPlan, Recursive,
+    MotionMethod, MotionPlan, Outlook, Recursive,
 };
 use boresight_core::CoreError;
 
@@ -90,6 +90,14 @@ impl Calibrator {
         match &mut self.inner {
             Inner::Batch(batch) => batch.add(frame),
             Inner::Recursive(recursive) => recursive.add(frame),
+        }
+    }
+
+    /// What driving on would bring, for the recursive method; `None` for the methods that weigh all frames at once.
+    pub fn outlook(&self) -> Option<Outlook> {
+        match &self.inner {
+            Inner::Recursive(recursive) => Some(recursive.outlook()),
+            Inner::Batch(_) => None,
         }
     }
 

@@ -1,6 +1,7 @@
 //! The estimate of a mounting angle, with all that is needed to judge it.
 
-use crate::Verdict;
+use crate::angle::wrap;
+use crate::{CalibrationOptions, Verdict};
 use boresight_core::describe::remark::Coded;
 use boresight_core::describe::{Described, remark};
 use serde::{Deserialize, Serialize};
@@ -161,6 +162,30 @@ impl Display for Remark {
     }
 }
 
+/// Whether a radar is where it should be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Alignment {
+    /// The angle lies within the alarm's limit of the nominal one, and three standard deviations more still do.
+    Aligned,
+    /// The angle lies beyond the alarm's limit by more than three standard deviations.
+    Misaligned,
+    /// The drive does not tell yet.
+    Undecided,
+}
+
+impl Alignment {
+    /// Of an angle and its standard deviation; none without a nominal angle.
+    pub(crate) fn of(angle_rad: f64, sigma_rad: f64, options: &CalibrationOptions) -> Option<Self> {
+        let off = wrap(angle_rad - options.nominal_rad?).abs();
+        Some(match (off - options.alarm_rad, CHANCE * sigma_rad) {
+            (beyond, chance) if beyond > chance => Self::Misaligned,
+            (beyond, chance) if beyond <= -chance => Self::Aligned,
+            _ => Self::Undecided,
+        })
+    }
+}
+
 /// A mounting angle and what it rests on. Standard deviations are infinite where the drive says nothing.
 #[derive(Debug, Clone, PartialEq, Described, Serialize)]
 #[option(name = "CalibrationResult")]
@@ -205,6 +230,8 @@ pub struct AngleEstimate {
     /// Whether the angle differs from the nominal one beyond limit and chance; none without a
     /// nominal angle.
     pub misaligned: Option<bool>,
+    /// Whether the radar is where it should be; none without a nominal angle.
+    pub alignment: Option<Alignment>,
     /// What to know of it.
     #[option(described_as = Vec<boresight_core::Remark>)]
     #[serde(rename = "warnings", serialize_with = "remark::serialize")]

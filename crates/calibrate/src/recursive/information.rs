@@ -186,6 +186,20 @@ impl Information {
         result
     }
 
+    /// Expects a block that agrees with all that is known: what it adds to the covariance, nothing to the estimate or the scatter.
+    pub(crate) fn expect(&mut self, block: &Sum) {
+        let (n, _) = block.with_lasting(self.lasting());
+        let x: Vector = std::array::from_fn(|i| self.x[i] - self.reference[i]);
+        let y = times(&n, &x);
+        for i in 0..UNKNOWNS {
+            self.y[i] += y[i];
+            for j in 0..UNKNOWNS {
+                self.n[i][j] += n[i][j];
+            }
+        }
+        self.solve();
+    }
+
     /// Lets all blocks so far count for a share of what they did.
     pub(crate) fn forget(&mut self, share: f64) {
         let scale = |moments: &mut Moments| {

@@ -20,6 +20,7 @@ mod conclude;
 mod doubts;
 mod equation;
 pub(crate) mod information;
+pub(crate) mod outlook;
 mod recent;
 mod snapshot;
 mod speed;

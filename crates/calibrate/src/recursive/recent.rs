@@ -34,6 +34,10 @@ impl Recent {
         self.blocks.len() <= MOST_BLOCKS && self.blocks.iter().all(Sum::is_sound)
     }
 
+    pub(crate) fn last(&self) -> Option<&Sum> {
+        self.blocks.back()
+    }
+
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Sum> {
         self.blocks.iter()
     }
