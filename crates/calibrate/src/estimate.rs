@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::{Display, Formatter};
 
 /// Standard deviations that chance is granted before an angle counts as misaligned.
-pub(crate) const CHANCE: f64 = 3.0;
+pub const CHANCE: f64 = 3.0;
 
 /// How many frames became what; every frame given is counted once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]

@@ -64,7 +64,7 @@ pub mod trajectory;
 pub use calibrator::Calibrator;
 pub use drive::Frames;
 pub use error::CalibrateError;
-pub use estimate::{Alignment, AngleEstimate, FrameCounts, Remark};
+pub use estimate::{Alignment, AngleEstimate, CHANCE, FrameCounts, Remark};
 pub use frame::{FrameInput, FrameOutcome, Motion, Verdict};
 pub use joint::Joint;
 pub use merge::merge;

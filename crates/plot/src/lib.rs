@@ -1,8 +1,13 @@
 //! Line plots with labelled axes, as SVG.
 
-use crate::EvaluateError;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
+use thiserror::Error;
+
+/// A figure that cannot be drawn.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub struct PlotError(String);
 
 /// Colours that people with colour-blindness can tell apart: those of Okabe and Ito (2008), then some of
 /// Tol's.
@@ -77,8 +82,11 @@ pub struct Series {
 }
 
 /// Draws the panels in rows of `columns` under a legend.
-pub fn draw(panels: &[Panel], columns: usize) -> Result<String, EvaluateError> {
-    let rows = panels.len().div_ceil(columns);
+///
+/// # Errors
+/// [`PlotError`] where a panel has no extent that can be drawn.
+pub fn draw(panels: &[Panel], columns: usize) -> Result<String, PlotError> {
+    let rows = panels.len().div_ceil(columns.max(1));
     let width = PANEL.0 * columns as u32;
     let lines = panels.first().map_or(vec![], |panel| legend_lines(panel, width as i32));
     let height = 8 + LEGEND * lines.len() as u32;
@@ -118,7 +126,7 @@ fn legend_lines(panel: &Panel, width: i32) -> Vec<Vec<Entry<'_>>> {
     lines
 }
 
-fn legend(lines: &[Vec<Entry>], area: &Area) -> Result<(), EvaluateError> {
+fn legend(lines: &[Vec<Entry>], area: &Area) -> Result<(), PlotError> {
     for (line, top) in lines.iter().zip((9..).step_by(LEGEND as usize)) {
         for &(x, series, colour) in line {
             let dashes = if series.dashed { vec![(0, 7), (11, 18)] } else { vec![(0, 18)] };
@@ -135,7 +143,7 @@ fn legend(lines: &[Vec<Entry>], area: &Area) -> Result<(), EvaluateError> {
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
-fn panel_on(panel: &Panel, area: &Area) -> Result<(), EvaluateError> {
+fn panel_on(panel: &Panel, area: &Area) -> Result<(), PlotError> {
     let [logarithmic_x, logarithmic_y] = panel.logarithmic();
     let [x0, x1] = limits(panel, |point| point.0, logarithmic_x);
     let [y0, y1] = panel.y_limits.unwrap_or_else(|| limits(panel, |point| point.1, logarithmic_y));
@@ -147,7 +155,7 @@ fn panel_on(panel: &Panel, area: &Area) -> Result<(), EvaluateError> {
     }
 }
 
-fn axes<X, Y>(panel: &Panel, area: &Area, x: X, y: Y) -> Result<(), EvaluateError>
+fn axes<X, Y>(panel: &Panel, area: &Area, x: X, y: Y) -> Result<(), PlotError>
 where
     X: AsRangedCoord<Value = f64>,
     Y: AsRangedCoord<Value = f64>,
@@ -215,6 +223,6 @@ fn limits(panel: &Panel, of: fn(&(f64, f64)) -> f64, logarithmic: bool) -> [f64;
     [low - margin, high + margin]
 }
 
-fn figure(error: impl std::fmt::Display) -> EvaluateError {
-    EvaluateError::Figure(error.to_string())
+fn figure(error: impl std::fmt::Display) -> PlotError {
+    PlotError(error.to_string())
 }
