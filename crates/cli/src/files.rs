@@ -4,9 +4,12 @@ use crate::destination::{Destination, file_behind};
 use crate::error::CliError;
 use boresight_core::Waveform;
 use boresight_formats::RadarConfig;
+use boresight_report::Source;
 use boresight_simulate::{waveform_preset, waveform_presets};
 use serde::Deserialize;
+use sha2::{Digest, Sha256};
 use std::cell::{Cell, RefCell};
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -43,6 +46,14 @@ impl Files {
         if let Ok(path) = file_behind(path) {
             self.inputs.borrow_mut().push(path);
         }
+    }
+
+    /// The files that were read, with the digests of their bytes as they are now, by name.
+    pub fn sources(&self) -> Result<Vec<Source>, CliError> {
+        let mut paths = self.inputs.borrow().clone();
+        paths.sort();
+        paths.dedup();
+        paths.iter().map(|path| source(path)).collect()
     }
 
     /// Where an output goes. Refused are a file that is there, without `--force`, and with it too a file that was
@@ -104,6 +115,16 @@ impl Files {
     pub fn standard_output_taken(&self) -> bool {
         self.standard_output.get()
     }
+}
+
+fn source(path: &Path) -> Result<Source, CliError> {
+    let failed = |error| CliError::File { action: "read", path: path.into(), error };
+    let mut hasher = Sha256::new();
+    let mut file = File::open(path).map_err(failed)?;
+    let bytes = std::io::copy(&mut file, &mut hasher).map_err(failed)?;
+    let sha256 = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(Source { name, bytes, sha256 })
 }
 
 /// Makes a folder and those above it, where they are not there.

@@ -8,6 +8,10 @@ const MOST_POINTS: usize = 800;
 const STEP_S: f64 = 0.25;
 /// Frames further apart are a gap, s.
 const GAP_S: f64 = 1.0;
+/// The angle is worth a look after so many frames, and after such a share of all before: methods that weigh all frames take time in
+/// proportion to their number.
+const LOOK_FRAMES: u64 = 13;
+const LOOK_SHARE: f64 = 0.01;
 
 /// Points in order of time, thinned as they become too many.
 #[derive(Debug, Clone, Default)]
@@ -46,6 +50,7 @@ pub struct Recorder {
     last: Option<(f64, f64)>,
     detections: u64,
     frames: u64,
+    looked: u64,
     driven_m: f64,
     fastest_mps: f64,
     fastest_turn_radps: f64,
@@ -60,6 +65,7 @@ impl Default for Recorder {
             last: None,
             detections: 0,
             frames: 0,
+            looked: 0,
             driven_m: 0.0,
             fastest_mps: 0.0,
             fastest_turn_radps: 0.0,
@@ -68,8 +74,8 @@ impl Default for Recorder {
 }
 
 impl Recorder {
-    /// Takes a frame and what became of it.
-    pub fn add(&mut self, frame: &FrameInput, outcome: &FrameOutcome) {
+    /// Takes a frame and what became of it; whether the angle is worth a [`Self::look`] again.
+    pub fn add(&mut self, frame: &FrameInput, outcome: &FrameOutcome) -> bool {
         let time_s = frame.time_s;
         self.first_s.get_or_insert(time_s);
         self.frames += 1;
@@ -91,10 +97,13 @@ impl Recorder {
             self.fastest_turn_radps = self.fastest_turn_radps.max(turn.abs());
         }
         self.state.add([time_s, speed.unwrap_or(f64::NAN), turn.unwrap_or(f64::NAN).to_degrees()]);
+        let since = self.frames - self.looked;
+        since >= LOOK_FRAMES && since as f64 >= LOOK_SHARE * self.frames as f64
     }
 
     /// Takes the angle at a time, as far as it is known then.
     pub fn look(&mut self, time_s: f64, estimate: &AngleEstimate) {
+        self.looked = self.frames;
         let [angle, sigma] = [estimate.angle_rad, estimate.sigma_rad].map(f64::to_degrees);
         self.history.add([time_s, angle, sigma]);
     }

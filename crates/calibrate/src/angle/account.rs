@@ -6,7 +6,7 @@
 
 use super::Sample;
 use crate::CalibrationOptions;
-use crate::recursive::block::BLOCK_S;
+use crate::recursive::block::Extent;
 use crate::recursive::information::{MAX_CORRELATION, PRIOR_BLOCKS};
 use crate::symmetric::Symmetric;
 
@@ -131,9 +131,10 @@ fn lasting(
     let (mut expected, mut measured) = (independent, Symmetric::default());
     let (mut blocks, mut lagged, mut before) = (0.0_f64, 0.0, None::<f64>);
     let mut rest = influences;
-    while let Some(first) = rest.first() {
-        let end = rest.partition_point(|i| i.sample.time_s < first.sample.time_s + BLOCK_S).max(1);
-        let (block, after) = rest.split_at(end);
+    while !rest.is_empty() {
+        let mut extent = Extent::default();
+        let ends = |i: &Influence| extent.ends_before(i.sample.time_s, i.sample.radar_speed_mps);
+        let (block, after) = rest.split_at(rest.iter().position(ends).unwrap_or(rest.len()));
         let (mut pull, mut score) = ([0.0; 2], [0.0; 2]);
         for influence in block {
             for k in 0..2 {

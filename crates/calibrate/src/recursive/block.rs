@@ -4,8 +4,11 @@ use super::information::{Matrix, UNKNOWNS, Vector};
 use crate::small::add_outer;
 use serde::{Deserialize, Serialize};
 
-/// Length of a block, s.
+/// A block lasts as long at least, s, and goes as far, m: what errs is in the scene, and a slow car has the same one before it for longer.
 pub(crate) const BLOCK_S: f64 = 5.0;
+const BLOCK_M: f64 = 50.0;
+/// Frames further apart say nothing of the way between them, s.
+const GAP_S: f64 = 1.0;
 /// A block ends early with this many frames: memory is bounded whatever the rate.
 const MAX_FRAMES: usize = 512;
 /// Degrees of freedom of the frames' Student-t weights.
@@ -29,10 +32,38 @@ pub(crate) struct Row {
     pub(crate) angle: f64,
 }
 
+/// How far a block has come.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Extent {
+    start_s: f64,
+    last_s: f64,
+    way_m: f64,
+    frames: usize,
+}
+
+impl Extent {
+    /// Whether a frame at a time, s, begins another block; otherwise it is in this one. A block is bounded in frames, whatever their rate.
+    pub(crate) fn ends_before(&mut self, time_s: f64, speed_mps: f64) -> bool {
+        let full = self.frames > 0
+            && ((time_s - self.start_s >= BLOCK_S && self.way_m >= BLOCK_M)
+                || self.frames >= MAX_FRAMES);
+        if full || self.frames == 0 {
+            *self = Self { start_s: time_s, last_s: time_s, way_m: 0.0, frames: 0 };
+        }
+        let step_s = time_s - self.last_s;
+        if step_s <= GAP_S {
+            self.way_m += speed_mps.abs() * step_s;
+        }
+        self.last_s = time_s;
+        self.frames += 1;
+        full
+    }
+}
+
 /// Frames of the block that is not complete yet.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Block {
-    start_s: f64,
+    extent: Extent,
     rows: Vec<Row>,
 }
 
@@ -47,9 +78,9 @@ pub(crate) struct Sum {
 }
 
 impl Block {
-    /// Whether a frame at this time begins another block.
-    pub(crate) fn is_full(&self, time_s: f64) -> bool {
-        !self.rows.is_empty() && (time_s - self.start_s >= BLOCK_S || self.rows.len() >= MAX_FRAMES)
+    /// Whether a frame at a time, s, begins another block, for which [`Self::clear`] makes room.
+    pub(crate) fn ends_before(&mut self, time_s: f64, speed_mps: f64) -> bool {
+        self.extent.ends_before(time_s, speed_mps)
     }
 
     /// Whether a block could have become so.
@@ -58,10 +89,7 @@ impl Block {
             && self.rows.iter().all(|row| row.variance > 0.0 && row.value.is_finite())
     }
 
-    pub(crate) fn add(&mut self, time_s: f64, row: Row) {
-        if self.rows.is_empty() {
-            self.start_s = time_s;
-        }
+    pub(crate) fn add(&mut self, row: Row) {
         self.rows.push(row);
     }
 

@@ -280,7 +280,7 @@ impl Recursive {
             outcome.weights.fill(0.0);
             return Verdict::Sparse;
         }
-        self.inform(frame.time_s, &equation, outcome);
+        self.inform(frame.time_s, fit.speed, &equation, outcome);
         self.state.inliers += fit.inliers as f64;
         self.state.detections += frame.detections.len() as f64;
         Verdict::Used
@@ -326,11 +326,17 @@ impl Recursive {
     }
 
     /// Adds the frame's equation.
-    fn inform(&mut self, time_s: f64, equation: &Equation, outcome: &mut FrameOutcome) {
-        if self.state.block.is_full(time_s) {
+    fn inform(
+        &mut self,
+        time_s: f64,
+        speed_mps: f64,
+        equation: &Equation,
+        outcome: &mut FrameOutcome,
+    ) {
+        if self.state.block.ends_before(time_s, speed_mps) {
             self.end_block(time_s);
         }
-        self.state.block.add(time_s, equation.row);
+        self.state.block.add(equation.row);
         let state = &self.state;
         let variance = equation.row.variance + state.excess.0;
         outcome.angle_rad = Some(wrap(state.now.mean()[0] + equation.innovation));

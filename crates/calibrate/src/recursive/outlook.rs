@@ -1,7 +1,7 @@
 //! What driving on would bring: the angle's standard deviation after a minute more of each of some manoeuvres, from the covariance that
 //! their equations predict.
 
-use super::block::{BLOCK_S, Block, Row};
+use super::block::{Block, Row};
 use super::equation::Equation;
 use super::information::Information;
 use super::tracked::Prediction;
@@ -16,8 +16,8 @@ use std::f64::consts::TAU;
 /// Time of a manoeuvre, s, and how often one is repeated at most.
 const MINUTE_S: f64 = 60.0;
 const MOST_MINUTES: u32 = 20;
-/// Frames of a block, and variance of a frame's direction, rad^2 (0.3 deg), before a block says so.
-const FRAMES: usize = 65;
+/// Time between frames, s, and variance of a frame's direction, rad^2 (0.3 deg), before a block says so.
+const STEP_S: f64 = 0.075;
 const VARIANCE: f64 = 2.7e-5;
 /// Readings of the yaw rate scatter by this, rad/s; ten seconds of them tell its bias.
 const READING_RADPS: f64 = 0.005;
@@ -174,29 +174,31 @@ impl Recursive {
     /// Adds what a minute of a manoeuvre is expected to tell.
     fn drive_on(&self, known: &mut Information, manoeuvre: Manoeuvre) {
         let last = self.state.recent.last().filter(|block| block.frames() > 0);
-        let frames = last.map_or(FRAMES, |block| block.frames());
-        let variance = last.map_or(VARIANCE, |block| block.own_variance() * frames as f64);
-        let step_s = BLOCK_S / frames as f64;
+        let variance = last.map_or(VARIANCE, |b| b.own_variance() * b.frames() as f64);
         if manoeuvre == Manoeuvre::Stop {
-            let readings = STANDSTILL_S / step_s;
+            let readings = STANDSTILL_S / STEP_S;
             let (mean, inverse_variance) = known.prior();
             let inverse = inverse_variance[2] + readings / READING_RADPS.powi(2);
             known.set_bias(mean[2], inverse.sqrt().recip());
         }
-        for block in 0..(MINUTE_S / BLOCK_S) as usize {
-            let mut rows = Block::default();
-            for frame in 0..frames {
-                let time_s = block as f64 * BLOCK_S + frame as f64 * step_s;
-                if let Some(row) = self.expected(known, manoeuvre.state(time_s), variance) {
-                    rows.add(time_s, row);
-                }
-            }
-            let x = super::offset(known);
-            let sum = rows.sum(&x, 0.0);
+        let mut rows = Block::default();
+        let end = |rows: &mut Block, known: &mut Information| {
+            let sum = rows.sum(&super::offset(known), 0.0);
             if sum.frames() > 0 {
                 known.expect(&sum);
             }
+            rows.clear();
+        };
+        for frame in 0..(MINUTE_S / STEP_S) as usize {
+            let time_s = frame as f64 * STEP_S;
+            let state = manoeuvre.state(time_s);
+            let Some(row) = self.expected(known, state, variance) else { continue };
+            if rows.ends_before(time_s, state[0]) {
+                end(&mut rows, known);
+            }
+            rows.add(row);
         }
+        end(&mut rows, known);
     }
 
     /// The equation of a frame at a speed, m/s, a yaw rate, rad/s, and its change; `None` where the car is too slow for one.

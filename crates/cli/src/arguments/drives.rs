@@ -57,6 +57,9 @@ pub struct CalibrateArguments {
     /// logged_x_m, logged_y_m, logged_yaw_deg in the same frame.
     #[arg(long, value_name = "OUT.csv")]
     pub trajectory: Option<PathBuf>,
+    /// Write a report to print: verdict, angle, plots, conditions and the files it comes from, as one page of HTML.
+    #[arg(long, value_name = "OUT.html")]
+    pub report: Option<PathBuf>,
     /// Print JSON: an object, or an array of them where there are several radars.
     #[arg(long)]
     pub json: bool,

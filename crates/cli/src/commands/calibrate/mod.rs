@@ -11,11 +11,12 @@ use crate::output::remark;
 use crate::run::Run;
 use boresight_calibrate::{
     AngleEstimate, CalibrateError, CalibrationOptions, Calibrator, FrameInput, FrameOutcome,
-    Frames, Joint,
+    Frames, Joint, Outlook,
 };
 use boresight_core::drive::{DriveLog, Sensor};
 use boresight_formats::DriveFormat;
 use boresight_pipeline::{PipelineError, Progress};
+use boresight_report::Recorder;
 use serde_json::Value;
 use track::Track;
 
@@ -28,6 +29,8 @@ struct Calibrated {
     options: CalibrationOptions,
     estimate: AngleEstimate,
     track: Track,
+    outlook: Option<Outlook>,
+    recorder: Recorder,
     /// With the other radars of the log.
     joint: bool,
 }
@@ -48,6 +51,7 @@ pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliE
     }
     let trajectory =
         arguments.trajectory.as_deref().map(|path| files.destination(path)).transpose()?;
+    let report = arguments.report.as_deref().map(|path| files.destination(path)).transpose()?;
     let run = Run::start("frames")?;
     let mut results = if arguments.joint {
         jointly(arguments, log, &run)?
@@ -68,6 +72,9 @@ pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliE
                 }
             })?;
         files.write(trajectory, csv.as_bytes())?;
+    }
+    if let Some(destination) = report {
+        files.write(destination, report::page(&results, files)?.as_bytes())?;
     }
     Ok(if arguments.json {
         let mut objects: Vec<Value> = results.iter().map(report::json).collect();
@@ -153,17 +160,23 @@ fn alone(
 ) -> Result<Calibrated, CliError> {
     let mut calibrator = Calibrator::new(options)?;
     let mut track = Track::default();
+    let mut recorder = Recorder::default();
     feed(
         log,
         &options,
         run,
         |id| id == sensor,
         |_, frame| {
-            track.add(log, &options, &frame, &calibrator.add(frame)?);
+            let outcome = calibrator.add(frame)?;
+            track.add(log, &options, &frame, &outcome);
+            if recorder.add(&frame, &outcome) {
+                recorder.look(frame.time_s, &calibrator.estimate());
+            }
             Ok(())
         },
     )?;
-    Ok(Calibrated { sensor, options, estimate: calibrator.estimate(), track, joint: false })
+    let (estimate, outlook) = (calibrator.estimate(), calibrator.outlook());
+    Ok(Calibrated { sensor, options, estimate, track, outlook, recorder, joint: false })
 }
 
 /// All radars of the log at once.
@@ -178,7 +191,7 @@ fn jointly(
         .map(|sensor| Ok((sensor.id, options(arguments, sensor)?)))
         .collect::<Result<Vec<(u8, CalibrationOptions)>, CliError>>()?;
     let mut joint = Joint::new(&radars)?;
-    let mut tracks = vec![Track::default(); radars.len()];
+    let mut followed = vec![(Track::default(), Recorder::default()); radars.len()];
     feed(
         log,
         &radars[0].1,
@@ -187,7 +200,11 @@ fn jointly(
         |sensor, frame| {
             let outcome: FrameOutcome = joint.add(sensor, frame)?;
             if let Some(at) = radars.iter().position(|(id, _)| *id == sensor) {
-                tracks[at].add(log, &radars[at].1, &frame, &outcome);
+                let (track, recorder) = &mut followed[at];
+                track.add(log, &radars[at].1, &frame, &outcome);
+                if recorder.add(&frame, &outcome) {
+                    recorder.look(frame.time_s, &joint.estimate()[at].1);
+                }
             }
             Ok(())
         },
@@ -195,12 +212,14 @@ fn jointly(
     Ok(radars
         .into_iter()
         .zip(joint.estimate())
-        .zip(tracks)
-        .map(|(((sensor, options), (_, estimate)), track)| Calibrated {
+        .zip(followed)
+        .map(|(((sensor, options), (_, estimate)), (track, recorder))| Calibrated {
             sensor,
             options,
             estimate,
             track,
+            outlook: None,
+            recorder,
             joint: true,
         })
         .collect())
