@@ -14,10 +14,14 @@ const MAX_FRAMES: usize = 512;
 /// Degrees of freedom of the frames' Student-t weights.
 const FREEDOM: f64 = 4.0;
 const ROUNDS: usize = 8;
+/// Residuals count up to so many deviations where their correlation is judged.
+const BOUND: f64 = 3.0;
 /// Variance of frames beyond their own where it is not learnt, rad^2 (0.2 deg).
 const SCATTER: f64 = 1.2e-5;
 /// Frames that count as one observation where no block's error is told from them.
 const CORRELATED: f64 = 10.0;
+/// Frames, of something more than a second, whose mean tells how far neighbours err alike.
+const NEIGHBOURS: usize = 16;
 
 /// One frame's equation `value = row . (x - reference) + noise`, where the row's first entry is 1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -75,6 +79,18 @@ pub(crate) struct Sum {
     frames: usize,
     /// Mean square of the residuals beyond the frames' own variances, rad^2.
     pub(crate) excess: f64,
+    /// How many frames count as one that is independent of the others, by the scatter of means over [`NEIGHBOURS`] frames; `None` where the
+    /// block is too short to tell.
+    pub(crate) correlated: Option<f64>,
+}
+
+/// How frames of a block scatter.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Scatter {
+    /// Variance beyond their own, rad^2.
+    pub(crate) excess: f64,
+    /// How many frames count as one.
+    pub(crate) correlated: f64,
 }
 
 impl Block {
@@ -98,9 +114,8 @@ impl Block {
     }
 
     /// Sums of the frames with Student-t weights (Lange, Little and Taylor 1989) about the angle that they agree on by themselves, so
-    /// that an angle that has changed is seen. `x` has the other unknowns less their reference, `excess` is the variance of frames
-    /// beyond their own.
-    pub(crate) fn sum(&self, x: &Vector, excess: f64) -> Sum {
+    /// that an angle that has changed is seen. `x` has the other unknowns less their reference.
+    pub(crate) fn sum(&self, x: &Vector, Scatter { excess, correlated }: Scatter) -> Sum {
         let residual =
             |row: &Row| row.value - (1..UNKNOWNS).map(|i| row.row[i] * x[i]).sum::<f64>();
         let mut level = median(self.rows.iter().map(residual).collect());
@@ -120,20 +135,41 @@ impl Block {
             y: [0.0; UNKNOWNS],
             frames: self.rows.len(),
             excess: 0.0,
+            correlated: self
+                .correlation(|row| (residual(row) - level) / (row.variance + excess).sqrt()),
         };
         let mut squares = 0.0;
         for row in &self.rows {
             let variance = row.variance + excess;
             let square = (residual(row) - level).powi(2);
             let student = student(square / variance);
-            add_outer(&mut result.n, &row.row, student / variance);
+            let weight = student / (variance * correlated);
+            add_outer(&mut result.n, &row.row, weight);
             for i in 0..UNKNOWNS {
-                result.y[i] += student / variance * row.row[i] * row.value;
+                result.y[i] += weight * row.row[i] * row.value;
             }
             squares += student * square - row.variance;
         }
         result.excess = squares / (self.rows.len() as f64 - 1.0).max(1.0);
         result
+    }
+
+    /// How much more means over neighbouring frames scatter than if frames were independent, of residuals about the block's level in units of
+    /// their deviations.
+    fn correlation(&self, residual: impl Fn(&Row) -> f64) -> Option<f64> {
+        let groups = self.rows.len() / NEIGHBOURS;
+        if groups < 3 {
+            return None;
+        }
+        let (mut of_means, mut of_frames) = (0.0, 0.0);
+        for group in self.rows.chunks_exact(NEIGHBOURS) {
+            let bounded = |row: &Row| residual(row).clamp(-BOUND, BOUND);
+            of_means += group.iter().map(bounded).sum::<f64>().powi(2);
+            of_frames += group.iter().map(|row| bounded(row).powi(2)).sum::<f64>();
+        }
+        // About the mean of the block, means over a share of it scatter by that share less.
+        let left = 1.0 - 1.0 / groups as f64;
+        (of_frames > 0.0).then(|| (of_means / (left * of_frames)).clamp(1.0, NEIGHBOURS as f64))
     }
 }
 
@@ -196,6 +232,7 @@ impl Sum {
     pub(crate) fn is_sound(&self) -> bool {
         self.n[0][0] > 0.0
             && self.excess.is_finite()
+            && self.correlated.is_none_or(f64::is_finite)
             && self.n.as_flattened().iter().chain(&self.y).all(|number| number.is_finite())
     }
 

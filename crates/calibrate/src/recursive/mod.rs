@@ -36,7 +36,7 @@ use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
 use crate::motion::ransac::Ransac;
 use crate::motion::{FrameMotion, MotionPlan};
 use crate::options::CalibrationOptions;
-use block::{BLOCK_S, Block};
+use block::{BLOCK_S, Block, Scatter};
 use boresight_core::Detection;
 use doubts::Doubts;
 use equation::Equation;
@@ -55,10 +55,11 @@ const CHANGE_GAP_S: f64 = 0.25;
 const MAX_CHANGE: f64 = 1.0;
 /// Share of a new frame in the scale of the detections' noise, which is learnt on the way.
 const LEARNING_RATE: f64 = 0.01;
-/// Scatter of frames of one block beyond their own variance before anything is known of it, rad (0.2 deg), and how many blocks
-/// this counts as and is at most learnt over.
+/// Scatter of frames of one block beyond their own variance before anything is known of it, rad (0.2 deg), how many frames count as one
+/// then, and how many blocks this counts as and is at most learnt over.
 const EXCESS_RAD: f64 = 0.003_490_658_503_988_66;
-const EXCESS_BLOCKS: [f64; 2] = [1.0, 60.0];
+const CORRELATED: f64 = 4.0;
+const SCATTER_BLOCKS: [f64; 2] = [1.0, 60.0];
 /// Blocks before which each frame moves the angle at once.
 const FIRST_BLOCKS: u64 = 3;
 /// A frame whose angle lies further off all before is of something else, rad (20 deg).
@@ -95,8 +96,8 @@ struct State {
     speed: Option<(f64, f64)>,
     speed_scale: Speed,
     noise_scale: f64,
-    /// Scatter of frames beyond their own variance, and blocks that it was learnt from.
-    excess: (f64, f64),
+    /// Scatter of frames, and blocks that it was learnt from.
+    scatter: (Scatter, f64),
     blocks: u64,
     /// Angles after the last blocks.
     angles: [Option<f64>; 3],
@@ -144,7 +145,10 @@ impl Recursive {
             speed: None,
             speed_scale: Speed::default(),
             noise_scale: 1.0,
-            excess: (EXCESS_RAD * EXCESS_RAD, EXCESS_BLOCKS[0]),
+            scatter: (
+                Scatter { excess: EXCESS_RAD * EXCESS_RAD, correlated: CORRELATED },
+                SCATTER_BLOCKS[0],
+            ),
             blocks: 0,
             angles: [None; 3],
             bias_sum: [0.0; 3],
@@ -338,7 +342,7 @@ impl Recursive {
         }
         self.state.block.add(equation.row);
         let state = &self.state;
-        let variance = equation.row.variance + state.excess.0;
+        let variance = equation.row.variance + state.scatter.0.excess;
         outcome.angle_rad = Some(wrap(state.now.mean()[0] + equation.innovation));
         outcome.angle_sigma_rad = Some((variance + state.now.lasting()).sqrt());
         outcome.weight = 1.0 / variance;
@@ -354,19 +358,20 @@ impl Recursive {
         for block in state.recent.iter() {
             known.add(block);
         }
-        known.with(&state.block.sum(&offset(&known), state.excess.0))
+        known.with(&state.block.sum(&offset(&known), state.scatter.0))
     }
 
     fn end_block(&mut self, time_s: f64) {
         let state = &mut self.state;
-        let block = state.block.sum(&offset(&state.now), state.excess.0);
+        let block = state.block.sum(&offset(&state.now), state.scatter.0);
         state.doubts.free_scale.add(&state.block);
         state.block.clear();
         state.speed_scale.end_block();
         state.blocks += 1;
-        let (excess, blocks) = &mut state.excess;
+        let (Scatter { excess, correlated }, blocks) = &mut state.scatter;
         *excess = (*excess + (block.excess - *excess) / (*blocks + 1.0)).max(1e-8);
-        *blocks = (*blocks + 1.0).min(EXCESS_BLOCKS[1]);
+        *correlated += (block.correlated.unwrap_or(*correlated) - *correlated) / (*blocks + 1.0);
+        *blocks = (*blocks + 1.0).min(SCATTER_BLOCKS[1]);
         if let Some(old) = state.recent.push(block) {
             state.before.add(&old);
             state.before.forget((-BLOCK_S / self.options.memory_s).exp());

@@ -1,7 +1,7 @@
 //! What driving on would bring: the angle's standard deviation after a minute more of each of some manoeuvres, from the covariance that
 //! their equations predict.
 
-use super::block::{Block, Row};
+use super::block::{Block, Row, Scatter};
 use super::equation::Equation;
 use super::information::Information;
 use super::tracked::Prediction;
@@ -20,6 +20,8 @@ const MOST_MINUTES: u32 = 20;
 const STEP_S: f64 = 0.075;
 const VARIANCE: f64 = 2.7e-5;
 /// Readings of the yaw rate scatter by this, rad/s; ten seconds of them tell its bias.
+/// The variance that a block has shown has both in it.
+const SCATTER: Scatter = Scatter { excess: 0.0, correlated: 1.0 };
 const READING_RADPS: f64 = 0.005;
 const STANDSTILL_S: f64 = 10.0;
 
@@ -183,7 +185,7 @@ impl Recursive {
         }
         let mut rows = Block::default();
         let end = |rows: &mut Block, known: &mut Information| {
-            let sum = rows.sum(&super::offset(known), 0.0);
+            let sum = rows.sum(&super::offset(known), SCATTER);
             if sum.frames() > 0 {
                 known.expect(&sum);
             }

@@ -72,7 +72,8 @@ impl State {
             && self.time_s.is_none_or(f64::is_finite)
             && self.noise_scale > 0.0
             && self.noise_scale.is_finite()
-            && self.excess.0 > 0.0
-            && self.excess.1 >= 0.0
+            && self.scatter.0.excess > 0.0
+            && self.scatter.0.correlated >= 1.0
+            && self.scatter.1 >= 0.0
     }
 }
