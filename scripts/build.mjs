@@ -39,7 +39,12 @@ const shared = crates(
 );
 
 const core = { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'dist', wasmOpt: true, made: shared };
-const drives = { ...core, name: 'boresight_drives', feature: 'drives' };
+const drives = {
+  ...core,
+  name: 'boresight_drives',
+  feature: 'drives',
+  made: [...shared, ...crates('plot', 'report')],
+};
 /** Of networks. wasm-opt would take minutes. */
 export const neural = {
   name: 'boresight_neural',

@@ -3,7 +3,7 @@
 export { Calibration, calibrationMethods, mergeCalibrations } from './calibrate/calibrate.js';
 export { Capture, frameCells, processCube } from './capture/capture.js';
 export { strongestRegion } from './capture/region.js';
-export { calibrateDrive, frameVerdicts, jointCalibration } from './drive/calibration.js';
+export { calibrateDrive, calibrationReport, frameVerdicts, jointCalibration } from './drive/calibration.js';
 export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive/drive.js';
 export { driveFrame, scanMotion } from './drive/frame.js';
 export { relativeTrajectoryError, trajectory } from './drive/trajectory.js';

@@ -1,6 +1,6 @@
 // The pool: the functions of the package as promises, those that are split over workers, and what the pool keeps.
 import { driveFrame } from '../lib/drive/frame.js';
-import { jointTaskOf, taskOf } from '../lib/drive/radars.js';
+import { jointTaskOf, reportTaskOf, taskOf } from '../lib/drive/radars.js';
 import { selected, viewOf } from '../lib/drive/view.js';
 import { wrong } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
@@ -255,6 +255,22 @@ export class Pool {
     );
     const results = await this.#one('jointCalibration', [part.drive, options], { ...job, transfer: true });
     return results.map((result) => numbered(result, part.scans));
+  }
+
+  /** A report of a calibration, as the package's function gives it; progress counts frames. */
+  async calibrationReport(
+    drive: lib.DriveData,
+    about?: lib.ReportAbout,
+    options?: lib.CalibrateDriveOptions | lib.JointCalibrationOptions,
+    job: JobOptions = {},
+  ): Promise<string> {
+    checkedJob(job).signal?.throwIfAborted();
+    const { radars } = reportTaskOf(viewOf(drive), options);
+    const part = selected(
+      drive,
+      radars.map(({ sensor }) => sensor),
+    );
+    return this.#one('calibrationReport', [part.drive, about, options], { ...job, transfer: true });
   }
 
   /** Estimates of many inputs, split over the workers; progress counts inputs. */

@@ -26,6 +26,7 @@ import type {
   NetworkInfo,
   RegionFrame,
   RegionNetworkIds,
+  ReportAbout,
   SimulateDriveOptions,
   SimulatedDrive,
   SourceProbabilities,
@@ -216,6 +217,15 @@ function jointCalibration(this: Context, drive: DriveData, options?: JointCalibr
   return api.jointCalibration(drive, options, (done, total) => this.report(done, total));
 }
 
+function calibrationReport(
+  this: Context,
+  drive: DriveData,
+  about?: ReportAbout,
+  options?: CalibrateDriveOptions | JointCalibrationOptions,
+): string {
+  return api.calibrationReport(drive, about, options, (done, total) => this.report(done, total));
+}
+
 export const operations = {
   version: api.version,
   methods: api.methods,
@@ -242,6 +252,7 @@ export const operations = {
   scanMotion: api.scanMotion,
   calibrateDrive,
   jointCalibration,
+  calibrationReport,
   trajectory: api.trajectory,
   relativeTrajectoryError: api.relativeTrajectoryError,
   waveformPresets: api.waveformPresets,

@@ -36,6 +36,7 @@ const ofDrives: readonly OperationName[] = [
   'scanMotion',
   'calibrateDrive',
   'jointCalibration',
+  'calibrationReport',
   'mergeCalibrations',
 ];
 

@@ -106,6 +106,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
                 calibration_methods::CalibrationMethodInfo::KIND,
                 boresight_calibrate::FrameOutcome::KIND,
                 boresight_calibrate::AngleEstimate::KIND,
+                boresight_calibrate::Outlook::KIND,
                 trajectory::Trajectory::KIND,
             ],
         ),

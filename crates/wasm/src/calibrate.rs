@@ -43,6 +43,11 @@ impl Calibration {
         carry::write(&self.inner.estimate())
     }
 
+    /// What driving on would bring; null for the methods that weigh all frames at once.
+    pub fn outlook(&self) -> JsValue {
+        self.inner.outlook().map_or(JsValue::NULL, |outlook| carry::write(&outlook))
+    }
+
     /// The calibration as bytes.
     pub fn snapshot(&self) -> Fallible<Vec<u8>> {
         Ok(self.inner.snapshot()?)

@@ -2,13 +2,16 @@
 //! crate, which checks what goes in.
 
 use crate::carry;
-use crate::error::Fallible;
+use crate::error::{BindingError, Fallible};
 use crate::given;
-use crate::read::items;
-use boresight_calibrate::{AngleEstimate, Calibrator, FrameInput, Joint};
+use crate::read::{Fields, items};
+use boresight_calibrate::{
+    AngleEstimate, CalibrationOptions, Calibrator, FrameInput, Joint, Outlook,
+};
 use boresight_core::Detection;
 use boresight_core::describe::Named;
 use boresight_core::drive::interpolated;
+use boresight_report::{About, Radar, Recorder, Source, page};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -20,6 +23,9 @@ pub struct DriveCalibrator {
     detections: Vec<Detection>,
     /// Of the detections of the frames that came last.
     weights: Option<Vec<f32>>,
+    /// Of each radar, with what a report needs to know of the drive, where one is wanted.
+    options: Vec<CalibrationOptions>,
+    recorders: Option<Vec<Recorder>>,
 }
 
 /// The car's motion as measured.
@@ -53,27 +59,36 @@ enum Inner {
 impl DriveCalibrator {
     /// For one radar, of which the options are given, or for several with a list of them, which
     /// are then numbered by their place. The car's motion is samples in order of time, without speeds or one each,
-    /// interpolated over gaps of at most `max_gap_s`.
+    /// interpolated over gaps of at most `max_gap_s`. A report needs `recorded` frames.
     #[wasm_bindgen(constructor)]
     pub fn new(
         options: &JsValue,
         weights: bool,
+        recorded: bool,
         time_s: Vec<f64>,
         yaw_rate_degps: Vec<f64>,
         speed_mps: Vec<f64>,
         max_gap_s: f64,
     ) -> Fallible<Self> {
+        let mut radars: Vec<(u8, CalibrationOptions)> = vec![];
         let inner = if given::is_array(options) {
-            let mut radars = vec![];
             for (place, (item, _)) in (0..=u8::MAX).zip(items(options, "sensors")?) {
                 radars.push((place, carry::read(&item)?));
             }
             Inner::Joint(Joint::new(&radars)?)
         } else {
-            Inner::One(Box::new(Calibrator::new(carry::read(options)?)?))
+            radars.push((0, carry::read(options)?));
+            Inner::One(Box::new(Calibrator::new(radars[0].1)?))
         };
         let motion = MotionSamples { time_s, yaw_rate_degps, speed_mps, max_gap_s };
-        Ok(Self { inner, motion, detections: vec![], weights: weights.then(Vec::new) })
+        Ok(Self {
+            inner,
+            motion,
+            detections: vec![],
+            weights: weights.then(Vec::new),
+            recorders: recorded.then(|| vec![Recorder::default(); radars.len()]),
+            options: radars.into_iter().map(|(_, options)| options).collect(),
+        })
     }
 
     /// Takes frames in order of time. Detections of frame `i` are those from `ends[i - 1]` to before
@@ -116,6 +131,13 @@ impl DriveCalibrator {
                 Inner::One(calibrator) => calibrator.add(frame)?,
                 Inner::Joint(joint) => joint.add(*radar, frame)?,
             };
+            let recorders = self.recorders.as_deref_mut().unwrap_or_default();
+            if let Some(recorder) = recorders.get_mut(usize::from(*radar))
+                && recorder.add(&frame, &outcome)
+                && let Some(estimate) = self.inner.estimates().get(usize::from(*radar))
+            {
+                recorder.look(*time_s, estimate);
+            }
             let [vx, vy] = outcome.motion.map_or([f64::NAN; 2], |motion| motion.velocity_mps);
             let degrees = |angle: Option<f64>| angle.map_or(f64::NAN, f64::to_degrees);
             rows.extend([
@@ -143,18 +165,69 @@ impl DriveCalibrator {
     /// Angle and standard deviation of each radar as far as the frames so far tell, deg.
     pub fn angles(&self) -> Vec<f64> {
         let pair = |e: AngleEstimate| [e.angle_rad.to_degrees(), e.sigma_rad.to_degrees()];
-        self.estimates().into_iter().flat_map(pair).collect()
+        self.inner.estimates().into_iter().flat_map(pair).collect()
     }
 
     /// The estimate of each radar.
     pub fn estimate(&self) -> js_sys::Array {
-        carry::write_all(self.estimates())
+        carry::write_all(self.inner.estimates())
     }
 
+    /// What driving on would bring for the radar; null for several, and for the methods that weigh all frames at once.
+    pub fn outlook(&self) -> JsValue {
+        self.inner.outlook().map_or(JsValue::NULL, |outlook| carry::write(&outlook))
+    }
+
+    /// A page of HTML about the calibration of the radars with these numbers, if frames were recorded.
+    pub fn report(&self, sensors: &[u8], version: String, about: &JsValue) -> Fallible<String> {
+        let (mut fields, mut sources) = (Fields::of_optional(about)?, vec![]);
+        if let Some(given) = fields.raw("sources")? {
+            for (item, path) in items(&given, "about.sources")? {
+                let mut file = Fields::new(&item, &path)?;
+                sources.push(Source {
+                    name: file.required("name")?,
+                    bytes: f64::max(file.required("bytes")?, 0.0) as u64,
+                    sha256: file.required("sha256")?,
+                });
+                file.finish()?;
+            }
+        }
+        let mut text =
+            |name| Ok::<_, BindingError>(fields.optional::<String>(name)?.unwrap_or_default());
+        let about = About { made: text("made")?, asked: text("asked")?, version, sources };
+        fields.finish()?;
+        let (estimates, outlook) = (self.inner.estimates(), self.inner.outlook());
+        let radars: Vec<Radar> = estimates
+            .iter()
+            .zip(&self.options)
+            .zip(self.recorders.as_deref().unwrap_or_default())
+            .zip(sensors)
+            .map(|(((estimate, options), recorder), &sensor)| Radar {
+                sensor,
+                joint: matches!(self.inner, Inner::Joint(_)),
+                options,
+                estimate,
+                outlook: outlook.as_ref(),
+                recorder,
+            })
+            .collect();
+        // Only panels without an extent cannot be drawn, and a report has none.
+        Ok(page(&about, &radars).unwrap_or_default())
+    }
+}
+
+impl Inner {
     fn estimates(&self) -> Vec<AngleEstimate> {
-        match &self.inner {
-            Inner::One(calibrator) => vec![calibrator.estimate()],
-            Inner::Joint(joint) => joint.estimate().into_iter().map(|(_, e)| e).collect(),
+        match self {
+            Self::One(calibrator) => vec![calibrator.estimate()],
+            Self::Joint(joint) => joint.estimate().into_iter().map(|(_, e)| e).collect(),
+        }
+    }
+
+    fn outlook(&self) -> Option<Outlook> {
+        match self {
+            Self::One(calibrator) => calibrator.outlook(),
+            Self::Joint(_) => None,
         }
     }
 }

@@ -277,4 +277,5 @@ fn records_of_drives_and_mounting_angles() {
         whole(&outcome.unwrap());
     }
     whole(&calibrator.estimate());
+    whole(&calibrator.outlook().unwrap());
 }

@@ -7,6 +7,7 @@ import type {
   CalibrationFrame,
   CalibrationMethodInfo,
   CalibrationOptions,
+  CalibrationOutlook,
   CalibrationResult,
   FrameOutcome,
 } from '../types.js';
@@ -43,6 +44,11 @@ export class Calibration extends Handle<glue.Calibration> {
   /** Takes the next frame and says what became of it. A frame that is refused leaves no trace. */
   addFrame(frame: CalibrationFrame): FrameOutcome {
     return this.use((raw) => raw.addFrame(frame) as FrameOutcome);
+  }
+
+  /** What driving on would bring (recursive method; null for the others). */
+  outlook(): CalibrationOutlook | null {
+    return this.use((raw) => raw.outlook() as CalibrationOutlook | null);
   }
 
   /** The angle as far as the frames so far tell. */

@@ -2,17 +2,20 @@ import * as glue from '../../wasm/boresight_drives.js';
 import { failure } from '../runtime/errors.js';
 import { Handle } from '../runtime/handle.js';
 import { type Report, tell } from '../runtime/report.js';
+import { version } from '../runtime/version.js';
 import type {
   CalibrateDriveOptions,
   CalibratedFrames,
+  CalibrationOutlook,
   CalibrationResult,
   DriveCalibration,
   DriveData,
   FrameVerdict,
   JointCalibrationOptions,
+  ReportAbout,
 } from '../types.js';
 import { drives } from './drive.js';
-import { jointTaskOf, type Task, taskOf } from './radars.js';
+import { jointTaskOf, reportTaskOf, type Task, taskOf } from './radars.js';
 import { checkOrder, doubles, extent, scansOf, type View, viewOf } from './view.js';
 
 /** What can become of a frame, in the order of its numbers. */
@@ -37,7 +40,7 @@ const SHARE = 0.01;
 /** Finds the angle one radar of a drive is mounted at. Throws the code `cancelled` if `report` stops it. */
 export function calibrateDrive(drive: DriveData, options?: CalibrateDriveOptions, report?: Report): DriveCalibration {
   const view = viewOf(drive);
-  return run(view, taskOf(view, options), report)[0] as DriveCalibration;
+  return run(view, taskOf(view, options), report, (_, task, found) => found(task))[0] as DriveCalibration;
 }
 
 /** Finds the angles of several radars of a drive together: one yaw-rate sensor, one scale and one bias. */
@@ -47,17 +50,46 @@ export function jointCalibration(
   report?: Report,
 ): DriveCalibration[] {
   const view = viewOf(drive);
-  return run(view, jointTaskOf(view, options), report);
+  return run(view, jointTaskOf(view, options), report, (_, task, found) => found(task));
+}
+
+/**
+ * Calibrates like {@link calibrateDrive}, or like {@link jointCalibration} where the options name `sensors`, and writes a report: a
+ * page of HTML, to print or to keep, with verdict, plots, conditions and the files it comes from. Throws the code `cancelled` if
+ * `report` stops it.
+ */
+export function calibrationReport(
+  drive: DriveData,
+  about?: ReportAbout,
+  options?: CalibrateDriveOptions | JointCalibrationOptions,
+  report?: Report,
+): string {
+  const view = viewOf(drive);
+  return run(view, reportTaskOf(view, options), report, (calibrator, { radars }) =>
+    calibrator.report(
+      radars.map(({ sensor }) => sensor),
+      about,
+    ),
+  );
 }
 
 class DriveCalibrator extends Handle<glue.DriveCalibrator> {
-  constructor({ radars, joint, maxGapS, weights }: Task, { motion }: View) {
+  constructor({ radars, joint, maxGapS, weights, recorded }: Task, { motion }: View) {
     const options = radars.map((radar) => radar.options);
     const [timeS, yawRateDegps] = [motion.timeS, doubles(motion.yawRateDegps)];
     const speedMps = doubles(motion.speedMps ?? new Float64Array());
     super(
       drives,
-      () => new glue.DriveCalibrator(joint ? options : options[0], weights, timeS, yawRateDegps, speedMps, maxGapS),
+      () =>
+        new glue.DriveCalibrator(
+          joint ? options : options[0],
+          weights,
+          recorded,
+          timeS,
+          yawRateDegps,
+          speedMps,
+          maxGapS,
+        ),
     );
   }
 
@@ -75,6 +107,14 @@ class DriveCalibrator extends Handle<glue.DriveCalibrator> {
 
   estimate(): CalibrationResult[] {
     return this.use((raw) => raw.estimate() as CalibrationResult[]);
+  }
+
+  outlook(): CalibrationOutlook | null {
+    return this.use((raw) => raw.outlook() as CalibrationOutlook | null);
+  }
+
+  report(sensors: readonly number[], about: ReportAbout | undefined): string {
+    return this.use((raw) => raw.report(Uint8Array.from(sensors), version(), about));
   }
 }
 
@@ -123,7 +163,13 @@ function finite(what: string, values: Float32Array | Float64Array, start: number
   }
 }
 
-function run(view: View, task: Task, report: Report | undefined): DriveCalibration[] {
+/** Feeds all frames; `end` makes of the calibrator, the task and what was found what is wanted. */
+function run<T>(
+  view: View,
+  task: Task,
+  report: Report | undefined,
+  end: (calibrator: DriveCalibrator, task: Task, found: (task: Task) => DriveCalibration[]) => T,
+): T {
   checkOrder(view);
   const { radars, historyS } = task;
   const scans = scansOf(
@@ -193,18 +239,22 @@ function run(view: View, task: Task, report: Report | undefined): DriveCalibrati
       }
     }
     const timeS = Float64Array.from(historyTimes);
-    return calibrator.estimate().map((result, place): DriveCalibration => {
-      const { sensor, options } = radars[place] as Task['radars'][number];
-      const { angleDeg, sigmaDeg } = histories[place] as (typeof histories)[number];
-      const { method, xM, yM = 0, nominalDeg = null } = options;
-      return {
-        sensor,
-        method,
-        mounting: { xM, yM, nominalDeg },
-        result,
-        history: { timeS, angleDeg: Float64Array.from(angleDeg), sigmaDeg: Float64Array.from(sigmaDeg) },
-        frames: (tables[place] as Table).frames,
-      };
+    return end(calibrator, task, ({ radars }) => {
+      const outlook = calibrator.outlook();
+      return calibrator.estimate().map((result, place): DriveCalibration => {
+        const { sensor, options } = radars[place] as Task['radars'][number];
+        const { angleDeg, sigmaDeg } = histories[place] as (typeof histories)[number];
+        const { method, xM, yM = 0, nominalDeg = null } = options;
+        return {
+          sensor,
+          method,
+          mounting: { xM, yM, nominalDeg },
+          result,
+          outlook,
+          history: { timeS, angleDeg: Float64Array.from(angleDeg), sigmaDeg: Float64Array.from(sigmaDeg) },
+          frames: (tables[place] as Table).frames,
+        };
+      });
     });
   } finally {
     calibrator[Symbol.dispose]();

@@ -17,6 +17,15 @@ export interface Task {
   historyS: number;
   maxGapS: number;
   weights: boolean;
+  /** Whether a report is wanted of it. */
+  recorded: boolean;
+}
+
+/** The task of a report: of one radar, or of several together where they are named. */
+export function reportTaskOf(view: View, options: CalibrateDriveOptions | JointCalibrationOptions | undefined): Task {
+  const together = reading('options', () => typeof options === 'object' && options !== null && 'sensors' in options);
+  const task = together ? jointTaskOf(view, options) : taskOf(view, options as CalibrateDriveOptions | undefined);
+  return { ...task, recorded: true };
 }
 
 /** The task of a calibration of one radar. */
@@ -67,6 +76,7 @@ function settings({ historyS, maxGapS, weights }: { historyS?: unknown; maxGapS?
   historyS: number;
   maxGapS: number;
   weights: boolean;
+  recorded: false;
 } {
   if (weights !== undefined && typeof weights !== 'boolean') throw wrong('weights', 'true or false', weights);
   // No frames follow one another in less than a millisecond.
@@ -74,6 +84,7 @@ function settings({ historyS, maxGapS, weights }: { historyS?: unknown; maxGapS?
     historyS: Math.max(1e-3, positive('historyS', historyS ?? 1)),
     maxGapS: gapOf({ maxGapS: maxGapS as number }),
     weights: weights ?? false,
+    recorded: false,
   };
 }
 

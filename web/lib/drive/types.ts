@@ -6,6 +6,7 @@ import type {
   CalibrationFrame,
   CalibrationMethod,
   CalibrationOptions,
+  CalibrationOutlook,
   CalibrationResult,
   DriveScans,
   DriveSensor,
@@ -89,6 +90,16 @@ export interface JointCalibrationOptions
   weights?: boolean;
 }
 
+/** What a report says of where it comes from. */
+export interface ReportAbout {
+  /** When it was made, in words. */
+  made?: string;
+  /** How it was asked for. */
+  asked?: string;
+  /** The files of the drive, with the SHA-256 of their bytes in hexadecimal digits. */
+  sources?: readonly { name: string; bytes: number; sha256: string }[];
+}
+
 /** The angle of a radar of a drive. */
 export interface DriveCalibration {
   sensor: number;
@@ -96,6 +107,8 @@ export interface DriveCalibration {
   /** The place and nominal angle it was calibrated with. */
   mounting: { xM: number; yM: number; nominalDeg: number | null };
   result: CalibrationResult;
+  /** What driving on would bring; null of several radars together, and by the methods that weigh all frames at once. */
+  outlook: CalibrationOutlook | null;
   history: AngleHistory;
   frames: CalibratedFrames;
 }

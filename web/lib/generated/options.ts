@@ -331,6 +331,15 @@ export type CalibrationMethod = 'weighted-mean' | 'kabsch' | 'least-squares' | '
 export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-distance' | 'tracked';
 
 /**
+ * What frames weigh in the weighted mean.
+ *
+ * - `direction`: The inverse variance of the direction of motion.
+ * - `motion`: The inverse of the summed variances of both components of the motion (Zhu et al., equation 13).
+ * - `equal`: All the same (Zhu et al., equation 8).
+ */
+export type FrameWeights = 'direction' | 'motion' | 'equal';
+
+/**
  * Options of all methods. Those a method has no use for are ignored. The car's frame is centred on the rear axle, x
  * forward, y left; angles are positive to the left.
  */
@@ -342,6 +351,8 @@ export interface CalibrationOptions {
    * weighted forms for the regressions, tracking for the recursive one.
    */
   motion?: MotionMethod;
+  /** What frames weigh in the weighted mean; the other methods weigh them in their own way (default 'direction'). */
+  frameWeights?: FrameWeights;
   /** The radar's place ahead of the rear axle (-100 to 100 m). */
   xM: number;
   /** The radar's place left of the centre line (-100 to 100 m; default 0). */

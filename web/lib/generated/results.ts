@@ -796,6 +796,16 @@ export interface CalibrationCounts {
   withoutMotion: number;
 }
 
+/**
+ * Whether a radar is where it should be.
+ *
+ * - `aligned`: The angle lies within the alarm's limit of the nominal one, and three standard deviations more still
+ * do.
+ * - `misaligned`: The angle lies beyond the alarm's limit by more than three standard deviations.
+ * - `undecided`: The drive does not tell yet.
+ */
+export type Alignment = 'aligned' | 'misaligned' | 'undecided';
+
 /** A mounting angle and what it rests on. Standard deviations are infinite where the drive says nothing. */
 export interface CalibrationResult {
   /** Mounting angle (yaw of boresight in the car's frame), within half a turn. */
@@ -838,8 +848,50 @@ export interface CalibrationResult {
   converged: boolean;
   /** Whether the angle differs from the nominal one beyond limit and chance; none without a nominal angle. */
   misaligned: boolean | null;
+  /** Whether the radar is where it should be; none without a nominal angle. */
+  alignment: Alignment | null;
   /** What to know of it. */
   warnings: Warning[];
+}
+
+/**
+ * A way to drive for a minute.
+ *
+ * - `straight`: Straight on at 14 m/s.
+ * - `speeds`: Straight on between 5 and 20 m/s.
+ * - `stop`: Ten seconds of standstill, then straight on at 14 m/s.
+ * - `turns`: Two turns to the left and two to the right, by 90 deg at 7 m/s.
+ * - `bends`: Bends of alternating side at 14 m/s, by 6 deg/s.
+ */
+export type Manoeuvre = 'straight' | 'speeds' | 'stop' | 'turns' | 'bends';
+
+/** What a minute of a manoeuvre would bring. */
+export interface Forecast {
+  /** How to drive. */
+  manoeuvre: Manoeuvre;
+  /** The same in words. */
+  instruction: string;
+  /** Standard deviation of the angle after a minute. */
+  sigmaDeg: number;
+  /**
+   * Minutes of it until the angle is settled and, where there is a nominal one, the verdict stands; none where twenty
+   * are too few.
+   */
+  minutes: number | null;
+}
+
+/** What driving on would bring. The angle is taken to stay as it is. */
+export interface CalibrationOutlook {
+  /** Standard deviation of the angle now. */
+  sigmaDeg: number;
+  /** Standard deviation with which it is settled and the verdict stands. */
+  neededDeg: number;
+  /** Standard deviation below which no drive brings it, at the share of static detections so far. */
+  leastDeg: number;
+  /** Manoeuvres, the one first that brings most. */
+  forecasts: Forecast[];
+  /** What to do, in a sentence. */
+  advice: string;
 }
 
 /** Poses of the rear axle at times. */

@@ -169,7 +169,7 @@ export function openBundled(): Promise<unknown> {
   });
 }
 
-function simulation(state: MountingState): SimulateDriveOptions {
+export function simulation(state: MountingState): SimulateDriveOptions {
   const { scenario, profile, seed, duration, moving, misalignment } = state;
   const misalignmentDeg = Object.fromEntries([1, 2, 3, 4].map((id) => [id, misalignment]));
   return {

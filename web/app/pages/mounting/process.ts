@@ -1,6 +1,6 @@
 /** Calibration by every chosen method, on workers: again when drive or options change, the latest wins. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { CalibrationOptions, Drive, DriveCalibration } from 'boresight';
+import type { CalibrationOptions, Drive, DriveCalibration, JointCalibrationOptions } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import { aborted, describeError, type Problem, pool } from '../../data.ts';
 import { type Loaded, loaded, sensor } from './drive.ts';
@@ -111,13 +111,17 @@ export function start(): () => void {
 
 type Options = Omit<CalibrationOptions, 'method'> & { sensor: number };
 
-async function calibrateBy(way: Way, drive: Drive, options: Options, job: JobOptions): Promise<DriveCalibration> {
-  if (way !== 'joint') return pool().calibrateDrive(drive, { ...options, method: way, weights: true }, job);
+/** Of all radars of a drive together, one of them as asked for. */
+export function jointOptions(drive: Drive, options: Options): JointCalibrationOptions {
   const { sensor, xM, yM, nominalDeg, motion: _, ...common } = options;
   const mine = { sensor, xM, ...(yM === undefined ? {} : { yM }), ...(nominalDeg === undefined ? {} : { nominalDeg }) };
-  const sensors = drive.sensors.map(({ id }) => (id === sensor ? mine : id));
-  const all = await pool().jointCalibration(drive, { ...common, sensors, weights: true }, job);
-  return all.find((one) => one.sensor === sensor) as DriveCalibration;
+  return { ...common, sensors: drive.sensors.map(({ id }) => (id === sensor ? mine : id)) };
+}
+
+async function calibrateBy(way: Way, drive: Drive, options: Options, job: JobOptions): Promise<DriveCalibration> {
+  if (way !== 'joint') return pool().calibrateDrive(drive, { ...options, method: way, weights: true }, job);
+  const all = await pool().jointCalibration(drive, { ...jointOptions(drive, options), weights: true }, job);
+  return all.find((one) => one.sensor === options.sensor) as DriveCalibration;
 }
 
 async function calibrate(open: Loaded, text: string, missing: readonly Way[]): Promise<void> {

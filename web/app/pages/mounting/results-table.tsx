@@ -6,7 +6,9 @@ import { download, fileName, toCsv } from '../../plots/save.ts';
 import { methodStyle } from '../../plots/theme.ts';
 import { Swatch } from '../../ui/swatch.tsx';
 import { type Loaded, loaded, sensor } from './drive.ts';
+import { Outlook } from './outlook.tsx';
 import { type MethodResult, results, where } from './process.ts';
+import { ReportButton, ReportProblem } from './report-button.tsx';
 import { calibrationOptions, mountingState } from './state.ts';
 import { fileParts } from './time-plot.tsx';
 import { relativeErrors, SEGMENT_M } from './trajectory.ts';
@@ -268,6 +270,7 @@ export function ResultsTable() {
       <div class="panel-head">
         <h3 id="angles-title">Mounting angle of radar {radar.id}</h3>
         <div class="tools">
+          <ReportButton />
           <button
             type="button"
             data-export="json"
@@ -281,7 +284,9 @@ export function ResultsTable() {
           </button>
         </div>
       </div>
+      <ReportProblem />
       <Verdict />
+      <Outlook />
       {TABLES.map(({ label, groups }) => (
         <Columns key={label} list={list.filter(({ group }) => groups.includes(group))} label={label} {...shared} />
       ))}

@@ -50,12 +50,13 @@ function verdictOf(told: readonly Told[]): { kind: 'none' | 'open' | 'good' | 'o
     };
   }
   const nominal = where.value?.nominalDeg;
-  const turned =
-    result.misaligned === null || nominal == null
-      ? ''
-      : result.misaligned
-        ? ` The radar is misaligned: ${fixed(Math.abs(result.angleDeg - nominal), 2)}° from its nominal ${signed(nominal, 2)}°, where ${fixed(mountingState.value.alarm, 2)}° are allowed.`
-        : ` It is where it should be, within ${fixed(mountingState.value.alarm, 2)}° of its nominal ${signed(nominal, 2)}°.`;
+  const allowed = `${fixed(mountingState.value.alarm, 2)}°`;
+  const words = (nominal: number) => ({
+    misaligned: ` The radar is misaligned: ${fixed(Math.abs(result.angleDeg - nominal), 2)}° from its nominal ${signed(nominal, 2)}°, where ${allowed} are allowed.`,
+    aligned: ` It is where it should be, within ${allowed} of its nominal ${signed(nominal, 2)}°.`,
+    undecided: ` Whether it is within ${allowed} of its nominal ${signed(nominal, 2)}° is not decided: chance is granted three deviations.`,
+  });
+  const turned = result.alignment === null || nominal == null ? '' : words(nominal)[result.alignment];
   const why =
     way === 'recursive' || way === 'joint'
       ? 'it leaves out what moves, and estimates the yaw-rate sensor’s errors with the angle'
@@ -70,7 +71,7 @@ function verdictOf(told: readonly Told[]): { kind: 'none' | 'open' | 'good' | 'o
     ? ` ${others.map((one) => about(one.way).title).join(' and ')} ${others.length > 1 ? 'differ' : 'differs'} by more than the stated deviations allow.`
     : '';
   return {
-    kind: result.misaligned ? 'off' : 'good',
+    kind: result.alignment === 'misaligned' ? 'off' : result.alignment === 'undecided' ? 'open' : 'good',
     text: `${angle} by ${about(way).title}: ${why}.${turned}${apart}`,
   };
 }
