@@ -43,7 +43,7 @@ const drives = {
   ...core,
   name: 'boresight_drives',
   feature: 'drives',
-  made: [...shared, ...crates('plot', 'report')],
+  made: [...shared, ...crates('report')],
 };
 /** Of networks. wasm-opt would take minutes. */
 export const neural = {

@@ -405,3 +405,43 @@ browserTest(
     assert.equal(report.drive.counts.dropped['invalid-marker'], 192);
   },
 );
+
+browserTest(
+  'mounting angle: a report is saved that stands by itself, and its writing can be cancelled',
+  { path: '#/mounting?methods=recursive' },
+  async ({ page }) => {
+    await ready(page);
+    const report = await saved(page, '[data-export="report"]');
+    const html = report.bytes.toString();
+    const angle = await value(page, 'recursive', 'angleDeg');
+    assert.match(html, /<h1>Mounting angle of radar 1<\/h1>/);
+    assert.ok(html.includes(`${angle.toFixed(3)} +- `), html.slice(0, 2000));
+    assert.match(html, /front_radar\.csv, as served<\/th><td>\d+ bytes, SHA-256 [0-9a-f]{64}</);
+    // As a page of its own it shows the same, and asks for nothing.
+    const asked = [];
+    const shown = await page.context().newPage();
+    shown.on('request', (request) => asked.push(request.url()));
+    await shown.setContent(html);
+    assert.match(await shown.locator('.verdict').innerText(), /^(Pass|Fail|Undecided)/);
+    assert.deepEqual(asked, []);
+    await shown.close();
+    await page.click('[data-export="report"]');
+    await page.click('[data-export="report"]:has-text("Cancel")');
+    await page.waitForSelector('[data-export="report"]:text-is("Report")');
+    assert.equal(await page.locator('[role="alert"]').count(), 0);
+  },
+);
+
+browserTest(
+  'mounting angle: where the angle is not settled the page says what to drive next',
+  { path: '#/mounting?methods=recursive' },
+  async ({ page }) => {
+    await ready(page);
+    assert.equal(await page.locator('[data-outlook]').count(), 0);
+    await typeNumber(page.locator('input[name="converged"]'), '0.08');
+    await page.waitForSelector('[aria-busy="false"] [data-outlook]');
+    assert.match(await page.locator('[data-outlook] p').first().innerText(), /^Next\./);
+    await page.click('[data-outlook] summary');
+    assert.equal(await page.locator('[data-manoeuvre]').count(), 5);
+  },
+);

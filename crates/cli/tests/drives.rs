@@ -359,3 +359,25 @@ fn all_radars_together_and_the_trajectory_of_one() {
         assert!(errors.contains(words), "{arguments:?}: {errors}");
     }
 }
+
+#[test]
+fn a_report_says_the_verdict_and_where_it_comes_from_and_replaces_nothing() {
+    let path = folder("calibration-report").join("report.html");
+    let report = path.to_str().unwrap();
+    let drive = recordings().join("delphi");
+    let arguments = ["calibrate", drive.to_str().unwrap(), "--min-speed", "3", "--report", report];
+    let text = stdout(&arguments);
+    assert!(text.contains("\nnext         "), "{text}");
+    let html = std::fs::read_to_string(&path).unwrap();
+    let angle = text.lines().find(|line| line.starts_with("angle")).unwrap();
+    let angle = angle.trim_start_matches("angle").trim();
+    assert!(html.contains(&format!("<th>Angle</th><td>{angle}</td>")), "{angle}");
+    assert!(html.contains("misaligned") && html.contains("--min-speed 3"));
+    let (_, digest) = html.split_once("<th>front_radar.csv.gz</th><td>").unwrap();
+    let (_, digest) = digest.split_once("SHA-256 ").unwrap();
+    let digits = digest.chars().take_while(char::is_ascii_hexdigit).count();
+    assert_eq!(digits, 64);
+    let again = boresight(&arguments);
+    assert!(!again.status.success());
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), html);
+}

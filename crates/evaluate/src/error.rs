@@ -11,12 +11,6 @@ use boresight_simulate::SimulateError;
 use std::path::PathBuf;
 use thiserror::Error;
 
-impl From<boresight_plot::PlotError> for EvaluateError {
-    fn from(error: boresight_plot::PlotError) -> Self {
-        Self::Figure(error.to_string())
-    }
-}
-
 /// What can stop an experiment.
 #[derive(Debug, Error)]
 #[non_exhaustive]

@@ -38,6 +38,7 @@ pub mod imperfections;
 pub mod low_snr;
 mod merge;
 pub mod near_field;
+mod plot;
 pub mod resolution;
 pub mod statistics;
 pub mod straddling;

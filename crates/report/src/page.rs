@@ -2,7 +2,6 @@
 
 use crate::{Fact, Recorder, facts, figures, sentence};
 use boresight_calibrate::{Alignment, AngleEstimate, CalibrationOptions, Outlook};
-use boresight_plot::PlotError;
 use std::fmt::Write as _;
 
 /// Where a report comes from.
@@ -54,15 +53,13 @@ h1{font-size:1.5rem;margin:0 0 .25rem}h2{font-size:1.2rem;margin:2rem 0 .5rem}h3
 .aligned{color:#176336}.misaligned{color:#a11d1d}.undecided{color:#7a5200}\
 table{border-collapse:collapse;width:100%}th,td{text-align:left;padding:.2rem .6rem .2rem 0;border-bottom:1px solid #d8dce2;vertical-align:top}\
 th{font-weight:600;white-space:nowrap;width:11rem}td{overflow-wrap:anywhere}\
-svg{max-width:100%;height:auto}figure{margin:1rem 0}figcaption,.small{color:#4d545e;font-size:.87rem}\
+svg{display:block;width:100%;height:auto;font-size:13px}.axis{stroke:#8a929d;fill:none}.grid{stroke:#e3e6ea}\
+.line{fill:none;stroke:#0b5fa5;stroke-width:2}.band{fill:#0b5fa5;fill-opacity:.18}.level{stroke:#1c1f24;stroke-width:1.5}.limit{stroke:#a11d1d;stroke-width:1.5;stroke-dasharray:6 4}figure{margin:1rem 0}figcaption,.small{color:#4d545e;font-size:.87rem}\
 code{font-size:.85rem;overflow-wrap:anywhere}section{break-inside:avoid}\
 @media print{body{margin:0;max-width:none}h2{break-before:auto}}@page{margin:18mm}";
 
 /// The report of all radars of a drive, as HTML that needs nothing else.
-///
-/// # Errors
-/// [`PlotError`] where a plot cannot be drawn.
-pub fn page(about: &About, radars: &[Radar]) -> Result<String, PlotError> {
+pub fn page(about: &About, radars: &[Radar]) -> String {
     let numbers: Vec<String> = radars.iter().map(|radar| radar.sensor.to_string()).collect();
     let title = format!(
         "Mounting angle of radar{} {}",
@@ -77,7 +74,7 @@ pub fn page(about: &About, radars: &[Radar]) -> Result<String, PlotError> {
         escaped(&about.version),
     );
     for radar in radars {
-        section(&mut html, radar)?;
+        section(&mut html, radar);
     }
     html += "<section><h2>Where it comes from</h2>\n";
     let rows = about.sources.iter().map(|source| {
@@ -89,10 +86,10 @@ pub fn page(about: &About, radars: &[Radar]) -> Result<String, PlotError> {
         "<p class=\"small\">Asked for by <code>{}</code></p></section>\n</body>\n</html>\n",
         escaped(&about.asked)
     );
-    Ok(html)
+    html
 }
 
-fn section(html: &mut String, radar: &Radar) -> Result<(), PlotError> {
+fn section(html: &mut String, radar: &Radar) {
     let Radar { sensor, joint, options, estimate, outlook, recorder } = radar;
     let (word, class) = match estimate.alignment {
         Some(Alignment::Aligned) => ("Pass: aligned", "aligned"),
@@ -113,8 +110,8 @@ fn section(html: &mut String, radar: &Radar) -> Result<(), PlotError> {
     }
     let _ = writeln!(
         html,
-        "<figure>{}<figcaption>Estimated by {}{}, {} ({}).</figcaption></figure>",
-        figures::angle(recorder, estimate, options)?,
+        "<figure>{}<figcaption>Angle (blue) with its standard deviation; nominal angle (black) and what is allowed (red, dashed). Estimated by {}{}, {} ({}).</figcaption></figure>",
+        figures::angle(recorder, estimate, options, &format!("angle-{sensor}")),
         options.method.title(),
         if *joint { ", with all radars of the car" } else { "" },
         options.motion_method().title(),
@@ -129,7 +126,11 @@ fn section(html: &mut String, radar: &Radar) -> Result<(), PlotError> {
     table(html, facts(estimate).into_iter().map(capital));
     *html += "</section><section><h3>The drive</h3>\n";
     table(html, recorder.conditions().into_iter().map(|(name, value)| (name.into(), value)));
-    let _ = writeln!(html, "<figure>{}</figure></section>", figures::drive(recorder)?);
+    let _ = writeln!(
+        html,
+        "<figure>{}</figure></section>",
+        figures::drive(recorder, &format!("drive-{sensor}"))
+    );
     if let Some(outlook) = outlook {
         let _ = writeln!(
             html,
@@ -147,7 +148,6 @@ fn section(html: &mut String, radar: &Radar) -> Result<(), PlotError> {
         table(html, rows);
         *html += "</section>\n";
     }
-    Ok(())
 }
 
 fn table(html: &mut String, rows: impl Iterator<Item = (String, String)>) {

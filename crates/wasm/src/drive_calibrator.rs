@@ -211,8 +211,7 @@ impl DriveCalibrator {
                 recorder,
             })
             .collect();
-        // Only panels without an extent cannot be drawn, and a report has none.
-        Ok(page(&about, &radars).unwrap_or_default())
+        Ok(page(&about, &radars))
     }
 }
 

@@ -9,8 +9,8 @@ use crate::estimate::{Alignment, AngleEstimate, Remark};
 const PRIOR_SHARE: f64 = 0.7;
 
 /// Standard deviation of what turns do to a radar's azimuths and looks like a scale of the yaw rate: slip that is not in proportion, reflectors
-/// whose part in view changes with the turn. It was found on simulated drives as RadarScenes, where scales scatter by 0.012.
-const SCALE_FLOOR: f64 = 0.01;
+/// whose part in view changes with the turn. No drive tells a scale better.
+const SCALE_FLOOR: f64 = 0.005;
 
 impl Recursive {
     /// Unknowns and their covariance, with all that is needed to judge them.

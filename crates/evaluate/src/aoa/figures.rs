@@ -3,7 +3,7 @@
 use super::report::{AoaReport, MethodResult};
 use super::{SNRS_DB, TARGETS};
 use crate::EvaluateError;
-use boresight_plot::{Axes, Panel, Series, draw};
+use crate::plot::{Axes, Panel, Series, draw};
 
 /// Figure 4: precision against recall at the highest signal-to-noise ratio.
 ///
@@ -25,7 +25,7 @@ pub fn precision_recall(report: &AoaReport) -> Result<String, EvaluateError> {
             }),
         })
         .collect();
-    Ok(draw(&panels, 2)?)
+    draw(&panels, 2)
 }
 
 /// Figure 5: what is missing of F1 at its largest and at one threshold, and the errors at the largest, against the number
@@ -60,7 +60,7 @@ pub fn scores(report: &AoaReport) -> Result<String, EvaluateError> {
             });
         }
     }
-    Ok(draw(&panels, 2)?)
+    draw(&panels, 2)
 }
 
 fn lines(report: &AoaReport, points: impl Fn(usize) -> Vec<(f64, f64)>) -> Vec<Series> {

@@ -4,8 +4,8 @@ use super::CANDIDATES;
 use super::condition::{Condition, Convergence, chosen};
 use super::whole::{BIN_COUNT, BINS, FIGURE_RADAR};
 use crate::EvaluateError;
+use crate::plot::{Axes, Panel, Series, draw};
 use crate::statistics::Summary;
-use boresight_plot::{Axes, Panel, Series, draw};
 
 /// Figure 5: the angle of radar 3 by drive, for two published methods and ours.
 ///
@@ -48,7 +48,7 @@ pub fn angles(condition: &Condition) -> Result<String, EvaluateError> {
             }
         })
         .collect();
-    Ok(draw(&panels, 1)?)
+    draw(&panels, 1)
 }
 
 /// Figure 6: mean absolute error and variance against driving time.
@@ -69,7 +69,7 @@ pub fn convergence(conditions: &[Condition]) -> Result<String, EvaluateError> {
         .map(|c| panel(c, "mean absolute error / deg", |error| error.mean_absolute))
         .chain(conditions.iter().map(|c| panel(c, "variance / deg^2", |e| e.variance)))
         .collect();
-    Ok(draw(&panels, 2)?)
+    draw(&panels, 2)
 }
 
 /// Figure 4: how often the car had which speed and acceleration, over all scans.
@@ -100,7 +100,7 @@ pub fn states(conditions: &[Condition]) -> Result<String, EvaluateError> {
             .collect(),
     };
     let half = BIN_COUNT as f64 / 2.0;
-    Ok(draw(
+    draw(
         &[
             panel(0, "speed of the car", "speed / (m/s)", "density / (s/m)", 0.0),
             panel(
@@ -112,7 +112,7 @@ pub fn states(conditions: &[Condition]) -> Result<String, EvaluateError> {
             ),
         ],
         2,
-    )?)
+    )
 }
 
 fn series(convergence: &Convergence, value: fn(&Summary) -> f64) -> Series {

@@ -4,7 +4,7 @@ use super::report::{BOUNDS, DoaReport, PAIRS};
 use super::trial::DEVIATIONS_DEG;
 use super::{SNRS_DB, Targets};
 use crate::EvaluateError;
-use boresight_plot::{Axes, Panel, Series, draw};
+use crate::plot::{Axes, Panel, Series, draw};
 
 const SNR: &str = "signal-to-noise ratio of a sample / dB";
 
@@ -49,7 +49,7 @@ fn counting(report: &DoaReport) -> Result<String, EvaluateError> {
             }),
         )
     });
-    Ok(draw(&panels, 2)?)
+    draw(&panels, 2)
 }
 
 /// Figure 7: error of one target's angle. Where an angle in whole degrees is never wrong there is no point.
@@ -67,7 +67,7 @@ fn rmse(report: &DoaReport) -> Result<String, EvaluateError> {
         axes: Axes::LogOrdinate,
         ..panel(SNR, "root mean square error / deg", methods.into_iter().chain(bounds))
     };
-    Ok(draw(&[panel], 1)?)
+    draw(&[panel], 1)
 }
 
 /// Figure 8: both angles within 1 deg.
@@ -81,7 +81,7 @@ fn success(report: &DoaReport) -> Result<String, EvaluateError> {
             lines(report, |k| report.over_snr(two, k, |m| m.success).collect()).into_iter(),
         )
     });
-    Ok(draw(&panels, 2)?)
+    draw(&panels, 2)
 }
 
 /// Figure 9: accuracy of rounded angles by allowed deviation, all pairs and close ones.
@@ -104,7 +104,7 @@ fn deviation(report: &DoaReport) -> Result<String, EvaluateError> {
             });
         }
     }
-    Ok(draw(&panels, 2)?)
+    draw(&panels, 2)
 }
 
 fn panel(x: &str, y: &str, series: impl Iterator<Item = Series>) -> Panel {

@@ -4,9 +4,9 @@ use super::{ImperfectionsExperiment, Kind, NUMBERS, settings};
 use crate::EvaluateError;
 use crate::aoa::Score;
 use crate::aoa::cell::AoaRecord;
+use crate::plot::{Axes, Panel, Series, draw};
 use crate::statistics::Summary;
 use crate::table::table;
-use boresight_plot::{Axes, Panel, Series, draw};
 use serde::Serialize;
 
 /// Share of its F1 without errors that a method must keep to survive.

@@ -4,8 +4,8 @@ use super::trial::{DYNAMIC_RANGE_DB, NearFieldRecord, Plan};
 use super::{NearFieldExperiment, POWERS_DB, RANGES};
 use crate::EvaluateError;
 use crate::deviation::Deviation;
+use crate::plot::{Axes, Panel, Series, draw};
 use crate::table::{short, table};
-use boresight_plot::{Axes, Panel, Series, draw};
 use serde::Serialize;
 
 /// Error of azimuth within which a method counts as right, deg.

@@ -3,7 +3,7 @@
 use super::SNRS_DB;
 use super::report::{ResolutionReport, counted};
 use crate::EvaluateError;
-use boresight_plot::{Axes, Panel, Series, draw};
+use crate::plot::{Axes, Panel, Series, draw};
 
 /// A panel a condition: a row a signal-to-noise ratio, a column a number of snapshots.
 pub(super) fn probabilities(report: &ResolutionReport) -> Result<String, EvaluateError> {
@@ -37,7 +37,7 @@ pub(super) fn probabilities(report: &ResolutionReport) -> Result<String, Evaluat
             }
         })
         .collect();
-    Ok(draw(&panels, panels.len() / SNRS_DB.len())?)
+    draw(&panels, panels.len() / SNRS_DB.len())
 }
 
 const SMOOTHED: &str = ", smoothed";

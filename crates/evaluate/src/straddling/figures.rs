@@ -3,7 +3,7 @@
 use super::GRIDS;
 use super::report::{ConditionResult, GridResult, StraddlingReport};
 use crate::EvaluateError;
-use boresight_plot::{Axes, Panel, Series, draw};
+use crate::plot::{Axes, Panel, Series, draw};
 
 /// What is drawn of a result, if it can be.
 type Value = fn(&GridResult) -> Option<f64>;
@@ -37,7 +37,7 @@ pub(super) fn straddling(report: &StraddlingReport) -> Result<String, EvaluateEr
         let label = "operations, by formula";
         panels.push(panel("cost of a snapshot", label, Axes::Logarithmic, condition, cost));
     }
-    Ok(draw(&panels, 2)?)
+    draw(&panels, 2)
 }
 
 /// Losses that are worth showing: Capon's powers on one snapshot and IAA's on grids too coarse for the array are none.

@@ -20,7 +20,7 @@ async function sha256(bytes: ArrayBuffer): Promise<string> {
 }
 
 /** Files as they were opened; of the bundled drive those that are served. */
-async function sourcesOf(open: Loaded, signal: AbortSignal): Promise<ReportAbout['sources']> {
+async function sourcesOf(open: Loaded, signal: AbortSignal): Promise<NonNullable<ReportAbout['sources']>> {
   const files: [string, () => Promise<ArrayBuffer>][] =
     open.source === 'delphi'
       ? bundledFiles.map(([name, address]) => [

@@ -5,7 +5,6 @@ use super::track::SEGMENT_M;
 use crate::error::CliError;
 use crate::files::Files;
 use crate::json;
-use boresight_evaluate::EvaluateError;
 use boresight_report::{About, Fact, Radar, facts};
 use jiff::Timestamp;
 use serde_json::{Value, json};
@@ -49,7 +48,7 @@ pub(super) fn page(results: &[Calibrated], files: &Files) -> Result<String, CliE
             recorder: &result.recorder,
         })
         .collect();
-    Ok(boresight_report::page(&about, &radars).map_err(EvaluateError::from)?)
+    Ok(boresight_report::page(&about, &radars))
 }
 
 /// The result as text.

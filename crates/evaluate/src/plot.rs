@@ -1,13 +1,8 @@
 //! Line plots with labelled axes, as SVG.
 
+use crate::EvaluateError;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
-use thiserror::Error;
-
-/// A figure that cannot be drawn.
-#[derive(Debug, Error)]
-#[error("{0}")]
-pub struct PlotError(String);
 
 /// Colours that people with colour-blindness can tell apart: those of Okabe and Ito (2008), then some of
 /// Tol's.
@@ -82,11 +77,8 @@ pub struct Series {
 }
 
 /// Draws the panels in rows of `columns` under a legend.
-///
-/// # Errors
-/// [`PlotError`] where a panel has no extent that can be drawn.
-pub fn draw(panels: &[Panel], columns: usize) -> Result<String, PlotError> {
-    let rows = panels.len().div_ceil(columns.max(1));
+pub fn draw(panels: &[Panel], columns: usize) -> Result<String, EvaluateError> {
+    let rows = panels.len().div_ceil(columns);
     let width = PANEL.0 * columns as u32;
     let lines = panels.first().map_or(vec![], |panel| legend_lines(panel, width as i32));
     let height = 8 + LEGEND * lines.len() as u32;
@@ -126,7 +118,7 @@ fn legend_lines(panel: &Panel, width: i32) -> Vec<Vec<Entry<'_>>> {
     lines
 }
 
-fn legend(lines: &[Vec<Entry>], area: &Area) -> Result<(), PlotError> {
+fn legend(lines: &[Vec<Entry>], area: &Area) -> Result<(), EvaluateError> {
     for (line, top) in lines.iter().zip((9..).step_by(LEGEND as usize)) {
         for &(x, series, colour) in line {
             let dashes = if series.dashed { vec![(0, 7), (11, 18)] } else { vec![(0, 18)] };
@@ -143,7 +135,7 @@ fn legend(lines: &[Vec<Entry>], area: &Area) -> Result<(), PlotError> {
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
-fn panel_on(panel: &Panel, area: &Area) -> Result<(), PlotError> {
+fn panel_on(panel: &Panel, area: &Area) -> Result<(), EvaluateError> {
     let [logarithmic_x, logarithmic_y] = panel.logarithmic();
     let [x0, x1] = limits(panel, |point| point.0, logarithmic_x);
     let [y0, y1] = panel.y_limits.unwrap_or_else(|| limits(panel, |point| point.1, logarithmic_y));
@@ -155,7 +147,7 @@ fn panel_on(panel: &Panel, area: &Area) -> Result<(), PlotError> {
     }
 }
 
-fn axes<X, Y>(panel: &Panel, area: &Area, x: X, y: Y) -> Result<(), PlotError>
+fn axes<X, Y>(panel: &Panel, area: &Area, x: X, y: Y) -> Result<(), EvaluateError>
 where
     X: AsRangedCoord<Value = f64>,
     Y: AsRangedCoord<Value = f64>,
@@ -223,6 +215,6 @@ fn limits(panel: &Panel, of: fn(&(f64, f64)) -> f64, logarithmic: bool) -> [f64;
     [low - margin, high + margin]
 }
 
-fn figure(error: impl std::fmt::Display) -> PlotError {
-    PlotError(error.to_string())
+fn figure(error: impl std::fmt::Display) -> EvaluateError {
+    EvaluateError::Figure(error.to_string())
 }

@@ -1,0 +1,173 @@
+//! Lines over a pair of axes, as SVG without text that has to be measured: plotters measures it by a page's document, which workers
+//! do not have.
+
+use std::fmt::Write as _;
+
+/// Size of the picture and of its margins (left, right, top, bottom), in its own units.
+const SIZE: [f64; 2] = [720.0, 250.0];
+const MARGIN: [f64; 4] = [62.0, 12.0, 14.0, 44.0];
+/// About as many labels an axis.
+const TICKS: f64 = 6.0;
+
+/// What is drawn.
+pub(crate) enum Mark {
+    /// A line through points; where one is not finite it is broken.
+    Line(Vec<[f64; 2]>),
+    /// The area between two ordinates at abscissas.
+    Band(Vec<[f64; 3]>),
+    /// An ordinate all along, by the name of its style.
+    Level(&'static str, f64),
+}
+
+/// A pair of axes.
+pub(crate) struct Chart {
+    /// What it shows, for those who do not see it.
+    pub title: String,
+    /// Labels with units.
+    pub axes: [&'static str; 2],
+    /// Smallest and largest ordinate; those of the marks if `None`.
+    pub limits: Option<[f64; 2]>,
+    /// In the order in which they are drawn.
+    pub marks: Vec<Mark>,
+}
+
+impl Chart {
+    /// As an SVG element; what lies beyond the axes is cut off.
+    pub(crate) fn svg(&self, id: &str) -> String {
+        let points = || {
+            self.marks.iter().flat_map(|mark| match mark {
+                Mark::Line(points) => points.clone(),
+                Mark::Band(points) => {
+                    points.iter().flat_map(|p| [[p[0], p[1]], [p[0], p[2]]]).collect()
+                }
+                Mark::Level(_, _) => vec![],
+            })
+        };
+        let x = extent(points().map(|point| point[0]));
+        let y = self.limits.unwrap_or_else(|| extent(points().map(|point| point[1])));
+        let [left, right, top, bottom] =
+            [MARGIN[0], SIZE[0] - MARGIN[1], MARGIN[2], SIZE[1] - MARGIN[3]];
+        let across = |value: f64| left + (value - x[0]) / (x[1] - x[0]) * (right - left);
+        let up = |value: f64| bottom - (value - y[0]) / (y[1] - y[0]) * (bottom - top);
+        let [width, height] = SIZE;
+        let title = &self.title;
+        let mut svg = format!(
+            "<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\
+             <clipPath id=\"{id}\"><rect x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\"/></clipPath>",
+            right - left,
+            bottom - top,
+        );
+        let (labels, digits) = ticks(x);
+        for value in labels {
+            let at = across(value);
+            let _ = write!(
+                svg,
+                "<path class=\"grid\" d=\"M{at:.1} {top}V{bottom}\"/><text x=\"{at:.1}\" y=\"{:.1}\" \
+                 text-anchor=\"middle\">{value:.digits$}</text>",
+                bottom + 16.0,
+            );
+        }
+        let (labels, digits) = ticks(y);
+        for value in labels {
+            let at = up(value);
+            let _ = write!(
+                svg,
+                "<path class=\"grid\" d=\"M{left} {at:.1}H{right}\"/><text x=\"{:.1}\" y=\"{:.1}\" \
+                 text-anchor=\"end\">{value:.digits$}</text>",
+                left - 6.0,
+                at + 4.0,
+            );
+        }
+        let _ = write!(
+            svg,
+            "<path class=\"axis\" d=\"M{left} {top}V{bottom}H{right}\"/><text x=\"{:.1}\" y=\"{:.1}\" \
+             text-anchor=\"middle\">{}</text><text transform=\"rotate(-90)\" x=\"{:.1}\" y=\"14\" \
+             text-anchor=\"middle\">{}</text><g clip-path=\"url(#{id})\">",
+            0.5 * (left + right),
+            height - 6.0,
+            self.axes[0],
+            -0.5 * (top + bottom),
+            self.axes[1],
+        );
+        let at = |point: [f64; 2]| {
+            format!("{:.1} {:.1}", across(point[0]), up(point[1]).clamp(-1e4, 1e4))
+        };
+        for mark in &self.marks {
+            match mark {
+                Mark::Line(points) => {
+                    let mut path = String::new();
+                    let mut before = "M";
+                    for point in points {
+                        if !(point[0].is_finite() && point[1].is_finite()) {
+                            before = "M";
+                            continue;
+                        }
+                        path = path + before + &at(*point);
+                        before = "L";
+                    }
+                    let _ = write!(svg, "<path class=\"line\" d=\"{path}\"/>");
+                }
+                Mark::Band(points) => {
+                    let there = points.iter().map(|p| [p[0], p[1]]);
+                    let back = points.iter().rev().map(|p| [p[0], p[2]]);
+                    let corners: Vec<String> = there.chain(back).map(at).collect();
+                    let _ =
+                        write!(svg, "<polygon class=\"band\" points=\"{}\"/>", corners.join(" "));
+                }
+                Mark::Level(class, value) => {
+                    let at = up(*value).clamp(-1e4, 1e4);
+                    let _ = write!(svg, "<path class=\"{class}\" d=\"M{left} {at:.1}H{right}\"/>");
+                }
+            }
+        }
+        svg + "</g></svg>"
+    }
+}
+
+/// Smallest and largest finite number with a margin; 0 to 1 of none.
+fn extent(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [low, high] = numbers
+        .filter(|number| number.is_finite())
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+    if low > high {
+        return [0.0, 1.0];
+    }
+    let margin = if high > low { 0.03 * (high - low) } else { 0.5 };
+    [low - margin, high + margin]
+}
+
+/// Round numbers between two limits, and the digits that tell them apart.
+fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
+    let rough = (high - low) / TICKS;
+    let power = rough.log10().floor();
+    let unit = 10_f64.powf(power);
+    let step = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * unit).into_iter().find(|s| *s >= rough);
+    let step = step.unwrap_or(rough);
+    let digits = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
+    let first = (low / step).ceil() as i64;
+    let values = (first..).map(|at| at as f64 * step).take_while(|value| *value <= high);
+    // Zero has no sign.
+    (values.take(20).map(|value| value + 0.0).collect(), digits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_round_and_within_the_limits() {
+        assert_eq!(ticks([0.0, 60.0]), (vec![0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0], 0));
+        let (values, digits) = ticks([-0.31, 0.29]);
+        assert_eq!((values.len(), digits), (6, 1));
+        assert!(values.iter().all(|value| (10.0 * value).fract().abs() < 1e-9), "{values:?}");
+    }
+
+    #[test]
+    fn a_chart_of_nothing_and_one_of_anything_can_be_drawn() {
+        for marks in [vec![], vec![Mark::Line(vec![[f64::NAN; 2], [1.0, 1e300], [2.0, -1e300]])]] {
+            let chart = Chart { title: "t".into(), axes: ["x", "y"], limits: None, marks };
+            let svg = chart.svg("a");
+            assert!(svg.ends_with("</g></svg>") && !svg.contains("NaN"), "{svg}");
+        }
+    }
+}
