@@ -415,7 +415,7 @@ browserTest(
     const html = report.bytes.toString();
     const angle = await value(page, 'recursive', 'angleDeg');
     assert.match(html, /<h1>Mounting angle of radar 1<\/h1>/);
-    assert.ok(html.includes(`${angle.toFixed(3)} +- `), html.slice(0, 2000));
+    assert.ok(html.includes(`${angle.toFixed(3)} ± `), html.slice(0, 2000));
     assert.match(html, /front_radar\.csv, as served<\/th><td>\d+ bytes, SHA-256 [0-9a-f]{64}</);
     // As a page of its own it shows the same, and asks for nothing.
     const asked = [];

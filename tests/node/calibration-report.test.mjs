@@ -69,7 +69,7 @@ describe('calibrationReport', () => {
     const html = calibrationReport(drive, about, { sensor: 3 });
     const { result } = calibrateDrive(drive, { sensor: 3 });
     assert.equal(verdictOf(html), 'Fail: misaligned');
-    assert.ok(html.includes(`${result.angleDeg.toFixed(3)} +- ${result.sigmaDeg.toFixed(3)} deg`), html);
+    assert.ok(html.includes(`${result.angleDeg.toFixed(3)} ± ${result.sigmaDeg.toFixed(3)} deg`), html);
     assert.ok(html.includes('a&amp;b.csv') && html.includes('by &lt;hand&gt;') && html.includes('ab'.repeat(32)));
     assert.doesNotMatch(html, /<script|src=|href=|NaN/);
     assert.equal(await pool.calibrationReport(drive, about, { sensor: 3 }), html);

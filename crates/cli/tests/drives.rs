@@ -370,7 +370,7 @@ fn a_report_says_the_verdict_and_where_it_comes_from_and_replaces_nothing() {
     assert!(text.contains("\nnext         "), "{text}");
     let html = std::fs::read_to_string(&path).unwrap();
     let angle = text.lines().find(|line| line.starts_with("angle")).unwrap();
-    let angle = angle.trim_start_matches("angle").trim();
+    let angle = angle.trim_start_matches("angle").trim().replace("+-", "\u{b1}");
     assert!(html.contains(&format!("<th>Angle</th><td>{angle}</td>")), "{angle}");
     assert!(html.contains("misaligned") && html.contains("--min-speed 3"));
     let (_, digest) = html.split_once("<th>front_radar.csv.gz</th><td>").unwrap();

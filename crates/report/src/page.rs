@@ -52,7 +52,7 @@ h1{font-size:1.5rem;margin:0 0 .25rem}h2{font-size:1.2rem;margin:2rem 0 .5rem}h3
 .verdict{display:inline-block;padding:.1rem .6rem;border:2px solid;border-radius:.3rem;font-weight:700;margin-left:.5rem}\
 .aligned{color:#176336}.misaligned{color:#a11d1d}.undecided{color:#7a5200}\
 table{border-collapse:collapse;width:100%}th,td{text-align:left;padding:.2rem .6rem .2rem 0;border-bottom:1px solid #d8dce2;vertical-align:top}\
-th{font-weight:600;white-space:nowrap;width:11rem}td{overflow-wrap:anywhere}\
+th{font-weight:600;width:11rem}td{overflow-wrap:anywhere}\
 svg{display:block;width:100%;height:auto;font-size:13px}.axis{stroke:#8a929d;fill:none}.grid{stroke:#e3e6ea}\
 .line{fill:none;stroke:#0b5fa5;stroke-width:2}.band{fill:#0b5fa5;fill-opacity:.18}.level{stroke:#1c1f24;stroke-width:1.5}.limit{stroke:#a11d1d;stroke-width:1.5;stroke-dasharray:6 4}figure{margin:1rem 0}figcaption,.small{color:#4d545e;font-size:.87rem}\
 code{font-size:.85rem;overflow-wrap:anywhere}section{break-inside:avoid}\
@@ -153,7 +153,12 @@ fn section(html: &mut String, radar: &Radar) {
 fn table(html: &mut String, rows: impl Iterator<Item = (String, String)>) {
     *html += "<table>\n";
     for (name, value) in rows {
-        let _ = writeln!(html, "<tr><th>{}</th><td>{}</td></tr>", escaped(&name), escaped(&value));
+        let _ = writeln!(
+            html,
+            "<tr><th>{}</th><td>{}</td></tr>",
+            escaped(&name),
+            escaped(&value).replace("+- ", "\u{b1} ")
+        );
     }
     *html += "</table>\n";
 }

@@ -250,7 +250,7 @@ impl Outlook {
         if self.least_rad > self.needed_rad {
             let (least, needed) = (self.least_rad.to_degrees(), self.needed_rad.to_degrees());
             return format!(
-                "No drive decides: the standard deviation cannot fall below {least:.3} deg, and {needed:.3} deg are needed. See the warnings."
+                "No drive decides: {needed:.3} deg are needed, and what no drive tells leaves a standard deviation of {least:.3} deg."
             );
         }
         let Some(best) = self.forecasts.first() else { return String::new() };
