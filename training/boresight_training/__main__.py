@@ -8,6 +8,7 @@ from pathlib import Path
 import torch
 
 from . import export, processes
+from .drives.dataset import Dataset
 from .tasks import NEAR, NETWORKS, SETUPS, task
 from .train import Settings, Training
 
@@ -41,6 +42,13 @@ def parser() -> argparse.ArgumentParser:
     radars = "counting, cnn3d, dnn: radar of Table 3 or of Table 4"
     train.add_argument("--setup", choices=tuple(SETUPS), default="simulated", help=radars)
     train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
+    stored = "deepego: folder of simulate drive --dataset to train on; may be given several times"
+    train.add_argument("--data", type=Path, action="append", default=[], metavar="DIR", help=stored)
+    train.add_argument(
+        "--test", type=Path, metavar="DIR", help="deepego: folder of such data, of another seed, to score on"
+    )
+    alone = "deepego: train by the Doppler loss alone, which needs no labels and no true motion"
+    train.add_argument("--doppler-loss-only", action="store_true", help=alone)
     train.add_argument(
         "--resume",
         "--folder",
@@ -75,6 +83,9 @@ def parser() -> argparse.ArgumentParser:
     evaluate = commands.add_parser("evaluate", help="score the network of a training folder")
     evaluate.add_argument("folder", type=Path)
     evaluate.add_argument("--count", type=int, default=4000, help="examples a condition")
+    evaluate.add_argument(
+        "--test", type=Path, metavar="DIR", help="deepego: folder of simulate drive --dataset to score on"
+    )
 
     write = commands.add_parser("export", help="write the network of a training folder as ONNX, with its card")
     write.add_argument("folder", type=Path)
@@ -104,7 +115,11 @@ def train(arguments) -> list[dict]:
         identity["snr_db"] = a.snr_db
     if a.channel_error is not None:
         identity["channel_error"] = a.channel_error
-    what = task(**identity)
+    if a.data:
+        identity["data"] = Dataset(a.data).told()
+    if a.doppler_loss_only:
+        identity["doppler_loss_only"] = True
+    what = task(**identity, **({"folders": a.data, "test": a.test} if a.data else {}))
     group = processes.start(a.device)
     on_gpu = group.device.type == "cuda"
     settings = Settings(
@@ -132,7 +147,7 @@ def train(arguments) -> list[dict]:
 
 def evaluate(arguments) -> list[dict]:
     """Scores of a training folder."""
-    _, what, network = export.restore(arguments.folder)
+    _, what, network = export.restore(arguments.folder, **({"test": arguments.test} if arguments.test else {}))
     with torch.no_grad():
         return what.evaluate(network, arguments.count, torch.Generator().manual_seed(30_000))
 

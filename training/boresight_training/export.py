@@ -44,12 +44,12 @@ SEEDS = {"example": 7, "metrics": 30_000, "confidence": 40_000, "deviations": 50
 """Seeds of data that no training sees, each for one use."""
 
 
-def restore(folder: Path) -> tuple[dict, Task, torch.nn.Module]:
-    """Checkpoint, task and averaged network of a training folder."""
+def restore(folder: Path, **places: Path) -> tuple[dict, Task, torch.nn.Module]:
+    """Checkpoint, task and averaged network of a training folder; `places` are those of stored data."""
     saved = checkpoint.load(folder)
     if saved is None:
         raise FileNotFoundError(f"{folder} holds no {checkpoint.NAME}")
-    what = task(**saved["identity"])
+    what = task(**saved["identity"], **places)
     network = what.model()
     network.load_state_dict(saved["ema"])
     return saved, what, network.eval()

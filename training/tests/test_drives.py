@@ -1,0 +1,310 @@
+"""DeepEgo: the reader of data, augmentation, the fit, losses, and that training learns."""
+
+import json
+import math
+import os
+import subprocess
+
+import numpy as np
+import pytest
+import torch
+
+from boresight_training import checkpoint
+from boresight_training.__main__ import evaluate, parser, train
+from boresight_training.drives import augment, classical, fit, losses, measures
+from boresight_training.drives.dataset import DETECTION, FRAME, NOTHING_STATIC, Dataset, Frames
+from boresight_training.drives.deepego import CONFIGS, DeepEgo, scale
+from boresight_training.drives.task import DeepEgoTask, synthetic
+from boresight_training.tasks import task
+
+
+def write(folder, frames, detections, **card):
+    """A set of data from structured arrays."""
+    folder.mkdir(parents=True, exist_ok=True)
+    frames.tofile(folder / "frames.bin")
+    detections.tofile(folder / "detections.bin")
+    told = {"format": "boresight-drive-dataset", "version": 1, "window": 8, "seed": 1}
+    told |= {"frames": len(frames), "detections": len(detections)}
+    (folder / "dataset.json").write_text(json.dumps(told | card))
+
+
+def stored(folder, count=400, most=30, seed=5, **card):
+    """A set of data of synthetic frames."""
+    made = synthetic(count, most, torch.Generator().manual_seed(seed))
+    frames = np.zeros(count, FRAME)
+    frames["velocity"] = made.velocity.numpy()
+    frames["count"] = made.mask.sum(1).numpy()
+    frames["moving"] = made.moving.sum(1).numpy()
+    detections = np.zeros(int(made.mask.sum()), DETECTION)
+    points = made.points[made.mask].nan_to_num(0.0).numpy()
+    for i, (name, step) in enumerate((("azimuth", 5e-5), ("range_rate", 0.005), ("range", 0.01), ("rcs", 0.5))):
+        detections[name] = np.round(points[:, i] / step)
+    detections["moving"] = made.moving[made.mask].numpy()
+    write(folder, frames, detections, **card)
+    return made
+
+
+@pytest.fixture(scope="module")
+def trained():
+    """A tiny network after a minute on synthetic frames."""
+    what = DeepEgoTask("tiny")
+    torch.manual_seed(1)
+    network = what.model()
+    optimizer = torch.optim.AdamW(network.parameters(), 5e-3)
+    generator = torch.Generator().manual_seed(2)
+    losses_ = []
+    for _ in range(300):
+        loss, _ = what.loss(network, [augment.plain(synthetic(64, 40, generator))])
+        optimizer.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
+        optimizer.step()
+        losses_.append(float(loss.detach()))
+    return network.eval(), losses_
+
+
+def test_frames_come_back_as_they_were_written(tmp_path):
+    made = stored(tmp_path / "a", 50, seed=1)
+    more = stored(tmp_path / "b", 30, seed=2)
+    data = Dataset([tmp_path / "a", tmp_path / "b"])
+    assert len(data) == 80
+    # From both folders at once, in any order.
+    chosen = np.array([79, 3, 50, 49])
+    frames = data.take(chosen)
+    for row, source, at in ((0, more, 29), (1, made, 3), (2, more, 0), (3, made, 49)):
+        count = int(source.mask[at].sum())
+        assert int(frames.mask[row].sum()) == count
+        expected = source.points[at, :count].nan_to_num(0.0)
+        steps = torch.tensor([5e-5, 0.005, 0.01, 0.5])
+        assert ((frames.points[row, :count] - expected).abs() <= 0.51 * steps).all()
+        assert torch.equal(frames.moving[row, :count], source.moving[at, :count])
+        assert torch.equal(frames.velocity[row], source.velocity[at])
+
+
+def test_a_share_of_the_detections_is_kept(tmp_path):
+    stored(tmp_path, 400, 60)
+    data = Dataset([tmp_path])
+    everything = data.take(np.arange(400))
+    half = data.take(np.arange(400), np.full(400, 0.5))
+    share = int(half.mask.sum()) / int(everything.mask.sum())
+    assert abs(share - 0.5) < 0.03
+    assert torch.equal(half.points, data.take(np.arange(400), np.full(400, 0.5)).points)
+    assert int(data.take(np.arange(400), np.zeros(400)).mask.sum()) == 0
+
+
+def test_damaged_data_are_refused(tmp_path):
+    stored(tmp_path, 20)
+    card = json.loads((tmp_path / "dataset.json").read_text())
+    for broken, message in (({"version": 2}, "expected boresight-drive-dataset 1"), ({"frames": 21}, "bytes")):
+        (tmp_path / "dataset.json").write_text(json.dumps(card | broken))
+        with pytest.raises(ValueError, match=message):
+            Dataset([tmp_path])
+    with pytest.raises(FileNotFoundError, match=r"dataset\.json"):
+        Dataset([tmp_path / "nowhere"])
+
+
+def test_the_fit_finds_a_motion_without_noise():
+    generator = torch.Generator().manual_seed(3)
+    azimuth = 2 * torch.rand((5, 20), generator=generator) - 1
+    velocity = 20 * torch.rand((5, 2), generator=generator) - 10
+    cos, sin = azimuth.cos(), azimuth.sin()
+    rate = -(velocity[:, :1] * cos + velocity[:, 1:] * sin)
+    found, inverse = fit.fit(cos, sin, rate, torch.rand((5, 20), generator=generator))
+    assert (found - velocity).abs().max() < 1e-3
+    assert (inverse[:, 0] > 0).all() and (inverse[:, 2] > 0).all()
+    # Nothing at all gives no motion, and numbers.
+    found, inverse = fit.fit(cos, sin, rate, torch.zeros(5, 20))
+    assert (found == 0).all() and inverse.isfinite().all()
+
+
+def test_equation_3_states_the_scatter():
+    generator = torch.Generator().manual_seed(4)
+    azimuth = (2 * torch.rand(40, generator=generator) - 1).expand(20_000, -1)
+    cos, sin = azimuth.cos(), azimuth.sin()
+    rate = -10 * cos + 0.1 * torch.randn((20_000, 40), generator=generator)
+    ones = torch.ones_like(rate)
+    found, inverse = fit.fit(cos, sin, rate, ones)
+    covariance = fit.equation_3(fit.residuals(cos, sin, rate, found), ones, ones, inverse)
+    stated = covariance.mean(0)
+    real = torch.cov(found.T.double())
+    assert abs(float(stated[0] / real[0, 0]) - 1) < 0.05
+    assert abs(float(stated[2] / real[1, 1]) - 1) < 0.05
+
+
+def test_the_scale_is_the_nearest_rank():
+    rate = torch.zeros(3, 12)
+    rate[0, :10] = torch.arange(10.0)
+    rate[1, :2] = torch.tensor([-7.0, 3.0])
+    mask = torch.zeros(3, 12, dtype=torch.bool)
+    mask[0, :10] = mask[1, :2] = True
+    assert scale(rate, mask).tolist() == [8.0, 7.0, 1.0]
+
+
+def test_order_and_padding_change_nothing_and_oddities_give_numbers(trained):
+    network, _ = trained
+    frames = synthetic(6, 40, torch.Generator().manual_seed(6))
+    with torch.no_grad():
+        answer = network(frames.points, frames.mask)
+        order = torch.randperm(40, generator=torch.Generator().manual_seed(7))
+        other = network(frames.points[:, order], frames.mask[:, order])
+        padded = network(
+            torch.cat((frames.points, torch.zeros(6, 9, 4)), 1),
+            torch.cat((frames.mask, torch.zeros(6, 9, dtype=torch.bool)), 1),
+        )
+    for changed in (other, padded):
+        assert torch.allclose(changed.velocity, answer.velocity, atol=2e-3)
+        assert torch.allclose(changed.covariance, answer.covariance, rtol=1e-2)
+    points = torch.zeros(4, 3, 4)
+    mask = torch.tensor([[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1]], dtype=torch.bool)
+    points[..., 2:] = torch.nan
+    with torch.no_grad():
+        odd = network(points, mask)
+    assert odd.velocity.isfinite().all() and odd.covariance.isfinite().all() and odd.share.isfinite().all()
+    # So does the loss, and its gradient, where nothing is there.
+    example = augment.plain(Frames(points.nan_to_num(0.0), mask, torch.zeros_like(mask), torch.ones(4, 2)))
+    what, fresh = DeepEgoTask("tiny"), DeepEgo(CONFIGS["tiny"])
+    what.loss(fresh, [example])[0].backward()
+    assert all(p.grad is None or p.grad.isfinite().all() for p in fresh.parameters())
+
+
+def test_it_learns_and_beats_least_squares_on_everything(trained):
+    network, curve = trained
+    assert np.mean(curve[-20:]) < np.mean(curve[:20]) - 5
+    frames = synthetic(500, 40, torch.Generator().manual_seed(8))
+    known = augment.plain(frames).determined
+    with torch.no_grad():
+        answer = network(frames.points, frames.mask)
+    cos, sin = fit.sight(frames.points)
+    plain, _ = fit.fit(cos, sin, frames.points[..., 1], frames.mask.float())
+    error = [(v - frames.velocity).norm(dim=-1)[known].median() for v in (answer.velocity[-1], plain)]
+    assert error[0] < 0.1 * error[1]
+    scores = measures.labels(answer.logit[-1].sigmoid(), frames.mask, frames.moving)
+    assert scores["f1"] > 0.9
+
+
+def test_labels_of_weights_are_what_shows_the_motion():
+    frames = synthetic(200, 40, torch.Generator().manual_seed(9))
+    target = losses.inliers(frames.points, frames.mask, frames.moving, frames.velocity)
+    standing = frames.mask & ~frames.moving
+    assert not (target & frames.moving).any()
+    assert float(target[standing].float().mean()) > 0.99
+    ghosts = frames.points.clone()
+    ghosts[..., 1] += 5.0
+    assert not losses.inliers(ghosts, frames.mask, frames.moving, frames.velocity).any()
+    assert not losses.determined(torch.ones(1, 4, dtype=torch.bool), torch.zeros(1, 4, 4)).item()
+
+
+def test_the_doppler_loss_is_least_at_the_motion_of_most():
+    frames = synthetic(100, 40, torch.Generator().manual_seed(10))
+    mask = frames.mask.float()
+    right = torch.where(augment.plain(frames).target > 0, 10.0, -10.0)
+    at = losses.doppler(frames.points, mask, frames.velocity, right)
+    for velocity, logit in ((frames.velocity + 1.0, right), (frames.velocity, -right)):
+        assert (losses.doppler(frames.points, mask, velocity, logit) >= at).float().mean() > 0.98
+
+
+def test_mirroring_keeps_frames_true_and_noise_is_scaled():
+    frames = synthetic(3000, 30, torch.Generator().manual_seed(11))
+    varied = augment.varied(frames, torch.Generator().manual_seed(12))
+    mirrored = varied.frames.velocity[:, 1] != frames.velocity[:, 1]
+    assert 0.45 < float(mirrored.float().mean()) < 0.55
+    cos, sin = fit.sight(varied.frames.points)
+    residual = fit.residuals(cos, sin, varied.frames.points[..., 1], varied.frames.velocity)
+    inlier = varied.target > 0
+    for chosen in (mirrored, ~mirrored):
+        deviation = float(residual[chosen][inlier[chosen]].std())
+        # 0.05 m/s times 0.5 to 2.
+        assert 0.05 < deviation < 0.07
+    dropped = varied.frames.points[:, 0, 2].isnan().float().mean()
+    assert 0.25 < float(dropped) < 0.55
+
+
+def test_curriculum_begins_with_little_traffic(tmp_path):
+    stored(tmp_path, 600)
+    batches = augment.Batches(Dataset([tmp_path]))
+    shares = []
+    for progress in (0.0, 0.9):
+        parts = batches.draw(512, progress, torch.Generator().manual_seed(1))
+        shares.append(max(float((p.frames.moving.sum(1) / p.frames.mask.sum(1).clamp(min=1)).mean()) for p in parts))
+        assert sum(len(p.determined) for p in parts) == 512
+    assert batches.data.moving_share[batches.order[batches.within[0][1] - 1]] <= 0.3
+    assert shares[0] < shares[1]
+
+
+def test_ransac_finds_the_motion():
+    frames = synthetic(200, 40, torch.Generator().manual_seed(13))
+    known = augment.plain(frames).determined
+    velocity, inlier, covariance = classical.ransac(frames.points, frames.mask, torch.Generator().manual_seed(1))
+    error = (velocity - frames.velocity).norm(dim=-1)[known]
+    assert error.median() < 0.05
+    assert not (inlier & ~frames.mask).any() and (covariance[:, 0] > 0).all()
+
+
+def test_measures_count_failures_and_coverage():
+    truth = torch.tensor([[10.0, 0.0]]).expand(20_000, 2)
+    noise = 0.1 * torch.randn((20_000, 2), generator=torch.Generator().manual_seed(1))
+    covariance = torch.tensor([0.01, 0.0, 0.01]).expand(20_000, 3)
+    scores = measures.motion(truth + noise, covariance, truth)
+    assert abs(scores["within_68"] - 0.6827) < 0.02 and abs(scores["within_95"] - 0.9545) < 0.01
+    assert abs(scores["direction_variance_deg2"] - math.degrees(0.01) ** 2) < 0.02
+    assert scores["failed"] == 0
+    assert measures.motion(truth + 2, covariance, truth)["failed"] == 1
+    assert abs(measures.variance_ratio(truth + noise, truth + 2 * noise, truth) - 0.25) < 0.01
+
+
+def arguments(folder, *extra):
+    sets = ["--data", str(folder / "data"), "--test", str(folder / "test")]
+    fixed = ["train", "deepego", "--config", "tiny", "--device", "cpu", "--threads", "1", "--batch", "32"]
+    return parser().parse_args([*fixed, *sets, "--evaluate-count", "40", "--folder", str(folder / "run"), *extra])
+
+
+def test_the_command_line_trains_resumes_and_scores(tmp_path):
+    stored(tmp_path / "data", seed=1)
+    stored(tmp_path / "test", seed=2)
+    train(arguments(tmp_path, "--steps", "6"))
+    saved = checkpoint.load(tmp_path / "run")
+    assert saved["step"] == 6 and saved["identity"]["data"][0]["seed"] == 1
+    assert "folder" not in json.dumps(saved["identity"])
+    scores = evaluate(parser().parse_args(["evaluate", str(tmp_path / "run"), "--test", str(tmp_path / "test")]))
+    assert scores[0]["frames"] == "up to 30 % moving" and 0 <= scores[0]["f1"] <= 1
+    # Other data are another network.
+    stored(tmp_path / "data", seed=1, scenarioLeftOut="city")
+    with pytest.raises(ValueError, match="holds"):
+        train(arguments(tmp_path, "--steps", "8"))
+
+
+def test_the_doppler_loss_alone_trains(tmp_path):
+    what = task("deepego", "tiny", doppler_loss_only=True)
+    torch.manual_seed(1)
+    network = what.model()
+    optimizer = torch.optim.AdamW(network.parameters(), 5e-3)
+    generator = torch.Generator().manual_seed(2)
+    for _ in range(300):
+        loss, parts = what.loss(network, [augment.plain(synthetic(64, 40, generator))])
+        assert float(loss.detach()) == pytest.approx(float(parts["doppler"]), rel=1e-5)
+        optimizer.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(network.parameters(), 1.0)
+        optimizer.step()
+    frames = synthetic(500, 40, torch.Generator().manual_seed(8))
+    known = augment.plain(frames).determined
+    with torch.no_grad():
+        answer = network(frames.points, frames.mask)
+    error = (answer.velocity[-1] - frames.velocity).norm(dim=-1)[known]
+    assert error.median() < 0.3
+
+
+@pytest.mark.skipif("BORESIGHT" not in os.environ, reason="no command line was built")
+def test_the_command_lines_data_show_their_motion(tmp_path):
+    command = [os.environ["BORESIGHT"], "simulate", "drive", "--dataset", tmp_path, "--frames", "4000", "--seed", "3"]
+    done = subprocess.run([str(x) for x in command], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    data = Dataset([tmp_path])
+    assert len(data) == 4000
+    frames = data.take(np.arange(0, 4000, 9))
+    share = (frames.moving.sum(1) / frames.mask.sum(1).clamp(min=1)).numpy()
+    assert np.allclose(share, data.moving_share[::9], atol=1e-6)
+    assert (data.frames["condition"] == NOTHING_STATIC).any()
+    cos, sin = fit.sight(frames.points)
+    residual = fit.residuals(cos, sin, frames.points[..., 1], frames.velocity).abs()
+    assert float(residual[frames.mask & ~frames.moving].median()) < 0.1
