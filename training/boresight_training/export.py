@@ -111,11 +111,20 @@ def _difference(what, form, path, batch, generator) -> float:
     example = what.example(batch, generator)
     session = onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
     names = [port.name for port in what.inputs]
-    (given,) = session.run(None, {name: x.numpy() for name, x in zip(names, example, strict=True)})
+    all_given = session.run(None, {name: x.numpy() for name, x in zip(names, example, strict=True)})
+    differences = []
+    for given, value in zip(all_given, _answers(form, example), strict=True):
+        expected, kinds = value.numpy(), tuple(range(given.ndim - 1))
+        off = np.abs(given - expected).max(kinds) / np.maximum(1.0, np.abs(expected).max(kinds))
+        differences.append(float(off.max()))
+    return max(differences)
+
+
+def _answers(form, example) -> tuple[torch.Tensor, ...]:
+    """What PyTorch answers, one tensor for each output."""
     with torch.no_grad():
-        expected = form(*example).numpy()
-    kinds = tuple(range(given.ndim - 1))
-    return float((np.abs(given - expected).max(kinds) / np.maximum(1.0, np.abs(expected).max(kinds))).max())
+        answer = form(*example)
+    return answer if isinstance(answer, tuple) else (answer,)
 
 
 def _store_half(graph) -> None:
@@ -134,10 +143,9 @@ def _store_half(graph) -> None:
 def golden(what: Task, form: torch.nn.Module, folder: Path) -> None:
     """Writes a batch of inputs, and what PyTorch answers to it, as .npy files named as the ports are."""
     folder.mkdir(parents=True, exist_ok=True)
-    example = what.example(GOLDEN_BATCH, torch.Generator().manual_seed(SEEDS["example"]))
-    with torch.no_grad():
-        answer = form(*example)
-    for port, value in zip((*what.inputs, *what.outputs), (*example, answer), strict=True):
+    batch = getattr(what, "golden_batch", GOLDEN_BATCH)
+    example = what.example(batch, torch.Generator().manual_seed(SEEDS["example"]))
+    for port, value in zip((*what.inputs, *what.outputs), (*example, *_answers(form, example)), strict=True):
         np.save(folder / f"{port.name}.npy", value.numpy())
 
 
@@ -149,13 +157,15 @@ def export(
     golden_in: Path | None = None,
     weights: Path | None = None,
     beside: tuple[Path, ...] = (),
+    test: Path | None = None,
 ) -> dict:
     """Writes the network of a training folder to `path`, its card beside it, and returns the card.
 
     With `golden_in` a golden batch is written to a folder there of the model's name, with `weights` a file that another
-    run can start from. The card has the learning curve of the folder, and of those `beside`.
+    run can start from. The card has the learning curve of the folder, and of those `beside`. `test` holds stored data
+    to score on. Networks with a form for our module have that written, too, under the same name.
     """
-    saved, what, network = restore(folder)
+    saved, what, network = restore(folder, **({} if test is None else {"test": test}))
     parameters = sum(p.numel() for p in network.parameters())
     if isinstance(network, torch.nn.Sequential):
         # The metrics below are then those of the rounded weights.
@@ -171,6 +181,7 @@ def export(
     with torch.no_grad():
         metrics = what.evaluate(network, count, torch.Generator().manual_seed(SEEDS["metrics"]))
         confidence = what.confidence(network, count, torch.Generator().manual_seed(SEEDS["confidence"]))
+    own = what.write(form, path, None if precision == "single" else ROUNDED_FROM) if hasattr(what, "write") else {}
     curves = [curve for one in (folder, *beside) if (curve := learning_curve(one)) is not None]
     identity, legs = saved["identity"], [*saved["legs"], saved]
     card = {
@@ -194,6 +205,7 @@ def export(
         "metrics": [{name: _rounded(value) for name, value in condition.items()} for condition in metrics],
         "metricsExamples": count,
         **({"learning": curves} if curves else {}),
+        **own,
         "onnx": {"opset": OPSET, "weights": STORED_AS[precision], "parity": difference},
         "bytes": path.stat().st_size,
         "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),

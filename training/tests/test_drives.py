@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import torch
 
-from boresight_training import checkpoint
+from boresight_training import checkpoint, export
 from boresight_training.__main__ import evaluate, parser, train
-from boresight_training.drives import augment, classical, fit, losses, measures
+from boresight_training.drives import augment, classical, fit, losses, measures, radarscenes, smoother, weights_file
 from boresight_training.drives.dataset import DETECTION, FRAME, NOTHING_STATIC, Dataset, Frames
 from boresight_training.drives.deepego import CONFIGS, DeepEgo, scale
 from boresight_training.drives.task import DeepEgoTask, synthetic
@@ -308,3 +308,103 @@ def test_the_command_lines_data_show_their_motion(tmp_path):
     cos, sin = fit.sight(frames.points)
     residual = fit.residuals(cos, sin, frames.points[..., 1], frames.velocity).abs()
     assert float(residual[frames.mask & ~frames.moving].median()) < 0.1
+
+
+def test_weights_come_back_and_damage_is_found(tmp_path):
+    torch.manual_seed(4)
+    state = DeepEgo(CONFIGS["tiny"]).state_dict()
+    path = tmp_path / "w.bin"
+    weights_file.write(path, state)
+    assert all(torch.equal(weights_file.read(path)[name], value) for name, value in state.items())
+    size = path.stat().st_size
+    weights_file.write(path, state, 64)
+    assert path.stat().st_size < size
+    assert all((weights_file.read(path)[name] - value).abs().max() < 1e-3 for name, value in state.items())
+    whole = path.read_bytes()
+    for broken, message in (
+        (whole[:-9] + bytes([whole[-9] ^ 1]) + whole[-8:], "check sum"),
+        (whole[: len(whole) // 2], "check sum"),
+        (b"BORESMUT" + whole[8:], "no file of weights"),
+        (b"", "no file of weights"),
+        (weights_file.encoded({"a": torch.tensor([torch.inf])}, None), "not finite"),
+    ):
+        path.write_bytes(broken)
+        with pytest.raises(ValueError, match=message):
+            weights_file.read(path)
+
+
+@pytest.mark.parametrize("name", ["deepego", "deepego-plus"])
+def test_the_exported_form_is_the_same_in_onnx(tmp_path, name):
+    what = task(name, "tiny")
+    torch.manual_seed(5)
+    form = export.exported_form(what, what.model().eval(), "half")
+    assert export.to_onnx(what, form, tmp_path / "n.onnx", "half") < 1e-4
+    card = what.write(form, tmp_path / "n.onnx", export.ROUNDED_FROM)
+    read = weights_file.read(tmp_path / card["weights"]["file"])
+    assert all(torch.equal(read[key], value) for key, value in form.model.state_dict().items())
+    export.golden(what, form, tmp_path / "golden")
+    assert len(np.load(tmp_path / "golden" / "motion.npy")) == what.golden_batch
+
+
+def test_linear_equations_are_solved():
+    generator = torch.Generator().manual_seed(1)
+    root = torch.randn((7, 6, 6), generator=generator, dtype=torch.float64)
+    matrix = root @ root.mT + 0.1 * torch.eye(6, dtype=torch.float64)
+    right = torch.randn((7, 6, 3), generator=generator, dtype=torch.float64)
+    assert torch.allclose(smoother.solved(matrix, right), torch.linalg.solve(matrix, right), atol=1e-8)
+
+
+def windows(count, generator, noise=0.1):
+    """Answers on steady accelerations with known noise, and the true motions."""
+    start = 20 * torch.rand((count, 1, 2), generator=generator) - 10
+    gain = 2 * torch.rand((count, 1, 2), generator=generator) - 1
+    dt = 0.074 * torch.ones(count, 8)
+    dt[:, 0] = 0
+    truth = start + gain * dt.cumsum(1).unsqueeze(-1)
+    velocity = truth + noise * torch.randn(truth.shape, generator=generator)
+    covariance = noise**2 * torch.tensor([1.0, 0.0, 1.0]).expand(count, 8, 3)
+    return smoother.Singles(velocity, covariance, torch.zeros(count, 8, 6), dt), truth
+
+
+def test_smoothing_lessens_noise_before_and_turns_with_the_radar():
+    singles, truth = windows(2000, torch.Generator().manual_seed(2))
+    torch.manual_seed(1)
+    network = smoother.Smoother(smoother.CONFIGS["tiny"]).eval()
+    with torch.no_grad():
+        answer = network(singles)
+        error = (answer.velocity - truth).square().mean()
+        # Three parameters of eight points.
+        assert float(error / 0.01) < 0.42
+        stated = (answer.covariance[..., 0] + answer.covariance[..., 2]).mean() / 2
+        assert 0.7 < float(stated / error) < 1.4
+        cos, sin = torch.tensor(0.6), torch.tensor(0.8)
+        velocity, covariance = smoother.turned(singles.velocity, singles.covariance, cos, sin)
+        other = network(singles._replace(velocity=velocity, covariance=covariance))
+        expected = smoother.turned(answer.velocity, answer.covariance, cos, sin)
+    assert torch.allclose(other.velocity, expected[0], atol=1e-3)
+    assert torch.allclose(other.covariance, expected[1], atol=1e-5)
+
+
+def test_the_smoother_trains_on_a_trained_network_and_resumes(tmp_path):
+    stored(tmp_path / "data", seed=1)
+    stored(tmp_path / "test", seed=2)
+    train(arguments(tmp_path, "--steps", "4"))
+    plus = arguments(tmp_path, "--steps", "6", "--single", str(tmp_path / "run"))
+    plus.network, plus.folder, plus.batch = "deepego-plus", tmp_path / "plus", 16
+    scores = train(plus)
+    assert scores[0]["frames"] == "up to 30 % moving" and scores[0]["variance_over_single"] > 0
+    first, second = checkpoint.load(tmp_path / "run"), checkpoint.load(tmp_path / "plus")
+    assert all(torch.equal(second["ema"][f"single.{key}"], value) for key, value in first["ema"].items())
+    _, _, network = export.restore(tmp_path / "plus")
+    points, mask, dt = task("deepego-plus", "tiny").example(2, torch.Generator().manual_seed(1))
+    assert network(points, mask, dt).velocity.shape == (2, 8, 2)
+
+
+@pytest.mark.skipif("BORESIGHT_RADARSCENES" not in os.environ, reason="no sequence of RadarScenes is there")
+def test_a_real_sequence_is_read_and_ransac_scatters_as_known(trained):
+    pytest.importorskip("h5py")
+    rows = radarscenes.check(trained[0], os.environ["BORESIGHT_RADARSCENES"], torch.Generator().manual_seed(1))
+    assert [row["sensor"] for row in rows] == [1, 2, 3, 4]
+    # What docs/simulated-drives.md says of sequence 105.
+    for row, known in zip(rows, (0.069, 0.148, 0.182, 0.067), strict=True):
+        assert abs(row["ransac"]["scatter_deg"] / known - 1) < 0.15

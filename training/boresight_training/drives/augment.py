@@ -57,12 +57,18 @@ class Batches:
         ]
 
 
-def varied(frames: Frames, generator: torch.Generator) -> Examples:
-    """Frames mirrored, with more or less noise, more ghosts, and without ranges or cross-sections."""
+def varied(frames: Frames, generator: torch.Generator, window: int = 1) -> Examples:
+    """Frames mirrored, with more or less noise, more ghosts, and without ranges or cross-sections.
+
+    As many successive frames as a window has are varied alike.
+    """
     count, most = frames.mask.shape
 
     def unit(*shape):
-        return torch.rand(shape, generator=generator)
+        if shape[-1] == most and len(shape) > 1:
+            return torch.rand(shape, generator=generator)
+        alike = torch.rand((shape[0] // window, *shape[1:]), generator=generator)
+        return alike.repeat_interleave(window, 0)
 
     points, velocity = frames.points.clone(), frames.velocity.clone()
     mirrored = torch.where(unit(count) < 0.5, -1.0, 1.0)

@@ -35,9 +35,10 @@ TRAFFIC, QUEUE, NOTHING_STATIC = range(3)
 
 @dataclass
 class Frames:
-    """Frames with their detections; points [frames, most, 4] are azimuth (rad), range rate (m/s), range (m), rcs (dBsm)."""
+    """Frames with their detections."""
 
     points: torch.Tensor
+    """Azimuth (rad), range rate (m/s), range (m) and cross-section (dBsm), [frames, most, 4]."""
     mask: torch.Tensor
     """Which points are there, [frames, most]."""
     moving: torch.Tensor

@@ -89,6 +89,12 @@ def features(points, mask, size):
     return found * mask.unsqueeze(-1)
 
 
+def _asinh(x):
+    """The inverse hyperbolic sine, of operators that ONNX has."""
+    size = x.abs()
+    return x.sign() * (size + size * size / (1 + (1 + size * size).sqrt())).log1p()
+
+
 class DeepEgo(nn.Module):
     """Frames to motion. `forward(points, mask)` takes [frames, points, 4] and which points are there."""
 
@@ -125,6 +131,7 @@ class DeepEgo(nn.Module):
         out = self.weigh(self.weigh_point(h) + self.weigh_frame(g).unsqueeze(1))
         narrow_h, narrow_g = self.narrow_point(h), self.narrow_frame(g)
         frame = self.refine_frame(narrow_g).unsqueeze(1)
+        velocity, inlier = points.new_zeros((len(points), 2)), there
         velocities, logits = [], []
         for i in range(self.config.refinements + 1):
             if i > 0:
@@ -133,8 +140,8 @@ class DeepEgo(nn.Module):
                 wide = AZIMUTH_RAD * (slope + LEAST_SLOPE * size.unsqueeze(-1))
                 own = torch.stack(
                     (
-                        (residual / RESIDUAL_MPS).asinh(),
-                        (residual.abs() / wide).asinh(),
+                        _asinh(residual / RESIDUAL_MPS),
+                        _asinh(residual.abs() / wide),
                         inlier,
                         slope / size.unsqueeze(-1),
                     ),

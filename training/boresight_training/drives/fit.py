@@ -31,9 +31,9 @@ def fit(cos, sin, range_rate, weight):
     by = -(weight * sin * range_rate).sum(-1)
     determinant = xx * yy - xy * xy
     inverse = torch.stack((yy, -xy, xx), -1) / determinant.unsqueeze(-1)
-    velocity = torch.stack(
-        (inverse[..., 0] * bx + inverse[..., 1] * by, inverse[..., 1] * bx + inverse[..., 2] * by), -1
-    )
+    x = inverse[..., 0] * bx + inverse[..., 1] * by
+    y = inverse[..., 1] * bx + inverse[..., 2] * by
+    velocity = torch.stack((x, y), -1)
     return velocity.float(), inverse.float()
 
 
@@ -48,7 +48,7 @@ def slopes(cos, sin, velocity):
 
 
 def equation_3(residual, inlier, weight, inverse):
-    """Covariance of the motion as xx, xy, yy, (m/s)^2: equation 3 of Zhu et al. (2025) with weights for a count of inliers.
+    """Equation 3 of Zhu et al. (2025): covariance of the motion as xx, xy, yy, (m/s)^2.
 
     `inlier` are weights from 0 to 1, whose sum stands for that count, and `weight` those of the fit.
     """

@@ -1,6 +1,5 @@
-"""What DeepEgo is trained on: the motion's error against its covariance, the weights, and the label-free Doppler loss."""
+"""What DeepEgo is trained on: errors of motion against their covariance, weights, and the label-free Doppler loss."""
 
-import torch
 from torch.nn import functional
 
 from . import fit

@@ -8,7 +8,7 @@ import torch
 from torch import nn
 
 from ..ports import Port
-from . import classical, losses, measures
+from . import classical, losses, measures, weights_file
 from .augment import BANDS, Batches, Examples, plain
 from .dataset import NOTHING_STATIC, QUEUE, TRAFFIC, Dataset, Frames
 from .deepego import CONFIGS, DeepEgo
@@ -43,6 +43,7 @@ class DeepEgoTask:
     )
     batch = 256
     learning_rate = 2e-3
+    golden_batch = 64
 
     def __init__(
         self,
@@ -74,6 +75,11 @@ class DeepEgoTask:
                 ("batch", 7),
                 "velocity of the radar along boresight and to its left (m/s), its covariance as xx, xy, yy, mean "
                 "weight, logarithm of the factor on equation 3's deviations",
+            ),
+            Port(
+                "weights",
+                ("batch", "points"),
+                "of each detection from 0 to 1: how likely it is of something that stands",
             ),
         )
 
@@ -180,9 +186,17 @@ class DeepEgoTask:
     def export_form(self, model, deviations=None):
         return _Motion(model)
 
+    def write(self, form, path: Path, half_from: int | None) -> dict:
+        """Writes the weights as `weights_file` has them beside an ONNX file, for its card."""
+        return weights_file.write_beside(path, form.model.state_dict(), half_from)
+
     def example(self, batch, generator):
+        """Synthetic frames; the first three have no, one and two detections where there are more than three."""
         frames = synthetic(batch, 40, generator)
-        return frames.points, frames.mask
+        if batch > 3:
+            for count in range(3):
+                frames.mask[count] = torch.arange(40) < count
+        return frames.points * frames.mask.unsqueeze(-1), frames.mask
 
     def describe(self):
         data = {"sets": self.data, "bands": [list(band) for band in BANDS]}
@@ -191,6 +205,8 @@ class DeepEgoTask:
 
 
 class _Motion(nn.Module):
+    """Points and mask to motion and weights."""
+
     def __init__(self, model):
         super().__init__()
         self.model = model
@@ -198,7 +214,8 @@ class _Motion(nn.Module):
     def forward(self, points, mask):
         answer = self.model(points, mask)
         told = torch.stack((answer.share, answer.factor), -1)
-        return torch.cat((answer.velocity[-1], answer.covariance, told), -1)
+        motion = torch.cat((answer.velocity[-1], answer.covariance, told), -1)
+        return motion, answer.logit[-1].sigmoid() * mask
 
 
 def parts(data: Dataset, chosen: np.ndarray, size: int = 250):
