@@ -4,6 +4,7 @@ import hashlib
 import json
 import platform
 import re
+import shutil
 import warnings
 from pathlib import Path
 
@@ -163,7 +164,8 @@ def export(
 
     With `golden_in` a golden batch is written to a folder there of the model's name, with `weights` a file that another
     run can start from. The card has the learning curve of the folder, and of those `beside`. `test` holds stored data
-    to score on. Networks with a form for our module have that written, too, under the same name.
+    to score on. Networks with a form for our module have that written, too, under the same name and into the golden
+    folder.
     """
     saved, what, network = restore(folder, **({} if test is None else {"test": test}))
     parameters = sum(p.numel() for p in network.parameters())
@@ -176,12 +178,14 @@ def export(
     deviations = what.deviations(network, count, torch.Generator().manual_seed(SEEDS["deviations"]))
     form = exported_form(what, network, precision, deviations)
     difference = to_onnx(what, form, path, precision)
+    own = what.write(form, path, None if precision == "single" else ROUNDED_FROM) if hasattr(what, "write") else {}
     if golden_in is not None:
         golden(what, form, golden_in / path.stem)
+        if own:
+            shutil.copy(path.with_suffix(".bin"), golden_in / path.stem / "weights.bin")
     with torch.no_grad():
         metrics = what.evaluate(network, count, torch.Generator().manual_seed(SEEDS["metrics"]))
         confidence = what.confidence(network, count, torch.Generator().manual_seed(SEEDS["confidence"]))
-    own = what.write(form, path, None if precision == "single" else ROUNDED_FROM) if hasattr(what, "write") else {}
     curves = [curve for one in (folder, *beside) if (curve := learning_curve(one)) is not None]
     identity, legs = saved["identity"], [*saved["legs"], saved]
     card = {
