@@ -13,7 +13,7 @@ from ..ports import Port
 from . import losses, measures, weights_file
 from .augment import THINNEST, WHOLE, plain, varied
 from .dataset import Dataset
-from .smoother import CONFIGS, DeepEgoPlus, Singles, Smoothed
+from .smoother import CONFIGS, DeepEgoPlus, Singles, Smoothed, Smoother
 from .task import CONDITIONS, synthetic
 
 WINDOWS = 30_000
@@ -133,9 +133,9 @@ class DeepEgoPlusTask:
         starts = np.arange(0, len(data), data.window)
         of_window = data.moving_share.reshape(-1, data.window).mean(1)
         scores = []
-        for name, (condition, low, high) in CONDITIONS.items():
-            fits = (data.frames["condition"][starts] == condition) & (of_window >= low) & (of_window < high)
-            chosen = np.flatnonzero(fits)
+        for name, condition in CONDITIONS.items():
+            fits = condition.of(data, np.repeat(of_window, data.window))
+            chosen = np.flatnonzero(fits[starts])
             if len(chosen):
                 order = torch.randperm(len(chosen), generator=generator)[: max(1, count // data.window)].numpy()
                 scores.append({"frames": name, **self._score(model, data, starts[np.sort(chosen[order])])})
@@ -143,13 +143,16 @@ class DeepEgoPlusTask:
 
     @torch.no_grad()
     def _score(self, model, data, starts):
-        singles, smoothed, truths, known = [], [], [], []
+        # Before learning a smoother is the quadratic with fixed priors: what a Kalman smoother gives.
+        fixed = Smoother(self.config).eval()
+        singles, smoothed, quadratic, truths, known = [], [], [], [], []
         for i in range(0, len(starts), 32):
             indices = (starts[i : i + 32, None] + np.arange(data.window)).ravel()
             frames = data.take(indices)
             single = _windows(model, frames, data, indices)
             singles.append(single)
             smoothed.append(model.smoother(single))
+            quadratic.append(fixed(single).velocity)
             truths.append(frames.velocity)
             known.append(plain(frames).determined)
         single = Singles(*(torch.cat(parts) for parts in zip(*singles, strict=True)))
@@ -169,6 +172,9 @@ class DeepEgoPlusTask:
             **{f"single_{name}": value for name, value in before.items()},
             "variance_over_single": measures.variance_ratio(found, alone, truth[known]),
             "variance_of_average_over_single": measures.variance_ratio(flat(average), alone, truth[known]),
+            "variance_of_quadratic_over_single": measures.variance_ratio(
+                flat(torch.cat(quadratic)), alone, truth[known]
+            ),
         }
 
     def confidence(self, model, count, generator):

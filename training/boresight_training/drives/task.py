@@ -1,6 +1,6 @@
 """DeepEgo's data, losses and scores."""
 
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,16 +10,38 @@ from torch import nn
 from ..ports import Port
 from . import classical, losses, measures, weights_file
 from .augment import BANDS, Batches, Examples, plain
-from .dataset import NOTHING_STATIC, QUEUE, TRAFFIC, Dataset, Frames
+from .dataset import DIRECTION_RAD, NOTHING_STATIC, QUEUE, TRAFFIC, Dataset, Frames
 from .deepego import CONFIGS, DeepEgo
 
+
+@dataclass(frozen=True)
+class Condition:
+    """Frames to score on."""
+
+    window: int
+    """What their windows were made like."""
+    low: float
+    high: float
+    """Moving share from and below."""
+    looks_deg: tuple[float, float] = (0.0, 181.0)
+    """Angle between the radar's and the car's direction, from and below."""
+
+    def of(self, data: Dataset, share: np.ndarray) -> np.ndarray:
+        """Whether frames of these moving shares are among them."""
+        looks = np.abs(np.rad2deg(data.frames["direction"] * DIRECTION_RAD))
+        fits = (data.frames["condition"] == self.window) & (share >= self.low) & (share < self.high)
+        return fits & (looks >= self.looks_deg[0]) & (looks < self.looks_deg[1])
+
+
 CONDITIONS = {
-    "up to 30 % moving": (TRAFFIC, 0.0, 0.3),
-    "30 to 60 % moving": (TRAFFIC, 0.3, 0.6),
-    "60 to 90 % moving": (TRAFFIC, 0.6, 0.9),
-    "queues": (QUEUE, 0.2, 0.9),
+    "up to 30 % moving": Condition(TRAFFIC, 0.0, 0.3),
+    "up to 30 % moving, looking ahead": Condition(TRAFFIC, 0.0, 0.3, (10.0, 40.0)),
+    "up to 30 % moving, looking aside": Condition(TRAFFIC, 0.0, 0.3, (70.0, 100.0)),
+    "30 to 60 % moving": Condition(TRAFFIC, 0.3, 0.6),
+    "60 to 90 % moving": Condition(TRAFFIC, 0.6, 0.9),
+    "queues": Condition(QUEUE, 0.2, 0.9),
 }
-"""What frames are scored on: their windows' condition and their moving share."""
+"""What frames are scored on."""
 WEIGHTS = {"motion": 1.0, "robust": 0.2, "weights": 2.0, "doppler": 0.1}
 """Of the parts of the loss."""
 STAGES = (0.3, 0.6, 1.0)
@@ -124,10 +146,8 @@ class DeepEgoTask:
             return []
         data = Dataset([self.test])
         scores = []
-        for name, (condition, low, high) in CONDITIONS.items():
-            share = data.moving_share
-            fits = (data.frames["condition"] == condition) & (share >= low) & (share < high)
-            chosen = np.flatnonzero(fits)
+        for name, condition in CONDITIONS.items():
+            chosen = np.flatnonzero(condition.of(data, data.moving_share))
             if len(chosen):
                 order = torch.randperm(len(chosen), generator=generator)[:count].numpy()
                 scores.append({"frames": name, **self.score(model, data, np.sort(chosen[order]), generator)})
