@@ -216,7 +216,7 @@ fn scale(rates: &[f32]) -> f32 {
     if speeds.is_empty() {
         return 1.0;
     }
-    let rank = (9 * speeds.len() + 9) / 10 - 1;
+    let rank = (9 * speeds.len()).div_ceil(10) - 1;
     speeds.select_nth_unstable_by(rank, f32::total_cmp).1.max(1.0)
 }
 
