@@ -249,6 +249,7 @@ def test_measures_count_failures_and_coverage():
     assert abs(scores["direction_variance_deg2"] - math.degrees(0.01) ** 2) < 0.02
     assert scores["failed"] == 0
     assert measures.motion(truth + 2, covariance, truth)["failed"] == 1
+    assert abs(measures.deviation_factor(measures.whitened(2 * noise, covariance)) - 2) < 0.03
     assert abs(measures.variance_ratio(truth + noise, truth + 2 * noise, truth) - 0.25) < 0.01
 
 
@@ -267,6 +268,11 @@ def test_the_command_line_trains_resumes_and_scores(tmp_path):
     assert "folder" not in json.dumps(saved["identity"])
     scores = evaluate(parser().parse_args(["evaluate", str(tmp_path / "run"), "--test", str(tmp_path / "test")]))
     assert scores[0]["frames"] == "up to 30 % moving" and 0 <= scores[0]["f1"] <= 1
+    # What is exported states its deviations on data of a size that tests have.
+    path = tmp_path / "out" / "deepego.onnx"
+    card = export.export(tmp_path / "run", path, "half", 100, tmp_path / "golden", test=tmp_path / "test")
+    assert card["deviationFactors"][0] > 0 and card["weights"]["bytes"] == path.with_suffix(".bin").stat().st_size
+    assert (tmp_path / "golden" / "deepego" / "weights.bin").read_bytes() == path.with_suffix(".bin").read_bytes()
     # Other data are another network.
     stored(tmp_path / "data", seed=1, scenarioLeftOut="city")
     with pytest.raises(ValueError, match="holds"):

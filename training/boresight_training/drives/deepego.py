@@ -1,8 +1,8 @@
 """DeepEgo, single frame: a network weighs detections, and weighted least squares gives the radar's motion.
 
-Detections are encoded one by one and pooled, so that their order and number do not matter. Twice the weights are
-refined from the residuals of the fit. After Zhu, Yarovoy and Fioranelli (2023) and Zhu et al. (2025); sizes and
-features are ours.
+Detections are encoded one by one and pooled, so that their order and number do not matter. Four times the weights are
+refined from the residuals of the fit, by the same layers. After Zhu, Yarovoy and Fioranelli (2023) and Zhu et al.
+(2025); sizes and features are ours.
 """
 
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ class DeepEgoConfig:
     narrow: int = 16
     """Of what the refinements see of a point's and a frame's features."""
     refine: int = 32
-    refinements: int = 2
+    refinements: int = 4
 
 
 CONFIGS = {"small": DeepEgoConfig(), "tiny": DeepEgoConfig(point=8, width=16, narrow=4, refine=8)}

@@ -16,6 +16,7 @@ import torch
 
 from . import classical, losses, measures
 from .dataset import Frames
+from .smoother import DeepEgoPlus, Singles
 
 STATIC = 11
 """Label of what stands."""
@@ -23,6 +24,7 @@ SLIP = 0.0045
 """Slip angle of the rear axle over lateral acceleration, rad/(m/s^2), outwards."""
 DRIVES_MPS = 3.0
 PIECE_S = 25.0
+WINDOW = 8
 
 
 @dataclass
@@ -102,9 +104,21 @@ def _robust(values) -> float:
     return float(1.4826 * np.median(np.abs(values)))
 
 
+def smoothed(network: DeepEgoPlus, scans: Scans, singles: Singles) -> torch.Tensor:
+    """Velocities of windows of successive frames, [frames, 2]; those of a last window that is not full as they were."""
+    whole = len(scans.time_s) // WINDOW * WINDOW
+    times = torch.from_numpy(scans.time_s[:whole]).view(-1, WINDOW)
+    dt = torch.cat((torch.zeros(len(times), 1), times.diff(dim=1)), 1).float()
+    windows = Singles(*(x[:whole].view(-1, WINDOW, x.shape[-1]) for x in singles[:3]), dt)
+    return torch.cat((network.smoother(windows).velocity.flatten(0, 1), singles.velocity[whole:]))
+
+
+@torch.no_grad()
 def check(network, folder: Path, generator) -> list[dict]:
-    """A network beside RANSAC on each radar of a sequence."""
+    """A network beside RANSAC on each radar of a sequence; of one for windows of frames its smoothing, too."""
     rows = []
+    plus = network if isinstance(network, DeepEgoPlus) else None
+    network = network.single if plus is not None else network
     for scans in read(folder):
         frames = scans.frames
         answers = []
@@ -112,13 +126,17 @@ def check(network, folder: Path, generator) -> list[dict]:
             part = slice(start, start + 250)
             most = int(frames.mask[part].sum(1).max())
             points, mask = frames.points[part, :most], frames.mask[part, :most]
-            with torch.no_grad():
-                answer = network(points, mask)
+            answer = network(points, mask)
             ransac, inlier, _ = classical.ransac(points, mask, generator)
             by_noise, _ = classical.weighted(points, inlier, ransac, losses.deviations)
             weight = answer.logit[-1].sigmoid()
-            answers.append((answer.velocity[-1], ransac, by_noise, weight[mask], inlier[mask], answer.covariance))
-        found, ransac, by_noise, weight, inlier, covariance = (torch.cat(x) for x in zip(*answers, strict=True))
+            told = torch.cat((answer.share.unsqueeze(-1), answer.factor.unsqueeze(-1), answer.context), -1)
+            found = (answer.velocity[-1], answer.covariance, told)
+            answers.append((*found, ransac, by_noise, weight[mask], inlier[mask]))
+        found, covariance, told, ransac, by_noise, weight, inlier = (torch.cat(x) for x in zip(*answers, strict=True))
+        of_windows = {}
+        if plus is not None:
+            of_windows["smoothed"] = scatter(scans, smoothed(plus, scans, Singles(found, covariance, told, None)))
         moving = frames.moving[frames.mask]
         there = torch.ones_like(moving)
         stated = (covariance[:, 0] + covariance[:, 2]).sqrt() / frames.velocity.norm(dim=-1).clamp(min=1)
@@ -126,6 +144,7 @@ def check(network, folder: Path, generator) -> list[dict]:
             {
                 "sensor": scans.sensor,
                 "network": scatter(scans, found),
+                **of_windows,
                 "ransac": scatter(scans, ransac),
                 "ransac_weighted_by_noise": scatter(scans, by_noise),
                 "labels": measures.labels(weight, there, moving),
@@ -142,7 +161,7 @@ def main() -> int:
     from .. import export
 
     parser = argparse.ArgumentParser(prog="boresight_training.drives.radarscenes", description=__doc__)
-    parser.add_argument("run", type=Path, help="folder of a training of deepego")
+    parser.add_argument("run", type=Path, help="folder of a training of deepego or deepego-plus")
     parser.add_argument("sequence", type=Path, help="folder of a sequence, with radar_data.h5 and scenes.json")
     arguments = parser.parse_args()
     _, _, network = export.restore(arguments.run)

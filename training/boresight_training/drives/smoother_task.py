@@ -2,6 +2,7 @@
 
 import hashlib
 from dataclasses import asdict
+from math import log
 from pathlib import Path
 
 import numpy as np
@@ -180,10 +181,28 @@ class DeepEgoPlusTask:
     def confidence(self, model, count, generator):
         return None
 
+    @torch.no_grad()
     def deviations(self, model, count, generator):
-        return None
+        """One factor, of windows of all conditions."""
+        if self.test is None:
+            return None
+        data = Dataset([self.test])
+        count = max(1, min(count, len(data)) // data.window)
+        order = torch.randperm(len(data) // data.window, generator=generator)[:count]
+        squared = []
+        windows = data.window * order.sort().values.numpy()[:, None] + np.arange(data.window)
+        for rows in np.array_split(windows, max(1, count // 32)):
+            frames = data.take(rows.ravel())
+            answer = model.smoother(_windows(model, frames, data, rows.ravel()))
+            error = answer.velocity.flatten(0, 1) - frames.velocity
+            good = plain(frames).determined & (error.norm(dim=-1) < measures.FAILED_MPS)
+            squared.append(measures.whitened(error, answer.covariance.flatten(0, 1))[good])
+        return [measures.deviation_factor(torch.cat(squared))]
 
     def export_form(self, model, deviations=None):
+        if deviations is not None:
+            with torch.no_grad():
+                model.smoother.window.bias[-1] += log(deviations[0])
         return _Motions(model)
 
     def write(self, form, path: Path, half_from: int | None) -> dict:

@@ -1,6 +1,7 @@
 """DeepEgo's data, losses and scores."""
 
 from dataclasses import asdict, dataclass
+from math import log
 from pathlib import Path
 
 import numpy as np
@@ -44,8 +45,8 @@ CONDITIONS = {
 """What frames are scored on."""
 WEIGHTS = {"motion": 1.0, "robust": 0.2, "weights": 2.0, "doppler": 0.1}
 """Of the parts of the loss."""
-STAGES = (0.3, 0.6, 1.0)
-"""Weights of the fits in the parts of the loss that all have."""
+BEFORE_LAST = 0.3
+"""Weight of the fits but the last in the parts of the loss that all have."""
 
 
 class DeepEgoTask:
@@ -55,7 +56,7 @@ class DeepEgoTask:
     reference = "Zhu, Yarovoy and Fioranelli (2023), DeepEgo; Zhu et al. (2025), Radar mounting angle estimation"
     architecture = (
         "Detections are encoded one by one by two layers, pooled by mean and maximum, and weighed by three layers on "
-        "both. Weighted least squares gives the motion; two refinements with shared layers weigh anew by residuals. A "
+        "both. Weighted least squares gives the motion; four refinements with shared layers weigh anew by residuals. A "
         "factor scales equation 3's covariance."
     )
     differences = (
@@ -131,13 +132,14 @@ class DeepEgoTask:
         known = part.determined.float()
         error = answer.velocity - frames.velocity
         mask = frames.mask.float()
+        stages = [BEFORE_LAST] * (len(error) - 1) + [1.0]
         return {
             "motion": known * losses.motion(error[-1], answer.covariance),
-            "robust": sum(w * known * losses.robust(e) for w, e in zip(STAGES, error, strict=True)),
-            "weights": sum(w * losses.weights(x, part.target, mask) for w, x in zip(STAGES, answer.logit, strict=True)),
+            "robust": sum(w * known * losses.robust(e) for w, e in zip(stages, error, strict=True)),
+            "weights": sum(w * losses.weights(x, part.target, mask) for w, x in zip(stages, answer.logit, strict=True)),
             "doppler": sum(
                 w * losses.doppler(frames.points, mask, v, x)
-                for w, v, x in zip(STAGES, answer.velocity, answer.logit, strict=True)
+                for w, v, x in zip(stages, answer.velocity, answer.logit, strict=True)
             ),
         }
 
@@ -200,10 +202,25 @@ class DeepEgoTask:
     def confidence(self, model, count, generator):
         return None
 
+    @torch.no_grad()
     def deviations(self, model, count, generator):
-        return None
+        """One factor, of frames of all conditions whose motion they tell."""
+        if self.test is None:
+            return None
+        data = Dataset([self.test])
+        chosen = torch.randperm(len(data), generator=generator)[:count].sort().values.numpy()
+        squared = []
+        for frames in parts(data, chosen):
+            answer = model(frames.points, frames.mask)
+            error = answer.velocity[-1] - frames.velocity
+            good = plain(frames).determined & (error.norm(dim=-1) < measures.FAILED_MPS)
+            squared.append(measures.whitened(error, answer.covariance)[good])
+        return [measures.deviation_factor(torch.cat(squared))]
 
     def export_form(self, model, deviations=None):
+        if deviations is not None:
+            with torch.no_grad():
+                model.spread[-1].bias += log(deviations[0])
         return _Motion(model)
 
     def write(self, form, path: Path, half_from: int | None) -> dict:

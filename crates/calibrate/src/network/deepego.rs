@@ -8,7 +8,7 @@ use boresight_core::Detection;
 const FEATURES: usize = 9;
 /// Numbers of a residual that a refinement sees.
 const OWN: usize = 4;
-const REFINEMENTS: usize = 2;
+const REFINEMENTS: usize = 4;
 /// Scales of residuals: of range rates, m/s, and of what an azimuth error, rad, makes of the slope.
 const RESIDUAL_MPS: f32 = 0.05;
 const AZIMUTH_RAD: f32 = 0.005;
