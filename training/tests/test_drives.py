@@ -238,6 +238,17 @@ def test_ransac_finds_the_motion():
     error = (velocity - frames.velocity).norm(dim=-1)[known]
     assert error.median() < 0.05
     assert not (inlier & ~frames.mask).any() and (covariance[:, 0] > 0).all()
+    # Most detections move as one; the measured speed tells which do not.
+    points = frames.points.clone()
+    queue = torch.arange(40) % 4 > 0
+    points[..., 1] = torch.where(queue, 0.2 * points[..., 1], points[..., 1])
+    generator = torch.Generator().manual_seed(2)
+    speed = frames.velocity.norm(dim=-1)
+    errors = []
+    for gate in (None, speed):
+        velocity, _, _ = classical.ransac(points, frames.mask, generator, 200, gate)
+        errors.append(float((velocity - frames.velocity).norm(dim=-1)[known & (speed > 5)].median()))
+    assert errors[0] > 3 and errors[1] < 0.3
 
 
 def test_measures_count_failures_and_coverage():

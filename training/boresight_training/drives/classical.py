@@ -8,10 +8,17 @@ INLIER_MPS = 0.3
 """Residual within which RANSAC takes a detection as an inlier, as `boresight calibrate` by default."""
 DRAWS = 64
 LEAST_SINE = 0.01
+GATE_MPS, GATE_SHARE = 0.2, 0.02
+"""How far from a measured speed a motion's may be: in itself, and by the speed."""
+SPEED_SCALE, SPEED_MPS = 0.003, 0.03
+"""Deviations of a measured speed: of its scale, and white."""
 
 
-def ransac(points, mask, generator, draws=DRAWS):
-    """Velocity [frames, 2], inliers [frames, points] and equation 3's covariance as xx, xy, yy [frames, 3]."""
+def ransac(points, mask, generator, draws=DRAWS, speed=None):
+    """Velocity [frames, 2], inliers [frames, points] and equation 3's covariance as xx, xy, yy [frames, 3].
+
+    With `speed` [frames], m/s, as a car measures its radar's, motions of other speeds are not taken.
+    """
     cos, sin = fit.sight(points)
     rate = points[..., 1]
     count = mask.sum(-1).clamp(min=1)
@@ -22,6 +29,9 @@ def ransac(points, mask, generator, draws=DRAWS):
     usable = cross.abs() > LEAST_SINE
     cross = torch.where(usable, cross, 1.0)
     candidates = torch.stack(((s1 * r2 - s2 * r1) / cross, (c2 * r1 - c1 * r2) / cross), -1)
+    if speed is not None:
+        gate = GATE_MPS + GATE_SHARE * speed
+        usable &= (candidates.norm(dim=-1) - speed.unsqueeze(-1)).abs() < gate.unsqueeze(-1)
     best = torch.full((frames,), -1)
     velocity = torch.zeros(frames, 2)
     for i in range(draws):

@@ -162,7 +162,7 @@ class DeepEgoTask:
 
     def score(self, model, data: Dataset, chosen: np.ndarray, generator) -> dict[str, float]:
         """Scores of the network and of RANSAC on frames by number."""
-        found, classic, noise_weighted, said, truths = [], [], [], [], []
+        found, classic, noise_weighted, gated, said, truths = [], [], [], [], [], []
         for frames in parts(data, chosen):
             truth = plain(frames)
             known = truth.determined
@@ -172,6 +172,11 @@ class DeepEgoTask:
             classic.append((velocity[known], covariance[known]))
             by_noise = classical.weighted(frames.points, inlier, velocity, losses.deviations)
             noise_weighted.append(tuple(x[known] for x in by_noise))
+            speed = frames.velocity.norm(dim=-1)
+            scale = 1 + classical.SPEED_SCALE * torch.randn(len(speed), generator=generator)
+            speed = scale * speed + classical.SPEED_MPS * torch.randn(len(speed), generator=generator)
+            velocity, _, covariance = classical.ransac(frames.points, frames.mask, generator, speed=speed)
+            gated.append((velocity[known], covariance[known]))
             truths.append(frames.velocity[known])
             weight = answer.logit[-1].sigmoid()
             said.append(
@@ -185,7 +190,7 @@ class DeepEgoTask:
             return measures.motion(*(torch.cat(x) for x in zip(*parts_, strict=True)), true)
 
         of_network = torch.cat([v for v, _ in found])
-        network, ransac, weighted = of(found), of(classic), of(noise_weighted)
+        network, ransac, weighted, with_speed = of(found), of(classic), of(noise_weighted), of(gated)
         return {
             **network,
             **measures.labels(weight, all_there, moving),
@@ -193,6 +198,8 @@ class DeepEgoTask:
             **{f"ransac_{name}": value for name, value in ransac.items()},
             "ransac_f1": measures.labels(inlier.float(), all_there, moving)["f1"],
             **{f"weighted_ransac_{name}": weighted[name] for name in ("failed", "direction_variance_deg2")},
+            **{f"gated_ransac_{name}": with_speed[name] for name in ("failed", "direction_variance_deg2")},
+            "variance_over_gated_ransac": measures.variance_ratio(of_network, torch.cat([v for v, _ in gated]), true),
             "variance_over_ransac": measures.variance_ratio(of_network, torch.cat([v for v, _ in classic]), true),
             "variance_over_weighted": measures.variance_ratio(
                 of_network, torch.cat([v for v, _ in noise_weighted]), true
