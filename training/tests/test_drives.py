@@ -213,10 +213,24 @@ def test_mirroring_keeps_frames_true_and_noise_is_scaled():
     inlier = varied.target > 0
     for chosen in (mirrored, ~mirrored):
         deviation = float(residual[chosen][inlier[chosen]].std())
+        assert float(inlier[chosen].sum() / frames.mask[chosen].sum()) > 0.6
         # 0.05 m/s times 0.5 to 2.
         assert 0.05 < deviation < 0.07
     dropped = varied.frames.points[:, 0, 2].isnan().float().mean()
     assert 0.25 < float(dropped) < 0.55
+
+
+def test_clusters_of_ghosts_have_one_motion_and_no_weight():
+    frames = synthetic(1000, 40, torch.Generator().manual_seed(14))
+    varied = augment.varied(frames, torch.Generator().manual_seed(15))
+    cos, sin = fit.sight(varied.frames.points)
+    residual = fit.residuals(cos, sin, varied.frames.points[..., 1], varied.frames.velocity)
+    assert float(residual[varied.target > 0].abs().max()) < 2.5
+    standing = frames.mask & ~frames.moving
+    lost = (standing & (varied.target == 0)).sum(1) / standing.sum(1).clamp(min=1)
+    # Seven in ten frames have no clusters, and at most a tenth of single ghosts.
+    assert 0.6 < float((lost < 0.2).float().mean()) < 0.95
+    assert float((lost > 0.25).float().mean()) > 0.05
 
 
 def test_curriculum_begins_with_little_traffic(tmp_path):

@@ -16,6 +16,9 @@ THINNEST = 0.1
 NOISE = (0.5, 2.0)
 GHOSTS = (0.5, 0.1)
 """Share of the frames with more ghosts, and their most."""
+BODIES, BODY_MPS = 3, 20.0
+BODY_FRAMES, BODY_HALF_RAD = 0.3, (0.02, 0.25)
+"""Clusters of ghosts of one motion each: most a frame, most speed along each axis, share of the frames, extent."""
 DROPPED = 0.3
 """Share of the frames without ranges, and without cross-sections."""
 CHUNK = 32
@@ -83,11 +86,30 @@ def varied(frames: Frames, generator: torch.Generator, window: int = 1) -> Examp
     ghost = unit(count, most) < share
     widest = velocity.norm(dim=-1, keepdim=True) + 6
     points[..., 1] = torch.where(ghost, widest * (2 * unit(count, most) - 1), points[..., 1])
-    inlier &= ~ghost
+    body = _bodies(points, unit)
+    points[..., 1] += body
+    inlier &= ~ghost & (body == 0)
     for column in (2, 3):
         points[unit(count) < DROPPED, :, column] = torch.nan
     varied_frames = Frames(points, frames.mask, frames.moving, velocity)
     return Examples(varied_frames, inlier.float(), losses.determined(inlier, points))
+
+
+def _bodies(points, unit):
+    """What clusters of ghosts, each with a motion of its own, add to range rates, [frames, points]."""
+    count = len(points)
+    azimuth = points[..., 0]
+    cos, sin = fit.sight(points)
+    some = unit(count, 1) < BODY_FRAMES
+    added = torch.zeros_like(azimuth)
+    for _ in range(BODIES):
+        centre = 2.4 * unit(count, 1) - 1.2
+        half = BODY_HALF_RAD[0] + (BODY_HALF_RAD[1] - BODY_HALF_RAD[0]) * unit(count, 1)
+        share = 0.3 + 0.7 * unit(count, 1)
+        x, y = (BODY_MPS * (2 * unit(count, 1) - 1) for _ in range(2))
+        within = some & ((azimuth - centre).abs() < half) & (unit(*azimuth.shape) < share)
+        added = torch.where(within, x * cos + y * sin, added)
+    return added
 
 
 def plain(frames: Frames) -> Examples:
