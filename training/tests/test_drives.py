@@ -11,7 +11,17 @@ import torch
 
 from boresight_training import checkpoint, export
 from boresight_training.__main__ import evaluate, parser, train
-from boresight_training.drives import augment, classical, fit, losses, measures, radarscenes, smoother, weights_file
+from boresight_training.drives import (
+    augment,
+    classical,
+    fit,
+    losses,
+    measures,
+    radarscenes,
+    smoother,
+    smoother_task,
+    weights_file,
+)
 from boresight_training.drives.dataset import DETECTION, FRAME, NOTHING_STATIC, Dataset, Frames
 from boresight_training.drives.deepego import CONFIGS, DeepEgo, scale
 from boresight_training.drives.task import DeepEgoTask, synthetic
@@ -414,6 +424,21 @@ def test_smoothing_lessens_noise_before_and_turns_with_the_radar():
         expected = smoother.turned(answer.velocity, answer.covariance, cos, sin)
     assert torch.allclose(other.velocity, expected[0], atol=1e-3)
     assert torch.allclose(other.covariance, expected[1], atol=1e-5)
+
+
+def test_windows_are_those_of_the_frames_whatever_their_counts(tmp_path):
+    stored(tmp_path, 80, 30)
+    data = Dataset([tmp_path])
+    torch.manual_seed(3)
+    network = task("deepego-plus", "tiny").model().eval()
+    indices = np.arange(80)
+    frames = data.take(indices)
+    with torch.no_grad():
+        singles = smoother_task._windows(network, frames, data, indices, 16)
+        answer = network.single(frames.points, frames.mask)
+    assert torch.allclose(singles.velocity.flatten(0, 1), answer.velocity[-1], rtol=1e-3, atol=1e-3)
+    assert torch.allclose(singles.told.flatten(0, 1)[:, 2:], answer.context, atol=1e-5)
+    assert singles.dt.shape == (10, 8)
 
 
 def test_the_smoother_trains_on_a_trained_network_and_resumes(tmp_path):

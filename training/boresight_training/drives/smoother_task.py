@@ -17,7 +17,7 @@ from .dataset import Dataset
 from .smoother import CONFIGS, DeepEgoPlus, Singles, Smoothed, Smoother
 from .task import CONDITIONS, synthetic
 
-WINDOWS = 30_000
+WINDOWS = 15_000
 """Windows that the single-frame network is run on before training, drawn from all."""
 PLAIN = 0.5
 """Share of them that are not varied."""
@@ -239,7 +239,17 @@ class _Motions(nn.Module):
         return torch.cat((answer.velocity, answer.covariance), -1)
 
 
-def _windows(network, frames, data, indices) -> Singles:
-    window, most = data.window, frames.mask.shape[1]
-    dt = torch.from_numpy(data.frames["dt"][indices].copy()).view(-1, window)
-    return network.singles(frames.points.view(-1, window, most, 4), frames.mask.view(-1, window, most), dt)
+def _windows(network, frames, data, indices, size: int = 64) -> Singles:
+    """The single-frame network's answers, of frames with about as many detections together."""
+    dt = torch.from_numpy(data.frames["dt"][indices].copy()).view(-1, data.window)
+    count = frames.mask.sum(1)
+    order = count.argsort()
+    answers = []
+    for rows in order.split(size):
+        most = max(1, int(count[rows].max()))
+        answers.append(
+            network.singles(frames.points[rows, :most].unsqueeze(1), frames.mask[rows, :most].unsqueeze(1), dt)
+        )
+    back = order.argsort()
+    joined = (torch.cat([answer[i] for answer in answers])[back] for i in range(3))
+    return Singles(*(x.reshape(-1, data.window, x.shape[-1]) for x in joined), dt)

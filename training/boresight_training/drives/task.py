@@ -263,7 +263,8 @@ class _Motion(nn.Module):
 
 
 def parts(data: Dataset, chosen: np.ndarray, size: int = 250):
-    """Frames by number, some at a time."""
+    """Frames by number, some at a time, those with few detections first, so that little is padded."""
+    chosen = chosen[np.argsort(data.frames["count"][chosen], kind="stable")]
     for start in range(0, len(chosen), size):
         yield data.take(chosen[start : start + size])
 
