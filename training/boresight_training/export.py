@@ -165,7 +165,7 @@ def export(
     With `golden_in` a golden batch is written to a folder there of the model's name, with `weights` a file that another
     run can start from. The card has the learning curve of the folder, and of those `beside`. `test` holds stored data
     to score on. Networks with a form for our module have that written, too, under the same name and into the golden
-    folder.
+    folder, where the card stands beside.
     """
     saved, what, network = restore(folder, **({} if test is None else {"test": test}))
     parameters = sum(p.numel() for p in network.parameters())
@@ -215,7 +215,10 @@ def export(
         "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
     }
     card = _camel_case(card)
-    path.with_suffix(".json").write_text(json.dumps(card, indent=2) + "\n")
+    text = json.dumps(card, indent=2) + "\n"
+    path.with_suffix(".json").write_text(text)
+    if golden_in is not None and own:
+        (golden_in / path.stem / "card.json").write_text(text)
     return card
 
 
