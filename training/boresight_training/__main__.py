@@ -8,6 +8,8 @@ from pathlib import Path
 import torch
 
 from . import export, processes
+from .drives import smoother_task
+from .drives.dataset import Dataset
 from .tasks import NEAR, NETWORKS, SETUPS, task
 from .train import Settings, Training
 
@@ -41,6 +43,14 @@ def parser() -> argparse.ArgumentParser:
     radars = "counting, cnn3d, dnn: radar of Table 3 or of Table 4"
     train.add_argument("--setup", choices=tuple(SETUPS), default="simulated", help=radars)
     train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
+    stored = "deepego, deepego-plus: folder of simulate drive --dataset to train on; may be given several times"
+    train.add_argument("--data", type=Path, action="append", default=[], metavar="DIR", help=stored)
+    scored = "deepego, deepego-plus: folder of simulate drive --dataset, of another seed, to score on"
+    train.add_argument("--test", type=Path, metavar="DIR", help=scored)
+    on = "deepego-plus: folder of the training of the single-frame network that it smooths"
+    train.add_argument("--single", type=Path, metavar="DIR", help=on)
+    alone = "deepego: train by the Doppler loss alone, which needs no labels and no true motion"
+    train.add_argument("--doppler-loss-only", action="store_true", help=alone)
     train.add_argument(
         "--resume",
         "--folder",
@@ -75,6 +85,7 @@ def parser() -> argparse.ArgumentParser:
     evaluate = commands.add_parser("evaluate", help="score the network of a training folder")
     evaluate.add_argument("folder", type=Path)
     evaluate.add_argument("--count", type=int, default=4000, help="examples a condition")
+    evaluate.add_argument("--test", type=Path, metavar="DIR", help=scored)
 
     write = commands.add_parser("export", help="write the network of a training folder as ONNX, with its card")
     write.add_argument("folder", type=Path)
@@ -84,6 +95,7 @@ def parser() -> argparse.ArgumentParser:
     beside = "show the learning curve of another run on the card, too; may be given several times"
     write.add_argument("--beside", type=Path, action="append", default=[], metavar="DIR", help=beside)
     write.add_argument("--golden", type=Path, metavar="DIR", help="write a golden batch to a folder in there")
+    write.add_argument("--test", type=Path, metavar="DIR", help=scored)
     write.add_argument("--weights", type=Path, metavar="F.pt", help="write what another run can start from")
     return top
 
@@ -104,7 +116,15 @@ def train(arguments) -> list[dict]:
         identity["snr_db"] = a.snr_db
     if a.channel_error is not None:
         identity["channel_error"] = a.channel_error
-    what = task(**identity)
+    if a.data:
+        identity["data"] = Dataset(a.data).told()
+    if a.doppler_loss_only:
+        identity["doppler_loss_only"] = True
+    places = {"folders": a.data, "test": a.test} if a.data else {}
+    if a.single is not None:
+        places["weights"] = smoother_task.single(a.single)
+        identity["single_digest"] = smoother_task.digest(places["weights"])
+    what = task(**identity, **places)
     group = processes.start(a.device)
     on_gpu = group.device.type == "cuda"
     settings = Settings(
@@ -132,7 +152,7 @@ def train(arguments) -> list[dict]:
 
 def evaluate(arguments) -> list[dict]:
     """Scores of a training folder."""
-    _, what, network = export.restore(arguments.folder)
+    _, what, network = export.restore(arguments.folder, **({"test": arguments.test} if arguments.test else {}))
     with torch.no_grad():
         return what.evaluate(network, arguments.count, torch.Generator().manual_seed(30_000))
 
@@ -147,7 +167,8 @@ def main() -> int:
             result = evaluate(arguments)
         else:
             a = arguments
-            result = export.export(a.folder, a.out, a.precision, a.count, a.golden, a.weights, tuple(a.beside))
+            beside = tuple(a.beside)
+            result = export.export(a.folder, a.out, a.precision, a.count, a.golden, a.weights, beside, a.test)
     except (ValueError, FileNotFoundError) as error:
         print(f"boresight_training: {error}", file=sys.stderr)
         return 2

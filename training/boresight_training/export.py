@@ -4,6 +4,7 @@ import hashlib
 import json
 import platform
 import re
+import shutil
 import warnings
 from pathlib import Path
 
@@ -44,12 +45,12 @@ SEEDS = {"example": 7, "metrics": 30_000, "confidence": 40_000, "deviations": 50
 """Seeds of data that no training sees, each for one use."""
 
 
-def restore(folder: Path) -> tuple[dict, Task, torch.nn.Module]:
-    """Checkpoint, task and averaged network of a training folder."""
+def restore(folder: Path, **places: Path) -> tuple[dict, Task, torch.nn.Module]:
+    """Checkpoint, task and averaged network of a training folder; `places` are those of stored data."""
     saved = checkpoint.load(folder)
     if saved is None:
         raise FileNotFoundError(f"{folder} holds no {checkpoint.NAME}")
-    what = task(**saved["identity"])
+    what = task(**saved["identity"], **places)
     network = what.model()
     network.load_state_dict(saved["ema"])
     return saved, what, network.eval()
@@ -111,11 +112,20 @@ def _difference(what, form, path, batch, generator) -> float:
     example = what.example(batch, generator)
     session = onnxruntime.InferenceSession(path, providers=["CPUExecutionProvider"])
     names = [port.name for port in what.inputs]
-    (given,) = session.run(None, {name: x.numpy() for name, x in zip(names, example, strict=True)})
+    all_given = session.run(None, {name: x.numpy() for name, x in zip(names, example, strict=True)})
+    differences = []
+    for given, value in zip(all_given, _answers(form, example), strict=True):
+        expected, kinds = value.numpy(), tuple(range(given.ndim - 1))
+        off = np.abs(given - expected).max(kinds) / np.maximum(1.0, np.abs(expected).max(kinds))
+        differences.append(float(off.max()))
+    return max(differences)
+
+
+def _answers(form, example) -> tuple[torch.Tensor, ...]:
+    """What PyTorch answers, one tensor for each output."""
     with torch.no_grad():
-        expected = form(*example).numpy()
-    kinds = tuple(range(given.ndim - 1))
-    return float((np.abs(given - expected).max(kinds) / np.maximum(1.0, np.abs(expected).max(kinds))).max())
+        answer = form(*example)
+    return answer if isinstance(answer, tuple) else (answer,)
 
 
 def _store_half(graph) -> None:
@@ -134,10 +144,9 @@ def _store_half(graph) -> None:
 def golden(what: Task, form: torch.nn.Module, folder: Path) -> None:
     """Writes a batch of inputs, and what PyTorch answers to it, as .npy files named as the ports are."""
     folder.mkdir(parents=True, exist_ok=True)
-    example = what.example(GOLDEN_BATCH, torch.Generator().manual_seed(SEEDS["example"]))
-    with torch.no_grad():
-        answer = form(*example)
-    for port, value in zip((*what.inputs, *what.outputs), (*example, answer), strict=True):
+    batch = getattr(what, "golden_batch", GOLDEN_BATCH)
+    example = what.example(batch, torch.Generator().manual_seed(SEEDS["example"]))
+    for port, value in zip((*what.inputs, *what.outputs), (*example, *_answers(form, example)), strict=True):
         np.save(folder / f"{port.name}.npy", value.numpy())
 
 
@@ -149,13 +158,16 @@ def export(
     golden_in: Path | None = None,
     weights: Path | None = None,
     beside: tuple[Path, ...] = (),
+    test: Path | None = None,
 ) -> dict:
     """Writes the network of a training folder to `path`, its card beside it, and returns the card.
 
     With `golden_in` a golden batch is written to a folder there of the model's name, with `weights` a file that another
-    run can start from. The card has the learning curve of the folder, and of those `beside`.
+    run can start from. The card has the learning curve of the folder, and of those `beside`. `test` holds stored data
+    to score on. Networks with a form for our module have that written, too, under the same name and into the golden
+    folder, where the card stands beside.
     """
-    saved, what, network = restore(folder)
+    saved, what, network = restore(folder, **({} if test is None else {"test": test}))
     parameters = sum(p.numel() for p in network.parameters())
     if isinstance(network, torch.nn.Sequential):
         # The metrics below are then those of the rounded weights.
@@ -166,8 +178,11 @@ def export(
     deviations = what.deviations(network, count, torch.Generator().manual_seed(SEEDS["deviations"]))
     form = exported_form(what, network, precision, deviations)
     difference = to_onnx(what, form, path, precision)
+    own = what.write(form, path, None if precision == "single" else ROUNDED_FROM) if hasattr(what, "write") else {}
     if golden_in is not None:
         golden(what, form, golden_in / path.stem)
+        if own:
+            shutil.copy(path.with_suffix(".bin"), golden_in / path.stem / "weights.bin")
     with torch.no_grad():
         metrics = what.evaluate(network, count, torch.Generator().manual_seed(SEEDS["metrics"]))
         confidence = what.confidence(network, count, torch.Generator().manual_seed(SEEDS["confidence"]))
@@ -194,12 +209,16 @@ def export(
         "metrics": [{name: _rounded(value) for name, value in condition.items()} for condition in metrics],
         "metricsExamples": count,
         **({"learning": curves} if curves else {}),
+        **own,
         "onnx": {"opset": OPSET, "weights": STORED_AS[precision], "parity": difference},
         "bytes": path.stat().st_size,
         "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
     }
     card = _camel_case(card)
-    path.with_suffix(".json").write_text(json.dumps(card, indent=2) + "\n")
+    text = json.dumps(card, indent=2) + "\n"
+    path.with_suffix(".json").write_text(text)
+    if golden_in is not None and own:
+        (golden_in / path.stem / "card.json").write_text(text)
     return card
 
 

@@ -3,6 +3,7 @@
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from math import log
+from pathlib import Path
 from typing import Any, Protocol
 
 import torch
@@ -15,6 +16,9 @@ from .arrays import ELEMENTS, array, random_arrays
 from .classifiers import COVARIANCE_FEATURES, DNN_HIDDEN, counting, dnn, folded
 from .cnn3d import CNN3D, Cnn3d
 from .covariance_networks import CNN_CONFIGS, MUSIC_CONFIGS
+from .drives import deepego, smoother
+from .drives.smoother_task import DeepEgoPlusTask
+from .drives.task import DeepEgoTask
 from .ports import Port, snapshot_ports
 from .regions import CHIRPS, CLASSES, LENGTH, Cubes, channels, covariance_features, labels, regions
 from .score import best_f1, right_predictions
@@ -429,6 +433,8 @@ NETWORKS = {
     "unrolled-iaa": tuple(unrolled_iaa.CONFIGS),
     "covariance-cnn": tuple(CNN_CONFIGS),
     "deep-music": tuple(MUSIC_CONFIGS),
+    "deepego": tuple(deepego.CONFIGS),
+    "deepego-plus": tuple(smoother.CONFIGS),
 }
 
 
@@ -442,13 +448,25 @@ def task(
     snr_db: tuple[float, float] | None = None,
     near: float = NEAR,
     channel_error: tuple[float, float] = (0.0, 0.0),
+    data: list[dict] | None = None,
+    doppler_loss_only: bool = False,
+    single_digest: str | None = None,
+    folders: list[Path] | None = None,
+    test: Path | None = None,
+    weights: dict | None = None,
 ) -> Task:
     """A network by name and size.
 
-    `targets` is the most that it is trained on (16, of covariances 3), or how many a classifier sees (1).
+    `targets` is the most that it is trained on (16, of covariances 3), or how many a classifier sees (1). `data` tells
+    what stored data are, which lie in `folders` and, to score on, in `test`. deepego-plus is trained on the
+    single-frame network with `weights`, which `single_digest` tells.
     """
     if config not in NETWORKS[name]:
         raise ValueError(f"config {config!r} of {name}: expected {', '.join(NETWORKS[name])}")
+    if name == "deepego":
+        return DeepEgoTask(config, data, doppler_loss_only, folders, test)
+    if name == "deepego-plus":
+        return DeepEgoPlusTask(config, data, single_digest, folders, test, weights)
     snr_db = None if snr_db is None else tuple(snr_db)
     if name in ("aaetr", "learned-pursuit"):
         return AaetrTask(config, position_error, 16 if targets is None else targets, arrays, snr_db)

@@ -54,6 +54,7 @@ pub mod frame;
 pub mod joint;
 pub mod merge;
 pub mod motion;
+pub mod network;
 pub mod options;
 pub mod recursive;
 mod small;

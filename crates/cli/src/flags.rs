@@ -34,6 +34,11 @@ impl<T> Flags<T> {
         self.given.contains(&field)
     }
 
+    /// Names in Rust of the fields that stand directly in the options and were given.
+    pub fn all_given(&self) -> &[&'static str] {
+        &self.given
+    }
+
     /// Whether any field that stands directly in the options was given.
     pub fn is_given(&self) -> bool {
         !self.given.is_empty()

@@ -93,6 +93,38 @@ fn a_simulated_drive_is_written_and_read_back() {
     assert_eq!(parsed(&stdout(&["log", sequence.to_str().unwrap(), "--json"])), log);
 }
 
+#[test]
+fn a_set_of_data_is_written_and_not_replaced() {
+    let folder = folder("dataset");
+    let out = folder.to_str().unwrap();
+    let arguments = |extra: &[&'static str]| -> Vec<String> {
+        let fixed = ["simulate", "drive", "--seed", "4", "--frames", "100", "--dataset", out];
+        fixed.iter().chain(extra).map(|text| (*text).to_owned()).collect()
+    };
+    let run = |extra: &[&'static str]| {
+        let arguments = arguments(extra);
+        boresight(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    assert!(run(&["--scenario", "motorway"]).status.success());
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let card: Value = serde_json::from_slice(&read("dataset.json")).unwrap();
+    assert_eq!((&card["frames"], &card["scenario"]), (&104.into(), &"motorway".into()));
+    let detections = read("detections.bin");
+    assert_eq!(read("frames.bin").len(), 104 * 28);
+    assert_eq!(detections.len() as u64, 8 * card["detections"].as_u64().unwrap());
+
+    let said = |extra: &[&'static str]| String::from_utf8_lossy(&run(extra).stderr).into_owned();
+    assert!(said(&[]).contains("--force"));
+    assert!(said(&["--force", "--duration", "10"]).contains("given:    --duration"));
+    let left_out = ["--force", "--scenario", "city", "--scenario-left-out", "city"];
+    assert!(said(&left_out).contains("expected: another kind of roads"));
+    assert_eq!(read("detections.bin"), detections);
+    assert!(run(&["--force", "--scenario", "city"]).status.success());
+    assert_ne!(read("detections.bin"), detections);
+    let without = boresight(&["simulate", "drive", "--seed", "4", "--frames", "100", "--out", out]);
+    assert!(String::from_utf8_lossy(&without.stderr).contains("--dataset"));
+}
+
 /// Writes a short drive with radar 2 off by 1.5 deg and gives its folder.
 fn simulated(name: &str) -> PathBuf {
     let folder = folder(name);

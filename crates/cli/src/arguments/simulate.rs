@@ -1,6 +1,7 @@
 //! What `simulate` takes.
 
 use crate::flags::{Flags, OnCommandLine};
+use boresight_simulate::drive::dataset::DatasetOptions;
 use boresight_simulate::{CubeRequest, DriveOptions, SceneSampling, SnapshotRequest};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
@@ -22,7 +23,11 @@ pub enum SimulateCommand {
 #[command(after_help = "\
 Writes DIR/data/sequence_1/radar_data.h5 and scenes.json, DIR/data/sensors.json and sequences.json, \
 and the truth, DIR/truth.json, which calibrate does not read. sensors.json has the nominal \
-mountings: those of --sensor less the misalignment.")]
+mountings: those of --sensor less the misalignment.
+
+With --dataset, many short drives as compact columns to train networks on, in DIR/frames.bin, \
+DIR/detections.bin and DIR/dataset.json; of the options of a drive it takes --seed and --scenario, the \
+only kind of roads.")]
 pub struct DriveArguments {
     /// Seed; the same one gives the same drive on every machine.
     #[arg(long, value_name = "S")]
@@ -43,8 +48,20 @@ pub struct DriveArguments {
     #[arg(long)]
     pub packed: bool,
     /// Folder to write.
-    #[arg(long, value_name = "DIR")]
-    pub out: PathBuf,
+    #[arg(long, value_name = "DIR", required_unless_present = "dataset")]
+    pub out: Option<PathBuf>,
+    /// Folder for a set of data in place of one drive.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "sensors", "misalignments", "packed"])]
+    pub dataset: Option<PathBuf>,
+    /// What the set of data holds.
+    #[command(flatten)]
+    pub of_dataset: Flags<DatasetOptions>,
+}
+
+impl OnCommandLine for DatasetOptions {
+    const HEADING: &'static str = "Set of data, with --dataset";
+    /// Seed and roads have the flags of a drive.
+    const ELSEWHERE: &'static [&'static str] = &["seed", "scenario"];
 }
 
 impl OnCommandLine for DriveOptions {

@@ -16,5 +16,6 @@ pub mod log_statistics;
 pub mod network;
 pub mod regions;
 pub mod simulate;
+mod simulated_dataset;
 mod simulated_drive;
 mod snapshots;

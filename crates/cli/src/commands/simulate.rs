@@ -18,7 +18,12 @@ pub fn run(what: &SimulateCommand, files: &Files) -> Result<String, CliError> {
     match what {
         SimulateCommand::Snapshots(arguments) => snapshots(arguments, files),
         SimulateCommand::Cube(arguments) => cube(arguments, files),
-        SimulateCommand::Drive(arguments) => super::simulated_drive::run(arguments, files),
+        SimulateCommand::Drive(arguments) => match (&arguments.dataset, &arguments.out) {
+            (Some(folder), _) => super::simulated_dataset::run(arguments, folder, files),
+            (None, Some(folder)) => super::simulated_drive::run(arguments, folder, files),
+            // The parser asks for one of them.
+            (None, None) => Ok(String::new()),
+        },
     }
 }
 

@@ -12,16 +12,24 @@ use boresight_pipeline::Progress;
 use boresight_simulate::drive::PlacedRadar;
 use boresight_simulate::{DriveOptions, SimulatedDrive, simulate_drive_reporting};
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// The one sequence written.
 const SEQUENCE: &str = "sequence_1";
 
 /// Simulates a drive, writes it and says what there is.
-pub fn run(arguments: &DriveArguments, files: &Files) -> Result<String, CliError> {
+pub fn run(arguments: &DriveArguments, out: &Path, files: &Files) -> Result<String, CliError> {
+    if arguments.of_dataset.is_given() {
+        return Err(CliError::Option {
+            option: "--dataset",
+            expected: "a folder, with options of sets of data".into(),
+            given: "none".into(),
+        });
+    }
     let options = options(arguments)?;
-    let data = arguments.out.join("data");
+    let data = out.join("data");
     let folder = data.join(SEQUENCE);
-    let truth_path = arguments.out.join("truth.json");
+    let truth_path = out.join("truth.json");
     let radar_data = files.destination(&folder.join("radar_data.h5"))?;
     let scenes = files.destination(&folder.join("scenes.json"))?;
     let sensors = files.destination(&data.join("sensors.json"))?;

@@ -5,6 +5,7 @@
 //! on it; each radar scans on its own clock. See `docs/simulated-drives.md`.
 
 mod columns;
+pub mod dataset;
 mod inertial;
 mod motion;
 mod options;
@@ -103,6 +104,23 @@ pub fn simulate_drive(options: &DriveOptions) -> Result<SimulatedDrive, Simulate
 /// As [`simulate_drive`]; [`SimulateError::Cancelled`] if `report` breaks.
 pub fn simulate_drive_reporting(
     options: &DriveOptions,
+    report: impl FnMut(usize, usize) -> ControlFlow<()>,
+) -> Result<SimulatedDrive, SimulateError> {
+    simulate(options, Variant { trimmed: true, cycle_factor: 1.0 }, report)
+}
+
+/// What a set of data has otherwise than a drive.
+#[derive(Debug, Clone, Copy)]
+struct Variant {
+    /// Whether the moving share is brought to what was asked for; else it sets the traffic alone.
+    trimmed: bool,
+    /// Cycles over those of a drive, at most 1.
+    cycle_factor: f64,
+}
+
+fn simulate(
+    options: &DriveOptions,
+    variant: Variant,
     mut report: impl FnMut(usize, usize) -> ControlFlow<()>,
 ) -> Result<SimulatedDrive, SimulateError> {
     options.check()?;
@@ -160,7 +178,7 @@ pub fn simulate_drive_reporting(
         } else {
             radar::scan_times(options.duration_s, clock)
         };
-        times.extend(scans.into_iter().map(|t| (t, i)));
+        times.extend(scans.into_iter().map(|t| (t * variant.cycle_factor, i)));
     }
     times.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
 
@@ -174,7 +192,7 @@ pub fn simulate_drive_reporting(
         traffic.advance(time_s - car.delay_s);
         scans.push(radars[i].scan(time_s, &world, &traffic));
     }
-    if let Some(share) = moving_share {
+    if let Some(share) = moving_share.filter(|_| variant.trimmed) {
         let fast = |t: f64| motion::motion_at(&motion, t).speed_mps.abs() > trim::COUNTED_MPS;
         let mut random = stream(TRIM);
         // All radars together, or each by what it sees of the traffic.

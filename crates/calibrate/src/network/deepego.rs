@@ -1,0 +1,285 @@
+//! DeepEgo, single frame: a network weighs detections, and weighted least squares gives the radar's motion.
+
+use super::dense::{Layer, asinh, rectify, sigmoid};
+use super::fit::{Sights, sum};
+use super::{NetworkError, Weights};
+use boresight_core::Detection;
+
+const FEATURES: usize = 9;
+/// Numbers of a residual that a refinement sees.
+const OWN: usize = 4;
+const REFINEMENTS: usize = 4;
+/// Scales of residuals: of range rates, m/s, and of what an azimuth error, rad, makes of the slope.
+const RESIDUAL_MPS: f32 = 0.05;
+const AZIMUTH_RAD: f32 = 0.005;
+/// Of the scale of range rates, where the slope is smaller.
+const LEAST_SLOPE: f32 = 0.05;
+/// The logarithm of a detection's precision is within plus and minus this.
+const PRECISION_RANGE: f32 = 3.0;
+/// Smallest and largest logarithm of the factor on deviations.
+const FACTOR_RANGE: [f32; 2] = [-2.0, 4.0];
+
+/// What the network says of a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WeighedMotion {
+    /// Velocity of the radar in its own frame, along boresight and to its left, m/s.
+    pub velocity_mps: [f64; 2],
+    /// Its covariance as xx, xy, yy, (m/s)^2: equation 3 with weights, times the learnt factor.
+    pub covariance: [f64; 3],
+    /// Of each detection from 0 to 1, how likely it is of something that stands; 0 where azimuth or range rate are not
+    /// finite.
+    pub weights: Vec<f32>,
+    /// Mean of the weights of detections that are finite.
+    pub share: f64,
+    /// Logarithm of the factor on equation 3's deviations.
+    pub log_factor: f32,
+    /// What smoothing sees of the frame.
+    pub(super) context: Vec<f32>,
+}
+
+/// The single-frame network.
+#[derive(Debug, Clone)]
+pub struct DeepEgo {
+    encode: [Layer; 2],
+    pool: Layer,
+    weigh_point: Layer,
+    weigh_frame: Layer,
+    weigh: [Layer; 2],
+    narrow_point: Layer,
+    narrow_frame: Layer,
+    refine_point: Layer,
+    refine_frame: Layer,
+    refine: [Layer; 2],
+    spread: [Layer; 2],
+}
+
+impl DeepEgo {
+    /// The network with these weights.
+    ///
+    /// # Errors
+    /// [`NetworkError::Unlike`] where a tensor is missing or has another shape.
+    pub fn new(weights: &Weights) -> Result<Self, NetworkError> {
+        Self::within(weights, "")
+    }
+
+    /// The network whose tensors' names begin with `prefix`.
+    pub(super) fn within(weights: &Weights, prefix: &str) -> Result<Self, NetworkError> {
+        let layer = |name: &str, inputs: usize| {
+            Layer::read(weights, &format!("{prefix}{name}"), inputs, true)
+        };
+        let bare = |name: &str, inputs: usize| {
+            Layer::read(weights, &format!("{prefix}{name}"), inputs, false)
+        };
+        let two = |names: [&str; 2], inputs: usize| -> Result<[Layer; 2], NetworkError> {
+            let first = layer(names[0], inputs)?;
+            let second = layer(names[1], first.outputs())?;
+            Ok([first, second])
+        };
+        let encode = two(["encode.0", "encode.2"], FEATURES)?;
+        let width = encode[1].outputs();
+        let pool = layer("pool.0", 2 * width)?;
+        let weigh_point = layer("weigh_point", width)?;
+        let narrow_point = layer("narrow_point", width)?;
+        let narrow_frame = layer("narrow_frame", pool.outputs())?;
+        let refine_point = layer("refine_point", OWN + narrow_point.outputs())?;
+        let network = Self {
+            weigh_frame: bare("weigh_frame", pool.outputs())?,
+            weigh: two(["weigh.1", "weigh.3"], weigh_point.outputs())?,
+            refine_frame: bare("refine_frame", narrow_frame.outputs())?,
+            refine: two(["refine.1", "refine.3"], refine_point.outputs())?,
+            spread: two(["spread.0", "spread.2"], pool.outputs() + 5)?,
+            encode,
+            pool,
+            weigh_point,
+            narrow_point,
+            narrow_frame,
+            refine_point,
+        };
+        for (name, given, expected) in [
+            ("weigh_frame", network.weigh_frame.outputs(), network.weigh_point.outputs()),
+            ("weigh.3", network.weigh[1].outputs(), 2),
+            ("refine_frame", network.refine_frame.outputs(), network.refine_point.outputs()),
+            ("refine.3", network.refine[1].outputs(), 2),
+            ("spread.2", network.spread[1].outputs(), 1),
+        ] {
+            if given != expected {
+                return Err(NetworkError::Unlike {
+                    tensor: format!("{prefix}{name}.weight"),
+                    expected: format!("{expected} outputs"),
+                    given: format!("{given}"),
+                });
+            }
+        }
+        Ok(network)
+    }
+
+    /// Numbers of a frame that smoothing sees.
+    pub(super) fn context_len(&self) -> usize {
+        self.narrow_frame.outputs()
+    }
+
+    /// The motion that a scan shows. Detections whose azimuth or range rate is not finite have no part in it.
+    pub fn motion(&self, detections: &[Detection]) -> WeighedMotion {
+        let usable: Vec<usize> = (0..detections.len())
+            .filter(|i| {
+                let d = &detections[*i];
+                d.azimuth_rad.is_finite() && d.range_rate_mps.is_finite()
+            })
+            .collect();
+        let seen: Vec<Detection> = usable.iter().map(|i| detections[*i]).collect();
+        let (mut motion, found) = self.of_usable(&seen);
+        motion.weights = vec![0.0; detections.len()];
+        for (i, weight) in usable.into_iter().zip(found) {
+            motion.weights[i] = weight;
+        }
+        motion
+    }
+
+    /// The motion without weights, and the weights, of detections that are all finite.
+    fn of_usable(&self, detections: &[Detection]) -> (WeighedMotion, Vec<f32>) {
+        let mut sights = Sights::default();
+        for d in detections {
+            let (sin, cos) = d.azimuth_rad.sin_cos();
+            sights.cos.push(cos);
+            sights.sin.push(sin);
+            sights.rate.push(d.range_rate_mps);
+        }
+        let size = scale(&sights.rate);
+        let (mut a, mut h) = (vec![], vec![]);
+        self.encode[0].apply_rectified(&features(detections, &sights, size), &mut a);
+        self.encode[1].apply_rectified(&a, &mut h);
+        let mut g = vec![];
+        self.pool.apply_rectified(&pooled(&h, self.encode[1].outputs()), &mut g);
+
+        let mut frame = vec![];
+        self.weigh_frame.apply(&g, &mut frame);
+        self.weigh_point.apply(&h, &mut a);
+        let mut out = two_layers(&self.weigh, &mut a, &frame);
+        let (mut context, mut near) = (vec![], vec![]);
+        self.narrow_frame.apply(&g, &mut context);
+        self.narrow_point.apply(&h, &mut near);
+        self.refine_frame.apply(&context, &mut frame);
+
+        let mut inliers: Vec<f32> = vec![];
+        let mut weights: Vec<f32> = vec![];
+        let mut fitted = ([0.0; 2], [0.0; 3]);
+        for round in 0..=REFINEMENTS {
+            if round > 0 {
+                let told = residuals(&sights, fitted.0, &inliers, size, &near);
+                self.refine_point.apply(&told, &mut a);
+                out = two_layers(&self.refine, &mut a, &frame);
+            }
+            inliers.clear();
+            weights.clear();
+            for [logit, precision] in out.as_chunks::<2>().0 {
+                let inlier = sigmoid(*logit);
+                inliers.push(inlier);
+                let precision = PRECISION_RANGE * (precision / PRECISION_RANGE).tanh();
+                weights.push(inlier * precision.exp());
+            }
+            fitted = sights.fit(&weights);
+        }
+        let (velocity, inverse) = fitted;
+        let covariance = sights.equation_3(velocity, &inliers, &weights, inverse);
+        let count = sum(&inliers);
+        let share = count / (inliers.len() as f64).max(1.0);
+        let squares: f64 = (0..inliers.len())
+            .map(|i| f64::from(inliers[i]) * f64::from(sights.residual(i, velocity)).powi(2))
+            .sum();
+        let speed = (velocity[0] * velocity[0] + velocity[1] * velocity[1] + 1e-4).sqrt();
+        g.extend([
+            (squares / (count + 1e-3) + 1e-6).sqrt().ln() as f32,
+            count.ln_1p() as f32,
+            share as f32,
+            (0.5 * (covariance[0] + covariance[2])).ln() as f32,
+            speed / size,
+        ]);
+        self.spread[0].apply_rectified(&g, &mut a);
+        self.spread[1].apply(&a, &mut frame);
+        let log_factor = frame[0].clamp(FACTOR_RANGE[0], FACTOR_RANGE[1]);
+        let factor = f64::from(log_factor);
+        let motion = WeighedMotion {
+            velocity_mps: velocity.map(f64::from),
+            covariance: covariance.map(|term| term * (2.0 * factor).exp()),
+            weights: vec![],
+            share,
+            log_factor,
+            context,
+        };
+        (motion, inliers)
+    }
+}
+
+/// The 90 % quantile of range rates without sign, by nearest rank, or 1 m/s where that is less.
+fn scale(rates: &[f32]) -> f32 {
+    let mut speeds: Vec<f32> = rates.iter().map(|rate| rate.abs()).collect();
+    if speeds.is_empty() {
+        return 1.0;
+    }
+    let rank = (9 * speeds.len()).div_ceil(10) - 1;
+    speeds.select_nth_unstable_by(rank, f32::total_cmp).1.max(1.0)
+}
+
+/// Nine numbers a detection.
+fn features(detections: &[Detection], sights: &Sights, size: f32) -> Vec<f32> {
+    let mut all = Vec::with_capacity(FEATURES * detections.len());
+    for (i, d) in detections.iter().enumerate() {
+        let rate = d.range_rate_mps / size;
+        let known = |value: f32| if value.is_finite() { (value, 1.0) } else { (0.0, 0.0) };
+        let ((range, has_range), (rcs, has_rcs)) = (known(d.range_m), known(d.rcs_dbsm));
+        let range = range.max(0.0).ln_1p() / 5.0;
+        let (sin, cos) = (sights.sin[i], sights.cos[i]);
+        let rest = [range, rcs / 20.0, has_range, has_rcs, size / 30.0];
+        all.extend([sin, cos, rate, rate.abs()]);
+        all.extend(rest);
+    }
+    all
+}
+
+/// Mean and maximum over detections of encodings, which are not negative.
+fn pooled(h: &[f32], width: usize) -> Vec<f32> {
+    let (mut sums, mut most) = (vec![0.0_f64; width], vec![0.0_f32; width]);
+    for row in h.chunks_exact(width.max(1)) {
+        for (i, value) in row.iter().enumerate() {
+            sums[i] += f64::from(*value);
+            most[i] = most[i].max(*value);
+        }
+    }
+    let count = ((h.len() / width.max(1)) as f64).max(1.0);
+    let mut both: Vec<f32> = sums.into_iter().map(|sum| (sum / count) as f32).collect();
+    both.extend(most);
+    both
+}
+
+/// What belongs to detections and to the frame, added, rectified and through two layers.
+fn two_layers(layers: &[Layer; 2], points: &mut [f32], frame: &[f32]) -> Vec<f32> {
+    for row in points.chunks_exact_mut(frame.len().max(1)) {
+        row.iter_mut().zip(frame).for_each(|(value, of_frame)| *value += of_frame);
+    }
+    rectify(points);
+    let (mut hidden, mut out) = (vec![], vec![]);
+    layers[0].apply_rectified(points, &mut hidden);
+    layers[1].apply(&hidden, &mut out);
+    out
+}
+
+/// What a refinement sees of each detection.
+fn residuals(
+    sights: &Sights,
+    velocity: [f32; 2],
+    inliers: &[f32],
+    size: f32,
+    near: &[f32],
+) -> Vec<f32> {
+    let narrow = near.len() / sights.len().max(1);
+    let mut told = Vec::with_capacity((OWN + narrow) * sights.len());
+    for (i, row) in near.chunks_exact(narrow.max(1)).enumerate() {
+        let (residual, slope) = (sights.residual(i, velocity), sights.slope(i, velocity));
+        let wide = AZIMUTH_RAD * (slope + LEAST_SLOPE * size);
+        let own = [asinh(residual / RESIDUAL_MPS), asinh(residual.abs() / wide)];
+        told.extend(own);
+        told.extend([inliers[i], slope / size]);
+        told.extend_from_slice(row);
+    }
+    told
+}
