@@ -18,7 +18,7 @@ const PAGES = [
   {
     page: 'networks',
     query: '?run=1&model=learned-pursuit',
-    ready: '[data-attempt] [data-row]',
+    ready: '[data-table="attempt"] [data-row] [data-field="found"]',
     asked: 6,
     most: 5.3e6,
   },
@@ -126,5 +126,53 @@ browserTest(
     await page.waitForSelector(PAGES.find(({ page }) => page === 'mounting').ready, patient);
     assert.equal(asked.filter((address) => drive.test(address)).length, 2);
     await context.close();
+  },
+);
+
+browserTest('loading: no step through pages asks for the icon again', { path: '#/angle' }, async ({ page }) => {
+  const asked = [];
+  page.on('request', (request) => asked.push(request.url()));
+  for (const path of ['#/networks', '#/angle']) {
+    await page.locator(`nav a[href^="${path}"]`).click();
+    await page.waitForSelector(PAGES.find(({ page }) => path === `#/${page}`).ready, patient);
+    await page.goBack();
+    await page.goForward();
+  }
+  assert.ok(await page.locator('link[rel="icon"][href^="data:image/svg+xml"]').count());
+  assert.deepEqual(
+    asked.filter((address) => /^http.*icon/.test(address)),
+    [],
+  );
+});
+
+browserTest(
+  'loading: Capture and a network’s scene ask for their files beside the core',
+  { path: '#/networks' },
+  async ({ browser, url }) => {
+    for (const [path, wanted] of [
+      ['#/capture', [/dca_module/, /visualizer/]],
+      ['#/networks?run=1&model=learned-pursuit', [/boresight_neural_bg/, /learned-pursuit-[\w-]+\.onnx/]],
+    ]) {
+      const context = await browser.newContext({ serviceWorkers: 'block' });
+      const page = await context.newPage();
+      const asked = [];
+      page.on('request', (request) => asked.push(request.url()));
+      let letCome;
+      const held = new Promise((resolve) => {
+        letCome = resolve;
+      });
+      await context.route('**/boresight_bg-*.wasm', async (route) => {
+        await held;
+        await route.continue();
+      });
+      const all = Promise.all(wanted.map((name) => page.waitForRequest(name, patient)));
+      await page.goto(`${url}${path}`);
+      await all;
+      letCome();
+      const ready = path.includes('run') ? PAGES.at(-1).ready : PAGES.find(({ page }) => page === 'capture').ready;
+      await page.waitForSelector(ready, patient);
+      for (const name of wanted) assert.equal(asked.filter((address) => name.test(address)).length, 1, String(name));
+      await context.close();
+    }
   },
 );

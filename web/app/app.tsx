@@ -1,12 +1,12 @@
 /** The shell: heading, pages, footer; loads the package before a page is shown. */
 import { useEffect, useState } from 'preact/hooks';
+import { askAhead } from './ahead.ts';
 import { api, describeError, load, type Problem } from './data.ts';
 import icon from './icon.svg?inline';
 import { keepOffline, newRelease } from './offline/release.ts';
 import { AnglePage } from './pages/angle/page.tsx';
 import { BirdseyePage } from './pages/birdseye/page.tsx';
 import { CapturePage } from './pages/capture/page.tsx';
-import { askAhead } from './pages/mounting/ahead.ts';
 import { MountingPage } from './pages/mounting/page.tsx';
 import { NetworksPage } from './pages/networks/page.tsx';
 import { sessionProblem } from './session/session.ts';
@@ -31,7 +31,7 @@ export function App() {
       () => setReady(true),
       (error: unknown) => setProblem(describeError(error)),
     );
-    if (page === 'mounting') askAhead(route.peek().params);
+    askAhead(route.peek());
   }, []);
   useEffect(watchDrops, []);
   useEffect(() => void keepOffline(), []);
