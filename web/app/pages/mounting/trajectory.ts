@@ -1,7 +1,8 @@
 /** Where the radar's own motion takes the car under an angle, and where it really was. */
-import { computed } from '@preact/signals';
+import { batch, computed, effect, signal } from '@preact/signals';
 import type { Drive, DriveCalibration, ScanMotion, Trajectory, TrajectoryOptions } from 'boresight';
 import { api } from '../../data.ts';
+import { drop, inTurn } from '../../plots/turns.ts';
 import { loaded } from './drive.ts';
 import { after } from './playhead.ts';
 import { results, shown } from './process.ts';
@@ -52,7 +53,9 @@ export interface Paths {
 
 const heading = computed(() => mountingState.value.heading);
 
-export const paths = computed<Paths | null>(() => {
+export const paths = signal<Paths | null>(null);
+
+function pathsNow(): Paths | null {
   const calibration = shown.value;
   const motion = loaded.value?.motion;
   if (!calibration || !motion) return null;
@@ -68,13 +71,15 @@ export const paths = computed<Paths | null>(() => {
     foundError: relativeError(found),
     nominalError: relativeError(nominal),
   };
-});
+}
 
 /** What is known of calibrations that stay while others come. */
 const known = new WeakMap<DriveCalibration, number | null>();
 
 /** By the radar alone with every method's own motion and angle, as published. */
-export const relativeErrors = computed<ReadonlyMap<Way, number>>(() => {
+export const relativeErrors = signal<ReadonlyMap<Way, number>>(new Map());
+
+function errorsNow(): ReadonlyMap<Way, number> {
   const errors = new Map<Way, number>();
   for (const [way, { calibration }] of results.value) {
     if (!calibration) continue;
@@ -83,7 +88,24 @@ export const relativeErrors = computed<ReadonlyMap<Way, number>>(() => {
     if (error != null) errors.set(way, error);
   }
   return errors;
-});
+}
+
+/** Follows the results, a moment behind: nothing seen at first waits for paths. */
+export function start(): () => void {
+  const follow = (): void =>
+    batch(() => {
+      paths.value = pathsNow();
+      relativeErrors.value = errorsNow();
+    });
+  const stop = effect(() => {
+    void [results.value, shown.value, loaded.value, heading.value];
+    inTurn(follow);
+  });
+  return () => {
+    stop();
+    drop(follow);
+  };
+}
 
 /** By speed and yaw rate as they were measured; between samples with both, their mean. */
 function odometry({ timeS, speedMps, yawRateDegps }: Drive['motion']): Trajectory {
