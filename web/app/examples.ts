@@ -52,7 +52,7 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
   },
   capture: {
     about:
-      'From raw samples of a radar board to range, speed and angle: choose a cell of the map to see what each method makes of its direction.',
+      'From raw samples of a radar board to range, speed and angle: choose a cell of the map to see what each method makes of its direction, or open a recording of your own.',
     examples: [
       {
         title: 'What is in the scene',
