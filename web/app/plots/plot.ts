@@ -211,6 +211,7 @@ export class Plot {
 
   /** Shows part of the extent; `null` all of it. */
   setView(view: View | null, report = false): void {
+    if (!view && !this.#view && !report) return;
     this.#view = view ? this.#within(view) : null;
     this.#applyView();
     if (report) this.#options.onView?.(this.view, this.zoomed);

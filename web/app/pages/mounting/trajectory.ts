@@ -1,5 +1,5 @@
 /** Where the radar's own motion takes the car under an angle, and where it really was. */
-import { batch, computed, effect, signal } from '@preact/signals';
+import { computed, effect, signal } from '@preact/signals';
 import type { Drive, DriveCalibration, ScanMotion, Trajectory, TrajectoryOptions } from 'boresight';
 import { api } from '../../data.ts';
 import { drop, inTurn } from '../../plots/turns.ts';
@@ -79,31 +79,35 @@ const known = new WeakMap<DriveCalibration, number | null>();
 /** By the radar alone with every method's own motion and angle, as published. */
 export const relativeErrors = signal<ReadonlyMap<Way, number>>(new Map());
 
-function errorsNow(): ReadonlyMap<Way, number> {
-  const errors = new Map<Way, number>();
-  for (const [way, { calibration }] of results.value) {
-    if (!calibration) continue;
-    if (!known.has(calibration)) known.set(calibration, relativeError(path(calibration, calibration.result.angleDeg)));
-    const error = known.get(calibration);
-    if (error != null) errors.set(way, error);
-  }
-  return errors;
-}
+const calibrations = (): [Way, DriveCalibration][] =>
+  [...results.peek()].flatMap(([way, { calibration }]) => (calibration ? [[way, calibration]] : []));
 
-/** Follows the results, a moment behind: nothing seen at first waits for paths. */
+/** Follows the results, a moment behind and a path at a time: nothing seen at first waits for them. */
 export function start(): () => void {
-  const follow = (): void =>
-    batch(() => {
-      paths.value = pathsNow();
-      relativeErrors.value = errorsNow();
-    });
+  const findPaths = (): void => {
+    paths.value = pathsNow();
+  };
+  const findErrors = (): void => {
+    const next = calibrations().find(([, calibration]) => !known.has(calibration))?.[1];
+    if (next) {
+      known.set(next, relativeError(path(next, next.result.angleDeg)));
+      inTurn(findErrors);
+      return;
+    }
+    relativeErrors.value = new Map(
+      calibrations().flatMap(([way, calibration]) => {
+        const error = known.get(calibration);
+        return error == null ? [] : [[way, error] as const];
+      }),
+    );
+  };
   const stop = effect(() => {
     void [results.value, shown.value, loaded.value, heading.value];
-    inTurn(follow);
+    for (const find of [findPaths, findErrors]) inTurn(find);
   });
   return () => {
     stop();
-    drop(follow);
+    for (const find of [findPaths, findErrors]) drop(find);
   };
 }
 

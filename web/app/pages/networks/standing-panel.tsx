@@ -3,7 +3,6 @@ import { useMemo } from 'preact/hooks';
 import { titleOf } from './methods.ts';
 import { results } from './results.ts';
 import { type Standing, standing, TASKS, type Task } from './standing.ts';
-import { LEVEL_SIGMAS } from './verdict.ts';
 
 export function StandingPanel() {
   return (
@@ -17,9 +16,7 @@ export function StandingPanel() {
         ))}
       </ul>
       <p class="remark">
-        The best network of each task against the best classical method, condition by condition of the experiments
-        below; level is what differs by less than {LEVEL_SIGMAS} standard deviations. Networks for whole degrees know
-        that all targets stand at some within 10° of boresight; the classical methods know that they are within 15°.
+        The best network against the best classical method, condition by condition of the experiments below.
       </p>
     </section>
   );

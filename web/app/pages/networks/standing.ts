@@ -47,13 +47,13 @@ export const TASKS: readonly Task[] = [
   {
     name: 'one',
     title: 'In which whole degree the one target of a region lies',
-    by: 'error after rounding',
+    by: 'error after rounding; it knows that targets stand at whole degrees within 10°',
     figures: ofRegions('rounded', ['apart']),
   },
   {
     name: 'two',
     title: 'In which whole degrees the two targets of a region lie',
-    by: 'share within 1°',
+    by: 'share within 1°; it knows that targets stand at whole degrees within 10°',
     figures: ofRegions('success', ['apart', 'together']),
   },
 ];
