@@ -50,5 +50,7 @@ export default defineConfig({
     outDir: path('web/app/dist'),
     emptyOutDir: true,
     assetsInlineLimit: 0,
+    // Scripts of pages come with no styles of their own to wait for.
+    cssCodeSplit: false,
   },
 });

@@ -1,4 +1,4 @@
 import type { Plugin } from 'vite';
 
-export function compressFolder(folder: string): Promise<void>;
+export function compressFolder(folder: string, keep?: string): Promise<void>;
 export function compressed(): Plugin;

@@ -1,38 +1,62 @@
 // The built demo as a server should give it: with a Brotli and a gzip file beside each that gains by it, names that tell
 // the contents kept for good, and the page itself asked for anew.
+import { createHash } from 'node:crypto';
 import { readdirSync, writeFileSync } from 'node:fs';
-import { readFile } from 'node:fs/promises';
+import { mkdir, readdir, readFile, rename, rm, stat, utimes, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { promisify } from 'node:util';
 import { brotliCompress, constants, gzip } from 'node:zlib';
 import sirv from 'sirv';
+import { cache } from './paths.mjs';
 
 /** Weights and recordings that are compressed already gain next to nothing. */
 const GAINS = /\.(html|js|css|json|svg|wasm|bin|dat)$/;
-/** The best quality takes some 2 s a MB; the next is some percent larger and ten times as fast. */
-const BEST_BELOW_BYTES = 2 ** 21;
+/** What no build has used for so long is thrown away, ms. */
+const KEPT_MS = 30 * 24 * 3600e3;
 
 const brotli = promisify(brotliCompress);
 const zip = promisify(gzip);
 
-/** Writes `.br` and `.gz` beside the files of a folder. */
-export async function compressFolder(folder) {
+/** Makes it once of the same bytes: the best quality takes some 2 s a MB, and most files are those of the build before. */
+async function once(keep, bytes, ending, make) {
+  const file = join(keep, `${createHash('sha256').update(bytes).digest('hex')}.${ending}`);
+  const before = await readFile(file).catch(() => null);
+  if (before) {
+    await utimes(file, new Date(), new Date());
+    return before;
+  }
+  const made = await make();
+  // Another build may do the same.
+  const part = `${file}.${process.pid}`;
+  await writeFile(part, made);
+  await rename(part, file);
+  return made;
+}
+
+async function forget(keep) {
+  for (const name of await readdir(keep)) {
+    const file = join(keep, name);
+    if (Date.now() - (await stat(file)).mtimeMs > KEPT_MS) await rm(file, { force: true });
+  }
+}
+
+/** Writes `.br` and `.gz` beside the files of a folder; `keep` has what was made before. */
+export async function compressFolder(folder, keep = join(cache, 'compressed')) {
+  await mkdir(keep, { recursive: true });
   const files = readdirSync(folder, { recursive: true, withFileTypes: true })
     .filter((entry) => entry.isFile() && GAINS.test(entry.name))
     .map((entry) => join(entry.parentPath, entry.name));
   await Promise.all(
     files.map(async (file) => {
       const bytes = await readFile(file);
-      const quality = bytes.length < BEST_BELOW_BYTES ? 11 : 9;
+      const params = {
+        [constants.BROTLI_PARAM_QUALITY]: constants.BROTLI_MAX_QUALITY,
+        [constants.BROTLI_PARAM_LGWIN]: constants.BROTLI_MAX_WINDOW_BITS,
+        [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length,
+      };
       const [small, wide] = await Promise.all([
-        brotli(bytes, {
-          params: {
-            [constants.BROTLI_PARAM_QUALITY]: quality,
-            [constants.BROTLI_PARAM_LGWIN]: constants.BROTLI_MAX_WINDOW_BITS,
-            [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length,
-          },
-        }),
-        zip(bytes),
+        once(keep, bytes, 'br', () => brotli(bytes, { params })),
+        once(keep, bytes, 'gz', () => zip(bytes)),
       ]);
       for (const [made, ending] of [
         [small, 'br'],
@@ -42,6 +66,7 @@ export async function compressFolder(folder) {
       }
     }),
   );
+  await forget(keep);
 }
 
 /** Serves a folder so. */

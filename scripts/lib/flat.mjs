@@ -13,7 +13,7 @@ export function verdicts(series, { most = 0.1, least = {} } = {}) {
   return Object.entries(series).map(([name, samples]) => {
     const third = Math.floor(samples.length / 3);
     const [middle, last] = [median(samples.slice(third, -third)), median(samples.slice(-third))];
-    const share = last / middle - 1;
+    const share = last === middle ? 0 : last / middle - 1;
     // Too few samples say nothing.
     const flat = third > 0 && (share <= most || last - middle <= (least[name] ?? 0));
     return { name, middle, last, share, flat };

@@ -116,6 +116,38 @@ browserTest(
   },
 );
 
+browserTest('columns: places in metres stand in for azimuth and range', { path }, async ({ page }) => {
+  const radar = ['time_s,X [m],Y right [m],doppler'];
+  const car = ['time_s,yaw_rate_degps,speed_mps'];
+  for (const { t, yawRate, speed, seen } of frames()) {
+    car.push(`${t},${(yawRate * 180) / Math.PI},${speed}`);
+    for (const { azimuth, rate, range } of seen)
+      radar.push(`${t},${range * Math.cos(azimuth)},${-range * Math.sin(azimuth)},${rate}`);
+  }
+  radar.push('23,,1,0');
+  await given(page, [file('targets.csv', radar), file('motion.csv', car)]);
+  await page.waitForSelector(dialog);
+  for (const [name, expected] of Object.entries({
+    'detections-azimuth_deg': '',
+    'detections-x_m': 'X [m]',
+    'detections-y_m': 'Y right [m]',
+    'detections-y_m-sign': 'flipped',
+  }))
+    assert.equal(await chosen(page, name), expected, name);
+  const first = (name) => page.locator(`[data-field="detections-${name}"] td`).last().innerText();
+  assert.equal(await first('azimuth_deg'), '−55.00 deg');
+  assert.equal(await first('range_m'), '10.00 m');
+  assert.equal(await first('y_m'), '−8.192 m');
+  assert.equal(await page.locator('[data-columns="lacking"]').innerText(), '');
+  await select(page, 'detections-y_m').selectOption('');
+  assert.match(await page.locator('[data-columns="lacking"]').innerText(), /azimuth of the detections/);
+  await select(page, 'detections-y_m').selectOption('Y right [m]');
+  await page.locator('[data-action="open-columns"]').click();
+  await page.waitForSelector('[data-notice="place"]');
+  assert.match(await counts(page), /Detections in the files\s*4.801[\s\S]*Without finite numbers\s*1/);
+  await assertAngle(page);
+});
+
 browserTest('columns: one table holds detections and motion, chosen by keyboard', { path }, async ({ page }) => {
   await given(page, together());
   await page.waitForSelector(dialog);

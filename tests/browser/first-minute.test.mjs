@@ -29,6 +29,8 @@ for (const { name, path, ready: fresh } of pages) {
           (at) => document.querySelectorAll('.introduction a')[at]?.getAttribute('aria-current') === 'true',
           i,
         );
+        // What was typed is waited for before a drive is simulated.
+        if (path.includes('mounting')) await page.waitForTimeout(600);
         assert.equal(await page.locator('.introduction [aria-current]').count(), 1, title);
         assert.equal(await page.locator('[data-notice]').count(), 0, `${title}: all of its link is understood`);
         await page.waitForSelector(ready, patient);
@@ -201,5 +203,46 @@ browserTest(
       const box = await page.locator(`[data-plot="spectrum"] ${selector}`).boundingBox();
       assert.ok(hint.y >= box.y + box.height || hint.y + hint.height <= box.y, `${selector} is covered`);
     }
+  },
+);
+
+browserTest(
+  'first minute: on a phone Mounting’s verdict is seen at once, and stands where it was awaited',
+  { path: '#/mounting', viewport: 'phone' },
+  async ({ page }) => {
+    const place = async (kind) => (await page.waitForSelector(`[data-verdict="${kind}"]`, patient)).boundingBox();
+    const before = await place('awaited');
+    const { y, height } = await place('off');
+    assert.equal(y, before.y);
+    assert.ok(y + height < page.viewportSize().height - 56, `it ends at ${y + height}`);
+    assert.match(
+      await page.locator('[data-verdict] .head').innerText(),
+      /^Mounting angle −1\.9\d° ± 0\.0\d°: misaligned/,
+    );
+  },
+);
+
+browserTest(
+  'first minute: plots that are out of sight are drawn all the same',
+  { path: '#/mounting' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-plot="trajectory"] [data-series="found"]', patient);
+    const inks = () =>
+      page.locator('.plot-frame canvas.plot-canvas, .plot-frame .u-wrap canvas').evaluateAll((canvases) =>
+        canvases.map((canvas) => {
+          const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+          const colours = new Set();
+          for (let i = 0; i < data.length; i += 4) colours.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+          return colours.size;
+        }),
+      );
+    await page.waitForTimeout(500);
+    // Axes alone have up to 560.
+    const drawn = await inks();
+    assert.equal(drawn.length, 5);
+    assert.ok(
+      drawn.every((colours) => colours > 600),
+      `colours: ${drawn}`,
+    );
   },
 );

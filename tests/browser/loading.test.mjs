@@ -10,17 +10,17 @@ const LINE = { offline: false, latency: 40, downloadThroughput: 10e6 / 8, upload
 
 /** When a page's first useful picture is there, s as asked for, and the most it may fetch until then, bytes. */
 const PAGES = [
-  { page: 'angle', ready: '[data-row="music"] [data-field="azimuth"][data-value]', asked: 1.8, most: 0.68e6 },
+  { page: 'angle', ready: '[data-row="music"] [data-field="azimuth"][data-value]', asked: 1.8, most: 0.56e6 },
   { page: 'capture', ready: '[data-table="detections"] [data-field="rangeM"][data-value]', asked: 2.5, most: 1.5e6 },
   { page: 'mounting', ready: '[data-row] [data-field="angleDeg"][data-value]', asked: 4, most: 2.3e6 },
   { page: 'birdseye', ready: '[data-row] [data-field="outsideDb"][data-value]', asked: 4, most: 0.7e6 },
-  { page: 'networks', ready: '[data-card]', asked: 1.5, most: 0.69e6 },
+  { page: 'networks', ready: '[data-card]', asked: 1.5, most: 0.67e6 },
   {
     page: 'networks',
     query: '?run=1&model=learned-pursuit',
-    ready: '[data-attempt] [data-row]',
+    ready: '[data-table="attempt"] [data-row] [data-field="found"]',
     asked: 6,
-    most: 5.3e6,
+    most: 4.4e6,
   },
 ];
 
@@ -125,6 +125,75 @@ browserTest(
     letCome();
     await page.waitForSelector(PAGES.find(({ page }) => page === 'mounting').ready, patient);
     assert.equal(asked.filter((address) => drive.test(address)).length, 2);
+    await context.close();
+  },
+);
+
+browserTest('loading: no step through pages asks for the icon again', { path: '#/angle' }, async ({ page }) => {
+  const asked = [];
+  page.on('request', (request) => asked.push(request.url()));
+  for (const path of ['#/networks', '#/angle']) {
+    await page.locator(`nav a[href^="${path}"]`).click();
+    await page.waitForSelector(PAGES.find(({ page }) => path === `#/${page}`).ready, patient);
+    await page.goBack();
+    await page.goForward();
+  }
+  assert.ok(await page.locator('link[rel="icon"][href^="data:image/svg+xml"]').count());
+  assert.deepEqual(
+    asked.filter((address) => /^http.*icon/.test(address)),
+    [],
+  );
+});
+
+browserTest(
+  'loading: Capture and a network’s scene ask for their files beside the core',
+  { path: '#/networks' },
+  async ({ browser, url }) => {
+    for (const [path, wanted] of [
+      ['#/capture', [/dca_module/, /visualizer/]],
+      ['#/networks?run=1&model=learned-pursuit', [/boresight_neural_bg/, /learned-pursuit-[\w-]+\.onnx/]],
+    ]) {
+      const context = await browser.newContext({ serviceWorkers: 'block' });
+      const page = await context.newPage();
+      const asked = [];
+      page.on('request', (request) => asked.push(request.url()));
+      let letCome;
+      const held = new Promise((resolve) => {
+        letCome = resolve;
+      });
+      await context.route('**/boresight_bg-*.wasm', async (route) => {
+        await held;
+        await route.continue();
+      });
+      const all = Promise.all(wanted.map((name) => page.waitForRequest(name, patient)));
+      await page.goto(`${url}${path}`);
+      await all;
+      letCome();
+      const ready = path.includes('run') ? PAGES.at(-1).ready : PAGES.find(({ page }) => page === 'capture').ready;
+      await page.waitForSelector(ready, patient);
+      for (const name of wanted) assert.equal(asked.filter((address) => name.test(address)).length, 1, String(name));
+      await context.close();
+    }
+  },
+);
+
+browserTest(
+  'loading: the other pages come when the first is there, and open while the line is down',
+  { path: '#/networks' },
+  async ({ browser, url }) => {
+    const context = await browser.newContext({ serviceWorkers: 'block' });
+    const page = await context.newPage();
+    await page.goto(`${url}#/angle`);
+    await page.waitForSelector(PAGES[0].ready, patient);
+    const scripts = () =>
+      page.evaluate(
+        () => performance.getEntriesByType('resource').filter(({ name }) => /\/page-[\w-]+\.js$/.test(name)).length,
+      );
+    assert.equal(await scripts(), 1);
+    for (let tries = 0; (await scripts()) < 5 && tries < 100; tries++) await page.waitForTimeout(200);
+    await context.route('**/*', (route) => route.abort());
+    await page.locator('nav a[href^="#/networks"]').click();
+    await page.waitForSelector('[data-card]', patient);
     await context.close();
   },
 );

@@ -26,3 +26,8 @@ test('small numbers may change by what is their noise', () => {
 test('too few samples say nothing', () => {
   assert.equal(verdicts({ few: [1, 1] })[0].flat, false);
 });
+
+test('what is nowhere has not grown', () => {
+  const { share, flat } = verdicts({ handles: samples(() => 0) })[0];
+  assert.deepEqual([share, flat], [0, true]);
+});

@@ -1,14 +1,10 @@
 /** The shell: heading, pages, footer; loads the package before a page is shown. */
 import { useEffect, useState } from 'preact/hooks';
+import { askAhead } from './ahead.ts';
 import { api, describeError, load, type Problem } from './data.ts';
 import icon from './icon.svg?inline';
 import { keepOffline, newRelease } from './offline/release.ts';
-import { AnglePage } from './pages/angle/page.tsx';
-import { BirdseyePage } from './pages/birdseye/page.tsx';
-import { CapturePage } from './pages/capture/page.tsx';
-import { askAhead } from './pages/mounting/ahead.ts';
-import { MountingPage } from './pages/mounting/page.tsx';
-import { NetworksPage } from './pages/networks/page.tsx';
+import { components, loadOthers, loadPage } from './pages.ts';
 import { sessionProblem } from './session/session.ts';
 import { SessionBar } from './session/session-bar.tsx';
 import { misread } from './state/address.ts';
@@ -26,12 +22,17 @@ export function App() {
   const [ready, setReady] = useState(false);
   const [problem, setProblem] = useState<Problem | null>(null);
   const { page } = route.value;
+  const Shown = components.value[page];
+  useEffect(() => {
+    loadPage(page).catch((error: unknown) => setProblem(describeError(error)));
+  }, [page]);
+  useEffect(() => void loadOthers(), []);
   useEffect(() => {
     load().then(
       () => setReady(true),
       (error: unknown) => setProblem(describeError(error)),
     );
-    if (page === 'mounting') askAhead(route.peek().params);
+    askAhead(route.peek());
   }, []);
   useEffect(watchDrops, []);
   useEffect(() => void keepOffline(), []);
@@ -130,20 +131,12 @@ export function App() {
           <p class="alert" role="alert" data-error={problem.code}>
             <strong>Boresight could not start.</strong> {problem.message}
           </p>
-        ) : !ready ? (
+        ) : ready && Shown ? (
+          <Shown />
+        ) : (
           <p class="panel loading" role="status">
             Loading the signal processing
           </p>
-        ) : page === 'capture' ? (
-          <CapturePage />
-        ) : page === 'mounting' ? (
-          <MountingPage />
-        ) : page === 'birdseye' ? (
-          <BirdseyePage />
-        ) : page === 'networks' ? (
-          <NetworksPage />
-        ) : (
-          <AnglePage />
         )}
       </main>
       <footer class="site-foot">

@@ -52,7 +52,7 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
   },
   capture: {
     about:
-      'From raw samples of a radar board to range, speed and angle: choose a cell of the map to see what each method makes of its direction.',
+      'From raw samples of a radar board to range, speed and angle: choose a cell of the map to see what each method makes of its direction, or open a recording of your own.',
     examples: [
       {
         title: 'What is in the scene',
@@ -130,7 +130,7 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
   },
   networks: {
     about:
-      'Neural networks that estimate angles or count targets, each beside classical methods on the same numbers: try one, time it here, and see where it wins and loses.',
+      'What trained networks can do for a radar: tell angles without being told how many targets there are, or count them. Try one beside the classical methods on the same numbers, and time it here.',
     examples: [
       {
         title: 'A transformer, six targets',

@@ -74,3 +74,38 @@ with h5py.File(HERE / "no_odometry.h5", "w") as file:
 with h5py.File(HERE / "backwards.h5", "w") as file:
     file.create_dataset("radar_data", data=rows[::-1])
     file.create_dataset("odometry", data=motion)
+
+
+# Files whose structure runs in circles, or claims more than it holds.
+def hostile(name, fill, libver="earliest"):
+    with h5py.File(HERE / f"{name}.h5", "w", libver=libver) as file:
+        file.create_dataset("odometry", data=motion)
+        fill(file)
+
+
+def groups_in_themselves(file):
+    file.create_dataset("radar_data", data=rows)
+    group = file.create_group("group")
+    group["itself"] = group
+    file["root"] = file["/"]
+
+
+def links_in_circles(file):
+    file["radar_data"] = h5py.SoftLink("/a")
+    file["a"] = h5py.SoftLink("/radar_data")
+
+
+def rows_of_nothing(file):
+    file.create_dataset("radar_data", (2**40,), rows.dtype, chunks=(2**20,), compression="gzip")
+
+
+def a_chunk_of_zeros(file):
+    zeros = file.create_dataset("radar_data", (4,), rows.dtype, chunks=(2**18,), maxshape=(None,), compression=9)
+    zeros[:] = rows
+
+
+hostile("groups_in_themselves", groups_in_themselves)
+hostile("links_in_circles", links_in_circles)
+hostile("latest_links_in_circles", links_in_circles, NEWEST)
+hostile("rows_of_nothing", rows_of_nothing)
+hostile("a_chunk_of_zeros", a_chunk_of_zeros)

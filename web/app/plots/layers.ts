@@ -160,6 +160,7 @@ export function dots(px: ArrayLike<number>, py: ArrayLike<number>, style: Series
     const target = image.getContext('2d');
     if (!target) return;
     const pixels = target.createImageData(width, height);
+    const { data } = pixels;
     const [red, green, blue] = parseColor(style.color[themeName]);
     const size = Math.max(Math.round(1.5 * ratio), 1);
     for (let i = 0; i < px.length; i++) {
@@ -170,8 +171,8 @@ export function dots(px: ArrayLike<number>, py: ArrayLike<number>, style: Series
       if (!(column >= 0 && row >= 0 && column + size <= width && row + size <= height)) continue;
       for (let k = 0; k < size * size; k++) {
         const at = 4 * ((row + Math.floor(k / size)) * width + column + (k % size));
-        pixels.data.set([red, green, blue], at);
-        pixels.data[at + 3] = 255 - (255 - (pixels.data[at + 3] as number)) * (1 - alpha);
+        [data[at], data[at + 1], data[at + 2]] = [red, green, blue];
+        data[at + 3] = 255 - (255 - (data[at + 3] as number)) * (1 - alpha);
       }
     }
     target.putImageData(pixels, 0, 0);

@@ -10,6 +10,7 @@ import { significant, ticks } from './format.ts';
 import { clipToPlot, type Layer, type LayerContext, polyline } from './layers.ts';
 import { navigate } from './navigate.ts';
 import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
+import { atOnce, drop, inTurn } from './turns.ts';
 
 export type Interval = readonly [number, number];
 export interface View {
@@ -103,6 +104,15 @@ function logSplits(low: number, high: number): number[] {
   return all;
 }
 
+/** Where values of an axis are drawn: as uPlot has it, without looking the axis up for each of thousands. */
+function linear(u: uPlot, axis: 'x' | 'y'): (value: number) => number {
+  const { min, max } = u.scales[axis] ?? {};
+  if (min == null || max == null || !(max > min)) return (value) => u.valToPos(value, axis, true);
+  const from = u.valToPos(min, axis, true);
+  const unit = (u.valToPos(max, axis, true) - from) / (max - min);
+  return (value) => from + (value - min) * unit;
+}
+
 const AXIS_WIDTH = 52;
 export const AXIS_HEIGHT = 40;
 
@@ -115,6 +125,8 @@ export class Plot {
   #theme: ThemeName;
   #ids: string[] = [];
   #observer: ResizeObserver;
+  #sight: IntersectionObserver;
+  #inSight = false;
   #listeners = new Set<() => void>();
   #stopNavigating: (() => void) | undefined;
 
@@ -132,6 +144,11 @@ export class Plot {
     if (options.navigate) this.#stopNavigating = navigate(this);
     this.#observer = new ResizeObserver(() => this.#resize());
     this.#observer.observe(host);
+    this.#sight = new IntersectionObserver((entries) => {
+      this.#inSight = entries.at(-1)?.isIntersecting ?? false;
+      if (this.#inSight) atOnce(this.#drawContent);
+    });
+    this.#sight.observe(host);
     this.#resize();
   }
 
@@ -164,6 +181,13 @@ export class Plot {
 
   setContent(content: PlotContent): void {
     this.#content = content;
+    if (this.#inSight) this.#drawContent();
+    else inTurn(this.#drawContent);
+  }
+
+  #drawContent = (): void => {
+    const content = this.#content;
+    drop(this.#drawContent);
     const ids = content.series.map((series) => series.id);
     this.u.batch(() => {
       if (ids.join('\n') !== this.#ids.join('\n')) {
@@ -178,7 +202,7 @@ export class Plot {
       this.u.setData([content.x, ...columns] as unknown as uPlot.AlignedData, false);
       this.#applyView();
     });
-  }
+  };
 
   setTheme(theme: ThemeName): void {
     this.#theme = theme;
@@ -187,6 +211,7 @@ export class Plot {
 
   /** Shows part of the extent; `null` all of it. */
   setView(view: View | null, report = false): void {
+    if (!view && !this.#view && !report) return;
     this.#view = view ? this.#within(view) : null;
     this.#applyView();
     if (report) this.#options.onView?.(this.view, this.zoomed);
@@ -265,6 +290,8 @@ export class Plot {
 
   destroy(): void {
     this.#observer.disconnect();
+    this.#sight.disconnect();
+    drop(this.#drawContent);
     this.#stopNavigating?.();
     this.#listeners.clear();
     this.host.removeEventListener('keydown', this.#key);
@@ -525,8 +552,8 @@ export class Plot {
       theme: THEMES[this.#theme],
       themeName: this.#theme,
       ratio: this.ratio * scale,
-      x: (value) => u.valToPos(value, 'x', true),
-      y: (value) => u.valToPos(value, 'y', true),
+      x: linear(u, 'x'),
+      y: linear(u, 'y'),
     };
   }
 

@@ -104,11 +104,22 @@ export function PlotFrame(props: PlotFrameProps) {
     });
     download(image, fileName(parts, extension));
   };
+  const described = [
+    props.detail && `${id}-part`,
+    props.legend?.length && `${id}-shows`,
+    (props.remarks || props.hint) && `${id}-says`,
+  ]
+    .filter(Boolean)
+    .join(' ');
   return (
     <figure class="panel plot-frame" data-plot={props.name} aria-labelledby={`${id}-title`}>
       <div class="panel-head">
         <h3 id={`${id}-title`}>{props.title}</h3>
-        {props.detail && <span class="muted detail">{props.detail}</span>}
+        {props.detail && (
+          <span id={`${id}-part`} class="muted detail">
+            {props.detail}
+          </span>
+        )}
         {props.tools}
         <div class="tools" role="group" aria-label={`${props.title}: tools`}>
           <button
@@ -152,7 +163,7 @@ export function PlotFrame(props: PlotFrameProps) {
         </div>
       </div>
       <Readout cursor={cursor} text={props.readout} />
-      <div ref={host} class={`plot-host ${props.height}`} aria-describedby={`${id}-shows`} />
+      <div ref={host} class={`plot-host ${props.height}`} aria-describedby={described || undefined} />
       {props.overlay}
       {props.legend && props.legend.length > 0 && (
         <ul id={`${id}-shows`} class="legend" aria-label="Legend">
@@ -166,7 +177,7 @@ export function PlotFrame(props: PlotFrameProps) {
         </ul>
       )}
       {(props.remarks || props.hint) && (
-        <figcaption>{[...(props.remarks ?? []), props.hint].filter(Boolean).join(' ')}</figcaption>
+        <figcaption id={`${id}-says`}>{[...(props.remarks ?? []), props.hint].filter(Boolean).join(' ')}</figcaption>
       )}
     </figure>
   );

@@ -187,7 +187,15 @@ export function selected(drive: DriveData, ids: readonly number[]): { drive: Dri
   const gathered = <T extends Floats>(from: T): T => {
     const values = from.slice(0, 0).constructor as new (length: number) => T;
     const own = new values(offsets[scans.length] ?? 0);
-    extents.forEach(([start, end], index) => own.set(from.subarray(start, end), offsets[index]));
+    // Scans whose detections follow each other are copied together: those of a drive with one radar at once.
+    for (let first = 0; first < extents.length; ) {
+      const [start, end] = extents[first] as [number, number];
+      let last = first;
+      let until = end;
+      while (extents[last + 1]?.[0] === until) until = (extents[++last] as [number, number])[1];
+      own.set(from.subarray(start, until), offsets[first]);
+      first = last + 1;
+    }
     return own;
   };
   const { timeS, yawRateDegps, speedMps } = view.motion;

@@ -89,7 +89,7 @@ pub(crate) struct Sum {
 pub(crate) struct Scatter {
     /// Variance beyond their own, rad^2.
     pub(crate) excess: f64,
-    /// How many frames count as one.
+    /// How many frames count as one; less than one by chance, where frames are independent, counts as one.
     pub(crate) correlated: f64,
 }
 
@@ -116,6 +116,7 @@ impl Block {
     /// Sums of the frames with Student-t weights (Lange, Little and Taylor 1989) about the angle that they agree on by themselves, so
     /// that an angle that has changed is seen. `x` has the other unknowns less their reference.
     pub(crate) fn sum(&self, x: &Vector, Scatter { excess, correlated }: Scatter) -> Sum {
+        let correlated = correlated.max(1.0);
         let residual =
             |row: &Row| row.value - (1..UNKNOWNS).map(|i| row.row[i] * x[i]).sum::<f64>();
         let mut level = median(self.rows.iter().map(residual).collect());
@@ -169,7 +170,7 @@ impl Block {
         }
         // About the mean of the block, means over a share of it scatter by that share less.
         let left = 1.0 - 1.0 / groups as f64;
-        (of_frames > 0.0).then(|| (of_means / (left * of_frames)).clamp(1.0, NEIGHBOURS as f64))
+        (of_frames > 0.0).then(|| (of_means / (left * of_frames)).min(NEIGHBOURS as f64))
     }
 }
 

@@ -59,6 +59,8 @@ const LEARNING_RATE: f64 = 0.01;
 /// then, and how many blocks this counts as and is at most learnt over.
 const EXCESS_RAD: f64 = 0.003_490_658_503_988_66;
 const CORRELATED: f64 = 4.0;
+/// Error that the frames of a block share on real drives, rad (0.1 deg).
+const LASTING_RAD: f64 = 0.001_745_329_251_994_33;
 const SCATTER_BLOCKS: [f64; 2] = [1.0, 60.0];
 /// Blocks before which each frame moves the angle at once.
 const FIRST_BLOCKS: u64 = 3;
@@ -146,7 +148,7 @@ impl Recursive {
             speed_scale: Speed::default(),
             noise_scale: 1.0,
             scatter: (
-                Scatter { excess: EXCESS_RAD * EXCESS_RAD, correlated: CORRELATED },
+                Scatter { excess: EXCESS_RAD * EXCESS_RAD, correlated: correlated(options) },
                 SCATTER_BLOCKS[0],
             ),
             blocks: 0,
@@ -433,6 +435,12 @@ impl Recursive {
 /// Unknowns less what blocks' equations are written about.
 fn offset(known: &Information) -> Vector {
     std::array::from_fn(|i| known.mean()[i] - known.reference()[i])
+}
+
+/// How many frames are expected to count as one: fewer where errors are said to last less than those of real drives.
+fn correlated(options: &CalibrationOptions) -> f64 {
+    let share = (options.lasting_sigma_rad / LASTING_RAD).min(1.0);
+    1.0 + (CORRELATED - 1.0) * share
 }
 
 fn prior(angle_rad: f64, options: &CalibrationOptions) -> Information {

@@ -73,7 +73,7 @@ impl State {
             && self.noise_scale > 0.0
             && self.noise_scale.is_finite()
             && self.scatter.0.excess > 0.0
-            && self.scatter.0.correlated >= 1.0
+            && self.scatter.0.correlated >= 0.0
             && self.scatter.1 >= 0.0
     }
 }

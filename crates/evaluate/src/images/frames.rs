@@ -4,6 +4,7 @@ use crate::EvaluateError;
 use boresight_aoa::{Estimator, WarningCount};
 use boresight_core::Array;
 use boresight_core::presets::preset;
+use boresight_core::resolution::resolution_rad;
 use boresight_image::{
     BirdsEyeView, Gate, Grid, GridOptions, HiddenMeasure, Outside, PointMeasure, RadarPoints,
     SidelobeMeasure, Target, ViewGrid, birds_eye_view, hidden_measure, point_measure,
@@ -201,7 +202,7 @@ impl StreetFrames {
         let cell = Grid::of(&map_grid(&radar.waveform))?;
         Ok(Gate::Resolution {
             range_m: 2.0 * radar.waveform.range_resolution_m(),
-            sine: 2.0 / (preset(radar.array)?.aperture() + 1.0) + cell.sine.step(),
+            sine: resolution_rad(&preset(radar.array)?).sin() + cell.sine.step(),
         })
     }
 }

@@ -118,6 +118,7 @@ export function ArrayPanel({ scene }: { scene: Scene }) {
       <div class="two">
         <PlotFrame
           title="Virtual elements"
+          detail={`${geometry.positions.length} of ${array.split(':')[0]}`}
           name="elements"
           height="short"
           content={layout}
@@ -141,6 +142,7 @@ export function ArrayPanel({ scene }: { scene: Scene }) {
         />
         <PlotFrame
           title="Beam pattern at boresight"
+          detail={`of ${geometry.positions.length} elements, first null at ±${fixed(geometry.resolutionDeg, 1)}°`}
           name="pattern"
           height="short"
           content={response}

@@ -411,7 +411,7 @@ function gateOf([part]: readonly { frame: RadarFrame; map: RangeAzimuthMap }[], 
   const [first = 0, second = 0] = part.map.azimuthDeg.map((azimuth) => Math.sin((azimuth * Math.PI) / 180));
   return {
     rangeM: 2 * api.waveformSummary(waveform).rangeResolutionM,
-    sine: 2 / (api.array(array).aperture + 1) + second - first,
+    sine: Math.sin((api.array(array).resolutionDeg * Math.PI) / 180) + second - first,
   };
 }
 

@@ -53,6 +53,9 @@ export const filesWanted = computed(() => captureState.value.source === 'files' 
 /** What a tab can hold beside its copies in workers. */
 const LARGEST_BYTES = 512 * 1024 * 1024;
 
+/** Of the bundled capture. */
+export const bundledAddresses = [binAddress, cfgAddress, datAddress] as const;
+
 const NEEDED = [
   { kind: 'bin', what: 'the .bin with the raw samples' },
   { kind: 'cfg', what: 'the .cfg that the radar ran with' },

@@ -90,11 +90,12 @@ export const usedAngleDeg = computed(() => shown.value?.result.angleDeg ?? where
 /** Values below and above which a share lies, of what is finite; of at most about 20,000. */
 export function quantiles(values: ArrayLike<number>, low: number, high: number): [number, number] | null {
   const every = Math.max(Math.floor(values.length / 20_000), 1);
-  const some: number[] = [];
-  for (let i = 0; i < values.length; i += every) if (Number.isFinite(values[i])) some.push(values[i] as number);
-  if (!some.length) return null;
-  some.sort((a, b) => a - b);
-  return [some[Math.floor(low * (some.length - 1))] as number, some[Math.ceil(high * (some.length - 1))] as number];
+  const all = new Float64Array(Math.ceil(values.length / every));
+  let size = 0;
+  for (let i = 0; i < values.length; i += every) if (Number.isFinite(values[i])) all[size++] = values[i] as number;
+  if (!size) return null;
+  const some = all.subarray(0, size).sort();
+  return [some[Math.floor(low * (size - 1))] as number, some[Math.ceil(high * (size - 1))] as number];
 }
 
 /** Numbers of the detections of the radar that is looked at, at most about 20,000 of them. */

@@ -3,6 +3,7 @@ import { count, fixed, signed } from '../../plots/format.ts';
 import { type Caption, useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
+import { InTurn } from '../../ui/in-turn.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
 import { AnglePlot } from './angle-plot.tsx';
 import { BirdPlot } from './bird-plot.tsx';
@@ -28,7 +29,9 @@ import { SharePlot } from './share-plot.tsx';
 import { minSpeed, mountingCodec, mountingState } from './state.ts';
 import { Progress, TimeBar } from './time-bar.tsx';
 import { frameKey } from './time-plot.tsx';
+import { start as startTrajectory } from './trajectory.ts';
 import { TrajectoryPlot } from './trajectory-plot.tsx';
+import { Verdict } from './verdict.tsx';
 
 /** The time a link asks for, until its drive is there. */
 let wantedTime: number | null = null;
@@ -57,7 +60,7 @@ function followDrive(): () => void {
 
 /** What runs while the page is there; returns what ends it. */
 function startPage(): () => void {
-  const stops = [startDrive(), startProcess(), startClock(), followDrive()];
+  const stops = [startDrive(), startProcess(), startTrajectory(), startClock(), followDrive()];
   const key = (event: KeyboardEvent): void => {
     const on = event.target as HTMLElement;
     if (
@@ -137,6 +140,7 @@ export function MountingPage() {
             This drive does not say where the radar is: give its place ahead of the rear axle, under Radar.
           </p>
         )}
+        <Verdict />
         {open && <Summary />}
         {open && <TimeBar />}
         {open ? (
@@ -204,12 +208,20 @@ function Plots() {
       <ResultsTable />
       {view && (
         <div class="two">
-          <DopplerPlot view={view} label={label} />
-          <BirdPlot view={view} label={label} />
+          <InTurn>
+            <DopplerPlot view={view} label={label} />
+          </InTurn>
+          <InTurn>
+            <BirdPlot view={view} label={label} />
+          </InTurn>
         </div>
       )}
-      <SharePlot />
-      <TrajectoryPlot />
+      <InTurn>
+        <SharePlot />
+      </InTurn>
+      <InTurn>
+        <TrajectoryPlot />
+      </InTurn>
       <Remarks />
     </>
   );

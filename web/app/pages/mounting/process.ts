@@ -77,6 +77,7 @@ export function start(): () => void {
     clearTimeout(timer);
     running?.abort();
     running = undefined;
+    const opened = knownOf?.open !== open;
     batch(() => {
       progress.value = null;
       wasCancelled.value = false;
@@ -99,7 +100,8 @@ export function start(): () => void {
     const missing = wanted.filter((method) => !known.has(method));
     if (!open || !text || !missing.length) return;
     working.value = true;
-    timer = setTimeout(() => void calibrate(open, text, missing), 250);
+    // Numbers are typed digit by digit.
+    timer = setTimeout(() => void calibrate(open, text, missing), opened ? 0 : 250);
   });
   return () => {
     clearTimeout(timer);

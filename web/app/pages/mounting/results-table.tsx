@@ -12,7 +12,7 @@ import { ReportButton, ReportProblem } from './report-button.tsx';
 import { calibrationOptions, mountingState } from './state.ts';
 import { fileParts } from './time-plot.tsx';
 import { relativeErrors, SEGMENT_M } from './trajectory.ts';
-import { determined, Verdict } from './verdict.tsx';
+import { determined } from './verdict.tsx';
 import { about, WAYS, type Way } from './ways.ts';
 
 interface Row extends MethodResult {
@@ -285,11 +285,15 @@ export function ResultsTable() {
         </div>
       </div>
       <ReportProblem />
-      <Verdict />
       <Outlook />
-      {TABLES.map(({ label, groups }) => (
-        <Columns key={label} list={list.filter(({ group }) => groups.includes(group))} label={label} {...shared} />
-      ))}
+      {TABLES.map(({ label, groups }) => ({ label, part: list.filter(({ group }) => groups.includes(group)) }))
+        // No drive tells all of a car, and some nothing.
+        .filter(
+          ({ part }, i) => i === 0 || !rows.some(isDone) || rows.some((row) => part.some((one) => tells(one, row))),
+        )
+        .map(({ label, part }) => (
+          <Columns key={label} list={part} label={label} {...shared} />
+        ))}
       {warnings.size > 0 && (
         <ul class="warnings" aria-label="Warnings">
           {[...warnings].map(([code, { message, titles }]) => (
@@ -302,6 +306,12 @@ export function ResultsTable() {
     </section>
   );
 }
+
+const isDone = ({ result }: Row): boolean => result !== undefined;
+const tells = ({ value }: Column, row: Row): boolean => {
+  const is = row.result && value(row.result, row);
+  return is != null && !Number.isNaN(is);
+};
 
 /** Some of the columns of all rows, as a table. */
 function Columns({

@@ -1,7 +1,8 @@
 /** Where the radar's own motion takes the car under an angle, and where it really was. */
-import { computed } from '@preact/signals';
+import { computed, effect, signal } from '@preact/signals';
 import type { Drive, DriveCalibration, ScanMotion, Trajectory, TrajectoryOptions } from 'boresight';
 import { api } from '../../data.ts';
+import { drop, inTurn } from '../../plots/turns.ts';
 import { loaded } from './drive.ts';
 import { after } from './playhead.ts';
 import { results, shown } from './process.ts';
@@ -52,7 +53,9 @@ export interface Paths {
 
 const heading = computed(() => mountingState.value.heading);
 
-export const paths = computed<Paths | null>(() => {
+export const paths = signal<Paths | null>(null);
+
+function pathsNow(): Paths | null {
   const calibration = shown.value;
   const motion = loaded.value?.motion;
   if (!calibration || !motion) return null;
@@ -68,22 +71,45 @@ export const paths = computed<Paths | null>(() => {
     foundError: relativeError(found),
     nominalError: relativeError(nominal),
   };
-});
+}
 
 /** What is known of calibrations that stay while others come. */
 const known = new WeakMap<DriveCalibration, number | null>();
 
 /** By the radar alone with every method's own motion and angle, as published. */
-export const relativeErrors = computed<ReadonlyMap<Way, number>>(() => {
-  const errors = new Map<Way, number>();
-  for (const [way, { calibration }] of results.value) {
-    if (!calibration) continue;
-    if (!known.has(calibration)) known.set(calibration, relativeError(path(calibration, calibration.result.angleDeg)));
-    const error = known.get(calibration);
-    if (error != null) errors.set(way, error);
-  }
-  return errors;
-});
+export const relativeErrors = signal<ReadonlyMap<Way, number>>(new Map());
+
+const calibrations = (): [Way, DriveCalibration][] =>
+  [...results.peek()].flatMap(([way, { calibration }]) => (calibration ? [[way, calibration]] : []));
+
+/** Follows the results, a moment behind and a path at a time: nothing seen at first waits for them. */
+export function start(): () => void {
+  const findPaths = (): void => {
+    paths.value = pathsNow();
+  };
+  const findErrors = (): void => {
+    const next = calibrations().find(([, calibration]) => !known.has(calibration))?.[1];
+    if (next) {
+      known.set(next, relativeError(path(next, next.result.angleDeg)));
+      inTurn(findErrors);
+      return;
+    }
+    relativeErrors.value = new Map(
+      calibrations().flatMap(([way, calibration]) => {
+        const error = known.get(calibration);
+        return error == null ? [] : [[way, error] as const];
+      }),
+    );
+  };
+  const stop = effect(() => {
+    void [results.value, shown.value, loaded.value, heading.value];
+    for (const find of [findPaths, findErrors]) inTurn(find);
+  });
+  return () => {
+    stop();
+    for (const find of [findPaths, findErrors]) drop(find);
+  };
+}
 
 /** By speed and yaw rate as they were measured; between samples with both, their mean. */
 function odometry({ timeS, speedMps, yawRateDegps }: Drive['motion']): Trajectory {

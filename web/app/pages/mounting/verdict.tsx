@@ -1,7 +1,8 @@
 /** What the drive says of the mounting angle, in a sentence: which method to go by, and why. */
 import type { CalibrationResult } from 'boresight';
 import { count, fixed, signed } from '../../plots/format.ts';
-import { results, where } from './process.ts';
+import { driveProblem, filesWanted, loaded, opening } from './drive.ts';
+import { results, where, working } from './process.ts';
 import { mountingState } from './state.ts';
 import { about, WAYS, type Way } from './ways.ts';
 
@@ -34,29 +35,39 @@ function whyNone(result: CalibrationResult): string {
   return `in ${count(frames[most[0]])} of ${count(frames.given)} frames ${most[1]}`;
 }
 
-/** The verdict, and whether it is one to act on. */
-function verdictOf(told: readonly Told[]): { kind: 'none' | 'open' | 'good' | 'off'; text: string } {
-  const [first] = told;
-  if (!first) return { kind: 'open', text: '' };
+type Kind = 'none' | 'open' | 'good' | 'off' | 'awaited';
+
+/** What there is to say in a line, why, and whether it is to be acted on. */
+interface Said {
+  kind: Kind;
+  head: string;
+  why: string;
+}
+
+function verdictOf(told: readonly Told[]): Said {
+  const first = told[0] as Told;
   const best =
     told.find(({ result }) => determined(result) && result.converged) ?? told.find((one) => determined(one.result));
-  if (!best) return { kind: 'none', text: `The drive does not tell the angle: ${whyNone(first.result)}.` };
+  if (!best) {
+    return { kind: 'none', head: 'No angle: the drive does not tell it.', why: `${sentence(whyNone(first.result))}.` };
+  }
   const { way, result } = best;
   const angle = `${signed(result.angleDeg, 2)}° ± ${fixed(result.sigmaDeg, 2)}°`;
   if (!result.converged) {
     return {
       kind: 'open',
-      text: `Not settled yet: ${about(way).title} is at ${angle}. A longer drive helps, above all one with curves and at more speed.`,
+      head: `Not settled yet: ${angle} so far.`,
+      why: `By ${about(way).title}. A longer drive helps, above all one with curves and at more speed.`,
     };
   }
   const nominal = where.value?.nominalDeg;
   const allowed = `${fixed(mountingState.value.alarm, 2)}°`;
   const words = (nominal: number) => ({
-    misaligned: ` The radar is misaligned: ${fixed(Math.abs(result.angleDeg - nominal), 2)}° from its nominal ${signed(nominal, 2)}°, where ${allowed} are allowed.`,
-    aligned: ` It is where it should be, within ${allowed} of its nominal ${signed(nominal, 2)}°.`,
-    undecided: ` Whether it is within ${allowed} of its nominal ${signed(nominal, 2)}° is not decided: chance is granted three deviations.`,
+    misaligned: `: misaligned, ${fixed(Math.abs(result.angleDeg - nominal), 2)}° from its nominal ${signed(nominal, 2)}°, where ${allowed} are allowed.`,
+    aligned: `: as it should be, within ${allowed} of its nominal ${signed(nominal, 2)}°.`,
+    undecided: `: not decided whether within ${allowed} of its nominal ${signed(nominal, 2)}°, where chance is granted three deviations.`,
   });
-  const turned = result.alignment === null || nominal == null ? '' : words(nominal)[result.alignment];
+  const turned = result.alignment === null || nominal == null ? '.' : words(nominal)[result.alignment];
   const why =
     way === 'recursive' || way === 'joint'
       ? 'it leaves out what moves, and estimates the yaw-rate sensor’s errors with the angle'
@@ -72,8 +83,25 @@ function verdictOf(told: readonly Told[]): { kind: 'none' | 'open' | 'good' | 'o
     : '';
   return {
     kind: result.alignment === 'misaligned' ? 'off' : result.alignment === 'undecided' ? 'open' : 'good',
-    text: `${angle} by ${about(way).title}: ${why}.${turned}${apart}`,
+    head: `Mounting angle ${angle}${turned}`,
+    why: `By ${about(way).title}: ${why}.${apart}`,
   };
+}
+
+const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** Said in its place, so that nothing moves when it comes; nothing where something else is asked for first. */
+function awaited(): Said | null {
+  const what =
+    opening.value?.what ??
+    (working.value
+      ? 'The methods are at work'
+      : loaded.value || driveProblem.value || filesWanted.value
+        ? ''
+        : 'Opening');
+  if (!what) return null;
+  const why = 'Here it is said how sure the angle is, which method to go by, and whether the radar was knocked.';
+  return { kind: 'awaited', head: `${what} …`, why };
 }
 
 export function Verdict() {
@@ -82,11 +110,14 @@ export function Verdict() {
     const result = one?.stale ? undefined : one?.calibration?.result;
     return result ? [{ way, result }] : [];
   });
-  const { kind, text } = verdictOf(told);
-  if (!text) return null;
+  const said = told.length ? verdictOf(told) : awaited();
+  if (!said) return null;
   return (
-    <p class={`verdict ${kind}`} role="status" data-verdict={kind}>
-      <strong>{kind === 'none' ? 'No angle.' : kind === 'open' ? 'Open.' : 'Mounting angle:'}</strong> {text}
-    </p>
+    <section class={`panel verdict ${said.kind}`} aria-label="Verdict" data-verdict={said.kind}>
+      <p class="head" role="status">
+        {said.head}
+      </p>
+      <p class="small">{said.why}</p>
+    </section>
   );
 }

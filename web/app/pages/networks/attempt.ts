@@ -91,14 +91,16 @@ type Scene = Pick<NetworksState, 'targets' | 'snr' | 'seed' | 'refine' | 'range'
 
 async function attemptOn(model: Model, scene: Scene, controller: AbortController): Promise<void> {
   trying.value = true;
+  // What was shown before stays until all is there.
+  const isFirst = attempt.peek()?.model !== model.name;
   try {
     const info = await load(model.name, controller.signal);
-    const made = await (sightOf(model.card) === 'region' ? onRegion : onSnapshots)(
-      model,
-      info,
-      scene,
-      controller.signal,
-    );
+    const made = await (sightOf(model.card) === 'region' ? onRegion : onSnapshots)(model, info, scene, {
+      signal: controller.signal,
+      show: (part) => {
+        if (isFirst && running === controller) attempt.value = part;
+      },
+    });
     if (running !== controller) return;
     batch(() => {
       attempt.value = made;
@@ -117,13 +119,20 @@ interface Wanted {
   run(): Promise<Estimate>;
 }
 
+interface Job {
+  signal: AbortSignal;
+  /** Takes what is there already. */
+  show(part: Attempt): void;
+}
+
 /** Each by itself, so that times say something; the first call of each is not timed, for it may compile. */
-async function rowsOf(wanted: readonly Wanted[], signal: AbortSignal): Promise<Row[]> {
+async function rowsOf(wanted: readonly Wanted[], made: Attempt, { signal, show }: Job): Promise<Row[]> {
   const rows: Row[] = [];
   for (const { method, title, run } of wanted) {
     try {
-      await run();
+      const first = await run();
       signal.throwIfAborted();
+      show({ ...made, rows: [...rows, { method, title, estimate: first }] });
       const started = performance.now();
       const estimate = await run();
       rows.push({ method, title, estimate, milliseconds: performance.now() - started });
@@ -172,7 +181,8 @@ export function snapshotScene(card: Card, targets: number) {
     : ({ snapshots: 1, powerDb: [-13, 0], beside: ['iaa', 'nomp', 'bartlett'] } as const);
 }
 
-async function onSnapshots(model: Model, info: NetworkInfo, scene: Scene, signal: AbortSignal): Promise<Attempt> {
+async function onSnapshots(model: Model, info: NetworkInfo, scene: Scene, job: Job): Promise<Attempt> {
+  const { signal } = job;
   const { card, name } = model;
   const method = card.network as NetworkMethod;
   const { snr: snrDb, seed, refine } = scene;
@@ -191,24 +201,13 @@ async function onSnapshots(model: Model, info: NetworkInfo, scene: Scene, signal
   const [, elements, count] = drawn.shape;
   const input: EstimateInput = { snapshots: { data: drawn.data, shape: [elements, count] } };
   const options = { array, gridPoints: 2048, ...told, ...(refine ? { refine } : {}) };
-  const rows = await rowsOf(
-    [
-      {
-        method,
-        title: model.title,
-        run: () => pool().estimate(input, { ...options, method, network: info.id, fieldOfViewDeg }, { signal }),
-      },
-      ...beside.map((method) => classical(method, input, options, signal)),
-    ],
-    signal,
-  );
-  return {
+  const made: Attempt = {
     model: name,
     sight: sightOf(card),
     truth,
     fieldOfViewDeg,
     array,
-    rows,
+    rows: [],
     counts: [],
     ...(truth.length
       ? {
@@ -226,9 +225,23 @@ async function onSnapshots(model: Model, info: NetworkInfo, scene: Scene, signal
       : {}),
     scene: `${array}, ${targets} ${targets === 1 ? 'target' : 'targets'}${snapshots > 1 ? `, ${snapshots} snapshots` : ''}, ${snrDb} dB, seed ${seed}${refine ? ', refined' : ''}`,
   };
+  made.rows = await rowsOf(
+    [
+      {
+        method,
+        title: model.title,
+        run: () => pool().estimate(input, { ...options, method, network: info.id, fieldOfViewDeg }, { signal }),
+      },
+      ...beside.map((method) => classical(method, input, options, signal)),
+    ],
+    made,
+    job,
+  );
+  return made;
 }
 
-async function onRegion(model: Model, info: NetworkInfo, scene: Scene, signal: AbortSignal): Promise<Attempt> {
+async function onRegion(model: Model, info: NetworkInfo, scene: Scene, job: Job): Promise<Attempt> {
+  const { signal } = job;
   const { card, name } = model;
   const { snr, seed, range, refine } = scene;
   const targets = targetsIn(scene, card);
@@ -299,7 +312,8 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, signal: A
       classical('root-music', input, smooth, signal, `${title('root-music')}, smoothed`),
       classical('iaa', { snapshots }, options, signal, `${title('iaa')}, strongest bin`),
     ],
-    signal,
+    made,
+    job,
   );
   return made;
 }

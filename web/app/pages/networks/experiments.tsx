@@ -193,10 +193,8 @@ function Losses({ figures, of }: { figures: readonly Figure[]; of: 'aoa' | 'doa'
       </p>
     );
   return (
-    <section class="panel" aria-labelledby={`${of}-losses ${of}-title`} data-verdict="counted">
-      <div class="panel-head">
-        <h3 id={`${of}-losses`}>Networks against the classical methods</h3>
-      </div>
+    <details class="panel method-choice" data-verdict="counted">
+      <summary id={`${of}-losses`}>Each network against the classical methods, figure by figure, in words</summary>
       <ul class="outcomes">
         {rows.map(({ figure, network }) => {
           const loss = hardest(figure, network);
@@ -209,8 +207,7 @@ function Losses({ figures, of }: { figures: readonly Figure[]; of: 'aoa' | 'doa'
             >
               <Swatch style={styleOf(network.method)} line />
               <p>
-                <b>{titleOf(network.method)}</b> ({figure.title}):{' '}
-                <span class={loss ? 'loses' : ''}>{outcome(figure, network.method, loss)}</span>
+                <b>{titleOf(network.method)}</b> ({figure.title}): {outcome(figure, network.method, loss)}
               </p>
             </li>
           );
@@ -220,7 +217,7 @@ function Losses({ figures, of }: { figures: readonly Figure[]; of: 'aoa' | 'doa'
         Values are level when they differ by less than {LEVEL_SIGMAS} standard deviations of what so many trials leave
         uncertain. All classical methods are compared, shown or not.
       </p>
-    </section>
+    </details>
   );
 }
 

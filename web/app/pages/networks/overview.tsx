@@ -88,8 +88,7 @@ function Row({ model: { name, title, card } }: { model: Model }) {
 function Against({ summary: { figure, against, behind, conditions } }: { summary: Summary }) {
   return against ? (
     <>
-      <span class="loses">Loses to {titleOf(against)}</span> in {behind} of {conditions} conditions (
-      {figure.split(':')[0]})
+      Loses to {titleOf(against)} in {behind} of {conditions} conditions ({figure.split(':')[0]})
     </>
   ) : (
     <>

@@ -13,6 +13,7 @@ import { Experiments } from './experiments.tsx';
 import { LearningPanel } from './learning.tsx';
 import { Overview } from './overview.tsx';
 import { ownProblem } from './own.tsx';
+import { StandingPanel } from './standing-panel.tsx';
 import { captionOf, networksCodec, networksState } from './state.ts';
 import { TimingPanel } from './timing-panel.tsx';
 
@@ -51,6 +52,7 @@ export function NetworksPage() {
             <ModuleNote />
           </p>
         )}
+        <StandingPanel />
         <AttemptPanel />
         <Overview />
         {model && (

@@ -16,21 +16,27 @@ export interface Verdict {
 /** Values closer than this many standard deviations of their difference are level. */
 export const LEVEL_SIGMAS = 2;
 
+/** How far a network is ahead at a condition, in standard deviations of the difference; null where one has no value. */
+export function leadAt(figure: Figure, network: Line, other: Line, i: number): number | null {
+  const [a, b] = [network.values[i], other.values[i]];
+  if (a == null || b == null) return null;
+  const sigma = Math.hypot(network.sigma[i] ?? 0, other.sigma[i] ?? 0) || Number.EPSILON;
+  return (figure.lowerIsBetter ? b - a : a - b) / sigma;
+}
+
 export function compare(figure: Figure, network: Line, other: Line): Verdict {
   const verdict: Verdict = { network: network.method, against: other.method, ahead: 0, level: 0, behind: 0 };
   let farthest = 0;
   figure.x.forEach((x, i) => {
-    const [a, b] = [network.values[i], other.values[i]];
-    if (a == null || b == null) return;
-    const sigma = Math.hypot(network.sigma[i] ?? 0, other.sigma[i] ?? 0) || Number.EPSILON;
-    const lead = (figure.lowerIsBetter ? b - a : a - b) / sigma;
+    const lead = leadAt(figure, network, other, i);
+    if (lead === null) return;
     if (lead > LEVEL_SIGMAS) verdict.ahead += 1;
     else if (lead >= -LEVEL_SIGMAS) verdict.level += 1;
     else {
       verdict.behind += 1;
       if (lead < farthest) {
         farthest = lead;
-        verdict.worst = { x, value: a, other: b };
+        verdict.worst = { x, value: network.values[i] as number, other: other.values[i] as number };
       }
     }
   });

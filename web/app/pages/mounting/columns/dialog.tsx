@@ -39,8 +39,9 @@ export function ColumnsDialog() {
     >
       <h2 id="columns-question">What do the columns hold?</h2>
       <p>
-        Azimuths are seen from the radar. Columns that nothing is chosen from are not read; rows without a number where
-        one is needed are left out and counted. The files stay as they are.
+        Azimuths, x and y are seen from the radar, x along its boresight; from x and y follow azimuth and range. Columns
+        that nothing is chosen from are not read; rows without a number where one is needed are left out and counted.
+        The files stay as they are.
       </p>
       {GROUPS.map((group) => (
         <Group key={group} group={group} asked={asked} />
@@ -147,7 +148,7 @@ function Row({ group, field, table, asked }: { group: GroupName; field: Field; t
     <tr data-field={name}>
       <th scope="row" class="text">
         {field.label}
-        {field.required ? '' : ' (optional)'}
+        {field.place ? ' (in place of azimuth)' : field.required ? '' : ' (optional)'}
       </th>
       <td class="text">
         <select

@@ -21,6 +21,8 @@ export interface Field {
   signs?: readonly [string, string];
   /** Names count too, and are numbered. */
   names?: true;
+  /** No column of the general table: azimuth and range follow from two such. */
+  place?: true;
   examples: readonly [string, string];
 }
 
@@ -71,6 +73,11 @@ export const FIELDS: Record<GroupName, readonly Field[]> = {
       ['-12.5', '30.25'],
       { required: true, signs: ['left', 'right'] },
     ),
+    field('x_m', 'x, along boresight', LENGTHS, /\b(x|dx|longitudinal)\b/, ['41.5', '14.9'], { place: true }),
+    field('y_m', 'y, across', LENGTHS, /\b(y|dy|lateral)\b/, ['-9.2', '8.7'], {
+      place: true,
+      signs: ['left', 'right'],
+    }),
     field(
       'range_rate_mps',
       'Range rate',
@@ -108,6 +115,9 @@ export const FIELDS: Record<GroupName, readonly Field[]> = {
     ),
   ],
 };
+
+/** Of detections, in place of azimuth and range. */
+export const PLACE = ['x_m', 'y_m'];
 
 /** Given all together or not at all. */
 export const POSE = ['x_m', 'y_m', 'yaw_rad'];

@@ -1,5 +1,5 @@
 /** What columns hold, by their names and, where these are silent, by their numbers. */
-import { DATE, FIELDS, type Field, type GroupName } from './fields.ts';
+import { DATE, FIELDS, type Field, type GroupName, PLACE } from './fields.ts';
 import { numberOf, type Table } from './table.ts';
 
 /** A column and how to take it. */
@@ -77,6 +77,7 @@ export function guess(group: GroupName, table: Table): Choice {
   const picks: Record<string, Pick> = {};
   const free = new Set(table.columns);
   for (const field of FIELDS[group]) {
+    if (field.place && picks.azimuth_deg) continue;
     // A general table's own columns are what they say, in whichever of its units.
     const column =
       table.columns.find((name) => free.has(name) && name === field.name) ??
@@ -92,8 +93,15 @@ export function guess(group: GroupName, table: Table): Choice {
   return { table: table.name, picks };
 }
 
-const missing = (group: GroupName, { picks }: Choice): number =>
-  FIELDS[group].filter(({ name, required }) => required && !picks[name]).length;
+/** Whether azimuths, and ranges that have no column, follow from places. */
+export const fromPlace = ({ picks }: Choice, { name }: Field): boolean =>
+  !picks[name] && (name === 'azimuth_deg' || name === 'range_m') && PLACE.every((part) => picks[part]);
+
+const lacks = (choice: Choice, field: Field): boolean =>
+  field.required && !choice.picks[field.name] && !fromPlace(choice, field);
+
+const missing = (group: GroupName, choice: Choice): number =>
+  FIELDS[group].filter((field) => lacks(choice, field)).length;
 
 /** Each group from the table that has most of what it needs; no motion where no table has a yaw rate. */
 export function guessAll(tables: readonly Table[]): Choices {
@@ -111,8 +119,6 @@ export function guessAll(tables: readonly Table[]): Choices {
 /** What is still to be said, in words. */
 export function lacking({ detections, motion }: Choices): string[] {
   const ask = (group: GroupName, choice: Choice): string[] =>
-    FIELDS[group].flatMap(({ name, label, required }) =>
-      required && !choice.picks[name] ? [`${label.toLowerCase()} of the ${group}`] : [],
-    );
+    FIELDS[group].flatMap((field) => (lacks(choice, field) ? [`${field.label.toLowerCase()} of the ${group}`] : []));
   return [...ask('detections', detections), ...(motion.table === null ? [] : ask('motion', motion))];
 }

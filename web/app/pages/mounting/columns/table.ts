@@ -2,8 +2,8 @@
 import Papa from 'papaparse';
 import { FileProblem } from '../../../data.ts';
 import type { NamedFile } from '../../../ui/entries.ts';
-import { DATE, FIELDS, type Field, type GroupName, POSE } from './fields.ts';
-import type { Choice } from './guess.ts';
+import { DATE, FIELDS, type Field, type GroupName, PLACE, POSE } from './fields.ts';
+import { type Choice, fromPlace } from './guess.ts';
 
 export interface Table {
   name: string;
@@ -93,6 +93,7 @@ export async function look(given: NamedFile): Promise<Table> {
 
 /** Turns a field's text into the number that the general table holds. */
 export function reader(table: Table, field: Field, choice: Choice): (row: readonly string[]) => number {
+  if (fromPlace(choice, field)) return placeReader(table, field, choice);
   const pick = choice.picks[field.name];
   if (!pick) return () => Number.NaN;
   const at = table.columns.indexOf(pick.column);
@@ -101,6 +102,18 @@ export function reader(table: Table, field: Field, choice: Choice): (row: readon
   const factor = sign * (field.units.find(({ name }) => name === pick.unit)?.factor ?? 1);
   return (row) => numberOf(row[at] ?? '', table.comma) * factor;
 }
+
+/** Azimuth or range of a place in the radar's frame. */
+function placeReader(table: Table, { name }: Field, choice: Choice): (row: readonly string[]) => number {
+  const [x, y] = FIELDS.detections
+    .filter((field) => PLACE.includes(field.name))
+    .map((field) => reader(table, field, choice)) as [Reads, Reads];
+  return name === 'range_m'
+    ? (row) => Math.hypot(x(row), y(row))
+    : (row) => (Math.atan2(y(row), x(row)) * 180) / Math.PI;
+}
+
+type Reads = (row: readonly string[]) => number;
 
 /** Sensors by number where all are numbers that may be, else numbered in the order in which their names come. */
 export function sensorReader(table: Table, field: Field, choice: Choice): (row: readonly string[]) => number {
@@ -125,9 +138,12 @@ export function sensorReader(table: Table, field: Field, choice: Choice): (row: 
 }
 
 /** Fields of a group that its general table will have. */
-const written = (group: GroupName, { picks }: Choice): Field[] => {
-  const pose = POSE.every((name) => picks[name]);
-  return FIELDS[group].filter(({ name }) => picks[name] && (pose || !POSE.includes(name)));
+const written = (group: GroupName, choice: Choice): Field[] => {
+  const { picks } = choice;
+  const pose = group === 'detections' || POSE.every((name) => picks[name]);
+  return FIELDS[group].filter(
+    (field) => !field.place && (picks[field.name] || fromPlace(choice, field)) && (pose || !POSE.includes(field.name)),
+  );
 };
 
 /**

@@ -3,7 +3,8 @@ import { download, fileName } from '../../../plots/save.ts';
 import { FIELDS, type GroupName } from './fields.ts';
 
 export function saveTemplate(group: GroupName): void {
-  const rows = [0, 1].map((row) => FIELDS[group].map(({ examples }) => examples[row]));
-  const lines = [FIELDS[group].map(({ name }) => name), ...rows].map((row) => `${row.join(',')}\n`);
+  const fields = FIELDS[group].filter(({ place }) => !place);
+  const rows = [0, 1].map((row) => fields.map(({ examples }) => examples[row]));
+  const lines = [fields.map(({ name }) => name), ...rows].map((row) => `${row.join(',')}\n`);
   download(lines.join(''), fileName(['template', group], 'csv'));
 }
