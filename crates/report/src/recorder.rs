@@ -110,15 +110,15 @@ impl Recorder {
 
     /// Angles and their standard deviations, deg, at times after the first frame, s.
     pub(crate) fn history(&self) -> impl Iterator<Item = [f64; 3]> {
-        self.from_start(&self.history)
+        self.after_start(&self.history)
     }
 
     /// Speeds, m/s, and yaw rates, deg/s, at times after the first frame, s; NaN where one is not known.
     pub(crate) fn states(&self) -> impl Iterator<Item = [f64; 3]> {
-        self.from_start(&self.state)
+        self.after_start(&self.state)
     }
 
-    fn from_start(&self, line: &Line) -> impl Iterator<Item = [f64; 3]> {
+    fn after_start(&self, line: &Line) -> impl Iterator<Item = [f64; 3]> {
         let start_s = self.first_s.unwrap_or(0.0);
         line.points.iter().map(move |[time_s, a, b]| [time_s - start_s, *a, *b])
     }

@@ -2,6 +2,7 @@
 
 use crate::carry;
 use boresight_aoa::AoaError;
+#[cfg(feature = "drives")]
 use boresight_calibrate::CalibrateError;
 use boresight_core::describe::At;
 use boresight_core::describe::naming::camel_case;
@@ -29,6 +30,7 @@ pub enum BindingError {
     #[error(transparent)]
     Aoa(#[from] AoaError),
     /// The calibration refused.
+    #[cfg(feature = "drives")]
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
     /// A file cannot be read or written.
@@ -91,6 +93,7 @@ impl Diagnose for BindingError {
         match self {
             Self::Argument(error) => error.code(),
             Self::Aoa(error) => error.code(),
+            #[cfg(feature = "drives")]
             Self::Calibrate(error) => error.code(),
             Self::Format(error) => error.code(),
             Self::Image(error) => error.code(),
@@ -110,6 +113,7 @@ impl Diagnose for BindingError {
         match self {
             Self::Argument(error) => error.details(),
             Self::Aoa(error) => error.details(),
+            #[cfg(feature = "drives")]
             Self::Calibrate(error) => error.details(),
             Self::Format(error) => error.details(),
             Self::Image(error) => error.details(),
