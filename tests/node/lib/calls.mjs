@@ -87,6 +87,11 @@ export function goodCalls() {
     readDrive: [[golden('contiguous.h5')]],
     calibrateDrive: [drive, of],
     jointCalibration: [drive, { sensors: [1] }],
+    calibrationReport: [
+      drive,
+      { made: 'now', asked: 'so', sources: [{ name: 'a.csv', bytes: 3, sha256: 'ab' }] },
+      { sensor: 1 },
+    ],
     scanMotion: [drive, { maxGapS: 0.2 }],
     mergeCalibrations: [[snapshotOf(calibration, frame)]],
     driveFrame: [drive, 1, boresight.scanMotion(drive)],
