@@ -78,7 +78,7 @@ browserTest(
     assert.match(await page.locator('[data-facts="counts"]').innerText(), /Without range rate\s*192/);
     assert.match(
       await page.locator('[data-plot="trajectory"] .legend').innerText(),
-      /Angle found, −1\.9\d°, RTE [\d.]+ m[\s\S]*Nominal angle, 0\.00°, RTE [\d.]+ m[\s\S]*Poses of the log/,
+      /Angle found, −(1\.9|2\.0)\d°, RTE [\d.]+ m[\s\S]*Nominal angle, 0\.00°, RTE [\d.]+ m[\s\S]*Poses of the log/,
     );
     await page.waitForSelector('[data-plot="doppler-azimuth"] [data-series="recursive"]');
   },

@@ -21,6 +21,7 @@ fn a_run_is_kept_goes_on_and_is_not_mixed_with_another() {
     assert!(read("run", "calibration.md") == first.as_bytes());
     let figures = [
         "convergence.svg",
+        "states.svg",
         "angles.svg",
         "angles-dense.svg",
         "angles-radarscenes.svg",
@@ -34,7 +35,7 @@ fn a_run_is_kept_goes_on_and_is_not_mixed_with_another() {
     let json = stdout(&[&short[..], &["--json"]].concat());
     assert!(read("run", "calibration.json") == json.as_bytes());
     let json: Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(json["conditions"][0]["methods"].as_array().unwrap().len(), 11);
+    assert_eq!(json["conditions"][0]["methods"].as_array().unwrap().len(), 12);
     assert_eq!(stdout(&short), first);
     assert_eq!(std::fs::read_to_string(folder.join("run/calibration.jsonl")).unwrap(), records);
 
@@ -106,7 +107,7 @@ fn drives_from_files_are_cut_into_pieces_and_taken_up_again() {
     ];
     let first = stdout(&run);
     assert!(
-        first.contains("## 2 drives from files") && first.contains("### Pieces of 12 s"),
+        first.contains("# 2 drives from files") && first.contains("## Pieces of 12 s"),
         "{first}"
     );
     let records = std::fs::read_to_string(out.join("calibration-drives.jsonl")).unwrap();
