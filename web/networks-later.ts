@@ -6,6 +6,8 @@ import type { Connect, Plugin } from 'vite';
 const standIn = fileURLToPath(new URL('app/networks/stand-in.ts', import.meta.url));
 /** What the bindings call themselves in the imports of their module. */
 const BINDINGS = './boresight_neural_bg.js';
+/** How scripts name the module. */
+const ADDRESS = /new URL\('(?:\.\.\/)+(?:dist\/)?wasm\/boresight_neural_bg\.wasm', import\.meta\.url\)/;
 const TYPES: Record<string, string> = {
   'state.json': 'application/json',
   'boresight_neural.js': 'text/javascript',
@@ -38,11 +40,11 @@ export function networksLater(folder: string): Plugin {
       resolve: { alias: [{ find: /^(\.\.\/)+wasm\/boresight_neural\.js$/, replacement: standIn }] },
     }),
     transform: {
-      filter: { id: /\/dist\/worker\/browser\.js$/ },
-      handler(code) {
-        const before = "new URL('../wasm/boresight_neural_bg.wasm', import.meta.url)";
-        if (!code.includes(before)) this.error(`web/worker/browser.ts no longer has ${before}`);
-        return code.replace(before, "new URL('/later/boresight_neural_bg.wasm', location.href)");
+      // What compiles the module, and what asks for it ahead.
+      filter: { id: /\/(dist\/worker\/browser\.js|pages\/networks\/ahead\.ts)$/ },
+      handler(code, id) {
+        if (!ADDRESS.test(code)) this.error(`${id} no longer has ${ADDRESS}`);
+        return code.replace(ADDRESS, "new URL('/later/boresight_neural_bg.wasm', location.href)");
       },
     },
     writeBundle({ dir = '' }) {
