@@ -8,6 +8,7 @@ const allowed = {
   image: ['core', 'signal'],
   calibrate: ['core'],
   formats: ['core'],
+  report: ['calibrate'],
   neural: ['core', 'signal', 'aoa'],
   pipeline: ['core', 'signal', 'aoa', 'image'],
   evaluate: ['core', 'signal', 'aoa', 'calibrate', 'simulate', 'image', 'neural', 'pipeline'],

@@ -3,7 +3,7 @@
 //!
 //! Radars look in any direction. How much moves is set window by window, the same for all directions.
 //! Some windows are queues, in which all road users have one speed, and one frame in twenty has nothing
-//! that stands. [`file`](self::file) has the format.
+//! that stands. [`mod@file`] has the format.
 
 pub mod file;
 mod options;
