@@ -24,6 +24,8 @@ const PAGES = [
   },
 ];
 
+const pageOf = (name) => PAGES.find(({ page }) => page === name);
+
 for (const { page: name, query = '', ready, asked, most } of PAGES) {
   browserTest(`loading: ${name}${query} over 10 Mbit/s`, { path: '#/networks' }, async ({ browser, url, test }) => {
     // Nothing of the page that the test began with.
@@ -88,44 +90,48 @@ browserTest(
     // The line fails for what workers are made of.
     await context.route('**/*.wasm', (route) => route.abort());
     await page.locator('nav a[href^="#/birdseye"]').click();
-    await page.waitForSelector(PAGES.find(({ page }) => page === 'birdseye').ready, patient);
+    await page.waitForSelector(pageOf('birdseye').ready, patient);
     assert.ok(page.workers().length > 0, 'workers run');
     assert.deepEqual(asked, ['boresight_bg']);
     await context.unroute('**/*.wasm');
     await page.locator('nav a[href^="#/mounting"]').click();
-    await page.waitForSelector(PAGES.find(({ page }) => page === 'mounting').ready, patient);
+    await page.waitForSelector(pageOf('mounting').ready, patient);
     assert.deepEqual(asked, ['boresight_bg', 'boresight_drives_bg']);
     await context.close();
   },
 );
 
+/** Opens a page with the core held back until all that is wanted has been asked for; gives all requests until it is ready. */
+async function askedWhileHeld(browser, url, { page: name, query = '', ready }, wanted) {
+  const context = await browser.newContext({ serviceWorkers: 'block' });
+  const page = await context.newPage();
+  const asked = [];
+  page.on('request', (request) => asked.push(request.url()));
+  // What is asked for only after the core never comes.
+  let letCome;
+  const held = new Promise((resolve) => {
+    letCome = resolve;
+  });
+  await context.route('**/boresight_bg-*.wasm', async (route) => {
+    await held;
+    await route.continue();
+  });
+  const all = Promise.all(wanted.map((file) => page.waitForRequest(file, patient)));
+  await page.goto(`${url}#/${name}${query}`);
+  await all;
+  letCome();
+  await page.waitForSelector(ready, patient);
+  await context.close();
+  return asked;
+}
+
 browserTest(
   'loading: Mounting asks for its drive and their module beside the core, each once',
   { path: '#/networks' },
   async ({ browser, url }) => {
-    const context = await browser.newContext({ serviceWorkers: 'block' });
-    const page = await context.newPage();
-    const asked = [];
-    page.on('request', (request) => asked.push(request.url()));
-    // Held back: what is asked for only after it never comes.
-    let letCome;
-    const held = new Promise((resolve) => {
-      letCome = resolve;
-    });
-    await context.route('**/boresight_bg-*.wasm', async (route) => {
-      await held;
-      await route.continue();
-    });
-    const drive = /front_radar|pose_10hz/;
-    const all = Promise.all(
-      [/front_radar/, /pose_10hz/, /boresight_drives_bg/].map((wanted) => page.waitForRequest(wanted, patient)),
-    );
-    await page.goto(`${url}#/mounting`);
-    await all;
-    letCome();
-    await page.waitForSelector(PAGES.find(({ page }) => page === 'mounting').ready, patient);
-    assert.equal(asked.filter((address) => drive.test(address)).length, 2);
-    await context.close();
+    const files = [/front_radar/, /pose_10hz/];
+    const asked = await askedWhileHeld(browser, url, pageOf('mounting'), [...files, /boresight_drives_bg/]);
+    for (const name of files) assert.equal(asked.filter((address) => name.test(address)).length, 1, String(name));
   },
 );
 
@@ -134,7 +140,7 @@ browserTest('loading: no step through pages asks for the icon again', { path: '#
   page.on('request', (request) => asked.push(request.url()));
   for (const path of ['#/networks', '#/angle']) {
     await page.locator(`nav a[href^="${path}"]`).click();
-    await page.waitForSelector(PAGES.find(({ page }) => path === `#/${page}`).ready, patient);
+    await page.waitForSelector(pageOf(path.slice(2)).ready, patient);
     await page.goBack();
     await page.goForward();
   }
@@ -149,30 +155,12 @@ browserTest(
   'loading: Capture and a network’s scene ask for their files beside the core',
   { path: '#/networks' },
   async ({ browser, url }) => {
-    for (const [path, wanted] of [
-      ['#/capture', [/dca_module/, /visualizer/]],
-      ['#/networks?run=1&model=learned-pursuit', [/boresight_neural_bg/, /learned-pursuit-[\w-]+\.onnx/]],
+    for (const [page, wanted] of [
+      [pageOf('capture'), [/dca_module/, /visualizer/]],
+      [PAGES.at(-1), [/boresight_neural_bg/, /learned-pursuit-[\w-]+\.onnx/]],
     ]) {
-      const context = await browser.newContext({ serviceWorkers: 'block' });
-      const page = await context.newPage();
-      const asked = [];
-      page.on('request', (request) => asked.push(request.url()));
-      let letCome;
-      const held = new Promise((resolve) => {
-        letCome = resolve;
-      });
-      await context.route('**/boresight_bg-*.wasm', async (route) => {
-        await held;
-        await route.continue();
-      });
-      const all = Promise.all(wanted.map((name) => page.waitForRequest(name, patient)));
-      await page.goto(`${url}${path}`);
-      await all;
-      letCome();
-      const ready = path.includes('run') ? PAGES.at(-1).ready : PAGES.find(({ page }) => page === 'capture').ready;
-      await page.waitForSelector(ready, patient);
-      for (const name of wanted) assert.equal(asked.filter((address) => name.test(address)).length, 1, String(name));
-      await context.close();
+      const asked = await askedWhileHeld(browser, url, page, wanted);
+      for (const file of wanted) assert.equal(asked.filter((address) => file.test(address)).length, 1, String(file));
     }
   },
 );

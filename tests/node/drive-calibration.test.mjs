@@ -13,18 +13,16 @@ import {
   initDrives,
   jointCalibration,
   readDrive,
-  relativeTrajectoryError,
   scanMotion,
   simulateDrive,
-  trajectory,
 } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { selected } from '../../dist/lib/drive/view.js';
 import glue from '../../dist/wasm/boresight.js';
 import { environment, root } from '../../scripts/lib/paths.mjs';
 import { program } from '../../scripts/lib/programs.mjs';
-import { rejectsTyped, throwsTyped } from './lib/assert.mjs';
-import { delphi } from './lib/drives.mjs';
+import { throwsTyped } from './lib/assert.mjs';
+import { beginning, delphi } from './lib/drives.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 
 let pool;
@@ -37,16 +35,6 @@ before(async () => {
   four = simulateDrive({ scenario: 'city', seed: 3, durationS: 40, misalignmentDeg: { 3: 2 } });
 });
 after(() => pool.terminate());
-
-/** The first seconds of a drive of one radar. */
-function beginning(drive, untilS) {
-  const scans = drive.scans.timeS.findIndex((time) => time > untilS);
-  const { timeS, sensor, offsets } = drive.scans;
-  return {
-    ...drive,
-    scans: { timeS: timeS.slice(0, scans), sensor: sensor.slice(0, scans), offsets: offsets.slice(0, scans + 1) },
-  };
-}
 
 /** A drive over and over, each time later. */
 function repeated(drive, times) {
@@ -263,257 +251,5 @@ describe('jointCalibration', () => {
     bad([1, 1], 'out-of-range', 'sensors');
     bad([{ sensor: 1, xm: 2 }], 'unknown-option', 'sensors[0].xm');
     throwsTyped(() => jointCalibration(four, { method: 'kabsch' }), 'unknown-option', 'method');
-  });
-});
-
-describe('trajectories', () => {
-  test('with the angle found follow the truth better than with a wrong one', async () => {
-    const { frames, mounting, result } = calibrateDrive(four, { sensor: 2 });
-    const truth = { timeS: four.motion.timeS, ...four.motion.pose };
-    const path = (angleDeg) => trajectory(frames, { ...mounting, angleDeg });
-    const ours = path(result.angleDeg);
-    assertShape(ours, 'Trajectory');
-    const error = relativeTrajectoryError(ours, truth);
-    // An angle off by 3 deg turns the car by 3 deg of its way over x: metres after 50 m.
-    assert.ok(error < 0.2 * relativeTrajectoryError(path(result.angleDeg + 3), truth), `${error}`);
-    assert.equal(await pool.relativeTrajectoryError(ours, truth), error);
-    assert.deepEqual(await pool.trajectory(frames, { ...mounting, angleDeg: 1 }), path(1));
-    assert.ok(relativeTrajectoryError(truth, truth, 20) < 1e-9);
-    // The heading may jump by a turn.
-    const jumping = { ...truth, yawDeg: truth.yawDeg.map((yaw, i) => yaw + (i % 2) * 360) };
-    assert.ok(relativeTrajectoryError(truth, jumping, 20) < 1e-6);
-  });
-
-  test('turn by a yaw rate where one is given', async () => {
-    const { frames, mounting, result } = calibrateDrive(four, { sensor: 2 });
-    const truth = { timeS: four.motion.timeS, ...four.motion.pose };
-    const motion = scanMotion(four);
-    const yawRateDegps = Float64Array.from(frames.scan, (scan) => motion.yawRateDegps[scan] - result.biasDegps);
-    const path = (angleDeg, options) => trajectory(frames, { ...mounting, angleDeg }, options);
-    const error = (angleDeg, options) => relativeTrajectoryError(path(angleDeg, options), truth);
-    // A wrong angle then moves the car sideways, 3 deg of 50 m being 2.6 m, where it bent the way before.
-    const off = error(result.angleDeg + 3, { yawRateDegps });
-    assert.ok(error(result.angleDeg, { yawRateDegps }) < 0.5 && off > 2 && off < 3.2, `${off}`);
-    assert.deepEqual(
-      await pool.trajectory(frames, { ...mounting, angleDeg: 1 }, { yawRateDegps }),
-      path(1, { yawRateDegps }),
-    );
-    // What is not known follows from the radar's motion.
-    assert.deepEqual(path(1, { yawRateDegps: yawRateDegps.map(() => NaN) }), path(1));
-    assert.ok(trajectory(frames, { angleDeg: 0, xM: 0 }, { yawRateDegps: yawRateDegps.fill(0) }));
-    throwsTyped(() => path(1, { yawRateDegps: new Float64Array(1) }), 'shape', 'options.yawRateDegps');
-    throwsTyped(() => path(1, 3), 'wrong-type', 'options');
-  });
-
-  test('that cannot be had are null, and bad input is refused', () => {
-    const { frames, mounting } = calibrateDrive(four, { sensor: 2 });
-    assert.equal(trajectory(frames, { angleDeg: 0, xM: 0 }), null);
-    const path = trajectory(frames, { ...mounting, angleDeg: 0 });
-    assert.equal(relativeTrajectoryError(path, path, 1e6), null);
-    throwsTyped(() => relativeTrajectoryError(path, path, 0), 'wrong-type', 'segmentM');
-    throwsTyped(() => relativeTrajectoryError(path, { ...path, xM: new Float64Array(1) }), 'shape', 'truth.xM');
-    throwsTyped(
-      () => relativeTrajectoryError(path, { ...path, timeS: path.timeS.slice().reverse() }),
-      'time-backwards',
-      'truth.timeS',
-    );
-    throwsTyped(() => trajectory(frames, { angleDeg: NaN, xM: 1 }), 'wrong-type', 'mounting.angleDeg');
-    throwsTyped(() => trajectory({ ...frames, vxMps: [] }, mounting), 'wrong-type', 'frames.vxMps');
-    throwsTyped(() => trajectory(undefined, mounting), 'wrong-type', 'frames');
-  });
-});
-
-describe('bad drives', () => {
-  const part = (name, change) => (drive) => ({ ...drive, [name]: { ...drive[name], ...change(drive[name]) } });
-  const spoilt = (array, index, value) => Object.assign(array.slice(), { [index]: value });
-  const cases = [
-    ['nothing', () => undefined, 'wrong-type', 'drive'],
-    ['no scans', ({ scans, ...rest }) => rest, 'wrong-type', 'drive.scans'],
-    ['times as a list', part('scans', ({ timeS }) => ({ timeS: [...timeS] })), 'wrong-type', 'drive.scans.timeS'],
-    ['too few radars', part('scans', ({ sensor }) => ({ sensor: sensor.subarray(1) })), 'shape', 'drive.scans.sensor'],
-    [
-      'too few offsets',
-      part('scans', ({ offsets }) => ({ offsets: offsets.subarray(1) })),
-      'shape',
-      'drive.scans.offsets',
-    ],
-    [
-      'offsets that fall',
-      part('scans', ({ offsets }) => ({ offsets: spoilt(offsets, 5, 0) })),
-      'out-of-range',
-      'drive.scans.offsets',
-    ],
-    [
-      'offsets beyond the end',
-      part('scans', ({ offsets }) => ({ offsets: spoilt(offsets, offsets.length - 1, 2 ** 32 - 1) })),
-      'out-of-range',
-      'drive.scans.offsets',
-    ],
-    [
-      'a scan of all detections',
-      (drive) => ({
-        ...drive,
-        scans: {
-          timeS: new Float64Array(1),
-          sensor: new Uint8Array([1]),
-          offsets: new Uint32Array([0, drive.detections.azimuthDeg.length]),
-        },
-      }),
-      'out-of-range',
-      'drive.scans.offsets',
-    ],
-    [
-      'time that runs backwards',
-      part('scans', ({ timeS }) => ({ timeS: spoilt(timeS, 7, -1) })),
-      'time-backwards',
-      'drive.scans.timeS',
-    ],
-    [
-      'a time that is none',
-      part('scans', ({ timeS }) => ({ timeS: spoilt(timeS, 7, NaN) })),
-      'not-finite',
-      'drive.scans.timeS',
-    ],
-    [
-      'motion that runs backwards',
-      part('motion', ({ timeS }) => ({ timeS: timeS.slice().reverse() })),
-      'time-backwards',
-      'drive.motion.timeS',
-    ],
-    [
-      'motion without yaw rates',
-      part('motion', () => ({ yawRateDegps: undefined })),
-      'missing',
-      'drive.motion.yawRateDegps',
-    ],
-    [
-      'an azimuth that is none',
-      part('detections', ({ azimuthDeg }) => ({ azimuthDeg: spoilt(azimuthDeg, 900, NaN) })),
-      'not-finite',
-      'drive.detections.azimuthDeg',
-    ],
-    [
-      'a range rate beyond all',
-      part('detections', ({ rangeRateMps }) => ({ rangeRateMps: Float64Array.from(rangeRateMps).fill(1e300, 900) })),
-      'not-finite',
-      'drive.detections.rangeRateMps',
-    ],
-    [
-      'detections of two lengths',
-      part('detections', ({ rangeRateMps }) => ({ rangeRateMps: rangeRateMps.slice(1) })),
-      'shape',
-      'drive.detections.rangeRateMps',
-    ],
-    [
-      'arrays given away',
-      (drive) => {
-        const azimuthDeg = drive.detections.azimuthDeg.slice();
-        structuredClone(azimuthDeg, { transfer: [azimuthDeg.buffer] });
-        return { ...drive, detections: { ...drive.detections, azimuthDeg } };
-      },
-      'shape',
-      'drive.detections.rangeRateMps',
-    ],
-    [
-      'a getter that throws',
-      (drive) => ({
-        ...drive,
-        get motion() {
-          throw new Error('mine');
-        },
-      }),
-      'wrong-type',
-      'drive.motion',
-    ],
-    ['endless radars', (drive) => ({ ...drive, sensors: new Array(2 ** 32 - 1) }), 'wrong-type', 'drive.sensors'],
-    ['a radar without number', (drive) => ({ ...drive, sensors: [{ xM: 1 }] }), 'wrong-type', 'drive.sensors[0].id'],
-    [
-      'a radar twice',
-      (drive) => ({ ...drive, sensors: [...drive.sensors, ...drive.sensors] }),
-      'out-of-range',
-      'drive.sensors',
-    ],
-    [
-      'a place that is no number',
-      (drive) => ({ ...drive, sensors: [{ id: 1, xM: NaN }] }),
-      'wrong-type',
-      'drive.sensors[0].xM',
-    ],
-    [
-      'a place that is not known',
-      (drive) => ({ ...drive, sensors: [{ id: 1, xM: null, yM: null, yawDeg: null }] }),
-      'missing',
-      'xM',
-    ],
-  ];
-  for (const [name, change, code, what] of cases) {
-    test(`${name}: refused, here and in a worker, and the next is calibrated`, async () => {
-      const drive = beginning(front, 20);
-      const good = calibrateDrive(drive);
-      throwsTyped(() => calibrateDrive(change(drive)), code, what);
-      await rejectsTyped(pool.calibrateDrive(change(drive)), code, what);
-      assert.deepEqual(calibrateDrive(drive), good);
-      assert.deepEqual(await pool.calibrateDrive(drive), good);
-    });
-  }
-
-  test('taken away during the run: refused', () => {
-    for (const take of ['timeS', 'offsets', 'azimuthDeg', 'rangeRateMps']) {
-      const drive = structuredClone(beginning(front, 60));
-      const buffer = (drive.scans[take] ?? drive.detections[take]).buffer;
-      const report = (done) => {
-        if (done < 200) structuredClone(buffer, { transfer: [buffer] });
-      };
-      throwsTyped(() => calibrateDrive(drive, {}, report));
-    }
-    assert.equal(calibrateDrive(beginning(front, 20)).sensor, 1);
-  });
-
-  test('options are refused by name', async () => {
-    const bad = async (drive, options, code, what) => {
-      throwsTyped(() => calibrateDrive(drive, options), code, what);
-      await rejectsTyped(pool.calibrateDrive(drive, options), code, what);
-    };
-    await bad(four, {}, 'missing', 'sensor');
-    await bad(four, { sensor: 9 }, 'out-of-range', 'sensor');
-    await bad(four, { sensor: 'front' }, 'wrong-type', 'sensor');
-    await bad(front, { historyS: 0 }, 'wrong-type', 'historyS');
-    await bad(front, { maxGapS: NaN }, 'wrong-type', 'maxGapS');
-    await bad(front, { weights: 1 }, 'wrong-type', 'weights');
-    await bad(front, { method: 'magic' }, 'unknown-name', 'method');
-    await bad(front, { alarmDeg: -1 }, 'out-of-range', 'alarmDeg');
-    await bad(front, { colour: 1 }, 'unknown-option', 'colour');
-    await bad(front, 5, 'wrong-type', 'options');
-    await bad(
-      front,
-      {
-        get sensor() {
-          throw new Error('mine');
-        },
-      },
-      'wrong-type',
-      'options',
-    );
-  });
-
-  test('that say nothing are flagged', () => {
-    const drive = beginning(front, 20);
-    const none = calibrateDrive({
-      ...drive,
-      motion: { timeS: new Float64Array(0), yawRateDegps: new Float64Array(0) },
-    });
-    assert.equal(none.result.frames.withoutMotion + none.result.frames.sparse, drive.scans.timeS.length);
-    assert.ok(none.result.warnings.some(({ code }) => code === 'no-frames'));
-    assert.ok(none.frames.angleDeg.every(Number.isNaN));
-    const empty = calibrateDrive({
-      ...drive,
-      scans: { timeS: new Float64Array(0), sensor: new Uint8Array(0), offsets: new Uint32Array(1) },
-    });
-    assert.deepEqual([empty.history.timeS.length, empty.result.sigmaDeg], [0, Infinity]);
-    const far = calibrateDrive(
-      { ...drive, scans: { ...drive.scans, timeS: drive.scans.timeS.map((_, i) => (i < 5 ? -1e308 : 1e308)) } },
-      { historyS: 1e-300 },
-    );
-    assert.equal(far.result.frames.given, drive.scans.timeS.length);
   });
 });

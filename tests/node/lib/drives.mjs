@@ -8,3 +8,13 @@ export const delphi = () => ['front_radar.csv.gz', 'pose_10hz.csv.gz'].map((name
 
 /** A small file in the layout of RadarScenes, made by h5py. */
 export const golden = (name) => file('tests/golden/radarscenes', name);
+
+/** The first seconds of a drive of one radar. */
+export function beginning(drive, untilS) {
+  const scans = drive.scans.timeS.findIndex((time) => time > untilS);
+  const { timeS, sensor, offsets } = drive.scans;
+  return {
+    ...drive,
+    scans: { timeS: timeS.slice(0, scans), sensor: sensor.slice(0, scans), offsets: offsets.slice(0, scans + 1) },
+  };
+}
