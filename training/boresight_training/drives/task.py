@@ -49,6 +49,16 @@ BEFORE_LAST = 0.3
 """Weight of the fits but the last in the parts of the loss that all have."""
 
 
+def factor_of(answers) -> float:
+    """The factor on stated deviations, from frames that tell their motion, with velocities and covariances."""
+    squared = []
+    for frames, velocity, covariance in answers:
+        error = velocity - frames.velocity
+        good = plain(frames).determined & (error.norm(dim=-1) < measures.FAILED_MPS)
+        squared.append(measures.whitened(error, covariance)[good])
+    return measures.deviation_factor(torch.cat(squared))
+
+
 class DeepEgoTask:
     """The single-frame network; with `doppler_loss_only` trained without labels and without true motion."""
 
@@ -216,13 +226,8 @@ class DeepEgoTask:
             return None
         data = Dataset([self.test])
         chosen = torch.randperm(len(data), generator=generator)[:count].sort().values.numpy()
-        squared = []
-        for frames in parts(data, chosen):
-            answer = model(frames.points, frames.mask)
-            error = answer.velocity[-1] - frames.velocity
-            good = plain(frames).determined & (error.norm(dim=-1) < measures.FAILED_MPS)
-            squared.append(measures.whitened(error, answer.covariance)[good])
-        return [measures.deviation_factor(torch.cat(squared))]
+        answers = ((frames, model(frames.points, frames.mask)) for frames in parts(data, chosen))
+        return [factor_of((frames, answer.velocity[-1], answer.covariance) for frames, answer in answers)]
 
     def export_form(self, model, deviations=None):
         if deviations is not None:
