@@ -99,7 +99,8 @@ pub struct CalibrationOptions {
     /// detections that do.
     #[option(default = 0.15_f64.to_radians(), range = 0..=180)]
     pub traffic_sigma_rad: f64,
-    /// Standard deviation of the error that the angles of all frames within five seconds share, before the drive tells it.
+    /// Standard deviation of the error that the angles of all frames within five seconds and fifty metres share, before the drive
+    /// tells it.
     #[option(default = 0.1_f64.to_radians(), positive)]
     pub lasting_sigma_rad: f64,
     /// Standard deviation of the yaw rate's bias before anything is known of it.

@@ -40,7 +40,7 @@ const SHARE = 0.01;
 /** Finds the angle one radar of a drive is mounted at. Throws the code `cancelled` if `report` stops it. */
 export function calibrateDrive(drive: DriveData, options?: CalibrateDriveOptions, report?: Report): DriveCalibration {
   const view = viewOf(drive);
-  return run(view, taskOf(view, options), report, (_, task, found) => found(task))[0] as DriveCalibration;
+  return run(view, taskOf(view, options), report, (_, found) => found())[0] as DriveCalibration;
 }
 
 /** Finds the angles of several radars of a drive together: one yaw-rate sensor, one scale and one bias. */
@@ -50,7 +50,7 @@ export function jointCalibration(
   report?: Report,
 ): DriveCalibration[] {
   const view = viewOf(drive);
-  return run(view, jointTaskOf(view, options), report, (_, task, found) => found(task));
+  return run(view, jointTaskOf(view, options), report, (_, found) => found());
 }
 
 /**
@@ -65,12 +65,9 @@ export function calibrationReport(
   report?: Report,
 ): string {
   const view = viewOf(drive);
-  return run(view, reportTaskOf(view, options), report, (calibrator, { radars }) =>
-    calibrator.report(
-      radars.map(({ sensor }) => sensor),
-      about,
-    ),
-  );
+  const task = reportTaskOf(view, options);
+  const sensors = task.radars.map(({ sensor }) => sensor);
+  return run(view, task, report, (calibrator) => calibrator.report(sensors, about));
 }
 
 class DriveCalibrator extends Handle<glue.DriveCalibrator> {
@@ -163,12 +160,12 @@ function finite(what: string, values: Float32Array | Float64Array, start: number
   }
 }
 
-/** Feeds all frames; `end` makes of the calibrator, the task and what was found what is wanted. */
+/** Feeds all frames; `end` makes of the calibrator, or of what was found, what is wanted. */
 function run<T>(
   view: View,
   task: Task,
   report: Report | undefined,
-  end: (calibrator: DriveCalibrator, task: Task, found: (task: Task) => DriveCalibration[]) => T,
+  end: (calibrator: DriveCalibrator, found: () => DriveCalibration[]) => T,
 ): T {
   checkOrder(view);
   const { radars, historyS } = task;
@@ -239,7 +236,7 @@ function run<T>(
       }
     }
     const timeS = Float64Array.from(historyTimes);
-    return end(calibrator, task, ({ radars }) => {
+    return end(calibrator, () => {
       const outlook = calibrator.outlook();
       return calibrator.estimate().map((result, place): DriveCalibration => {
         const { sensor, options } = radars[place] as Task['radars'][number];

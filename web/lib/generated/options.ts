@@ -384,8 +384,8 @@ export interface CalibrationOptions {
    */
   trafficSigmaDeg?: number;
   /**
-   * Standard deviation of the error that the angles of all frames within five seconds share, before the drive tells it
-   * (more than 0 deg; default 0.1).
+   * Standard deviation of the error that the angles of all frames within five seconds and fifty metres share, before
+   * the drive tells it (more than 0 deg; default 0.1).
    */
   lastingSigmaDeg?: number;
   /** Standard deviation of the yaw rate's bias before anything is known of it (more than 0 deg/s; default 0.1). */

@@ -133,7 +133,8 @@ fn lasting(
     let mut rest = influences;
     while !rest.is_empty() {
         let mut extent = Extent::default();
-        let ends = |i: &Influence| extent.ends_before(i.sample.time_s, i.sample.radar_speed_mps);
+        let ends =
+            |i: &Influence| extent.ends_before(i.sample.time_s, i.sample.radar_speed_mps).is_some();
         let (block, after) = rest.split_at(rest.iter().position(ends).unwrap_or(rest.len()));
         let (mut pull, mut score) = ([0.0; 2], [0.0; 2]);
         for influence in block {

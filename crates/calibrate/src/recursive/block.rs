@@ -5,7 +5,7 @@ use crate::small::add_outer;
 use serde::{Deserialize, Serialize};
 
 /// A block lasts as long at least, s, and goes as far, m: what errs is in the scene, and a slow car has the same one before it for longer.
-pub(crate) const BLOCK_S: f64 = 5.0;
+const BLOCK_S: f64 = 5.0;
 const BLOCK_M: f64 = 50.0;
 /// Frames further apart say nothing of the way between them, s.
 const GAP_S: f64 = 1.0;
@@ -41,26 +41,30 @@ pub(crate) struct Row {
 pub(crate) struct Extent {
     start_s: f64,
     last_s: f64,
+    driven_s: f64,
     way_m: f64,
     frames: usize,
 }
 
 impl Extent {
-    /// Whether a frame at a time, s, begins another block; otherwise it is in this one. A block is bounded in frames, whatever their rate.
-    pub(crate) fn ends_before(&mut self, time_s: f64, speed_mps: f64) -> bool {
+    /// The time driven in this block, s, where a frame at a time, s, begins another; otherwise the frame is in this one. A block is bounded in
+    /// frames, whatever their rate.
+    pub(crate) fn ends_before(&mut self, time_s: f64, speed_mps: f64) -> Option<f64> {
         let full = self.frames > 0
             && ((time_s - self.start_s >= BLOCK_S && self.way_m >= BLOCK_M)
                 || self.frames >= MAX_FRAMES);
+        let ended = full.then_some(self.driven_s);
         if full || self.frames == 0 {
-            *self = Self { start_s: time_s, last_s: time_s, way_m: 0.0, frames: 0 };
+            *self = Self { start_s: time_s, last_s: time_s, ..Self::default() };
         }
         let step_s = time_s - self.last_s;
         if step_s <= GAP_S {
+            self.driven_s += step_s;
             self.way_m += speed_mps.abs() * step_s;
         }
         self.last_s = time_s;
         self.frames += 1;
-        full
+        ended
     }
 }
 
@@ -94,8 +98,8 @@ pub(crate) struct Scatter {
 }
 
 impl Block {
-    /// Whether a frame at a time, s, begins another block, for which [`Self::clear`] makes room.
-    pub(crate) fn ends_before(&mut self, time_s: f64, speed_mps: f64) -> bool {
+    /// The time driven in it, s, where a frame at a time, s, begins another block, for which [`Self::clear`] makes room.
+    pub(crate) fn ends_before(&mut self, time_s: f64, speed_mps: f64) -> Option<f64> {
         self.extent.ends_before(time_s, speed_mps)
     }
 

@@ -36,7 +36,7 @@ use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
 use crate::motion::ransac::Ransac;
 use crate::motion::{FrameMotion, MotionPlan};
 use crate::options::CalibrationOptions;
-use block::{BLOCK_S, Block, Scatter};
+use block::{Block, Scatter};
 use boresight_core::Detection;
 use doubts::Doubts;
 use equation::Equation;
@@ -339,8 +339,8 @@ impl Recursive {
         equation: &Equation,
         outcome: &mut FrameOutcome,
     ) {
-        if self.state.block.ends_before(time_s, speed_mps) {
-            self.end_block(time_s);
+        if let Some(driven_s) = self.state.block.ends_before(time_s, speed_mps) {
+            self.end_block(time_s, driven_s);
         }
         self.state.block.add(equation.row);
         let state = &self.state;
@@ -363,7 +363,7 @@ impl Recursive {
         known.with(&state.block.sum(&offset(&known), state.scatter.0))
     }
 
-    fn end_block(&mut self, time_s: f64) {
+    fn end_block(&mut self, time_s: f64, driven_s: f64) {
         let state = &mut self.state;
         let block = state.block.sum(&offset(&state.now), state.scatter.0);
         state.doubts.free_scale.add(&state.block);
@@ -376,7 +376,7 @@ impl Recursive {
         *blocks = (*blocks + 1.0).min(SCATTER_BLOCKS[1]);
         if let Some(old) = state.recent.push(block) {
             state.before.add(&old);
-            state.before.forget((-BLOCK_S / self.options.memory_s).exp());
+            state.before.forget((-driven_s / self.options.memory_s).exp());
         }
         if let Some(angle) = state.recent.changed(&state.before) {
             state.before.reset_angle(angle, ANGLE_PRIOR_RAD);

@@ -195,7 +195,7 @@ impl Recursive {
             let time_s = frame as f64 * STEP_S;
             let state = manoeuvre.state(time_s);
             let Some(row) = self.expected(known, state, variance) else { continue };
-            if rows.ends_before(time_s, state[0]) {
+            if rows.ends_before(time_s, state[0]).is_some() {
                 end(&mut rows, known);
             }
             rows.add(row);

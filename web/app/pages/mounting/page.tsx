@@ -166,9 +166,9 @@ export function MountingPage() {
             scale × true + bias.
           </p>
           <p>
-            <b>Deviations.</b> Each method’s own. The published ones take frames as independent, which tracked objects,
-            as in the bundled drive, are not: there they claim several times too little. “Not determined” is an infinite
-            one: the drive does not tell.
+            <b>Deviations.</b> Each method’s own. Errors that last for seconds, which real drives and tracked objects as
+            in the bundled drive have, are in all of them, and so is what no drive tells from the angle. “Not
+            determined” is an infinite one: the drive does not tell.
           </p>
           <p>
             <b>Files.</b> A RadarScenes sequence (radar_data.h5), Delphi ESR tables, or other tables of detections and
