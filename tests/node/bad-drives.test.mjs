@@ -1,10 +1,10 @@
 // Drives and options that no calibration can be made of: refused by name, and the next one works.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { calibrateDrive, init, initDrives, readDrive, simulateDrive } from 'boresight';
+import { calibrateDrive, init, initDrives, readDrive } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { rejectsTyped, throwsTyped } from './lib/assert.mjs';
-import { beginning, delphi } from './lib/drives.mjs';
+import { beginning, delphi, fourRadars } from './lib/drives.mjs';
 
 let pool;
 let front;
@@ -13,7 +13,7 @@ before(async () => {
   await Promise.all([init(), initDrives()]);
   pool = createPool({ workers: 1 });
   front = readDrive(delphi());
-  four = simulateDrive({ scenario: 'city', seed: 3, durationS: 40, misalignmentDeg: { 3: 2 } });
+  four = fourRadars();
 });
 after(() => pool.terminate());
 

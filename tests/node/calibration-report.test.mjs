@@ -1,18 +1,10 @@
 // What driving on would bring, and the report of a calibration: the same here, in a worker and frame by frame.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import {
-  Calibration,
-  calibrateDrive,
-  calibrationReport,
-  driveFrame,
-  init,
-  initDrives,
-  scanMotion,
-  simulateDrive,
-} from 'boresight';
+import { Calibration, calibrateDrive, calibrationReport, driveFrame, init, initDrives, scanMotion } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { throwsTyped } from './lib/assert.mjs';
+import { fourRadars } from './lib/drives.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 
 let pool;
@@ -20,7 +12,7 @@ let drive;
 before(async () => {
   await Promise.all([init(), initDrives()]);
   pool = createPool({ workers: 1 });
-  drive = simulateDrive({ scenario: 'city', seed: 3, durationS: 40, misalignmentDeg: { 3: 2 } });
+  drive = fourRadars();
 });
 after(() => pool.terminate());
 

@@ -14,7 +14,6 @@ import {
   jointCalibration,
   readDrive,
   scanMotion,
-  simulateDrive,
 } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { selected } from '../../dist/lib/drive/view.js';
@@ -22,7 +21,7 @@ import glue from '../../dist/wasm/boresight.js';
 import { environment, root } from '../../scripts/lib/paths.mjs';
 import { program } from '../../scripts/lib/programs.mjs';
 import { throwsTyped } from './lib/assert.mjs';
-import { beginning, delphi } from './lib/drives.mjs';
+import { beginning, delphi, fourRadars } from './lib/drives.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 
 let pool;
@@ -32,7 +31,7 @@ before(async () => {
   await Promise.all([init(), initDrives()]);
   pool = createPool({ workers: 1 });
   front = readDrive(delphi());
-  four = simulateDrive({ scenario: 'city', seed: 3, durationS: 40, misalignmentDeg: { 3: 2 } });
+  four = fourRadars();
 });
 after(() => pool.terminate());
 

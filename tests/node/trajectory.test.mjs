@@ -1,17 +1,10 @@
 // Where a radar's motion and an angle lead the car, and how far from the truth.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import {
-  calibrateDrive,
-  init,
-  initDrives,
-  relativeTrajectoryError,
-  scanMotion,
-  simulateDrive,
-  trajectory,
-} from 'boresight';
+import { calibrateDrive, init, initDrives, relativeTrajectoryError, scanMotion, trajectory } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { throwsTyped } from './lib/assert.mjs';
+import { fourRadars } from './lib/drives.mjs';
 import { assertShape } from './lib/interfaces.mjs';
 
 let pool;
@@ -19,7 +12,7 @@ let four;
 before(async () => {
   await Promise.all([init(), initDrives()]);
   pool = createPool({ workers: 1 });
-  four = simulateDrive({ scenario: 'city', seed: 3, durationS: 40, misalignmentDeg: { 3: 2 } });
+  four = fourRadars();
 });
 after(() => pool.terminate());
 

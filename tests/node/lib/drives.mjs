@@ -1,5 +1,7 @@
-// Recorded drives.
+// Drives of the tests, recorded and simulated.
+
 import { readFileSync } from 'node:fs';
+import { simulateDrive } from 'boresight';
 
 const file = (folder, name) => ({ name, bytes: readFileSync(new URL(`../../../${folder}/${name}`, import.meta.url)) });
 
@@ -18,3 +20,6 @@ export function beginning(drive, untilS) {
     scans: { timeS: timeS.slice(0, scans), sensor: sensor.slice(0, scans), offsets: offsets.slice(0, scans + 1) },
   };
 }
+
+/** Forty seconds of a city with four radars, of which the third is turned by two degrees. */
+export const fourRadars = () => simulateDrive({ scenario: 'city', seed: 3, durationS: 40, misalignmentDeg: { 3: 2 } });
