@@ -18,6 +18,7 @@ export { array, arrayPresets } from './radar/array.js';
 export { waveformPreset, waveformPresets, waveformSummary } from './radar/waveform.js';
 export { BoresightError, type ErrorDetails } from './runtime/errors.js';
 export { initSync } from './runtime/instance.js';
+export { setLimits } from './runtime/limits.js';
 export type { WasmSource } from './runtime/module.js';
 export type { Report } from './runtime/report.js';
 export { version } from './runtime/version.js';

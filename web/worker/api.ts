@@ -17,6 +17,8 @@ import { packed } from './transfer.js';
 export interface PoolOptions {
   /** Number of workers; by default one a processor core, at most 8. */
   workers?: number;
+  /** What one call of a worker may take; by default any number of operations, and the default of bytes. */
+  limits?: lib.Limits;
 }
 
 /** What runs a network where options name one. */
@@ -52,8 +54,8 @@ export class Pool {
   }
 
   /** @internal */
-  constructor(runtime: Runtime, { workers }: PoolOptions = {}) {
-    this.#crew = new Crew(runtime, workers);
+  constructor(runtime: Runtime, { workers, limits }: PoolOptions = {}) {
+    this.#crew = new Crew(runtime, workers, limits);
   }
 
   /** Most workers that run at a time. */

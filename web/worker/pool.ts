@@ -1,5 +1,6 @@
 // A pool of single-thread workers: queue, progress, cancelling, replacement of what died.
 import { BoresightError, failure } from '../lib/runtime/errors.js';
+import type { Limits } from '../lib/types.js';
 import { checkedJob, type JobOptions, passedOn } from './job.js';
 import type { Files, OperationName, Operations, Reply, Setup, WorkerEvents, WorkerLike } from './protocol.js';
 import { packed } from './transfer.js';
@@ -115,6 +116,7 @@ class Loader {
 export class Crew {
   readonly size: number;
   readonly #runtime: Runtime;
+  readonly #limits: Limits;
   readonly #members = new Set<Member>();
   #queue: Task[] = [];
   readonly #core: Loader;
@@ -125,7 +127,7 @@ export class Crew {
   #lastId = 0;
   #lastKept = 0;
 
-  constructor(runtime: Runtime, workers: number | undefined) {
+  constructor(runtime: Runtime, workers: number | undefined, limits: Limits | undefined) {
     const size = workers ?? runtime.workers();
     if (!Number.isInteger(size) || size < 1 || size > 64) {
       throw failure('out-of-range', {
@@ -135,6 +137,8 @@ export class Crew {
       });
     }
     this.#runtime = runtime;
+    // Whoever waits for a job can cancel it.
+    this.#limits = { operations: Number.MAX_VALUE, ...limits };
     this.#core = new Loader(() => runtime.compile(), 'boresight_bg.wasm');
     this.#drives = new Loader(() => runtime.compileDrives(), 'boresight_drives_bg.wasm');
     this.#neural = new Loader(() => runtime.compileNeural(), 'boresight_neural_bg.wasm');
@@ -340,6 +344,7 @@ export class Crew {
     };
     this.#members.add(member);
     member.worker.post({ module: this.#core.module }, []);
+    member.worker.post({ limits: this.#limits }, []);
     return member;
   }
 

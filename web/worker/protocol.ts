@@ -1,6 +1,6 @@
 // What travels between the pool and a worker.
 import type { PlainError } from '../lib/runtime/errors.js';
-import type { CaptureFile, NetworkFile } from '../lib/types.js';
+import type { CaptureFile, Limits, NetworkFile } from '../lib/types.js';
 import type { operations } from './operations.js';
 
 export type Operations = typeof operations;
@@ -15,6 +15,7 @@ export interface Files {
 /** What a worker is given before it needs it: compiled modules, the core's first, and files to keep or to forget. */
 export type Setup =
   | { module: WebAssembly.Module }
+  | { limits: Limits }
   | { drives: WebAssembly.Module }
   | { neural: WebAssembly.Module }
   | { [K in keyof Files]: { keep: K; of: string; file: Files[K] } }[keyof Files]

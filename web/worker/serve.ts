@@ -4,6 +4,7 @@ import { drives as drivesModule, initDrivesSync } from '../lib/drive/drive.js';
 import { initNeuralSync, neural as neuralModule } from '../lib/neural/network.js';
 import { BoresightError, failure } from '../lib/runtime/errors.js';
 import { core, initSync } from '../lib/runtime/instance.js';
+import { Instance } from '../lib/runtime/module.js';
 import { forgetCapture, keepCapture } from './captures.js';
 import { forgetNetwork, keepNetwork } from './networks.js';
 import { type Context, operations } from './operations.js';
@@ -18,6 +19,10 @@ export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (
   return (message) => {
     if ('module' in message) {
       module = message.module;
+      return;
+    }
+    if ('limits' in message) {
+      Instance.setLimits(message.limits);
       return;
     }
     if ('drives' in message) {

@@ -6,13 +6,13 @@ use crate::estimate::{Estimate, Source, SpectrumKind, Warning};
 use crate::estimator::Estimator;
 use crate::method::Method;
 use boresight_core::describe::{Described, remark};
-use boresight_core::error::check_size;
+use boresight_core::limits::{check_bytes, check_operations};
 use boresight_core::{Complex64, CoreError, Remark};
 use ndarray::{ArrayView3, Axis};
 use serde::Serialize;
 
-/// Most points that the spectra of a batch may have together (256 MiB).
-pub const MAX_SPECTRA: usize = 1 << 26;
+/// Memory of a point of a spectrum: itself, and a copy for whoever asked.
+const SPECTRUM_BYTES: usize = 8;
 
 /// Results of many cells, flat.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,7 +150,7 @@ impl Estimator {
     ///
     /// # Errors
     /// [`AoaError`] when the data is malformed or does not suit the method; then there is no result
-    /// for any cell. [`CoreError::TooLarge`] for spectra of more than [`MAX_SPECTRA`] points together.
+    /// for any cell. [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
     pub fn estimate_batch(
         &mut self,
         snapshots: ArrayView3<'_, Complex64>,
@@ -181,6 +181,8 @@ impl Estimator {
             }
             .into());
         }
+        let operations = self.operations(count, cells)?;
+        check_operations("the estimates", cells as f64 * operations)?;
         check_all_finite("snapshots", snapshots)?;
         let at_once = self.cells_at_once();
         let mut scratch = std::mem::take(&mut self.scratch);
@@ -190,7 +192,7 @@ impl Estimator {
             self.estimate_cells(portion, estimates)?;
             if let Some(spectrum) = estimates.first().and_then(|first| first.spectrum.as_ref()) {
                 let kept = if spectra { cells } else { 0 };
-                check_size("the spectra", &[kept, spectrum.values.len()], MAX_SPECTRA)?;
+                check_bytes("the spectra", &[kept, spectrum.values.len()], SPECTRUM_BYTES)?;
             }
             for estimate in estimates {
                 out.add(estimate, spectra);

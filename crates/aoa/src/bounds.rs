@@ -9,6 +9,7 @@
 use crate::error::AoaError;
 use boresight_core::describe::{Described, columns};
 use boresight_core::error::{check_finite, check_positive};
+use boresight_core::limits::check_operations;
 use boresight_core::linalg::{Cholesky, adjoint, least_squares};
 use boresight_core::steering::{cis, steering_derivatives, steering_matrix};
 use boresight_core::units::{db_to_amplitude, db_to_power};
@@ -128,6 +129,10 @@ impl Signals<'_> {
                 given: self.covariance.shape().to_vec(),
             }));
         }
+        let (sources, elements) = (count as f64, array.len() as f64);
+        // With elevations there are twice as many angles.
+        let angles = 2.0 * sources;
+        check_operations("the bound", 3.0 * angles.powi(3) + 2.0 * elements * angles.powi(2))?;
         check_finite("signal covariance", self.covariance.iter().flat_map(|z| [z.re, z.im]))?;
         Ok(check_positive("noise_power", self.noise_power)?)
     }

@@ -5,11 +5,12 @@ use crate::estimate::{Estimate, Source, Spectrum, Warning};
 use crate::method::Method;
 use crate::options::{EstimatorOptions, SourceCount};
 use crate::suits::unsuited_array;
+use boresight_core::limits::check_bytes;
 use boresight_core::steering::unambiguous_sine;
-use boresight_core::{Array, Complex64, CoreError, Direction, Extent, Lattice};
+use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
 
-/// Most grid points of a spectrum; keeps its memory at tens of megabytes.
-const MAX_GRID: usize = 1 << 22;
+/// Memory of a grid point: its direction, its value, and what transforms make on the way.
+const POINT_BYTES: usize = 128;
 
 /// Checks that the array tells angles apart and has the shape `method` asks for, and that the grid
 /// is of a size that can be held.
@@ -26,14 +27,12 @@ pub(crate) fn check_array(
             given: given.into(),
         });
     }
-    let points = options.grid_points.saturating_mul(options.elevation_points);
-    if array.extent() == Extent::Area && points > MAX_GRID {
-        return Err(AoaError::Argument(CoreError::OutOfRange {
-            what: "grid_points times elevation_points".into(),
-            expected: format!("at most {MAX_GRID}"),
-            given: points as f64,
-        }));
-    }
+    let elevations = if array.extent() == Extent::Area { options.elevation_points } else { 1 };
+    check_bytes(
+        "grid_points times elevation_points",
+        &[options.grid_points, elevations],
+        POINT_BYTES,
+    )?;
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! One interface for all estimators.
 
+use crate::cost::Cost;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::Estimate;
@@ -7,6 +8,7 @@ use crate::method::Method;
 use crate::options::EstimatorOptions;
 use crate::plan::{Plan, plan};
 use crate::refinement::Refinement;
+use boresight_core::limits::check_operations;
 use boresight_core::{Array, Complex64};
 use ndarray::{ArrayView3, Axis};
 
@@ -16,6 +18,7 @@ pub struct Estimator {
     array: Array,
     plan: Box<dyn Plan>,
     refinement: Option<Refinement>,
+    cost: Cost,
     /// What cells of a batch are estimated into.
     pub(crate) scratch: Vec<Estimate>,
 }
@@ -47,7 +50,8 @@ impl Estimator {
     ) -> Result<Self, AoaError> {
         options.check()?;
         let refinement = options.refine.then(|| Refinement::new(array, options)).transpose()?;
-        Ok(Self { method, array: array.clone(), plan, refinement, scratch: Vec::new() })
+        let cost = Cost::new(method, array, options);
+        Ok(Self { method, array: array.clone(), plan, refinement, cost, scratch: Vec::new() })
     }
 
     /// The method.
@@ -76,11 +80,19 @@ impl Estimator {
     /// As [`Estimator::estimate`]; then `out` holds nothing of use.
     pub fn estimate_into(&mut self, data: Data<'_>, out: &mut Estimate) -> Result<(), AoaError> {
         data.check(self.array.len())?;
+        check_operations("the estimate", self.cost.operations(data.snapshots()))?;
         self.plan.estimate_into(data, out)?;
         match &mut self.refinement {
             Some(refinement) => refinement.apply(out, data),
             None => Ok(()),
         }
+    }
+
+    /// Operations of each of so many cells, of so many snapshots.
+    pub(crate) fn operations(&self, snapshots: usize, cells: usize) -> Result<f64, AoaError> {
+        // A network is analysed for it, which is not worth it where all cells are one portion.
+        let network = if cells > self.cells_at_once() { self.plan.operations()? } else { 0.0 };
+        Ok(self.cost.operations(snapshots) + network)
     }
 
     pub(crate) fn cells_at_once(&self) -> usize {

@@ -38,6 +38,7 @@ pub mod bounds;
 mod capon;
 mod checks;
 mod cosines;
+mod cost;
 pub mod counted;
 pub mod counting;
 mod covariance;

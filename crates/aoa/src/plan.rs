@@ -38,6 +38,14 @@ pub trait Plan: Send {
         Ok(())
     }
 
+    /// Operations of an estimate beside those that [`crate::cost`] knows of: those of a network.
+    ///
+    /// # Errors
+    /// [`AoaError`] where it cannot be analysed.
+    fn operations(&self) -> Result<f64, AoaError> {
+        Ok(0.0)
+    }
+
     /// Number of cells it is best given at once; those of a batch come in such portions.
     fn cells_at_once(&self) -> usize {
         1

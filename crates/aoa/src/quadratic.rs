@@ -8,6 +8,7 @@
 use crate::grid::Grid;
 use crate::iaa::fourier::{LagTransforms, LatticeFourier};
 use crate::lags::LagPolynomial;
+use boresight_core::order::ascending;
 use boresight_core::steering::{cis, steering_derivatives, steering_vector};
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
 use boresight_signal::sample_covariance;
@@ -139,34 +140,46 @@ impl Way {
     }
 }
 
+/// Steps along y of elements in a plane of constant x, where they are few enough for lags to pay.
+pub(crate) fn steps_in_plane(array: &Array) -> Option<Lattice> {
+    let positions = array.positions();
+    let x = positions[0][0];
+    if positions.iter().any(|p| (p[0] - x).abs() > 1e-9) {
+        return None;
+    }
+    let flat: Vec<[f64; 3]> = positions.iter().map(|p| [0.0, p[1], 0.0]).collect();
+    Lattice::of(&flat).filter(|lattice| lattice.span() - 1 <= 4 * positions.len() * positions.len())
+}
+
 impl Plane {
     fn of(array: &Array) -> Option<Self> {
         let positions = array.positions();
-        let x = positions[0][0];
-        if positions.iter().any(|p| (p[0] - x).abs() > 1e-9) {
-            return None;
-        }
-        let flat: Vec<[f64; 3]> = positions.iter().map(|p| [0.0, p[1], 0.0]).collect();
-        let lattice = Lattice::of(&flat)?;
+        let lattice = steps_in_plane(array)?;
         let longest = lattice.span() - 1;
-        if longest > 4 * positions.len() * positions.len() {
-            return None;
-        }
-        let mut slots = Vec::with_capacity(positions.len() * (positions.len() - 1) / 2);
-        let mut baselines: Vec<(usize, f64)> = Vec::new();
+        let mut pairs: Vec<(usize, f64, bool)> =
+            Vec::with_capacity(positions.len() * (positions.len() - 1) / 2);
         for k in 0..positions.len() {
             for l in 0..k {
                 let (nk, nl) = (lattice.indices[k], lattice.indices[l]);
                 let height = positions[k][2] - positions[l][2];
                 let conjugate = nk < nl;
-                let key = if conjugate { (nl - nk, -height) } else { (nk - nl, height) };
-                let known =
-                    baselines.iter().position(|b| b.0 == key.0 && (b.1 - key.1).abs() < 1e-9);
-                slots.push((known.unwrap_or(baselines.len()), conjugate));
-                if known.is_none() {
-                    baselines.push(key);
-                }
+                pairs.push(if conjugate {
+                    (nl - nk, -height, true)
+                } else {
+                    (nk - nl, height, false)
+                });
             }
+        }
+        let by_height = ascending(pairs.iter().map(|pair| pair.1));
+        let by_lag = ascending(by_height.iter().map(|&pair| pairs[pair].0 as f64));
+        let mut slots = vec![(0, false); pairs.len()];
+        let mut baselines: Vec<(usize, f64)> = Vec::new();
+        for pair in by_lag.into_iter().map(|place| by_height[place]) {
+            let (lag, height, conjugate) = pairs[pair];
+            if baselines.last().is_none_or(|last| last.0 != lag || height - last.1 > 1e-9) {
+                baselines.push((lag, height));
+            }
+            slots[pair] = (baselines.len() - 1, conjugate);
         }
         Some(Self { slots, baselines, spacing: lattice.spacing, longest })
     }

@@ -1,5 +1,6 @@
 //! Errors: what was wrong, what was expected and what was given.
 
+use crate::limits;
 use thiserror::Error;
 
 /// The parts of an error a program can act on or a page can lay out.
@@ -75,14 +76,16 @@ pub enum CoreError {
         /// The number given.
         given: f64,
     },
-    /// More numbers than one call may fill memory with.
-    #[error("{what} would take {given} values; expected at most {most}")]
+    /// More than one call may take ([`crate::limits`]).
+    #[error("{what} would take {given:.3e} {measure}; expected {}", limits::most(measure, *most))]
     TooLarge {
-        /// What would be allocated.
+        /// What would be done or allocated.
         what: String,
-        /// Most values it may hold.
-        most: usize,
-        /// Values it would hold.
+        /// Of what: `operations` or `bytes`.
+        measure: &'static str,
+        /// The limit.
+        most: f64,
+        /// What it would take.
         given: f64,
     },
     /// A name that is not in a fixed list.
@@ -132,8 +135,8 @@ impl Diagnose for CoreError {
             Self::OutOfRange { what, expected, given } => {
                 Details::new(what, expected, given.to_string())
             }
-            Self::TooLarge { what, most, given } => {
-                Details::new(what, format!("at most {most} values"), given.to_string())
+            Self::TooLarge { what, measure, most, given } => {
+                Details::new(what, limits::most(measure, *most), format!("{given:.3e} {measure}"))
             }
             Self::Unknown { what, expected, given } => Details::new(what, expected, given),
             Self::NotPositiveDefinite { what, index, given } => Details::new(
@@ -179,19 +182,6 @@ pub fn check_range(what: &str, given: f64, low: f64, high: f64) -> Result<(), Co
     Err(CoreError::OutOfRange { what: what.into(), expected, given })
 }
 
-/// The product of the sizes of what would be allocated, where it is at most `most`.
-///
-/// # Errors
-/// [`CoreError::TooLarge`].
-pub fn check_size(what: &str, sizes: &[usize], most: usize) -> Result<usize, CoreError> {
-    let given = sizes.iter().map(|&size| size as f64).product();
-    if given > most as f64 {
-        return Err(CoreError::TooLarge { what: what.into(), most, given });
-    }
-    // As whole as the sizes are, and small enough to be exact; a product of sizes may overflow before a 0.
-    Ok(given as usize)
-}
-
 /// Checks that a number is finite and greater than zero.
 ///
 /// # Errors
@@ -218,20 +208,4 @@ pub fn check_finite(what: &str, numbers: impl IntoIterator<Item = f64>) -> Resul
         }
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sizes_are_multiplied_without_overflow() {
-        let most = 100;
-        assert_eq!(check_size("a", &[4, 5], most), Ok(20));
-        assert_eq!(check_size("a", &[10, 10], most), Ok(100));
-        assert_eq!(check_size("a", &[usize::MAX, usize::MAX, 0], most), Ok(0));
-        let refused = check_size("a", &[usize::MAX, 2], most);
-        assert!(matches!(refused, Err(CoreError::TooLarge { given, .. }) if given > 1e9));
-        assert_eq!(check_size("a", &[101], most).map_err(|error| error.code()), Err("too-large"));
-    }
 }

@@ -48,6 +48,7 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
         entry::<boresight_image::ViewGridOptions>("ViewGrid", "Bird's-eye views")?,
         entry::<boresight_aoa::counting::CountOptions>("CountOptions", "Counting sources")?,
         entry::<boresight_wasm::drive::ReadDriveOptions>("ReadDriveOptions", "Reading drives")?,
+        entry::<boresight_core::Limits>("Limits", "What one call may take")?,
     ])
 }
 

@@ -5,13 +5,14 @@ use crate::axis::Axis;
 use crate::error::ImageError;
 use boresight_core::CoreError;
 use boresight_core::describe::Described;
-use boresight_core::error::{check_finite, check_range, check_size};
+use boresight_core::error::{check_finite, check_range};
+use boresight_core::limits::check_bytes;
 use ndarray::{Array2, Array3, Axis as Dimension, s};
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
-/// Most cells of a map or cube (256 MiB).
-const MAX_CELLS: usize = 1 << 26;
+/// Memory of a cell: its power, and a copy for whoever asked.
+const CELL_BYTES: usize = 8;
 
 /// Largest power of a target or point.
 const MOST_POWER: f64 = 1e30;
@@ -48,7 +49,7 @@ impl Grid {
             range_m: Axis::new("range_m", range_m[0], range_m[1], ranges)?,
             sine: Axis::new("azimuths", -limit, limit, azimuths)?,
         };
-        check_size("the map", &[ranges, azimuths], MAX_CELLS)?;
+        check_bytes("the map", &[ranges, azimuths], CELL_BYTES)?;
         Ok(grid)
     }
 
@@ -188,7 +189,7 @@ impl RangeAzimuthDoppler {
     /// [`CoreError::TooLarge`].
     pub fn new(grid: Grid, rate_mps: Option<Axis>) -> Result<Self, ImageError> {
         let shape = [grid.range_m.len(), rate_mps.map_or(1, |axis| axis.len()), grid.sine.len()];
-        check_size("the range-azimuth-Doppler cube", &shape, MAX_CELLS)?;
+        check_bytes("the range-azimuth-Doppler cube", &shape, CELL_BYTES)?;
         Ok(Self { grid, rate_mps, power: Array3::zeros(shape), outside: Outside::default() })
     }
 

@@ -5,11 +5,15 @@ use crate::error::ImageError;
 use crate::splat::RangeAzimuthMap;
 use boresight_core::CoreError;
 use boresight_core::drive::Mounting;
-use boresight_core::error::{check_finite, check_range, check_size};
+use boresight_core::error::{check_finite, check_range};
+use boresight_core::limits::{check_bytes, check_operations};
 use ndarray::Array2;
 
-/// Most cells of a view.
-const MAX_CELLS: usize = 1 << 24;
+/// Memory of a cell: its power and its radar.
+const CELL_BYTES: usize = 5;
+
+/// What a sample of a map costs, in operations.
+const SAMPLE_OPERATIONS: f64 = 20.0;
 
 /// Most samples along each side of a cell.
 const MAX_SAMPLES: f64 = 16.0;
@@ -41,7 +45,7 @@ impl ViewGrid {
             Axis::new(what, from + 0.5 * cell_m, from + (cells as f64 - 0.5) * cell_m, cells)
         };
         let grid = Self { x_m: axis("x_m", x_m)?, y_m: axis("y_m", y_m)?, cell_m };
-        check_size("the view", &[grid.x_m.len(), grid.y_m.len()], MAX_CELLS)?;
+        check_bytes("the view", &[grid.x_m.len(), grid.y_m.len()], CELL_BYTES)?;
         Ok(grid)
     }
 }
@@ -88,13 +92,15 @@ impl Polar {
 ///
 /// # Errors
 /// [`CoreError::OutOfRange`] for no or more than 127 radars; [`CoreError::NotFinite`] for a
-/// mounting that is not finite.
+/// mounting that is not finite; [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
 pub fn birds_eye_view(
     radars: &[(&RangeAzimuthMap, Mounting)],
     grid: ViewGrid,
 ) -> Result<BirdsEyeView, ImageError> {
     check_range("radars", radars.len() as f64, 1.0, f64::from(i8::MAX))?;
     let shape = [grid.x_m.len(), grid.y_m.len()];
+    let cells = check_bytes("the view", &shape, CELL_BYTES)? as f64;
+    check_operations("the view", cells * samples_of_cell(radars, grid) * SAMPLE_OPERATIONS)?;
     let mut view = BirdsEyeView {
         grid,
         power: Array2::zeros(shape),
@@ -118,6 +124,19 @@ pub fn birds_eye_view(
         }
     }
     Ok(view)
+}
+
+/// Samples that a cell takes of all maps, on average over the ground that maps cover.
+fn samples_of_cell(radars: &[(&RangeAzimuthMap, Mounting)], grid: ViewGrid) -> f64 {
+    radars
+        .iter()
+        .map(|(map, _)| {
+            let [range, sine] = [map.grid.range_m, map.grid.sine];
+            // At half the range most of the ground lies, and finer maps are sampled as they are there.
+            let finest_m = range.step().min(0.5 * range.last() * sine.step());
+            (grid.cell_m / finest_m).ceil().clamp(1.0, MAX_SAMPLES).powi(2)
+        })
+        .sum()
 }
 
 fn check_shape(map: &RangeAzimuthMap) -> Result<(), CoreError> {

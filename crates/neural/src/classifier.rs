@@ -160,6 +160,10 @@ impl Plan for Classifier {
         Ok(estimate)
     }
 
+    fn operations(&self) -> Result<f64, AoaError> {
+        self.runners.of_estimate(self.method)
+    }
+
     fn cells_at_once(&self) -> usize {
         self.runners.most()
     }

@@ -3,11 +3,12 @@
 use crate::card::{Axis, Port};
 use crate::convolution::unroll;
 use crate::dense::densify;
-use crate::error::NeuralError;
+use crate::error::{NeuralError, network_failed};
 use crate::fused::fuse;
 use crate::softmax::soften;
+use boresight_aoa::{AoaError, Method};
 use ndarray::{ArrayD, ArrayViewD};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use tract_onnx::pb::{ModelProto, ValueInfoProto, tensor_proto, tensor_shape_proto, type_proto};
 use tract_onnx::prelude::*;
 use tract_onnx::tract_core::model::TypedModelPatch;
@@ -33,6 +34,8 @@ pub(crate) struct Engine {
     /// For each input whether its first axis counts the examples of a batch.
     batched: Vec<bool>,
     plans: Mutex<Vec<(usize, Runnable)>>,
+    /// Operations of an example, once they have been counted.
+    counted: OnceLock<f64>,
 }
 
 impl Engine {
@@ -44,7 +47,7 @@ impl Engine {
     ) -> Result<Self, NeuralError> {
         let onnx = tract_onnx::onnx().with_ignore_value_info(true);
         let graph = onnx.model_for_proto_model(proto).map_err(|error| refused("read", &error))?;
-        Ok(Self { graph, inputs, batched, plans: Mutex::default() })
+        Ok(Self { graph, inputs, batched, plans: Mutex::default(), counted: OnceLock::new() })
     }
 
     /// Inputs with, for each, whether its first axis counts the examples of a batch.
@@ -64,7 +67,7 @@ impl Engine {
             }
         }
         let (graph, batched) = (self.graph.clone(), self.batched.clone());
-        Self { graph, inputs, batched, plans: Mutex::default() }
+        Self { graph, inputs, batched, plans: Mutex::default(), counted: OnceLock::new() }
     }
 
     /// Shapes of the outputs for one example, those of other than 32-bit floating-point numbers being empty. Axes without
@@ -112,6 +115,9 @@ impl Engine {
     /// Additions, multiplications and divisions of one example, as tract counts them, without what follows from
     /// constants alone.
     pub fn operations(&self) -> Result<f64, NeuralError> {
+        if let Some(counted) = self.counted.get() {
+            return Ok(*counted);
+        }
         let count = |graph: TypedModel| -> TractResult<f64> {
             let mut sum = 0.0;
             for id in graph.eval_order()? {
@@ -127,7 +133,8 @@ impl Engine {
             Ok(sum)
         };
         let simple = widen(self.typed(1)?).and_then(TypedModel::into_decluttered);
-        simple.and_then(count).map_err(|error| refused("analysed", &error))
+        let counted = simple.and_then(count).map_err(|error| refused("analysed", &error))?;
+        Ok(*self.counted.get_or_init(|| counted))
     }
 
     fn prepare(&self, batch: usize) -> Result<Runnable, NeuralError> {
@@ -212,6 +219,12 @@ impl Runners {
     /// As [`Engine::operations`].
     pub fn operations(&self) -> Result<f64, NeuralError> {
         self.engine.operations()
+    }
+
+    /// The same in complex multiplications with an addition, as estimators count.
+    pub fn of_estimate(&self, method: Method) -> Result<f64, AoaError> {
+        let operations = self.operations().map_err(|error| network_failed(method.name(), error))?;
+        Ok(operations / 8.0)
     }
 
     /// The largest batch that is run at once.

@@ -218,6 +218,10 @@ impl Plan for Spectral {
         Ok(estimate)
     }
 
+    fn operations(&self) -> Result<f64, AoaError> {
+        self.runners.of_estimate(self.method)
+    }
+
     fn cells_at_once(&self) -> usize {
         self.runners.most()
     }

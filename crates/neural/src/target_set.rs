@@ -62,6 +62,10 @@ impl Plan for TargetSet {
         self.estimate_cells(one_cell(self.method, data)?, std::slice::from_mut(out))
     }
 
+    fn operations(&self) -> Result<f64, AoaError> {
+        self.runners.of_estimate(self.method)
+    }
+
     fn cells_at_once(&self) -> usize {
         self.runners.most()
     }

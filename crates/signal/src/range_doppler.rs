@@ -6,13 +6,14 @@ use crate::power::accumulate_power;
 use crate::range::{RowTransform, range_axis_m};
 use crate::window::Window;
 use boresight_core::describe::Described;
-use boresight_core::error::{check_range, check_size};
+use boresight_core::error::check_range;
+use boresight_core::limits::check_bytes;
 use boresight_core::{Complex32, Complex64, CoreError, Waveform};
 use ndarray::{Array1, Array2, Array3, ArrayView4, Axis};
 use serde::{Deserialize, Serialize};
 
-/// Most complex values a range-Doppler cube may hold (512 MiB).
-pub const MAX_CUBE_VALUES: usize = 1 << 26;
+/// Memory of a value: itself, and what it was made of.
+const VALUE_BYTES: usize = 16;
 
 /// Edge of the square tiles in which the transposition between the transforms runs.
 const TILE: usize = 16;
@@ -94,7 +95,7 @@ impl RangeDoppler {
     ///
     /// # Errors
     /// [`CoreError::OutOfRange`] for a waveform, a window or a padding out of range,
-    /// [`CoreError::TooLarge`] where the result would exceed [`MAX_CUBE_VALUES`].
+    /// [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
     pub fn new(
         waveform: &Waveform,
         receivers: usize,
@@ -110,7 +111,7 @@ impl RangeDoppler {
             waveform.transmitters,
             receivers,
         ];
-        check_size("the range-Doppler cube", &sizes, MAX_CUBE_VALUES)?;
+        check_bytes("the range-Doppler cube", &sizes, VALUE_BYTES)?;
         let range =
             RowTransform::new(options.range_window, waveform.samples, options.range_padding)?;
         let mut doppler =

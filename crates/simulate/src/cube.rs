@@ -13,7 +13,8 @@ use crate::paths::{Paths, moved};
 use boresight_core::array::{MAX_ELEMENTS, Position};
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
-use boresight_core::error::{check_range, check_size};
+use boresight_core::error::check_range;
+use boresight_core::limits::{check_bytes, check_operations};
 use boresight_core::steering::cis;
 use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_amplitude, db_to_power};
 use boresight_core::{
@@ -23,8 +24,11 @@ use ndarray::{Array1, Array5};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// Most complex values one call returns (1 GiB).
-pub const MAX_VALUES: usize = 1 << 27;
+/// Most frames.
+const MAX_FRAMES: f64 = 134_217_728.0;
+
+/// What noise of a value costs, in operations.
+const NOISE_OPERATIONS: usize = 50;
 
 /// Most targets.
 pub const MAX_TARGETS: usize = 1024;
@@ -111,7 +115,7 @@ pub struct CubeOptions {
 /// [`CoreError::OutOfRange`] for a number out of range, among them a target that is, at any time,
 /// not between the radar and the waveform's unambiguous range; [`CoreError::Shape`] if waveform
 /// and array have different numbers of transmitters or the imperfections another number of
-/// elements; [`CoreError::TooLarge`] above [`MAX_VALUES`].
+/// elements; [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
 pub fn simulate_cube(
     waveform: &Waveform,
     array: &Array,
@@ -121,7 +125,8 @@ pub fn simulate_cube(
     check(waveform, array, targets, options)?;
     let (tx, rx) = (array.tx().len(), array.rx().len());
     let shape = [options.frames, waveform.loops, tx, rx, waveform.samples];
-    check_size("the data cube", &shape, MAX_VALUES)?;
+    let values = check_bytes("the data cube", &shape, size_of::<Complex32>())?;
+    check_operations("the data cube", values as f64 * (targets.len() + NOISE_OPERATIONS) as f64)?;
     let model = Model::new(waveform, array, options);
     let mut phases = Random::new(options.seed, 0);
     let echoes: Vec<Echo> = targets.iter().map(|t| model.echo(t, &mut phases)).collect();
@@ -169,7 +174,7 @@ fn check(
         imperfections.check(elements)?;
     }
     check_range("snr_db", options.snr_db, -200.0, 300.0)?;
-    check_range("frames", options.frames as f64, 1.0, MAX_VALUES as f64)?;
+    check_range("frames", options.frames as f64, 1.0, MAX_FRAMES)?;
     check_range("targets", targets.len() as f64, 0.0, MAX_TARGETS as f64)?;
     let end_s = options.frames as f64 * waveform.frame_interval_s;
     for target in targets {

@@ -13,7 +13,8 @@ use crate::paths::{Paths, moved};
 use boresight_core::array::Position;
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
-use boresight_core::error::{check_range, check_size};
+use boresight_core::error::check_range;
+use boresight_core::limits::{check_bytes, check_operations};
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::units::{db_to_amplitude, db_to_power};
 use boresight_core::{Array, Complex64, CoreError, Direction, Imperfections, Random};
@@ -21,8 +22,11 @@ use ndarray::{Array1, Array2, Array3, ArrayViewMut2, Axis};
 use serde::{Deserialize, Serialize, Serializer};
 use std::f64::consts::FRAC_PI_2;
 
-/// Most complex values one call returns (1 GiB).
-pub const MAX_VALUES: usize = 1 << 26;
+/// Most snapshots of a scene.
+const MAX_SNAPSHOTS: f64 = 67_108_864.0;
+
+/// What noise of a value costs, in operations.
+const NOISE_OPERATIONS: usize = 50;
 
 /// Most targets of a scene.
 pub const MAX_TARGETS: usize = 1024;
@@ -165,7 +169,7 @@ impl SnapshotSimulator {
     /// [`CoreError::NotFinite`] for imperfections that do not fit the array.
     pub fn new(array: &Array, options: &SnapshotOptions) -> Result<Self, SimulateError> {
         check_range("snr_db", options.snr_db, -300.0, 300.0)?;
-        check_range("snapshots", options.snapshots as f64, 1.0, MAX_VALUES as f64)?;
+        check_range("snapshots", options.snapshots as f64, 1.0, MAX_SNAPSHOTS)?;
         check_range("wavelength_m", options.wavelength_m, 1e-6, 1e3)?;
         match &options.scene {
             Scene::Given(targets) => {
@@ -194,10 +198,10 @@ impl SnapshotSimulator {
     /// Snapshots (elements x snapshots) and targets of scene `index`.
     ///
     /// # Errors
-    /// [`CoreError::TooLarge`] above [`MAX_VALUES`].
+    /// [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
     pub fn scene(&self, index: u64) -> Result<(Array2<Complex64>, Vec<Target>), SimulateError> {
+        self.check_cost(1)?;
         let shape = [self.array.len(), self.options.snapshots];
-        check_size("the snapshots", &shape, MAX_VALUES)?;
         let mut values = Array2::zeros(shape);
         let truth = self.fill(index, values.view_mut());
         Ok((values, truth))
@@ -206,10 +210,10 @@ impl SnapshotSimulator {
     /// Scenes `first` to `first + count - 1`.
     ///
     /// # Errors
-    /// [`CoreError::TooLarge`] above [`MAX_VALUES`].
+    /// [`CoreError::TooLarge`] above the limits of the thread ([`boresight_core::limits`]).
     pub fn scenes(&self, first: u64, count: usize) -> Result<Snapshots, SimulateError> {
         let shape = [count, self.array.len(), self.options.snapshots];
-        check_size("the snapshots", &shape, MAX_VALUES)?;
+        self.check_cost(count)?;
         let mut values = Array3::zeros(shape);
         let truth = values
             .axis_iter_mut(Axis(0))
@@ -217,6 +221,16 @@ impl SnapshotSimulator {
             .map(|(scene, i)| self.fill(first.wrapping_add(i), scene))
             .collect();
         Ok(Snapshots { values, truth })
+    }
+
+    fn check_cost(&self, scenes: usize) -> Result<(), CoreError> {
+        let shape = [scenes, self.array.len(), self.options.snapshots];
+        let values = check_bytes("the snapshots", &shape, size_of::<Complex64>())? as f64;
+        let targets = match &self.options.scene {
+            Scene::Given(targets) => targets.len(),
+            Scene::Sampled(sampling) => sampling.count[1],
+        };
+        check_operations("the snapshots", values * (targets + NOISE_OPERATIONS) as f64)
     }
 
     fn fill(&self, index: u64, mut values: ArrayViewMut2<Complex64>) -> Vec<Target> {

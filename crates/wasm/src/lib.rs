@@ -46,6 +46,7 @@ pub mod estimate;
 pub mod given;
 #[cfg(feature = "core")]
 pub mod image;
+mod limits;
 #[cfg(feature = "core")]
 pub mod npy;
 #[cfg(feature = "chain")]

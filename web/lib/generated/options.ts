@@ -821,3 +821,11 @@ export interface ReadDriveOptions {
   /** The format of the files; found from their contents where none is named. */
   format?: DriveFormat;
 }
+
+/** What one call may take. */
+export interface Limits {
+  /** Operations (complex multiplications): 1e10 take some ten seconds in a page (at least 1; default 10000000000). */
+  operations?: number;
+  /** Memory of what a call makes, in bytes (a gibibyte) (at least 1; default 1073741824). */
+  bytes?: number;
+}

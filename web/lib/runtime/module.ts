@@ -1,4 +1,5 @@
 // Instances of wasm modules: made by init(), replaced by the next init() after a trap.
+import type { Limits } from '../generated/options.js';
 import { BoresightError, failure, isPlainError } from './errors.js';
 
 /** Where the wasm comes from: an address, a response, bytes or a compiled module. */
@@ -13,10 +14,13 @@ interface Glue {
   initSync(options: { module: WebAssembly.Module | BufferSource }): Exports;
   __wbg_reset_state(): void;
   lastPanic(): string;
+  setLimits(limits: Limits | undefined): void;
 }
 
 /** One module and its instance. */
 export class Instance {
+  static readonly #all = new Set<Instance>();
+  static #limits: Limits | undefined;
   readonly #glue: Glue;
   readonly #instantiate: (options: { module_or_path: WasmSource }) => Promise<Exports>;
   readonly #file: string;
@@ -37,6 +41,21 @@ export class Instance {
     this.#instantiate = instantiate;
     this.#file = names.file;
     this.#init = names.init;
+    Instance.#all.add(this);
+  }
+
+  /** Sets what one call may take, of the modules that are loaded and of those that will be. */
+  static setLimits(limits: Limits | undefined): void {
+    const loaded = [...Instance.#all].filter((instance) => instance.#state === 'ready');
+    // The first that refuses them does so before any has them.
+    for (const instance of loaded) instance.call(() => instance.#glue.setLimits(limits));
+    Instance.#limits = limits && { ...limits };
+  }
+
+  #ready(): void {
+    this.#state = 'ready';
+    const limits = Instance.#limits;
+    if (limits !== undefined) this.call(() => this.#glue.setLimits(limits));
   }
 
   /**
@@ -51,7 +70,7 @@ export class Instance {
     this.#pending ??= (async () => {
       try {
         this.#memory = (await this.#instantiate({ module_or_path: await source() })).memory;
-        if (this.#state === 'none') this.#state = 'ready';
+        if (this.#state === 'none') this.#ready();
       } catch (cause) {
         throw this.#notLoaded(cause);
       } finally {
@@ -69,7 +88,7 @@ export class Instance {
     }
     try {
       this.#memory = this.#glue.initSync({ module }).memory;
-      this.#state = 'ready';
+      this.#ready();
     } catch (cause) {
       throw this.#notLoaded(cause);
     }
@@ -79,7 +98,7 @@ export class Instance {
     if (this.#state !== 'dead') return;
     this.#glue.__wbg_reset_state();
     this.#generation += 1;
-    this.#state = 'ready';
+    this.#ready();
   }
 
   #notLoaded(cause: unknown): BoresightError {

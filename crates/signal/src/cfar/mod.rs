@@ -19,7 +19,8 @@ mod threshold;
 use crate::error::SignalError;
 use boresight_core::CoreError;
 use boresight_core::describe::{self, Described, Naming};
-use boresight_core::error::{check_range, check_size};
+use boresight_core::error::check_range;
+use boresight_core::limits::{check_bytes, check_operations};
 use ndarray::{Array2, ArrayView2};
 use serde::{Deserialize, Serialize};
 use stencil::{Rectangle, Stencil};
@@ -27,8 +28,16 @@ use sums::CumulativeSums;
 use threshold::factors;
 pub use threshold::{Factors, TrainingCells};
 
-/// Most cells of a map.
-pub const MAX_CELLS: usize = 1 << 26;
+/// Most bins along an axis.
+const MAX_BINS: f64 = 67_108_864.0;
+
+/// Memory of a cell: its power, and its place in the cumulative sums.
+const CELL_BYTES: usize = 12;
+
+/// Operations of a cell that is held against the mean of its training cells, and of one training cell where ranks are
+/// counted.
+const MEAN_OPERATIONS: f64 = 10.0;
+const RANK_OPERATIONS: f64 = 0.25;
 
 /// How noise is estimated from the training cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
@@ -128,7 +137,8 @@ impl Cfar {
     ///
     /// # Errors
     /// [`CoreError::OutOfRange`] for an option out of range, [`SignalError::Window`] where the
-    /// window is larger than the map, [`CoreError::TooLarge`] above [`MAX_CELLS`].
+    /// window is larger than the map, [`CoreError::TooLarge`] above the limits of the thread
+    /// ([`boresight_core::limits`]).
     pub fn new(ranges: usize, dopplers: usize, options: &CfarOptions) -> Result<Self, SignalError> {
         describe::check(options, Naming::Rust)?;
         check_range("looks", options.looks as f64, 1.0, 1024.0)?;
@@ -137,17 +147,21 @@ impl Cfar {
         {
             check_range(what, correlation, 1.0, 1e3)?;
         }
-        check_range("range bins", ranges as f64, 1.0, MAX_CELLS as f64)?;
-        check_range("Doppler bins", dopplers as f64, 1.0, MAX_CELLS as f64)?;
-        check_size("the range-Doppler map", &[ranges, dopplers], MAX_CELLS)?;
+        check_range("range bins", ranges as f64, 1.0, MAX_BINS)?;
+        check_range("Doppler bins", dopplers as f64, 1.0, MAX_BINS)?;
+        let map = check_bytes("the range-Doppler map", &[ranges, dopplers], CELL_BYTES)?;
         let stencil = Stencil::new(ranges, dopplers, options)?;
         let reach = stencil.doppler_reach();
         let ordered = matches!(options.kind, CfarKind::OrderedStatistic);
+        let rows = row_factors(ranges, &stencil, options);
+        let training = rows.iter().map(|(cells, _)| cells.total()).max().unwrap_or(0) as f64;
+        let each = if ordered { RANK_OPERATIONS * training } else { MEAN_OPERATIONS };
+        check_operations("the detection", map as f64 * each)?;
         Ok(Self {
             kind: options.kind,
             rank: options.rank,
             shape: (ranges, dopplers),
-            rows: row_factors(ranges, &stencil, options),
+            rows,
             sums: CumulativeSums::new(if ordered { 0 } else { ranges }, dopplers, reach),
             wrapped: Array2::zeros((if ordered { ranges } else { 0 }, dopplers + 2 * reach)),
             stencil,
