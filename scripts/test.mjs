@@ -45,7 +45,7 @@ const steps = [
   {
     // Without libFuzzer, which needs a compiler of C++ and is linked only where fuzzing is done.
     name: 'fuzz',
-    command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked'),
+    command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked', '--features', 'network'),
     variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a' },
     counts: checkCounts,
   },

@@ -10,6 +10,8 @@ from .dataset import Dataset, Frames
 
 BANDS = ((0.0, 0.3), (0.2, 0.6), (0.45, 1.01))
 """Progress from which on frames have up to which moving share."""
+HARD, HARDEST = 0.3, 0.25
+"""Share of a batch that is drawn from the frames with the largest moving share alone, and how much of all these are."""
 WHOLE = 0.3
 """Share of the frames that keep all detections."""
 THINNEST = 0.1
@@ -19,8 +21,10 @@ GHOSTS = (0.5, 0.1)
 BODIES, BODY_MPS = 3, 20.0
 BODY_FRAMES, BODY_HALF_RAD = 0.3, (0.02, 0.25)
 """Clusters of ghosts of one motion each: most a frame, most speed along each axis, share of the frames, extent."""
-DROPPED = 0.3
+DROPPED = (0.3, 0.6)
 """Share of the frames without ranges, and without cross-sections."""
+RCS_OFFSET_DB, RCS_SCALE, RANGE_SCALE = 10.0, (0.3, 1.5), (0.7, 1.4)
+"""By how much cross-sections are moved either way, and they and ranges stretched: no two kinds of radar agree on them."""
 CHUNK = 32
 """Frames that are padded to one number of detections."""
 
@@ -32,6 +36,8 @@ class Examples:
     frames: Frames
     target: torch.Tensor
     """Weights, 0 or 1, [frames, points]."""
+    labelled: torch.Tensor
+    """Whether what moves is known of a detection, [frames, points]."""
     determined: torch.Tensor
     """Whether detections tell the motion, [frames]."""
 
@@ -50,7 +56,9 @@ class Batches:
         """A batch in parts of frames with about as many detections."""
         random = np.random.default_rng(int(torch.randint(2**62, (1,), generator=generator)))
         most = [count for start, count in self.within if progress >= start][-1]
-        chosen = self.order[random.integers(0, max(most, 1), batch)]
+        place = random.random(batch)
+        place = np.where(random.random(batch) < HARD, 1 - HARDEST * (1 - place), place)
+        chosen = self.order[(place * most).astype(np.int64)]
         keep = np.where(random.random(batch) < WHOLE, 1.0, random.uniform(THINNEST, 1.0, batch))
         by_count = np.argsort(self.data.frames["count"][chosen] * keep, kind="stable")
         chosen, keep = chosen[by_count], keep[by_count]
@@ -61,7 +69,7 @@ class Batches:
 
 
 def varied(frames: Frames, generator: torch.Generator, window: int = 1) -> Examples:
-    """Frames mirrored, with more or less noise, more ghosts, and without ranges or cross-sections.
+    """Frames mirrored, with more or less noise, more ghosts, and other or no ranges and cross-sections.
 
     As many successive frames as a window has are varied alike.
     """
@@ -88,11 +96,18 @@ def varied(frames: Frames, generator: torch.Generator, window: int = 1) -> Examp
     points[..., 1] = torch.where(ghost, widest * (2 * unit(count, most) - 1), points[..., 1])
     body = _bodies(points, unit)
     points[..., 1] += body
-    inlier &= ~ghost & (body == 0)
-    for column in (2, 3):
-        points[unit(count) < DROPPED, :, column] = torch.nan
+    true = ~ghost & (body == 0)
+    inlier &= true
+    points[..., 2] *= _between(RANGE_SCALE, unit(count, 1))
+    points[..., 3] = points[..., 3] * _between(RCS_SCALE, unit(count, 1)) + RCS_OFFSET_DB * (2 * unit(count, 1) - 1)
+    for column, share in zip((2, 3), DROPPED, strict=True):
+        points[unit(count) < share, :, column] = torch.nan
     varied_frames = Frames(points, frames.mask, frames.moving, velocity)
-    return Examples(varied_frames, inlier.float(), losses.determined(inlier, points))
+    return Examples(varied_frames, inlier.float(), frames.mask & true, losses.determined(inlier, points))
+
+
+def _between(limits, unit):
+    return limits[0] + (limits[1] - limits[0]) * unit
 
 
 def _bodies(points, unit):
@@ -104,7 +119,7 @@ def _bodies(points, unit):
     added = torch.zeros_like(azimuth)
     for _ in range(BODIES):
         centre = 2.4 * unit(count, 1) - 1.2
-        half = BODY_HALF_RAD[0] + (BODY_HALF_RAD[1] - BODY_HALF_RAD[0]) * unit(count, 1)
+        half = _between(BODY_HALF_RAD, unit(count, 1))
         share = 0.3 + 0.7 * unit(count, 1)
         x, y = (BODY_MPS * (2 * unit(count, 1) - 1) for _ in range(2))
         within = some & ((azimuth - centre).abs() < half) & (unit(*azimuth.shape) < share)
@@ -115,4 +130,4 @@ def _bodies(points, unit):
 def plain(frames: Frames) -> Examples:
     """Frames as they are."""
     inlier = losses.inliers(frames.points, frames.mask, frames.moving, frames.velocity)
-    return Examples(frames, inlier.float(), losses.determined(inlier, frames.points))
+    return Examples(frames, inlier.float(), frames.mask, losses.determined(inlier, frames.points))

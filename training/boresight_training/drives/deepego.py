@@ -1,8 +1,8 @@
 """DeepEgo, single frame: a network weighs detections, and weighted least squares gives the radar's motion.
 
-Detections are encoded one by one and pooled, so that their order and number do not matter. Four times the weights are
-refined from the residuals of the fit, by the same layers. After Zhu, Yarovoy and Fioranelli (2023) and Zhu et al.
-(2025); sizes and features are ours.
+Detections are encoded one by one and pooled, so that their order and number do not matter. From the motion that most of
+the weight agrees on, weights are refined three times from the residuals of the fit, by the same layers. After Zhu,
+Yarovoy and Fioranelli (2023) and Zhu et al. (2025); sizes and features are ours.
 """
 
 from dataclasses import dataclass
@@ -10,9 +10,10 @@ from dataclasses import dataclass
 import torch
 from torch import nn
 
-from . import fit
+from . import fit, hypotheses
 
-FEATURES, OWN = 9, 4
+FEATURES, OWN, SAID = 9, 4, 3
+"""Numbers of a detection, of its residual, and of what is said of it: weight, precision, whether it moves."""
 RESIDUAL_MPS = 0.05
 AZIMUTH_RAD = 0.005
 """Scales of residuals: of range rates, and of what an azimuth error makes of the slope."""
@@ -33,7 +34,7 @@ class DeepEgoConfig:
     narrow: int = 16
     """Of what the refinements see of a point's and a frame's features."""
     refine: int = 32
-    refinements: int = 4
+    refinements: int = 3
 
 
 CONFIGS = {"small": DeepEgoConfig(), "tiny": DeepEgoConfig(point=8, width=16, narrow=4, refine=8)}
@@ -47,6 +48,8 @@ class Answer:
     """After each fit, m/s along boresight and to its left, [fits, frames, 2]."""
     logit: torch.Tensor
     """Of each detection's weight from 0 to 1, before each fit, [fits, frames, points]."""
+    moves: torch.Tensor
+    """The same of whether it is of something that moves."""
     covariance: torch.Tensor
     """Of the last velocity as xx, xy, yy, (m/s)^2, [frames, 3]."""
     context: torch.Tensor
@@ -106,12 +109,12 @@ class DeepEgo(nn.Module):
         # One layer on what belongs to the point and to the frame, in two parts, as the frame's is the same for all.
         self.weigh_point = nn.Linear(c.width, c.width)
         self.weigh_frame = nn.Linear(c.width, c.width, bias=False)
-        self.weigh = nn.Sequential(nn.ReLU(), nn.Linear(c.width, c.width // 2), nn.ReLU(), nn.Linear(c.width // 2, 2))
+        self.weigh = nn.Sequential(nn.ReLU(), nn.Linear(c.width, c.width // 2), nn.ReLU(), nn.Linear(c.width // 2, SAID))
         self.narrow_point = nn.Linear(c.width, c.narrow)
         self.narrow_frame = nn.Linear(c.width, c.narrow)
         self.refine_point = nn.Linear(OWN + c.narrow, c.refine)
         self.refine_frame = nn.Linear(c.narrow, c.refine, bias=False)
-        self.refine = nn.Sequential(nn.ReLU(), nn.Linear(c.refine, c.refine), nn.ReLU(), nn.Linear(c.refine, 2))
+        self.refine = nn.Sequential(nn.ReLU(), nn.Linear(c.refine, c.refine), nn.ReLU(), nn.Linear(c.refine, SAID))
         self.spread = nn.Sequential(nn.Linear(c.width + 5, c.refine), nn.ReLU(), nn.Linear(c.refine, 1))
         nn.init.zeros_(self.spread[-1].weight)
         nn.init.constant_(self.spread[-1].bias, 1.0)
@@ -132,8 +135,10 @@ class DeepEgo(nn.Module):
         narrow_h, narrow_g = self.narrow_point(h), self.narrow_frame(g)
         frame = self.refine_frame(narrow_g).unsqueeze(1)
         velocity, inlier = points.new_zeros((len(points), 2)), there
-        velocities, logits = [], []
+        velocities, logits, moves = [], [], []
         for i in range(self.config.refinements + 1):
+            if i == 1:
+                velocity = hypotheses.start(points, cos, sin, rate, inlier, mask, velocity)
             if i > 0:
                 residual = fit.residuals(cos, sin, rate, velocity)
                 slope = fit.slopes(cos, sin, velocity)
@@ -148,12 +153,13 @@ class DeepEgo(nn.Module):
                     -1,
                 )
                 out = self.refine(self.refine_point(torch.cat((own, narrow_h), -1)) + frame)
-            logit, precision = out.unbind(-1)
+            logit, precision, moving = out.unbind(-1)
             inlier = logit.sigmoid() * there
             weight = inlier * (PRECISION_RANGE * (precision / PRECISION_RANGE).tanh()).exp()
             velocity, inverse = fit.fit(cos, sin, rate, weight)
             velocities.append(velocity)
             logits.append(logit)
+            moves.append(moving)
         residual = fit.residuals(cos, sin, rate, velocity)
         covariance = fit.equation_3(residual, inlier, weight, inverse)
         sum_w = inlier.sum(-1)
@@ -171,4 +177,12 @@ class DeepEgo(nn.Module):
         )
         factor = self.spread(torch.cat((g, told), -1)).squeeze(-1).clamp(*FACTOR_RANGE)
         covariance = covariance * (2 * factor).exp().unsqueeze(-1)
-        return Answer(torch.stack(velocities), torch.stack(logits), covariance, narrow_g, share, factor)
+        return Answer(
+            velocity=torch.stack(velocities),
+            logit=torch.stack(logits),
+            moves=torch.stack(moves),
+            covariance=covariance,
+            context=narrow_g,
+            share=share,
+            factor=factor,
+        )

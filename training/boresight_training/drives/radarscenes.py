@@ -129,11 +129,11 @@ def check(network, folder: Path, generator) -> list[dict]:
             answer = network(points, mask)
             ransac, inlier, _ = classical.ransac(points, mask, generator)
             by_noise, _ = classical.weighted(points, inlier, ransac, losses.deviations)
-            weight = answer.logit[-1].sigmoid()
+            standing = (-answer.moves[-1]).sigmoid()
             told = torch.cat((answer.share.unsqueeze(-1), answer.factor.unsqueeze(-1), answer.context), -1)
             found = (answer.velocity[-1], answer.covariance, told)
-            answers.append((*found, ransac, by_noise, weight[mask], inlier[mask]))
-        found, covariance, told, ransac, by_noise, weight, inlier = (torch.cat(x) for x in zip(*answers, strict=True))
+            answers.append((*found, ransac, by_noise, standing[mask], inlier[mask]))
+        found, covariance, told, ransac, by_noise, standing, inlier = (torch.cat(x) for x in zip(*answers, strict=True))
         of_windows = {}
         if plus is not None:
             of_windows["smoothed"] = scatter(scans, smoothed(plus, scans, Singles(found, covariance, told, None)))
@@ -147,7 +147,7 @@ def check(network, folder: Path, generator) -> list[dict]:
                 **of_windows,
                 "ransac": scatter(scans, ransac),
                 "ransac_weighted_by_noise": scatter(scans, by_noise),
-                "labels": measures.labels(weight, there, moving),
+                "labels": measures.labels(standing, there, moving),
                 "ransac_labels": measures.labels(inlier.float(), there, moving),
                 "moving_share": float(moving.float().mean()),
                 "stated_deviation_deg": float(stated.rad2deg().median()),

@@ -43,7 +43,7 @@ CONDITIONS = {
     "queues": Condition(QUEUE, 0.2, 0.9),
 }
 """What frames are scored on."""
-WEIGHTS = {"motion": 1.0, "robust": 0.2, "weights": 2.0, "doppler": 0.1}
+WEIGHTS = {"motion": 1.0, "robust": 0.2, "weights": 2.0, "moves": 0.5, "doppler": 0.1}
 """Of the parts of the loss."""
 BEFORE_LAST = 0.3
 """Weight of the fits but the last in the parts of the loss that all have."""
@@ -66,12 +66,14 @@ class DeepEgoTask:
     reference = "Zhu, Yarovoy and Fioranelli (2023), DeepEgo; Zhu et al. (2025), Radar mounting angle estimation"
     architecture = (
         "Detections are encoded one by one by two layers, pooled by mean and maximum, and weighed by three layers on "
-        "both. Weighted least squares gives the motion; four refinements with shared layers weigh anew by residuals. A "
-        "factor scales equation 3's covariance."
+        "both. Weighted least squares gives the motion. From the motion of a pair of detections that most weight agrees "
+        "on, three refinements with shared layers weigh anew by residuals. A factor scales equation 3's covariance. "
+        "Beside its weight each detection is told whether it moves."
     )
     differences = (
         "The publications tell the pipeline, the weighted least squares and the Doppler loss, and not the layers: "
-        "features, sizes, refinements, the precision beside each weight, the factor and the losses but one are ours. "
+        "features, sizes, pairs, refinements, the precision beside each weight, the factor and the losses but one are "
+        "ours. "
         "It is trained on simulated drives alone."
     )
     batch = 256
@@ -112,8 +114,9 @@ class DeepEgoTask:
             Port(
                 "weights",
                 ("batch", "points"),
-                "of each detection from 0 to 1: how likely it is of something that stands",
+                "of each detection from 0 to 1: how likely it is that it shows the motion",
             ),
+            Port("moves", ("batch", "points"), "of each detection from 0 to 1: how likely it is of something that moves"),
         )
 
     def model(self) -> nn.Module:
@@ -147,6 +150,10 @@ class DeepEgoTask:
             "motion": known * losses.motion(error[-1], answer.covariance),
             "robust": sum(w * known * losses.robust(e) for w, e in zip(stages, error, strict=True)),
             "weights": sum(w * losses.weights(x, part.target, mask) for w, x in zip(stages, answer.logit, strict=True)),
+            "moves": sum(
+                w * losses.weights(x, frames.moving.float(), part.labelled.float())
+                for w, x in zip(stages, answer.moves, strict=True)
+            ),
             "doppler": sum(
                 w * losses.doppler(frames.points, mask, v, x)
                 for w, v, x in zip(stages, answer.velocity, answer.logit, strict=True)
@@ -188,12 +195,10 @@ class DeepEgoTask:
             velocity, _, covariance = classical.ransac(frames.points, frames.mask, generator, speed=speed)
             gated.append((velocity[known], covariance[known]))
             truths.append(frames.velocity[known])
-            weight = answer.logit[-1].sigmoid()
-            said.append(
-                (weight[frames.mask], frames.moving[frames.mask], truth.target[frames.mask], inlier[frames.mask])
-            )
+            standing, weight = (-answer.moves[-1]).sigmoid(), answer.logit[-1].sigmoid()
+            said.append([x[frames.mask] for x in (standing, weight, frames.moving, truth.target, inlier)])
         true = torch.cat(truths)
-        weight, moving, target, inlier = (torch.cat(x) for x in zip(*said, strict=True))
+        standing, weight, moving, target, inlier = (torch.cat(x) for x in zip(*said, strict=True))
         all_there = torch.ones_like(moving)
 
         def of(parts_):
@@ -203,7 +208,9 @@ class DeepEgoTask:
         network, ransac, weighted, with_speed = of(found), of(classic), of(noise_weighted), of(gated)
         return {
             **network,
-            **measures.labels(weight, all_there, moving),
+            **measures.labels(standing, all_there, moving),
+            "f1_by_weight": measures.labels(weight, all_there, moving)["f1"],
+            "f1_by_true_inliers": measures.labels(target, all_there, moving)["f1"],
             "inlier_f1": measures.labels(weight, all_there, target < 0.5)["f1_static"],
             **{f"ransac_{name}": value for name, value in ransac.items()},
             "ransac_f1": measures.labels(inlier.float(), all_there, moving)["f1"],
@@ -254,7 +261,7 @@ class DeepEgoTask:
 
 
 class _Motion(nn.Module):
-    """Points and mask to motion and weights."""
+    """Points and mask to motion, weights and what moves."""
 
     def __init__(self, model):
         super().__init__()
@@ -264,7 +271,7 @@ class _Motion(nn.Module):
         answer = self.model(points, mask)
         told = torch.stack((answer.share, answer.factor), -1)
         motion = torch.cat((answer.velocity[-1], answer.covariance, told), -1)
-        return motion, answer.logit[-1].sigmoid() * mask
+        return motion, answer.logit[-1].sigmoid() * mask, answer.moves[-1].sigmoid() * mask
 
 
 def parts(data: Dataset, chosen: np.ndarray, size: int = 250):

@@ -2,13 +2,16 @@
 
 use super::dense::{Layer, asinh, rectify, sigmoid};
 use super::fit::{Sights, sum};
+use super::hypotheses;
 use super::{NetworkError, Weights};
 use boresight_core::Detection;
 
 const FEATURES: usize = 9;
 /// Numbers of a residual that a refinement sees.
 const OWN: usize = 4;
-const REFINEMENTS: usize = 4;
+/// Numbers that are said of a detection: weight, precision, whether it moves.
+const SAID: usize = 3;
+const REFINEMENTS: usize = 3;
 /// Scales of residuals: of range rates, m/s, and of what an azimuth error, rad, makes of the slope.
 const RESIDUAL_MPS: f32 = 0.05;
 const AZIMUTH_RAD: f32 = 0.005;
@@ -26,9 +29,11 @@ pub struct WeighedMotion {
     pub velocity_mps: [f64; 2],
     /// Its covariance as xx, xy, yy, (m/s)^2: equation 3 with weights, times the learnt factor.
     pub covariance: [f64; 3],
-    /// Of each detection from 0 to 1, how likely it is of something that stands; 0 where azimuth or range rate are not
+    /// Of each detection from 0 to 1, how likely it is that it shows the motion; 0 where azimuth or range rate are not
     /// finite.
     pub weights: Vec<f32>,
+    /// The same of whether it is of something that moves.
+    pub moves: Vec<f32>,
     /// Mean of the weights of detections that are finite.
     pub share: f64,
     /// Logarithm of the factor on equation 3's deviations.
@@ -97,9 +102,9 @@ impl DeepEgo {
         };
         for (name, given, expected) in [
             ("weigh_frame", network.weigh_frame.outputs(), network.weigh_point.outputs()),
-            ("weigh.3", network.weigh[1].outputs(), 2),
+            ("weigh.3", network.weigh[1].outputs(), SAID),
             ("refine_frame", network.refine_frame.outputs(), network.refine_point.outputs()),
-            ("refine.3", network.refine[1].outputs(), 2),
+            ("refine.3", network.refine[1].outputs(), SAID),
             ("spread.2", network.spread[1].outputs(), 1),
         ] {
             if given != expected {
@@ -127,16 +132,16 @@ impl DeepEgo {
             })
             .collect();
         let seen: Vec<Detection> = usable.iter().map(|i| detections[*i]).collect();
-        let (mut motion, found) = self.of_usable(&seen);
-        motion.weights = vec![0.0; detections.len()];
-        for (i, weight) in usable.into_iter().zip(found) {
-            motion.weights[i] = weight;
+        let mut motion = self.of_usable(&seen);
+        for of_all in [&mut motion.weights, &mut motion.moves] {
+            let of_usable = std::mem::replace(of_all, vec![0.0; detections.len()]);
+            usable.iter().zip(of_usable).for_each(|(&i, value)| of_all[i] = value);
         }
         motion
     }
 
-    /// The motion without weights, and the weights, of detections that are all finite.
-    fn of_usable(&self, detections: &[Detection]) -> (WeighedMotion, Vec<f32>) {
+    /// The motion of detections that are all finite.
+    fn of_usable(&self, detections: &[Detection]) -> WeighedMotion {
         let mut sights = Sights::default();
         for d in detections {
             let (sin, cos) = d.azimuth_rad.sin_cos();
@@ -164,6 +169,10 @@ impl DeepEgo {
         let mut weights: Vec<f32> = vec![];
         let mut fitted = ([0.0; 2], [0.0; 3]);
         for round in 0..=REFINEMENTS {
+            if round == 1 {
+                let azimuths: Vec<f32> = detections.iter().map(|d| d.azimuth_rad).collect();
+                fitted.0 = hypotheses::start(&sights, &azimuths, &inliers, fitted.0);
+            }
             if round > 0 {
                 let told = residuals(&sights, fitted.0, &inliers, size, &near);
                 self.refine_point.apply(&told, &mut a);
@@ -171,7 +180,7 @@ impl DeepEgo {
             }
             inliers.clear();
             weights.clear();
-            for [logit, precision] in out.as_chunks::<2>().0 {
+            for [logit, precision, _] in out.as_chunks::<SAID>().0 {
                 let inlier = sigmoid(*logit);
                 inliers.push(inlier);
                 let precision = PRECISION_RANGE * (precision / PRECISION_RANGE).tanh();
@@ -198,15 +207,15 @@ impl DeepEgo {
         self.spread[1].apply(&a, &mut frame);
         let log_factor = frame[0].clamp(FACTOR_RANGE[0], FACTOR_RANGE[1]);
         let factor = f64::from(log_factor);
-        let motion = WeighedMotion {
+        WeighedMotion {
             velocity_mps: velocity.map(f64::from),
             covariance: covariance.map(|term| term * (2.0 * factor).exp()),
-            weights: vec![],
+            moves: out.as_chunks::<SAID>().0.iter().map(|said| sigmoid(said[2])).collect(),
+            weights: inliers,
             share,
             log_factor,
             context,
-        };
-        (motion, inliers)
+        }
     }
 }
 

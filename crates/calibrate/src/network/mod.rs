@@ -6,6 +6,7 @@ mod deepego;
 mod dense;
 mod error;
 mod fit;
+mod hypotheses;
 mod recurrent;
 mod smoother;
 mod weights;

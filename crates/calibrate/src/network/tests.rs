@@ -56,6 +56,7 @@ fn single_frames_are_as_in_pytorch() {
     assert!((0..3).all(|count| scans[count].len() == count));
     let (_, motions) = numbers("deepego", "motion.npy");
     let (_, weights) = numbers("deepego", "weights.npy");
+    let (_, moves) = numbers("deepego", "moves.npy");
     for (k, scan) in scans.iter().enumerate() {
         let found = network.motion(scan);
         let expected = &motions[7 * k..7 * (k + 1)];
@@ -65,12 +66,12 @@ fn single_frames_are_as_in_pytorch() {
         for (i, (given, expected)) in given.into_iter().zip(expected).enumerate() {
             assert_close(given, *expected, &format!("frame {k}, number {i}"));
         }
-        for (i, weight) in found.weights.iter().enumerate() {
-            assert_close(
-                (*weight).into(),
-                weights[most * k + i],
-                &format!("frame {k}, weight {i}"),
-            );
+        for (name, found, expected) in
+            [("weight", &found.weights, &weights), ("moves", &found.moves, &moves)]
+        {
+            for (i, value) in found.iter().enumerate() {
+                assert_close((*value).into(), expected[most * k + i], &format!("frame {k}, {name} {i}"));
+            }
         }
     }
 }
