@@ -10,9 +10,9 @@ fuzz_target!(|bytes: &[u8]| {
     // Those bytes are fuzzed that a checksum would refuse.
     let mut snapshot = [&b"BSCA\x01"[..], bytes].concat();
     snapshot.extend(crc32fast::hash(&snapshot).to_le_bytes());
-    let Ok(mut calibrator) = Calibrator::restore(&snapshot) else { return };
+    let Ok(mut calibrator) = Calibrator::restore(&snapshot, None) else { return };
     let Ok(kept) = calibrator.snapshot() else { panic!("what was kept can be kept") };
-    assert!(Calibrator::restore(&kept).is_ok());
+    assert!(Calibrator::restore(&kept, None).is_ok());
     let detections: Vec<Detection> = (0..20_u8)
         .map(|i| {
             let azimuth_rad = f32::from(i) * 0.1 - 1.0;

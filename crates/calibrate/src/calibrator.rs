@@ -2,11 +2,13 @@
 
 use crate::batch::Batch;
 use crate::motion::plan::plan;
+use crate::network::MotionNetwork;
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Method,
-    MotionMethod, MotionPlan, Outlook, Recursive,
+    MotionPlan, Outlook, Recursive,
 };
 use boresight_core::CoreError;
+use std::sync::Arc;
 
 /// Estimates a mounting angle from frames in order of time.
 #[derive(Debug)]
@@ -24,21 +26,27 @@ impl Calibrator {
     /// A calibration without frames.
     ///
     /// # Errors
-    /// Those of [`CalibrationOptions::validate`], and [`CoreError::Unknown`] for the recursive method with another
-    /// motion than its own.
+    /// Those of [`CalibrationOptions::validate`], [`CoreError::Unknown`] for the recursive method with another
+    /// motion than its own or DeepEgo's, and [`CalibrateError::NeedsNetwork`] for motions by networks.
     pub fn new(options: CalibrationOptions) -> Result<Self, CalibrateError> {
+        Self::with_network(options, None)
+    }
+
+    /// The same with a network, where the options ask for a motion that needs one. The recursive method takes from it how
+    /// likely each detection is to stand, and finds the motion itself.
+    ///
+    /// # Errors
+    /// As [`Calibrator::new`].
+    pub fn with_network(
+        options: CalibrationOptions,
+        network: Option<&Arc<MotionNetwork>>,
+    ) -> Result<Self, CalibrateError> {
         options.validate()?;
-        let motion = options.motion_method();
         if options.method == Method::Recursive {
-            return match motion {
-                MotionMethod::Tracked => {
-                    let recursive = Box::new(Recursive::new(&options)?);
-                    Ok(Self { inner: Inner::Recursive(recursive) })
-                }
-                _ => Err(tracked_only(motion.name())),
-            };
+            let recursive = Box::new(Recursive::with_network(&options, network)?);
+            return Ok(Self { inner: Inner::Recursive(recursive) });
         }
-        Self::with_motion(options, plan(motion, &options)?)
+        Self::with_motion(options, plan(options.motion_method(), &options, network)?)
     }
 
     /// A calibration on motions that come from elsewhere, such as a network. What the options say of the motion is then
@@ -73,12 +81,16 @@ impl Calibrator {
         }
     }
 
-    /// The calibration that a snapshot is of, with its options.
+    /// The calibration that a snapshot is of, with its options; one with a network needs that again.
     ///
     /// # Errors
     /// Those of [`Recursive::restore`].
-    pub fn restore(snapshot: &[u8]) -> Result<Self, CalibrateError> {
-        Ok(Self { inner: Inner::Recursive(Box::new(Recursive::restore(snapshot)?)) })
+    pub fn restore(
+        snapshot: &[u8],
+        network: Option<&Arc<MotionNetwork>>,
+    ) -> Result<Self, CalibrateError> {
+        let recursive = Recursive::restore_with_network(snapshot, network)?;
+        Ok(Self { inner: Inner::Recursive(Box::new(recursive)) })
     }
 
     /// Takes one frame.
@@ -115,10 +127,10 @@ impl Calibrator {
     }
 }
 
-fn tracked_only(given: &str) -> CalibrateError {
+pub(crate) fn tracked_only(given: &str) -> CalibrateError {
     CoreError::Unknown {
         what: "motion".into(),
-        expected: "tracked, with the recursive method".into(),
+        expected: "tracked or deepego, with the recursive method".into(),
         given: given.into(),
     }
     .into()

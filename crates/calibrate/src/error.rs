@@ -1,5 +1,6 @@
 //! Errors of the calibration.
 
+use crate::network::NetworkError;
 use boresight_core::{CoreError, Details, Diagnose};
 use thiserror::Error;
 
@@ -30,6 +31,17 @@ pub enum CalibrateError {
         /// Its value in the other.
         given: f64,
     },
+    /// A motion by a network without its weights.
+    #[error("{motion} needs the weights of its network, given {given}")]
+    NeedsNetwork {
+        /// Name of the motion.
+        motion: &'static str,
+        /// What was given.
+        given: &'static str,
+    },
+    /// Weights that cannot be used.
+    #[error(transparent)]
+    Network(#[from] NetworkError),
     /// A frame is older than the one before.
     #[error("time runs backwards: {given} s after {previous} s")]
     TimeBackwards {
@@ -46,6 +58,8 @@ impl Diagnose for CalibrateError {
             Self::Core(error) => error.code(),
             Self::MalformedSnapshot { .. } => "malformed-snapshot",
             Self::UnlikeSnapshots { .. } => "unlike-snapshots",
+            Self::NeedsNetwork { .. } => "needs-weights",
+            Self::Network(error) => error.code(),
             Self::TimeBackwards { .. } => "time-backwards",
         }
     }
@@ -59,6 +73,10 @@ impl Diagnose for CalibrateError {
             Self::UnlikeSnapshots { what, expected, given } => {
                 Details::new(*what, expected.to_string(), given.to_string())
             }
+            Self::NeedsNetwork { motion, given } => {
+                Details::new("weights", format!("a file of weights for {motion}"), *given)
+            }
+            Self::Network(error) => error.details(),
             Self::TimeBackwards { previous, given } => {
                 Details::new("time", format!("at least {previous} s"), format!("{given} s"))
             }

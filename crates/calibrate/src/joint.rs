@@ -1,11 +1,13 @@
 //! Several radars of one car: an angle each, one yaw-rate sensor.
 
+use crate::network::MotionNetwork;
 use crate::recursive::information::{Information, Matrix, UNKNOWNS, Vector};
 use crate::small::{inverse, times};
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Recursive, Verdict,
 };
 use boresight_core::CoreError;
+use std::sync::Arc;
 
 /// Unknowns that belong to the car: inverse scale, bias, slip gradient, and the delay of its radars, taken to
 /// be of one kind.
@@ -44,6 +46,17 @@ impl Joint {
     /// Those of [`Recursive::new`]; [`CoreError::Empty`] without radars, [`CoreError::OutOfRange`] for
     /// a number given twice.
     pub fn new(radars: &[(u8, CalibrationOptions)]) -> Result<Self, CalibrateError> {
+        Self::with_network(radars, None)
+    }
+
+    /// The same with a network, where options ask for a motion that needs one.
+    ///
+    /// # Errors
+    /// As [`Joint::new`], and those of [`Recursive::with_network`].
+    pub fn with_network(
+        radars: &[(u8, CalibrationOptions)],
+        network: Option<&Arc<MotionNetwork>>,
+    ) -> Result<Self, CalibrateError> {
         if radars.is_empty() {
             return Err(CoreError::Empty {
                 what: "radars".into(),
@@ -61,7 +74,7 @@ impl Joint {
                 }
                 .into());
             }
-            result.push((*sensor, Recursive::new(options)?));
+            result.push((*sensor, Recursive::with_network(options, network)?));
         }
         Ok(Self { radars: result })
     }

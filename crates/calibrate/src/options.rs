@@ -39,6 +39,10 @@ pub enum MotionMethod {
     OrthogonalDistance,
     /// Robust maximum likelihood led by the frames before, the yaw rate and the angle so far.
     Tracked,
+    /// A network that weighs the detections of a frame, then weighted least squares (DeepEgo); it needs a file of weights.
+    Deepego,
+    /// The same, smoothed over eight frames by a second network (DeepEgo+); it needs a file of weights.
+    DeepegoPlus,
 }
 
 /// What frames weigh in the weighted mean.
@@ -226,8 +230,19 @@ impl Method {
 
 impl MotionMethod {
     /// All methods, in the order they are listed to users.
-    pub const ALL: [Self; 4] =
-        [Self::Ransac, Self::WeightedLeastSquares, Self::OrthogonalDistance, Self::Tracked];
+    pub const ALL: [Self; 6] = [
+        Self::Ransac,
+        Self::WeightedLeastSquares,
+        Self::OrthogonalDistance,
+        Self::Tracked,
+        Self::Deepego,
+        Self::DeepegoPlus,
+    ];
+
+    /// Whether it needs a network's weights.
+    pub fn needs_network(self) -> bool {
+        matches!(self, Self::Deepego | Self::DeepegoPlus)
+    }
 
     /// The name used in options and on the command line.
     pub fn name(self) -> &'static str {
@@ -241,6 +256,8 @@ impl MotionMethod {
             Self::WeightedLeastSquares => "RANSAC, weighted least squares",
             Self::OrthogonalDistance => "RANSAC, orthogonal distance",
             Self::Tracked => "Tracked robust likelihood",
+            Self::Deepego => "DeepEgo (network)",
+            Self::DeepegoPlus => "DeepEgo+ (network)",
         }
     }
 
@@ -251,6 +268,8 @@ impl MotionMethod {
             Self::WeightedLeastSquares => "Aitken 1935",
             Self::OrthogonalDistance => "Boggs, Byrd and Schnabel 1987",
             Self::Tracked => "Boresight",
+            Self::Deepego => "after Zhu, Yarovoy and Fioranelli 2023",
+            Self::DeepegoPlus => "after Zhu et al. 2025",
         }
     }
 

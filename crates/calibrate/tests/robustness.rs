@@ -6,7 +6,7 @@ mod common;
 
 use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput, Method, MotionMethod};
 use boresight_core::Detection;
-use common::{BATCH, Drive};
+use common::{BATCH, Drive, network};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -75,7 +75,7 @@ fn way() -> impl Strategy<Value = (Method, MotionMethod)> {
         BATCH
             .into_iter()
             .flat_map(|method| MotionMethod::ALL.map(|motion| (method, motion)))
-            .chain([(Method::Recursive, MotionMethod::Tracked)])
+            .chain([MotionMethod::Tracked, MotionMethod::Deepego].map(|m| (Method::Recursive, m)))
             .collect::<Vec<_>>(),
     )
 }
@@ -145,7 +145,7 @@ proptest! {
             min_speed_mps,
             ..CalibrationOptions::default()
         };
-        feed(&mut Calibrator::new(options).unwrap(), &frames)?;
+        feed(&mut Calibrator::with_network(options, Some(&network())).unwrap(), &frames)?;
     }
 
     #[test]
@@ -156,7 +156,7 @@ proptest! {
             nominal_rad: Some(drive.angle_rad + 0.02),
             ..drive.options(way.0)
         };
-        let mut calibrator = Calibrator::new(options).unwrap();
+        let mut calibrator = Calibrator::with_network(options, Some(&network())).unwrap();
         let after_s = feed(&mut calibrator, &frames)? + 10.0;
         drive.run(|frame, _| {
             calibrator.add(FrameInput { time_s: after_s + frame.time_s, ..frame }).unwrap();

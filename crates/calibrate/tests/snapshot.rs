@@ -63,7 +63,7 @@ fn a_restored_calibration_goes_on_to_the_last_digit_at_every_cut() {
         for frame in &frames {
             let bytes = cut.snapshot().unwrap();
             largest = largest.max(bytes.len());
-            cut = Calibrator::restore(&bytes).unwrap();
+            cut = Calibrator::restore(&bytes, None).unwrap();
             assert_eq!(cut.snapshot().unwrap(), bytes);
             assert_eq!(whole.add(frame.input()), cut.add(frame.input()));
             assert_eq!(whole.estimate(), cut.estimate());
@@ -87,7 +87,7 @@ fn bytes_that_are_no_snapshot_are_refused_by_name() {
     let drive = Drive { frames: 120, ..Drive::default() };
     let bytes = drive.calibrate(options(&drive)).snapshot().unwrap();
     let refused = |bytes: &[u8], given: &str| {
-        let error = Calibrator::restore(bytes).unwrap_err();
+        let error = Calibrator::restore(bytes, None).unwrap_err();
         assert_eq!(error.code(), "malformed-snapshot");
         assert!(error.details().given.contains(given), "{error}");
     };
@@ -128,7 +128,7 @@ proptest! {
             bytes.truncate(5 + cut.index(bytes.len() - 5));
         }
         bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
-        if let Ok(mut restored) = Calibrator::restore(&bytes) {
+        if let Ok(mut restored) = Calibrator::restore(&bytes, None) {
             let start_s = 1e6;
             let mut refused = 0;
             drive.run(|frame, _| {

@@ -7,7 +7,7 @@ use boresight_calibrate::{
     CalibrateError, CalibrationOptions, Calibrator, Method, MotionMethod, Verdict,
 };
 use boresight_core::CoreError;
-use common::{BATCH, Drive};
+use common::{BATCH, Drive, network};
 
 fn tracked(drive: &Drive, method: Method) -> CalibrationOptions {
     CalibrationOptions {
@@ -90,6 +90,10 @@ fn the_recursive_method_takes_no_other_motion() {
         let options = CalibrationOptions { motion: Some(motion), ..CalibrationOptions::default() };
         match Calibrator::new(options) {
             Ok(_) => assert_eq!(motion, MotionMethod::Tracked),
+            Err(CalibrateError::NeedsNetwork { motion: "deepego", .. }) => {
+                assert_eq!(motion, MotionMethod::Deepego);
+                Calibrator::with_network(options, Some(&network())).unwrap();
+            }
             Err(error) => assert!(
                 matches!(&error, CalibrateError::Core(CoreError::Unknown { given, .. }) if given == motion.name()),
                 "{error}"

@@ -2,6 +2,7 @@
 
 use boresight_aoa::AoaError;
 use boresight_calibrate::CalibrateError;
+use boresight_calibrate::network::NetworkError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_evaluate::EvaluateError;
 use boresight_formats::FormatError;
@@ -55,6 +56,14 @@ pub enum CliError {
         path: PathBuf,
         /// What is wrong with it.
         error: Box<NeuralError>,
+    },
+    /// A network of motion cannot be loaded.
+    #[error("{}: {error}", path.display())]
+    Network {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        error: NetworkError,
     },
     /// The system refused a file.
     #[error("cannot {action} {}: {error}", path.display())]
@@ -148,6 +157,7 @@ impl CliError {
             Self::Simulate(error) => error,
             Self::Evaluate(error) => error,
             Self::Model { error, .. } => error.as_ref(),
+            Self::Network { error, .. } => error,
             _ => return None,
         })
     }

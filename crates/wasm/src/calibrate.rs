@@ -5,16 +5,34 @@ use crate::carry;
 use crate::complex::float_array;
 use crate::error::Fallible;
 use crate::read::{Fields, Read, items};
-use boresight_calibrate::{self as calibrate, FrameInput};
+use boresight_calibrate::network::MotionNetwork;
+use boresight_calibrate::{
+    self as calibrate, CalibrateError, CalibrationOptions, Calibrator, FrameInput,
+};
 use boresight_core::error::check_finite;
 use boresight_core::{CoreError, Detection};
+use std::sync::Arc;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Options of a calibration, and the network of motion that may come with them as bytes.
+pub fn read_options(value: &JsValue) -> Fallible<(CalibrationOptions, Option<Arc<MotionNetwork>>)> {
+    let mut fields = Fields::of_optional(value)?;
+    let network = fields.raw("network")?;
+    let options = fields.spread()?;
+    fields.finish()?;
+    Ok((options, network.map(|bytes| read_network(&bytes, "network")).transpose()?))
+}
+
+fn read_network(value: &JsValue, path: &str) -> Fallible<Arc<MotionNetwork>> {
+    let bytes = Bytes::read(value, path)?.0;
+    Ok(Arc::new(MotionNetwork::read(&bytes).map_err(CalibrateError::from)?))
+}
 
 /// A calibration in progress.
 #[wasm_bindgen]
 pub struct Calibration {
-    inner: calibrate::Calibrator,
+    inner: Calibrator,
 }
 
 #[wasm_bindgen]
@@ -22,8 +40,8 @@ impl Calibration {
     /// Checks the options and prepares.
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue) -> Fallible<Self> {
-        let options = carry::read(options)?;
-        Ok(Self { inner: calibrate::Calibrator::new(options)? })
+        let (options, network) = read_options(options)?;
+        Ok(Self { inner: Calibrator::with_network(options, network.as_ref())? })
     }
 
     /// Takes the next frame and says what became of it.
@@ -53,10 +71,11 @@ impl Calibration {
         Ok(self.inner.snapshot()?)
     }
 
-    /// The calibration that bytes are of.
-    pub fn restore(snapshot: &JsValue) -> Fallible<Self> {
+    /// The calibration that bytes are of, with its network if it has one.
+    pub fn restore(snapshot: &JsValue, network: &JsValue) -> Fallible<Self> {
         let bytes = Bytes::read(snapshot, "snapshot")?.0;
-        Ok(Self { inner: calibrate::Calibrator::restore(&bytes)? })
+        let given = (!network.is_undefined()).then(|| read_network(network, "network"));
+        Ok(Self { inner: Calibrator::restore(&bytes, given.transpose()?.as_ref())? })
     }
 }
 
@@ -90,15 +109,17 @@ impl Read for Frame {
             let kept = numbers.iter().map(|&number| f64::from(number as f32));
             check_finite(&fields.path_of(name), kept)?;
         }
-        let has_ranges = fields.raw("rangeM")?.is_some();
-        let ranges =
-            if has_ranges { Some(column(&mut fields, "rangeM", azimuth.len())?) } else { None };
+        let mut known = |name| match fields.raw(name)? {
+            Some(given) if !given.is_null() => column(&mut fields, name, azimuth.len()).map(Some),
+            _ => Ok(None),
+        };
+        let (ranges, rcs) = (known("rangeM")?, known("rcsDbsm")?);
         let YawRate(yaw_rate_radps) = fields.required("yawRateDegps")?;
         let speed_mps = fields.raw("speedMps")?.filter(|speed| !speed.is_null());
         let speed_mps =
             speed_mps.map(|speed| f64::read(&speed, &fields.path_of("speedMps"))).transpose()?;
         // What a frame of a drive has beside.
-        for name in ["sensor", "rcsDbsm", "label"] {
+        for name in ["sensor", "label"] {
             fields.raw(name)?;
         }
         fields.finish()?;
@@ -106,7 +127,7 @@ impl Read for Frame {
             azimuth_rad: azimuth[i].to_radians() as f32,
             range_rate_mps: rates[i] as f32,
             range_m: ranges.as_ref().map_or(f32::NAN, |ranges| ranges[i] as f32),
-            rcs_dbsm: f32::NAN,
+            rcs_dbsm: rcs.as_ref().map_or(f32::NAN, |rcs| rcs[i] as f32),
         };
         let detections = (0..azimuth.len()).map(detection).collect();
         Ok(Self { time_s, detections, yaw_rate_radps, speed_mps })

@@ -1,6 +1,7 @@
 //! Mounting angles from many frames at a time, as flat numbers; for the TypeScript around this
 //! crate, which checks what goes in.
 
+use crate::calibrate::read_options;
 use crate::carry;
 use crate::error::{BindingError, Fallible};
 use crate::given;
@@ -58,7 +59,7 @@ enum Inner {
 #[wasm_bindgen]
 impl DriveCalibrator {
     /// For one radar, of which the options are given, or for several with a list of them, which
-    /// are then numbered by their place. The car's motion is samples in order of time, without speeds or one each,
+    /// are then numbered by their place. A network of motion comes with options, that of the first for all. The car's motion is samples in order of time, without speeds or one each,
     /// interpolated over gaps of at most `max_gap_s`. A report needs `recorded` frames.
     #[wasm_bindgen(constructor)]
     pub fn new(
@@ -71,14 +72,18 @@ impl DriveCalibrator {
         max_gap_s: f64,
     ) -> Fallible<Self> {
         let mut radars: Vec<(u8, CalibrationOptions)> = vec![];
+        let mut network = None;
         let inner = if given::is_array(options) {
             for (place, (item, _)) in (0..=u8::MAX).zip(items(options, "sensors")?) {
-                radars.push((place, carry::read(&item)?));
+                let (options, given) = read_options(&item)?;
+                radars.push((place, options));
+                network = network.or(given);
             }
-            Inner::Joint(Joint::new(&radars)?)
+            Inner::Joint(Joint::with_network(&radars, network.as_ref())?)
         } else {
-            radars.push((0, carry::read(options)?));
-            Inner::One(Box::new(Calibrator::new(radars[0].1)?))
+            let (options, network) = read_options(options)?;
+            radars.push((0, options));
+            Inner::One(Box::new(Calibrator::with_network(options, network.as_ref())?))
         };
         let motion = MotionSamples { time_s, yaw_rate_degps, speed_mps, max_gap_s };
         Ok(Self {
@@ -92,7 +97,7 @@ impl DriveCalibrator {
     }
 
     /// Takes frames in order of time. Detections of frame `i` are those from `ends[i - 1]` to before
-    /// `ends[i]`, `radars` places in the list of options.
+    /// `ends[i]`, `radars` places in the list of options. Ranges and cross-sections are one a detection, or none.
     ///
     /// Gives for each frame the place of its verdict, the motion (m/s), the angle it gives alone and
     /// its standard deviation (deg), its weight, and its inliers; NaN where there is none.
@@ -104,23 +109,26 @@ impl DriveCalibrator {
         ends: &[u32],
         azimuth_deg: &[f64],
         range_rate_mps: &[f32],
+        range_m: &[f32],
+        rcs_dbsm: &[f32],
     ) -> Fallible<Vec<f64>> {
         if let Some(weights) = &mut self.weights {
             weights.clear();
         }
         let mut rows = Vec::with_capacity(7 * time_s.len());
-        let mut points = azimuth_deg.iter().zip(range_rate_mps);
         let mut start = 0;
         for ((radar, time_s), end) in radars.iter().zip(time_s).zip(ends) {
-            let count = end.saturating_sub(start) as usize;
-            start = *end;
+            let end = (*end as usize).min(azimuth_deg.len()).min(range_rate_mps.len());
+            let count = end.saturating_sub(start);
+            let known = |column: &[f32], i: usize| column.get(i).copied().unwrap_or(f32::NAN);
             self.detections.clear();
-            self.detections.extend(points.by_ref().take(count).map(|(azimuth, rate)| Detection {
-                azimuth_rad: azimuth.to_radians() as f32,
-                range_rate_mps: *rate,
-                range_m: f32::NAN,
-                rcs_dbsm: f32::NAN,
+            self.detections.extend((start..end).map(|i| Detection {
+                azimuth_rad: azimuth_deg[i].to_radians() as f32,
+                range_rate_mps: range_rate_mps[i],
+                range_m: known(range_m, i),
+                rcs_dbsm: known(rcs_dbsm, i),
             }));
+            start = end;
             let frame = FrameInput {
                 time_s: *time_s,
                 detections: &self.detections,

@@ -10,6 +10,7 @@ import type {
   CalibrationOutlook,
   CalibrationResult,
   FrameOutcome,
+  MotionNetwork,
 } from '../types.js';
 
 /** The methods that find a mounting angle. */
@@ -24,16 +25,19 @@ export function mergeCalibrations(snapshots: readonly (Uint8Array | ArrayBuffer)
 
 /** Finds the angle a radar is mounted at from its frames while the car drives. */
 export class Calibration extends Handle<glue.Calibration> {
-  constructor(options: CalibrationOptions);
+  constructor(options: CalibrationOptions & MotionNetwork);
   /** What {@link Calibration.restore} calls. */
-  constructor(snapshot: Uint8Array | ArrayBuffer, kept: true);
-  constructor(options: CalibrationOptions | Uint8Array | ArrayBuffer, kept?: true) {
-    super(drives, () => (kept === true ? glue.Calibration.restore(options) : new glue.Calibration(options)));
+  constructor(snapshot: Uint8Array | ArrayBuffer, kept: MotionNetwork);
+  constructor(options: (CalibrationOptions & MotionNetwork) | Uint8Array | ArrayBuffer, kept?: MotionNetwork) {
+    super(drives, () => (kept ? glue.Calibration.restore(options, kept.network) : new glue.Calibration(options)));
   }
 
-  /** The calibration that a snapshot is of, with its options: it goes on to the last digit as the one that was kept. */
-  static restore(snapshot: Uint8Array | ArrayBuffer): Calibration {
-    return new Calibration(snapshot, true);
+  /**
+   * The calibration that a snapshot is of, with its options: it goes on to the last digit as the one that was kept. A network
+   * is no part of it, and is given again.
+   */
+  static restore(snapshot: Uint8Array | ArrayBuffer, network?: Uint8Array | ArrayBuffer): Calibration {
+    return new Calibration(snapshot, network === undefined ? {} : { network });
   }
 
   /** The calibration as some kilobytes, whatever the drive's length (recursive method). */

@@ -122,8 +122,15 @@ class Chunk {
   readonly ends = new Uint32Array(FRAMES);
   readonly azimuthDeg = new Float64Array(DETECTIONS);
   readonly rangeRateMps = new Float32Array(DETECTIONS);
+  /** Of range and cross-section, where a network looks at them and the drive has them. */
+  readonly more: [Float32Array, Float32Array];
   frames = 0;
   detections = 0;
+
+  constructor({ rangeM, rcsDbsm }: View, network: boolean) {
+    const column = (given: unknown): Float32Array => new Float32Array(network && given ? DETECTIONS : 0);
+    this.more = [column(rangeM), column(rcsDbsm)];
+  }
 
   clear(): void {
     this.frames = 0;
@@ -139,6 +146,10 @@ class Chunk {
     this.timeS[frame] = view.timeS[scan] ?? NaN;
     this.azimuthDeg.set(view.azimuthDeg.subarray(start, end), first);
     this.rangeRateMps.set(view.rangeRateMps.subarray(start, end), first);
+    for (const [place, values] of [view.rangeM, view.rcsDbsm].entries()) {
+      const column = this.more[place];
+      if (column?.length && values) column.set(values.subarray(start, end), first);
+    }
     this.frames = frame + 1;
     this.detections = first + end - start;
     this.ends[frame] = this.detections;
@@ -184,7 +195,10 @@ function run<T>(
     const historyTimes: number[] = [];
     const startS = view.timeS[scans[0] ?? 0] ?? 0;
     const step = Math.max(64, scans.length / 200);
-    const chunk = new Chunk();
+    const chunk = new Chunk(
+      view,
+      radars.some(({ options }) => options.network !== undefined),
+    );
     let [dueS, asked, told, next] = [startS + historyS, 0, 0, 0];
     while (next < scans.length) {
       const first = next;
@@ -201,6 +215,8 @@ function run<T>(
           chunk.ends.subarray(0, frames),
           chunk.azimuthDeg.subarray(0, detections),
           chunk.rangeRateMps.subarray(0, detections),
+          chunk.more[0].subarray(0, detections),
+          chunk.more[1].subarray(0, detections),
         );
         const weights = task.weights ? calibrator.weights() : undefined;
         for (let frame = 0; frame < frames; frame++) {

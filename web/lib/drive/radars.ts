@@ -1,13 +1,19 @@
 // Which radars of a drive are calibrated, and how each sits on the car.
 import { failure, own, reading, wrong } from '../runtime/errors.js';
 import { isArray } from '../runtime/given.js';
-import type { CalibrateDriveOptions, CalibrationOptions, DriveSensor, JointCalibrationOptions } from '../types.js';
+import type {
+  CalibrateDriveOptions,
+  CalibrationOptions,
+  DriveSensor,
+  JointCalibrationOptions,
+  MotionNetwork,
+} from '../types.js';
 import { gapOf, positive, type View } from './view.js';
 
 /** A radar with its options as {@link Calibration} takes them. */
 export interface Radar {
   sensor: number;
-  options: CalibrationOptions;
+  options: CalibrationOptions & MotionNetwork;
 }
 
 /** What is asked for of a drive. */
@@ -38,7 +44,7 @@ export function taskOf(view: View, options: CalibrateDriveOptions | undefined): 
 /** The task of a joint calibration. */
 export function jointTaskOf(view: View, options: JointCalibrationOptions | undefined): Task {
   const { sensors, historyS, maxGapS, weights, ...rest } = own(options, 'options');
-  for (const name of ['method', 'motion', 'xM', 'yM', 'nominalDeg']) {
+  for (const name of ['method', 'xM', 'yM', 'nominalDeg']) {
     if (name in rest)
       throw failure('unknown-option', {
         what: name,

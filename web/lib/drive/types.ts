@@ -6,6 +6,7 @@ import type {
   CalibrationFrame,
   CalibrationMethod,
   CalibrationOptions,
+  MotionNetwork,
   CalibrationOutlook,
   CalibrationResult,
   DriveScans,
@@ -71,7 +72,7 @@ export interface MotionGap {
 }
 
 /** Place and nominal angle default to those of the drive's sensor, the method to `recursive`. */
-export interface CalibrateDriveOptions extends Partial<CalibrationOptions>, MotionGap {
+export interface CalibrateDriveOptions extends Partial<CalibrationOptions>, MotionNetwork, MotionGap {
   /** Number of the radar; needed where the drive has several. */
   sensor?: number;
   /** Time between entries of the history, default 1. */
@@ -82,7 +83,8 @@ export interface CalibrateDriveOptions extends Partial<CalibrationOptions>, Moti
 
 /** Radars whose angles are estimated together by the recursive method, with one scale and bias of the yaw rate. */
 export interface JointCalibrationOptions
-  extends Omit<Partial<CalibrationOptions>, 'method' | 'motion' | 'xM' | 'yM' | 'nominalDeg'>,
+  extends Omit<Partial<CalibrationOptions>, 'method' | 'xM' | 'yM' | 'nominalDeg'>,
+    MotionNetwork,
     MotionGap {
   /** Default: all radars of the drive, each as the drive has it. */
   sensors?: readonly (number | { sensor: number; xM?: number; yM?: number; nominalDeg?: number })[];

@@ -327,8 +327,17 @@ export type CalibrationMethod = 'weighted-mean' | 'kabsch' | 'least-squares' | '
  * - `weighted-least-squares`: RANSAC, then least squares weighted by each detection's noise.
  * - `orthogonal-distance`: RANSAC, then orthogonal distance regression: azimuths are noisy too.
  * - `tracked`: Robust maximum likelihood led by the frames before, the yaw rate and the angle so far.
+ * - `deepego`: A network that weighs the detections of a frame, then weighted least squares (DeepEgo); it needs a file
+ * of weights.
+ * - `deepego-plus`: The same, smoothed over eight frames by a second network (DeepEgo+); it needs a file of weights.
  */
-export type MotionMethod = 'ransac' | 'weighted-least-squares' | 'orthogonal-distance' | 'tracked';
+export type MotionMethod =
+  | 'ransac'
+  | 'weighted-least-squares'
+  | 'orthogonal-distance'
+  | 'tracked'
+  | 'deepego'
+  | 'deepego-plus';
 
 /**
  * What frames weigh in the weighted mean.

@@ -10,6 +10,7 @@ pub(crate) mod least_squares;
 pub(crate) mod orthogonal_distance;
 pub(crate) mod plan;
 pub(crate) mod ransac;
+pub(crate) mod weighed;
 
 pub use plan::{FrameMotion, MotionPlan};
 
@@ -70,7 +71,7 @@ impl MotionEstimator {
     ///
     /// # Errors
     /// Those of [`CalibrationOptions::validate`]; [`CoreError::Unknown`] for [`MotionMethod::Tracked`], which
-    /// needs more than one frame: ask a [`crate::Calibrator`] for it.
+    /// needs more than one frame: ask a [`crate::Calibrator`] for it; [`CalibrateError::NeedsNetwork`] for networks.
     pub fn new(options: &CalibrationOptions, method: MotionMethod) -> Result<Self, CalibrateError> {
         options.validate()?;
         if method == MotionMethod::Tracked {
@@ -81,7 +82,7 @@ impl MotionEstimator {
             }
             .into());
         }
-        Ok(Self { plan: plan(method, options)?, weights: Vec::new() })
+        Ok(Self { plan: plan(method, options, None)?, weights: Vec::new() })
     }
 
     /// The motion, with covariance (equation 3 for least squares; the noise model's, inflated by the

@@ -3,13 +3,16 @@
 use super::least_squares::WeightedLeastSquares;
 use super::orthogonal_distance::OrthogonalDistance;
 use super::ransac::Ransac;
+use super::weighed::Weighed;
+use crate::network::MotionNetwork;
 use crate::{
     CalibrateError, CalibrationOptions, FrameInput, Motion, MotionMethod, Recursive, Verdict,
 };
 use std::fmt::Debug;
+use std::sync::Arc;
 
 /// What each method of motion implements: everything that depends on the options alone is made once, in the method's
-/// own constructor. A network brings one of its own to [`crate::Calibrator::with_motion`].
+/// own constructor. Whoever has a method of their own brings it to [`crate::Calibrator::with_motion`].
 pub trait MotionPlan: Debug + Send {
     /// The radar's motion in a frame that is not older than those before. In `weights`, whatever it held, comes for each
     /// detection the weight, 0 to 1, with which it was taken as static.
@@ -39,10 +42,11 @@ impl FrameMotion {
     }
 }
 
-/// The plan of a method.
+/// The plan of a method, networks among them where one is given.
 pub(crate) fn plan(
     method: MotionMethod,
     options: &CalibrationOptions,
+    network: Option<&Arc<MotionNetwork>>,
 ) -> Result<Box<dyn MotionPlan>, CalibrateError> {
     options.validate()?;
     Ok(match method {
@@ -50,5 +54,8 @@ pub(crate) fn plan(
         MotionMethod::WeightedLeastSquares => Box::new(WeightedLeastSquares::new(options)),
         MotionMethod::OrthogonalDistance => Box::new(OrthogonalDistance::new(options)),
         MotionMethod::Tracked => Box::new(Recursive::new(options)?),
+        MotionMethod::Deepego | MotionMethod::DeepegoPlus => {
+            Box::new(Weighed::new(method, network, options)?)
+        }
     })
 }

@@ -7,6 +7,7 @@ mod dense;
 mod error;
 mod fit;
 mod hypotheses;
+mod motion_network;
 mod recurrent;
 mod smoother;
 mod weights;
@@ -16,5 +17,6 @@ mod tests;
 
 pub use deepego::{DeepEgo, WeighedMotion};
 pub use error::NetworkError;
+pub use motion_network::MotionNetwork;
 pub use smoother::{DeepEgoPlus, SmoothedMotion, WindowFrame};
 pub use weights::Weights;

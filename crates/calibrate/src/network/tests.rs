@@ -70,7 +70,11 @@ fn single_frames_are_as_in_pytorch() {
             [("weight", &found.weights, &weights), ("moves", &found.moves, &moves)]
         {
             for (i, value) in found.iter().enumerate() {
-                assert_close((*value).into(), expected[most * k + i], &format!("frame {k}, {name} {i}"));
+                assert_close(
+                    (*value).into(),
+                    expected[most * k + i],
+                    &format!("frame {k}, {name} {i}"),
+                );
             }
         }
     }

@@ -29,13 +29,14 @@ mod tracked;
 mod vote;
 
 use crate::angle::wrap;
-use crate::calibrator::check_time;
+use crate::calibrator::{check_time, tracked_only};
 use crate::error::CalibrateError;
 use crate::estimate::{AngleEstimate, FrameCounts};
 use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
 use crate::motion::ransac::Ransac;
 use crate::motion::{FrameMotion, MotionPlan};
-use crate::options::CalibrationOptions;
+use crate::network::MotionNetwork;
+use crate::options::{CalibrationOptions, MotionMethod};
 use block::{Block, Scatter};
 use boresight_core::Detection;
 use doubts::Doubts;
@@ -44,6 +45,7 @@ use information::{Information, Vector};
 use recent::Recent;
 use serde::{Deserialize, Serialize};
 use speed::Speed;
+use std::sync::Arc;
 use tracked::{Cloud, Fit, Limits, Prediction};
 use vote::Vote;
 
@@ -79,6 +81,8 @@ pub struct Recursive {
     cloud: Cloud,
     alone: Ransac,
     alone_weights: Vec<f32>,
+    /// What tells how likely detections are to stand.
+    network: Option<Arc<MotionNetwork>>,
     state: State,
 }
 
@@ -133,7 +137,21 @@ impl Recursive {
     /// # Errors
     /// Those of [`CalibrationOptions::validate`].
     pub fn new(options: &CalibrationOptions) -> Result<Self, CalibrateError> {
+        let own = CalibrationOptions { motion: None, ..*options };
+        Self::with_network(&own, None)
+    }
+
+    /// The same, with DeepEgo's weights of detections where the options name its motion.
+    ///
+    /// # Errors
+    /// Those of [`CalibrationOptions::validate`]; [`boresight_core::CoreError::Unknown`] for other motions,
+    /// [`CalibrateError::NeedsNetwork`] for DeepEgo's without a network.
+    pub fn with_network(
+        options: &CalibrationOptions,
+        network: Option<&Arc<MotionNetwork>>,
+    ) -> Result<Self, CalibrateError> {
         options.validate()?;
+        let network = Self::network_of(options, network)?;
         let start = prior(options.nominal_rad.unwrap_or(0.0), options);
         let state = State {
             before: start,
@@ -160,12 +178,33 @@ impl Recursive {
             detections: 0.0,
             changed_s: None,
         };
-        Ok(Self::with_state(options, state))
+        Ok(Self::with_state(options, network, state))
     }
 
-    fn with_state(options: &CalibrationOptions, state: State) -> Self {
+    /// The network that options ask for.
+    fn network_of(
+        options: &CalibrationOptions,
+        network: Option<&Arc<MotionNetwork>>,
+    ) -> Result<Option<Arc<MotionNetwork>>, CalibrateError> {
+        match (options.motion, network) {
+            (None | Some(MotionMethod::Tracked), _) => Ok(None),
+            (Some(MotionMethod::Deepego), Some(network)) => Ok(Some(network.clone())),
+            (Some(MotionMethod::Deepego), None) => Err(CalibrateError::NeedsNetwork {
+                motion: MotionMethod::Deepego.name(),
+                given: "none",
+            }),
+            (Some(motion), _) => Err(tracked_only(motion.name())),
+        }
+    }
+
+    fn with_state(
+        options: &CalibrationOptions,
+        network: Option<Arc<MotionNetwork>>,
+        state: State,
+    ) -> Self {
         Self {
             options: *options,
+            network,
             limits: Limits {
                 range_rate_sigma_mps: options.range_rate_sigma_mps,
                 azimuth_sigma_rad: options.azimuth_sigma_rad,
@@ -208,6 +247,9 @@ impl Recursive {
 
     fn take(&mut self, frame: &FrameInput, outcome: &mut FrameOutcome) -> Verdict {
         self.cloud.set(frame.detections);
+        if let Some(network) = &self.network {
+            self.cloud.trust(&network.single().motion(frame.detections).weights);
+        }
         let at_rest = self.cloud.share_at_rest(&self.limits);
         self.state.doubts.look(frame, at_rest);
         let Some(measured) = frame.yaw_rate_radps.filter(|rate| rate.is_finite()) else {

@@ -3,11 +3,13 @@
 //! `BSCA`, a version (one byte), options and state by postcard, and the CRC-32 of all before it, little endian.
 
 use super::{Recursive, State};
+use crate::network::MotionNetwork;
 use crate::{CalibrateError, CalibrationOptions};
+use std::sync::Arc;
 
 const MAGIC: &[u8; 4] = b"BSCA";
 /// Counts up where options or state change.
-const VERSION: u8 = 2;
+const VERSION: u8 = 3;
 const CHECKSUM: usize = 4;
 
 impl Recursive {
@@ -26,9 +28,21 @@ impl Recursive {
     /// The calibration that a snapshot is of.
     ///
     /// # Errors
+    /// As [`Recursive::restore_with_network`]; one with a network is refused.
+    pub fn restore(snapshot: &[u8]) -> Result<Self, CalibrateError> {
+        Self::restore_with_network(snapshot, None)
+    }
+
+    /// The same of one with a network, which is no part of it.
+    ///
+    /// # Errors
+    /// Those of [`Recursive::with_network`];
     /// [`CalibrateError::MalformedSnapshot`] for other bytes, a snapshot of another version, and one that was damaged; those of
     /// [`CalibrationOptions::validate`].
-    pub fn restore(snapshot: &[u8]) -> Result<Self, CalibrateError> {
+    pub fn restore_with_network(
+        snapshot: &[u8],
+        network: Option<&Arc<MotionNetwork>>,
+    ) -> Result<Self, CalibrateError> {
         let malformed = |expected: &str, given: String| CalibrateError::MalformedSnapshot {
             expected: expected.into(),
             given,
@@ -57,7 +71,8 @@ impl Recursive {
                 "numbers that no calibration has".into(),
             ));
         }
-        Ok(Self::with_state(&options, state))
+        let network = Self::network_of(&options, network)?;
+        Ok(Self::with_state(&options, network, state))
     }
 }
 

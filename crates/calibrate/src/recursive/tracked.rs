@@ -14,6 +14,8 @@ const DOUBT: f64 = 0.02;
 const GATE: f64 = 4.0;
 /// Half the width of the band about a motion in which detections count as static, in standard deviations.
 const BAND: f64 = 2.0;
+/// Least of how likely a detection is to be static, whatever a network says of it.
+const LEAST_TRUST: f64 = 0.05;
 /// Rounds of expectation and maximisation.
 const ROUNDS: usize = 8;
 
@@ -101,12 +103,15 @@ pub(crate) struct Cloud {
     pub(crate) closing: Vec<f64>,
     /// Probability that a detection is static.
     pub(crate) weight: Vec<f64>,
+    /// How likely a detection is to be static beside others, 1 where nothing is known.
+    trust: Vec<f64>,
     /// Variance of a detection's residual at the last fit.
     pub(crate) variance: Vec<f64>,
     /// Position among the detections given.
     pub(crate) index: Vec<usize>,
     speeds: Vec<f64>,
     inverse_width: Vec<f64>,
+    votes: Vec<f64>,
 }
 
 impl Cloud {
@@ -131,6 +136,15 @@ impl Cloud {
         self.weight.resize(self.closing.len(), 0.0);
         self.variance.clear();
         self.variance.resize(self.closing.len(), 1.0);
+        self.trust.clear();
+        self.trust.resize(self.closing.len(), 1.0);
+    }
+
+    /// Takes from elsewhere how likely the detections of the frame are to be static.
+    pub(crate) fn trust(&mut self, weights: &[f32]) {
+        for (trust, &index) in self.trust.iter_mut().zip(&self.index) {
+            *trust = f64::from(weights[index]).max(LEAST_TRUST);
+        }
     }
 
     /// Detections in use.
@@ -155,6 +169,7 @@ impl Cloud {
         let across = limits.azimuth_sigma_rad.powi(2) + prediction.angle_variance;
         self.speeds.clear();
         self.inverse_width.clear();
+        self.votes.clear();
         for i in 0..self.len() {
             let cos = self.cos[i] * cos0 - self.sin[i] * sin0;
             let sin = self.sin[i] * cos0 + self.cos[i] * sin0;
@@ -165,16 +180,18 @@ impl Cloud {
             let variance = (along + (speed * sin).powi(2) * across) * scale;
             self.speeds.push(speed + offset);
             self.inverse_width.push(cos.abs() / (3.0 * variance.sqrt()));
+            self.votes.push(self.trust[i]);
         }
         let stride = self.speeds.len().div_ceil(MAX_CANDIDATES).max(1);
         let mut best = (0.0, None);
         for j in (0..self.speeds.len()).step_by(stride) {
             let candidate = self.speeds[j];
             let mut score = 0.0;
-            for (speed, inverse_width) in self.speeds.iter().zip(&self.inverse_width) {
+            let places = self.speeds.iter().zip(&self.inverse_width);
+            for ((speed, inverse_width), vote) in places.zip(&self.votes) {
                 let distance = (candidate - speed) * inverse_width;
                 let kernel = (1.0 - distance * distance).max(0.0);
-                score += kernel * kernel;
+                score += vote * kernel * kernel;
             }
             if let Some(speed) = &prediction.measured_speed {
                 let distance = (candidate - speed.mps) / speed.gate_mps();
@@ -223,6 +240,7 @@ impl Cloud {
         };
         let mut likelihood = 0.0;
         let mut share = 0.7;
+        let trusted: f64 = self.trust.iter().sum();
         let mut covariance = [[0.0; 2]; 2];
         let (mut squares, mut sum) = (0.0, 0.0);
         for round in 0..=ROUNDS {
@@ -237,9 +255,10 @@ impl Cloud {
                 let variance = (limits.range_rate_sigma_mps.powi(2)
                     + slope * slope * (limits.azimuth_sigma_rad.powi(2) + extra))
                     * scale;
-                let density = share * (-0.5 * residual * residual / variance).exp()
+                let prior = share * self.trust[i];
+                let density = prior * (-0.5 * residual * residual / variance).exp()
                     / (std::f64::consts::TAU * variance).sqrt();
-                let either = density + (1.0 - share) / MOVING_SPREAD_MPS;
+                let either = density + (1.0 - prior) / MOVING_SPREAD_MPS;
                 let weight = density / either;
                 likelihood += either.ln();
                 let w = weight / variance;
@@ -275,7 +294,7 @@ impl Cloud {
                     covariance[1][0] * right[0] + covariance[1][1] * right[1],
                 ];
             }
-            share = (sum / self.len() as f64).clamp(0.1, 0.95);
+            share = (sum / trusted).clamp(0.1, 0.95);
         }
         let (mut complete, mut missing) = (0.0, 0.0);
         for i in 0..self.len() {

@@ -4,9 +4,20 @@
 #[path = "../support/clean.rs"]
 mod clean;
 
+use boresight_calibrate::network::MotionNetwork;
 use boresight_calibrate::{CalibrationOptions, Calibrator, FrameInput, Method};
 use boresight_core::{Detection, Random};
 pub use clean::without_real_errors;
+use std::sync::{Arc, LazyLock};
+
+/// Both networks of motion.
+pub fn network() -> Arc<MotionNetwork> {
+    static NETWORK: LazyLock<Arc<MotionNetwork>> = LazyLock::new(|| {
+        let bytes = include_bytes!("../../../../tests/golden/motion/deepego-plus/weights.bin");
+        Arc::new(MotionNetwork::read(bytes).unwrap())
+    });
+    NETWORK.clone()
+}
 
 #[derive(Debug, Clone, Copy)]
 pub struct Drive {

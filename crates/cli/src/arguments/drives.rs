@@ -49,6 +49,9 @@ pub struct CalibrateArguments {
     /// the yaw rate for all; --sensor then says which is printed.
     #[arg(long, conflicts_with_all = ["method", "motion"])]
     pub joint: bool,
+    /// Weights of the network of motion, for --motion deepego and deepego-plus; those of models/motion/deepego-plus.bin if absent.
+    #[arg(long, value_name = "F.bin")]
+    pub network: Option<PathBuf>,
     /// How it is calibrated.
     #[command(flatten)]
     pub flags: Flags<CalibrationOptions>,

@@ -23,10 +23,12 @@ pub use whole::WholeRecord;
 
 use crate::EvaluateError;
 use crate::experiment::Experiment;
+use boresight_calibrate::network::MotionNetwork;
 use boresight_calibrate::{CalibrationOptions, FrameInput, FrameWeights, Method, MotionMethod};
 use boresight_core::error::check_range;
 use boresight_simulate::drive::DriveProfile;
 use serde::{Deserialize, Serialize};
+use std::sync::{Arc, LazyLock};
 
 /// Driving times of Figure 6, s.
 pub const DRIVING_TIMES_S: [f64; 8] = [2.0, 5.0, 10.0, 15.0, 25.0, 40.0, 60.0, 90.0];
@@ -95,14 +97,28 @@ impl Candidate {
     }
 }
 
-/// The methods compared: the mean of equation 8, the two of Table II that have no network, the regressions on RANSAC's motion, ours,
+/// The networks of motion that the methods named after them use: those of models/.
+pub fn network() -> Arc<MotionNetwork> {
+    static NETWORK: LazyLock<Arc<MotionNetwork>> = LazyLock::new(|| {
+        let read = MotionNetwork::read(include_bytes!("../../../../models/motion/deepego-plus.bin"));
+        Arc::new(read.unwrap_or_else(|error| unreachable!("models/motion/deepego-plus.bin: {error}")))
+    });
+    NETWORK.clone()
+}
+
+/// The methods compared: the mean of equation 8, those of Table II (DeepEgo's networks with the mean, and with the regression that
+/// the paper proposes), the regressions on RANSAC's motion, ours, with and without the network,
 /// then the formulations of Table IV on our motion, weighted by equation 13 (orthogonal distances by the variances of both coordinates).
-pub const CANDIDATES: [Candidate; 12] = [
+pub const CANDIDATES: [Candidate; 16] = [
     Candidate::new("unweighted mean (equation 8)", Method::WeightedMean, MotionMethod::Ransac)
         .weighted(FrameWeights::Equal),
     Candidate::new("weighted mean (Kellner et al.)", Method::WeightedMean, MotionMethod::Ransac)
         .drawn(true),
     Candidate::new("Kabsch (Bao et al.)", Method::Kabsch, MotionMethod::Ransac).drawn(true),
+    Candidate::new("weighted mean, DeepEgo", Method::WeightedMean, MotionMethod::Deepego),
+    Candidate::new("weighted mean, DeepEgo+", Method::WeightedMean, MotionMethod::DeepegoPlus),
+    Candidate::new("least squares, DeepEgo+", Method::LeastSquares, MotionMethod::DeepegoPlus)
+        .drawn(true),
     Candidate::new(
         "least squares on RANSAC",
         Method::LeastSquares,
@@ -120,6 +136,10 @@ pub const CANDIDATES: [Candidate; 12] = [
             .drawn(false)
     },
     Candidate::new("recursive", Method::Recursive, MotionMethod::Tracked).drawn(true),
+    Candidate {
+        speed: true,
+        ..Candidate::new("recursive, DeepEgo", Method::Recursive, MotionMethod::Deepego)
+    },
     Candidate {
         joint: true,
         ..Candidate::new("recursive, four radars", Method::Recursive, MotionMethod::Tracked)
@@ -152,7 +172,7 @@ pub struct CalibrationExperiment {
 
 impl Experiment for CalibrationExperiment {
     const NAME: &'static str = "calibration";
-    const REVISION: u32 = 2;
+    const REVISION: u32 = 3;
     type Plan = ();
     type Record = SceneRecord;
     type Report = CalibrationReport;

@@ -1,6 +1,6 @@
 //! A drive whose true angles are known: every method on every radar.
 
-use super::{CANDIDATES, Candidate, DRIVING_TIMES_S, SEGMENTS_M};
+use super::{CANDIDATES, Candidate, DRIVING_TIMES_S, SEGMENTS_M, network};
 use crate::EvaluateError;
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
 use boresight_calibrate::{
@@ -164,7 +164,8 @@ impl<'a> Radar<'a> {
         candidate: &Candidate,
         frames: &[FrameInput],
     ) -> Result<AngleEstimate, EvaluateError> {
-        let mut calibrator = Calibrator::new(candidate.options(&self.options))?;
+        let options = candidate.options(&self.options);
+        let mut calibrator = Calibrator::with_network(options, Some(&network()))?;
         for frame in frames {
             calibrator.add(candidate.told(frame))?;
         }

@@ -5,6 +5,7 @@ import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { Control } from './control.ts';
 import { loaded, sensor } from './drive.ts';
+import { NetworkChoice } from './network-choice.tsx';
 import { jointPossible, shownMethod, where } from './process.ts';
 import { Source } from './source.tsx';
 import { minSpeed, mountingState, restoreDefaults, TRACKED_SPEED, USUAL_SPEED, update } from './state.ts';
@@ -52,8 +53,12 @@ export function Controls() {
             ransac: 'RANSAC',
             'weighted-least-squares': 'weighted LS',
             'orthogonal-distance': 'orthogonal',
+            deepego: 'DeepEgo',
+            'deepego-plus': 'DeepEgo+',
           }}
+          help="How the radar’s own motion is found in a frame, or over eight of them (DeepEgo+)."
         />
+        <NetworkChoice />
       </Group>
       <Group title="Frames and noise">
         <Control

@@ -1,9 +1,10 @@
 /** Calibration by every chosen method, on workers: again when drive or options change, the latest wins. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { CalibrationOptions, Drive, DriveCalibration, JointCalibrationOptions } from 'boresight';
+import type { CalibrationOptions, Drive, DriveCalibration, JointCalibrationOptions, MotionNetwork } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import { aborted, describeError, type Problem, pool } from '../../data.ts';
 import { type Loaded, loaded, sensor } from './drive.ts';
+import { motionOf, needsNetwork, network, networkNumber, ownNetwork } from './motion-network.ts';
 import { calibrationOptions, mountingState, type Place, place } from './state.ts';
 import { WAYS, type Way } from './ways.ts';
 
@@ -51,7 +52,9 @@ const job = computed(() => {
   const open = loaded.value;
   const radar = sensor.value;
   const options = open && where.value && calibrationOptions(mountingState.value, where.value, open.drive.format);
-  return open && radar && options ? JSON.stringify({ sensor: radar.id, ...options }) : '';
+  const own = needsNetwork(options?.motion) ? ownNetwork.value : null;
+  const network = own && [own.name, own.bytes.length, networkNumber(own)].join();
+  return open && radar && options ? JSON.stringify({ sensor: radar.id, network, ...options }) : '';
 });
 const methods = computed(() => chosen.value.join(','));
 
@@ -113,14 +116,22 @@ export function start(): () => void {
 
 type Options = Omit<CalibrationOptions, 'method'> & { sensor: number };
 
+/** The options of a way, with the network where its motion needs one. */
+export async function withNetwork(way: Way, { motion, ...options }: Options): Promise<Options & MotionNetwork> {
+  const own = way === 'joint' && !needsNetwork(motion) ? undefined : motionOf(way, motion);
+  if (own === undefined) return options;
+  return { ...options, motion: own, ...(needsNetwork(own) && { network: await network() }) };
+}
+
 /** Of all radars of a drive together, one of them as asked for. */
-export function jointOptions(drive: Drive, options: Options): JointCalibrationOptions {
-  const { sensor, xM, yM, nominalDeg, motion: _, ...common } = options;
+export function jointOptions(drive: Drive, options: Options & MotionNetwork): JointCalibrationOptions {
+  const { sensor, xM, yM, nominalDeg, ...common } = options;
   const mine = { sensor, xM, ...(yM === undefined ? {} : { yM }), ...(nominalDeg === undefined ? {} : { nominalDeg }) };
   return { ...common, sensors: drive.sensors.map(({ id }) => (id === sensor ? mine : id)) };
 }
 
-async function calibrateBy(way: Way, drive: Drive, options: Options, job: JobOptions): Promise<DriveCalibration> {
+async function calibrateBy(way: Way, drive: Drive, asked: Options, job: JobOptions): Promise<DriveCalibration> {
+  const options = await withNetwork(way, asked);
   if (way !== 'joint') return pool().calibrateDrive(drive, { ...options, method: way, weights: true }, job);
   const all = await pool().jointCalibration(drive, { ...jointOptions(drive, options), weights: true }, job);
   return all.find((one) => one.sensor === options.sensor) as DriveCalibration;
@@ -129,7 +140,7 @@ async function calibrateBy(way: Way, drive: Drive, options: Options, job: JobOpt
 async function calibrate(open: Loaded, text: string, missing: readonly Way[]): Promise<void> {
   const controller = new AbortController();
   running = controller;
-  const options = JSON.parse(text) as Options;
+  const { network: _, ...options } = JSON.parse(text) as Options & { network: string | null };
   const shares = new Map(missing.map((method) => [method, 0]));
   const say = (): void => {
     if (running === controller)

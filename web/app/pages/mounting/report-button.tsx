@@ -4,7 +4,7 @@ import type { ReportAbout } from 'boresight';
 import { aborted, describeError, type Problem, pool } from '../../data.ts';
 import { download, fileName } from '../../plots/save.ts';
 import { bundledFiles, type Loaded, loaded, sensor, simulation } from './drive.ts';
-import { jointOptions, shownMethod, where } from './process.ts';
+import { jointOptions, shownMethod, where, withNetwork } from './process.ts';
 import { calibrationOptions, mountingState } from './state.ts';
 import { fileParts } from './time-plot.tsx';
 
@@ -46,14 +46,15 @@ async function write(): Promise<void> {
   const { signal } = controller;
   writing.value = { share: 0, controller };
   problem.value = null;
-  const mine = { sensor: radar.id, ...common };
-  const options = way === 'joint' ? jointOptions(open.drive, mine) : { ...mine, method: way };
   try {
+    const mine = await withNetwork(way, { sensor: radar.id, ...common });
+    const options = way === 'joint' ? jointOptions(open.drive, mine) : { ...mine, method: way };
+    const shown = { ...options, ...(mine.network && { network: 'its bytes' }) };
     const drive =
       open.source === 'simulated' ? `simulateDrive(${JSON.stringify(simulation(mountingState.value))})` : 'drive';
     const about: ReportAbout = {
       made: new Date().toLocaleString('en-GB', { dateStyle: 'long', timeStyle: 'short' }),
-      asked: `calibrationReport(${drive}, about, ${JSON.stringify(options)})`,
+      asked: `calibrationReport(${drive}, about, ${JSON.stringify(shown)})`,
       sources: await sourcesOf(open, signal),
     };
     const onProgress = (done: number, total: number): void => {

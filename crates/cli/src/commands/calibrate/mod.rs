@@ -9,6 +9,7 @@ use crate::error::CliError;
 use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
+use boresight_calibrate::network::MotionNetwork;
 use boresight_calibrate::{
     AngleEstimate, CalibrateError, CalibrationOptions, Calibrator, FrameInput, FrameOutcome,
     Frames, Joint, Outlook,
@@ -18,6 +19,8 @@ use boresight_formats::DriveFormat;
 use boresight_pipeline::{PipelineError, Progress};
 use boresight_report::Recorder;
 use serde_json::Value;
+use std::path::Path;
+use std::sync::Arc;
 use track::Track;
 
 /// Frames between two looks at progress and Ctrl-C.
@@ -52,11 +55,14 @@ pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliE
     let trajectory =
         arguments.trajectory.as_deref().map(|path| files.destination(path)).transpose()?;
     let report = arguments.report.as_deref().map(|path| files.destination(path)).transpose()?;
+    let network = arguments.network.as_deref().map(|path| read_network(path, files)).transpose()?;
+    let network = network.unwrap_or_else(boresight_evaluate::calibration::network);
     let run = Run::start("frames")?;
     let mut results = if arguments.joint {
         jointly(arguments, log, &run)?
     } else {
-        let one = |sensor: &&Sensor| alone(log, sensor.id, options(arguments, sensor)?, &run);
+        let one =
+            |sensor: &&Sensor| alone(log, sensor.id, options(arguments, sensor)?, &network, &run);
         shown.iter().map(one).collect::<Result<_, CliError>>()?
     };
     run.finish();
@@ -83,6 +89,11 @@ pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliE
     } else {
         results.iter().map(report::text).collect::<Vec<_>>().join("\n")
     })
+}
+
+fn read_network(path: &Path, files: &Files) -> Result<Arc<MotionNetwork>, CliError> {
+    let read = MotionNetwork::read(&files.read(path)?);
+    read.map(Arc::new).map_err(|error| CliError::Network { path: path.into(), error })
 }
 
 fn ids(log: &DriveLog) -> String {
@@ -156,9 +167,10 @@ fn alone(
     log: &DriveLog,
     sensor: u8,
     options: CalibrationOptions,
+    network: &Arc<MotionNetwork>,
     run: &Run,
 ) -> Result<Calibrated, CliError> {
-    let mut calibrator = Calibrator::new(options)?;
+    let mut calibrator = Calibrator::with_network(options, Some(network))?;
     let mut track = Track::default();
     let mut recorder = Recorder::default();
     feed(

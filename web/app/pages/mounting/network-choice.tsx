@@ -1,0 +1,50 @@
+/** Whose weights motions by a network go by. */
+import { useRef } from 'preact/hooks';
+import { byteSize } from '../../plots/format.ts';
+import { Notice } from '../../ui/notice.tsx';
+import { needsNetwork, networkProblem, openNetwork, ownNetwork } from './motion-network.ts';
+import { mountingState } from './state.ts';
+
+export function NetworkChoice() {
+  const input = useRef<HTMLInputElement>(null);
+  if (!needsNetwork(mountingState.value.motion)) return null;
+  const own = ownNetwork.value;
+  const problem = networkProblem.value;
+  return (
+    <div class="drop">
+      <p class="small">
+        {own
+          ? `Weights of ${own.name}, ${byteSize(own.bytes.length)}.`
+          : 'A network that was trained on simulated drives weighs the detections. The recursive methods take its weights and find the motion themselves.'}
+      </p>
+      <div class="row">
+        <button type="button" onClick={() => input.current?.click()} title="A .bin file that the training exported">
+          Open weights
+        </button>
+        {own && (
+          <button type="button" onClick={() => (ownNetwork.value = null)}>
+            Use those of the package
+          </button>
+        )}
+        <input
+          ref={input}
+          type="file"
+          hidden
+          accept=".bin"
+          aria-label="Weights of a network of motion"
+          name="motion-network"
+          onChange={(event) => {
+            const [file] = event.currentTarget.files ?? [];
+            event.currentTarget.value = '';
+            if (file) void openNetwork(file);
+          }}
+        />
+      </div>
+      {problem && (
+        <Notice name="motion-network" onClose={() => (networkProblem.value = null)}>
+          {problem.file}: {problem.message}
+        </Notice>
+      )}
+    </div>
+  );
+}
