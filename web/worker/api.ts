@@ -2,7 +2,7 @@
 import { driveFrame } from '../lib/drive/frame.js';
 import { jointTaskOf, reportTaskOf, taskOf } from '../lib/drive/radars.js';
 import { selected, viewOf } from '../lib/drive/view.js';
-import { wrong } from '../lib/runtime/errors.js';
+import { reading, wrong } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { type OnKept, PoolCapture } from './capture.js';
@@ -239,7 +239,7 @@ export class Pool {
       drive,
       radars.map(({ sensor }) => sensor),
     );
-    const result = await this.#one('calibrateDrive', [part.drive, options], { ...job, transfer: true });
+    const result = await this.#one('calibrateDrive', [part.drive, copied(options)], { ...job, transfer: true });
     return numbered(result, part.scans);
   }
 
@@ -255,7 +255,7 @@ export class Pool {
       drive,
       radars.map(({ sensor }) => sensor),
     );
-    const results = await this.#one('jointCalibration', [part.drive, options], { ...job, transfer: true });
+    const results = await this.#one('jointCalibration', [part.drive, copied(options)], { ...job, transfer: true });
     return results.map((result) => numbered(result, part.scans));
   }
 
@@ -272,7 +272,7 @@ export class Pool {
       drive,
       radars.map(({ sensor }) => sensor),
     );
-    return this.#one('calibrationReport', [part.drive, about, options], { ...job, transfer: true });
+    return this.#one('calibrationReport', [part.drive, about, copied(options)], { ...job, transfer: true });
   }
 
   /** Estimates of many inputs, split over the workers; progress counts inputs. */
@@ -402,3 +402,6 @@ function joinedScenes(results: lib.SnapshotResult[]): lib.SnapshotResult {
   const data = joined(results.map((result) => result.data));
   return { data, shape: [truth.length, elements, snapshots], truth };
 }
+
+/** Options whose typed arrays can be given away: the caller keeps theirs. */
+const copied = <T>(options: T): T => reading('options', () => packed(options, false).value);

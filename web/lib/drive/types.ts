@@ -6,11 +6,11 @@ import type {
   CalibrationFrame,
   CalibrationMethod,
   CalibrationOptions,
-  MotionNetwork,
   CalibrationOutlook,
   CalibrationResult,
   DriveScans,
   DriveSensor,
+  MotionNetwork,
 } from '../types.js';
 
 type Floats = Float32Array | Float64Array;
