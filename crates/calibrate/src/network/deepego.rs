@@ -1,10 +1,11 @@
 //! DeepEgo, single frame: a network weighs detections, and weighted least squares gives the radar's motion.
 
-use super::dense::{Layer, asinh, rectify, sigmoid};
+use super::dense::{Layer, add, asinh, each, rectify, sigmoid, tanh};
 use super::fit::{Sights, sum};
 use super::hypotheses;
 use super::{NetworkError, Weights};
 use boresight_core::Detection;
+use wide::f32x4;
 
 const FEATURES: usize = 9;
 /// Numbers of a residual that a refinement sees.
@@ -181,13 +182,17 @@ impl DeepEgo {
             inliers.clear();
             weights.clear();
             for [logit, precision, _] in out.as_chunks::<SAID>().0 {
-                let inlier = sigmoid(*logit);
-                inliers.push(inlier);
-                let precision = PRECISION_RANGE * (precision / PRECISION_RANGE).tanh();
-                weights.push(inlier * precision.exp());
+                inliers.push(*logit);
+                weights.push(*precision);
             }
+            let range = f32x4::splat(PRECISION_RANGE);
+            each(&mut inliers, sigmoid);
+            each(&mut weights, |precision| (range * tanh(precision / range)).exp());
+            weights.iter_mut().zip(&inliers).for_each(|(weight, inlier)| *weight *= inlier);
             fitted = sights.fit(&weights);
         }
+        let mut moves: Vec<f32> = out.as_chunks::<SAID>().0.iter().map(|said| said[2]).collect();
+        each(&mut moves, sigmoid);
         let (velocity, inverse) = fitted;
         let covariance = sights.equation_3(velocity, &inliers, &weights, inverse);
         let count = sum(&inliers);
@@ -210,7 +215,7 @@ impl DeepEgo {
         WeighedMotion {
             velocity_mps: velocity.map(f64::from),
             covariance: covariance.map(|term| term * (2.0 * factor).exp()),
-            moves: out.as_chunks::<SAID>().0.iter().map(|said| sigmoid(said[2])).collect(),
+            moves,
             weights: inliers,
             share,
             log_factor,
@@ -263,7 +268,7 @@ fn pooled(h: &[f32], width: usize) -> Vec<f32> {
 /// What belongs to detections and to the frame, added, rectified and through two layers.
 fn two_layers(layers: &[Layer; 2], points: &mut [f32], frame: &[f32]) -> Vec<f32> {
     for row in points.chunks_exact_mut(frame.len().max(1)) {
-        row.iter_mut().zip(frame).for_each(|(value, of_frame)| *value += of_frame);
+        add(row, frame);
     }
     rectify(points);
     let (mut hidden, mut out) = (vec![], vec![]);
@@ -282,12 +287,16 @@ fn residuals(
 ) -> Vec<f32> {
     let narrow = near.len() / sights.len().max(1);
     let mut told = Vec::with_capacity((OWN + narrow) * sights.len());
+    let slopes: Vec<f32> = (0..sights.len()).map(|i| sights.slope(i, velocity)).collect();
+    let mut off: Vec<f32> = (0..sights.len()).map(|i| sights.residual(i, velocity)).collect();
+    let by_slope = |(residual, slope): (&f32, &f32)| {
+        residual.abs() / (AZIMUTH_RAD * (slope + LEAST_SLOPE * size))
+    };
+    let mut across: Vec<f32> = off.iter().zip(&slopes).map(by_slope).collect();
+    each(&mut off, |residual| asinh(residual / f32x4::splat(RESIDUAL_MPS)));
+    each(&mut across, asinh);
     for (i, row) in near.chunks_exact(narrow.max(1)).enumerate() {
-        let (residual, slope) = (sights.residual(i, velocity), sights.slope(i, velocity));
-        let wide = AZIMUTH_RAD * (slope + LEAST_SLOPE * size);
-        let own = [asinh(residual / RESIDUAL_MPS), asinh(residual.abs() / wide)];
-        told.extend(own);
-        told.extend([inliers[i], slope / size]);
+        told.extend([off[i], across[i], inliers[i], slopes[i] / size]);
         told.extend_from_slice(row);
     }
     told

@@ -1,6 +1,6 @@
 //! A gated recurrent network (Cho et al. 2014) over a sequence, both ways.
 
-use super::dense::{Layer, sigmoid};
+use super::dense::{Layer, one, sigmoid};
 use super::{NetworkError, Weights};
 
 /// One way through the sequence.
@@ -39,8 +39,8 @@ impl Way {
         self.of_state.apply(state, &mut b);
         let n = state.len();
         for i in 0..n {
-            let reset = sigmoid(a[i] + b[i]);
-            let update = sigmoid(a[n + i] + b[n + i]);
+            let reset = one(a[i] + b[i], sigmoid);
+            let update = one(a[n + i] + b[n + i], sigmoid);
             let candidate = (a[2 * n + i] + reset * b[2 * n + i]).tanh();
             state[i] = (1.0 - update) * candidate + update * state[i];
         }

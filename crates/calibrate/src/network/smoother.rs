@@ -1,7 +1,7 @@
 //! DeepEgo+, multi frame: a recurrent network weighs and corrects the motions of successive frames of one radar, and a
 //! quadratic in time with learnt priors is fitted to them.
 
-use super::dense::{Layer, asinh};
+use super::dense::{Layer, asinh, one};
 use super::recurrent::Recurrent;
 use super::{DeepEgo, NetworkError, WeighedMotion, Weights};
 use crate::small;
@@ -126,7 +126,7 @@ impl DeepEgoPlus {
             let since = if k == 0 { 0.0 } else { frame.time_s - frames[k - 1].time_s };
             let [xx, xy, yy] = covariances[k];
             let (sx, sy) = (xx.sqrt(), yy.sqrt());
-            features.extend(deviations[k].map(|d| asinh(d as f32 / SCALE_MPS)));
+            features.extend(deviations[k].map(|d| one(d as f32 / SCALE_MPS, asinh)));
             let rest = [sx.ln(), sy.ln(), xy / (sx * sy), since / CYCLE_S, speed / 30.0];
             features.extend(rest.map(|number| number as f32));
             features.extend([frame.motion.share as f32, frame.motion.log_factor]);

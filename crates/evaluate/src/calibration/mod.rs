@@ -100,8 +100,11 @@ impl Candidate {
 /// The networks of motion that the methods named after them use: those of models/.
 pub fn network() -> Arc<MotionNetwork> {
     static NETWORK: LazyLock<Arc<MotionNetwork>> = LazyLock::new(|| {
-        let read = MotionNetwork::read(include_bytes!("../../../../models/motion/deepego-plus.bin"));
-        Arc::new(read.unwrap_or_else(|error| unreachable!("models/motion/deepego-plus.bin: {error}")))
+        let read =
+            MotionNetwork::read(include_bytes!("../../../../models/motion/deepego-plus.bin"));
+        Arc::new(
+            read.unwrap_or_else(|error| unreachable!("models/motion/deepego-plus.bin: {error}")),
+        )
     });
     NETWORK.clone()
 }
