@@ -1,6 +1,6 @@
 // The pool: the functions of the package as promises, those that are split over workers, and what the pool keeps.
 import { driveFrame } from '../lib/drive/frame.js';
-import { jointTaskOf, reportTaskOf, taskOf } from '../lib/drive/radars.js';
+import { jointTaskOf, needsMore, type Radar, reportTaskOf, taskOf } from '../lib/drive/radars.js';
 import { selected, viewOf } from '../lib/drive/view.js';
 import { reading, wrong } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
@@ -235,10 +235,7 @@ export class Pool {
   ): Promise<lib.DriveCalibration> {
     checkedJob(job).signal?.throwIfAborted();
     const { radars } = taskOf(viewOf(drive), options);
-    const part = selected(
-      drive,
-      radars.map(({ sensor }) => sensor),
-    );
+    const part = partOf(drive, radars);
     const result = await this.#one('calibrateDrive', [part.drive, copied(options)], { ...job, transfer: true });
     return numbered(result, part.scans);
   }
@@ -251,10 +248,7 @@ export class Pool {
   ): Promise<lib.DriveCalibration[]> {
     checkedJob(job).signal?.throwIfAborted();
     const { radars } = jointTaskOf(viewOf(drive), options);
-    const part = selected(
-      drive,
-      radars.map(({ sensor }) => sensor),
-    );
+    const part = partOf(drive, radars);
     const results = await this.#one('jointCalibration', [part.drive, copied(options)], { ...job, transfer: true });
     return results.map((result) => numbered(result, part.scans));
   }
@@ -268,10 +262,7 @@ export class Pool {
   ): Promise<string> {
     checkedJob(job).signal?.throwIfAborted();
     const { radars } = reportTaskOf(viewOf(drive), options);
-    const part = selected(
-      drive,
-      radars.map(({ sensor }) => sensor),
-    );
+    const part = partOf(drive, radars);
     return this.#one('calibrationReport', [part.drive, about, copied(options)], { ...job, transfer: true });
   }
 
@@ -402,6 +393,14 @@ function joinedScenes(results: lib.SnapshotResult[]): lib.SnapshotResult {
   const data = joined(results.map((result) => result.data));
   return { data, shape: [truth.length, elements, snapshots], truth };
 }
+
+/** What a worker needs of a drive for some radars. */
+const partOf = (drive: lib.DriveData, radars: readonly Radar[]): ReturnType<typeof selected> =>
+  selected(
+    drive,
+    radars.map(({ sensor }) => sensor),
+    needsMore(radars),
+  );
 
 /** Options whose typed arrays can be given away: the caller keeps theirs. */
 const copied = <T>(options: T): T => reading('options', () => packed(options, false).value);

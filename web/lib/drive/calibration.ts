@@ -15,7 +15,7 @@ import type {
   ReportAbout,
 } from '../types.js';
 import { drives } from './drive.js';
-import { jointTaskOf, reportTaskOf, type Task, taskOf } from './radars.js';
+import { jointTaskOf, needsMore, reportTaskOf, type Task, taskOf } from './radars.js';
 import { checkOrder, doubles, extent, scansOf, type View, viewOf } from './view.js';
 
 /** What can become of a frame, in the order of its numbers. */
@@ -195,10 +195,7 @@ function run<T>(
     const historyTimes: number[] = [];
     const startS = view.timeS[scans[0] ?? 0] ?? 0;
     const step = Math.max(64, scans.length / 200);
-    const chunk = new Chunk(
-      view,
-      radars.some(({ options }) => options.network !== undefined),
-    );
+    const chunk = new Chunk(view, needsMore(radars));
     let [dueS, asked, told, next] = [startS + historyS, 0, 0, 0];
     while (next < scans.length) {
       const first = next;

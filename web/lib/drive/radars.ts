@@ -16,6 +16,10 @@ export interface Radar {
   options: CalibrationOptions & MotionNetwork;
 }
 
+/** Whether ranges and cross-sections are looked at: by a network. */
+export const needsMore = (radars: readonly Radar[]): boolean =>
+  radars.some(({ options }) => options.network !== undefined);
+
 /** What is asked for of a drive. */
 export interface Task {
   radars: Radar[];

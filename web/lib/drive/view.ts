@@ -176,8 +176,15 @@ export function gapOf(gap: MotionGap | undefined): number {
   return positive('maxGapS', own(gap ?? undefined, 'gap').maxGapS ?? MAX_GAP_S);
 }
 
-/** The scans of some radars in arrays of their own, with what calibration reads, and their numbers in the drive. */
-export function selected(drive: DriveData, ids: readonly number[]): { drive: DriveData; scans: Uint32Array } {
+/**
+ * The scans of some radars in arrays of their own, with what calibration reads, and their numbers in the drive; ranges and
+ * cross-sections where it is asked for as a whole.
+ */
+export function selected(
+  drive: DriveData,
+  ids: readonly number[],
+  whole: boolean,
+): { drive: DriveData; scans: Uint32Array } {
   const view = viewOf(drive);
   checkOrder(view);
   const scans = scansOf(view, ids);
@@ -206,7 +213,12 @@ export function selected(drive: DriveData, ids: readonly number[]): { drive: Dri
       sensor: Uint8Array.from(scans, (scan) => view.sensor[scan] ?? 0),
       offsets,
     },
-    detections: { azimuthDeg: gathered(view.azimuthDeg), rangeRateMps: gathered(view.rangeRateMps) },
+    detections: {
+      azimuthDeg: gathered(view.azimuthDeg),
+      rangeRateMps: gathered(view.rangeRateMps),
+      rangeM: whole && view.rangeM ? gathered(view.rangeM) : null,
+      rcsDbsm: whole && view.rcsDbsm ? gathered(view.rcsDbsm) : null,
+    },
     motion: { timeS: timeS.slice(), yawRateDegps: yawRateDegps.slice(), speedMps: speedMps?.slice() ?? null },
   };
   return { drive: part, scans };

@@ -1,0 +1,105 @@
+// DeepEgo's networks in the calibration: in the functions, on the pool, one frame at a time.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, describe, test } from 'node:test';
+import {
+  Calibration,
+  calibrateDrive,
+  driveFrame,
+  init,
+  initDrives,
+  jointCalibration,
+  scanMotion,
+  simulateDrive,
+} from 'boresight';
+import { createPool } from 'boresight/worker';
+import { rejectsTyped, throwsTyped } from './lib/assert.mjs';
+
+const weights = (name) => readFileSync(new URL(`../../models/motion/${name}.bin`, import.meta.url));
+const [single, smoothing] = ['deepego', 'deepego-plus'].map(weights);
+
+describe('motions by networks', () => {
+  let drive;
+  let pool;
+  before(async () => {
+    await Promise.all([init(), initDrives()]);
+    drive = simulateDrive({ durationS: 20, seed: 3, profile: 'radarscenes' });
+    pool = createPool({ workers: 1 });
+  });
+  after(() => pool.terminate());
+
+  const options = (motion, method = 'least-squares') => ({
+    sensor: 1,
+    method,
+    motion,
+    network: smoothing,
+    weights: true,
+  });
+
+  test('every method finds the angle with them, on the pool as here', async () => {
+    const nominal = drive.sensors.find(({ id }) => id === 1).yawDeg;
+    for (const [method, motion] of [
+      ['weighted-mean', 'deepego'],
+      ['least-squares', 'deepego-plus'],
+      ['recursive', 'deepego'],
+    ]) {
+      const asked = options(motion, method);
+      const here = calibrateDrive(drive, asked);
+      // What the drive says of the mounting is some degrees off at most.
+      assert.ok(Math.abs(here.result.angleDeg - nominal) < 4, `${method}, ${motion}: ${here.result.angleDeg}`);
+      assert.ok(here.result.frames.used > 100, JSON.stringify(here.result.frames));
+      assert.ok(here.frames.weights.values.every((weight) => weight >= 0 && weight <= 1));
+      assert.deepEqual(await pool.calibrateDrive(drive, asked), here);
+      assert.equal(smoothing.length > 0, true, 'the bytes stay with the caller');
+    }
+    const joint = jointCalibration(drive, { motion: 'deepego', network: smoothing });
+    assert.equal(joint.length, drive.sensors.length);
+    assert.notEqual(joint[0].result.angleDeg, jointCalibration(drive)[0].result.angleDeg);
+  });
+
+  test('range and cross-section reach the network', () => {
+    const asked = options('deepego');
+    const whole = calibrateDrive(drive, asked);
+    for (const column of ['rangeM', 'rcsDbsm']) {
+      const without = { ...drive, detections: { ...drive.detections, [column]: null } };
+      const found = calibrateDrive(without, asked);
+      assert.notDeepEqual(found.frames.weights.values, whole.frames.weights.values, column);
+      assert.ok(Math.abs(found.result.angleDeg - whole.result.angleDeg) < 0.3, column);
+    }
+  });
+
+  test('a frame at a time is as the drive, and a snapshot goes on with its network', () => {
+    const plain = { method: 'recursive', motion: 'deepego', xM: 3.6, nominalDeg: -80 };
+    const whole = new Calibration({ ...plain, network: single });
+    const cut = new Calibration({ ...plain, network: single });
+    const [frames, motion] = [[], scanMotion(drive)];
+    for (let scan = 0; scan < drive.scans.timeS.length && frames.length < 80; scan++)
+      if (drive.scans.sensor[scan] === 1) frames.push(driveFrame(drive, scan, motion));
+    for (const frame of frames) whole.addFrame(frame);
+    for (const frame of frames.slice(0, 40)) cut.addFrame(frame);
+    const kept = cut.snapshot();
+    throwsTyped(() => Calibration.restore(kept), 'needs-weights', 'weights');
+    const restored = Calibration.restore(kept, single);
+    for (const frame of frames.slice(40)) restored.addFrame(frame);
+    assert.deepEqual(restored.estimate(), whole.estimate());
+    for (const one of [whole, cut, restored]) one.free();
+  });
+
+  test('what is no network, or the wrong one, is told', async () => {
+    throwsTyped(() => calibrateDrive(drive, { ...options('deepego'), network: undefined }), 'needs-weights', 'weights');
+    throwsTyped(
+      () => calibrateDrive(drive, { ...options('deepego-plus'), network: single }),
+      'needs-weights',
+      'weights',
+    );
+    throwsTyped(() => calibrateDrive(drive, { ...options('deepego'), network: 'deepego' }), 'wrong-type', 'network');
+    throwsTyped(
+      () => calibrateDrive(drive, { ...options('deepego'), network: new Uint8Array(9) }),
+      'malformed-weights',
+    );
+    throwsTyped(() => calibrateDrive(drive, options('deepego-plus', 'recursive')), 'unknown-name', 'motion');
+    const broken = Uint8Array.from(single);
+    broken[broken.length >> 1] ^= 1;
+    await rejectsTyped(pool.calibrateDrive(drive, { ...options('deepego'), network: broken }), 'malformed-weights');
+  });
+});
