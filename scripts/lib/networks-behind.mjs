@@ -19,6 +19,7 @@ export const cubeRegions: any;
 export const captureRegions: any;
 export const initSync: any;
 export const lastPanic: any;
+export const setLimits: any;
 export const __wbg_reset_state: any;
 export default function instantiate(options: any): Promise<any>;
 `;

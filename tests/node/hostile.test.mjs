@@ -20,7 +20,8 @@ test('every function and handle has a good call', () => {
   const missing = Object.entries(boresight)
     .filter(([name, value]) => typeof value === 'function' && !/^init|^BoresightError$/.test(name))
     .map(([name]) => name)
-    .filter((name) => !named.has(name) && !takesNone.includes(name));
+    // What it sets the calls after it feel; it has lies of its own in limits.test.mjs.
+    .filter((name) => !named.has(name) && !takesNone.includes(name) && name !== 'setLimits');
   assert.deepEqual(missing, []);
   for (const [name, args] of Object.entries(calls)) {
     if (name !== 'simulateStreet' && name !== 'simulateDrive') assert.doesNotThrow(() => callBy(name, args), name);

@@ -64,6 +64,14 @@ describe('limits of a call', () => {
     throwsTyped(() => setLimits({ bytes: Number.NaN }), 'out-of-range', 'bytes');
     throwsTyped(() => setLimits({ seconds: 1 }), 'unknown-option', 'seconds');
     throwsTyped(() => setLimits(5), 'wrong-type');
+    const { proxy, revoke } = Proxy.revocable({}, {});
+    revoke();
+    const throwing = {
+      get operations() {
+        throw new Error('no');
+      },
+    };
+    for (const lie of [proxy, throwing, { operations: 1n }, { operations: {} }, []]) throwsTyped(() => setLimits(lie));
     throwsTyped(() => estimate(input, options), 'too-large');
     setLimits();
   });

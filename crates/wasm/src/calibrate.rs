@@ -17,7 +17,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Options of a calibration, and the network of motion that may come with them as bytes.
 pub fn read_options(value: &JsValue) -> Fallible<(CalibrationOptions, Option<Arc<MotionNetwork>>)> {
-    let mut fields = Fields::of_optional(value)?;
+    let mut fields = Fields::new(value, "")?;
     let network = fields.raw("network")?;
     let options = fields.spread()?;
     fields.finish()?;

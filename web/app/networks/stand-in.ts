@@ -7,6 +7,7 @@ interface Bindings {
   initSync(options: unknown): unknown;
   __wbg_reset_state(): void;
   lastPanic(): string;
+  setLimits(limits: unknown): void;
   cubeRegions(...args: unknown[]): unknown;
   captureRegions(...args: unknown[]): unknown;
   Network: unknown;
@@ -18,6 +19,7 @@ export default (options: unknown): Promise<unknown> => bindings.default(options)
 export const initSync = (options: unknown): unknown => bindings.initSync(options);
 export const __wbg_reset_state = (): void => bindings.__wbg_reset_state();
 export const lastPanic = (): string => bindings.lastPanic();
+export const setLimits = (limits: unknown): void => bindings.setLimits(limits);
 export const cubeRegions = (...args: unknown[]): unknown => bindings.cubeRegions(...args);
 export const captureRegions = (...args: unknown[]): unknown => bindings.captureRegions(...args);
 export let Network: unknown;
