@@ -20,6 +20,8 @@ const AZIMUTH_RAD: f32 = 0.005;
 const LEAST_SLOPE: f32 = 0.05;
 /// The logarithm of a detection's precision is within plus and minus this.
 const PRECISION_RANGE: f32 = 3.0;
+/// What that logarithm counts once trained.
+const TEMPER: f32 = 0.7;
 /// Smallest and largest logarithm of the factor on deviations.
 const FACTOR_RANGE: [f32; 2] = [-2.0, 4.0];
 
@@ -185,9 +187,9 @@ impl DeepEgo {
                 inliers.push(*logit);
                 weights.push(*precision);
             }
-            let range = f32x4::splat(PRECISION_RANGE);
+            let [range, most] = [PRECISION_RANGE, TEMPER * PRECISION_RANGE].map(f32x4::splat);
             each(&mut inliers, sigmoid);
-            each(&mut weights, |precision| (range * tanh(precision / range)).exp());
+            each(&mut weights, |precision| (most * tanh(precision / range)).exp());
             weights.iter_mut().zip(&inliers).for_each(|(weight, inlier)| *weight *= inlier);
             fitted = sights.fit(&weights);
         }
