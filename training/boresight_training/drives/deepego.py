@@ -1,7 +1,7 @@
 """DeepEgo, single frame: a network weighs detections, and weighted least squares gives the radar's motion.
 
 Detections are encoded one by one and pooled, so that their order and number do not matter. From the motion that most of
-the weight agrees on, weights are refined three times from the residuals of the fit, by the same layers. After Zhu,
+the weight agrees on, weights are refined from the residuals of the fit, by the same layers each time. After Zhu,
 Yarovoy and Fioranelli (2023) and Zhu et al. (2025); sizes and features are ours.
 """
 
@@ -27,6 +27,8 @@ TEMPER = 0.7
 Chosen on frames of a second noise model (Laplace azimuths), where it is the best of 0, 0.3, 0.5, 0.7 and 1 up to 30 %
 moving; it costs a twentieth of the variance on frames as those of training.
 """
+REFINEMENTS = 2
+"""Once trained: the third that training has brings nothing more to frames as those of training."""
 FACTOR_RANGE = (-2.0, 4.0)
 """Of the logarithm of the factor on deviations."""
 
@@ -41,6 +43,7 @@ class DeepEgoConfig:
     """Of what the refinements see of a point's and a frame's features."""
     refine: int = 32
     refinements: int = 3
+    """In training."""
 
 
 CONFIGS = {"small": DeepEgoConfig(), "tiny": DeepEgoConfig(point=8, width=16, narrow=4, refine=8)}
@@ -115,7 +118,9 @@ class DeepEgo(nn.Module):
         # One layer on what belongs to the point and to the frame, in two parts, as the frame's is the same for all.
         self.weigh_point = nn.Linear(c.width, c.width)
         self.weigh_frame = nn.Linear(c.width, c.width, bias=False)
-        self.weigh = nn.Sequential(nn.ReLU(), nn.Linear(c.width, c.width // 2), nn.ReLU(), nn.Linear(c.width // 2, SAID))
+        self.weigh = nn.Sequential(
+            nn.ReLU(), nn.Linear(c.width, c.width // 2), nn.ReLU(), nn.Linear(c.width // 2, SAID)
+        )
         self.narrow_point = nn.Linear(c.width, c.narrow)
         self.narrow_frame = nn.Linear(c.width, c.narrow)
         self.refine_point = nn.Linear(OWN + c.narrow, c.refine)
@@ -142,8 +147,9 @@ class DeepEgo(nn.Module):
         frame = self.refine_frame(narrow_g).unsqueeze(1)
         velocity, inlier = points.new_zeros((len(points), 2)), there
         most = PRECISION_RANGE * (1.0 if self.training else TEMPER)
+        refinements = self.config.refinements if self.training else REFINEMENTS
         velocities, logits, moves = [], [], []
-        for i in range(self.config.refinements + 1):
+        for i in range(refinements + 1):
             if i == 1:
                 velocity = hypotheses.start(points, cos, sin, rate, inlier, mask, velocity)
             if i > 0:

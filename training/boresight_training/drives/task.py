@@ -67,7 +67,8 @@ class DeepEgoTask:
     architecture = (
         "Detections are encoded one by one by two layers, pooled by mean and maximum, and weighed by three layers on "
         "both. Weighted least squares gives the motion. From the motion of a pair of detections that most weight agrees "
-        "on, three refinements with shared layers weigh anew by residuals. A factor scales equation 3's covariance. "
+        "on, two refinements with shared layers (three in training) weigh anew by residuals. A factor scales equation "
+        "3's covariance. Once trained, precisions count less than in training. "
         "Beside its weight each detection is told whether it moves."
     )
     differences = (
@@ -116,7 +117,9 @@ class DeepEgoTask:
                 ("batch", "points"),
                 "of each detection from 0 to 1: how likely it is that it shows the motion",
             ),
-            Port("moves", ("batch", "points"), "of each detection from 0 to 1: how likely it is of something that moves"),
+            Port(
+                "moves", ("batch", "points"), "of each detection from 0 to 1: how likely it is of something that moves"
+            ),
         )
 
     def model(self) -> nn.Module:

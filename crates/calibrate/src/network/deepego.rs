@@ -12,7 +12,7 @@ const FEATURES: usize = 9;
 const OWN: usize = 4;
 /// Numbers that are said of a detection: weight, precision, whether it moves.
 const SAID: usize = 3;
-const REFINEMENTS: usize = 3;
+const REFINEMENTS: usize = 2;
 /// Scales of residuals: of range rates, m/s, and of what an azimuth error, rad, makes of the slope.
 const RESIDUAL_MPS: f32 = 0.05;
 const AZIMUTH_RAD: f32 = 0.005;
