@@ -24,7 +24,7 @@ BODY_FRAMES, BODY_HALF_RAD = 0.3, (0.02, 0.25)
 DROPPED = (0.3, 0.6)
 """Share of the frames without ranges, and without cross-sections."""
 RCS_OFFSET_DB, RCS_SCALE, RANGE_SCALE = 10.0, (0.3, 1.5), (0.7, 1.4)
-"""By how much cross-sections are moved either way, and they and ranges stretched: no two kinds of radar agree on them."""
+"""By how much cross-sections are moved either way, and they and ranges stretched: kinds of radar differ in them."""
 CHUNK = 32
 """Frames that are padded to one number of detections."""
 

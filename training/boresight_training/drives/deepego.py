@@ -22,7 +22,7 @@ LEAST_SLOPE = 0.05
 PRECISION_RANGE = 3.0
 """The logarithm of a point's precision is within plus and minus this."""
 TEMPER = 0.7
-"""What the logarithm of a precision counts once trained: real errors depend less on where a point is than simulated ones.
+"""What the logarithm of a precision counts once trained: real errors depend less on places than simulated ones.
 
 Chosen on frames of a second noise model (Laplace azimuths), where it is the best of 0, 0.3, 0.5, 0.7 and 1 up to 30 %
 moving; it costs a twentieth of the variance on frames as those of training.

@@ -66,9 +66,9 @@ class DeepEgoTask:
     reference = "Zhu, Yarovoy and Fioranelli (2023), DeepEgo; Zhu et al. (2025), Radar mounting angle estimation"
     architecture = (
         "Detections are encoded one by one by two layers, pooled by mean and maximum, and weighed by three layers on "
-        "both. Weighted least squares gives the motion. From the motion of a pair of detections that most weight agrees "
-        "on, two refinements with shared layers (three in training) weigh anew by residuals. A factor scales equation "
-        "3's covariance. Once trained, precisions count less than in training. "
+        "both. Weighted least squares gives the motion. From the motion of a pair of detections that most weight "
+        "agrees on, two refinements with shared layers (three in training) weigh anew by residuals. A factor scales "
+        "equation 3's covariance. Once trained, precisions count less than in training. "
         "Beside its weight each detection is told whether it moves."
     )
     differences = (
