@@ -32,7 +32,7 @@ test('each script has its types, and nothing else is in the package', () => {
   assert.ok(scripts.length > 0);
   for (const name of scripts) assert.ok(files.includes(name.replace(/\.js$/, '.d.ts')), `${name} has no types`);
   const belongs =
-    /^(dist\/.*\.(js|d\.ts|wasm)|web\/lib\/generated\/schema\.json|models\/[a-z0-9-]+\.(onnx|json)|package\.json|LICENSE(-APACHE)?|NOTICE|README\.md|CHANGELOG\.md)$/;
+    /^(dist\/.*\.(js|d\.ts|wasm)|web\/lib\/generated\/schema\.json|models\/(motion\/)?[a-z0-9-]+\.(onnx|json|bin)|package\.json|LICENSE(-APACHE)?|NOTICE|README\.md|CHANGELOG\.md)$/;
   assert.deepEqual(
     files.filter((name) => !belongs.test(name)),
     [],

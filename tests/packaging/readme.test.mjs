@@ -10,6 +10,7 @@ const page = (path) => readFileSync(join(root, path), 'utf8');
 const snippetsOf = (text) => [...text.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
 const readme = snippetsOf(page('README.md'));
 const javascript = snippetsOf(page('docs/javascript.md'));
+const mounting = snippetsOf(page('docs/mounting-angle.md'));
 /** Lines of the pages that may hold a table of methods. */
 const lines = ['README.md', 'docs/estimators.md'].flatMap((path) => page(path).split('\n'));
 const recording = (name) => join(root, 'recordings', 'awr1642', name);
@@ -19,6 +20,7 @@ before(async () => {
   const files = Object.fromEntries([
     ...readme.map((code, k) => [`readme-${k}.mjs`, code]),
     ...javascript.map((code, k) => [`javascript-${k}.mjs`, code]),
+    ...mounting.map((code, k) => [`mounting-${k}.mjs`, code]),
   ]);
   files['methods.mjs'] = `
     import { calibrationMethods, init, methods } from 'boresight';
@@ -39,7 +41,19 @@ const printed = async (script) => (await project.run(process.execPath, [script])
 
 test('every snippet has a test here', () => {
   assert.equal(readme.length, 3);
-  assert.equal(javascript.length, 4);
+  assert.equal(javascript.length, 5);
+  assert.equal(mounting.length, 1);
+});
+
+test('limits are set', async () => {
+  assert.deepEqual(await printed('javascript-4.mjs'), ['']);
+});
+
+test('a network of motion calibrates a simulated drive', async () => {
+  const [line] = await printed('mounting-0.mjs');
+  const [, angle, sigma] = /^(-?[\d.]+) \+- ([\d.]+) deg$/.exec(line) ?? assert.fail(line);
+  // Radar 1 of the RadarScenes car looks to -85 deg.
+  assert.ok(Math.abs(Number(angle) + 85) < 1 && Number(sigma) < 0.5, line);
 });
 
 test('the first snippet of the README finds both targets with the methods that resolve them', async () => {

@@ -81,7 +81,7 @@ impl MotionPlan for Weighed {
         self.window.push_back((frame.time_s, found));
         let motion = self.last().and_then(|(velocity_mps, [xx, xy, yy])| {
             let known = (xx + yy).sqrt() < UNDETERMINED_MPS && inliers >= self.options.min_inliers;
-            known.then(|| Motion {
+            known.then_some(Motion {
                 velocity_mps,
                 covariance: [[xx, xy], [xy, yy]],
                 inliers,

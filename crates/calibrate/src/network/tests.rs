@@ -137,6 +137,24 @@ fn any_number_of_detections_gives_numbers() {
 }
 
 #[test]
+fn the_order_of_detections_changes_nothing() {
+    let network = DeepEgo::new(&weights("deepego")).unwrap();
+    for scan in scans("deepego").0 {
+        let mut other = scan.clone();
+        other.reverse();
+        let half = other.len() / 2;
+        if half > 0 {
+            other.swap(0, half);
+        }
+        let (one, two) = (network.motion(&scan), network.motion(&other));
+        for i in 0..2 {
+            assert_close(two.velocity_mps[i], one.velocity_mps[i], "velocity");
+        }
+        assert_close(two.share, one.share, "share");
+    }
+}
+
+#[test]
 fn what_is_not_finite_has_no_part() {
     let network = DeepEgo::new(&weights("deepego")).unwrap();
     let (scans, _) = scans("deepego");

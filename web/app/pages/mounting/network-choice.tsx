@@ -11,7 +11,7 @@ export function NetworkChoice() {
   const own = ownNetwork.value;
   const problem = networkProblem.value;
   return (
-    <div class="drop">
+    <div class="network-choice">
       <p class="small">
         {own
           ? `Weights of ${own.name}, ${byteSize(own.bytes.length)}.`
