@@ -38,7 +38,7 @@ pub trait Plan: Send {
         Ok(())
     }
 
-    /// Operations of an estimate beside those that [`crate::cost`] knows of: those of a network.
+    /// Operations of an estimate beside those that follow from method, array and options: those of a network.
     ///
     /// # Errors
     /// [`AoaError`] where it cannot be analysed.
