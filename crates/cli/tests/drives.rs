@@ -49,8 +49,18 @@ fn calibrate_finds_the_angle_of_the_radar_of_a_real_drive() {
     assert!((result["angleDeg"].as_f64().unwrap() + 1.96).abs() < 0.3, "{result}");
     let refused = boresight(&["calibrate", drive, "--motion", "ransac"]);
     assert!(
-        String::from_utf8_lossy(&refused.stderr).contains("tracked, with the recursive method")
+        String::from_utf8_lossy(&refused.stderr)
+            .contains("tracked or deepego, with the recursive method")
     );
+    let by_network =
+        ["calibrate", drive, "--method", "least-squares", "--motion", "deepego-plus", "--json"];
+    let found = parsed(&stdout(&by_network));
+    // Tracked objects are nothing the network was trained on.
+    assert!((found["angleDeg"].as_f64().unwrap() + 1.96).abs() < 0.4, "{found}");
+    let card = recordings().join("../models/motion/deepego.json");
+    let broken = [&by_network[..], &["--network", card.to_str().unwrap()]].concat();
+    let refused = boresight(&broken);
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("malformed-weights"));
     // With the angle found the trajectory is straighter than with the nominal one.
     let error = |key: &str| result["trajectoryError"][key].as_f64().unwrap();
     assert!(error("estimatedM") < 0.8 * error("nominalM"), "{result}");
