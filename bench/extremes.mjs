@@ -5,6 +5,7 @@ import {
   Estimator,
   methods,
   processCube,
+  setLimits,
   simulateCube,
   waveformPreset,
 } from '../dist/lib/node.js';
@@ -115,6 +116,19 @@ function* rest() {
           grid: { xM: [0, 200], yM: [-100, 100], cellM },
         }),
     ];
+}
+
+/** The operations that a call says it would take, or the error that comes before; limits are the defaults after it. */
+export function operationsOf(call) {
+  setLimits({ operations: 1, bytes: 1e15 });
+  try {
+    call();
+    return { operations: 0 };
+  } catch (error) {
+    return error.code === 'too-large' ? { operations: Number.parseFloat(error.details.given), error } : { error };
+  } finally {
+    setLimits();
+  }
 }
 
 export function* requests() {

@@ -3,7 +3,7 @@
 // they mean in seconds is read here.
 import { parseArgs } from 'node:util';
 import { init, methods, setLimits, version } from '../dist/lib/node.js';
-import { requests } from './extremes.mjs';
+import { operationsOf, requests } from './extremes.mjs';
 
 const { values } = parseArgs({ options: { requests: { type: 'string' }, seconds: { type: 'string', default: '10' } } });
 const longest = Number(values.seconds);
@@ -15,16 +15,10 @@ for (const [name, call] of requests()) {
   if (values.requests && !name.includes(values.requests)) continue;
   const line = (...cells) =>
     console.log(`${name.padEnd(52)} ${cells.map((cell) => String(cell).padStart(8)).join(' ')}`);
-  let operations = 0;
-  setLimits({ operations: 1, bytes: 1e15 });
-  try {
-    call();
-  } catch (error) {
-    if (error.code !== 'too-large') {
-      line(error.code, error.message);
-      continue;
-    }
-    operations = Number.parseFloat(error.details.given);
+  const { operations, error } = operationsOf(call);
+  if (operations === undefined) {
+    line(error.code, error.message);
+    continue;
   }
   setLimits({ operations: Number.MAX_VALUE });
   if (operations * 1e-9 > longest) {

@@ -9,6 +9,7 @@ import {
   init,
   initDrives,
   jointCalibration,
+  readNpy,
   scanMotion,
   simulateDrive,
 } from 'boresight';
@@ -66,6 +67,42 @@ describe('motions by networks', () => {
       assert.notDeepEqual(found.frames.weights.values, whole.frames.weights.values, column);
       assert.ok(Math.abs(found.result.angleDeg - whole.result.angleDeg) < 0.3, column);
     }
+  });
+
+  test('motions of the 64 golden frames are those of PyTorch to 1e-4', () => {
+    const golden = (name) => readNpy(readFileSync(new URL(`../golden/motion/deepego/${name}.npy`, import.meta.url)));
+    const [points, mask, motion, weight] = ['points', 'mask', 'motion', 'weights'].map(golden);
+    const network = readFileSync(new URL('../golden/motion/deepego/weights.bin', import.meta.url));
+    const [frames, most] = points.shape;
+    assert.equal(frames, 64);
+    let compared = 0;
+    for (let f = 0; f < frames; f++) {
+      const count = Array.from(mask.data.subarray(f * most, (f + 1) * most)).filter(Boolean).length;
+      const column = (place, unit = 1) =>
+        Float64Array.from({ length: count }, (_, i) => points.data[4 * (f * most + i) + place] * unit);
+      const calibration = new Calibration({ method: 'weighted-mean', motion: 'deepego', xM: 3.6, network });
+      const { motion: found } = calibration.addFrame({
+        timeS: 0,
+        azimuthDeg: column(0, 180 / Math.PI),
+        rangeRateMps: column(1),
+        rangeM: column(2),
+        rcsDbsm: column(3),
+        yawRateDegps: 0,
+      });
+      calibration.free();
+      const expected = motion.data.subarray(7 * f, 7 * f + 5);
+      const inliers = Array.from(weight.data.subarray(f * most, (f + 1) * most)).filter((w) => w >= 0.5).length;
+      // Frames with fewer inliers, or with a velocity that is not known to 1 m/s, have no motion.
+      assert.equal(found !== undefined, inliers >= 5 && Math.sqrt(expected[2] + expected[4]) < 1, `frame ${f}`);
+      if (!found) continue;
+      compared += 1;
+      const [[xx, xy], [, yy]] = found.covariance;
+      [...found.velocityMps, xx, xy, yy].forEach((value, i) => {
+        const off = Math.abs(value - expected[i]) / Math.max(1, Math.abs(expected[i]));
+        assert.ok(off < 1e-4, `frame ${f}, number ${i}: ${value}, expected ${expected[i]}`);
+      });
+    }
+    assert.ok(compared > 32, `${compared} of 64 compared`);
   });
 
   test('a frame at a time is as the drive, and a snapshot goes on with its network', () => {

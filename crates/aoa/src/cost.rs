@@ -12,13 +12,14 @@ const TILED: f64 = 0.5;
 const ROOTS: f64 = 60.0;
 /// Operations of a step of a source, in elements.
 const STEP: f64 = 12.0;
-/// Rounds of alternating projection.
+/// Rounds of alternating projection, and of the steps after it: both settle in fewer than they may take.
 const PROJECTIONS: f64 = 3.0;
+const SETTLED: f64 = 50.0;
 /// Steps of a wave until the atomic norm's certificate holds.
 const WAVE_STEPS: f64 = 200.0;
 
 /// Operations of the estimates of one cell, by the leading terms of its algorithm.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Cost {
     fixed: f64,
     a_snapshot: f64,
@@ -40,12 +41,9 @@ impl Cost {
             Method::RootMusic => covariance(EIGEN * k.powi(3) + ROOTS * size.span.powi(2)),
             Method::Esprit => covariance(EIGEN * (k.powi(3) + d.powi(3))),
             Method::Iaa => {
-                let fast = array.lattice().is_some() && options.iaa.form != IaaForm::Dense;
-                let once = if fast {
-                    TILED * k.powi(3) + 2.0 * grid
-                } else {
-                    k.powi(3) + size.points * plane
-                };
+                let fast = size.way == Way::Transforms && options.iaa.form != IaaForm::Dense;
+                let once =
+                    if fast { TILED * k.powi(3) + 2.0 * grid } else { k.powi(3) + size.each() };
                 let all = options.iaa.iterations as f64 * once + d * d * k;
                 Self {
                     fixed: all,
@@ -60,23 +58,18 @@ impl Cost {
             }
             Method::MaximumLikelihood => {
                 let search = (1.0 + PROJECTIONS) * d * 2.0 * grid;
-                covariance(EIGEN * k.powi(3) + search + iterations.min(50.0) * d * plane)
+                covariance(EIGEN * k.powi(3) + search + iterations.min(SETTLED) * d * plane)
             }
             Method::SparseBayesian => {
-                let dense =
-                    if array.lattice().is_some() { 2.0 * grid } else { size.points * plane };
+                let sums = if size.way == Way::Transforms { 2.0 * grid } else { size.each() };
                 Self {
-                    fixed: iterations * (2.0 * k.powi(3) + dense),
+                    fixed: iterations * (2.0 * k.powi(3) + sums),
                     a_snapshot: iterations * (plane + size.beams(size.points)),
                 }
             }
-            _ => Self { fixed: 0.0, a_snapshot: 0.0 },
+            _ => Self::default(),
         };
-        let refinement = if options.refine {
-            size.pursuit(options)
-        } else {
-            Self { fixed: 0.0, a_snapshot: 0.0 }
-        };
+        let refinement = if options.refine { size.pursuit(options) } else { Self::default() };
         Self {
             fixed: of_method.fixed + refinement.fixed,
             a_snapshot: of_method.a_snapshot + refinement.a_snapshot,
@@ -141,6 +134,11 @@ impl Size {
             Way::Lags => 0.5 * plane * (1.0 + self.elevations) + points * self.span,
             Way::Each => points * plane,
         }
+    }
+
+    /// Products with the steering vector of each point of the grid.
+    fn each(&self) -> f64 {
+        self.points * self.elements * self.elements
     }
 
     /// A snapshot's beams at so many points.

@@ -239,11 +239,6 @@ impl MotionMethod {
         Self::DeepegoPlus,
     ];
 
-    /// Whether it needs a network's weights.
-    pub fn needs_network(self) -> bool {
-        matches!(self, Self::Deepego | Self::DeepegoPlus)
-    }
-
     /// The name used in options and on the command line.
     pub fn name(self) -> &'static str {
         Named::name(self)

@@ -2,7 +2,8 @@
 //!
 //! A call that would take more operations or memory than the limits of its thread is refused with
 //! [`CoreError::TooLarge`], which names the limit. Operations are complex multiplications with an addition, by the
-//! leading terms of the algorithm, all of its iterations among them: a bound of its order, about a nanosecond each.
+//! leading terms of the algorithm, with the iterations that it is asked for or, where it stops by itself, usually takes:
+//! about a nanosecond each.
 
 use crate::describe::{self, Described, Naming};
 use crate::error::CoreError;
@@ -13,7 +14,7 @@ use std::cell::Cell;
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Limits {
-    /// Operations (complex multiplications): 1e10 take some ten seconds in a page.
+    /// Operations (complex multiplications): 1e10 take some ten seconds in a page; the largest number for no limit.
     #[option(default = 1e10, range = 1..)]
     pub operations: f64,
     /// Memory of what a call makes, in bytes (a gibibyte).
@@ -32,7 +33,7 @@ impl Limits {
         if cfg!(target_family = "wasm") {
             limits
         } else {
-            Self { operations: f64::INFINITY, ..limits }
+            Self { operations: f64::MAX, ..limits }
         }
     }
 
@@ -117,7 +118,7 @@ mod tests {
         assert_eq!(check_bytes("a", &[5, 5], 4), Ok(25));
         assert!(check_bytes("a", &[26], 4).is_err());
         std::thread::spawn(|| assert_eq!(check_operations("a", 2e6), Ok(()))).join().unwrap();
-        Limits { operations: f64::INFINITY, ..Limits::current() }.set().unwrap();
+        Limits { operations: f64::MAX, ..Limits::current() }.set().unwrap();
         assert_eq!(check_operations("a", 2e6), Ok(()));
         for wrong in [0.0, -1.0, f64::NAN] {
             assert!(Limits { operations: wrong, ..Limits::current() }.set().is_err());

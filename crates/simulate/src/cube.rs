@@ -8,6 +8,7 @@
 //!
 //! Phases in the far and in the near field are those of `crate::paths`.
 
+use crate::cost::sum_operations;
 use crate::error::SimulateError;
 use crate::paths::{Paths, moved};
 use boresight_core::array::{MAX_ELEMENTS, Position};
@@ -26,9 +27,6 @@ use std::f64::consts::{PI, TAU};
 
 /// Most frames.
 const MAX_FRAMES: f64 = 134_217_728.0;
-
-/// What noise of a value costs, in operations.
-const NOISE_OPERATIONS: usize = 50;
 
 /// Most targets.
 pub const MAX_TARGETS: usize = 1024;
@@ -126,7 +124,7 @@ pub fn simulate_cube(
     let (tx, rx) = (array.tx().len(), array.rx().len());
     let shape = [options.frames, waveform.loops, tx, rx, waveform.samples];
     let values = check_bytes("the data cube", &shape, size_of::<Complex32>())?;
-    check_operations("the data cube", values as f64 * (targets.len() + NOISE_OPERATIONS) as f64)?;
+    check_operations("the data cube", values as f64 * sum_operations(targets.len()))?;
     let model = Model::new(waveform, array, options);
     let mut phases = Random::new(options.seed, 0);
     let echoes: Vec<Echo> = targets.iter().map(|t| model.echo(t, &mut phases)).collect();

@@ -27,6 +27,7 @@
 //! # Ok::<(), boresight_simulate::SimulateError>(())
 //! ```
 
+mod cost;
 pub mod cube;
 pub mod digest;
 pub mod drive;

@@ -8,6 +8,7 @@
 //! ([`Array::channels`]). An array that was given by positions alone has one transmitter at the origin and its
 //! receivers there.
 
+use crate::cost::sum_operations;
 use crate::error::SimulateError;
 use crate::paths::{Paths, moved};
 use boresight_core::array::Position;
@@ -24,9 +25,6 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Most snapshots of a scene.
 const MAX_SNAPSHOTS: f64 = 67_108_864.0;
-
-/// What noise of a value costs, in operations.
-const NOISE_OPERATIONS: usize = 50;
 
 /// Most targets of a scene.
 pub const MAX_TARGETS: usize = 1024;
@@ -230,7 +228,7 @@ impl SnapshotSimulator {
             Scene::Given(targets) => targets.len(),
             Scene::Sampled(sampling) => sampling.count[1],
         };
-        check_operations("the snapshots", values * (targets + NOISE_OPERATIONS) as f64)
+        check_operations("the snapshots", values * sum_operations(targets))
     }
 
     fn fill(&self, index: u64, mut values: ArrayViewMut2<Complex64>) -> Vec<Target> {

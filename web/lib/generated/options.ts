@@ -833,7 +833,10 @@ export interface ReadDriveOptions {
 
 /** What one call may take. */
 export interface Limits {
-  /** Operations (complex multiplications): 1e10 take some ten seconds in a page (at least 1; default 10000000000). */
+  /**
+   * Operations (complex multiplications): 1e10 take some ten seconds in a page; the largest number for no limit (at
+   * least 1; default 10000000000).
+   */
   operations?: number;
   /** Memory of what a call makes, in bytes (a gibibyte) (at least 1; default 1073741824). */
   bytes?: number;

@@ -25,22 +25,18 @@ pub(crate) struct Weighed {
 
 impl Weighed {
     /// # Errors
-    /// [`CalibrateError::NeedsNetwork`] without a network, and where frames are to be smoothed by one that does not.
+    /// As [`needed`].
     pub fn new(
         method: MotionMethod,
         network: Option<&Arc<MotionNetwork>>,
         options: &CalibrationOptions,
     ) -> Result<Self, CalibrateError> {
-        let smooths = method == MotionMethod::DeepegoPlus;
-        let given = match network {
-            None => "none",
-            Some(network) if smooths && network.smoothing().is_none() => "those of deepego",
-            Some(network) => {
-                let window = VecDeque::with_capacity(WINDOW);
-                return Ok(Self { network: network.clone(), options: *options, smooths, window });
-            }
-        };
-        Err(CalibrateError::NeedsNetwork { motion: method.name(), given })
+        Ok(Self {
+            network: needed(method, network)?,
+            options: *options,
+            smooths: method == MotionMethod::DeepegoPlus,
+            window: VecDeque::with_capacity(WINDOW),
+        })
     }
 
     /// The motion of the last frame of the window: smoothed, unless that is its first.
@@ -59,6 +55,24 @@ impl Weighed {
             None => Some((alone.velocity_mps, alone.covariance)),
         }
     }
+}
+
+/// The network of a motion.
+///
+/// # Errors
+/// [`CalibrateError::NeedsNetwork`] without one, and for DeepEgo+ with one that does not smooth.
+pub(crate) fn needed(
+    method: MotionMethod,
+    network: Option<&Arc<MotionNetwork>>,
+) -> Result<Arc<MotionNetwork>, CalibrateError> {
+    let given = match network {
+        None => "none",
+        Some(network) if method == MotionMethod::DeepegoPlus && network.smoothing().is_none() => {
+            "those of deepego"
+        }
+        Some(network) => return Ok(network.clone()),
+    };
+    Err(CalibrateError::NeedsNetwork { motion: method.name(), given })
 }
 
 impl MotionPlan for Weighed {

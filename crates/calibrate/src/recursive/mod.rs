@@ -3,7 +3,7 @@
 //! All frames share five unknowns: the mounting angle, the inverse scale and the bias of the yaw
 //! rate, the slip gradient of the rear axle (a turning car slides outwards in proportion to its
 //! lateral acceleration), and the radar's delay (range rates are measured over tens of milliseconds
-//! before the time a scan is stamped with). In a frame:
+//! before the time a scan is stamped with). In a frame (`frame`):
 //!
 //! 1. the speed that most detections agree on is searched for, given the angle so far, the yaw rate, and
 //!    the car's own speed or the speed before (one unknown, where RANSAC has two: what moves rarely agrees on it);
@@ -11,7 +11,7 @@
 //!    maximisation, with noise in range rate and azimuth and the car's speed as one more observation;
 //! 3. the direction of that motion gives an equation in the shared unknowns (`equation`).
 //!
-//! Equations are gathered in blocks of some seconds, whose frames share an error (`block`, `information`). The last blocks are held
+//! Equations are gathered (`gather`) in blocks of some seconds, whose frames share an error (`block`, `information`). The last blocks are held
 //! against those before (`recent`): where the angle has changed, it is sought anew. What is older counts for less.
 
 mod begin;
@@ -19,6 +19,8 @@ pub(crate) mod block;
 mod conclude;
 mod doubts;
 mod equation;
+mod frame;
+mod gather;
 pub(crate) mod information;
 pub(crate) mod outlook;
 mod recent;
@@ -28,35 +30,27 @@ mod standstill;
 mod tracked;
 mod vote;
 
-use crate::angle::wrap;
 use crate::calibrator::{check_time, tracked_only};
 use crate::error::CalibrateError;
 use crate::estimate::{AngleEstimate, FrameCounts};
-use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
+use crate::frame::{FrameInput, FrameOutcome, Verdict};
 use crate::motion::ransac::Ransac;
+use crate::motion::weighed::needed;
 use crate::motion::{FrameMotion, MotionPlan};
 use crate::network::MotionNetwork;
 use crate::options::{CalibrationOptions, MotionMethod};
 use block::{Block, Scatter};
-use boresight_core::Detection;
 use doubts::Doubts;
-use equation::Equation;
-use information::{Information, Vector};
+use information::Information;
 use recent::Recent;
 use serde::{Deserialize, Serialize};
 use speed::Speed;
 use std::sync::Arc;
-use tracked::{Cloud, Fit, Limits, Prediction};
+use tracked::{Cloud, Limits};
 use vote::Vote;
 
 /// Standard deviation of the angle about its start before any frame, rad (5 deg).
 const ANGLE_PRIOR_RAD: f64 = 0.09;
-/// Readings further apart than this do not say how fast the yaw rate changes, s, nor do changes of a car
-/// exceed this, rad/s^2.
-const CHANGE_GAP_S: f64 = 0.25;
-const MAX_CHANGE: f64 = 1.0;
-/// Share of a new frame in the scale of the detections' noise, which is learnt on the way.
-const LEARNING_RATE: f64 = 0.01;
 /// Scatter of frames of one block beyond their own variance before anything is known of it, rad (0.2 deg), how many frames count as one
 /// then, and how many blocks this counts as and is at most learnt over.
 const EXCESS_RAD: f64 = 0.003_490_658_503_988_66;
@@ -64,14 +58,6 @@ const CORRELATED: f64 = 4.0;
 /// Error that the frames of a block share on real drives, rad (0.1 deg).
 const LASTING_RAD: f64 = 0.001_745_329_251_994_33;
 const SCATTER_BLOCKS: [f64; 2] = [1.0, 60.0];
-/// Blocks before which each frame moves the angle at once.
-const FIRST_BLOCKS: u64 = 3;
-/// A frame whose angle lies further off all before is of something else, rad (20 deg).
-const GATE_RAD: f64 = 0.35;
-/// Frames used before which the motion is looked for without the prediction, too.
-const START_FRAMES: u64 = 40;
-/// A speed older than this is forgotten, s.
-const SPEED_LIFE_S: f64 = 2.0;
 
 /// The recursive estimator.
 #[derive(Debug, Clone)]
@@ -186,14 +172,10 @@ impl Recursive {
         options: &CalibrationOptions,
         network: Option<&Arc<MotionNetwork>>,
     ) -> Result<Option<Arc<MotionNetwork>>, CalibrateError> {
-        match (options.motion, network) {
-            (None | Some(MotionMethod::Tracked), _) => Ok(None),
-            (Some(MotionMethod::Deepego), Some(network)) => Ok(Some(network.clone())),
-            (Some(MotionMethod::Deepego), None) => Err(CalibrateError::NeedsNetwork {
-                motion: MotionMethod::Deepego.name(),
-                given: "none",
-            }),
-            (Some(motion), _) => Err(tracked_only(motion.name())),
+        match options.motion {
+            None | Some(MotionMethod::Tracked) => Ok(None),
+            Some(MotionMethod::Deepego) => needed(MotionMethod::Deepego, network).map(Some),
+            Some(motion) => Err(tracked_only(motion.name())),
         }
     }
 
@@ -245,190 +227,6 @@ impl Recursive {
         Ok(outcome)
     }
 
-    fn take(&mut self, frame: &FrameInput, outcome: &mut FrameOutcome) -> Verdict {
-        self.cloud.set(frame.detections);
-        if let Some(network) = &self.network {
-            self.cloud.trust(&network.single().motion(frame.detections).weights);
-        }
-        let at_rest = self.cloud.share_at_rest(&self.limits);
-        self.state.doubts.look(frame, at_rest);
-        let Some(measured) = frame.yaw_rate_radps.filter(|rate| rate.is_finite()) else {
-            return Verdict::WithoutMotion;
-        };
-        if measured.abs() > self.options.max_yaw_rate_radps {
-            return Verdict::Turning;
-        }
-        let change = self.change(frame.time_s, measured);
-        let evidence = frame
-            .speed_mps
-            .filter(|speed| speed.is_finite())
-            .map(|speed| self.state.speed_scale.evidence(frame.time_s, speed));
-        let age = self.state.speed.map(|(_, time)| frame.time_s - time);
-        if age.is_some_and(|age| age > SPEED_LIFE_S) {
-            self.state.speed = None;
-        }
-        if self.stands(measured, at_rest, evidence.as_ref()) {
-            self.state.speed = Some((0.0, frame.time_s));
-            self.learn_bias(measured);
-            outcome.motion = Some(self.at_rest(frame.detections.len(), at_rest));
-            return Verdict::Standing;
-        }
-        if self.state.vote.is_some() {
-            return self.begin(frame, measured, evidence.as_ref(), outcome);
-        }
-        let x = self.state.now.mean();
-        let reading = measured - x[4] * change;
-        let prediction = Prediction {
-            angle_rad: x[0],
-            angle_variance: self.state.now.covariance()[0][0],
-            reading_radps: reading,
-            change,
-            yaw_rate_radps: x[1] * reading - x[2],
-            slip: x[3],
-            x_m: self.options.x_m,
-            y_m: self.options.y_m,
-            speed: self.state.speed.map(|(speed, time)| (speed, frame.time_s - time)),
-            measured_speed: evidence,
-        };
-        let Some(fit) = self.fit(&prediction, frame.detections) else {
-            self.miss();
-            return Verdict::Sparse;
-        };
-        for (&index, &weight) in self.cloud.index.iter().zip(&self.cloud.weight) {
-            outcome.weights[index] = weight as f32;
-        }
-        let motion = Motion {
-            velocity_mps: fit.velocity,
-            covariance: fit.covariance,
-            inliers: fit.inliers,
-            detections: frame.detections.len(),
-        };
-        if let Some(evidence) = evidence {
-            if evidence.rules_out(fit.speed) {
-                self.miss();
-                outcome.weights.fill(0.0);
-                return Verdict::OffSpeed;
-            }
-            self.state.speed_scale.add(fit.speed, &evidence);
-        }
-        outcome.motion = Some(motion);
-        self.state.speed = Some((fit.speed, frame.time_s));
-        let polar = motion.polar();
-        if polar.speed_mps < self.options.min_speed_mps {
-            return Verdict::Slow;
-        }
-        let step = LEARNING_RATE * (fit.reduced_squares.clamp(0.2, 5.0) - 1.0);
-        self.state.noise_scale = (self.state.noise_scale * step.exp()).clamp(1e-4, 1e4);
-        let reference = *self.state.now.reference();
-        let Some(equation) = Equation::new(&polar, fit.speed, &prediction, &x, &reference) else {
-            return Verdict::Turning;
-        };
-        if equation.innovation.abs() > GATE_RAD {
-            self.miss();
-            outcome.weights.fill(0.0);
-            return Verdict::Sparse;
-        }
-        self.inform(frame.time_s, fit.speed, &equation, outcome);
-        self.state.inliers += fit.inliers as f64;
-        self.state.detections += frame.detections.len() as f64;
-        Verdict::Used
-    }
-
-    /// The frame's motion. While the angle is new and nothing tells the car's speed, a queue of cars may fit
-    /// the prediction better than the standing world does, so that RANSAC's motion is tried as well and
-    /// the more likely one taken.
-    fn fit(&mut self, prediction: &Prediction, detections: &[Detection]) -> Option<Fit> {
-        let noise_scale = self.state.noise_scale;
-        let predicted = self.cloud.fit(prediction, &self.limits, noise_scale, None);
-        if self.state.counts.used >= START_FRAMES || prediction.measured_speed.is_some() {
-            return predicted;
-        }
-        let start = self.motion_alone(detections).map(|motion| motion.velocity_mps);
-        let found = start.and_then(|velocity| {
-            self.cloud.fit(prediction, &self.limits, noise_scale, Some(velocity))
-        });
-        match (&predicted, &found) {
-            (Some(a), Some(b)) if b.likelihood > a.likelihood => found,
-            (None, _) => found,
-            _ => self.cloud.fit(prediction, &self.limits, noise_scale, None),
-        }
-    }
-
-    /// RANSAC's motion, by draws that depend on the number of frames so far alone, so that a restored calibration goes on as if it
-    /// had not stopped.
-    fn motion_alone(&mut self, detections: &[Detection]) -> Option<Motion> {
-        self.alone.draw_for(self.state.counts.given);
-        self.alone.motion(detections, &mut self.alone_weights)
-    }
-
-    /// How fast the yaw rate changes, rad/s^2, from this reading and the one before.
-    fn change(&mut self, time_s: f64, measured: f64) -> f64 {
-        let before = self.state.reading.replace((time_s, measured));
-        let apart = before.map(|(time, reading)| (time_s - time, measured - reading));
-        match apart {
-            Some((gap, change)) if gap > 0.0 && gap <= CHANGE_GAP_S => {
-                (change / gap).clamp(-MAX_CHANGE, MAX_CHANGE)
-            }
-            _ => 0.0,
-        }
-    }
-
-    /// Adds the frame's equation.
-    fn inform(
-        &mut self,
-        time_s: f64,
-        speed_mps: f64,
-        equation: &Equation,
-        outcome: &mut FrameOutcome,
-    ) {
-        if let Some(driven_s) = self.state.block.ends_before(time_s, speed_mps) {
-            self.end_block(time_s, driven_s);
-        }
-        self.state.block.add(equation.row);
-        let state = &self.state;
-        let variance = equation.row.variance + state.scatter.0.excess;
-        outcome.angle_rad = Some(wrap(state.now.mean()[0] + equation.innovation));
-        outcome.angle_sigma_rad = Some((variance + state.now.lasting()).sqrt());
-        outcome.weight = 1.0 / variance;
-        if state.blocks < FIRST_BLOCKS {
-            self.state.now = self.complete();
-        }
-    }
-
-    /// What is known with all blocks, and with the one that is not complete.
-    fn complete(&self) -> Information {
-        let state = &self.state;
-        let mut known = state.before;
-        for block in state.recent.iter() {
-            known.add(block);
-        }
-        known.with(&state.block.sum(&offset(&known), state.scatter.0))
-    }
-
-    fn end_block(&mut self, time_s: f64, driven_s: f64) {
-        let state = &mut self.state;
-        let block = state.block.sum(&offset(&state.now), state.scatter.0);
-        state.doubts.free_scale.add(&state.block);
-        state.block.clear();
-        state.speed_scale.end_block();
-        state.blocks += 1;
-        let (Scatter { excess, correlated }, blocks) = &mut state.scatter;
-        *excess = (*excess + (block.excess - *excess) / (*blocks + 1.0)).max(1e-8);
-        *correlated += (block.correlated.unwrap_or(*correlated) - *correlated) / (*blocks + 1.0);
-        *blocks = (*blocks + 1.0).min(SCATTER_BLOCKS[1]);
-        if let Some(old) = state.recent.push(block) {
-            state.before.add(&old);
-            state.before.forget((-driven_s / self.options.memory_s).exp());
-        }
-        if let Some(angle) = state.recent.changed(&state.before) {
-            state.before.reset_angle(angle, ANGLE_PRIOR_RAD);
-            state.changed_s = Some(time_s);
-        }
-        self.state.now = self.complete();
-        let angles = &mut self.state.angles;
-        *angles = [Some(self.state.now.mean()[0]), angles[0], angles[1]];
-    }
-
     /// The angle as it stands.
     pub fn estimate(&self) -> AngleEstimate {
         let known = self.complete();
@@ -472,11 +270,6 @@ impl Recursive {
     pub(crate) fn information(&self) -> Information {
         self.complete()
     }
-}
-
-/// Unknowns less what blocks' equations are written about.
-fn offset(known: &Information) -> Vector {
-    std::array::from_fn(|i| known.mean()[i] - known.reference()[i])
 }
 
 /// How many frames are expected to count as one: fewer where errors are said to last less than those of real drives.

@@ -185,7 +185,7 @@ impl Recursive {
         }
         let mut rows = Block::default();
         let end = |rows: &mut Block, known: &mut Information| {
-            let sum = rows.sum(&super::offset(known), SCATTER);
+            let sum = rows.sum(&super::gather::offset(known), SCATTER);
             if sum.frames() > 0 {
                 known.expect(&sum);
             }
