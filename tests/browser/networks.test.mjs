@@ -256,6 +256,36 @@ browserTest('networks: the page is used from the keyboard', { path: '#/networks'
   await parametersWith(page, (params) => params.get('model') === models.at(-1));
 });
 
+browserTest(
+  'networks: keys reach a plot that waits for its turn to be drawn',
+  { path: '#/networks' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-card]');
+    // As soon as it is there, in the same task, so that nothing is drawn in between.
+    const said = await page.evaluate(
+      (name) =>
+        new Promise((done) => {
+          const frame = '[data-plot="metrics"]';
+          const old = document.querySelector(`${frame} .u-over`);
+          new MutationObserver((_, observer) => {
+            const over = document.querySelector(`${frame} .u-over`);
+            if (!over || over === old) return;
+            observer.disconnect();
+            const host = over.closest('.plot-host');
+            host.focus({ preventScroll: true });
+            host.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight', bubbles: true }));
+            requestAnimationFrame(() =>
+              setTimeout(() => done(document.querySelector(`${frame} [data-readout]`).textContent)),
+            );
+          }).observe(document.body, { childList: true, subtree: true });
+          document.querySelector(`[data-network="${name}"] button`).click();
+        }),
+      models.at(-1),
+    );
+    assert.match(said, /SNR −?\d+ dB/);
+  },
+);
+
 for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) {
   browserTest(
     `networks: the figures of ${name} are drawn, and a network that loses is said to`,

@@ -35,7 +35,7 @@ fn a_run_is_kept_goes_on_and_is_not_mixed_with_another() {
     let json = stdout(&[&short[..], &["--json"]].concat());
     assert!(read("run", "calibration.json") == json.as_bytes());
     let json: Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(json["conditions"][0]["methods"].as_array().unwrap().len(), 12);
+    assert_eq!(json["conditions"][0]["methods"].as_array().unwrap().len(), 16);
     assert_eq!(stdout(&short), first);
     assert_eq!(std::fs::read_to_string(folder.join("run/calibration.jsonl")).unwrap(), records);
 

@@ -30,11 +30,7 @@ impl Limits {
     /// Those of a thread that has set none. A native program can be interrupted, and has no limit on operations.
     fn initial() -> Self {
         let limits = Self::default();
-        if cfg!(target_family = "wasm") {
-            limits
-        } else {
-            Self { operations: f64::MAX, ..limits }
-        }
+        if cfg!(target_family = "wasm") { limits } else { Self { operations: f64::MAX, ..limits } }
     }
 
     /// Those of this thread.

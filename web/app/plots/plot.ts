@@ -469,6 +469,8 @@ export class Plot {
 
   #key = (event: KeyboardEvent): void => {
     if (event.target !== this.host || event.ctrlKey || event.metaKey || event.altKey) return;
+    // A plot that came into focus before its turn to be drawn.
+    atOnce(this.#drawContent);
     if (this.#options.onKey?.(event) || this.#ownKey(event)) event.preventDefault();
   };
 
