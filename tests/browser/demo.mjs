@@ -34,8 +34,12 @@ export async function parametersWith(page, check) {
   assert.fail(`the address is ${page.url()}`);
 }
 
+/** Of ten downloads in a second Chromium drops the next without a word. */
+const DOWNLOAD_PAUSE = 110;
+
 /** Clicks what saves a file, and gives its name and bytes. */
 export async function saved(page, selector) {
+  await page.waitForTimeout(DOWNLOAD_PAUSE);
   const [download] = await Promise.all([page.waitForEvent('download'), page.locator(selector).click()]);
   return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
 }

@@ -261,28 +261,19 @@ browserTest(
   { path: '#/networks' },
   async ({ page }) => {
     await page.waitForSelector('[data-card]');
-    // As soon as it is there, in the same task, so that nothing is drawn in between.
-    const said = await page.evaluate(
-      (name) =>
-        new Promise((done) => {
-          const frame = '[data-plot="metrics"]';
-          const old = document.querySelector(`${frame} .u-over`);
-          new MutationObserver((_, observer) => {
-            const over = document.querySelector(`${frame} .u-over`);
-            if (!over || over === old) return;
-            observer.disconnect();
-            const host = over.closest('.plot-host');
-            host.focus({ preventScroll: true });
-            host.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight', bubbles: true }));
-            requestAnimationFrame(() =>
-              setTimeout(() => done(document.querySelector(`${frame} [data-readout]`).textContent)),
-            );
-          }).observe(document.body, { childList: true, subtree: true });
-          document.querySelector(`[data-network="${name}"] button`).click();
-        }),
-      models.at(-1),
-    );
-    assert.match(said, /SNR −?\d+ dB/);
+    await page.evaluate(() => {
+      document.querySelector('[data-plot="metrics"] .u-over').dataset.old = '';
+      const { setTimeout } = window;
+      window.setTimeout = (work, delay = 1500, ...rest) => setTimeout(work, delay, ...rest);
+    });
+    await page.locator(`[data-network="${models.at(-1)}"] button`).click();
+    // As soon as it is there, and where it is out of sight, so that nothing has drawn it.
+    const host = '[data-plot="metrics"] .plot-host:has(.u-over:not([data-old]))';
+    await page.waitForSelector(host, { state: 'attached' });
+    await page.locator(host).evaluate((plot) => plot.focus({ preventScroll: true }));
+    await page.keyboard.press('ArrowRight');
+    await page.evaluate(() => new Promise(requestAnimationFrame));
+    assert.match(await page.locator('[data-plot="metrics"] [data-readout]').textContent(), /SNR −?\d+ dB/);
   },
 );
 
