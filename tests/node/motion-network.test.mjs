@@ -6,6 +6,7 @@ import {
   Calibration,
   calibrateDrive,
   driveFrame,
+  frameVerdicts,
   init,
   initDrives,
   jointCalibration,
@@ -120,6 +121,33 @@ describe('motions by networks', () => {
     for (const frame of frames.slice(40)) restored.addFrame(frame);
     assert.deepEqual(restored.estimate(), whole.estimate());
     for (const one of [whole, cut, restored]) one.free();
+  });
+
+  test('smoothed motions stand at the frames that they are of, and frames without one at the end', () => {
+    const [alone, smoothed] = ['deepego', 'deepego-plus'].map((motion) => calibrateDrive(drive, options(motion)).frames);
+    const sparse = frameVerdicts.indexOf('sparse');
+    const last = smoothed.verdict.length - 4;
+    assert.ok(smoothed.verdict.subarray(last).every((verdict) => verdict === sparse));
+    assert.ok(smoothed.vxMps.subarray(last).every(Number.isNaN));
+    assert.ok(!Number.isNaN(smoothed.vxMps[last - 1]));
+    const off = (by) => {
+      const squares = Array.from(alone.vyMps.subarray(0, last - 4), (vy, i) => (vy - smoothed.vyMps[i + by]) ** 2);
+      const known = squares.filter(Number.isFinite);
+      return Math.sqrt(known.reduce((sum, square) => sum + square, 0) / known.length);
+    };
+    assert.ok(off(0) < 0.7 * off(4), `${off(0)} m/s apart, ${off(4)} four frames later`);
+
+    const calibration = new Calibration({ ...options('deepego-plus'), weights: undefined, sensor: undefined, xM: 3.6 });
+    const [times, motion] = [[], scanMotion(drive)];
+    for (let scan = 0; times.length < 10; scan++) {
+      if (drive.scans.sensor[scan] !== 1) continue;
+      times.push(drive.scans.timeS[scan]);
+      const outcome = calibration.addFrame(driveFrame(drive, scan, motion));
+      const told = times.length > 4;
+      assert.equal(outcome.timeS, times.at(told ? -5 : -1));
+      if (!told) assert.equal(outcome.verdict, 'sparse');
+    }
+    calibration.free();
   });
 
   test('what is no network, or the wrong one, is told', async () => {

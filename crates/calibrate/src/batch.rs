@@ -7,8 +7,8 @@ use crate::angle::{
 use crate::calibrator::check_time;
 use crate::estimate::{Alignment, CHANCE};
 use crate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, FrameCounts, FrameInput, FrameMotion,
-    FrameOutcome, Method, Motion, MotionPlan, Remark, Verdict,
+    AngleEstimate, CalibrateError, CalibrationOptions, CarMotion, FrameCounts, FrameInput,
+    FrameMotion, FrameOutcome, Method, Motion, MotionPlan, Remark, Verdict,
 };
 
 /// A radar slower than this stands, m/s, if its detections allow for that.
@@ -59,16 +59,18 @@ impl Batch {
         check_time(self.last_time_s, frame.time_s)?;
         self.last_time_s = Some(frame.time_s);
         let mut weights = Vec::new();
-        let FrameMotion { motion, verdict } = self.motion.estimate(frame, &mut weights)?;
+        let FrameMotion { motion, verdict, earlier } = self.motion.estimate(frame, &mut weights)?;
+        let car = earlier.unwrap_or_else(|| frame.car());
         let (verdict, sample) = match verdict {
-            Verdict::Used => self.judge(&frame, motion.as_ref()),
+            Verdict::Used => self.judge(&car, motion.as_ref()),
             verdict => (verdict, None),
         };
-        if let (Verdict::Standing, Some(yaw_rate_radps)) = (verdict, frame.yaw_rate_radps) {
+        if let (Verdict::Standing, Some(yaw_rate_radps)) = (verdict, car.yaw_rate_radps) {
             self.bias.add(yaw_rate_radps);
         }
         self.counts.add(verdict);
         let mut outcome = FrameOutcome {
+            time_s: car.time_s,
             verdict,
             motion,
             angle_rad: None,
@@ -90,18 +92,18 @@ impl Batch {
     }
 
     /// What becomes of a frame, and what is kept of it.
-    fn judge(&self, frame: &FrameInput, motion: Option<&Motion>) -> (Verdict, Option<Sample>) {
+    fn judge(&self, car: &CarMotion, motion: Option<&Motion>) -> (Verdict, Option<Sample>) {
         let o = &self.options;
         let Some(motion) = motion else { return (Verdict::Sparse, None) };
         if (motion.inliers as f64) < o.inlier_ratio_threshold * motion.detections as f64 {
             return (Verdict::Sparse, None);
         }
-        let Some(yaw_rate_radps) = frame.yaw_rate_radps.filter(|rate| rate.is_finite()) else {
+        let Some(yaw_rate_radps) = car.yaw_rate_radps.filter(|rate| rate.is_finite()) else {
             return (Verdict::WithoutMotion, None);
         };
         let polar = motion.polar();
         let (speed, variance) = (polar.speed_mps, motion.total_variance());
-        let measured = frame.speed_mps.filter(|speed| speed.is_finite());
+        let measured = car.speed_mps.filter(|speed| speed.is_finite());
         let may_stand = measured.is_none_or(|speed| speed.abs() < STANDSTILL_MEASURED_MPS);
         if may_stand && stands(speed, variance, motion) && yaw_rate_radps.abs() < STANDSTILL_RADPS {
             return (Verdict::Standing, None);
@@ -116,7 +118,7 @@ impl Batch {
             return (Verdict::WithoutMotion, None);
         }
         let sample = Sample {
-            time_s: frame.time_s,
+            time_s: car.time_s,
             yaw_rate_radps,
             radar_speed_mps: speed,
             beta_rad: polar.direction_rad,

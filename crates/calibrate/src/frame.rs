@@ -18,6 +18,28 @@ pub struct FrameInput<'a> {
     pub speed_mps: Option<f64>,
 }
 
+impl FrameInput<'_> {
+    /// What the frame says of the car.
+    pub fn car(&self) -> CarMotion {
+        CarMotion {
+            time_s: self.time_s,
+            yaw_rate_radps: self.yaw_rate_radps,
+            speed_mps: self.speed_mps,
+        }
+    }
+}
+
+/// The car's measured motion at a time, as [`FrameInput`] has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CarMotion {
+    /// Time, s.
+    pub time_s: f64,
+    /// Yaw rate, rad/s.
+    pub yaw_rate_radps: Option<f64>,
+    /// Forward speed of the rear axle, m/s.
+    pub speed_mps: Option<f64>,
+}
+
 /// The radar's own motion, from one frame.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 #[option(name = "RadarMotion")]
@@ -79,7 +101,7 @@ pub enum Verdict {
     Slow,
     /// The car turned faster than the gate.
     Turning,
-    /// Too few detections or inliers for a motion.
+    /// Too few detections or inliers for a motion, or too few frames yet for one that is smoothed over several.
     Sparse,
     /// What most detections agree on is not the car's own measured speed.
     OffSpeed,
@@ -90,6 +112,9 @@ pub enum Verdict {
 /// What an estimator made of one frame.
 #[derive(Debug, Clone, PartialEq, Described, Serialize)]
 pub struct FrameOutcome {
+    /// Time of what is told, the weights of detections aside: the frame's, or where motion is smoothed over several frames that
+    /// of an earlier one.
+    pub time_s: f64,
     /// What became of it.
     pub verdict: Verdict,
     /// The radar's motion, if one could be found.

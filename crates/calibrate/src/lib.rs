@@ -66,7 +66,7 @@ pub use calibrator::Calibrator;
 pub use drive::Frames;
 pub use error::CalibrateError;
 pub use estimate::{Alignment, AngleEstimate, CHANCE, FrameCounts, Remark};
-pub use frame::{FrameInput, FrameOutcome, Motion, Verdict};
+pub use frame::{CarMotion, FrameInput, FrameOutcome, Motion, Verdict};
 pub use joint::Joint;
 pub use merge::merge;
 pub use motion::{FrameMotion, MotionEstimator, MotionPlan};

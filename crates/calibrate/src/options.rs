@@ -41,7 +41,7 @@ pub enum MotionMethod {
     Tracked,
     /// A network that weighs the detections of a frame, then weighted least squares (DeepEgo); it needs a file of weights.
     Deepego,
-    /// The same, smoothed over eight frames by a second network (DeepEgo+); it needs a file of weights.
+    /// The same, smoothed over eight frames by a second network (DeepEgo+), which tells the motion of four frames before; it needs a file of weights.
     DeepegoPlus,
 }
 

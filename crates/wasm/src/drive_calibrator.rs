@@ -99,8 +99,8 @@ impl DriveCalibrator {
     /// Takes frames in order of time. Detections of frame `i` are those from `ends[i - 1]` to before
     /// `ends[i]`, `radars` places in the list of options. Ranges and cross-sections are one a detection, or none.
     ///
-    /// Gives for each frame the place of its verdict, the motion (m/s), the angle it gives alone and
-    /// its standard deviation (deg), its weight, and its inliers; NaN where there is none.
+    /// Gives for each frame the time of what is told (s), the place of its verdict, the motion (m/s), the angle it gives
+    /// alone and its standard deviation (deg), its weight, and its inliers; NaN where there is none.
     #[wasm_bindgen(js_name = addFrames)]
     pub fn add_frames(
         &mut self,
@@ -115,7 +115,7 @@ impl DriveCalibrator {
         if let Some(weights) = &mut self.weights {
             weights.clear();
         }
-        let mut rows = Vec::with_capacity(7 * time_s.len());
+        let mut rows = Vec::with_capacity(8 * time_s.len());
         let mut start = 0;
         for ((radar, time_s), end) in radars.iter().zip(time_s).zip(ends) {
             let end = (*end as usize).min(azimuth_deg.len()).min(range_rate_mps.len());
@@ -149,6 +149,7 @@ impl DriveCalibrator {
             let [vx, vy] = outcome.motion.map_or([f64::NAN; 2], |motion| motion.velocity_mps);
             let degrees = |angle: Option<f64>| angle.map_or(f64::NAN, f64::to_degrees);
             rows.extend([
+                outcome.time_s,
                 outcome.verdict.place() as f64,
                 vx,
                 vy,

@@ -21,6 +21,8 @@ WINDOWS = 15_000
 """Windows that the single-frame network is run on before training, drawn from all."""
 PLAIN = 0.5
 """Share of them that are not varied."""
+TOLD, TOLD_WEIGHT = 3, 5.0
+"""Frame of a window whose motion Boresight takes, and its weight in the loss beside those of the others."""
 
 
 def digest(state: dict) -> str:
@@ -123,8 +125,10 @@ class DeepEgoPlusTask:
         answer = model.smoother(singles)
         each = losses.motion(answer.velocity - truth, answer.covariance)
         error = losses.robust(answer.velocity - truth)
-        count = known.sum().clamp(min=1)
-        parts = {"motion": (each * known).sum() / count, "robust": (error * known).sum() / count}
+        weight = known.float()
+        weight[:, TOLD] *= TOLD_WEIGHT
+        total = weight.sum().clamp(min=1)
+        parts = {"motion": (each * weight).sum() / total, "robust": (error * weight).sum() / total}
         return parts["motion"] + 0.2 * parts["robust"], {name: value.detach() for name, value in parts.items()}
 
     def evaluate(self, model, count, generator):
@@ -166,6 +170,13 @@ class DeepEgoPlusTask:
         def flat(x):
             return x.flatten(0, 1)[known]
 
+        told = torch.zeros_like(known.view(-1, data.window))
+        told[:, TOLD] = known.view(-1, data.window)[:, TOLD]
+        told = told.flatten()
+
+        def told_over_single(x):
+            return measures.variance_ratio(x.flatten(0, 1)[told], single.velocity.flatten(0, 1)[told], truth[told])
+
         found, alone = flat(answer.velocity), flat(single.velocity)
         before = measures.motion(alone, flat(single.covariance), truth[known])
         return {
@@ -176,6 +187,9 @@ class DeepEgoPlusTask:
             "variance_of_quadratic_over_single": measures.variance_ratio(
                 flat(torch.cat(quadratic)), alone, truth[known]
             ),
+            "told_variance_over_single": told_over_single(answer.velocity),
+            "told_variance_of_average_over_single": told_over_single(average),
+            "told_variance_of_quadratic_over_single": told_over_single(torch.cat(quadratic)),
         }
 
     def confidence(self, model, count, generator):
@@ -224,7 +238,7 @@ class DeepEgoPlusTask:
 
     def describe(self):
         data = {"sets": self.data, "windows": WINDOWS, "single": self.single_digest}
-        return {"model": asdict(self.config), "data": data, "loss": {"motion": 1.0, "robust": 0.2}}
+        return {"model": asdict(self.config), "data": data, "loss": {"motion": 1.0, "robust": 0.2, "told": TOLD_WEIGHT}}
 
 
 class _Motions(nn.Module):

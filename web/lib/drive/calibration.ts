@@ -33,7 +33,9 @@ export const frameVerdicts: readonly FrameVerdict[] = [
 const FRAMES = 256;
 const DETECTIONS = 65_535;
 /** Numbers that come back for a frame. */
-const ROW = 7;
+const ROW = 8;
+/** What is told of a frame without motion. */
+const NOTHING = [frameVerdicts.indexOf('sparse'), NaN, NaN, NaN, NaN, 0, 0];
 /** Methods that weigh all frames at once are asked after a hundredth of the frames so far at most. */
 const SHARE = 0.01;
 
@@ -301,6 +303,17 @@ class Table {
   add(row: Float64Array, weights: Float32Array | undefined): void {
     const { frames } = this;
     const index = this.#next++;
+    const [timeS = NaN, ...told] = row;
+    let at = index;
+    while (at > 0 && (frames.timeS[at] ?? NaN) > timeS) at -= 1;
+    // Of a frame nothing is told before its time comes.
+    if (at < index) this.#write(index, NOTHING);
+    this.#write(at, told);
+    if (weights) frames.weights?.values.set(weights, frames.weights.offsets[index]);
+  }
+
+  #write(index: number, told: readonly number[]): void {
+    const { frames } = this;
     const columns = [
       frames.verdict,
       frames.vxMps,
@@ -310,7 +323,6 @@ class Table {
       frames.weight,
       frames.inliers,
     ];
-    columns.forEach((column, place) => (column[index] = row[place] ?? NaN));
-    if (weights) frames.weights?.values.set(weights, frames.weights.offsets[index]);
+    columns.forEach((column, place) => (column[index] = told[place] ?? NaN));
   }
 }

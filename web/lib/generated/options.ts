@@ -329,7 +329,8 @@ export type CalibrationMethod = 'weighted-mean' | 'kabsch' | 'least-squares' | '
  * - `tracked`: Robust maximum likelihood led by the frames before, the yaw rate and the angle so far.
  * - `deepego`: A network that weighs the detections of a frame, then weighted least squares (DeepEgo); it needs a file
  * of weights.
- * - `deepego-plus`: The same, smoothed over eight frames by a second network (DeepEgo+); it needs a file of weights.
+ * - `deepego-plus`: The same, smoothed over eight frames by a second network (DeepEgo+), which tells the motion of
+ * four frames before; it needs a file of weights.
  */
 export type MotionMethod =
   | 'ransac'

@@ -742,7 +742,7 @@ export interface CalibrationMethodInfo {
  * - `standing`: The car stood; it went into the bias of the yaw rate.
  * - `slow`: The radar moved more slowly than the gate.
  * - `turning`: The car turned faster than the gate.
- * - `sparse`: Too few detections or inliers for a motion.
+ * - `sparse`: Too few detections or inliers for a motion, or too few frames yet for one that is smoothed over several.
  * - `off-speed`: What most detections agree on is not the car's own measured speed.
  * - `without-motion`: No yaw rate (or, for the full-velocity method, no speed) at this time.
  */
@@ -762,6 +762,11 @@ export interface RadarMotion {
 
 /** What an estimator made of one frame. */
 export interface FrameOutcome {
+  /**
+   * Time of what is told, the weights of detections aside: the frame's, or where motion is smoothed over several
+   * frames that of an earlier one.
+   */
+  timeS: number;
   /** What became of it. */
   verdict: FrameVerdict;
   /** The radar's motion, if one could be found. */

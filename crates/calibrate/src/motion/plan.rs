@@ -6,7 +6,8 @@ use super::ransac::Ransac;
 use super::weighed::Weighed;
 use crate::network::MotionNetwork;
 use crate::{
-    CalibrateError, CalibrationOptions, FrameInput, Motion, MotionMethod, Recursive, Verdict,
+    CalibrateError, CalibrationOptions, CarMotion, FrameInput, Motion, MotionMethod, Recursive,
+    Verdict,
 };
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -14,7 +15,7 @@ use std::sync::Arc;
 /// What each method of motion implements: everything that depends on the options alone is made once, in the method's
 /// own constructor. Whoever has a method of their own brings it to [`crate::Calibrator::with_motion`].
 pub trait MotionPlan: Debug + Send {
-    /// The radar's motion in a frame that is not older than those before. In `weights`, whatever it held, comes for each
+    /// The radar's motion in a frame that is not older than those before, or in an earlier one of them. In `weights`, whatever it held, comes for each
     /// detection the weight, 0 to 1, with which it was taken as static.
     ///
     /// # Errors
@@ -33,12 +34,14 @@ pub struct FrameMotion {
     pub motion: Option<Motion>,
     /// Why the plan finds the frame of no use for the angle; [`Verdict::Used`] leaves that to the method of the angle.
     pub verdict: Verdict,
+    /// The car's motion at its time, where it is the motion of an earlier frame.
+    pub earlier: Option<CarMotion>,
 }
 
 impl FrameMotion {
     /// A motion whose use is still to be judged.
     pub fn to_judge(motion: Option<Motion>) -> Self {
-        Self { motion, verdict: Verdict::Used }
+        Self { motion, verdict: Verdict::Used, earlier: None }
     }
 }
 

@@ -2,25 +2,36 @@
 
 use super::{FrameMotion, MotionPlan};
 use crate::network::{MotionNetwork, WeighedMotion, WindowFrame};
-use crate::{CalibrateError, CalibrationOptions, FrameInput, Motion, MotionMethod};
+use crate::{CalibrateError, CalibrationOptions, CarMotion, FrameInput, Motion, MotionMethod};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// Frames that are smoothed together.
 const WINDOW: usize = 8;
+/// DeepEgo+ tells the motion of so many frames before the latest.
+const DELAY: usize = WINDOW / 2;
 /// Frames further apart are not smoothed together, s.
 const MAX_GAP_S: f64 = 0.5;
 /// Deviation of a velocity from which the detections do not tell it, m/s.
 const UNDETERMINED_MPS: f64 = 1.0;
 
-/// DeepEgo's motion of a frame, or DeepEgo+'s of a frame and the seven before.
+/// DeepEgo's motion of a frame, or DeepEgo+'s of the middle of eight frames: at the ends of a window a smoother errs most.
 #[derive(Debug)]
 pub(crate) struct Weighed {
     network: Arc<MotionNetwork>,
     options: CalibrationOptions,
     smooths: bool,
-    /// Frames with their times, the last one last.
-    window: VecDeque<(f64, WeighedMotion)>,
+    /// The last frames, the latest one last.
+    window: VecDeque<Taken>,
+}
+
+/// A frame with its own motion.
+#[derive(Debug)]
+struct Taken {
+    car: CarMotion,
+    alone: WeighedMotion,
+    inliers: usize,
+    detections: usize,
 }
 
 impl Weighed {
@@ -39,20 +50,24 @@ impl Weighed {
         })
     }
 
-    /// The motion of the last frame of the window: smoothed, unless that is its first.
-    fn last(&self) -> Option<([f64; 2], [f64; 3])> {
-        let (_, alone) = self.window.back()?;
-        match self.network.smoothing().filter(|_| self.smooths && self.window.len() > 1) {
+    /// A frame of the window and its motion, velocity and covariance: the last frame and its own, or the one [`DELAY`] before and
+    /// its smoothed one.
+    fn found(&self) -> Option<(&Taken, [f64; 2], [f64; 3])> {
+        match self.network.smoothing().filter(|_| self.smooths) {
             Some(network) => {
+                let at = self.window.len().checked_sub(1 + DELAY)?;
                 let frames: Vec<WindowFrame> = self
                     .window
                     .iter()
-                    .map(|(time_s, motion)| WindowFrame { time_s: *time_s, motion })
+                    .map(|taken| WindowFrame { time_s: taken.car.time_s, motion: &taken.alone })
                     .collect();
-                let smoothed = network.smooth(&frames).pop()?;
-                Some((smoothed.velocity_mps, smoothed.covariance))
+                let smoothed = network.smooth(&frames).get(at).copied()?;
+                Some((self.window.get(at)?, smoothed.velocity_mps, smoothed.covariance))
             }
-            None => Some((alone.velocity_mps, alone.covariance)),
+            None => {
+                let last = self.window.back()?;
+                Some((last, last.alone.velocity_mps, last.alone.covariance))
+            }
         }
     }
 }
@@ -81,27 +96,30 @@ impl MotionPlan for Weighed {
         frame: FrameInput<'_>,
         weights: &mut Vec<f32>,
     ) -> Result<FrameMotion, CalibrateError> {
-        let found = self.network.single().motion(frame.detections);
-        weights.clear();
-        weights.extend_from_slice(&found.weights);
+        let mut alone = self.network.single().motion(frame.detections);
+        *weights = std::mem::take(&mut alone.weights);
         let threshold = self.options.inlier_threshold as f32;
         let inliers = weights.iter().filter(|&&weight| weight >= threshold).count();
-        if self.window.back().is_some_and(|(time_s, _)| frame.time_s - time_s > MAX_GAP_S) {
+        let car = frame.car();
+        if self.window.back().is_some_and(|last| car.time_s - last.car.time_s > MAX_GAP_S) {
             self.window.clear();
         }
         if self.window.len() == WINDOW || !self.smooths {
             self.window.pop_front();
         }
-        self.window.push_back((frame.time_s, found));
-        let motion = self.last().and_then(|(velocity_mps, [xx, xy, yy])| {
-            let known = (xx + yy).sqrt() < UNDETERMINED_MPS && inliers >= self.options.min_inliers;
+        self.window.push_back(Taken { car, alone, inliers, detections: frame.detections.len() });
+        let found = self.found();
+        let motion = found.and_then(|(taken, velocity_mps, [xx, xy, yy])| {
+            let known =
+                (xx + yy).sqrt() < UNDETERMINED_MPS && taken.inliers >= self.options.min_inliers;
             known.then_some(Motion {
                 velocity_mps,
                 covariance: [[xx, xy], [xy, yy]],
-                inliers,
-                detections: frame.detections.len(),
+                inliers: taken.inliers,
+                detections: taken.detections,
             })
         });
-        Ok(FrameMotion::to_judge(motion))
+        let earlier = found.map(|(taken, ..)| taken.car);
+        Ok(FrameMotion { earlier, ..FrameMotion::to_judge(motion) })
     }
 }

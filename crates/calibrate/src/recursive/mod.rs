@@ -111,7 +111,7 @@ impl MotionPlan for Recursive {
     ) -> Result<FrameMotion, CalibrateError> {
         let outcome = self.add(frame)?;
         *weights = outcome.weights;
-        Ok(FrameMotion { motion: outcome.motion, verdict: outcome.verdict })
+        Ok(FrameMotion { motion: outcome.motion, verdict: outcome.verdict, earlier: None })
     }
 }
 
@@ -209,6 +209,7 @@ impl Recursive {
         check_time(self.state.time_s, frame.time_s)?;
         self.state.time_s = Some(frame.time_s);
         let mut outcome = FrameOutcome {
+            time_s: frame.time_s,
             verdict: Verdict::Sparse,
             motion: None,
             angle_rad: None,

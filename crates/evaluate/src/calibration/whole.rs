@@ -4,7 +4,7 @@ use super::{CANDIDATES, Candidate, DRIVING_TIMES_S, SEGMENTS_M, network};
 use crate::EvaluateError;
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
 use boresight_calibrate::{
-    AngleEstimate, CalibrationOptions, Calibrator, FrameInput, Frames, Joint, Method,
+    AngleEstimate, CalibrationOptions, Calibrator, FrameInput, FrameOutcome, Frames, Joint, Method,
 };
 use boresight_core::DriveLog;
 use boresight_core::drive::{Mounting, Pose};
@@ -350,14 +350,10 @@ impl Track {
         let Some(tracked) = tracked else { return Ok(track) };
         let mut calibrator = Calibrator::new(tracked.options(&radar.options))?;
         for &frame in &radar.frames {
-            let motion = calibrator.add(frame)?.motion;
-            if let (Some(motion), Some(pose)) = (motion, (drive.pose_at)(frame.time_s)) {
+            let FrameOutcome { time_s, motion, .. } = calibrator.add(frame)?;
+            if let (Some(motion), Some(pose)) = (motion, (drive.pose_at)(time_s)) {
                 let velocity_mps = motion.velocity_mps;
-                track.motions.push(TimedMotion {
-                    time_s: frame.time_s,
-                    velocity_mps,
-                    yaw_rate_radps: None,
-                });
+                track.motions.push(TimedMotion { time_s, velocity_mps, yaw_rate_radps: None });
                 track.truth.push(pose);
             }
         }

@@ -180,7 +180,7 @@ fn alone(
         |id| id == sensor,
         |_, frame| {
             let outcome = calibrator.add(frame)?;
-            track.add(log, &options, &frame, &outcome);
+            track.add(log, &options, &outcome);
             if recorder.add(&frame, &outcome) {
                 recorder.look(frame.time_s, &calibrator.estimate());
             }
@@ -213,7 +213,7 @@ fn jointly(
             let outcome: FrameOutcome = joint.add(sensor, frame)?;
             if let Some(at) = radars.iter().position(|(id, _)| *id == sensor) {
                 let (track, recorder) = &mut followed[at];
-                track.add(log, &radars[at].1, &frame, &outcome);
+                track.add(log, &radars[at].1, &outcome);
                 if recorder.add(&frame, &outcome) {
                     recorder.look(frame.time_s, &joint.estimate()[at].1);
                 }

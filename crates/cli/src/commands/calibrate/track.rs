@@ -1,7 +1,7 @@
 //! The car's way as a radar saw it, held against the poses of the log.
 
 use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
-use boresight_calibrate::{CalibrationOptions, FrameInput, FrameOutcome};
+use boresight_calibrate::{CalibrationOptions, FrameOutcome};
 use boresight_core::drive::{DriveLog, Pose};
 
 /// Length of the segments that trajectories are compared over, m.
@@ -20,11 +20,10 @@ impl Track {
         &mut self,
         log: &DriveLog,
         options: &CalibrationOptions,
-        frame: &FrameInput,
         outcome: &FrameOutcome,
     ) {
         let Some(motion) = outcome.motion else { return };
-        let time_s = frame.time_s;
+        let time_s = outcome.time_s;
         self.motions.push(TimedMotion {
             time_s,
             velocity_mps: motion.velocity_mps,
