@@ -1,7 +1,7 @@
 """DeepEgo+, multi frame: a recurrent network smooths the motions of successive frames of one radar.
 
-A gated recurrent network reads the frames' motions both ways, weighs and corrects them, and a quadratic in time is
-fitted to them with priors on its terms: the second-order motion model of Zhu et al. (2025). Sizes and priors are ours.
+A gated recurrent network reads the frames' motions both ways and weighs them, and a quadratic in time is fitted to them
+with priors on its terms: the second-order motion model of Zhu et al. (2025). Sizes and priors are ours.
 """
 
 from dataclasses import dataclass
@@ -15,8 +15,6 @@ from .deepego import DeepEgo, DeepEgoConfig, _asinh
 MOTION, CYCLE_S = 9, 0.074
 SCALE_MPS = 0.05
 """Of deviations from the window's mean motion."""
-CORRECTION = 3.0
-"""Corrections are within so many deviations of the frame's motion."""
 WEIGHT_RANGE = 4.0
 """The logarithm of a frame's weight is within plus and minus this."""
 PRIORS_MPS = (1.0, 0.3, 0.3, 0.1)
@@ -100,7 +98,7 @@ class Smoother(nn.Module):
         c = config
         self.encode = nn.Sequential(nn.Linear(MOTION + c.single.narrow, c.frame), nn.ReLU())
         self.recur = nn.GRU(c.frame, c.state, batch_first=True, bidirectional=True)
-        self.weigh = nn.Linear(2 * c.state, 3)
+        self.weigh = nn.Linear(2 * c.state, 1)
         self.window = nn.Linear(2 * c.state, len(PRIORS_MPS) + 1)
         for head in (self.weigh, self.window):
             nn.init.zeros_(head.weight)
@@ -138,15 +136,7 @@ class Smoother(nn.Module):
             -1,
         )
         state, _ = self.recur(self.encode(features))
-        log_weight, correction = self.weigh(state).split((1, 2), -1)
-        log_weight = (WEIGHT_RANGE * (log_weight / WEIGHT_RANGE).tanh()).squeeze(-1)
-        bounded = CORRECTION * (correction / CORRECTION).tanh()
-        # By the Cholesky factor of the covariance.
-        lower = xy / sx
-        rest = (yy - lower * lower).clamp(min=1e-9).sqrt()
-        deviation = deviation + torch.stack(
-            (sx * bounded[..., 0], lower * bounded[..., 0] + rest * bounded[..., 1]), -1
-        )
+        log_weight = (WEIGHT_RANGE * (self.weigh(state) / WEIGHT_RANGE).tanh()).squeeze(-1)
         window = self.window(state.mean(1))
         priors, factor = window.split((len(PRIORS_MPS), 1), -1)
         sigma = (self.priors + PRIOR_RANGE * (priors / PRIOR_RANGE).tanh()).exp()

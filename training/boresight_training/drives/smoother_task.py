@@ -47,8 +47,8 @@ class DeepEgoPlusTask:
     reference = "Zhu et al. (2025), DeepEgo+; Zhu et al. (2025), Radar mounting angle estimation"
     architecture = (
         "A gated recurrent network reads the single-frame network's motions, covariances and contexts both ways, "
-        "weighs and corrects each motion within 3 deviations, and states priors; a weighted quadratic in time with "
-        "these priors gives the motions and their covariances."
+        "weighs each motion, and states priors; a weighted quadratic in time with these priors gives the motions and "
+        "their covariances."
     )
     differences = (
         "The publications tell a temporal network over 8 frames and a second-order motion model, and not the layers. "

@@ -2,7 +2,7 @@
 
 use super::dense::{Layer, add, asinh, each, rectify, sigmoid, tanh};
 use super::fit::{Sights, sum};
-use super::hypotheses;
+use super::hypotheses::{self, Near};
 use super::{NetworkError, Weights};
 use boresight_core::Detection;
 use wide::f32x4;
@@ -128,6 +128,11 @@ impl DeepEgo {
 
     /// The motion that a scan shows. Detections whose azimuth or range rate is not finite have no part in it.
     pub fn motion(&self, detections: &[Detection]) -> WeighedMotion {
+        self.motion_near(detections, None)
+    }
+
+    /// The same, beginning with what is expected where detections do not speak against it.
+    pub fn motion_near(&self, detections: &[Detection], near: Option<Near>) -> WeighedMotion {
         let usable: Vec<usize> = (0..detections.len())
             .filter(|i| {
                 let d = &detections[*i];
@@ -135,7 +140,7 @@ impl DeepEgo {
             })
             .collect();
         let seen: Vec<Detection> = usable.iter().map(|i| detections[*i]).collect();
-        let mut motion = self.of_usable(&seen);
+        let mut motion = self.of_usable(&seen, near);
         for of_all in [&mut motion.weights, &mut motion.moves] {
             let of_usable = std::mem::replace(of_all, vec![0.0; detections.len()]);
             usable.iter().zip(of_usable).for_each(|(&i, value)| of_all[i] = value);
@@ -144,7 +149,7 @@ impl DeepEgo {
     }
 
     /// The motion of detections that are all finite.
-    fn of_usable(&self, detections: &[Detection]) -> WeighedMotion {
+    fn of_usable(&self, detections: &[Detection], near: Option<Near>) -> WeighedMotion {
         let mut sights = Sights::default();
         for d in detections {
             let (sin, cos) = d.azimuth_rad.sin_cos();
@@ -163,9 +168,9 @@ impl DeepEgo {
         self.weigh_frame.apply(&g, &mut frame);
         self.weigh_point.apply(&h, &mut a);
         let mut out = two_layers(&self.weigh, &mut a, &frame);
-        let (mut context, mut near) = (vec![], vec![]);
+        let (mut context, mut narrow) = (vec![], vec![]);
         self.narrow_frame.apply(&g, &mut context);
-        self.narrow_point.apply(&h, &mut near);
+        self.narrow_point.apply(&h, &mut narrow);
         self.refine_frame.apply(&context, &mut frame);
 
         let mut inliers: Vec<f32> = vec![];
@@ -174,10 +179,10 @@ impl DeepEgo {
         for round in 0..=REFINEMENTS {
             if round == 1 {
                 let azimuths: Vec<f32> = detections.iter().map(|d| d.azimuth_rad).collect();
-                fitted.0 = hypotheses::start(&sights, &azimuths, &inliers, fitted.0);
+                fitted.0 = hypotheses::start(&sights, &azimuths, &inliers, fitted.0, near);
             }
             if round > 0 {
-                let told = residuals(&sights, fitted.0, &inliers, size, &near);
+                let told = residuals(&sights, fitted.0, &inliers, size, &narrow);
                 self.refine_point.apply(&told, &mut a);
                 out = two_layers(&self.refine, &mut a, &frame);
             }

@@ -15,16 +15,39 @@ const CONSENSUS_MPS: f32 = 0.3;
 const LEAST_SINE: f32 = 0.01;
 /// Of range rates, m/s, which order detections of the same azimuth, rad.
 const TIE_BREAK: f64 = 1e-12;
+/// Added to the deviation of where the motion is expected, m/s, and what a vote elsewhere still counts.
+const NEAR_MPS: f32 = 0.1;
+const ELSEWHERE: f32 = 0.2;
 /// Of the sequence along each axis: `1/p` and `1/p^2`, with `p` the real root of `p^3 = p + 1`.
 const STEPS: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
 
+/// Where a radar's motion is expected, in its own frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Near {
+    /// Velocity, m/s.
+    pub velocity_mps: [f64; 2],
+    /// Its deviation, m/s.
+    pub sigma_mps: f64,
+}
+
+impl Near {
+    /// What a vote for a velocity counts: all where it is expected.
+    fn belief(self, [x, y]: [f32; 2]) -> f32 {
+        let [ex, ey] = self.velocity_mps.map(|v| v as f32);
+        let variance = (self.sigma_mps as f32).powi(2) + NEAR_MPS * NEAR_MPS;
+        let squared = ((x - ex).powi(2) + (y - ey).powi(2)) / variance;
+        ELSEWHERE + (1.0 - ELSEWHERE) * (-0.5 * squared).exp()
+    }
+}
+
 /// Velocity that the most weight agrees on, fitted to what agrees. `azimuths` are those of the sights, `first` is taken
-/// where no pair has more. The order of the detections does not matter.
+/// where no pair has more; votes `near` what is expected count more. The order of the detections does not matter.
 pub(super) fn start(
     sights: &Sights,
     azimuths: &[f32],
     weights: &[f32],
     first: [f32; 2],
+    near: Option<Near>,
 ) -> [f32; 2] {
     let place = |(azimuth, rate): (&f32, &f32)| f64::from(*azimuth) + TIE_BREAK * f64::from(*rate);
     let order = ascending(azimuths.iter().zip(&sights.rate).map(place));
@@ -40,13 +63,17 @@ pub(super) fn start(
         let rank = filled.partition_point(|sum| *sum <= level * total);
         order.get(rank.min(order.len().saturating_sub(1))).copied()
     };
-    let mut best = (votes(sights, weights, first), first);
-    for draw in 1..=DRAWS {
+    let counted = |velocity: [f32; 2]| {
+        votes(sights, weights, velocity) * near.map_or(1.0, |near| near.belief(velocity))
+    };
+    let expected = near.map(|near| near.velocity_mps.map(|v| v as f32));
+    let drawn = (1..=DRAWS).filter_map(|draw| {
         let [one, other] = STEPS.map(|step| at((0.5 + draw as f64 * step).fract()));
-        let Some(velocity) = one.zip(other).and_then(|(i, k)| of_pair(sights, i, k)) else {
-            continue;
-        };
-        let sum = votes(sights, weights, velocity);
+        one.zip(other).and_then(|(i, k)| of_pair(sights, i, k))
+    });
+    let mut best = (counted(first), first);
+    for velocity in expected.into_iter().chain(drawn) {
+        let sum = counted(velocity);
         if sum > best.0 {
             best = (sum, velocity);
         }

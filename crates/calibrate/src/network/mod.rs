@@ -17,6 +17,7 @@ mod tests;
 
 pub use deepego::{DeepEgo, WeighedMotion};
 pub use error::NetworkError;
+pub use hypotheses::Near;
 pub use motion_network::MotionNetwork;
 pub use smoother::{DeepEgoPlus, SmoothedMotion, WindowFrame};
 pub use weights::Weights;

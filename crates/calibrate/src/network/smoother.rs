@@ -1,5 +1,5 @@
-//! DeepEgo+, multi frame: a recurrent network weighs and corrects the motions of successive frames of one radar, and a
-//! quadratic in time with learnt priors is fitted to them.
+//! DeepEgo+, multi frame: a recurrent network weighs the motions of successive frames of one radar, and a quadratic in time
+//! with learnt priors is fitted to them.
 
 use super::dense::{Layer, asinh, one};
 use super::recurrent::Recurrent;
@@ -11,8 +11,6 @@ const MOTION: usize = 9;
 const CYCLE_S: f64 = 0.074;
 /// Scale of deviations from the window's mean motion, m/s.
 const SCALE_MPS: f32 = 0.05;
-/// Corrections are within so many deviations.
-const CORRECTION: f32 = 3.0;
 /// Logarithms of frames' weights are within plus and minus this.
 const WEIGHT_RANGE: f32 = 4.0;
 /// Deviations of linear and quadratic terms along and across the motion before learning, m/s over half a window; their
@@ -69,7 +67,7 @@ impl DeepEgoPlus {
         let recur = Recurrent::read(weights, "smoother.recur", encode.outputs())?;
         let (weigh, window) = (layer("weigh", recur.outputs())?, layer("window", recur.outputs())?);
         for (name, given, expected) in
-            [("weigh", weigh.outputs(), 3), ("window", window.outputs(), PRIORS_MPS.len() + 1)]
+            [("weigh", weigh.outputs(), 1), ("window", window.outputs(), PRIORS_MPS.len() + 1)]
         {
             if given != expected {
                 return Err(NetworkError::Unlike {
@@ -113,7 +111,7 @@ impl DeepEgoPlus {
         let ahead = turned(mean, axis);
         let covariances: Vec<[f64; 3]> =
             covariances.into_iter().map(|c| turned_covariance(c, axis)).collect();
-        let mut deviations: Vec<[f64; 2]> = frames
+        let deviations: Vec<[f64; 2]> = frames
             .iter()
             .map(|f| {
                 let [x, y] = turned(f.motion.velocity_mps, axis);
@@ -137,18 +135,10 @@ impl DeepEgoPlus {
         let states = self.recur.apply(&encoded, self.encode.outputs());
         let mut heads = vec![];
         self.weigh.apply(&states, &mut heads);
-        let mut weights = vec![];
-        for (k, [weight, along, across]) in heads.as_chunks::<3>().0.iter().enumerate() {
-            weights.push(f64::from(WEIGHT_RANGE * (weight / WEIGHT_RANGE).tanh()).exp());
-            let [along, across] =
-                [along, across].map(|c| f64::from(CORRECTION * (c / CORRECTION).tanh()));
-            // By the Cholesky factor of the covariance.
-            let [xx, xy, yy] = covariances[k];
-            let lower = xy / xx.sqrt();
-            let rest = (yy - lower * lower).max(1e-9).sqrt();
-            deviations[k][0] += xx.sqrt() * along;
-            deviations[k][1] += lower * along + rest * across;
-        }
+        let weights: Vec<f64> = heads
+            .iter()
+            .map(|weight| f64::from(WEIGHT_RANGE * (weight / WEIGHT_RANGE).tanh()).exp())
+            .collect();
         let row = self.recur.outputs();
         let mean_state: Vec<f32> = (0..row)
             .map(|i| states.iter().skip(i).step_by(row).sum::<f32>() / frames.len() as f32)

@@ -1,4 +1,4 @@
-//! What `log` and `calibrate` take.
+//! What `log`, `calibrate` and `odometry` take.
 
 use crate::flags::{Flags, OnCommandLine};
 use boresight_calibrate::CalibrationOptions;
@@ -64,6 +64,30 @@ pub struct CalibrateArguments {
     #[arg(long, value_name = "OUT.html")]
     pub report: Option<PathBuf>,
     /// Print JSON: an object, or an array of them where there are several radars.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `odometry`.
+#[derive(Debug, Args)]
+pub struct OdometryArguments {
+    /// The log: its folder, its one file, or its files; of RadarScenes also the data set's folder.
+    #[arg(required = true, value_name = "PATH")]
+    pub paths: Vec<PathBuf>,
+    /// Which sequence of a data set's folder, such as sequence_7 or 7.
+    #[arg(long, value_name = "NAME")]
+    pub sequence: Option<String>,
+    /// Only these radars of the log.
+    #[arg(long, value_name = "N,...", value_delimiter = ',')]
+    pub sensors: Vec<u8>,
+    /// Weights of the network of motion; those of models/motion/deepego-plus.bin if absent.
+    #[arg(long, value_name = "F.bin")]
+    pub network: Option<PathBuf>,
+    /// Write the car's trajectory by its radars: time_s, x_m, y_m, yaw_deg of the rear axle, from the origin along x, and where
+    /// the log has poses logged_x_m, logged_y_m, logged_yaw_deg in the same frame.
+    #[arg(long, value_name = "OUT.csv")]
+    pub trajectory: Option<PathBuf>,
+    /// Print JSON.
     #[arg(long)]
     pub json: bool,
 }

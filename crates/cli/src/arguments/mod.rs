@@ -9,7 +9,7 @@ mod regions;
 mod simulate;
 
 pub use augment::AugmentArguments;
-pub use drives::{CalibrateArguments, LogArguments};
+pub use drives::{CalibrateArguments, LogArguments, OdometryArguments};
 pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
 pub use evaluate::{
     AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCalibrationArguments,
@@ -70,6 +70,8 @@ pub enum Command {
     Augment(Box<AugmentArguments>),
     /// Estimate the angle a car's radars are mounted at from a drive log.
     Calibrate(CalibrateArguments),
+    /// Estimate the car's motion from all of its radars, once they are calibrated on the same drive.
+    Odometry(OdometryArguments),
     /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.
     Log(LogArguments),
     /// Run an experiment on simulated scenes: tables, figures, records.

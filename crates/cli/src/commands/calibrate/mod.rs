@@ -1,8 +1,8 @@
 //! `boresight calibrate`: the angle radars are mounted at, from a drive.
 
 mod report;
-mod track;
 
+use super::track::Track;
 use crate::arguments::CalibrateArguments;
 use crate::drive::open_path;
 use crate::error::CliError;
@@ -21,7 +21,6 @@ use boresight_report::Recorder;
 use serde_json::Value;
 use std::path::Path;
 use std::sync::Arc;
-use track::Track;
 
 /// Frames between two looks at progress and Ctrl-C.
 const FRAMES_A_REPORT: usize = 64;
@@ -91,12 +90,12 @@ pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliE
     })
 }
 
-fn read_network(path: &Path, files: &Files) -> Result<Arc<MotionNetwork>, CliError> {
+pub(super) fn read_network(path: &Path, files: &Files) -> Result<Arc<MotionNetwork>, CliError> {
     let read = MotionNetwork::read(&files.read(path)?);
     read.map(Arc::new).map_err(|error| CliError::Network { path: path.into(), error })
 }
 
-fn ids(log: &DriveLog) -> String {
+pub(super) fn ids(log: &DriveLog) -> String {
     log.sensors.iter().map(|s| s.id.to_string()).collect::<Vec<_>>().join(", ")
 }
 
@@ -119,18 +118,26 @@ fn options(
     sensor: &Sensor,
 ) -> Result<CalibrationOptions, CliError> {
     let flags = &arguments.flags;
-    let mut options = flags.options;
+    mounted(flags.options, sensor, [flags.given("x_m"), flags.given("y_m")])
+}
+
+/// The options with the place and the angle that the log states, unless they are given.
+pub(super) fn mounted(
+    mut options: CalibrationOptions,
+    sensor: &Sensor,
+    [x_given, y_given]: [bool; 2],
+) -> Result<CalibrationOptions, CliError> {
     match sensor.mounting {
         Some(mounting) => {
-            if !flags.given("x_m") {
+            if !x_given {
                 options.x_m = mounting.x_m;
             }
-            if !flags.given("y_m") {
+            if !y_given {
                 options.y_m = mounting.y_m;
             }
             options.nominal_rad = options.nominal_rad.or(Some(mounting.yaw_rad));
         }
-        None if !flags.given("x_m") => {
+        None if !x_given => {
             return Err(CliError::Option {
                 option: "--x",
                 expected:
@@ -145,7 +152,7 @@ fn options(
 }
 
 /// Hands the frames of the radars that `wanted` picks to `add`, in order.
-fn feed<'a>(
+pub(super) fn feed<'a>(
     log: &'a DriveLog,
     options: &CalibrationOptions,
     run: &Run,

@@ -1,7 +1,6 @@
 //! What is printed of a calibration.
 
 use super::Calibrated;
-use super::track::SEGMENT_M;
 use crate::error::CliError;
 use crate::files::Files;
 use crate::json;
@@ -9,11 +8,15 @@ use boresight_report::{About, Fact, Radar, facts};
 use jiff::Timestamp;
 use serde_json::{Value, json};
 
+/// Length of the segments that trajectories are compared over, m.
+const SEGMENT_M: f64 = 50.0;
+
 /// The result as JSON.
 pub(super) fn json(result: &Calibrated) -> Value {
     let Calibrated { sensor, options, estimate: e, track, joint, outlook, .. } = result;
-    let error = track.error_m(e.angle_rad, options).map(|estimated| {
-        let nominal = options.nominal_rad.and_then(|angle| track.error_m(angle, options));
+    let error = track.error_m(e.angle_rad, options, SEGMENT_M).map(|estimated| {
+        let nominal =
+            options.nominal_rad.and_then(|angle| track.error_m(angle, options, SEGMENT_M));
         json!({ "segmentM": SEGMENT_M, "estimatedM": estimated, "nominalM": nominal })
     });
     let further = json!({
@@ -62,9 +65,10 @@ pub(super) fn text(result: &Calibrated) -> String {
     for Fact { name, value } in facts(e) {
         text += &format!("{name:13}{value}\n");
     }
-    if let Some(error) = track.error_m(e.angle_rad, options) {
+    if let Some(error) = track.error_m(e.angle_rad, options, SEGMENT_M) {
         text += &format!("trajectory   {error:.2} m off at the end of {SEGMENT_M} m, on average");
-        let nominal = options.nominal_rad.and_then(|angle| track.error_m(angle, options));
+        let nominal =
+            options.nominal_rad.and_then(|angle| track.error_m(angle, options, SEGMENT_M));
         if let Some(error) = nominal {
             text += &format!("; {error:.2} m by the nominal angle");
         }

@@ -4,9 +4,6 @@ use boresight_calibrate::trajectory::{TimedMotion, integrate, relative_error};
 use boresight_calibrate::{CalibrationOptions, FrameOutcome};
 use boresight_core::drive::{DriveLog, Pose};
 
-/// Length of the segments that trajectories are compared over, m.
-pub(super) const SEGMENT_M: f64 = 50.0;
-
 /// The radar's motion and the car's logged pose, frame by frame.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Track {
@@ -23,28 +20,43 @@ impl Track {
         outcome: &FrameOutcome,
     ) {
         let Some(motion) = outcome.motion else { return };
-        let time_s = outcome.time_s;
-        self.motions.push(TimedMotion {
-            time_s,
+        let motion = TimedMotion {
+            time_s: outcome.time_s,
             velocity_mps: motion.velocity_mps,
             yaw_rate_radps: None,
-        });
-        self.logged.push(log.pose_at(time_s, options.max_gap_s));
+        };
+        self.push(log, options, motion);
+    }
+
+    /// Takes a motion.
+    pub(super) fn push(
+        &mut self,
+        log: &DriveLog,
+        options: &CalibrationOptions,
+        motion: TimedMotion,
+    ) {
+        self.logged.push(log.pose_at(motion.time_s, options.max_gap_s));
+        self.motions.push(motion);
     }
 
     fn poses(&self, angle_rad: f64, options: &CalibrationOptions) -> Option<Vec<Pose>> {
         integrate(&self.motions, angle_rad, options.x_m, options.y_m)
     }
 
-    /// Relative error of the trajectory with an angle, m; `None` without poses or a trajectory, or
+    /// Relative error of the trajectory with an angle over segments of a length, m; `None` without poses or a trajectory, or
     /// where the car drove less than a segment.
-    pub(super) fn error_m(&self, angle_rad: f64, options: &CalibrationOptions) -> Option<f64> {
+    pub(super) fn error_m(
+        &self,
+        angle_rad: f64,
+        options: &CalibrationOptions,
+        segment_m: f64,
+    ) -> Option<f64> {
         let poses = self.poses(angle_rad, options)?;
         let known = poses
             .into_iter()
             .zip(&self.logged)
             .filter_map(|(pose, logged)| Some((pose, (*logged)?)));
-        relative_error(known, SEGMENT_M)
+        relative_error(known, segment_m)
     }
 
     /// The trajectory with an angle as CSV, from the origin along x, and beside it the logged one,
