@@ -423,3 +423,44 @@ fn a_report_says_the_verdict_and_where_it_comes_from_and_replaces_nothing() {
     assert!(!again.status.success());
     assert_eq!(std::fs::read_to_string(&path).unwrap(), html);
 }
+
+#[test]
+fn the_cars_motion_from_all_radars() {
+    let folder = folder("odometry");
+    let out = folder.to_str().unwrap();
+    let simulate = [
+        "simulate",
+        "drive",
+        "--seed",
+        "3",
+        "--duration",
+        "30",
+        "--misalign",
+        "2=1.5",
+        "--out",
+        out,
+    ];
+    stdout(&simulate);
+    let csv = folder.join("way.csv");
+    let arguments = ["odometry", out, "--trajectory", csv.to_str().unwrap()];
+    let found = parsed(&stdout(&[&arguments[..], &["--json"]].concat()));
+    let radars = found["radars"].as_array().unwrap();
+    assert_eq!(radars.len(), 4);
+    for radar in radars {
+        let count = |key: &str| radar["frames"][key].as_u64().unwrap();
+        assert!(count("taken") > 20 * (count("untold") + count("contradicted")), "{radar}");
+    }
+    let rms = |key: &str| found[key]["rms"].as_f64().unwrap();
+    // The log's own yaw rate and speed are as exact as that.
+    assert!(rms("speedDifferenceMps") < 0.2 && rms("yawRateDifferenceDegps") < 1.5, "{found}");
+    let way = std::fs::read_to_string(&csv).unwrap();
+    assert!(way.starts_with("time_s,x_m,y_m,yaw_deg"), "{way:.80}");
+    assert!(way.lines().count() > 1000);
+    let shown = stdout(&["odometry", out, "--sensors", "1,4"]);
+    assert!(shown.contains("sensor 4") && !shown.contains("sensor 2"), "{shown}");
+    // What is there stays there, and what is asked for has to be.
+    assert_eq!(boresight(&arguments).status.code(), Some(1));
+    let refused = boresight(&["odometry", out, "--sensors", "1,9"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("1, 2, 3, 4"));
+}
