@@ -5,6 +5,7 @@
 
 import json
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -68,6 +69,14 @@ class Dataset:
 
     def __len__(self):
         return len(self.frames)
+
+    @cached_property
+    def changes(self) -> np.ndarray:
+        """By how much the radar's velocity changes in each frame's window, m/s^2."""
+        velocity = self.frames["velocity"].reshape(-1, self.window, 2)
+        seconds = self.frames["dt"].reshape(-1, self.window).sum(1)
+        change = np.linalg.norm(velocity[:, -1] - velocity[:, 0], axis=1) / np.maximum(seconds, 1e-3)
+        return np.repeat(change, self.window)
 
     def told(self) -> list[dict]:
         """What the sets of data are, without their places."""

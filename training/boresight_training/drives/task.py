@@ -1,7 +1,7 @@
 """DeepEgo's data, losses and scores."""
 
 from dataclasses import asdict, dataclass
-from math import log
+from math import inf, log
 from pathlib import Path
 
 import numpy as np
@@ -26,12 +26,15 @@ class Condition:
     """Moving share from and below."""
     looks_deg: tuple[float, float] = (0.0, 181.0)
     """Angle between the radar's and the car's direction, from and below."""
+    changes_mps2: tuple[float, float] = (0.0, inf)
+    """Change of the radar's velocity, from and below."""
 
     def of(self, data: Dataset, share: np.ndarray) -> np.ndarray:
         """Whether frames of these moving shares are among them."""
         looks = np.abs(np.rad2deg(data.frames["direction"] * DIRECTION_RAD))
         fits = (data.frames["condition"] == self.window) & (share >= self.low) & (share < self.high)
-        return fits & (looks >= self.looks_deg[0]) & (looks < self.looks_deg[1])
+        fits &= (looks >= self.looks_deg[0]) & (looks < self.looks_deg[1])
+        return fits & (data.changes >= self.changes_mps2[0]) & (data.changes < self.changes_mps2[1])
 
 
 CONDITIONS = {
@@ -41,6 +44,9 @@ CONDITIONS = {
     "30 to 60 % moving": Condition(TRAFFIC, 0.3, 0.6),
     "60 to 90 % moving": Condition(TRAFFIC, 0.6, 0.9),
     "queues": Condition(QUEUE, 0.2, 0.9),
+    "steady, below 0.5 m/s^2": Condition(TRAFFIC, 0.0, 0.6, changes_mps2=(0.0, 0.5)),
+    "changing, 0.5 to 2 m/s^2": Condition(TRAFFIC, 0.0, 0.6, changes_mps2=(0.5, 2.0)),
+    "changing, from 2 m/s^2": Condition(TRAFFIC, 0.0, 0.6, changes_mps2=(2.0, inf)),
 }
 """What frames are scored on."""
 WEIGHTS = {"motion": 1.0, "robust": 0.2, "weights": 2.0, "moves": 0.5, "doppler": 0.1}
