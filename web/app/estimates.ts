@@ -1,8 +1,8 @@
 /** Estimates as the plots show them. */
 import type { Estimate, Method, Position, Source } from 'boresight';
-import type { Marker } from './plots/layers.ts';
-import type { PlotSeries } from './plots/plot.ts';
-import { methodStyle } from './plots/theme.ts';
+import type { Marker } from '../plots/layers.ts';
+import type { PlotSeries } from '../plots/plot.ts';
+import { methodStyle } from '../plots/theme.ts';
 
 export interface Curve {
   method: string;

@@ -1,11 +1,11 @@
 /** Saving all pages' settings and the user's own files as one file, and opening it. */
 import { signal } from '@preact/signals';
+import { download, fileName } from '../../plots/save.ts';
 import { api, describeError, FileProblem } from '../data.ts';
 import * as networks from '../networks/load.ts';
 import * as capture from '../pages/capture/files.ts';
 import * as mounting from '../pages/mounting/drive.ts';
 import { openFiles as openDriveFiles } from '../pages/mounting/own-files.ts';
-import { download, fileName } from '../plots/save.ts';
 import { goTo } from '../state/address.ts';
 import { announce } from '../state/announce.ts';
 import { lastParams, PAGES, type Page, route, setParams, TITLES } from '../state/route.ts';

@@ -1,5 +1,5 @@
 /** The numbers that a field takes. */
-import { power } from '../plots/format.ts';
+import { power } from '../../plots/format.ts';
 
 export interface Range {
   /** -Infinity where nothing limits it. */

@@ -1,6 +1,6 @@
 /** Light or dark: the system's choice unless the user made one. */
 import { computed, effect, signal } from '@preact/signals';
-import type { ThemeName } from '../plots/theme.ts';
+import type { ThemeName } from '../../plots/theme.ts';
 
 export type ThemeChoice = 'auto' | ThemeName;
 const KEY = 'boresight-theme';

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect } from 'preact/hooks';
-import { drop, inTurn } from '../plots/turns.ts';
+import { drop, inTurn } from '../../plots/turns.ts';
 
 export function InTurn({ children }: { children: ComponentChildren }) {
   const isHere = useSignal(false);

@@ -1,7 +1,7 @@
 /** Says what the browser keeps of the site, and removes it. */
 import { useState } from 'preact/hooks';
+import { byteSize } from '../../plots/format.ts';
 import { type Kept, kept, mayKeep, removeKept, setMayKeep } from '../offline/kept.ts';
-import { byteSize } from '../plots/format.ts';
 import { announce } from '../state/announce.ts';
 import { About } from './about.tsx';
 

@@ -1,6 +1,6 @@
 /** Check boxes for methods, each with its sign on the plots and the reason why it may not be chosen. */
 import type { ComponentChildren } from 'preact';
-import { methodStyle } from '../plots/theme.ts';
+import { methodStyle } from '../../plots/theme.ts';
 import { Swatch } from './swatch.tsx';
 
 export interface MethodItem<T extends string> {

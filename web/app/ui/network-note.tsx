@@ -1,8 +1,9 @@
 /** Under a network in a list of methods: which one is used, and how far it is loaded. */
+
+import { byteSize } from '../../plots/format.ts';
 import { cancelLoading, load, loadings } from '../networks/load.ts';
 import { arrayOf, type Model } from '../networks/models.ts';
 import { moduleBuild } from '../networks/module.ts';
-import { byteSize } from '../plots/format.ts';
 import { ModuleNote } from './module-note.tsx';
 
 export function NetworkNote({

@@ -1,6 +1,6 @@
 /** Fields of numbers, typed as text: nothing is written into a field while somebody types in it. */
 import { useId, useRef, useState } from 'preact/hooks';
-import { power } from '../plots/format.ts';
+import { power } from '../../plots/format.ts';
 import { type Range, rangeText, within } from '../state/range.ts';
 import { useDraft } from './draft.ts';
 import { type FieldProps, Help } from './field.tsx';

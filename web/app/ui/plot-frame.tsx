@@ -2,9 +2,9 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
-import { type LegendEntry, png, svg } from '../plots/picture.ts';
-import { type CursorPosition, Plot, type PlotContent, type PlotOptions, type View } from '../plots/plot.ts';
-import { download, fileName } from '../plots/save.ts';
+import { type LegendEntry, png, svg } from '../../plots/picture.ts';
+import { type CursorPosition, Plot, type PlotContent, type PlotOptions, type View } from '../../plots/plot.ts';
+import { download, fileName } from '../../plots/save.ts';
 import { announce } from '../state/announce.ts';
 import { theme } from '../state/theme.ts';
 import { captionLines } from './caption.ts';

@@ -1,7 +1,7 @@
 /** A series' line and marker, drawn as on the plots. */
 import { useEffect, useRef } from 'preact/hooks';
-import { drawSwatch, SWATCH } from '../plots/layers.ts';
-import { type SeriesStyle, THEMES } from '../plots/theme.ts';
+import { drawSwatch, SWATCH } from '../../plots/layers.ts';
+import { type SeriesStyle, THEMES } from '../../plots/theme.ts';
 import { theme } from '../state/theme.ts';
 
 const { width, height } = SWATCH;

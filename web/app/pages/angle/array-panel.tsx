@@ -1,10 +1,10 @@
 /** The array: where its elements are, its response from boresight, and the numbers that follow. */
 import { useMemo } from 'preact/hooks';
-import { AZIMUTH } from '../../plots/axes.ts';
-import { fixed, signed } from '../../plots/format.ts';
-import { bands, markers } from '../../plots/layers.ts';
-import { toCsv } from '../../plots/save.ts';
-import { ACCENT_STYLE } from '../../plots/theme.ts';
+import { AZIMUTH } from '../../../plots/axes.ts';
+import { fixed, signed } from '../../../plots/format.ts';
+import { bands, markers } from '../../../plots/layers.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { ACCENT_STYLE } from '../../../plots/theme.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { beamPattern, type Scene } from './compute.ts';
 

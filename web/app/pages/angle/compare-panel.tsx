@@ -1,7 +1,8 @@
 /** What comes of A and of B. */
+
+import { fixed, signed } from '../../../plots/format.ts';
+import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
-import { fixed, signed } from '../../plots/format.ts';
-import { methodStyle } from '../../plots/theme.ts';
 import { ComparisonPanel } from '../../ui/comparison.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { compared, type Kept, kept, keptProblem } from './compare.ts';

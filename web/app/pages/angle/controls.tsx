@@ -1,9 +1,10 @@
 /** Everything the angle lab can be told. */
+
+import { milliseconds } from '../../../plots/format.ts';
 import { api } from '../../data.ts';
 import { COUNTED } from '../../methods.ts';
 import { choosing, fitting } from '../../networks/choose.ts';
 import { stopped } from '../../networks/load.ts';
-import { milliseconds } from '../../plots/format.ts';
 import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';
 import { Group, SelectField, TextField } from '../../ui/field.tsx';

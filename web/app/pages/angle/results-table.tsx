@@ -1,8 +1,9 @@
 /** Targets against each method's estimates, with errors and bounds. */
+
+import { fixed, milliseconds, signed } from '../../../plots/format.ts';
+import { download, fileName, toCsv } from '../../../plots/save.ts';
+import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
-import { fixed, milliseconds, signed } from '../../plots/format.ts';
-import { download, fileName, toCsv } from '../../plots/save.ts';
-import { methodStyle } from '../../plots/theme.ts';
 import { Swatch } from '../../ui/swatch.tsx';
 import { results, type Scene } from './compute.ts';
 import { assigned } from './score.ts';

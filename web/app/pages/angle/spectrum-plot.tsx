@@ -1,14 +1,14 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
 import { useMemo, useRef } from 'preact/hooks';
+import { AZIMUTH } from '../../../plots/axes.ts';
+import { fixed, signed } from '../../../plots/format.ts';
+import { Handles } from '../../../plots/handles.ts';
+import { bands, horizontalLine, type Layer, markers } from '../../../plots/layers.ts';
+import type { Plot } from '../../../plots/plot.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { faint, methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
 import { type Curve, closes, curve, oneSeries, onOneGrid, sourceMarkers, withBars } from '../../estimates.ts';
-import { AZIMUTH } from '../../plots/axes.ts';
-import { fixed, signed } from '../../plots/format.ts';
-import { Handles } from '../../plots/handles.ts';
-import { bands, horizontalLine, type Layer, markers } from '../../plots/layers.ts';
-import type { Plot } from '../../plots/plot.ts';
-import { toCsv } from '../../plots/save.ts';
-import { faint, methodStyle, TRUTH_STYLE } from '../../plots/theme.ts';
 import { announce } from '../../state/announce.ts';
 import { hasMoved, rememberMoved } from '../../state/settings.ts';
 import { KeepButton } from '../../ui/comparison.tsx';

@@ -1,9 +1,9 @@
 /** State of the angle lab: all of it in the address. */
 import { signal } from '@preact/signals';
 import type { ArrayInput, Method, Position } from 'boresight';
+import { fixed, signed } from '../../../plots/format.ts';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
-import { fixed, signed } from '../../plots/format.ts';
 import type { Caption } from '../../state/address.ts';
 import { choice, codec, type Field, names, number, optional, text } from '../../state/codec.ts';
 import { keptField } from '../../state/comparison.ts';

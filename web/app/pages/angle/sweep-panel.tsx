@@ -1,9 +1,9 @@
 /** Monte-Carlo runs of the page's scene: error and share found against one setting, with the bound. */
 import { useMemo } from 'preact/hooks';
+import { fixed, percentage, significant } from '../../../plots/format.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
-import { fixed, percentage, significant } from '../../plots/format.ts';
-import { toCsv } from '../../plots/save.ts';
-import { methodStyle, TRUTH_STYLE } from '../../plots/theme.ts';
 import { NumberField } from '../../ui/number-field.tsx';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { ProgressLine } from '../../ui/progress.tsx';

@@ -1,9 +1,9 @@
 /** Scene, radars, methods and how the images are shown. */
 import type { Method } from 'boresight';
+import { power } from '../../../plots/format.ts';
 import { singleSnapshotMethods } from '../../methods.ts';
 import { choosing, fitting } from '../../networks/choose.ts';
 import { stopped } from '../../networks/load.ts';
-import { power } from '../../plots/format.ts';
 import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';
 import { CheckField, Group, SliderField } from '../../ui/field.tsx';

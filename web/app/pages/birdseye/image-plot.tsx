@@ -2,15 +2,15 @@
 
 import type { MethodInfo } from 'boresight';
 import { useMemo } from 'preact/hooks';
+import { AHEAD, LEFT } from '../../../plots/axes.ts';
+import { carOutline } from '../../../plots/car.ts';
+import { decibels, fixed, signed } from '../../../plots/format.ts';
+import { COLOR_BAR_HEIGHT, colorBarBelow, heatImage } from '../../../plots/heat.ts';
+import { faded } from '../../../plots/layers.ts';
+import { png } from '../../../plots/picture.ts';
+import type { Plot, PlotContent, View } from '../../../plots/plot.ts';
+import { download, fileName, sideBySide, toCsv } from '../../../plots/save.ts';
 import { api } from '../../data.ts';
-import { AHEAD, LEFT } from '../../plots/axes.ts';
-import { carOutline } from '../../plots/car.ts';
-import { decibels, fixed, signed } from '../../plots/format.ts';
-import { COLOR_BAR_HEIGHT, colorBarBelow, heatImage } from '../../plots/heat.ts';
-import { faded } from '../../plots/layers.ts';
-import { png } from '../../plots/picture.ts';
-import type { Plot, PlotContent, View } from '../../plots/plot.ts';
-import { download, fileName, sideBySide, toCsv } from '../../plots/save.ts';
 import { captionLines } from '../../ui/caption.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { boardPoints, grid, input, type Point, shownRadars } from './input.ts';

@@ -1,7 +1,7 @@
 /** What is drawn over an image: the street as it truly is, and where the radars sit and look. */
 import type { StreetScene } from 'boresight';
-import { ground } from '../../plots/car.ts';
-import { clipToPlot, type Layer, strokeTwice } from '../../plots/layers.ts';
+import { ground } from '../../../plots/car.ts';
+import { clipToPlot, type Layer, strokeTwice } from '../../../plots/layers.ts';
 import type { Point, Radar } from './input.ts';
 
 /** A ray's end in the car's frame. */

@@ -1,6 +1,6 @@
 import { useSignalEffect } from '@preact/signals';
+import { count, fixed } from '../../../plots/format.ts';
 import { api } from '../../data.ts';
-import { count, fixed } from '../../plots/format.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';

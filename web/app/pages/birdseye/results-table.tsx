@@ -1,8 +1,9 @@
 /** How clean each method's image is, and what it took. */
+
+import { count, decibels, fixed, milliseconds } from '../../../plots/format.ts';
+import { download, fileName, toCsv } from '../../../plots/save.ts';
+import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
-import { count, decibels, fixed, milliseconds } from '../../plots/format.ts';
-import { download, fileName, toCsv } from '../../plots/save.ts';
-import { methodStyle } from '../../plots/theme.ts';
 import { Swatch } from '../../ui/swatch.tsx';
 import { input } from './input.ts';
 import { images, type MethodImage } from './process.ts';

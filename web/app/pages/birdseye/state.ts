@@ -1,10 +1,10 @@
 /** State of the bird's-eye page: all of it in the address. */
 import { signal } from '@preact/signals';
 import type { Method } from 'boresight';
+import { COLOR_MAPS } from '../../../plots/colormap.ts';
+import type { View } from '../../../plots/plot.ts';
 import { networkNames, singleSnapshotMethods } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
-import { COLOR_MAPS } from '../../plots/colormap.ts';
-import type { View } from '../../plots/plot.ts';
 import type { Caption } from '../../state/address.ts';
 import { choice, codec, type Field, flag, names, number, optional } from '../../state/codec.ts';
 import { seed } from '../../state/seed.ts';

@@ -2,13 +2,13 @@
 
 import type { ArrayGeometry, Cell, FrameResult, Method } from 'boresight';
 import { useMemo } from 'preact/hooks';
+import { AZIMUTH } from '../../../plots/axes.ts';
+import { fixed, signed } from '../../../plots/format.ts';
+import { bands, markers, verticalLines } from '../../../plots/layers.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
 import { closes, curve, highest, onOneGrid, series, sourceMarkers } from '../../estimates.ts';
-import { AZIMUTH } from '../../plots/axes.ts';
-import { fixed, signed } from '../../plots/format.ts';
-import { bands, markers, verticalLines } from '../../plots/layers.ts';
-import { toCsv } from '../../plots/save.ts';
-import { methodStyle } from '../../plots/theme.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import type { CellResult } from './process.ts';

@@ -1,6 +1,6 @@
 /** What comes of A and of B. */
 import type { FrameResult } from 'boresight';
-import { fixed, signed } from '../../plots/format.ts';
+import { fixed, signed } from '../../../plots/format.ts';
 import { ComparisonPanel } from '../../ui/comparison.tsx';
 import { compared, keptProblem, keptView } from './compare.ts';
 

@@ -2,10 +2,10 @@
 
 import type { Method } from 'boresight';
 import { useRef } from 'preact/hooks';
+import { byteSize, power } from '../../../plots/format.ts';
 import { api } from '../../data.ts';
 import { COUNTED } from '../../methods.ts';
 import { choosing, fitting } from '../../networks/choose.ts';
-import { byteSize, power } from '../../plots/format.ts';
 import { showHelp } from '../../state/settings.ts';
 import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';

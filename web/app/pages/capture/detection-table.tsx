@@ -2,8 +2,8 @@
 import { useSignal } from '@preact/signals';
 import type { BoardObject, Cell, FrameResult } from 'boresight';
 import type { ComponentChildren } from 'preact';
-import { fixed, signed } from '../../plots/format.ts';
-import { download, fileName, toCsv } from '../../plots/save.ts';
+import { fixed, signed } from '../../../plots/format.ts';
+import { download, fileName, toCsv } from '../../../plots/save.ts';
 import { type Comparison, compare } from './match.ts';
 import { update } from './state.ts';
 

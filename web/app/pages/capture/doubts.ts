@@ -1,5 +1,5 @@
 /** Signs that a capture is not what it is taken for. */
-import { count, fixed, percentage } from '../../plots/format.ts';
+import { count, fixed, percentage } from '../../../plots/format.ts';
 import type { Loaded } from './files.ts';
 import { otherLoopLength } from './loop-length.ts';
 import type { Shown } from './process.ts';

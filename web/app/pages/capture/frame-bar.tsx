@@ -1,6 +1,6 @@
 /** Frames: slider, playback, all together; progress of the work and its end. */
 import { useEffect } from 'preact/hooks';
-import { significant } from '../../plots/format.ts';
+import { significant } from '../../../plots/format.ts';
 import { ProgressLine, Stopped } from '../../ui/progress.tsx';
 import { loaded } from './files.ts';
 import { frameAt, playing, playOn, showFrame, togglePlaying } from './playback.ts';

@@ -1,5 +1,5 @@
 import { useSignalEffect } from '@preact/signals';
-import { count, fixed, signed } from '../../plots/format.ts';
+import { count, fixed, signed } from '../../../plots/format.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';

@@ -1,7 +1,7 @@
 /** Which frame is shown, and playing on from it. */
 
 import { signal } from '@preact/signals';
-import { frameKeys } from '../../plots/frame-keys.ts';
+import { frameKeys } from '../../../plots/frame-keys.ts';
 import { loaded } from './files.ts';
 import { captureState, update } from './state.ts';
 

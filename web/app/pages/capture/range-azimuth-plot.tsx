@@ -1,11 +1,11 @@
 /** The range-azimuth map of the shown frame, which follows while frames play. */
 import { useMemo } from 'preact/hooks';
+import { AZIMUTH } from '../../../plots/axes.ts';
+import { count, fixed, signed } from '../../../plots/format.ts';
+import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../../plots/heat.ts';
+import type { PlotContent } from '../../../plots/plot.ts';
+import { toCsv } from '../../../plots/save.ts';
 import { api } from '../../data.ts';
-import { AZIMUTH } from '../../plots/axes.ts';
-import { count, fixed, signed } from '../../plots/format.ts';
-import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../plots/heat.ts';
-import type { PlotContent } from '../../plots/plot.ts';
-import { toCsv } from '../../plots/save.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { ProgressLine, Stopped } from '../../ui/progress.tsx';
 import { frameKey, playing, togglePlaying } from './playback.ts';

@@ -2,12 +2,12 @@
 import { signal } from '@preact/signals';
 import type { BoardObject, Cell, FrameResult } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { fixed, signed } from '../../plots/format.ts';
-import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../plots/heat.ts';
-import { clipToPlot, type Layer, polyline, strokeTwice, verticalLines } from '../../plots/layers.ts';
-import type { View as Zoom } from '../../plots/plot.ts';
-import { toCsv } from '../../plots/save.ts';
-import { ACCENT_STYLE, faint, TRUTH_STYLE } from '../../plots/theme.ts';
+import { fixed, signed } from '../../../plots/format.ts';
+import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../../plots/heat.ts';
+import { clipToPlot, type Layer, polyline, strokeTwice, verticalLines } from '../../../plots/layers.ts';
+import type { View as Zoom } from '../../../plots/plot.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { ACCENT_STYLE, faint, TRUTH_STYLE } from '../../../plots/theme.ts';
 import { announce } from '../../state/announce.ts';
 import { KeepButton } from '../../ui/comparison.tsx';
 import { PlotFrame } from '../../ui/plot-frame.tsx';

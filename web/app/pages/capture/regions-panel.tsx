@@ -1,8 +1,8 @@
 /** Regions of the shown frame, how many targets a network counts in each, and where others see them. */
 import type { RegionTarget, TargetRegion } from 'boresight';
+import { count, fixed, signed } from '../../../plots/format.ts';
+import { download, fileName, toCsv } from '../../../plots/save.ts';
 import { trainedOnBoards } from '../../networks/models.ts';
-import { count, fixed, signed } from '../../plots/format.ts';
-import { download, fileName, toCsv } from '../../plots/save.ts';
 import { LoadState } from '../../ui/network-note.tsx';
 import { cancelRegions, regions, regionsProblem, regionsWorking, type ShownRegions, trio } from './regions.ts';
 import { captureState, update } from './state.ts';

@@ -1,9 +1,9 @@
 /** State of the capture page: all of it in the address but the files themselves. */
 import { signal } from '@preact/signals';
 import type { Cell, ChainOptions, Method } from 'boresight';
+import { COLOR_MAPS } from '../../../plots/colormap.ts';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
-import { COLOR_MAPS } from '../../plots/colormap.ts';
 import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
 import { keptField } from '../../state/comparison.ts';
 import { PRESETS } from '../angle/state.ts';

@@ -1,6 +1,6 @@
 /** The numbers engineers look for first, from the configuration alone. */
 import type { ArrayGeometry, CaptureInfo } from 'boresight';
-import { engineering, fixed, significant } from '../../plots/format.ts';
+import { engineering, fixed, significant } from '../../../plots/format.ts';
 import { captureState } from './state.ts';
 
 export function Summary({ info, geometry }: { info: CaptureInfo; geometry: ArrayGeometry | null }) {

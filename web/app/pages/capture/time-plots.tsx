@@ -2,12 +2,12 @@
 import { effect, signal, useSignal } from '@preact/signals';
 import type { FrameResult } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { count, fixed, signed } from '../../plots/format.ts';
-import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../plots/heat.ts';
-import { horizontalLine } from '../../plots/layers.ts';
-import { Playhead } from '../../plots/playhead.ts';
-import type { Interval, Plot, PlotContent, View } from '../../plots/plot.ts';
-import { toCsv } from '../../plots/save.ts';
+import { count, fixed, signed } from '../../../plots/format.ts';
+import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../../plots/heat.ts';
+import { horizontalLine } from '../../../plots/layers.ts';
+import { Playhead } from '../../../plots/playhead.ts';
+import type { Interval, Plot, PlotContent, View } from '../../../plots/plot.ts';
+import { toCsv } from '../../../plots/save.ts';
 import { announce } from '../../state/announce.ts';
 import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
 import { ProgressLine, Stopped } from '../../ui/progress.tsx';

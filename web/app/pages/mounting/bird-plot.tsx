@@ -1,11 +1,11 @@
 /** The frame from above, in the car's frame, with the angle applied. */
 import { useMemo } from 'preact/hooks';
-import { AHEAD, LEFT } from '../../plots/axes.ts';
-import { carOutline, ground } from '../../plots/car.ts';
-import { fixed, signed } from '../../plots/format.ts';
-import type { Layer } from '../../plots/layers.ts';
-import { toCsv } from '../../plots/save.ts';
-import { ACCENT_STYLE } from '../../plots/theme.ts';
+import { AHEAD, LEFT } from '../../../plots/axes.ts';
+import { carOutline, ground } from '../../../plots/car.ts';
+import { fixed, signed } from '../../../plots/format.ts';
+import type { Layer } from '../../../plots/layers.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { ACCENT_STYLE } from '../../../plots/theme.ts';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { detectionLayer, detectionLegend, nearest } from './detections.ts';
 import { loaded } from './drive.ts';

@@ -1,8 +1,8 @@
 /** Detections on a plot, by the weight with which they were taken as static. */
 
-import { drawMarker, type Layer } from '../../plots/layers.ts';
-import type { CursorPosition, View } from '../../plots/plot.ts';
-import { methodStyle, type SeriesStyle, THEMES, weightColor } from '../../plots/theme.ts';
+import { drawMarker, type Layer } from '../../../plots/layers.ts';
+import type { CursorPosition, View } from '../../../plots/plot.ts';
+import { methodStyle, type SeriesStyle, THEMES, weightColor } from '../../../plots/theme.ts';
 import type { LegendItem } from '../../ui/plot-frame.tsx';
 import type { FrameView } from './frame.ts';
 

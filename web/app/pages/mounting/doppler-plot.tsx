@@ -1,11 +1,11 @@
 /** Range rate against azimuth of one frame, with the curve of what stands. */
 import { useMemo } from 'preact/hooks';
-import { AZIMUTH } from '../../plots/axes.ts';
-import { fixed, signed } from '../../plots/format.ts';
-import { COLOR_BAR_WIDTH, colorBar } from '../../plots/heat.ts';
-import { type Layer, polyline } from '../../plots/layers.ts';
-import { toCsv } from '../../plots/save.ts';
-import { methodStyle, type SeriesStyle, TRUTH_STYLE, weightColor } from '../../plots/theme.ts';
+import { AZIMUTH } from '../../../plots/axes.ts';
+import { fixed, signed } from '../../../plots/format.ts';
+import { COLOR_BAR_WIDTH, colorBar } from '../../../plots/heat.ts';
+import { type Layer, polyline } from '../../../plots/layers.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { methodStyle, type SeriesStyle, TRUTH_STYLE, weightColor } from '../../../plots/theme.ts';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { detectionLayer, detectionLegend, nearest } from './detections.ts';
 import { loaded } from './drive.ts';

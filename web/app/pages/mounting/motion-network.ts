@@ -2,8 +2,8 @@
 import { signal } from '@preact/signals';
 import type { CalibrationOptions } from 'boresight';
 import shipped from '../../../../models/motion/deepego-plus.bin?url';
+import { byteSize } from '../../../plots/format.ts';
 import { FileProblem, type Problem } from '../../data.ts';
-import { byteSize } from '../../plots/format.ts';
 import type { Way } from './ways.ts';
 
 /** Weights of one's own, which are in no link. */

@@ -1,6 +1,6 @@
 /** Whose weights motions by a network go by. */
 import { useRef } from 'preact/hooks';
-import { byteSize } from '../../plots/format.ts';
+import { byteSize } from '../../../plots/format.ts';
 import { Notice } from '../../ui/notice.tsx';
 import { needsNetwork, networkProblem, openNetwork, ownNetwork } from './motion-network.ts';
 import { mountingState } from './state.ts';

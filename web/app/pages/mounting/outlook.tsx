@@ -1,6 +1,6 @@
 /** What driving on would bring, where the angle is not settled or its verdict does not stand. */
 import type { CalibrationResult } from 'boresight';
-import { fixed } from '../../plots/format.ts';
+import { fixed } from '../../../plots/format.ts';
 import { results } from './process.ts';
 
 /** Whether another minute could change what is said. */

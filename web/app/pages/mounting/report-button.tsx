@@ -1,8 +1,8 @@
 /** The report of what is shown, as a page of HTML to print or to keep. */
 import { signal } from '@preact/signals';
 import type { ReportAbout } from 'boresight';
+import { download, fileName } from '../../../plots/save.ts';
 import { aborted, describeError, type Problem, pool } from '../../data.ts';
-import { download, fileName } from '../../plots/save.ts';
 import { bundledFiles, type Loaded, loaded, sensor, simulation } from './drive.ts';
 import { jointOptions, shownMethod, where, withNetwork } from './process.ts';
 import { calibrationOptions, mountingState } from './state.ts';

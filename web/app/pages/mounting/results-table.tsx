@@ -1,9 +1,9 @@
 /** What each method makes of the drive, and what it rests on. */
 import type { CalibrationResult, Warning } from 'boresight';
+import { count, fixed, milliseconds, signed } from '../../../plots/format.ts';
+import { download, fileName, toCsv } from '../../../plots/save.ts';
+import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
-import { count, fixed, milliseconds, signed } from '../../plots/format.ts';
-import { download, fileName, toCsv } from '../../plots/save.ts';
-import { methodStyle } from '../../plots/theme.ts';
 import { Swatch } from '../../ui/swatch.tsx';
 import { type Loaded, loaded, sensor } from './drive.ts';
 import { Outlook } from './outlook.tsx';

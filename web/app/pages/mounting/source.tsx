@@ -1,6 +1,6 @@
 /** Where the drive comes from. */
 import { useRef } from 'preact/hooks';
-import { byteSize } from '../../plots/format.ts';
+import { byteSize } from '../../../plots/format.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
 import { pickedFiles } from '../../ui/entries.ts';

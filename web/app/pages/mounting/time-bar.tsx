@@ -1,5 +1,5 @@
 /** The moment that is shown: slider, playback, speed; progress of the work and its end. */
-import { fixed } from '../../plots/format.ts';
+import { fixed } from '../../../plots/format.ts';
 import { ProgressLine, Stopped } from '../../ui/progress.tsx';
 import { cancelOpening, interrupted, openAgain, opening, scans, sensor } from './drive.ts';
 import { frame, playing, showFrame, time, togglePlaying } from './playhead.ts';

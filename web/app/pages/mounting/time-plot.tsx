@@ -1,9 +1,9 @@
 /** A plot over driving time: one zoom and one cursor for all, the playhead, and a click that goes there. */
 
 import { effect, signal, useSignal } from '@preact/signals';
-import { frameKeys } from '../../plots/frame-keys.ts';
-import { Playhead } from '../../plots/playhead.ts';
-import type { AxisOptions, Interval, Plot, View } from '../../plots/plot.ts';
+import { frameKeys } from '../../../plots/frame-keys.ts';
+import { Playhead } from '../../../plots/playhead.ts';
+import type { AxisOptions, Interval, Plot, View } from '../../../plots/plot.ts';
 import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
 import { loaded, scans, sensor } from './drive.ts';
 import { playing, step, time, togglePlaying } from './playhead.ts';

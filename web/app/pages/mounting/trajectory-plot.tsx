@@ -2,11 +2,11 @@
 
 import type { Trajectory } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { fixed, signed } from '../../plots/format.ts';
-import { type Layer, markers, polyline } from '../../plots/layers.ts';
-import type { View } from '../../plots/plot.ts';
-import { toCsv } from '../../plots/save.ts';
-import { methodStyle, type SeriesStyle, TRUTH_STYLE } from '../../plots/theme.ts';
+import { fixed, signed } from '../../../plots/format.ts';
+import { type Layer, markers, polyline } from '../../../plots/layers.ts';
+import type { View } from '../../../plots/plot.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { methodStyle, type SeriesStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded } from './drive.ts';
 import { after, time } from './playhead.ts';

@@ -1,8 +1,8 @@
 /** Where the radar's own motion takes the car under an angle, and where it really was. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Drive, DriveCalibration, ScanMotion, Trajectory, TrajectoryOptions } from 'boresight';
+import { drop, inTurn } from '../../../plots/turns.ts';
 import { api } from '../../data.ts';
-import { drop, inTurn } from '../../plots/turns.ts';
 import { loaded } from './drive.ts';
 import { after } from './playhead.ts';
 import { results, shown } from './process.ts';

@@ -1,6 +1,6 @@
 /** What the drive says of the mounting angle, in a sentence: which method to go by, and why. */
 import type { CalibrationResult } from 'boresight';
-import { count, fixed, signed } from '../../plots/format.ts';
+import { count, fixed, signed } from '../../../plots/format.ts';
 import { driveProblem, filesWanted, loaded, opening } from './drive.ts';
 import { results, where, working } from './process.ts';
 import { mountingState } from './state.ts';

@@ -1,12 +1,12 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
 import { useEffect, useMemo, useRef } from 'preact/hooks';
+import { AZIMUTH } from '../../../plots/axes.ts';
+import { fixed, milliseconds, signed } from '../../../plots/format.ts';
+import { bands, markers } from '../../../plots/layers.ts';
+import { download, fileName, toCsv } from '../../../plots/save.ts';
+import { methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
 import { curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
 import { type Sight, sightOf } from '../../networks/models.ts';
-import { AZIMUTH } from '../../plots/axes.ts';
-import { fixed, milliseconds, signed } from '../../plots/format.ts';
-import { bands, markers } from '../../plots/layers.ts';
-import { download, fileName, toCsv } from '../../plots/save.ts';
-import { methodStyle, TRUTH_STYLE } from '../../plots/theme.ts';
 import { LoadState } from '../../ui/network-note.tsx';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';

@@ -2,11 +2,11 @@
 
 import type { CardPort } from 'boresight';
 import { useMemo } from 'preact/hooks';
+import { count, fixed } from '../../../plots/format.ts';
+import { markers } from '../../../plots/layers.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { methodStyle, type SeriesStyle } from '../../../plots/theme.ts';
 import { type Card, type Leg, type Model, sightOf } from '../../networks/models.ts';
-import { count, fixed } from '../../plots/format.ts';
-import { markers } from '../../plots/layers.ts';
-import { toCsv } from '../../plots/save.ts';
-import { methodStyle, type SeriesStyle } from '../../plots/theme.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { hoursText, METRICS, made, metricText, sizeOf, taskOf, trainedOn } from './words.ts';
 

@@ -1,10 +1,10 @@
 /** The papers' experiments as plots, with where the networks lose said in words. */
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
-import { count, fixed } from '../../plots/format.ts';
-import { type Layer, markers, polyline } from '../../plots/layers.ts';
-import { toCsv } from '../../plots/save.ts';
-import { TRUTH_STYLE } from '../../plots/theme.ts';
+import { count, fixed } from '../../../plots/format.ts';
+import { type Layer, markers, polyline } from '../../../plots/layers.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { TRUTH_STYLE } from '../../../plots/theme.ts';
 import { SelectField } from '../../ui/field.tsx';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';

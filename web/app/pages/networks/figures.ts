@@ -1,5 +1,5 @@
 /** The papers' figures from the experiments' results: a line a method over a condition, and how sure each value is. */
-import { count, fixed } from '../../plots/format.ts';
+import { count, fixed } from '../../../plots/format.ts';
 import type { AoaReport, DoaReport, DoaResult, Operating } from './results.ts';
 
 export interface Line {

@@ -1,10 +1,10 @@
 /** How a network learned: its score against the samples it had seen, beside other runs. */
 import { useMemo } from 'preact/hooks';
+import { count, fixed } from '../../../plots/format.ts';
+import { markers, polyline } from '../../../plots/layers.ts';
+import { toCsv } from '../../../plots/save.ts';
+import { methodStyle, type SeriesStyle } from '../../../plots/theme.ts';
 import type { Model } from '../../networks/models.ts';
-import { count, fixed } from '../../plots/format.ts';
-import { markers, polyline } from '../../plots/layers.ts';
-import { toCsv } from '../../plots/save.ts';
-import { methodStyle, type SeriesStyle } from '../../plots/theme.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 
 /** The first is the run that gave the network; a dash tells the others. */

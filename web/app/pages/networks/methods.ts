@@ -1,7 +1,8 @@
 /** Methods as the experiments name them: a method or network, perhaps refined or smoothed. */
+
+import { methodStyle, type SeriesStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
 import { KIND_TITLES, MODELS, targetsOf } from '../../networks/models.ts';
-import { methodStyle, type SeriesStyle } from '../../plots/theme.ts';
 
 const KINDS = Object.keys(KIND_TITLES) as (keyof typeof KIND_TITLES)[];
 

@@ -1,8 +1,8 @@
 /** All networks at a glance; choosing one shows its card. */
 import { useMemo } from 'preact/hooks';
+import { count, fixed } from '../../../plots/format.ts';
 import { models } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
-import { count, fixed } from '../../plots/format.ts';
 import { titleOf } from './methods.ts';
 import { results } from './results.ts';
 import { networksState, update } from './state.ts';

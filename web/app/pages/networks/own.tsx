@@ -1,9 +1,9 @@
 /** A network of one's own: an ONNX file, with its card or without. */
 import { signal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
+import { byteSize } from '../../../plots/format.ts';
 import { describeError, FileProblem, type Problem } from '../../data.ts';
 import { addModel, ownModels } from '../../networks/load.ts';
-import { byteSize } from '../../plots/format.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
 import { update } from './state.ts';

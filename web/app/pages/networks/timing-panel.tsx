@@ -1,7 +1,7 @@
 /** "Time it here": network and classical methods on the same cells, in this browser. */
-import { engineering, fixed, milliseconds } from '../../plots/format.ts';
-import { download, fileName, toCsv } from '../../plots/save.ts';
-import { methodStyle } from '../../plots/theme.ts';
+import { engineering, fixed, milliseconds } from '../../../plots/format.ts';
+import { download, fileName, toCsv } from '../../../plots/save.ts';
+import { methodStyle } from '../../../plots/theme.ts';
 import { ProgressLine } from '../../ui/progress.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { selected } from './attempt.ts';

@@ -1,7 +1,7 @@
 /** What cards mean, in the words of radar. */
 
+import { byteSize, count, fixed } from '../../../plots/format.ts';
 import { arrayOf, type Card, elementsOf, targetsOf, trainedOnBoards } from '../../networks/models.ts';
-import { byteSize, count, fixed } from '../../plots/format.ts';
 
 /** What the network is for, in one sentence. */
 export function taskOf(card: Card): string {

@@ -1,6 +1,6 @@
 /** Asks what the columns of tables are. */
 import { useEffect, useRef } from 'preact/hooks';
-import { significant } from '../../../plots/format.ts';
+import { significant } from '../../../../plots/format.ts';
 import { FIELDS, type Field, type GroupName } from './fields.ts';
 import { lacking } from './guess.ts';
 import {

@@ -1,5 +1,5 @@
 /** Tables that open as they are, to be filled with one's own numbers. */
-import { download, fileName } from '../../../plots/save.ts';
+import { download, fileName } from '../../../../plots/save.ts';
 import { FIELDS, type GroupName } from './fields.ts';
 
 export function saveTemplate(group: GroupName): void {

@@ -3,13 +3,11 @@
  * line plots give it series, maps give it a layer below the axes.
  */
 import uPlot from 'uplot';
-import 'uplot/dist/uPlot.min.css';
-import './plot.css';
 import { divert } from './divert.ts';
 import { significant, ticks } from './format.ts';
 import { clipToPlot, type Layer, type LayerContext, polyline } from './layers.ts';
 import { navigate } from './navigate.ts';
-import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
+import { type PlotTheme, type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
 import { atOnce, drop, inTurn } from './turns.ts';
 
 export type Interval = readonly [number, number];
@@ -123,6 +121,7 @@ export class Plot {
   #content: PlotContent = { x: [], series: [], extent: { x: [0, 1], y: [0, 1] } };
   #view: View | null = null;
   #theme: ThemeName;
+  #palette: PlotTheme;
   #ids: string[] = [];
   #observer: ResizeObserver;
   #sight: IntersectionObserver;
@@ -134,6 +133,7 @@ export class Plot {
     this.host = host;
     this.#options = options;
     this.#theme = options.theme;
+    this.#palette = THEMES[options.theme];
     host.classList.add('plot');
     host.tabIndex = 0;
     host.setAttribute('role', 'application');
@@ -204,8 +204,10 @@ export class Plot {
     });
   };
 
-  setTheme(theme: ThemeName): void {
+  /** Colours of a theme, or of a palette of one's own beside that theme's colours of series. */
+  setTheme(theme: ThemeName, palette = THEMES[theme]): void {
     this.#theme = theme;
+    this.#palette = palette;
     this.u.redraw(false, true);
   }
 
@@ -299,7 +301,7 @@ export class Plot {
   }
 
   #uplotOptions(scale = 1): uPlot.Options {
-    const theme = () => THEMES[this.#theme];
+    const theme = () => this.#palette;
     const family = THEMES.light.font;
     const axis = (options: AxisOptions, side: number, size: number): uPlot.Axis => ({
       scale: side === 2 ? 'x' : 'y',
@@ -551,7 +553,7 @@ export class Plot {
     return {
       ctx: u.ctx,
       plot: u,
-      theme: THEMES[this.#theme],
+      theme: this.#palette,
       themeName: this.#theme,
       ratio: this.ratio * scale,
       x: linear(u, 'x'),
