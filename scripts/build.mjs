@@ -153,9 +153,31 @@ export async function buildLibrary() {
   if (!done) say('dist/lib, dist/worker are up to date');
 }
 
+export async function buildElements() {
+  const inputs = [
+    'package-lock.json',
+    'tsconfig.base.json',
+    'tsconfig.json',
+    'tsconfig.elements.json',
+    'vite.elements.config.ts',
+    'web/elements',
+    'web/plots',
+    'dist/lib/index.d.ts',
+    'dist/worker/index.d.ts',
+  ];
+  const outputs = ['dist/elements/index.js', 'dist/elements/types/elements/index.d.ts'];
+  const done = await whenChanged('elements', { inputs, outputs }, async () => {
+    say('web/elements -> dist/elements (vite, tsc)');
+    await run('vite', ['build', '-c', 'vite.elements.config.ts', '--logLevel', 'warn']);
+    await run('tsc', ['-p', 'tsconfig.elements.json']);
+  });
+  if (!done) say('dist/elements is up to date');
+}
+
 export async function buildPackage() {
   for (const one of modules) await buildModule(one);
   await buildLibrary();
+  await buildElements();
 }
 
 /** `variables`: of the environment that vite.config.ts reads. */

@@ -2,12 +2,12 @@
 import { useMemo } from 'preact/hooks';
 import { AHEAD, LEFT } from '../../../plots/axes.ts';
 import { carOutline, ground } from '../../../plots/car.ts';
+import { detectionLayer, detectionLegend, nearest } from '../../../plots/detections.ts';
 import { fixed, signed } from '../../../plots/format.ts';
 import type { Layer } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { ACCENT_STYLE } from '../../../plots/theme.ts';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
-import { detectionLayer, detectionLegend, nearest } from './detections.ts';
 import { loaded } from './drive.ts';
 import { type FrameView, inCar, quantiles, sample, usedAngleDeg } from './frame.ts';
 import { where } from './process.ts';

@@ -1,15 +1,16 @@
 /** Range rate against azimuth of one frame, with the curve of what stands. */
 import { useMemo } from 'preact/hooks';
 import { AZIMUTH } from '../../../plots/axes.ts';
+import { detectionLayer, detectionLegend, nearest } from '../../../plots/detections.ts';
+import { type Motion, standingRate } from '../../../plots/doppler.ts';
 import { fixed, signed } from '../../../plots/format.ts';
 import { COLOR_BAR_WIDTH, colorBar } from '../../../plots/heat.ts';
 import { type Layer, polyline } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { methodStyle, type SeriesStyle, TRUTH_STYLE, weightColor } from '../../../plots/theme.ts';
 import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
-import { detectionLayer, detectionLegend, nearest } from './detections.ts';
 import { loaded } from './drive.ts';
-import { expectedMotion, type FrameView, type Motion, quantiles, sample, standingRate } from './frame.ts';
+import { expectedMotion, type FrameView, quantiles, sample } from './frame.ts';
 import { shownMethod } from './process.ts';
 import { mountingState } from './state.ts';
 import { fileParts, frameKey } from './time-plot.tsx';

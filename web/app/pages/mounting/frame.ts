@@ -1,4 +1,5 @@
 /** The frame that is shown: its detections, and what the methods made of them. */
+import type { Motion } from '../../../plots/doppler.ts';
 import { computed } from '@preact/signals';
 import type { DriveFrame, FrameVerdict } from 'boresight';
 import { api } from '../../data.ts';
@@ -23,18 +24,6 @@ export interface FrameView extends DriveFrame {
 
 /** RadarScenes' class of what does not move. */
 const STATIC_LABEL = 11;
-
-/** In the radar's frame. */
-export interface Motion {
-  vxMps: number;
-  vyMps: number;
-}
-
-/** Range rate of what stands, seen from a moving radar. */
-export function standingRate({ vxMps, vyMps }: Motion, azimuthDeg: number): number {
-  const azimuth = (azimuthDeg * Math.PI) / 180;
-  return -(vxMps * Math.cos(azimuth) + vyMps * Math.sin(azimuth));
-}
 
 /** The radar's motion as the car's speed and yaw rate, and the angle in use, have it. */
 export function expectedMotion({ speedMps, yawRateDegps }: DriveFrame): Motion | null {

@@ -1,10 +1,15 @@
 /** Detections on a plot, by the weight with which they were taken as static. */
 
-import { drawMarker, type Layer } from '../../../plots/layers.ts';
-import type { CursorPosition, View } from '../../../plots/plot.ts';
-import { methodStyle, type SeriesStyle, THEMES, weightColor } from '../../../plots/theme.ts';
-import type { LegendItem } from '../../ui/plot-frame.tsx';
-import type { FrameView } from './frame.ts';
+import { drawMarker, type Layer } from './layers.ts';
+import type { LegendEntry } from './picture.ts';
+import type { CursorPosition, View } from './plot.ts';
+import { methodStyle, type SeriesStyle, THEMES, weightColor } from './theme.ts';
+
+/** What is known of detections beside where they are: how they were weighed, and which the drive knows to move. */
+export interface Weighed {
+  weights: ArrayLike<number> | null;
+  moving: ArrayLike<number> | null;
+}
 
 /** Weight from which a detection counts as static. */
 const INLIER = 0.5;
@@ -23,7 +28,7 @@ const OUTLIER_STYLE = style(0, 'diamond');
 const MOVING_STYLE: SeriesStyle = { color: methodStyle('kabsch').color, marker: 'circle' };
 
 /** What the marks mean. */
-export function detectionLegend({ weights, moving }: Pick<FrameView, 'weights' | 'moving'>): LegendItem[] {
+export function detectionLegend({ weights, moving }: Weighed): (LegendEntry & { id: string })[] {
   return [
     ...(weights
       ? [
@@ -52,7 +57,7 @@ export function detectionLegend({ weights, moving }: Pick<FrameView, 'weights' |
 export function detectionLayer(
   px: ArrayLike<number>,
   py: ArrayLike<number>,
-  { weights, moving }: Pick<FrameView, 'weights' | 'moving'>,
+  { weights, moving }: Weighed,
   { edge = false } = {},
 ): Layer {
   return ({ ctx, plot, theme, themeName, ratio, x, y }) => {

@@ -1,0 +1,59 @@
+/** Radar plots as custom elements. Importing this defines them all. */
+import { BirdsEyeElement } from './birds-eye.ts';
+import { CaptureElement } from './capture.ts';
+import { DopplerAzimuthElement } from './doppler-azimuth.ts';
+import { DriveElement } from './drive.ts';
+import { MountingAngleElement } from './mounting-angle.ts';
+import { PointCloudElement } from './point-cloud.ts';
+import { RangeDopplerElement } from './range-doppler.ts';
+import { SpectrumElement } from './spectrum.ts';
+
+export type { DopplerFrame } from './doppler-azimuth.ts';
+export type { NamedBytes } from './intake.ts';
+export type { Alarm, AngleOverTime } from './mounting-angle.ts';
+export type { Place, PointCloud } from './point-cloud.ts';
+export { usePool } from './pool.ts';
+export type { RangeDopplerFrame } from './range-doppler.ts';
+export {
+  BirdsEyeElement,
+  CaptureElement,
+  DopplerAzimuthElement,
+  DriveElement,
+  MountingAngleElement,
+  PointCloudElement,
+  RangeDopplerElement,
+  SpectrumElement,
+};
+
+/** The elements by the names they are defined under. */
+export const elements = {
+  'boresight-birds-eye': BirdsEyeElement,
+  'boresight-capture': CaptureElement,
+  'boresight-doppler-azimuth': DopplerAzimuthElement,
+  'boresight-drive': DriveElement,
+  'boresight-mounting-angle': MountingAngleElement,
+  'boresight-point-cloud': PointCloudElement,
+  'boresight-range-doppler': RangeDopplerElement,
+  'boresight-spectrum': SpectrumElement,
+} as const;
+
+/** Defines the elements that are not defined yet: a cell of a notebook may run twice. Does nothing on a server. */
+export function define(): void {
+  if (!globalThis.customElements) return;
+  for (const [name, made] of Object.entries(elements)) if (!customElements.get(name)) customElements.define(name, made);
+}
+
+define();
+
+declare global {
+  interface HTMLElementTagNameMap {
+    'boresight-birds-eye': BirdsEyeElement;
+    'boresight-capture': CaptureElement;
+    'boresight-doppler-azimuth': DopplerAzimuthElement;
+    'boresight-drive': DriveElement;
+    'boresight-mounting-angle': MountingAngleElement;
+    'boresight-point-cloud': PointCloudElement;
+    'boresight-range-doppler': RangeDopplerElement;
+    'boresight-spectrum': SpectrumElement;
+  }
+}
