@@ -11,6 +11,8 @@ export default defineConfig({
     outDir: path('dist/elements'),
     emptyOutDir: true,
     minify: false,
+    // The plots bring other people's code with them.
+    license: { fileName: 'LICENSES.md' },
     lib: { entry: path('web/elements/index.ts'), formats: ['es'], fileName: () => 'index.js' },
     rollupOptions: { external: [/^boresight(\/|$)/] },
   },

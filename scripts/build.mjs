@@ -165,11 +165,14 @@ export async function buildElements() {
     'dist/lib/index.d.ts',
     'dist/worker/index.d.ts',
   ];
-  const outputs = ['dist/elements/index.js', 'dist/elements/types/elements/index.d.ts'];
+  const outputs = ['index.js', 'custom-elements.json', 'types/elements/index.d.ts'].map(
+    (name) => `dist/elements/${name}`,
+  );
   const done = await whenChanged('elements', { inputs, outputs }, async () => {
     say('web/elements -> dist/elements (vite, tsc)');
     await run('vite', ['build', '-c', 'vite.elements.config.ts', '--logLevel', 'warn']);
     await run('tsc', ['-p', 'tsconfig.elements.json']);
+    await run('cem', ['analyze', '--globs', 'web/elements/*.ts', '--outdir', 'dist/elements', '--quiet']);
   });
   if (!done) say('dist/elements is up to date');
 }

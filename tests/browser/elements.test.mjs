@@ -1,5 +1,6 @@
 // The custom elements of boresight/elements on a page of their own, fed with what the package computes.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
@@ -314,3 +315,16 @@ elementTest(
     assert.ok(after.usedSize < before.usedSize + 1_000_000, JSON.stringify([before, after]));
   },
 );
+
+elementTest('the manifest lists each element with the attributes it listens to', async ({ page }) => {
+  const { modules } = JSON.parse(readFileSync(join(root, 'dist', 'elements', 'custom-elements.json'), 'utf8'));
+  const listed = modules
+    .flatMap(({ declarations }) => declarations)
+    .filter(({ customElement, tagName }) => customElement && tagName)
+    .map(({ tagName, attributes }) => [tagName, attributes.map(({ name }) => name).sort()])
+    .sort(([a], [b]) => (a < b ? -1 : 1));
+  const found = await page.evaluate(() =>
+    Object.entries(elements.elements).map(([name, made]) => [name, [...made.observedAttributes].sort()]),
+  );
+  assert.deepEqual(listed, found);
+});

@@ -32,7 +32,7 @@ test('each script has its types, and nothing else is in the package', () => {
   assert.ok(scripts.length > 0);
   for (const name of scripts) assert.ok(files.includes(name.replace(/\.js$/, '.d.ts')), `${name} has no types`);
   const belongs =
-    /^(dist\/.*\.(js|d\.ts|wasm)|web\/lib\/generated\/schema\.json|models\/(motion\/)?[a-z0-9-]+\.(onnx|json|bin)|package\.json|LICENSE(-APACHE)?|NOTICE|README\.md|CHANGELOG\.md)$/;
+    /^(dist\/.*\.(js|d\.ts|wasm)|dist\/elements\/(custom-elements\.json|LICENSES\.md)|web\/lib\/generated\/schema\.json|models\/(motion\/)?[a-z0-9-]+\.(onnx|json|bin)|package\.json|LICENSE(-APACHE)?|NOTICE|README\.md|CHANGELOG\.md)$/;
   assert.deepEqual(
     files.filter((name) => !belongs.test(name)),
     [],
@@ -43,6 +43,12 @@ test('the package is small: one core wasm and little besides', () => {
   assert.equal(files.filter((name) => name === 'dist/wasm/boresight_bg.wasm').length, 1);
   // Of these, the module of networks has some 4 MB, the networks 1.5 MB; neither is loaded unless asked for.
   assert.ok(size < 8_000_000, `${size} bytes packed`);
+});
+
+test('the licences of what is bundled are in the package', () => {
+  const licences = readFileSync(join(root, 'dist', 'elements', 'LICENSES.md'), 'utf8');
+  for (const name of ['uplot', 'd3-scale-chromatic', 'd3-interpolate', 'd3-color'])
+    assert.match(licences, new RegExp(`## ${name}`));
 });
 
 test('installing the package runs nothing and brings nothing', () => {

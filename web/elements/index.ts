@@ -37,6 +37,13 @@ export const elements = {
   'boresight-spectrum': SpectrumElement,
 } as const;
 
+/** The elements as the JSX types of a framework take them: properties of their classes, and any attributes. */
+export type JsxElements = {
+  [Name in keyof typeof elements]: Partial<Omit<InstanceType<(typeof elements)[Name]>, keyof HTMLElement>> & {
+    [attribute: string]: unknown;
+  };
+};
+
 /** Defines the elements that are not defined yet: a cell of a notebook may run twice. Does nothing on a server. */
 export function define(): void {
   if (!globalThis.customElements) return;

@@ -108,7 +108,8 @@ export abstract class PlotElement extends ElementBase {
 
   /** @internal */
   protected tell(name: string, detail: unknown): void {
-    this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true }));
+    const event = new CustomEvent(name, { detail, bubbles: true, composed: true });
+    this.dispatchEvent(event);
   }
 
   /** @internal A number of an attribute, where it is one. */
