@@ -1,7 +1,8 @@
 /** The frame that is shown: its detections, and what the methods made of them. */
-import type { Motion } from '../../../plots/doppler.ts';
+
 import { computed } from '@preact/signals';
 import type { DriveFrame, FrameVerdict } from 'boresight';
+import type { Motion } from '../../../plots/doppler.ts';
 import { api } from '../../data.ts';
 import { loaded, scans } from './drive.ts';
 import { frame } from './playhead.ts';
