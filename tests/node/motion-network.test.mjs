@@ -124,7 +124,9 @@ describe('motions by networks', () => {
   });
 
   test('smoothed motions stand at the frames that they are of, and frames without one at the end', () => {
-    const [alone, smoothed] = ['deepego', 'deepego-plus'].map((motion) => calibrateDrive(drive, options(motion)).frames);
+    const [alone, smoothed] = ['deepego', 'deepego-plus'].map(
+      (motion) => calibrateDrive(drive, options(motion)).frames,
+    );
     const sparse = frameVerdicts.indexOf('sparse');
     const last = smoothed.verdict.length - 4;
     assert.ok(smoothed.verdict.subarray(last).every((verdict) => verdict === sparse));
