@@ -1,6 +1,8 @@
-// The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist. The demo: web/app/dist.
+// The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist, all in single files ->
+// dist/inline. The demo: web/app/dist.
 import { existsSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
+import { makeInline } from './lib/inline.mjs';
 import { dist, environment, root, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, run } from './lib/run.mjs';
 import { upToDate, whenChanged } from './lib/stamp.mjs';
@@ -177,10 +179,37 @@ export async function buildElements() {
   if (!done) say('dist/elements is up to date');
 }
 
+/** The package in single files (scripts/lib/inline.mjs). */
+export async function buildInline() {
+  const made = ({ name }) => [`dist/wasm/${name}.js`, `dist/wasm/${name}_bg.wasm`];
+  const inputs = [
+    'package-lock.json',
+    ...['base', 'lib', 'inline'].map((name) => `tsconfig.${name}.json`),
+    'scripts/lib/inline.mjs',
+    'scripts/lib/lzma.mjs',
+    'web/inline',
+    'web/lib',
+    'web/worker',
+  ];
+  const files = ['boresight', 'boresight.global', 'boresight.worker', 'networks'];
+  const stamped = {
+    inputs: [...inputs, ...modules.flatMap(made)],
+    outputs: [...files.map((name) => `dist/inline/${name}.js`), 'dist/inline/boresight.d.ts'],
+  };
+  const done = await whenChanged('inline', stamped, async () => {
+    say('web/inline, dist -> dist/inline (tsc, vite; packing the module of networks takes a minute)');
+    rmSync(join(dist, 'inline'), { recursive: true, force: true });
+    await run('tsc', ['-p', 'tsconfig.inline.json']);
+    await makeInline();
+  });
+  if (!done) say('dist/inline is up to date');
+}
+
 export async function buildPackage() {
   for (const one of modules) await buildModule(one);
   await buildLibrary();
   await buildElements();
+  await buildInline();
 }
 
 /** `variables`: of the environment that vite.config.ts reads. */

@@ -1,23 +1,26 @@
-// The core .wasm is what a page loads before it can do anything: at most 425 KB with Brotli. That of networks, loaded
-// when one is asked for, has room for a runtime: at most 3 MB.
+// The core .wasm is what a page loads before it can do anything; that of networks, loaded when one is asked for, has room
+// for a runtime. The self-contained files are what a dashboard holds. scripts/lib/sizes.mjs has the limits.
 import { readFileSync } from 'node:fs';
-import { coreWasm, drivesWasm, neuralWasm } from './lib/paths.mjs';
+import { coreWasm, drivesWasm, inlineScript, neuralWasm } from './lib/paths.mjs';
 import { main } from './lib/run.mjs';
-import { brotliLimit, describeSize, neuralBrotliLimit, overLimit, sizes } from './lib/sizes.mjs';
+import { coreLimits, describeSize, inlineLimits, neuralLimits, overLimit, sizes } from './lib/sizes.mjs';
 
 await main(async () => {
   const given = process.argv[2];
   const modules = given
-    ? [['core wasm', given, brotliLimit]]
+    ? [['core wasm', given, coreLimits]]
     : [
-        ['core wasm', coreWasm, brotliLimit],
-        ['drives wasm, loaded when asked for', drivesWasm, Infinity],
-        ['neural wasm, loaded when asked for', neuralWasm, neuralBrotliLimit],
+        ['core wasm', coreWasm, coreLimits],
+        ['drives wasm, loaded when asked for', drivesWasm, {}],
+        ['neural wasm, loaded when asked for', neuralWasm, neuralLimits],
+        ['self-contained module', inlineScript('boresight'), inlineLimits],
+        ['self-contained classic script', inlineScript('boresight.global'), inlineLimits],
+        ['self-contained networks', inlineScript('networks'), {}],
       ];
   const measured = await Promise.all(modules.map(([, file]) => sizes(readFileSync(file))));
-  const found = modules.map(([name, , limit], at) => {
+  const found = modules.map(([name, , limits], at) => {
     console.log(describeSize(name, measured[at]));
-    const problem = overLimit(measured[at], limit);
+    const problem = overLimit(measured[at], limits);
     return problem && `${name}: ${problem}`;
   });
   const problems = found.filter(Boolean);

@@ -40,8 +40,7 @@ export function networksLater(folder: string): Plugin {
       resolve: { alias: [{ find: /^(\.\.\/)+wasm\/boresight_neural\.js$/, replacement: standIn }] },
     }),
     transform: {
-      // What compiles the module, and what asks for it ahead.
-      filter: { id: /\/(dist\/worker\/browser\.js|pages\/networks\/ahead\.ts)$/ },
+      filter: { id: /\/networks\/address\.ts$/ },
       handler(code, id) {
         if (!ADDRESS.test(code)) this.error(`${id} no longer has ${ADDRESS}`);
         return code.replace(ADDRESS, "new URL('/later/boresight_neural_bg.wasm', location.href)");

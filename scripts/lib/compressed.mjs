@@ -17,8 +17,11 @@ const KEPT_MS = 30 * 24 * 3600e3;
 const brotli = promisify(brotliCompress);
 const zip = promisify(gzip);
 
+/** What builds have compressed before. */
+export const compressedBefore = join(cache, 'compressed');
+
 /** Makes it once of the same bytes: the best quality takes some 2 s a MB, and most files are those of the build before. */
-async function once(keep, bytes, ending, make) {
+export async function once(keep, bytes, ending, make) {
   const file = join(keep, `${createHash('sha256').update(bytes).digest('hex')}.${ending}`);
   const before = await readFile(file).catch(() => null);
   if (before) {
@@ -26,6 +29,7 @@ async function once(keep, bytes, ending, make) {
     return before;
   }
   const made = await make();
+  await mkdir(keep, { recursive: true });
   // Another build may do the same.
   const part = `${file}.${process.pid}`;
   await writeFile(part, made);
@@ -41,7 +45,7 @@ async function forget(keep) {
 }
 
 /** Writes `.br` and `.gz` beside the files of a folder; `keep` has what was made before. */
-export async function compressFolder(folder, keep = join(cache, 'compressed')) {
+export async function compressFolder(folder, keep = compressedBefore) {
   await mkdir(keep, { recursive: true });
   const files = readdirSync(folder, { recursive: true, withFileTypes: true })
     .filter((entry) => entry.isFile() && GAINS.test(entry.name))

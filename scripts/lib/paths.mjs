@@ -12,6 +12,8 @@ export const dist = join(root, 'dist');
 export const coreWasm = join(dist, 'wasm', 'boresight_bg.wasm');
 export const drivesWasm = join(dist, 'wasm', 'boresight_drives_bg.wasm');
 export const neuralWasm = join(dist, 'wasm', 'boresight_neural_bg.wasm');
+/** A self-contained file. */
+export const inlineScript = (name) => join(dist, 'inline', `${name}.js`);
 
 const exe = process.platform === 'win32' ? '.exe' : '';
 export const tool = (name) => join(toolsBin, name + exe);

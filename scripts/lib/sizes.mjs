@@ -16,9 +16,14 @@ export const describeSize = (name, { raw, gzip, brotli }) =>
   `${name}: ${kilobytes(raw)} raw, ${kilobytes(gzip)} gzip, ${kilobytes(brotli)} brotli`;
 
 /** Of the core module: what a page loads at once. */
-export const brotliLimit = 410_000;
-export const neuralBrotliLimit = 3_000_000;
+export const coreLimits = { brotli: 410_000 };
+export const neuralLimits = { brotli: 3_000_000 };
+/** Of the core, drives and pool in one file. */
+export const inlineLimits = { raw: 1_400_000, brotli: 950_000 };
 
 /** What is wrong with a size, or null. */
-export const overLimit = ({ brotli }, limit = brotliLimit) =>
-  brotli > limit ? `${kilobytes(brotli)} brotli, the limit is ${kilobytes(limit)}` : null;
+export const overLimit = (size, limits = coreLimits) =>
+  Object.entries(limits)
+    .filter(([form, limit]) => size[form] > limit)
+    .map(([form, limit]) => `${kilobytes(size[form])} ${form}, the limit is ${kilobytes(limit)}`)
+    .join('; ') || null;

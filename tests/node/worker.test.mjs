@@ -191,7 +191,7 @@ describe('a pool of worker threads', () => {
   });
 
   test('refuses an impossible number of workers', () => {
-    for (const workers of [0, -1, 1.5, 65, Number.NaN, '2'])
+    for (const workers of [-1, 1.5, 65, Number.NaN, '2'])
       throwsTyped(() => createPool({ workers }), 'out-of-range', 'workers');
   });
 });
@@ -202,7 +202,7 @@ describe('the crew', () => {
     const spawned = [];
     const runtime = {
       workers: () => size,
-      compile: async () => new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])),
+      packaged: () => ({ core: new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])) }),
       spawn(events) {
         const worker = {
           alive: true,
@@ -220,7 +220,7 @@ describe('the crew', () => {
         return worker;
       },
     };
-    return { crew: new Crew(runtime, undefined), spawned };
+    return { crew: new Crew(runtime), spawned };
   };
   const piece = { name: 'version', args: [], units: 1 };
 
@@ -235,6 +235,45 @@ describe('the crew', () => {
       spawned.map(({ alive }) => alive),
       [false, true],
     );
+  });
+
+  test('tells apart a worker that the host does not let start', async () => {
+    const { crew } = crewOf((events) => events.refused('its script was refused'));
+    await rejectsTyped(crew.run([piece]), 'worker-refused', 'worker');
+    const thrown = new Crew(
+      {
+        packaged: () => ({ core: new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])) }),
+        spawn: () => {
+          throw new Error('Worker is not defined');
+        },
+      },
+      { workers: 2 },
+    );
+    const jobs = [thrown.run([piece, piece, piece]), thrown.run([piece])];
+    await rejectsTyped(jobs[0], 'worker-refused', 'worker');
+    await rejectsTyped(jobs[1], 'worker-refused', 'worker');
+  });
+
+  test('asks a worker that can stop to do so, and keeps it', async () => {
+    const plain = { code: 'cancelled', message: 'm', what: 'w', expected: 'e', given: 'g' };
+    let stops = 0;
+    let asked;
+    const { crew, spawned } = crewOf((events, { id }) => {
+      asked = () => events.reply({ id, error: plain });
+      if (stops > 0) events.reply({ id, result: id });
+      else {
+        spawned[0].stop = () => {
+          stops += 1;
+          queueMicrotask(asked);
+        };
+        controller.abort();
+      }
+    });
+    const controller = new AbortController();
+    await assert.rejects(crew.run([piece, piece], { signal: controller.signal }), { name: 'AbortError' });
+    assert.equal(stops, 1);
+    assert.deepEqual(await crew.run([piece]), [2]);
+    assert.deepEqual([spawned.length, spawned[0].alive], [1, true]);
   });
 
   test('replaces a worker whose memory stays large beside the files that it keeps', async () => {
@@ -314,15 +353,17 @@ describe('the crew', () => {
     const broken = new Crew(
       {
         workers: () => 1,
-        compile: async () => {
-          if (++tries === 1) throw new Error('offline');
-          return new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]));
-        },
+        packaged: () => ({
+          core: async () => {
+            if (++tries === 1) throw new Error('offline');
+            return new WebAssembly.Module(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0]));
+          },
+        }),
         spawn: () => {
           throw new Error('not reached');
         },
       },
-      1,
+      { workers: 1 },
     );
     await rejectsTyped(broken.run([piece]), 'not-loaded');
     assert.deepEqual(await broken.run([]), []);

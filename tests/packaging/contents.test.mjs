@@ -28,7 +28,7 @@ test('licence, notice, readme and change log are in the package', () => {
 });
 
 test('each script has its types, and nothing else is in the package', () => {
-  const scripts = files.filter((name) => /^dist\/(lib|worker)\/.*\.js$/.test(name));
+  const scripts = files.filter((name) => /^dist\/(lib|worker|inline)\/.*(?<!\.worker)\.js$/.test(name));
   assert.ok(scripts.length > 0);
   for (const name of scripts) assert.ok(files.includes(name.replace(/\.js$/, '.d.ts')), `${name} has no types`);
   const belongs =
@@ -41,8 +41,9 @@ test('each script has its types, and nothing else is in the package', () => {
 
 test('the package is small: one core wasm and little besides', () => {
   assert.equal(files.filter((name) => name === 'dist/wasm/boresight_bg.wasm').length, 1);
-  // Of these, the module of networks has some 4 MB, the networks 1.5 MB; neither is loaded unless asked for.
-  assert.ok(size < 8_000_000, `${size} bytes packed`);
+  // Of these, the module of networks has some 4.6 MB and once more 3 MB in its single file, the networks 1.5 MB, each of
+  // the two other single files 0.8 MB; none is loaded unless asked for.
+  assert.ok(size < 13_000_000, `${size} bytes packed`);
 });
 
 test('the licences of what is bundled are in the package', () => {

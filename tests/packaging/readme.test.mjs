@@ -10,6 +10,7 @@ const page = (path) => readFileSync(join(root, path), 'utf8');
 const snippetsOf = (text) => [...text.matchAll(/^```js\n(.*?)^```$/gms)].map(([, code]) => code);
 const readme = snippetsOf(page('README.md'));
 const javascript = snippetsOf(page('docs/javascript.md'));
+const embedding = snippetsOf(page('docs/embedding.md'));
 const mounting = snippetsOf(page('docs/mounting-angle.md'));
 /** Lines of the pages that may hold a table of methods. */
 const lines = ['README.md', 'docs/estimators.md'].flatMap((path) => page(path).split('\n'));
@@ -20,6 +21,7 @@ before(async () => {
   const files = Object.fromEntries([
     ...readme.map((code, k) => [`readme-${k}.mjs`, code]),
     ...javascript.map((code, k) => [`javascript-${k}.mjs`, code]),
+    ...embedding.map((code, k) => [`embedding-${k}.mjs`, code]),
     ...mounting.map((code, k) => [`mounting-${k}.mjs`, code]),
   ]);
   files['methods.mjs'] = `
@@ -42,7 +44,13 @@ const printed = async (script) => (await project.run(process.execPath, [script])
 test('every snippet has a test here', () => {
   assert.equal(readme.length, 3);
   assert.equal(javascript.length, 5);
+  assert.equal(embedding.length, 1);
   assert.equal(mounting.length, 1);
+});
+
+test('a host without workers, as Node is to the single file, has its pool', async () => {
+  const [line] = await printed('embedding-0.mjs');
+  assert.match(line, /^0 workers, [1-9]\d scans$/);
 });
 
 test('limits are set', async () => {

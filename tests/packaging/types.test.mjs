@@ -6,6 +6,9 @@ const program = `
   import { BoresightError, Estimator, array, calibrateDrive, estimate, init } from 'boresight';
   import { createPool, type Pool } from 'boresight/worker';
   import { Network, initNeural, type NetworkOptions, type SourceProbabilities } from 'boresight/neural';
+  import { createPool as createInline, init as initInline } from 'boresight/inline';
+  import { networksModule } from 'boresight/inline/networks';
+  import 'boresight/inline/global';
   import type { Drive, DriveCalibration, DriveData, Estimate, EstimatorOptions, Source } from 'boresight';
 
   await init();
@@ -42,6 +45,15 @@ const program = `
   const { id } = await pool.loadNetwork({ onnx: new Uint8Array(8), card: network.card ?? '{}' });
   const found: Estimate = await pool.estimate({ snapshots: { data, shape: [8, 1] } }, { ...options, method: 'dnn', network: id });
   console.log(counted.probability[0], found.warnings, network.run({ x: { data: new Float32Array(1), shape: [1] } })['y']?.shape);
+  const hosted: Pool = createPool({
+    workers: 0,
+    worker: () => new Worker('boresight.worker.js'),
+    modules: { core: new URL('https://host/boresight.wasm'), drives: async () => new Uint8Array(8), networks: new Response() },
+  });
+  await initInline();
+  const alone = createInline({ modules: { networks: networksModule } });
+  const answer: Estimate = await alone.estimate({ snapshots: { data, shape: [8, 1] } }, options);
+  console.log(hosted.workers, answer.resolved, globalThis.boresight.createPool().workers);
   pool.terminate();
 `;
 const wrong = `

@@ -1,6 +1,7 @@
 /** The package, as the pages use it: one place that loads it, and one pool of workers. */
 import * as boresight from 'boresight';
 import { createPool, type Pool } from 'boresight/worker';
+import { networksModule } from './networks/address.ts';
 
 export const api = boresight;
 
@@ -40,7 +41,7 @@ let workers: Pool | undefined;
 
 /** Workers start with the first call that needs them. */
 export function pool(): Pool {
-  workers ??= createPool({ workers: WORKERS });
+  workers ??= createPool({ workers: WORKERS, modules: { networks: networksModule } });
   return workers;
 }
 

@@ -7,19 +7,12 @@ import type * as lib from '../lib/types.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { type OnKept, PoolCapture } from './capture.js';
 import { checkedJob, type JobOptions, rejectTyped } from './job.js';
+import type { PoolOptions } from './options.js';
 import { Crew, type Piece, type Runtime } from './pool.js';
 import { argumentCounts, type PromisedFunctions } from './promised.js';
 import type { OperationName, Operations } from './protocol.js';
 import { split } from './split.js';
 import { packed } from './transfer.js';
-
-/** Options of {@link createPool}. */
-export interface PoolOptions {
-  /** Number of workers; by default one a processor core, at most 8. */
-  workers?: number;
-  /** What one call of a worker may take; by default any number of operations, and the default of bytes. */
-  limits?: lib.Limits;
-}
 
 /** What runs a network where options name one. */
 const withNetworks: readonly OperationName[] = [
@@ -54,13 +47,13 @@ export class Pool {
   }
 
   /** @internal */
-  constructor(runtime: Runtime, { workers, limits }: PoolOptions = {}) {
-    this.#crew = new Crew(runtime, workers, limits);
+  constructor(runtime: Runtime, options?: PoolOptions) {
+    this.#crew = new Crew(runtime, options);
   }
 
-  /** Most workers that run at a time. */
+  /** Most workers that run at a time; 0 where the calling thread does the work. */
   get workers(): number {
-    return this.#crew.size;
+    return this.#crew.workers;
   }
 
   /**
@@ -144,7 +137,7 @@ export class Pool {
   async simulateSnapshots(options: lib.SnapshotOptions, job?: JobOptions): Promise<lib.SnapshotResult> {
     const { scenes = 1, firstScene = 0 } = options;
     if (!Number.isInteger(scenes) || scenes < 2) return this.#one('simulateSnapshots', [options], job);
-    const pieces = split(scenes, this.workers).map(
+    const pieces = split(scenes, this.#crew.pieces).map(
       ({ first, count }): Piece<'simulateSnapshots'> => ({
         name: 'simulateSnapshots',
         args: [{ ...options, scenes: count, firstScene: firstScene + first }],
@@ -272,7 +265,7 @@ export class Pool {
     options: lib.EstimatorOptions,
     job?: JobOptions,
   ): Promise<lib.Estimate[]> {
-    const pieces = split(inputs.length, this.workers).map(
+    const pieces = split(inputs.length, this.#crew.pieces).map(
       ({ first, count }): Piece<'estimateMany'> => ({
         name: 'estimateMany',
         args: [inputs.slice(first, first + count), options],
@@ -289,7 +282,7 @@ export class Pool {
     options: lib.EstimatorOptions & lib.BatchOptions,
     job?: JobOptions,
   ): Promise<lib.BatchEstimate> {
-    const pieces = stretchesOf(input, this.workers).map(
+    const pieces = stretchesOf(input, this.#crew.pieces).map(
       ({ input, cells }): Piece<'estimateBatch'> => ({
         name: 'estimateBatch',
         args: [input, options],
@@ -346,7 +339,7 @@ export class Pool {
     const all = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
     // Without a whole frame one worker gets the bytes, for its error.
     const frames = Math.max(1, Math.floor(all.byteLength / frameBytes));
-    return split(frames, this.workers).map(({ first, count }) => ({
+    return split(frames, this.#crew.pieces).map(({ first, count }) => ({
       part: all.subarray(first * frameBytes, (first + count) * frameBytes),
       first,
       count,

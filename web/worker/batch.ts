@@ -3,13 +3,13 @@ import type { BatchEstimate, BatchInput, BatchSpectra, BatchWarning } from '../l
 import { split } from './split.js';
 
 /** The cells in consecutive stretches; all in one where a worker has to say what is wrong with them. */
-export function stretchesOf(input: BatchInput, workers: number): { input: BatchInput; cells: number }[] {
+export function stretchesOf(input: BatchInput, most: number): { input: BatchInput; cells: number }[] {
   const { data, shape } = input?.snapshots ?? {};
   const [cells = 0, ...cell] = Array.isArray(shape) ? shape : [];
   const numbers = 2 * cell.reduce((product, n) => product * n, 1);
   const isData = data instanceof Float32Array || data instanceof Float64Array;
   if (!isData || data.length === 0 || data.length !== cells * numbers) return [{ input, cells: 1 }];
-  return split(cells, workers).map(({ first, count }) => {
+  return split(cells, most).map(({ first, count }) => {
     const part = data.subarray(first * numbers, (first + count) * numbers);
     return {
       input: { ...input, snapshots: { ...input.snapshots, data: part, shape: [count, ...cell] } },

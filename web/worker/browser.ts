@@ -1,33 +1,17 @@
 // Entry for browsers and bundlers.
-import { fetchModule } from '../lib/runtime/fetch-module.js';
-import { Pool, type PoolOptions } from './api.js';
-import type { Runtime } from './pool.js';
-import type { Reply } from './protocol.js';
+import { Pool } from './api.js';
+import { browserRuntime } from './browser-runtime.js';
+import type { PoolOptions } from './options.js';
 
-export { BoresightError } from '../lib/runtime/errors.js';
-export type { PoolCapture } from './capture.js';
-export type { JobOptions } from './job.js';
-export { Pool, type PoolOptions };
+export * from './exports.js';
 
-const runtime: Runtime = {
-  workers: () => Math.min(navigator.hardwareConcurrency || 2, 8),
-
-  compile: () => fetchModule(new URL('../wasm/boresight_bg.wasm', import.meta.url)),
-  compileDrives: () => fetchModule(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)),
-  compileNeural: () => fetchModule(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url)),
-
-  spawn(events) {
-    const worker = new Worker(new URL('./browser-worker.js', import.meta.url), { type: 'module' });
-    worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => events.reply(data));
-    worker.addEventListener('messageerror', () => events.lost('its answer could not be read'));
-    worker.addEventListener('error', (event) => events.lost(event.message || 'it could not be started'));
-    return {
-      post: (message, transfer) => worker.postMessage(message, transfer),
-      keepAlive: () => {},
-      terminate: () => worker.terminate(),
-    };
-  },
-};
+const runtime = browserRuntime({
+  packaged: () => ({
+    core: new URL('../wasm/boresight_bg.wasm', import.meta.url),
+    drives: new URL('../wasm/boresight_drives_bg.wasm', import.meta.url),
+  }),
+  start: () => new Worker(new URL('./browser-worker.js', import.meta.url), { type: 'module' }),
+});
 
 /** Makes a pool of module workers. */
 export function createPool(options?: PoolOptions): Pool {

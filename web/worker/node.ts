@@ -1,25 +1,25 @@
 // Entry for Node.
 import { availableParallelism } from 'node:os';
 import { type TransferListItem, Worker } from 'node:worker_threads';
+import { fetchModule } from '../lib/runtime/fetch-module.js';
 import { readModule } from '../lib/runtime/read-module.js';
-import { Pool, type PoolOptions } from './api.js';
+import { Pool } from './api.js';
+import type { PoolOptions } from './options.js';
 import type { Runtime } from './pool.js';
 import type { Reply } from './protocol.js';
 
-export { BoresightError } from '../lib/runtime/errors.js';
-export type { PoolCapture } from './capture.js';
-export type { JobOptions } from './job.js';
-export { Pool, type PoolOptions };
+export * from './exports.js';
 
 const runtime: Runtime = {
   workers: () => Math.min(availableParallelism(), 8),
+  packaged: () => ({
+    core: new URL('../wasm/boresight_bg.wasm', import.meta.url),
+    drives: new URL('../wasm/boresight_drives_bg.wasm', import.meta.url),
+  }),
+  fetched: (address) => (address.protocol === 'file:' ? readModule(address) : fetchModule(address)),
 
-  compile: () => readModule(new URL('../wasm/boresight_bg.wasm', import.meta.url)),
-  compileDrives: () => readModule(new URL('../wasm/boresight_drives_bg.wasm', import.meta.url)),
-  compileNeural: () => readModule(new URL('../wasm/boresight_neural_bg.wasm', import.meta.url)),
-
-  spawn(events) {
-    const worker = new Worker(new URL('./node-worker.js', import.meta.url));
+  spawn(events, source = new URL('./node-worker.js', import.meta.url)) {
+    const worker = typeof source === 'function' ? (source() as Worker) : new Worker(source);
     worker.unref();
     worker.on('message', (reply: Reply) => events.reply(reply));
     worker.on('messageerror', (error) => events.lost(error.message));

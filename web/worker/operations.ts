@@ -41,8 +41,8 @@ import { keyOf, networkWith } from './networks.js';
 
 /** What an operation is called on. */
 export interface Context {
-  /** Tells the pool how far the piece is. */
-  report(done: number, total: number): void;
+  /** Tells the pool how far the piece is; whether to go on. */
+  report(done: number, total: number): boolean;
 }
 
 /** Runs `work` with a handle and frees it. */
@@ -174,7 +174,7 @@ function processStretch(bytes: BytesInput, config: TextInput, first: number, opt
 }
 
 function combineFrames(this: Context, source: CaptureSource, config: TextInput, options?: CombineOptions): FrameResult {
-  const report = (done: number, total: number): void => this.report(done, total);
+  const report = (done: number, total: number): boolean => this.report(done, total);
   const id = networkOf(options?.angle);
   if (id !== undefined) return networkWith(id).combineFrames(bytesOf(source), config, options, report);
   return withCapture(source, config, (capture) => capture.combineFrames(options, report));

@@ -2,6 +2,8 @@
 import { BoresightError, failure } from '../lib/runtime/errors.js';
 import type { Limits } from '../lib/types.js';
 import { checkedJob, type JobOptions, passedOn } from './job.js';
+import { type Loaders, loadersOf, type PoolModules } from './modules.js';
+import { checkedOptions, type PoolOptions, type WorkerSource } from './options.js';
 import type { Files, OperationName, Operations, Reply, Setup, WorkerEvents, WorkerLike } from './protocol.js';
 import { packed } from './transfer.js';
 
@@ -21,12 +23,14 @@ export interface Piece<N extends OperationName> {
 export interface Runtime {
   /** Number of workers where the user names none. */
   workers(): number;
-  compile(): Promise<WebAssembly.Module>;
-  /** The module of drives and mounting angles. */
-  compileDrives(): Promise<WebAssembly.Module>;
-  /** The module of networks. */
-  compileNeural(): Promise<WebAssembly.Module>;
-  spawn(events: WorkerEvents): WorkerLike;
+  /** The modules beside the package's own scripts. */
+  packaged(): PoolModules;
+  /** Compiles the module at an address. */
+  fetched(address: URL): Promise<WebAssembly.Module>;
+  /** What has to be done before workers of its own script start. */
+  prepare?(): Promise<void>;
+  /** Starts a worker, of its own script where none is named. */
+  spawn(events: WorkerEvents, source?: WorkerSource): WorkerLike;
 }
 
 /** What needs the module of drives. */
@@ -40,6 +44,14 @@ const ofDrives: readonly OperationName[] = [
   'calibrationReport',
   'mergeCalibrations',
 ];
+
+/** Pieces a worker gets of a job, so that progress moves and slow pieces even out. */
+const PIECES_A_WORKER = 8;
+/** Pieces of a job on the calling thread, which does what else it has to do between them. */
+const PIECES_HERE = 64;
+
+/** Of the ids of what pools keep: the pools of a thread may do their work on it, where ids of two must differ. */
+let lastKept = 0;
 
 /** Memory that the copies of one capture in the workers may take, bytes; one worker has it in any case. */
 const COPIES_BYTES = 256 * 1024 * 1024;
@@ -87,67 +99,48 @@ interface Member {
 
 type Kept = { [K in keyof Files]: { kind: K; file: Files[K]; most: number } }[keyof Files];
 
-/** Compiles a module once; after a failure the next call tries again. */
-class Loader {
-  readonly #compile: () => Promise<WebAssembly.Module>;
-  readonly #file: string;
-  #pending: Promise<WebAssembly.Module> | undefined;
-  module: WebAssembly.Module | undefined;
-
-  constructor(compile: () => Promise<WebAssembly.Module>, file: string) {
-    this.#compile = compile;
-    this.#file = file;
-  }
-
-  async load(): Promise<void> {
-    this.#pending ??= this.#compile();
-    try {
-      this.module = await this.#pending;
-    } catch (cause) {
-      this.#pending = undefined;
-      const given = cause instanceof Error ? cause.message : String(cause);
-      const details = { what: 'WebAssembly module', expected: `the ${this.#file} of this package`, given };
-      throw failure('not-loaded', details, cause);
-    }
-  }
-}
-
 /** The queue and the workers; the API over it is in api.ts. */
 export class Crew {
-  readonly size: number;
+  /** Most workers at a time; 0 where the calling thread does the work. */
+  readonly workers: number;
+  /** Pieces of a job that can be split. */
+  readonly pieces: number;
   readonly #runtime: Runtime;
-  readonly #limits: Limits;
+  readonly #source: WorkerSource | undefined;
+  readonly #limits: Limits | undefined;
   readonly #members = new Set<Member>();
-  #queue: Task[] = [];
-  readonly #core: Loader;
-  readonly #drives: Loader;
-  readonly #neural: Loader;
+  readonly #modules: Loaders;
   readonly #kept = new Map<string, Kept>();
+  #here: typeof import('./here.js') | undefined;
+  #queue: Task[] = [];
   #terminated = false;
   #lastId = 0;
-  #lastKept = 0;
 
-  constructor(runtime: Runtime, workers: number | undefined, limits: Limits | undefined) {
-    const size = workers ?? runtime.workers();
-    if (!Number.isInteger(size) || size < 1 || size > 64) {
+  constructor(runtime: Runtime, options?: PoolOptions) {
+    const { workers = runtime.workers(), worker, modules, limits } = checkedOptions(options);
+    if (!Number.isInteger(workers) || workers < 0 || workers > 64) {
       throw failure('out-of-range', {
         what: 'workers',
-        expected: 'a whole number from 1 to 64',
+        expected: 'a whole number from 0 to 64',
         given: String(workers),
       });
     }
     this.#runtime = runtime;
-    // Whoever waits for a job can cancel it.
-    this.#limits = { operations: Number.MAX_VALUE, ...limits };
-    this.#core = new Loader(() => runtime.compile(), 'boresight_bg.wasm');
-    this.#drives = new Loader(() => runtime.compileDrives(), 'boresight_drives_bg.wasm');
-    this.#neural = new Loader(() => runtime.compileNeural(), 'boresight_neural_bg.wasm');
-    this.size = size;
+    this.#source = worker;
+    this.workers = workers;
+    this.pieces = workers === 0 ? PIECES_HERE : workers * PIECES_A_WORKER;
+    // Whoever waits for a job can cancel it, unless it runs on the thread that waits.
+    this.#limits = workers === 0 ? limits : { operations: Number.MAX_VALUE, ...limits };
+    this.#modules = loadersOf(modules, runtime.packaged, runtime.fetched);
+  }
+
+  get #most(): number {
+    return Math.max(this.workers, 1);
   }
 
   /** Takes a network, whose file each worker gets when it first needs it. */
   addNetwork(file: Files['network']): string {
-    return this.#add({ kind: 'network', file, most: this.size });
+    return this.#add({ kind: 'network', file, most: this.#most });
   }
 
   /** Takes a capture, which no more workers get than its size allows: the others leave its jobs to those. */
@@ -157,7 +150,7 @@ export class Crew {
   }
 
   #add(kept: Kept): string {
-    const id = `${kept.kind}-${++this.#lastKept}`;
+    const id = `${kept.kind}-${++lastKept}`;
     this.#kept.set(id, kept);
     return id;
   }
@@ -176,9 +169,11 @@ export class Crew {
     if (this.#terminated) throw terminated();
     const needed = pieces.flatMap(needs);
     for (const [kind, id] of needed) this.#find(kind, id);
-    await this.#core.load();
-    if (pieces.some(({ name }) => ofDrives.includes(name))) await this.#drives.load();
-    if (needed.some(([kind]) => kind === 'network')) await this.#neural.load();
+    if (this.workers === 0) this.#here ??= await import('./here.js');
+    else if (this.#source === undefined) await this.#runtime.prepare?.();
+    await this.#modules.core.load();
+    if (pieces.some(({ name }) => ofDrives.includes(name))) await this.#modules.drives.load();
+    if (needed.some(([kind]) => kind === 'network')) await this.#modules.networks.load();
     if (this.#terminated) throw terminated();
     options.signal?.throwIfAborted();
     return new Promise((resolve, reject) => {
@@ -238,6 +233,10 @@ export class Crew {
     for (const member of this.#members) {
       const task = member.task;
       if (task?.job !== job) continue;
+      if (member.worker.stop) {
+        member.worker.stop();
+        continue;
+      }
       // A piece about to end costs less than a new worker.
       setTimeout(() => {
         if (member.task !== task) return;
@@ -250,7 +249,14 @@ export class Crew {
   #dispatch(): void {
     for (let at = 0; at < this.#queue.length && !this.#terminated; ) {
       const task = this.#queue[at] as Task;
-      const member = this.#memberFor(task);
+      let member: Member | undefined;
+      try {
+        member = this.#memberFor(task);
+      } catch (cause) {
+        task.job.reject(refused(cause instanceof Error ? cause.message : String(cause), cause));
+        at = 0;
+        continue;
+      }
       if (member) {
         this.#queue.splice(at, 1);
         this.#give(member, task);
@@ -278,8 +284,9 @@ export class Crew {
       const { value, buffers } = packed(piece.args, job.options.transfer ?? false);
       member.task = task;
       member.worker.keepAlive(true);
-      if (this.#drives.module && ofDrives.includes(piece.name) && !member.hasDrives) {
-        member.worker.post({ drives: this.#drives.module }, []);
+      const drives = this.#modules.drives.module;
+      if (drives && ofDrives.includes(piece.name) && !member.hasDrives) {
+        member.worker.post({ drives }, []);
         member.hasDrives = true;
       }
       for (const [kind, id] of needs(piece)) this.#giveKept(member, kind, id);
@@ -299,8 +306,9 @@ export class Crew {
   }
 
   #giveKept(member: Member, kind: keyof Files, id: string): void {
-    if (kind === 'network' && this.#neural.module && !member.hasNeural) {
-      member.worker.post({ neural: this.#neural.module }, []);
+    const neural = this.#modules.networks.module;
+    if (kind === 'network' && neural && !member.hasNeural) {
+      member.worker.post({ neural }, []);
       member.hasNeural = true;
     }
     if (member.kept.has(id)) return;
@@ -330,21 +338,23 @@ export class Crew {
   }
 
   #hire(): Member | undefined {
-    if (this.#members.size >= this.size || this.#core.module === undefined) return undefined;
+    const { module } = this.#modules.core;
+    if (this.#members.size >= this.#most || module === undefined) return undefined;
     const events: WorkerEvents = {
       reply: (reply) => this.#finish(member, reply),
-      lost: (reason) => this.#lose(member, reason),
+      lost: (reason) => this.#lose(member, lost(reason)),
+      refused: (reason) => this.#lose(member, refused(reason)),
     };
     const member: Member = {
-      worker: this.#runtime.spawn(events),
+      worker: this.#here?.workHere(events) ?? this.#runtime.spawn(events, this.#source),
       task: undefined,
       hasDrives: false,
       hasNeural: false,
       kept: new Set(),
     };
     this.#members.add(member);
-    member.worker.post({ module: this.#core.module }, []);
-    member.worker.post({ limits: this.#limits }, []);
+    member.worker.post({ module }, []);
+    if (this.#limits) member.worker.post({ limits: this.#limits }, []);
     return member;
   }
 
@@ -385,12 +395,11 @@ export class Crew {
     }
   }
 
-  #lose(member: Member, reason: string): void {
+  #lose(member: Member, error: BoresightError): void {
     const task = member.task;
     if (!this.#members.has(member)) return;
     this.#dismiss(member);
-    const details = { what: 'worker', expected: 'an answer', given: reason };
-    task?.job.reject(new BoresightError('worker-lost', `a worker was lost: ${reason}`, details));
+    task?.job.reject(error);
     this.#dispatch();
   }
 
@@ -404,6 +413,18 @@ export class Crew {
     member.task = undefined;
     member.worker.terminate();
   }
+}
+
+function lost(reason: string): BoresightError {
+  const details = { what: 'worker', expected: 'an answer', given: reason };
+  return new BoresightError('worker-lost', `a worker was lost: ${reason}`, details);
+}
+
+function refused(reason: string, cause?: unknown): BoresightError {
+  const expected = 'a host that lets its script run (worker-src of a content security policy), or `workers: 0`';
+  const details = { what: 'worker', expected, given: reason };
+  const message = `a worker could not be started: ${reason}; expected ${expected}`;
+  return new BoresightError('worker-refused', message, details, cause === undefined ? undefined : { cause });
 }
 
 function terminated(): BoresightError {

@@ -39,6 +39,8 @@ export interface WorkerLike {
   post(message: Setup | Request, transfer: Transferable[]): void;
   /** Whether the process stays alive for its sake; nothing in browsers. */
   keepAlive(busy: boolean): void;
+  /** Ends what it does at its next report; without this, only ending the worker does. */
+  stop?(): void;
   terminate(): void;
 }
 
@@ -47,4 +49,6 @@ export interface WorkerEvents {
   reply(reply: Reply): void;
   /** The worker is gone and will say nothing more. */
   lost(reason: string): void;
+  /** The host did not let it start. */
+  refused(reason: string): void;
 }

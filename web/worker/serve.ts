@@ -11,8 +11,21 @@ import { type Context, operations } from './operations.js';
 import type { Reply, Request, Setup } from './protocol.js';
 import { buffersOf } from './transfer.js';
 
+/** How requests are run. */
+interface Running {
+  /** Whether the request that runs is to stop where it reports. */
+  isStopped(): boolean;
+  around<T>(work: () => T): T;
+}
+
+/** In a thread of their own. */
+const plainly: Running = { isStopped: () => false, around: (work) => work() };
+
 /** Answers messages of the pool; `post` sends the answer. */
-export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (message: Setup | Request) => void {
+export function serve(
+  post: (reply: Reply, transfer: Transferable[]) => void,
+  running: Running = plainly,
+): (message: Setup | Request) => void {
   let module: WebAssembly.Module | undefined;
   let drives: WebAssembly.Module | undefined;
   let neural: WebAssembly.Module | undefined;
@@ -51,8 +64,11 @@ export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (
       if (drives !== undefined) initDrivesSync(drives);
       if (neural !== undefined) initNeuralSync(neural);
       const operation = operations[name] as (this: Context, ...args: readonly unknown[]) => unknown;
-      const report = (done: number, total: number): void => post({ id, done, total }, []);
-      const result = operation.apply({ report }, args as unknown[]);
+      const report = (done: number, total: number): boolean => {
+        post({ id, done, total }, []);
+        return !running.isStopped();
+      };
+      const result = running.around(() => operation.apply({ report }, args as unknown[]));
       post({ id, result, memoryBytes: memoryBytes() }, buffersOf(result));
     } catch (thrown) {
       post({ id, error: asTyped(thrown).toPlain(), memoryBytes: memoryBytes() }, []);
@@ -63,7 +79,8 @@ export function serve(post: (reply: Reply, transfer: Transferable[]) => void): (
 const memoryBytes = (): number =>
   [core, drivesModule, neuralModule].reduce((sum, instance) => sum + instance.memoryBytes, 0);
 
-function asTyped(thrown: unknown): BoresightError {
+/** What was thrown, as an error of the package. */
+export function asTyped(thrown: unknown): BoresightError {
   if (thrown instanceof BoresightError) return thrown;
   return failure('worker-failed', { what: 'worker', expected: 'a result', given: String(thrown) }, thrown);
 }

@@ -52,6 +52,17 @@ export class Instance {
     Instance.#limits = limits && { ...limits };
   }
 
+  /** Runs work with other limits than those of this thread. */
+  static withLimits<T>(limits: Limits, work: () => T): T {
+    const before = Instance.#limits;
+    Instance.setLimits(limits);
+    try {
+      return work();
+    } finally {
+      Instance.setLimits(before);
+    }
+  }
+
   #ready(): void {
     this.#state = 'ready';
     const limits = Instance.#limits;

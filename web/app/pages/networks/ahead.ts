@@ -1,4 +1,5 @@
 import { pool } from '../../data.ts';
+import { networksModule } from '../../networks/address.ts';
 import { MODELS } from '../../networks/models.ts';
 import { moduleBuild } from '../../networks/module.ts';
 import { preload } from '../../preload.ts';
@@ -8,7 +9,7 @@ export function askAhead(params: URLSearchParams): void {
   const { run, model } = networksCodec.read(params);
   const { address } = MODELS.find(({ name }) => name === model) ?? {};
   if (!run || !address || moduleBuild.peek().state !== 'ready') return;
-  preload(new URL('../../../../dist/wasm/boresight_neural_bg.wasm', import.meta.url).href);
+  preload(networksModule.href);
   preload(address);
   // A worker starts meanwhile. What goes wrong is told where it is needed.
   pool()
