@@ -12,9 +12,6 @@ const WINDOW: usize = 8;
 const DELAY: usize = WINDOW / 2;
 /// Frames further apart are not smoothed together, s.
 const MAX_GAP_S: f64 = 0.5;
-/// Deviation of a smoothed direction that lasts longer than a window, rad: no smoothing takes it away, and frames that were
-/// stated to be more exact would have all the weight.
-const LASTING_RAD: f64 = 0.002;
 /// Deviation of a velocity from which the detections do not tell it, m/s.
 const UNDETERMINED_MPS: f64 = 1.0;
 
@@ -65,12 +62,7 @@ impl Weighed {
                     .map(|taken| WindowFrame { time_s: taken.car.time_s, motion: &taken.alone })
                     .collect();
                 let smoothed = network.smooth(&frames).get(at).copied()?;
-                let ([vx, vy], [xx, xy, yy]) = (smoothed.velocity_mps, smoothed.covariance);
-                // Across the motion alone.
-                let lasting = LASTING_RAD * LASTING_RAD;
-                let covariance =
-                    [xx + lasting * vy * vy, xy - lasting * vx * vy, yy + lasting * vx * vx];
-                Some((self.window.get(at)?, smoothed.velocity_mps, covariance))
+                Some((self.window.get(at)?, smoothed.velocity_mps, smoothed.covariance))
             }
             None => {
                 let last = self.window.back()?;

@@ -19,7 +19,7 @@ export function NetworkChoice() {
       </p>
       <p class="muted small">
         {mountingState.value.motion === 'deepego-plus'
-          ? 'On simulated drives DeepEgo+ errs more than DeepEgo, ahead in dense traffic by far: of eight frames the last lags.'
+          ? 'Over whole simulated drives DeepEgo+ errs more than DeepEgo, ahead in dense traffic by far: what is wrong lasts longer than eight frames.'
           : 'On real radars that look aside DeepEgo’s frames are no better than RANSAC’s; it gains where much moves.'}{' '}
         The recursive method alone is as good or better on nearly all drives.
       </p>
