@@ -7,7 +7,7 @@ import { compact, readColumns } from '../../scripts/lib/bundled-drive.mjs';
 import { appModule } from './lib/app-module.mjs';
 import { delphi } from './lib/drives.mjs';
 
-const { tableOf } = await appModule('pages/mounting/compact.ts');
+const { tableOf } = await appModule('app/pages/mounting/compact.ts');
 
 test('the bundled drive comes back from its compact form in a third of the bytes', async () => {
   const [radar, pose] = delphi();
