@@ -166,7 +166,7 @@ elementTest('every kind draws what the package gives, in words too', async ({ pa
             xM: Float64Array.from({ length: n }, (_, i) => i - 10),
             yM: Float64Array.from({ length: n }, (_, i) => i - 30),
             power,
-            seen: new Uint8Array(n * n).fill(1),
+            seen: Uint8Array.from({ length: n * n }, () => 1),
             radar: new Int8Array(n * n),
             shape: [n, n],
             cellM: 1,
