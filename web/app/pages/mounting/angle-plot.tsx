@@ -5,7 +5,7 @@ import { useMemo } from 'preact/hooks';
 import { fixed, signed } from '../../../plots/format.ts';
 import { areaBetween, dots, horizontalLine, type Layer, polyline } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
-import { methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
+import { methodStyle, type SeriesStyle, THEMES, TRUTH_STYLE } from '../../../plots/theme.ts';
 import type { LegendItem } from '../../ui/plot-frame.tsx';
 import { loaded, sensor } from './drive.ts';
 import { quantiles } from './frame.ts';
@@ -14,6 +14,9 @@ import { results, shown, shownMethod, where } from './process.ts';
 import { mountingState } from './state.ts';
 import { sinceStart, startTime, TimePlot, timeExtent } from './time-plot.tsx';
 import { about, WAYS, type Way } from './ways.ts';
+
+/** Frames before they are smoothed. */
+const ALONE: SeriesStyle = { color: { light: THEMES.light.muted, dark: THEMES.dark.muted } };
 
 interface Curve {
   method: Way;
@@ -35,6 +38,7 @@ export function AnglePlot() {
   const found = results.value;
   const frames = shown.value;
   const method = shownMethod.value;
+  const alone = (method && found.get(method)?.aloneDeg) ?? null;
   const curves = useMemo(
     () =>
       WAYS.flatMap((way): Curve[] => {
@@ -57,8 +61,13 @@ export function AnglePlot() {
       below.push(areaBetween(x, edge(-1), edge(1), style));
       lines.push(polyline(x, history.angleDeg, style));
     }
+    if (frames && singles && alone) lines.unshift(dots(sinceStart(frames.frames.timeS), alone, ALONE, 0.25));
     if (frames && method && singles)
-      lines.unshift(dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.2));
+      lines.splice(
+        alone ? 1 : 0,
+        0,
+        dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.2),
+      );
     const extent = {
       x: timeExtent(),
       y: angleExtent(
@@ -80,7 +89,7 @@ export function AnglePlot() {
       );
     }
     return { x: sinceStart(curves[0]?.history.timeS ?? new Float64Array()), series: [], extent, below, above: lines };
-  }, [curves, frames, method, singles, sigmas, trueDeg, nominalDeg]);
+  }, [curves, frames, alone, method, singles, sigmas, trueDeg, nominalDeg]);
   const at = (curve: Curve, x: number): string => {
     const i = entry(curve.history, x + startTime());
     const [angle, sigma] = [curve.history.angleDeg[i] ?? Number.NaN, curve.history.sigmaDeg[i] ?? Number.NaN];
@@ -132,7 +141,7 @@ export function AnglePlot() {
       }
       remarks={[
         `Shaded: the angle ± ${band} standard deviation${band === '1' ? '' : 's'}, as each method claims them.` +
-          `${frames && singles ? ' Dots: what single frames give.' : ''}${outside ? ` The nominal angle, ${signed(nominalDeg, 2)}°, is outside.` : ''}${beyond.length ? ` Out of sight at the end: ${beyond.join('; ')}.` : ''}`,
+          `${frames && singles ? (alone ? ' Dots: what frames give, smoothed over eight; grey: before smoothing.' : ' Dots: what single frames give.') : ''}${outside ? ` The nominal angle, ${signed(nominalDeg, 2)}°, is outside.` : ''}${beyond.length ? ` Out of sight at the end: ${beyond.join('; ')}.` : ''}`,
       ]}
     />
   );

@@ -10,6 +10,8 @@ import { WAYS, type Way } from './ways.ts';
 
 export interface MethodResult {
   calibration?: DriveCalibration;
+  /** Where motions are smoothed over frames: the angles that frames give without, deg. */
+  aloneDeg?: Float32Array;
   problem?: Problem;
   /** Not of the present options: about to be replaced, unless that was cancelled. */
   stale: boolean;
@@ -130,11 +132,21 @@ export function jointOptions(drive: Drive, options: Options & MotionNetwork): Jo
   return { ...common, sensors: drive.sensors.map(({ id }) => (id === sensor ? mine : id)) };
 }
 
-async function calibrateBy(way: Way, drive: Drive, asked: Options, job: JobOptions): Promise<DriveCalibration> {
+type Found = Required<Pick<MethodResult, 'calibration'>> & Pick<MethodResult, 'aloneDeg'>;
+
+async function calibrateBy(way: Way, drive: Drive, asked: Options, job: JobOptions): Promise<Found> {
   const options = await withNetwork(way, asked);
-  if (way !== 'joint') return pool().calibrateDrive(drive, { ...options, method: way, weights: true }, job);
+  if (way !== 'joint') {
+    const by = (motion: Options['motion'], weights: boolean, job: JobOptions): Promise<DriveCalibration> =>
+      pool().calibrateDrive(drive, { ...options, ...(motion && { motion }), method: way, weights }, job);
+    const found = by(options.motion, true, job);
+    if (options.motion !== 'deepego-plus') return { calibration: await found };
+    const { onProgress: _, ...quietly } = job;
+    const [calibration, alone] = await Promise.all([found, by('deepego', false, quietly)]);
+    return { calibration, aloneDeg: alone.frames.angleDeg };
+  }
   const all = await pool().jointCalibration(drive, { ...jointOptions(drive, options), weights: true }, job);
-  return all.find((one) => one.sensor === options.sensor) as DriveCalibration;
+  return { calibration: all.find((one) => one.sensor === options.sensor) as DriveCalibration };
 }
 
 async function calibrate(open: Loaded, text: string, missing: readonly Way[]): Promise<void> {
@@ -151,14 +163,14 @@ async function calibrate(open: Loaded, text: string, missing: readonly Way[]): P
     missing.map(async (method) => {
       const started = performance.now();
       try {
-        const calibration = await calibrateBy(method, open.drive, options, {
+        const found = await calibrateBy(method, open.drive, options, {
           signal: controller.signal,
           onProgress: (done, total) => {
             shares.set(method, total > 0 ? done / total : 1);
             say();
           },
         });
-        keep(method, { calibration, stale: false, milliseconds: performance.now() - started });
+        keep(method, { ...found, stale: false, milliseconds: performance.now() - started });
       } catch (error) {
         if (!aborted(error)) keep(method, { problem: describeError(error), stale: false });
       }
