@@ -34,6 +34,10 @@ browserTest(
     assert.equal(asked.length, 1);
     await parametersWith(page, (parameters) => parameters.get('motion') === 'deepego-plus');
     const smoothed = await angle(page, 'least-squares');
+    // The frames of a method that smooths stand over what they were before.
+    await page.getByLabel('Frames by').selectOption('least-squares');
+    const history = page.locator('[data-plot="angle-history"]');
+    await history.getByText('grey: before smoothing').waitFor();
 
     // Of DeepEgo alone: it has nothing to smooth with, which is said beside each method that would smooth.
     const file = page.getByLabel('Weights of a network of motion');

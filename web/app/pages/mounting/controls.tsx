@@ -89,7 +89,7 @@ export function Controls() {
         <Control
           label="Angles of single frames"
           name="singles"
-          help="Dots: what each frame alone gives by the method whose frames are shown."
+          help="Dots: what each frame alone gives by the method whose frames are shown; where motions are smoothed, before and after."
         />
         <Control
           label="Residuals to the fit"
