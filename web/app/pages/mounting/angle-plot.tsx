@@ -61,12 +61,12 @@ export function AnglePlot() {
       below.push(areaBetween(x, edge(-1), edge(1), style));
       lines.push(polyline(x, history.angleDeg, style));
     }
-    if (frames && singles && alone) lines.unshift(dots(sinceStart(frames.frames.timeS), alone, ALONE, 0.25));
+    if (frames && singles && alone) lines.unshift(dots(sinceStart(frames.frames.timeS), alone, ALONE, 0.4));
     if (frames && method && singles)
       lines.splice(
         alone ? 1 : 0,
         0,
-        dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), 0.2),
+        dots(sinceStart(frames.frames.timeS), frames.frames.angleDeg, methodStyle(method), alone ? 0.8 : 0.2),
       );
     const extent = {
       x: timeExtent(),
