@@ -1,11 +1,13 @@
 //! Several radars of one car: an angle each, one yaw-rate sensor.
 
 use crate::network::MotionNetwork;
+use crate::radars;
 use crate::recursive::information::{Information, Matrix, UNKNOWNS, Vector};
 use crate::small::{inverse, times};
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Recursive, Verdict,
 };
+#[cfg(doc)]
 use boresight_core::CoreError;
 use std::sync::Arc;
 
@@ -57,25 +59,11 @@ impl Joint {
         radars: &[(u8, CalibrationOptions)],
         network: Option<&Arc<MotionNetwork>>,
     ) -> Result<Self, CalibrateError> {
-        if radars.is_empty() {
-            return Err(CoreError::Empty {
-                what: "radars".into(),
-                expected: "at least one radar".into(),
-            }
-            .into());
-        }
-        let mut result = Vec::with_capacity(radars.len());
-        for (index, (sensor, options)) in radars.iter().enumerate() {
-            if radars[..index].iter().any(|(earlier, _)| earlier == sensor) {
-                return Err(CoreError::OutOfRange {
-                    what: "sensor".into(),
-                    expected: "each radar once".into(),
-                    given: f64::from(*sensor),
-                }
-                .into());
-            }
-            result.push((*sensor, Recursive::with_network(options, network)?));
-        }
+        radars::check_numbers(radars.iter().map(|(sensor, _)| *sensor))?;
+        let made = |(sensor, options): &(u8, CalibrationOptions)| {
+            Ok((*sensor, Recursive::with_network(options, network)?))
+        };
+        let result = radars.iter().map(made).collect::<Result<_, CalibrateError>>()?;
         Ok(Self { radars: result })
     }
 
@@ -86,14 +74,7 @@ impl Joint {
     /// Those of [`Recursive::add`]; [`CoreError::OutOfRange`] for a radar that was not named. The frame
     /// is then not counted.
     pub fn add(&mut self, sensor: u8, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
-        let Some(at) = self.radars.iter().position(|(id, _)| *id == sensor) else {
-            return Err(CoreError::OutOfRange {
-                what: "sensor".into(),
-                expected: "a radar of the calibration".into(),
-                given: f64::from(sensor),
-            }
-            .into());
-        };
+        let at = radars::place(self.radars.iter().map(|(id, _)| *id), sensor)?;
         let outcome = self.radars[at].1.add(frame)?;
         if outcome.verdict == Verdict::Used
             && let Some(speed) = self.radars[at].1.speed()

@@ -57,6 +57,8 @@ pub mod merge;
 pub mod motion;
 pub mod network;
 pub mod options;
+mod plane;
+mod radars;
 pub mod recursive;
 mod small;
 pub mod statistics;

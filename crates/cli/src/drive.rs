@@ -1,5 +1,6 @@
 //! Drive logs from files and folders.
 
+use crate::arguments::LogPaths;
 use crate::error::CliError;
 use crate::files::Files;
 use boresight_core::DriveLog;
@@ -15,12 +16,12 @@ const RADAR_DATA: &str = "radar_data.h5";
 /// only tables and HDF5 files are read, and with the latter the JSON files of a sequence, in its
 /// folder and the one above; of the folder of a data set, the sequence that is asked for.
 pub fn open_path(
-    paths: &[impl AsRef<Path>],
+    log: &LogPaths,
     format: Option<DriveFormat>,
-    sequence: Option<&str>,
     files: &Files,
 ) -> Result<DriveRead, CliError> {
-    let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
+    let sequence = log.sequence.as_deref();
+    let paths: Vec<&Path> = log.paths.iter().map(AsRef::as_ref).collect();
     let mut found: Vec<PathBuf> = vec![];
     let mut names: Vec<String> = vec![];
     for path in &paths {
@@ -80,7 +81,8 @@ pub fn drives_in(folder: &Path, files: &Files) -> Result<Vec<(String, PathBuf)>,
 /// The log of one drive, for experiments.
 pub fn load(path: &Path) -> Result<DriveLog, Box<dyn Error + Send + Sync>> {
     // A message in place of the error, which may not leave its thread.
-    open_path(&[path], None, None, &Files::new(false))
+    let log = LogPaths { paths: vec![path.into()], sequence: None };
+    open_path(&log, None, &Files::new(false))
         .map(|read| read.log)
         .map_err(|error| error.to_string().into())
 }

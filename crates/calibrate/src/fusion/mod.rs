@@ -1,5 +1,5 @@
-//! The car's motion from all of its radars, which need not scan together: what DeepEgo+ fuses late (Zhu et al. 2025). The
-//! filter, the vote and their numbers are ours.
+//! The car's motion from all of its radars, which need not scan together. DeepEgo+ fuses them by a network (Zhu et al.
+//! 2025); the filter here, the vote and their numbers are ours.
 //!
 //! Each radar's motion of a frame is a measurement of the car's speed and yaw rate. What the radars tell together is where
 //! DeepEgo begins with the next frame, so that a radar whose view is full of traffic is held by those that see the road.
@@ -8,8 +8,11 @@
 mod filter;
 
 use crate::calibrator::check_time;
+use crate::motion::weighed::{inliers, told};
 use crate::network::{MotionNetwork, Near};
-use crate::{CalibrateError, FrameInput, Motion};
+use crate::plane::{turned, turned_covariance};
+use crate::radars;
+use crate::{CalibrateError, CalibrationOptions, FrameInput, Motion};
 use boresight_core::CoreError;
 use filter::{Filter, Seen, Told};
 use std::sync::Arc;
@@ -20,10 +23,6 @@ const GATE: f64 = 16.0;
 const LOST_S: f64 = 0.5;
 /// Motions so old still vote, s.
 const RECENT_S: f64 = 0.2;
-/// Deviation of a velocity from which the detections do not tell it, m/s.
-const UNDETERMINED_MPS: f64 = 1.0;
-/// Fewest detections with a weight of one half that tell a motion.
-const LEAST_INLIERS: usize = 5;
 /// Radars nearer to the rear axle do not tell a yaw rate, m.
 const LEAST_LEVER_M: f64 = 0.5;
 
@@ -58,6 +57,8 @@ pub struct FusedMotion {
     pub time_s: f64,
     /// Speed of the rear axle, forward, m/s.
     pub speed_mps: f64,
+    /// Velocity of the rear axle to the left, by its slip, m/s.
+    pub sideways_mps: f64,
     /// Yaw rate, to the left, rad/s.
     pub yaw_rate_radps: f64,
     /// Covariance of both.
@@ -110,31 +111,13 @@ impl Fusion {
         slip_gradient_rad: f64,
         network: &Arc<MotionNetwork>,
     ) -> Result<Self, CalibrateError> {
-        if radars.is_empty() {
-            return Err(CoreError::Empty {
-                what: "radars".into(),
-                expected: "at least one radar".into(),
-            }
-            .into());
-        }
-        for (index, mounted) in radars.iter().enumerate() {
-            let numbers = [mounted.angle_rad, mounted.x_m, mounted.y_m, slip_gradient_rad];
-            if let Some(given) = numbers.into_iter().find(|number| !number.is_finite()) {
-                return Err(CoreError::OutOfRange {
-                    what: "mounting".into(),
-                    expected: "finite numbers".into(),
-                    given,
-                }
-                .into());
-            }
-            if radars[..index].iter().any(|earlier| earlier.sensor == mounted.sensor) {
-                return Err(CoreError::OutOfRange {
-                    what: "sensor".into(),
-                    expected: "each radar once".into(),
-                    given: f64::from(mounted.sensor),
-                }
-                .into());
-            }
+        radars::check_numbers(radars.iter().map(|mounted| mounted.sensor))?;
+        let numbers =
+            radars.iter().flat_map(|mounted| [mounted.angle_rad, mounted.x_m, mounted.y_m]);
+        let mut numbers = numbers.chain([slip_gradient_rad]);
+        if let Some(given) = numbers.find(|number| !number.is_finite()) {
+            let (what, expected) = ("mounting".into(), "finite numbers".into());
+            return Err(CoreError::OutOfRange { what, expected, given }.into());
         }
         let radar =
             |&mounted: &Mounted| Radar { mounted, last: None, counts: FusionCounts::default() };
@@ -159,14 +142,7 @@ impl Fusion {
         sensor: u8,
         frame: FrameInput<'_>,
     ) -> Result<Option<FusedMotion>, CalibrateError> {
-        let Some(at) = self.radars.iter().position(|radar| radar.mounted.sensor == sensor) else {
-            return Err(CoreError::OutOfRange {
-                what: "sensor".into(),
-                expected: "a radar of the fusion".into(),
-                given: f64::from(sensor),
-            }
-            .into());
-        };
+        let at = radars::place(self.radars.iter().map(|radar| radar.mounted.sensor), sensor)?;
         check_time(self.last_s, frame.time_s)?;
         self.last_s = Some(frame.time_s);
         if let Some(filter) = &mut self.filter {
@@ -175,17 +151,11 @@ impl Fusion {
         let near =
             self.filter.as_ref().map(|filter| self.radars[at].mounted.near(filter, self.slip));
         let alone = self.network.single().motion_near(frame.detections, near);
-        let inliers = alone.weights.iter().filter(|weight| **weight >= 0.5).count();
-        let [xx, xy, yy] = alone.covariance;
-        let known = (xx + yy).sqrt() < UNDETERMINED_MPS && inliers >= LEAST_INLIERS;
-        let told = known.then(|| {
-            self.radars[at].mounted.told(&Motion {
-                velocity_mps: alone.velocity_mps,
-                covariance: [[xx, xy], [xy, yy]],
-                inliers,
-                detections: frame.detections.len(),
-            })
-        });
+        let options = CalibrationOptions::default();
+        let inliers = inliers(&alone.weights, &options);
+        let (velocity, covariance) = (alone.velocity_mps, alone.covariance);
+        let motion = told(velocity, covariance, inliers, frame.detections.len(), &options);
+        let told = motion.map(|motion| self.radars[at].mounted.told(&motion));
         let fate = match told {
             None => Fate::Untold,
             Some(told) => self.take(at, frame.time_s, told),
@@ -199,6 +169,7 @@ impl Fusion {
         Ok(self.filter.as_ref().map(|filter| FusedMotion {
             time_s: frame.time_s,
             speed_mps: filter.speed_mps(),
+            sideways_mps: -self.slip * filter.speed_mps().powi(2) * filter.yaw_rate_radps(),
             yaw_rate_radps: filter.yaw_rate_radps(),
             covariance: filter.covariance(),
             fate,
@@ -284,28 +255,26 @@ impl Mounted {
     /// The radar's velocity in the car's frame with a motion of the car, and how it changes with it.
     fn seen(&self, filter: &Filter, slip: f64) -> Seen {
         let (speed, yaw) = (filter.speed_mps(), filter.yaw_rate_radps());
+        let lever = self.lever(speed, slip);
         Seen {
-            velocity: [speed - yaw * self.y_m, yaw * (self.x_m - slip * speed * speed)],
-            by_motion: [
-                [1.0, -self.y_m],
-                [-2.0 * slip * speed * yaw, self.x_m - slip * speed * speed],
-            ],
+            velocity: [speed - yaw * self.y_m, yaw * lever],
+            by_motion: [[1.0, -self.y_m], [-2.0 * slip * speed * yaw, lever]],
         }
+    }
+
+    /// How far the radar is ahead of what does not move sideways when the car turns, m.
+    fn lever(&self, speed: f64, slip: f64) -> f64 {
+        self.x_m - slip * speed * speed
     }
 
     /// The radar's motion in the car's frame.
     fn told(&self, motion: &Motion) -> Told {
         let (sin, cos) = self.angle_rad.sin_cos();
-        let [vx, vy] = motion.velocity_mps;
         let [[xx, xy], [_, yy]] = motion.covariance;
-        let cross = (xx - yy) * sin * cos + xy * (cos * cos - sin * sin);
-        let both = 2.0 * xy * sin * cos;
+        let [xx, xy, yy] = turned_covariance([xx, xy, yy], [cos, -sin]);
         Told {
-            velocity: [cos * vx - sin * vy, sin * vx + cos * vy],
-            covariance: [
-                [xx * cos * cos + yy * sin * sin - both, cross],
-                [cross, xx * sin * sin + yy * cos * cos + both],
-            ],
+            velocity: turned(motion.velocity_mps, [cos, -sin]),
+            covariance: [[xx, xy], [xy, yy]],
         }
     }
 
@@ -313,7 +282,7 @@ impl Mounted {
     fn motion_of(&self, told: Told, slip: f64) -> Option<(f64, f64)> {
         let [ux, uy] = told.velocity;
         // Slip moves the lever by little: the speed along will do.
-        let lever = self.x_m - slip * ux * ux;
+        let lever = self.lever(ux, slip);
         (lever.abs() >= LEAST_LEVER_M).then(|| {
             let yaw = uy / lever;
             (ux + yaw * self.y_m, yaw)
@@ -322,16 +291,13 @@ impl Mounted {
 
     /// Where the radar's motion is expected, in its own frame.
     fn near(&self, filter: &Filter, slip: f64) -> Near {
-        let Seen { velocity: [ux, uy], by_motion } = self.seen(filter, slip);
+        let Seen { velocity, by_motion } = self.seen(filter, slip);
         let (sin, cos) = self.angle_rad.sin_cos();
         let p = filter.covariance();
         let variance: f64 = by_motion
             .iter()
             .map(|[a, b]| a * a * p[0][0] + 2.0 * a * b * p[0][1] + b * b * p[1][1])
             .sum();
-        Near {
-            velocity_mps: [cos * ux + sin * uy, cos * uy - sin * ux],
-            sigma_mps: variance.sqrt(),
-        }
+        Near { velocity_mps: turned(velocity, [cos, sin]), sigma_mps: variance.sqrt() }
     }
 }

@@ -72,6 +72,24 @@ impl Weighed {
     }
 }
 
+/// Detections that count as inliers by their weights.
+pub(crate) fn inliers(weights: &[f32], options: &CalibrationOptions) -> usize {
+    weights.iter().filter(|weight| **weight >= options.inlier_threshold as f32).count()
+}
+
+/// A network's motion, its covariance given as xx, xy, yy, if detections tell it.
+pub(crate) fn told(
+    velocity_mps: [f64; 2],
+    [xx, xy, yy]: [f64; 3],
+    inliers: usize,
+    detections: usize,
+    options: &CalibrationOptions,
+) -> Option<Motion> {
+    let known = (xx + yy).sqrt() < UNDETERMINED_MPS && inliers >= options.min_inliers;
+    let covariance = [[xx, xy], [xy, yy]];
+    known.then_some(Motion { velocity_mps, covariance, inliers, detections })
+}
+
 /// The network of a motion.
 ///
 /// # Errors
@@ -98,8 +116,7 @@ impl MotionPlan for Weighed {
     ) -> Result<FrameMotion, CalibrateError> {
         let mut alone = self.network.single().motion(frame.detections);
         *weights = std::mem::take(&mut alone.weights);
-        let threshold = self.options.inlier_threshold as f32;
-        let inliers = weights.iter().filter(|&&weight| weight >= threshold).count();
+        let inliers = inliers(weights, &self.options);
         let car = frame.car();
         if self.window.back().is_some_and(|last| car.time_s - last.car.time_s > MAX_GAP_S) {
             self.window.clear();
@@ -109,15 +126,8 @@ impl MotionPlan for Weighed {
         }
         self.window.push_back(Taken { car, alone, inliers, detections: frame.detections.len() });
         let found = self.found();
-        let motion = found.and_then(|(taken, velocity_mps, [xx, xy, yy])| {
-            let known =
-                (xx + yy).sqrt() < UNDETERMINED_MPS && taken.inliers >= self.options.min_inliers;
-            known.then_some(Motion {
-                velocity_mps,
-                covariance: [[xx, xy], [xy, yy]],
-                inliers: taken.inliers,
-                detections: taken.detections,
-            })
+        let motion = found.and_then(|(taken, velocity, covariance)| {
+            told(velocity, covariance, taken.inliers, taken.detections, &self.options)
         });
         let earlier = found.map(|(taken, ..)| taken.car);
         Ok(FrameMotion { earlier, ..FrameMotion::to_judge(motion) })

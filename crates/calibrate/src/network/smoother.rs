@@ -4,6 +4,7 @@
 use super::dense::{Layer, asinh, one};
 use super::recurrent::Recurrent;
 use super::{DeepEgo, NetworkError, WeighedMotion, Weights};
+use crate::plane::{turned, turned_covariance};
 use crate::small;
 
 /// Numbers of a frame beside its context.
@@ -216,19 +217,4 @@ fn quadratic(
             ([value(0), value(1)], [spread(0, 0), spread(0, 1), spread(1, 1)])
         })
         .collect()
-}
-
-/// A vector in axes whose first lies along `[cos, sin]`.
-fn turned([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> [f64; 2] {
-    [x * cos + y * sin, y * cos - x * sin]
-}
-
-/// A covariance xx, xy, yy in axes whose first lies along `[cos, sin]`.
-fn turned_covariance([xx, xy, yy]: [f64; 3], [cos, sin]: [f64; 2]) -> [f64; 3] {
-    let both = 2.0 * xy * sin * cos;
-    [
-        xx * cos * cos + yy * sin * sin + both,
-        (yy - xx) * sin * cos + xy * (cos * cos - sin * sin),
-        xx * sin * sin + yy * cos * cos - both,
-    ]
 }

@@ -8,9 +8,9 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 
-/// Arguments of `log`.
+/// Where a drive log is.
 #[derive(Debug, Args)]
-pub struct LogArguments {
+pub struct LogPaths {
     /// The log: its folder, its one file, or its files. Tables (.csv, also packed as .csv.gz) are
     /// recognised by their columns. Of RadarScenes also the folder of the data set.
     #[arg(required = true, value_name = "PATH")]
@@ -18,6 +18,14 @@ pub struct LogArguments {
     /// Which sequence of a data set's folder, such as sequence_7 or 7.
     #[arg(long, value_name = "NAME")]
     pub sequence: Option<String>,
+}
+
+/// Arguments of `log`.
+#[derive(Debug, Args)]
+pub struct LogArguments {
+    /// The log.
+    #[command(flatten)]
+    pub log: LogPaths,
     /// Write the log as general tables, detections.csv and motion.csv, to this folder.
     #[arg(long, value_name = "DIR")]
     pub export: Option<PathBuf>,
@@ -33,12 +41,9 @@ pub struct LogArguments {
 /// Arguments of `calibrate`.
 #[derive(Debug, Args)]
 pub struct CalibrateArguments {
-    /// The log: its folder, its one file, or its files; of RadarScenes also the data set's folder.
-    #[arg(required = true, value_name = "PATH")]
-    pub paths: Vec<PathBuf>,
-    /// Which sequence of a data set's folder, such as sequence_7 or 7.
-    #[arg(long, value_name = "NAME")]
-    pub sequence: Option<String>,
+    /// The log.
+    #[command(flatten)]
+    pub log: LogPaths,
     /// Format of the log, where it is not to be found from the files.
     #[arg(long, value_parser = PossibleValuesParser::new(DriveFormat::VARIANTS.iter().map(|format| format.name())))]
     pub format: Option<String>,
@@ -71,12 +76,9 @@ pub struct CalibrateArguments {
 /// Arguments of `odometry`.
 #[derive(Debug, Args)]
 pub struct OdometryArguments {
-    /// The log: its folder, its one file, or its files; of RadarScenes also the data set's folder.
-    #[arg(required = true, value_name = "PATH")]
-    pub paths: Vec<PathBuf>,
-    /// Which sequence of a data set's folder, such as sequence_7 or 7.
-    #[arg(long, value_name = "NAME")]
-    pub sequence: Option<String>,
+    /// The log.
+    #[command(flatten)]
+    pub log: LogPaths,
     /// Only these radars of the log.
     #[arg(long, value_name = "N,...", value_delimiter = ',')]
     pub sensors: Vec<u8>,

@@ -9,7 +9,7 @@ mod regions;
 mod simulate;
 
 pub use augment::AugmentArguments;
-pub use drives::{CalibrateArguments, LogArguments, OdometryArguments};
+pub use drives::{CalibrateArguments, LogArguments, LogPaths, OdometryArguments};
 pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
 pub use evaluate::{
     AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCalibrationArguments,

@@ -17,7 +17,7 @@ use std::io::{BufWriter, Write};
 
 /// What is in a log, as text or JSON.
 pub fn run(arguments: &LogArguments, files: &Files) -> Result<String, CliError> {
-    let read = open_path(&arguments.paths, None, arguments.sequence.as_deref(), files)?;
+    let read = open_path(&arguments.log, None, files)?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     if let Some(folder) = &arguments.export {
         let detections = files.destination(&folder.join("detections.csv"))?;

@@ -66,7 +66,7 @@ impl Against {
 
 /// The motion, as text or JSON.
 pub fn run(arguments: &OdometryArguments, files: &Files) -> Result<String, CliError> {
-    let read = open_path(&arguments.paths, None, arguments.sequence.as_deref(), files)?;
+    let read = open_path(&arguments.log, None, files)?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     let log = &read.log;
     let trajectory =
@@ -113,8 +113,7 @@ pub fn run(arguments: &OdometryArguments, files: &Files) -> Result<String, CliEr
         {
             against.add([speed - measured_speed, yaw - measured_yaw], found.covariance);
         }
-        // The rear axle slips outwards.
-        let velocity_mps = [speed, -car.slip_gradient_rad * speed * speed * yaw];
+        let velocity_mps = [speed, found.sideways_mps];
         let motion = TimedMotion { time_s, velocity_mps, yaw_rate_radps: Some(yaw) };
         track.push(log, &options, motion);
         last = Some(found);

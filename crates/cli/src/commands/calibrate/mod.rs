@@ -40,7 +40,7 @@ struct Calibrated {
 /// The angles, as text or JSON.
 pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliError> {
     let format = arguments.format.as_deref().map(DriveFormat::from_name).transpose()?;
-    let read = open_path(&arguments.paths, format, arguments.sequence.as_deref(), files)?;
+    let read = open_path(&arguments.log, format, files)?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     let log = &read.log;
     let shown = chosen(log, arguments.sensor)?;
