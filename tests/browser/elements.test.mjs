@@ -100,7 +100,10 @@ elementTest(
 
     const looks = await page.evaluate(async () => {
       const element = document.querySelector('boresight-spectrum');
-      const background = () => getComputedStyle(part(element, 'figure')).getPropertyValue('--background');
+      const background = () => {
+        const { backgroundColor, color } = getComputedStyle(part(element, 'figure'));
+        return [backgroundColor, color];
+      };
       const light = background();
       element.setAttribute('theme', 'dark');
       await drawn();
@@ -114,9 +117,9 @@ elementTest(
       await drawn();
       return { light, dark, own, before, after: element.shadowRoot.querySelector('.u-wrap canvas').width };
     });
-    assert.equal(looks.light, '#ffffff');
-    assert.equal(looks.dark, '#191d21');
-    assert.equal(looks.own, 'rgb(1, 2, 3)');
+    assert.deepEqual(looks.light, ['rgb(255, 255, 255)', 'rgb(35, 41, 47)']);
+    assert.deepEqual(looks.dark, ['rgb(25, 29, 33)', 'rgb(223, 228, 232)']);
+    assert.deepEqual(looks.own, ['rgb(1, 2, 3)', 'rgb(35, 41, 47)']);
     assert.ok(looks.after < 310 && looks.after < looks.before, JSON.stringify(looks));
     await screenshot('elements-spectrum');
   },

@@ -51,7 +51,7 @@ export class DopplerAzimuthElement extends PlotElement {
 
   /** @internal */
   protected override axes() {
-    return { x: AZIMUTH, y: { label: 'Range rate (m/s), positive when receding' } };
+    return { x: AZIMUTH, y: { label: 'Range rate (m/s), + receding' } };
   }
 
   /** @internal */

@@ -101,7 +101,7 @@ export class MountingAngleElement extends PlotElement {
     if (this.#value)
       this.#value.textContent = last ? `${signed(last.angleDeg, 2)}° ± ${fixed(last.sigmaDeg, 2)}°` : '–';
     if (this.#verdict) {
-      const text = this.hasAttribute('nominal-deg') || alarm === 'undecided' ? WORDS[alarm] : '';
+      const text = last && this.hasAttribute('nominal-deg') ? WORDS[alarm] : '';
       if (this.#verdict.textContent !== text) this.#verdict.textContent = text;
       this.#verdict.dataset.verdict = alarm;
     }
@@ -140,7 +140,7 @@ export class MountingAngleElement extends PlotElement {
         extent: { x: [0, Math.max(x[x.length - 1] as number, 1)], y: extent(low, high, nominal, tolerance) },
       },
       alternative: last
-        ? `After ${fixed(x[x.length - 1] as number, 0)} s: ${signed(last.angleDeg, 2)}°, standard deviation ${fixed(last.sigmaDeg, 2)}°; ${WORDS[this.#judge(last)]}.`
+        ? `After ${fixed(x[x.length - 1] as number, 0)} s: ${signed(last.angleDeg, 2)}°, standard deviation ${fixed(last.sigmaDeg, 2)}°${Number.isFinite(nominal) ? `; ${WORDS[this.#judge(last)]}` : ''}.`
         : 'No angle yet.',
       readout: ({ x: time, index }) =>
         `${fixed(time, 1)} s   ${signed(angleDeg[index ?? -1] ?? Number.NaN, 2)}° ± ${fixed(sigmaDeg[index ?? -1] ?? Number.NaN, 2)}°`,
