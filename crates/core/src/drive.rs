@@ -22,6 +22,34 @@ pub struct Detection {
     pub rcs_dbsm: f32,
 }
 
+impl Detection {
+    /// A point cloud from its columns: azimuths in degrees and range rates, and ranges and cross-sections where they are known.
+    /// The columns are as long as the first.
+    pub fn of_columns(
+        azimuth_deg: &[f64],
+        range_rate_mps: &[f64],
+        range_m: Option<&[f64]>,
+        rcs_dbsm: Option<&[f64]>,
+    ) -> Vec<Self> {
+        let points = azimuth_deg.iter().zip(range_rate_mps);
+        let mut detections: Vec<Self> = points
+            .map(|(azimuth, &rate)| Self {
+                azimuth_rad: azimuth.to_radians() as f32,
+                range_rate_mps: rate as f32,
+                range_m: f32::NAN,
+                rcs_dbsm: f32::NAN,
+            })
+            .collect();
+        for (detection, &range) in detections.iter_mut().zip(range_m.unwrap_or_default()) {
+            detection.range_m = range as f32;
+        }
+        for (detection, &rcs) in detections.iter_mut().zip(rcs_dbsm.unwrap_or_default()) {
+            detection.rcs_dbsm = rcs as f32;
+        }
+        detections
+    }
+}
+
 /// The label of a standing object, in the numbers of `RadarScenes`.
 pub const STATIC_LABEL: u8 = 11;
 

@@ -209,3 +209,16 @@ pub fn check_finite(what: &str, numbers: impl IntoIterator<Item = f64>) -> Resul
     }
     Ok(())
 }
+
+/// Checks that numbers are finite in single precision; `what` names them.
+///
+/// # Errors
+/// [`CoreError::NotFinite`] for the first that is not.
+pub fn check_single(what: &dyn Fn() -> String, numbers: &[f64]) -> Result<(), CoreError> {
+    let kept = || numbers.iter().map(|&number| number as f32);
+    // All are looked at, so that it is vectorised.
+    if kept().fold(true, |all, number| all & number.is_finite()) {
+        return Ok(());
+    }
+    check_finite(&what(), kept().map(f64::from))
+}

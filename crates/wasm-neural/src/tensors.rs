@@ -21,7 +21,7 @@ impl Read for Tensor {
         let mut fields = Fields::new(value, path)?;
         let data = fields.raw("data")?.unwrap_or(JsValue::UNDEFINED);
         let own = format!("{path}.data");
-        let data = given::numbers::<Float32Array, f32>(&data, &own)?
+        let data = given::numbers::<Float32Array, f32>(&data, &|| own.clone())?
             .ok_or_else(|| wrong_type(&own, "a Float32Array", &data))?;
         let shape: Vec<usize> = fields.required("shape")?;
         fields.finish()?;
@@ -47,7 +47,7 @@ pub fn read_tensors(value: &JsValue) -> Fallible<Vec<(String, ArrayD<f32>)>> {
         let Tensor(array) = Tensor::read(&tensor, &path)?;
         Ok((name, array))
     };
-    given::keys(value, &|| "inputs".into())?.into_iter().map(tensor).collect()
+    given::keys(value, &|| "inputs".into())?.to_vec().into_iter().map(tensor).collect()
 }
 
 /// An object of tensors by their names.

@@ -13,8 +13,9 @@ impl Read for Bytes {
     const EXPECTED: &'static str = "a Uint8Array or an ArrayBuffer";
 
     fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let bytes = match given::numbers::<Uint8Array, _>(value, path)? {
-            None => given::buffer(value, path)?,
+        let what = || path.into();
+        let bytes = match given::numbers::<Uint8Array, _>(value, &what)? {
+            None => given::buffer(value, &what)?,
             bytes => bytes,
         };
         bytes.map(Self).ok_or_else(|| wrong_type(path, Self::EXPECTED, value))

@@ -9,7 +9,7 @@ use boresight_calibrate::network::MotionNetwork;
 use boresight_calibrate::{
     self as calibrate, CalibrateError, CalibrationOptions, Calibrator, FrameInput,
 };
-use boresight_core::error::check_finite;
+use boresight_core::error::check_single;
 use boresight_core::{CoreError, Detection};
 use std::sync::Arc;
 use wasm_bindgen::JsValue;
@@ -106,8 +106,7 @@ impl Read for Frame {
         let rates = column(&mut fields, "rangeRateMps", azimuth.len())?;
         for (name, numbers) in [("azimuthDeg", &azimuth), ("rangeRateMps", &rates)] {
             // As they will be kept: what single precision does not hold is refused too.
-            let kept = numbers.iter().map(|&number| f64::from(number as f32));
-            check_finite(&fields.path_of(name), kept)?;
+            check_single(&|| fields.path_of(name), numbers)?;
         }
         let mut known = |name| match fields.raw(name)? {
             Some(given) if !given.is_null() => column(&mut fields, name, azimuth.len()).map(Some),
@@ -123,13 +122,7 @@ impl Read for Frame {
             fields.raw(name)?;
         }
         fields.finish()?;
-        let detection = |i: usize| Detection {
-            azimuth_rad: azimuth[i].to_radians() as f32,
-            range_rate_mps: rates[i] as f32,
-            range_m: ranges.as_ref().map_or(f32::NAN, |ranges| ranges[i] as f32),
-            rcs_dbsm: rcs.as_ref().map_or(f32::NAN, |rcs| rcs[i] as f32),
-        };
-        let detections = (0..azimuth.len()).map(detection).collect();
+        let detections = Detection::of_columns(&azimuth, &rates, ranges.as_deref(), rcs.as_deref());
         Ok(Self { time_s, detections, yaw_rate_radps, speed_mps })
     }
 }

@@ -79,7 +79,7 @@ impl Read for Cube {
         let mut fields = Fields::new(value, path)?;
         let data_path = fields.path_of("data");
         let single = match fields.raw("data")? {
-            Some(data) => given::numbers::<Float32Array, f32>(&data, &data_path)?,
+            Some(data) => given::numbers::<Float32Array, f32>(&data, &|| data_path.clone())?,
             None => None,
         };
         let Some(numbers) = single else {
@@ -131,22 +131,22 @@ fn numbers(mut fields: Fields, each: usize, fewest: Fewest) -> Fallible<RealData
 /// The numbers of a `Float32Array` or `Float64Array` in a field, and whether it is the former.
 pub fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<(Vec<f64>, bool)> {
     let expected = "a Float32Array or Float64Array";
-    let path = fields.path_of(name);
-    let value = fields
-        .raw(name)?
-        .ok_or_else(|| BindingError::Missing { what: path.clone(), expected: expected.into() })?;
+    let given = fields.raw(name)?;
+    let path = || fields.path_of(name);
+    let value =
+        given.ok_or_else(|| BindingError::Missing { what: path(), expected: expected.into() })?;
     if let Some(numbers) = given::numbers::<Float64Array, _>(&value, &path)? {
         return Ok((numbers, false));
     }
     let numbers = given::numbers::<Float32Array, _>(&value, &path)?;
-    numbers.map(|numbers| (numbers, true)).ok_or_else(|| wrong_type(&path, expected, &value))
+    numbers.map(|numbers| (numbers, true)).ok_or_else(|| wrong_type(&path(), expected, &value))
 }
 
 /// `len` copies of `zero`, or an error where memory does not hold them.
-pub fn zeros<T: Clone>(what: &str, len: usize, zero: T) -> Fallible<Vec<T>> {
+pub fn zeros<T: Clone>(what: &dyn Fn() -> String, len: usize, zero: T) -> Fallible<Vec<T>> {
     let mut numbers = Vec::new();
     numbers.try_reserve_exact(len).map_err(|_| BindingError::TooLarge {
-        what: what.into(),
+        what: what(),
         given: len.saturating_mul(size_of::<T>()),
     })?;
     numbers.resize(len, zero);

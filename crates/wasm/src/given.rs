@@ -65,9 +65,8 @@ pub fn item(array: &JsValue, index: u32, path: &dyn Fn() -> String) -> Fallible<
 }
 
 /// The names of an object's own properties; `path` names the object in errors.
-pub fn keys(object: &JsValue, path: &dyn Fn() -> String) -> Fallible<Vec<JsValue>> {
-    let keys = keys_or_throws(object).map_err(|_| throws(path()))?;
-    Ok((0..keys.length()).map(|index| keys.get(index)).collect())
+pub fn keys(object: &JsValue, path: &dyn Fn() -> String) -> Fallible<Array> {
+    keys_or_throws(object).map_err(|_| throws(path()))
 }
 
 /// The error for what throws when it is read.
@@ -105,12 +104,15 @@ numbers! { f64, set_f64; f32, set_f32; u8, set_u8; }
 /// # Errors
 /// [`BindingError::TooLarge`] where memory does not hold it.
 #[inline]
-pub fn numbers<A: JsCast, T: Number>(value: &JsValue, what: &str) -> Fallible<Option<Vec<T>>> {
+pub fn numbers<A: JsCast, T: Number>(
+    value: &JsValue,
+    what: &dyn Fn() -> String,
+) -> Fallible<Option<Vec<T>>> {
     if value.is_instance_of::<A>() { copied(value, what) } else { Ok(None) }
 }
 
 #[inline(never)]
-fn copied<T: Number>(value: &JsValue, what: &str) -> Fallible<Option<Vec<T>>> {
+fn copied<T: Number>(value: &JsValue, what: &dyn Fn() -> String) -> Fallible<Option<Vec<T>>> {
     let Some(length) = engine_length(&TYPED_LENGTH, value) else { return Ok(None) };
     let mut numbers = zeros(what, length, T::ZERO)?;
     // From a detached one nothing can be copied.
@@ -121,7 +123,7 @@ fn copied<T: Number>(value: &JsValue, what: &str) -> Fallible<Option<Vec<T>>> {
 ///
 /// # Errors
 /// As [`numbers`].
-pub fn buffer(value: &JsValue, what: &str) -> Fallible<Option<Vec<u8>>> {
+pub fn buffer(value: &JsValue, what: &dyn Fn() -> String) -> Fallible<Option<Vec<u8>>> {
     match engine_length(&BUFFER_LENGTH, value) {
         None => Ok(None),
         // A view of a detached buffer would throw.

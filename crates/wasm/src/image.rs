@@ -76,7 +76,7 @@ fn add_targets(
     estimates: &mut Fields,
 ) -> Fallible<()> {
     let cell: Vec<f64> = match estimates.raw("cell")? {
-        Some(value) => given::numbers::<Uint32Array, f64>(&value, "estimates.cell")?
+        Some(value) => given::numbers::<Uint32Array, f64>(&value, &|| "estimates.cell".into())?
             .ok_or_else(|| wrong_type("estimates.cell", "a Uint32Array", &value))?,
         None => return Err(missing("estimates.cell", "a Uint32Array")),
     };
@@ -219,7 +219,7 @@ fn read_view(mut fields: Fields) -> Fallible<BirdsEyeView> {
     let shape = (x_m.len(), y_m.len());
     let power = powers(&mut fields, shape)?;
     let radar = match fields.raw("radar")? {
-        Some(value) => given::numbers::<Int8Array, f64>(&value, "view.radar")?
+        Some(value) => given::numbers::<Int8Array, f64>(&value, &|| "view.radar".into())?
             .ok_or_else(|| wrong_type("view.radar", "an Int8Array", &value))?,
         None => return Err(missing("view.radar", "an Int8Array")),
     };

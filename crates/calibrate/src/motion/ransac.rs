@@ -135,14 +135,13 @@ impl Search {
     ) -> Option<[f64; 2]> {
         let exact = [self.residual_mps, 0.0];
         let mut velocity = first;
+        let mut before = Vec::with_capacity(columns.finite.len());
         least_squares::select(columns, velocity, exact, 1.0, inliers);
         for _ in 0..REFINEMENTS {
-            let next = least_squares::solve(columns, inliers)?;
-            let before = inliers.len();
-            least_squares::select(columns, next, exact, 1.0, inliers);
-            let settled = inliers.len() == before && next == velocity;
-            velocity = next;
-            if settled {
+            velocity = least_squares::solve(columns, inliers)?;
+            std::mem::swap(&mut before, inliers);
+            least_squares::select(columns, velocity, exact, 1.0, inliers);
+            if inliers.iter().eq(&before) {
                 break;
             }
         }

@@ -45,13 +45,14 @@ impl Known {
     pub fn refuse_others(&self, object: &Object, at: &At<'_>) -> Fallible<()> {
         let keys = given::keys(object, &|| at.path())?;
         // As many as there are without looking at each: none else, unless some are inherited.
-        let prototype = Reflect::get_prototype_of(object);
-        let is_plain = prototype.is_ok_and(|own| PLAIN.with(|plain| own == *plain));
-        if is_plain && keys.len() == self.present.get() as usize {
-            return Ok(());
+        if keys.length() == self.present.get() {
+            let prototype = Reflect::get_prototype_of(object);
+            if prototype.is_ok_and(|own| PLAIN.with(|plain| own == *plain)) {
+                return Ok(());
+            }
         }
         let known = self.names.borrow();
-        for key in &keys {
+        for key in &keys.to_vec() {
             let name = key.as_string().unwrap_or_default();
             if known.contains(&name.as_str()) {
                 continue;

@@ -133,7 +133,7 @@ pub(super) struct Entries<'a> {
 
 impl<'a> Entries<'a> {
     pub fn new(object: &'a Object, at: &'a At<'a>, is_angle: bool) -> Reading<Self> {
-        let keys = given::keys(object, &|| at.path())?.into_iter();
+        let keys = given::keys(object, &|| at.path())?.to_vec().into_iter();
         Ok(Self { object, keys, at, is_angle, next: JsValue::UNDEFINED })
     }
 

@@ -14,7 +14,7 @@ use wasm_bindgen::{JsCast, JsValue};
 
 /// A result as a plain object. What serde cannot write, of which there is none, becomes undefined.
 pub fn write<T: Serialize + ?Sized>(value: &T) -> JsValue {
-    value.serialize(Writer::default()).unwrap_or(JsValue::UNDEFINED)
+    value.serialize(Writer::default()).ok().flatten().unwrap_or(JsValue::UNDEFINED)
 }
 
 /// Results as a list of plain objects.
@@ -22,13 +22,22 @@ pub fn write_all<T: Serialize>(values: impl IntoIterator<Item = T>) -> Array {
     values.into_iter().map(|value| write(&value)).collect()
 }
 
-// Setting a property of a fresh plain object cannot fail, and costs half of what `Reflect.set` does.
+// Setting a property of a fresh plain object cannot fail, and costs half of what `Reflect.set` does. A number that is set as
+// one costs half again of what it does as a value.
 #[wasm_bindgen]
 extern "C" {
     type Plain;
 
     #[wasm_bindgen(method, structural, indexing_setter)]
     fn set(this: &Plain, key: &JsValue, value: &JsValue);
+
+    #[wasm_bindgen(method, structural, indexing_setter)]
+    fn set_number(this: &Plain, key: &JsValue, value: f64);
+
+    type Fresh;
+
+    #[wasm_bindgen(method, js_name = push)]
+    fn push_number(this: &Fresh, value: f64);
 }
 
 /// What no result is: an enum with data, or what serde_wasm_bindgen refuses.
@@ -51,12 +60,35 @@ impl serde::ser::Error for Unwritable {
 
 type Written<T> = Result<T, Unwritable>;
 
+/// Where a value goes.
+#[derive(Clone, Copy, Default)]
+enum Place<'a> {
+    /// To whoever asked.
+    #[default]
+    Answer,
+    Property(&'a Object, &'a JsValue),
+    Item(&'a Array),
+    /// Its fields go among those of another object.
+    Spread(&'a Object),
+}
+
+impl Place<'_> {
+    fn put(self, value: &JsValue) {
+        match self {
+            Self::Property(object, key) => object.unchecked_ref::<Plain>().set(key, value),
+            Self::Item(array) => {
+                array.push(value);
+            }
+            Self::Answer | Self::Spread(_) => {}
+        }
+    }
+}
+
 /// How a value is written.
 #[derive(Clone, Copy, Default)]
 struct Writer<'a> {
     is_angle: bool,
-    /// Where the value's fields stand among those of another object.
-    into: Option<&'a Object>,
+    place: Place<'a>,
     /// Which numbers the bytes are that come next.
     column: Option<NumberType>,
 }
@@ -66,40 +98,68 @@ const LEAVES: serde_wasm_bindgen::Serializer =
 
 macro_rules! leaves {
     ($($method:ident($type:ty))*) => {$(
-        fn $method(self, value: $type) -> Written<JsValue> {
-            LEAVES.$method(value).map_err(|_| Unwritable)
+        fn $method(self, value: $type) -> Written<Answer> {
+            LEAVES.$method(value).map(Some).map_err(|_| Unwritable)
         }
     )*};
 }
 
+macro_rules! numbers {
+    ($($method:ident($type:ty))*) => {$(
+        fn $method(self, value: $type) -> Written<Answer> {
+            self.serialize_f64(value.into())
+        }
+    )*};
+}
+
+/// A value that has still to be put in its place; none where it is there.
+type Answer = Option<JsValue>;
+
 impl<'a> Serializer for Writer<'a> {
-    type Ok = JsValue;
+    type Ok = Answer;
     type Error = Unwritable;
     type SerializeSeq = List;
     type SerializeTuple = List;
-    type SerializeTupleStruct = serde::ser::Impossible<JsValue, Unwritable>;
-    type SerializeTupleVariant = serde::ser::Impossible<JsValue, Unwritable>;
+    type SerializeTupleStruct = serde::ser::Impossible<Answer, Unwritable>;
+    type SerializeTupleVariant = serde::ser::Impossible<Answer, Unwritable>;
     type SerializeMap = Entries;
     type SerializeStruct = Fields<'a>;
-    type SerializeStructVariant = serde::ser::Impossible<JsValue, Unwritable>;
+    type SerializeStructVariant = serde::ser::Impossible<Answer, Unwritable>;
 
     leaves! {
-        serialize_bool(bool)
-        serialize_i8(i8) serialize_i16(i16) serialize_i32(i32) serialize_i64(i64)
-        serialize_u8(u8) serialize_u16(u16) serialize_u32(u32) serialize_u64(u64)
-        serialize_f32(f32) serialize_char(char) serialize_str(&str)
+        serialize_bool(bool) serialize_i64(i64) serialize_char(char) serialize_str(&str)
+    }
+
+    numbers! {
+        serialize_i8(i8) serialize_i16(i16) serialize_i32(i32)
+        serialize_u8(u8) serialize_u16(u16) serialize_u32(u32) serialize_f32(f32)
     }
 
     fn is_human_readable(&self) -> bool {
         false
     }
 
-    fn serialize_f64(self, value: f64) -> Written<JsValue> {
-        Ok(if self.is_angle { value.to_degrees() } else { value }.into())
+    fn serialize_u64(self, value: u64) -> Written<Answer> {
+        match u32::try_from(value) {
+            Ok(value) => self.serialize_u32(value),
+            Err(_) => LEAVES.serialize_u64(value).map(Some).map_err(|_| Unwritable),
+        }
     }
 
-    fn serialize_bytes(self, bytes: &[u8]) -> Written<JsValue> {
-        Ok(match self.column {
+    fn serialize_f64(self, value: f64) -> Written<Answer> {
+        let value = if self.is_angle { value.to_degrees() } else { value };
+        match self.place {
+            Place::Property(object, key) => {
+                object.unchecked_ref::<Plain>().set_number(key, value);
+            }
+            Place::Item(array) => array.unchecked_ref::<Fresh>().push_number(value),
+            Place::Answer | Place::Spread(_) => return Ok(Some(value.into())),
+        }
+        Ok(None)
+    }
+
+    fn serialize_bytes(self, bytes: &[u8]) -> Written<Answer> {
+        Ok(Some(match self.column {
             Some(NumberType::F64) if self.is_angle => {
                 let radians: Cow<'_, [f64]> = numbers(bytes);
                 let degrees: Vec<f64> =
@@ -111,23 +171,23 @@ impl<'a> Serializer for Writer<'a> {
             Some(NumberType::U32) => Uint32Array::new_from_slice(&numbers(bytes)).into(),
             Some(NumberType::I8) => Int8Array::new_from_slice(&numbers(bytes)).into(),
             Some(NumberType::U8) | None => Uint8Array::new_from_slice(bytes).into(),
-        })
+        }))
     }
 
-    fn serialize_none(self) -> Written<JsValue> {
-        Ok(JsValue::NULL)
+    fn serialize_none(self) -> Written<Answer> {
+        Ok(Some(JsValue::NULL))
     }
 
-    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Written<JsValue> {
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Written<Answer> {
         value.serialize(self)
     }
 
-    fn serialize_unit(self) -> Written<JsValue> {
-        Ok(JsValue::NULL)
+    fn serialize_unit(self) -> Written<Answer> {
+        self.serialize_none()
     }
 
-    fn serialize_unit_struct(self, _: &'static str) -> Written<JsValue> {
-        Ok(JsValue::NULL)
+    fn serialize_unit_struct(self, _: &'static str) -> Written<Answer> {
+        self.serialize_none()
     }
 
     fn serialize_unit_variant(
@@ -135,15 +195,15 @@ impl<'a> Serializer for Writer<'a> {
         _: &'static str,
         _: u32,
         variant: &'static str,
-    ) -> Written<JsValue> {
-        Ok(property(variant).key.clone())
+    ) -> Written<Answer> {
+        Ok(Some(property(variant).key.clone()))
     }
 
     fn serialize_newtype_struct<T: Serialize + ?Sized>(
         self,
         name: &'static str,
         value: &T,
-    ) -> Written<JsValue> {
+    ) -> Written<Answer> {
         // The bytes of the numbers come next.
         value.serialize(Writer { column: number_type(name).or(self.column), ..self })
     }
@@ -154,7 +214,7 @@ impl<'a> Serializer for Writer<'a> {
         _: u32,
         _: &'static str,
         _: &T,
-    ) -> Written<JsValue> {
+    ) -> Written<Answer> {
         Err(Unwritable)
     }
 
@@ -189,7 +249,10 @@ impl<'a> Serializer for Writer<'a> {
     }
 
     fn serialize_struct(self, _: &'static str, _: usize) -> Written<Fields<'a>> {
-        Ok(Fields { own: self.into.is_none().then(Object::new), into: self.into })
+        Ok(match self.place {
+            Place::Spread(into) => Fields { own: None, into: Some(into) },
+            _ => Fields { own: Some(Object::new()), into: None },
+        })
     }
 
     fn serialize_struct_variant(
@@ -218,35 +281,38 @@ struct List {
 
 impl List {
     fn push<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
-        let writer = Writer { is_angle: self.is_angle, ..Writer::default() };
-        self.array.push(&value.serialize(writer)?);
+        let place = Place::Item(&self.array);
+        let writer = Writer { is_angle: self.is_angle, place, ..Writer::default() };
+        if let Some(value) = value.serialize(writer)? {
+            place.put(&value);
+        }
         Ok(())
     }
 }
 
 impl SerializeSeq for List {
-    type Ok = JsValue;
+    type Ok = Answer;
     type Error = Unwritable;
 
     fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
         self.push(value)
     }
 
-    fn end(self) -> Written<JsValue> {
-        Ok(self.array.into())
+    fn end(self) -> Written<Answer> {
+        Ok(Some(self.array.into()))
     }
 }
 
 impl SerializeTuple for List {
-    type Ok = JsValue;
+    type Ok = Answer;
     type Error = Unwritable;
 
     fn serialize_element<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
         self.push(value)
     }
 
-    fn end(self) -> Written<JsValue> {
-        Ok(self.array.into())
+    fn end(self) -> Written<Answer> {
+        Ok(Some(self.array.into()))
     }
 }
 
@@ -261,26 +327,21 @@ impl Fields<'_> {
         self.own.as_ref().or(self.into)
     }
 
-    // These are once for all types of values, which keeps the module small.
+    // Once for all types of values, which keeps the module small.
     #[inline(never)]
-    fn place(&self, field: &'static str) -> (Writer<'_>, Option<&'static Property>) {
+    fn writer(&self, field: &'static str) -> Writer<'_> {
+        let Some(object) = self.object() else { return Writer::default() };
         if field.starts_with("..") {
-            return (Writer { into: self.object(), ..Writer::default() }, None);
+            return Writer { place: Place::Spread(object), ..Writer::default() };
         }
-        let property = property(field);
-        (Writer { is_angle: property.is_angle, ..Writer::default() }, Some(property))
-    }
-
-    #[inline(never)]
-    fn set(&self, property: Option<&Property>, value: &JsValue) {
-        if let (Some(object), Some(property)) = (self.object(), property) {
-            object.unchecked_ref::<Plain>().set(&property.key, value);
-        }
+        let Property { key, is_angle, .. } = property(field);
+        let place = Place::Property(object, key);
+        Writer { is_angle: *is_angle, place, ..Writer::default() }
     }
 }
 
 impl SerializeStruct for Fields<'_> {
-    type Ok = JsValue;
+    type Ok = Answer;
     type Error = Unwritable;
 
     fn serialize_field<T: Serialize + ?Sized>(
@@ -288,14 +349,15 @@ impl SerializeStruct for Fields<'_> {
         field: &'static str,
         value: &T,
     ) -> Written<()> {
-        let (writer, property) = self.place(field);
-        let value = value.serialize(writer)?;
-        self.set(property, &value);
+        let writer = self.writer(field);
+        if let Some(value) = value.serialize(writer)? {
+            writer.place.put(&value);
+        }
         Ok(())
     }
 
-    fn end(self) -> Written<JsValue> {
-        Ok(self.own.map_or(JsValue::UNDEFINED, Into::into))
+    fn end(self) -> Written<Answer> {
+        Ok(self.own.map(Into::into))
     }
 }
 
@@ -307,21 +369,24 @@ struct Entries {
 }
 
 impl SerializeMap for Entries {
-    type Ok = JsValue;
+    type Ok = Answer;
     type Error = Unwritable;
 
     fn serialize_key<T: Serialize + ?Sized>(&mut self, key: &T) -> Written<()> {
-        self.key = key.serialize(Writer::default())?;
+        self.key = key.serialize(Writer::default())?.unwrap_or(JsValue::UNDEFINED);
         Ok(())
     }
 
     fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Written<()> {
-        let value = value.serialize(Writer { is_angle: self.is_angle, ..Writer::default() })?;
-        self.object.unchecked_ref::<Plain>().set(&self.key, &value);
+        let place = Place::Property(&self.object, &self.key);
+        let writer = Writer { is_angle: self.is_angle, place, ..Writer::default() };
+        if let Some(value) = value.serialize(writer)? {
+            place.put(&value);
+        }
         Ok(())
     }
 
-    fn end(self) -> Written<JsValue> {
-        Ok(self.object.into())
+    fn end(self) -> Written<Answer> {
+        Ok(Some(self.object.into()))
     }
 }
