@@ -1,3 +1,4 @@
+import { cpSync, existsSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
 import { bundledDrive } from './scripts/lib/bundled-drive.mjs';
@@ -17,19 +18,34 @@ const styles: Plugin = {
   transformIndexHtml: (html) => html.replace(" 'unsafe-inline'", "; style-src-attr 'unsafe-inline'"),
 };
 
+const reference = path('dist/reference');
+
+/** The API reference, which `npm run build` has made by now and `npm start` does without. */
+const withReference: Plugin = {
+  name: 'reference',
+  apply: 'build',
+  closeBundle: () => {
+    if (existsSync(reference)) cpSync(reference, path('web/app/dist/reference'), { recursive: true });
+  },
+};
+
 /** Set by `npm start` where the module of networks is built while the demo is up: the folder it comes to. */
 const later = process.env.BORESIGHT_NETWORKS;
 
 /** The demo. It imports the built package by its name, as a user's page would. */
-export default defineConfig({
+export default defineConfig(({ command }) => ({
   root: path('web/app'),
   base: './',
   // The demo is one page: another address is no part of it.
   appType: 'mpa',
-  define: { NETWORKS_LATER: JSON.stringify(later !== undefined) },
+  define: {
+    NETWORKS_LATER: JSON.stringify(later !== undefined),
+    REFERENCE: JSON.stringify(command === 'build' && existsSync(reference)),
+  },
   // A site without its module of networks is not yet what is to be kept.
   plugins: [
     styles,
+    withReference,
     bundledDrive(),
     ...(later === undefined ? [] : [networksLater(later)]),
     offline(later === undefined),
@@ -53,4 +69,4 @@ export default defineConfig({
     // Scripts of pages come with no styles of their own to wait for.
     cssCodeSplit: false,
   },
-});
+}));

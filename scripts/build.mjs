@@ -1,14 +1,16 @@
 // The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist, all in single files ->
 // dist/inline. The demo: web/app/dist.
 import { existsSync, rmSync } from 'node:fs';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { makeInline } from './lib/inline.mjs';
+import { npmTools } from './lib/npm-tools.mjs';
 import { dist, environment, root, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, run } from './lib/run.mjs';
 import { upToDate, whenChanged } from './lib/stamp.mjs';
 import { setup } from './setup.mjs';
 
 const targetDir = join(root, 'target');
+const reference = 'dist/reference/index.html';
 const say = (text) => console.log(`build: ${text}`);
 
 // What rustc's wasm32 target turns on by itself, and SIMD (see .cargo/config.toml).
@@ -205,6 +207,26 @@ export async function buildInline() {
   if (!done) say('dist/inline is up to date');
 }
 
+/** The API reference, from the types of the package (docs/reference). */
+export async function buildReference() {
+  const inputs = [
+    'package-lock.json',
+    'docs/reference',
+    'dist/lib',
+    'dist/worker',
+    'dist/elements/types',
+    'dist/inline',
+  ];
+  const done = await whenChanged('reference', { inputs, outputs: [reference] }, async () => {
+    say('docs/reference -> dist/reference (typedoc)');
+    // It reads types with a TypeScript of its own, which has the interface that it needs.
+    const resolve = await npmTools('typedoc', { typedoc: '0.28.20', typescript: '6.0.3' });
+    const program = join(dirname(resolve('typedoc/package.json')), 'bin', 'typedoc');
+    await run(process.execPath, [program], { cwd: join(root, 'docs', 'reference') });
+  });
+  if (!done) say('dist/reference is up to date');
+}
+
 export async function buildPackage() {
   for (const one of modules) await buildModule(one);
   await buildLibrary();
@@ -227,6 +249,7 @@ export async function buildDemo(variables = {}) {
     'dist/wasm',
     'dist/lib',
     'dist/worker',
+    reference,
   ];
   const outputs = ['web/app/dist/index.html'];
   const done = await whenChanged('demo', { inputs, extra: Object.keys(variables), outputs }, async () => {
@@ -239,6 +262,7 @@ export async function buildDemo(variables = {}) {
 export async function build() {
   await setup();
   await buildPackage();
+  await buildReference();
   if (existsSync(join(root, 'web', 'app', 'index.html'))) await buildDemo();
 }
 

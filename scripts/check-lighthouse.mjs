@@ -1,25 +1,15 @@
 // Lighthouse over the built, compressed demo: a table of performance, which is the machine's too and only printed, and of
 // accessibility, which has to be 100. `-- angle,capture` takes some pages.
-import { existsSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { buildDemo, buildPackage } from './build.mjs';
 import { browserArguments, browserMissing, findBrowser } from './lib/browser.mjs';
-import { tools } from './lib/paths.mjs';
-import { main, run } from './lib/run.mjs';
+import { npmTools } from './lib/npm-tools.mjs';
+import { main } from './lib/run.mjs';
 import { setup } from './setup.mjs';
 
-/** Lighthouse brings 200 packages of 185 MB: whoever runs this check has them, beside those of the project. */
-const VERSION = '12.8.2';
-const folder = join(tools, 'lighthouse');
-
 async function lighthouseModules() {
-  const { resolve } = createRequire(join(folder, 'index.js'));
-  if (!existsSync(join(folder, 'node_modules', 'lighthouse', 'package.json'))) {
-    console.log(`setup: lighthouse ${VERSION} into .tools (about a minute)`);
-    await run('npm', ['install', '--prefix', folder, '--no-save', '--no-audit', '--no-fund', `lighthouse@${VERSION}`]);
-  }
+  // It brings 200 packages of 185 MB, in about a minute.
+  const resolve = await npmTools('lighthouse', { lighthouse: '12.8.2' });
   const load = (name) => import(pathToFileURL(resolve(name)).href);
   const [{ default: lighthouse, desktopConfig }, { launch }] = await Promise.all(
     ['lighthouse', 'chrome-launcher'].map(load),

@@ -2,7 +2,7 @@
 // are in the closing table. Nothing is skipped where CI=true.
 import { readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { buildDemo, buildPackage, cargoArguments, modules } from './build.mjs';
+import { buildDemo, buildPackage, buildReference, cargoArguments, modules } from './build.mjs';
 import { browserMissing, findBrowser } from './lib/browser.mjs';
 import { environment, root } from './lib/paths.mjs';
 import { main, runTee } from './lib/run.mjs';
@@ -59,6 +59,7 @@ const steps = [
   { name: 'build', work: buildPackage, counts: checkCounts },
   script('check-size'),
   script('check-simd'),
+  { name: 'build-reference', work: buildReference, counts: checkCounts },
   { name: 'build-demo', work: buildDemo, counts: checkCounts },
   { name: 'types', command: ['tsc', '-p', 'tsconfig.json'], counts: checkCounts },
   { name: 'node', command: () => nodeTests('tests/node'), counts: nodeCounts },

@@ -16,6 +16,9 @@ import { Introduction } from './ui/introduction.tsx';
 import { KeptNote } from './ui/kept.tsx';
 import { Notice } from './ui/notice.tsx';
 
+/** Whether the site has its API reference (vite.config.ts). */
+declare const REFERENCE: boolean;
+
 const DOCS = 'https://github.com/boresight/boresight';
 
 export function App() {
@@ -149,6 +152,12 @@ export function App() {
           <a href={`${DOCS}#readme`}>Read me</a> <span aria-hidden="true">{'·'}</span>{' '}
           <a href={`${DOCS}/blob/main/docs/conventions.md`}>Frames, signs and units</a>{' '}
           <span aria-hidden="true">{'·'}</span> <a href={`${DOCS}/blob/main/docs/architecture.md`}>Architecture</a>
+          {REFERENCE && (
+            <>
+              {' '}
+              <span aria-hidden="true">{'·'}</span> <a href="reference/index.html">API reference</a>
+            </>
+          )}
         </p>
       </footer>
       <p class="visually-hidden" role="status" aria-live="polite" data-live>

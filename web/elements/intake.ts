@@ -2,6 +2,7 @@
 import type { Pool } from 'boresight/worker';
 import { acquire, release } from './pool.ts';
 
+/** A file by its name. */
 export interface NamedBytes {
   name: string;
   bytes: Uint8Array;

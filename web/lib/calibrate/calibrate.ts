@@ -18,12 +18,54 @@ export function calibrationMethods(): CalibrationMethodInfo[] {
   return call(() => core.calibrationMethods() as CalibrationMethodInfo[]);
 }
 
-/** The angle from several drives with one radar of one car, each as the snapshot of its calibration. */
+/**
+ * The angle from several drives with one radar of one car, each as the snapshot of its calibration.
+ *
+ * @example
+ * ```js
+ * import { Calibration, driveFrame, initDrives, mergeCalibrations, scanMotion, simulateDrive } from 'boresight';
+ *
+ * await initDrives();
+ * const place = { xM: 3.6, yM: 0.7 };
+ * const sensors = [{ id: 1, ...place, yawDeg: 30.5 }];
+ * const snapshots = [1, 2].map((seed) => {
+ *   const drive = simulateDrive({ durationS: 60, seed, sensors });
+ *   const motion = scanMotion(drive);
+ *   const calibration = new Calibration({ method: 'recursive', ...place, nominalDeg: 30 });
+ *   for (let scan = 0; scan < drive.scans.timeS.length; scan++) {
+ *     calibration.addFrame(driveFrame(drive, scan, motion));
+ *   }
+ *   const bytes = calibration.snapshot();
+ *   calibration.free();
+ *   return bytes;
+ * });
+ * console.log(mergeCalibrations(snapshots).angleDeg.toFixed(1)); // → 30.5
+ * ```
+ */
 export function mergeCalibrations(snapshots: readonly (Uint8Array | ArrayBuffer)[]): CalibrationResult {
   return drives.call(() => glue.mergeCalibrations(snapshots) as CalibrationResult);
 }
 
-/** Finds the angle a radar is mounted at from its frames while the car drives. */
+/**
+ * Finds the angle a radar is mounted at from its frames while the car drives.
+ *
+ * @example
+ * ```js
+ * import { Calibration, driveFrame, initDrives, scanMotion, simulateDrive } from 'boresight';
+ *
+ * await initDrives();
+ * const place = { xM: 3.6, yM: 0.7 };
+ * const drive = simulateDrive({ durationS: 60, seed: 1, sensors: [{ id: 1, ...place, yawDeg: 30.5 }] });
+ * const motion = scanMotion(drive);
+ * const calibration = new Calibration({ method: 'recursive', ...place, nominalDeg: 30 });
+ * for (let scan = 0; scan < drive.scans.timeS.length; scan++) {
+ *   calibration.addFrame(driveFrame(drive, scan, motion));
+ * }
+ * const { angleDeg, sigmaDeg } = calibration.estimate();
+ * calibration.free();
+ * console.log(`${angleDeg.toFixed(1)} +- ${sigmaDeg.toFixed(2)} deg`); // → 30.5 +- 0.06 deg
+ * ```
+ */
 export class Calibration extends Handle<glue.Calibration> {
   constructor(options: CalibrationOptions & MotionNetwork);
   /** What {@link Calibration.restore} calls. */

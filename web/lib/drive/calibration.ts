@@ -39,13 +39,41 @@ const NOTHING = [frameVerdicts.indexOf('sparse'), NaN, NaN, NaN, NaN, 0, 0];
 /** Methods that weigh all frames at once are asked after a hundredth of the frames so far at most. */
 const SHARE = 0.01;
 
-/** Finds the angle one radar of a drive is mounted at. Throws the code `cancelled` if `report` stops it. */
+/**
+ * Finds the angle one radar of a drive is mounted at. Throws the code `cancelled` if `report` stops it.
+ *
+ * @example
+ * ```js
+ * import { calibrateDrive, initDrives, simulateDrive } from 'boresight';
+ *
+ * await initDrives();
+ * // The radar looks half a degree further to the left than its log says.
+ * const drive = simulateDrive({ scenario: 'city', durationS: 120, seed: 1, misalignmentDeg: { 1: 0.5 } });
+ * const { mounting, result } = calibrateDrive(drive, { sensor: 1, alarmDeg: 0.2 });
+ * console.log((result.angleDeg - mounting.nominalDeg).toFixed(1), result.alignment); // → 0.5 misaligned
+ * ```
+ */
 export function calibrateDrive(drive: DriveData, options?: CalibrateDriveOptions, report?: Report): DriveCalibration {
   const view = viewOf(drive);
   return run(view, taskOf(view, options), report, (_, found) => found())[0] as DriveCalibration;
 }
 
-/** Finds the angles of several radars of a drive together: one yaw-rate sensor, one scale and one bias. */
+/**
+ * Finds the angles of several radars of a drive together: one yaw-rate sensor, one scale and one bias.
+ *
+ * @example
+ * ```js
+ * import { initDrives, jointCalibration, simulateDrive } from 'boresight';
+ *
+ * await initDrives();
+ * const drive = simulateDrive({ scenario: 'city', durationS: 60, seed: 1 });
+ * for (const { sensor, result } of jointCalibration(drive)) console.log(sensor, result.angleDeg.toFixed(0));
+ * // → 1 -85
+ * // → 2 -25
+ * // → 3 25
+ * // → 4 85
+ * ```
+ */
 export function jointCalibration(
   drive: DriveData,
   options?: JointCalibrationOptions,
@@ -59,6 +87,16 @@ export function jointCalibration(
  * Calibrates like {@link calibrateDrive}, or like {@link jointCalibration} where the options name `sensors`, and writes a report: a
  * page of HTML, to print or to keep, with verdict, plots, conditions and the files it comes from. Throws the code `cancelled` if
  * `report` stops it.
+ *
+ * @example
+ * ```js
+ * import { calibrationReport, init, initDrives, simulateDrive } from 'boresight';
+ *
+ * await Promise.all([init(), initDrives()]);
+ * const drive = simulateDrive({ scenario: 'city', durationS: 60, seed: 1 });
+ * const html = calibrationReport(drive, {}, { sensors: [1, 2, 3, 4] });
+ * console.log(html.slice(0, 15)); // → <!doctype html>
+ * ```
  */
 export function calibrationReport(
   drive: DriveData,

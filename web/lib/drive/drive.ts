@@ -23,7 +23,18 @@ export function readDrive(files: readonly DriveFile[], options?: ReadDriveOption
   return drives.call(() => glue.readDrive(files, options) as Drive);
 }
 
-/** Simulates a drive; the same bits on every platform. Throws the code `cancelled` if `report` stops it. */
+/**
+ * Simulates a drive; the same bits on every platform. Throws the code `cancelled` if `report` stops it.
+ *
+ * @example
+ * ```js
+ * import { initDrives, simulateDrive } from 'boresight';
+ *
+ * await initDrives();
+ * const { scans, sensors } = simulateDrive({ scenario: 'city', durationS: 10, seed: 1 });
+ * console.log(sensors.map(({ id }) => id), scans.timeS.length); // → [ 1, 2, 3, 4 ] 534
+ * ```
+ */
 export function simulateDrive(options?: SimulateDriveOptions, report?: Report): SimulatedDrive {
   return drives.call(() => glue.simulateDrive(options, report) as SimulatedDrive);
 }

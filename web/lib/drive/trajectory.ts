@@ -13,6 +13,17 @@ const MOST_POSES = 1 << 22;
  * given (NaN where it is not); the radar's velocity then moves it sideways where the angle is wrong. Frames
  * without a motion, and sparse ones, are left out; null where xM is too near 0 for the motion to tell the
  * yaw rate.
+ *
+ * @example
+ * ```js
+ * import { calibrateDrive, initDrives, init, simulateDrive, trajectory } from 'boresight';
+ *
+ * await Promise.all([init(), initDrives()]);
+ * const drive = simulateDrive({ scenario: 'city', durationS: 60, seed: 1 });
+ * const { frames, mounting, result } = calibrateDrive(drive, { sensor: 1 });
+ * const { xM, yM } = trajectory(frames, { ...mounting, angleDeg: result.angleDeg });
+ * console.log(xM.length === yM.length); // → true
+ * ```
  */
 export function trajectory(
   frames: CalibratedFrames,

@@ -88,7 +88,9 @@ export interface JointCalibrationOptions
     MotionGap {
   /** Default: all radars of the drive, each as the drive has it. */
   sensors?: readonly (number | { sensor: number; xM?: number; yM?: number; nominalDeg?: number })[];
+  /** Least time between points of the history, s. Default 1. */
   historyS?: number;
+  /** Whether the weights of all detections are kept. Default false. */
   weights?: boolean;
 }
 
@@ -147,6 +149,7 @@ export interface CalibratedFrames {
   weights?: { offsets: Uint32Array; values: Float32Array };
 }
 
+/** What a trajectory turns by. */
 export interface TrajectoryOptions {
   /** Yaw rate of the car at each frame, NaN where none is known. Default: what the radar's motion implies. */
   yawRateDegps?: Floats;

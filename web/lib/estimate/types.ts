@@ -4,7 +4,9 @@ import type { ArrayInput, ComplexData } from '../types.js';
 
 /** An estimator: its method, the array it works on, and its options. */
 export interface EstimatorOptions extends SharedEstimatorOptions {
+  /** Its name, of those that `methods()` lists. */
   method: Method;
+  /** A preset by name, or positions of elements in half wavelengths. */
   array: ArrayInput;
 }
 
@@ -16,12 +18,15 @@ export interface BatchInput {
   snapshots: ComplexData;
 }
 
+/** What is kept of a batch. */
 export interface BatchOptions {
   /** Whether spectra are kept, of methods that have them. Default false. */
   spectra?: boolean;
 }
 
+/** The scene that a bound is for. */
 export interface BoundOptions extends BoundRequest {
+  /** A preset by name, or positions of elements in half wavelengths. */
   array: ArrayInput;
   /** Uncorrelated targets; their phases matter to the deterministic bound of one snapshot only. */
   targets: readonly BoundTarget[];

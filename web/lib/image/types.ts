@@ -26,15 +26,23 @@ export interface ImageEstimates {
   spectra?: Pick<BatchSpectra, 'azimuthDeg' | 'power' | 'kind'>;
 }
 
+/** What a map of range and azimuth is made of. */
 export interface RangeAzimuthMapInput {
+  /** Range and power of each detected cell. */
   cells: Pick<FrameCells, 'rangeM' | 'powerDb'>;
+  /** Targets and spectra of the cells. */
   estimates: ImageEstimates;
+  /** Which of them are drawn. */
   from: ImageFrom;
+  /** Ranges and azimuths of the map. */
   grid: MapGrid;
 }
 
+/** What a view of the ground is made of. */
 export interface BirdsEyeViewInput {
+  /** The map of each radar, and where in the car it sits. */
   radars: readonly { map: RangeAzimuthMap; mounting: Mounting }[];
+  /** Extent and cells of the ground, in the car's frame. */
   grid: ViewGrid;
 }
 

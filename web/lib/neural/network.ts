@@ -39,7 +39,25 @@ export function initNeuralSync(module: WebAssembly.Module | BufferSource): void 
   neural.startSync(module);
 }
 
-/** A network from an ONNX file, ready to estimate. */
+/**
+ * A network from an ONNX file, ready to estimate.
+ *
+ * @example
+ * ```js
+ * import { readFile } from 'node:fs/promises';
+ * import { init, simulateSnapshots } from 'boresight';
+ * import { initNeural, Network } from 'boresight/neural';
+ *
+ * await Promise.all([init(), initNeural()]);
+ * const file = (end) => readFile(new URL(import.meta.resolve(`boresight/models/learned-pursuit.${end}`)));
+ * const network = new Network(await file('onnx'), { card: String(await file('json')) });
+ * const targets = [{ azimuthDeg: -5 }, { azimuthDeg: 12 }];
+ * const { data, shape } = simulateSnapshots({ array: 'lrr48', targets, snrDb: 25, seed: 4 });
+ * const { sources } = network.estimate({ snapshots: { data, shape: shape.slice(1) } });
+ * network.free();
+ * console.log(sources.map(({ azimuthDeg }) => azimuthDeg.toFixed(0))); // → [ '-5', '12' ]
+ * ```
+ */
 export class Network extends Handle<glue.Network> {
   /** What it is. */
   readonly kind: NetworkKind;

@@ -48,7 +48,7 @@ export interface Tensor {
 }
 
 /**
- * Options of a {@link Network}: its card, and those of its estimates. `method` is for a counting network, which with
+ * Options of a `Network`: its card, and those of its estimates. `method` is for a counting network, which with
  * `sources: 'network'` counts for any method that needs no network.
  */
 export interface NetworkOptions extends Partial<Omit<EstimatorOptions, 'network'>> {

@@ -2,7 +2,19 @@ import * as glue from '../../wasm/boresight.js';
 import { call } from '../runtime/instance.js';
 import type { Waveform, WaveformSummary } from '../types.js';
 
-/** Resolutions and limits of a waveform. */
+/**
+ * Resolutions and limits of a waveform.
+ *
+ * @example
+ * ```js
+ * import { init, waveformPreset, waveformSummary } from 'boresight';
+ *
+ * await init();
+ * const { rangeResolutionM, maxRateMps } = waveformSummary(waveformPreset('awr1642'));
+ * console.log(`${(100 * rangeResolutionM).toFixed(1)} cm, to ${maxRateMps.toFixed(1)} m/s`);
+ * // → 5.1 cm, to 4.9 m/s
+ * ```
+ */
 export function waveformSummary(waveform: Waveform): WaveformSummary {
   return call(() => glue.waveformSummary(waveform) as WaveformSummary);
 }

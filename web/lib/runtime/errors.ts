@@ -25,10 +25,12 @@ export class BoresightError extends Error {
     this.details = details;
   }
 
+  /** The error again, on the other side of a boundary. */
   static fromPlain({ code, message, what, expected, given }: PlainError): BoresightError {
     return new BoresightError(code, message, { what, expected, given });
   }
 
+  /** Code, message and details alone, which any boundary lets through. */
   toPlain(): PlainError {
     return { code: this.code, message: this.message, ...this.details };
   }

@@ -1,0 +1,6 @@
+/**
+ * Radar plots as custom elements.
+ *
+ * @module boresight/elements
+ */
+export * from 'boresight/elements';

@@ -1,0 +1,6 @@
+/**
+ * Networks: angles from snapshots, counting of sources, and models of one's own.
+ *
+ * @module boresight/neural
+ */
+export * from 'boresight/neural';

@@ -1,0 +1,49 @@
+/** The examples in the comments of the package's sources, which the API reference shows, print what they say. */
+import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { root } from '../../scripts/lib/paths.mjs';
+import { consumer } from './consumer.mjs';
+
+const sources = ['web/lib', 'web/worker'].flatMap((folder) =>
+  readdirSync(join(root, folder), { recursive: true })
+    .filter((name) => name.endsWith('.ts'))
+    .map((name) => `${folder}/${name}`),
+);
+
+/** Each example with the source and the name it is of. */
+const examples = sources.flatMap((path) => {
+  const text = readFileSync(join(root, path), 'utf8');
+  return [...text.matchAll(/ \* @example\n \* ```js\n(.*?) \* ```\n \*\/\nexport \w+ (\w+)/gs)].map(
+    ([, lines, name]) => ({ path, name, code: lines.replaceAll(/^ \* ?/gm, '') }),
+  );
+});
+const promised = (code) => [...code.matchAll(/\/\/ → (.*)$/gm)].map(([, line]) => line);
+
+let project;
+before(async () => {
+  project = await consumer({ files: Object.fromEntries(examples.map(({ name, code }) => [`${name}.mjs`, code])) });
+});
+after(() => project?.remove());
+
+test('examples stand at what a newcomer looks for', () => {
+  const count = sources.reduce(
+    (sum, path) => sum + readFileSync(join(root, path), 'utf8').split('@example').length - 1,
+    0,
+  );
+  assert.equal(examples.length, count, 'all are of the form that is read here');
+  const names = new Set(examples.map(({ name }) => name));
+  assert.equal(names.size, examples.length);
+  for (const name of ['estimate', 'simulateCube', 'calibrateDrive', 'Calibration', 'createPool', 'Network']) {
+    assert.ok(names.has(name), name);
+  }
+});
+
+for (const { path, name, code } of examples) {
+  test(`${name} (${path})`, async () => {
+    const { stdout } = await project.run(process.execPath, [`${name}.mjs`]);
+    assert.ok(promised(code).length > 0, 'an example says what it prints');
+    assert.deepEqual(stdout.trimEnd().split('\n'), promised(code));
+  });
+}
