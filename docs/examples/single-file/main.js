@@ -1,0 +1,1 @@
+panel.mount(document.body);
