@@ -14,19 +14,24 @@ async function startPool() {
   }
 }
 
-/** Shows the panel in an element of the host; gives what takes it away. */
+async function show(element, started) {
+  try {
+    element.estimates = await estimates(await started);
+  } catch (error) {
+    if (element.isConnected) element.replaceWith(error.message);
+  }
+}
+
+/** Shows the panel in an element of the host. What it returns takes it away and ends its workers. */
 export function mount(host) {
   const element = document.createElement('boresight-spectrum');
   element.setAttribute('heading', 'Two targets');
   element.truthDeg = TRUTH_DEG;
   host.append(element);
-  const pool = startPool();
-  const shown = pool.then(async (started) => {
-    element.estimates = await estimates(started);
-  });
-  const unmount = async () => {
+  const started = startPool();
+  void show(element, started);
+  return () => {
     element.remove();
-    (await pool).terminate();
+    void started.then((pool) => pool.terminate());
   };
-  return { shown, unmount };
 }
