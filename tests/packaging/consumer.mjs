@@ -75,6 +75,7 @@ export async function consumer({ files = {}, fixtures = [], examples = [], tools
   await run(npm, ['install', '--prefer-offline', '--no-audit', '--no-fund', '--no-package-lock'], { cwd: folder });
   return {
     folder,
+    tarball,
     run: (program, args) => run(program, args, { cwd: folder }),
     /** Runs a script of an example, as one does who has copied it. */
     script: (example, name) => run(npm, ['run', name], { cwd: join(folder, example) }),
