@@ -39,7 +39,7 @@ export async function pack(folder) {
 
 /**
  * An empty project with the packed package installed. `files` maps a name to its text; `fixtures`
- * are copied from this folder; `examples` are folders of docs/examples, copied with what they need;
+ * are copied from this folder; `examples` are folders of docs/examples, workspaces of the project;
  * `tools` are packages at the version that this checkout uses, `packages` others with their versions.
  */
 export async function consumer({ files = {}, fixtures = [], examples = [], tools = [], packages = {} }) {
@@ -47,13 +47,10 @@ export async function consumer({ files = {}, fixtures = [], examples = [], tools
   const folder = join(parent, 'project');
   mkdirSync(folder);
   const { tarball } = await pack(parent);
-  const needs = examples.map((name) => JSON.parse(readFileSync(join(exampleFolder, name, 'package.json'), 'utf8')));
-  const devDependencies = Object.assign(
-    Object.fromEntries(tools.map((name) => [name, manifest.devDependencies[name]])),
-    ...needs.map(({ dependencies, devDependencies }) => ({ ...dependencies, ...devDependencies })),
-    packages,
-  );
-  delete devDependencies.boresight;
+  const devDependencies = {
+    ...Object.fromEntries(tools.map((name) => [name, manifest.devDependencies[name]])),
+    ...packages,
+  };
   const all = {
     'package.json': JSON.stringify({
       name: 'consumer',
@@ -61,6 +58,7 @@ export async function consumer({ files = {}, fixtures = [], examples = [], tools
       type: 'module',
       dependencies: { boresight: `file:${tarball}` },
       devDependencies,
+      workspaces: examples,
     }),
     ...files,
   };

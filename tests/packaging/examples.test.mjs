@@ -1,7 +1,7 @@
 /** The examples of docs/examples, as they stand there: installed, built by their own scripts, used in Chromium. */
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
-import { readdirSync, readFileSync, statSync, symlinkSync } from 'node:fs';
+import { mkdirSync, readdirSync, readFileSync, statSync, symlinkSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { isDeepStrictEqual } from 'node:util';
@@ -21,8 +21,10 @@ before(
   async () => {
     project = await consumer({ examples, fixtures: ['examples.mjs'] });
     for (const name of examples) if (name !== 'import-map') await project.script(name, 'build');
-    // One who copies the example has its packages in it.
-    symlinkSync(join(project.folder, 'node_modules'), join(project.folder, 'import-map', 'node_modules'), 'junction');
+    // Installed alone, the page has the package in its own folder.
+    const own = join(project.folder, 'import-map', 'node_modules');
+    mkdirSync(own);
+    symlinkSync(join(project.folder, 'node_modules', 'boresight'), join(own, 'boresight'), 'junction');
     await project.run(project.bin('esbuild'), ['react/src/scene.ts', '--outfile=react/scene.js']);
     expected = JSON.parse((await project.run(process.execPath, ['examples.mjs', ...files])).stdout);
     if (!skipWithoutBrowser) browser = await launch();
@@ -34,10 +36,24 @@ after(async () => {
   project?.remove();
 });
 
-/** A test on the page of an example, which `served` has in it; nothing may go wrong on it. */
-function exampleTest(example, served, name, body) {
+/** Vite's development server, as `npm run dev` of an example starts it. */
+async function develop(example) {
+  const { createServer } = await import('vite');
+  const server = await createServer({
+    root: join(project.folder, example),
+    logLevel: 'error',
+    server: { host: '127.0.0.1', port: 0 },
+  });
+  await server.listen();
+  return { url: `http://127.0.0.1:${server.httpServer.address().port}/`, close: () => server.close() };
+}
+
+const served = (example, folder) => serve(project.folder, { build: { outDir: join(project.folder, example, folder) } });
+
+/** A test on the page of an example, which is in `folder` or, without one, developed; nothing may go wrong on it. */
+function exampleTest(example, folder, name, body) {
   test(`${example}: ${name}`, { skip: skipWithoutBrowser, timeout }, async () => {
-    const server = await serve(project.folder, { build: { outDir: join(project.folder, example, served) } });
+    const server = await (folder ? served(example, folder) : develop(example));
     const { page, problems, close } = await openPage(browser, server.url);
     try {
       await body(page, expected[example]);
@@ -76,15 +92,21 @@ const pressed = async (page, key, times) => {
   for (let time = 0; time < times; time++) await page.getByRole('slider').press(key);
 };
 
+const azimuths = () =>
+  document.querySelector('boresight-spectrum').estimates.map(({ sources }) => sources.map((s) => s.azimuthDeg));
+
+exampleTest('react', null, 'while it is developed, mounting twice leaves one pool', async (page, [first]) => {
+  await shows(page, azimuths, first);
+  assert.equal(page.workers().length, 2);
+});
+
 exampleTest('react', 'dist', 'a slider moves a target, estimated on workers', async (page, [first, moved]) => {
-  const read = () =>
-    document.querySelector('boresight-spectrum').estimates.map(({ sources }) => sources.map((s) => s.azimuthDeg));
-  await shows(page, read, first);
+  await shows(page, azimuths, first);
   assert.equal(page.workers().length, 2);
   await pressed(page, 'ArrowRight', 3);
-  await shows(page, read, moved);
+  await shows(page, azimuths, moved);
   await unmounts(page, 'boresight-spectrum');
-  await shows(page, read, first);
+  await shows(page, azimuths, first);
 });
 
 exampleTest('vue', 'dist', 'a live calibration raises an alarm', async (page, [first, moved]) => {
