@@ -6,5 +6,4 @@ const isCustomElement = (tag) => tag.startsWith('boresight-');
 
 export default defineConfig({
   plugins: [vue({ template: { compilerOptions: { isCustomElement } } })],
-  worker: { format: 'es' },
 });
