@@ -50,8 +50,12 @@ const grafana = (fetched) =>
 /** Pages by their names: documents, the example's own by default, and policies. */
 const pages = {
   'index.html': {},
-  'strict.html': { policy: "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src blob:" },
-  'no-workers.html': { policy: "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'none'" },
+  'strict.html': {
+    policy: "default-src 'none'; script-src 'self' 'wasm-unsafe-eval' blob:; worker-src blob:; img-src data:",
+  },
+  'no-workers.html': {
+    policy: "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'none'; img-src data:",
+  },
   'sandbox.html': {
     document: html('<iframe sandbox="allow-scripts" src="index.html" width="800" height="500"></iframe>'),
   },
