@@ -1,8 +1,8 @@
 /** Packs the package and installs it into empty projects in a temporary folder. */
 import { execFile } from 'node:child_process';
-import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { dirname, join } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import { root } from '../../scripts/lib/paths.mjs';
@@ -10,6 +10,7 @@ import { root } from '../../scripts/lib/paths.mjs';
 const execute = promisify(execFile);
 const npm = process.platform === 'win32' ? 'npm.cmd' : 'npm';
 const here = dirname(fileURLToPath(import.meta.url));
+const exampleFolder = join(root, 'docs', 'examples');
 const manifest = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
 
 /** Runs a program; on failure the error holds what it printed. */
@@ -38,14 +39,18 @@ export async function pack(folder) {
 
 /**
  * An empty project with the packed package installed. `files` maps a name to its text; `fixtures`
- * are copied from this folder; `tools` are packages at the version that this checkout uses.
+ * are copied from this folder; `examples` are folders of docs/examples, workspaces of the project;
+ * `tools` are packages at the version that this checkout uses, `packages` others with their versions.
  */
-export async function consumer({ files = {}, fixtures = [], tools = [] }) {
+export async function consumer({ files = {}, fixtures = [], examples = [], tools = [], packages = {} }) {
   const parent = temporaryFolder();
   const folder = join(parent, 'project');
   mkdirSync(folder);
   const { tarball } = await pack(parent);
-  const devDependencies = Object.fromEntries(tools.map((name) => [name, manifest.devDependencies[name]]));
+  const devDependencies = {
+    ...Object.fromEntries(tools.map((name) => [name, manifest.devDependencies[name]])),
+    ...packages,
+  };
   const all = {
     'package.json': JSON.stringify({
       name: 'consumer',
@@ -53,6 +58,7 @@ export async function consumer({ files = {}, fixtures = [], tools = [] }) {
       type: 'module',
       dependencies: { boresight: `file:${tarball}` },
       devDependencies,
+      workspaces: examples,
     }),
     ...files,
   };
@@ -60,11 +66,17 @@ export async function consumer({ files = {}, fixtures = [], tools = [] }) {
     mkdirSync(dirname(join(folder, name)), { recursive: true });
     writeFileSync(join(folder, name), text);
   }
+  // What was installed or built in an example is left there.
+  const filter = (path) => !['node_modules', 'dist'].includes(basename(path));
+  for (const name of examples) cpSync(join(exampleFolder, name), join(folder, name), { recursive: true, filter });
   for (const name of fixtures) copyFileSync(join(here, 'fixtures', name), join(folder, name));
   await run(npm, ['install', '--prefer-offline', '--no-audit', '--no-fund', '--no-package-lock'], { cwd: folder });
   return {
     folder,
+    tarball,
     run: (program, args) => run(program, args, { cwd: folder }),
+    /** Runs a script of an example, as one does who has copied it. */
+    script: (example, name) => run(npm, ['run', name], { cwd: join(folder, example) }),
     bin: (name) => join(folder, 'node_modules', '.bin', name),
     remove: () => rmSync(parent, { recursive: true, force: true }),
   };

@@ -1,12 +1,12 @@
 /** The self-contained files, each alone in a folder, in pages of hosts that allow ever less. */
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { createServer } from 'node:http';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { skipWithoutBrowser } from '../browser/harness.mjs';
 import { launch } from '../browser/session.mjs';
 import { consumer } from './consumer.mjs';
+import { servePages } from './pages.mjs';
 
 const skip = skipWithoutBrowser;
 const timeout = 120_000;
@@ -137,7 +137,7 @@ let expected;
 
 /** What the server gives, by the name of the file. */
 function contentOf(name) {
-  if (pages[name]) return ['text/html', pages[name].document];
+  if (pages[name]) return ['text/html', pages[name].document, pages[name].policy];
   if (scripts[name]) return ['text/javascript', scripts[name]];
   if (name === 'report.mjs') return ['text/javascript', report];
   if (name === 'embedded.mjs' || name === 'program.mjs') return ['text/javascript', fixture(name)];
@@ -162,16 +162,8 @@ before(
     });
     expected = JSON.parse((await project.run(process.execPath, ['node.mjs'])).stdout);
     assert.ok(Number.isFinite(expected.angleDeg) && expected.sigmaDeg < 1, JSON.stringify(expected));
-    server = createServer((request, response) => {
-      const name = new URL(request.url, 'http://host').pathname.slice(1);
-      if (name === 'favicon.ico') return response.writeHead(204).end();
-      const [type, content] = contentOf(name);
-      const policy = pages[name]?.policy;
-      const headers = { 'Content-Type': type, 'Access-Control-Allow-Origin': '*' };
-      return response.writeHead(200, policy ? { ...headers, 'Content-Security-Policy': policy } : headers).end(content);
-    });
-    await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-    url = `http://127.0.0.1:${server.address().port}/`;
+    server = await servePages(contentOf);
+    url = server.url;
     browser = await launch();
   },
   { timeout },

@@ -1,6 +1,11 @@
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { root } from '../../scripts/lib/paths.mjs';
 import { consumer } from './consumer.mjs';
+
+const { exports } = JSON.parse(readFileSync(join(root, 'package.json'), 'utf8'));
 
 const program = `
   import { BoresightError, Estimator, array, calibrateDrive, estimate, init } from 'boresight';
@@ -81,6 +86,7 @@ before(
   async () => {
     project = await consumer({
       tools: ['typescript'],
+      packages: { '@arethetypeswrong/cli': '~0.18.5' },
       files: {
         'program.ts': program,
         'wrong.ts': wrong,
@@ -103,4 +109,11 @@ for (const resolution of ['bundler', 'node16', 'nodenext']) {
 
 test('wrong options do not compile', async () => {
   await assert.rejects(project.run(project.bin('tsc'), ['-p', 'wrong.json']), /wrong\.ts.*error TS2/s);
+});
+
+test('attw finds types for every entry, however it is resolved', async () => {
+  // What no program imports: modules of WebAssembly, the worker's script, and models.
+  const files = Object.keys(exports).filter((name) => /\.wasm$|\.worker\.js$|\*/.test(name));
+  const args = ['--profile', 'esm-only', '--exclude-entrypoints', ...files.map((name) => name.replace('./', ''))];
+  await project.run(project.bin('attw'), [project.tarball, ...args]);
 });
