@@ -48,6 +48,8 @@ fn property(field: &'static Field, default: Option<&Value>) -> Result<Value, ser
         if !unit.is_empty() {
             schema.insert("x-unit".into(), unit.into());
         }
+        // On the command line; within a record after that of the record and a dash.
+        schema.insert("x-flag".into(), naming::flag(field.name).into());
         if let Some(value) = default.and_then(|value| in_user_units(field, value)) {
             schema.insert("default".into(), value);
         }
