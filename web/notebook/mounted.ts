@@ -8,6 +8,7 @@ export type Told = (event: string, detail: unknown) => void;
 export class Mounted {
   readonly element: HTMLElement;
   readonly #given = new Map<string, Uint8Array>();
+  readonly #settings = new Map<string, unknown>();
   readonly #told: Told;
   readonly #last = new Map<string, unknown>();
   #theme: string | null = null;
@@ -27,13 +28,15 @@ export class Mounted {
     });
   }
 
-  /** Sets a setting; `null` takes it away. */
+  /** Sets a setting, `null` takes it away; what is given again leaves what the element or its user has set since. */
   attribute(name: string, value: unknown): void {
+    if ((this.#settings.get(name) ?? null) === (value ?? null)) return;
+    this.#settings.set(name, value ?? null);
     if (name === 'theme') {
       this.#theme = typeof value === 'string' && value !== 'auto' ? value : null;
       this.#colour();
     } else if (value === null || value === undefined) this.element.removeAttribute(name);
-    else if (this.element.getAttribute(name) !== String(value)) this.element.setAttribute(name, String(value));
+    else this.element.setAttribute(name, String(value));
   }
 
   /** Sets data from their bytes, unless they are those it has. */
