@@ -1,15 +1,16 @@
 // The snippets of docs/notebooks.md as cells of a notebook in JupyterLab.
 import assert from 'node:assert/strict';
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before } from 'node:test';
 import { clickPlot, of, open, says, start, story, workFolder } from './lib/host.mjs';
 
+const every = readFileSync(new URL('every_widget.py', import.meta.url), 'utf8');
 let server;
 let view;
 before(async () => {
   const folder = workFolder();
-  const cells = of.jupyter.map((source, i) => ({
+  const cells = [...of.jupyter, every].map((source, i) => ({
     id: `cell-${i}`,
     cell_type: 'code',
     metadata: {},
@@ -35,7 +36,7 @@ before(async () => {
     '--IdentityProvider.token=',
     `--ServerApp.root_dir=${folder}`,
   ]);
-  view = await open(server, 'lab/tree/radar.ipynb?reset', { viewport: { width: 1280, height: 3200 } });
+  view = await open(server, 'lab/tree/radar.ipynb?reset', { viewport: { width: 1280, height: 6000 } });
 });
 after(async () => {
   await view?.close();
@@ -61,10 +62,7 @@ async function runCell(text) {
 test('cells run, and elements show the numbers of NumPy', async () => {
   const { page } = view;
   await page.getByText('Python 3 (ipykernel) | Idle').waitFor();
-  await page
-    .locator('.jp-CodeCell')
-    .nth(of.jupyter.length - 1)
-    .waitFor();
+  await page.locator('.jp-CodeCell').nth(of.jupyter.length).waitFor();
   await page.getByRole('menuitem', { name: 'Run', exact: true }).click();
   await page.getByRole('menuitem', { name: 'Run All Cells', exact: true }).click();
   const found = await says(page.locator('boresight-spectrum'), /capon: .*°, .*°/);
@@ -74,6 +72,19 @@ test('cells run, and elements show the numbers of NumPy', async () => {
   await says(page.locator('boresight-point-cloud'), '80 detections, of which 72 are taken as static.');
   await says(page.locator('boresight-doppler-azimuth'), '80 detections; the radar moves with 12.03 m/s.');
   assert.equal(await page.locator('boresight-spectrum .heading').textContent(), 'Two sources');
+});
+
+test('every widget shows data of the shapes that are documented', async () => {
+  const { page } = view;
+  const words = {
+    'boresight-range-doppler':
+      '64 ranges to 31.5 m, 32 range rates; levels from −91 to −31 dBFS.\nDetection at 20.00 m, +3.00 m/s.',
+    'boresight-birds-eye': '20 m ahead by 30 m across in cells of 0.5 m; levels from −40 to 0 dB.',
+    'boresight-mounting-angle': 'After 59 s: +1.50°, standard deviation 0.10°; within tolerance.',
+    'boresight-capture': /ranges to .*Detection at/s,
+    'boresight-drive[heading]': /After 26 s: \+(1\.9|2\.0)\d°, .*; out of tolerance/,
+  };
+  for (const [name, text] of Object.entries(words)) await says(page.locator(name), text);
 });
 
 test('a click comes back to Python', async () => {
@@ -88,7 +99,7 @@ test('a click comes back to Python', async () => {
 
 test('a drive is calibrated in the browser, and its result comes back', async () => {
   const { page } = view;
-  const value = page.locator('boresight-drive [part="value"]');
+  const value = page.locator('boresight-drive:not([heading]) [part="value"]');
   await value.filter({ hasText: /\d° ±/ }).waitFor({ timeout: 90_000 });
   const shown = await value.textContent();
   await runCell('if drive.result');
@@ -139,7 +150,7 @@ test('elements follow the theme of JupyterLab, and end with their outputs', asyn
   await page.getByRole('menuitem', { name: 'Edit', exact: true }).click();
   await page.getByRole('menuitem', { name: 'Clear Outputs of All Cells', exact: true }).click();
   await page.locator('boresight-spectrum').waitFor({ state: 'detached' });
-  await page.locator('boresight-drive').waitFor({ state: 'detached' });
+  await page.locator('boresight-drive').first().waitFor({ state: 'detached' });
 });
 
 test('nothing left the machine, and nothing failed in the page', () => {

@@ -24,9 +24,9 @@ def _padded(length):
 def array(value, where="an array"):
     """An array as one of `KINDS`, flat, the last axis fastest.
 
-    Truth values become bytes, half floats single ones, and complex numbers pairs of real and imaginary part. Integers of
-    64 bits become those of 32 where they fit, and doubles otherwise. Raises TypeError for what is no number, ValueError for
-    integers that no double holds.
+    Truth values become bytes, half floats single ones, and complex numbers pairs of real and imaginary part. Integers
+    of 64 bits become those of 32 where they fit, and doubles otherwise. Raises TypeError for what is no number,
+    ValueError for integers that no double holds.
     """
     given = np.asarray(value)
     if given.dtype.kind not in "biufc":
@@ -38,7 +38,7 @@ def array(value, where="an array"):
         given = given.view(given.real.dtype)
     elif given.dtype.kind in "iu" and given.dtype.itemsize == 8:
         least, most = (given.min(), given.max()) if given.size else (0, 0)
-        if -(2**31) <= least and most < 2**31:
+        if least >= -(2**31) and most < 2**31:
             given = given.astype("i4")
         elif max(-int(least), int(most)) > SAFE:
             raise ValueError(f"{where} has integers beyond 2^53, which JavaScript's numbers do not hold")
@@ -70,7 +70,7 @@ def pack(value):
             return int(value)
         if isinstance(value, numbers.Real):
             value = float(value)
-            return value if math.isfinite(value) else {"$number": str(value).replace("inf", "Infinity").replace("nan", "NaN")}
+            return value if math.isfinite(value) else {"$number": json.dumps(value)}
         if isinstance(value, numbers.Complex):
             return [plain(value.real), plain(value.imag)]
         if isinstance(value, bytes | bytearray | memoryview):
@@ -114,7 +114,7 @@ def unpack(data):
         if "$number" in value:
             return float(value["$number"])
         if "$records" in value:
-            columns = {key: restored(column) for key, column in value["$records"].items()}
+            columns = {key: np.asarray(restored(column)).tolist() for key, column in value["$records"].items()}
             return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
         return {key: restored(item) for key, item in value.items()}
 

@@ -7,7 +7,7 @@ from importlib.resources import files
 
 from . import shapes
 from .codec import pack, unpack
-from .names import camel, keys_in_snake, snake
+from .names import keys_in_snake, snake
 
 STATIC = files("boresight_widget") / "static"
 
@@ -92,7 +92,9 @@ def _read():
             attributes=attributes,
             # A capture's frame is a number, a setting; the map that it makes of it cannot be given.
             properties={
-                snake(one["name"]): Property(**one) for one in made["properties"] if snake(one["name"]) not in attributes
+                snake(one["name"]): Property(**one)
+                for one in made["properties"]
+                if snake(one["name"]) not in attributes
             },
             events=events,
             event_descriptions={events[one["name"]]: one["description"] for one in made["events"]},

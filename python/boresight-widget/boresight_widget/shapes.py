@@ -1,8 +1,8 @@
 """What elements take, by the names that their types have in TypeScript: which numbers there are, and of what lengths.
 
-TypeScript's types say which columns there are and not that they are of one length, which is what goes wrong in notebooks.
-A shape takes a value as a user has it (keys as in Python or as in JavaScript; lists, NumPy arrays, data frames) and gives
-what is sent, or raises TypeError or ValueError with the place of what is wrong.
+TypeScript's types say which columns there are and not that they are of one length, which is what goes wrong in
+notebooks. A shape takes a value as a user has it (keys as in Python or as in JavaScript; lists, NumPy arrays, data
+frames) and gives what is sent, or raises TypeError or ValueError with the place of what is wrong.
 """
 
 import difflib
@@ -10,7 +10,7 @@ import math
 import numbers
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -90,21 +90,24 @@ class Fields:
         if not hasattr(value, "items") or not hasattr(value, "keys"):
             raise TypeError(f"{where} is of {_said(value)}; it takes a mapping with {self.spelt()}")
         given = {camel(str(key)): item for key, item in value.items()}
+        known = {name.rstrip("?") for name in self.fields}
+        others = [key for key in given if key not in known]
         taken = {}
         for name, shape in self.fields.items():
             key = name.rstrip("?")
             if given.get(key) is not None:
                 taken[key] = shape.take(given[key], f"{where}.{snake(key)}", sizes)
                 continue
-            near = difflib.get_close_matches(key, [other for other in given if f"{other}?" not in self.fields], 1, 0.75)
-            near = [other for other in near if other not in self.fields]
+            near = difflib.get_close_matches(key, others, 1, 0.75)
             if near or not name.endswith("?"):
                 instead = f"; it has {snake(near[0])}" if near else ""
                 raise ValueError(f"{where} has no {snake(key)}{instead}; it takes {self.spelt()}")
         return self.finish(taken) if self.finish else taken
 
     def spelt(self):
-        return ", ".join(f"{snake(name.rstrip('?'))}{' (optional)' if name.endswith('?') else ''}" for name in self.fields)
+        return ", ".join(
+            f"{snake(name.rstrip('?'))}{' (optional)' if name.endswith('?') else ''}" for name in self.fields
+        )
 
 
 @dataclass(frozen=True)
@@ -217,11 +220,18 @@ SHAPES = {
     ),
     "Place": Fields({"xM": Number(), "yM": Number(), "yawDeg": Number()}),
     "BirdsEyeView": Fields(
-        {"xM": column("x_m", "f8"), "yM": column("y_m", "f8"), "power": Array(("x_m", "y_m"), "f4"), "cellM?": Number()},
+        {
+            "xM": column("x_m", "f8"),
+            "yM": column("y_m", "f8"),
+            "power": Array(("x_m", "y_m"), "f4"),
+            "cellM?": Number(),
+        },
         _bird,
     ),
     "DopplerFrame": Fields({"azimuthDeg": column(), "rangeRateMps": column(), **WEIGHED, "motion?": MOTION}),
-    "AngleOverTime": Fields({"timeS": column(dtype="f8"), "angleDeg": column(dtype="f8"), "sigmaDeg": column(dtype="f8")}),
+    "AngleOverTime": Fields(
+        {"timeS": column(dtype="f8"), "angleDeg": column(dtype="f8"), "sigmaDeg": column(dtype="f8")}
+    ),
     "NamedBytes[]": Files(),
     "Drive": Fields(
         {
@@ -248,7 +258,11 @@ SHAPES = {
                     "yawRateDegps": column("samples", "f8"),
                     "speedMps?": column("samples", "f8"),
                     "pose?": Fields(
-                        {"xM": column("samples", "f8"), "yM": column("samples", "f8"), "yawDeg": column("samples", "f8")}
+                        {
+                            "xM": column("samples", "f8"),
+                            "yM": column("samples", "f8"),
+                            "yawDeg": column("samples", "f8"),
+                        }
                     ),
                 }
             ),

@@ -1,7 +1,8 @@
 """The elements as components of Streamlit, one function each: `spectrum`, `range_doppler` and so on.
 
-Each takes what the widget of the same name takes, and `key`, as elements of Streamlit do. It gives what came back, by name, as
-attributes. Each event runs the script again, so those of every move of the pointer come back only where `events` names them.
+Each takes what the widget of the same name takes, and `key`, as elements of Streamlit do. It gives what came back, by
+name, as attributes. Each event runs the script again, so those of every move of the pointer come back only where
+`events` names them.
 """
 
 from types import SimpleNamespace

@@ -15,8 +15,10 @@ COMMON = ("layout", "tooltip", "tabbable")
 
 
 class Data(traitlets.TraitType):
-    """Data of an element. They are checked and packed when they are set, also when they are the same as before: the numbers
-    in them may be others."""
+    """Data of an element, checked and packed when they are set.
+
+    So they are when they are set to the same object again: the numbers in it may be others.
+    """
 
     def __init__(self, described):
         super().__init__(None, allow_none=True, help=described.description)

@@ -10,7 +10,8 @@ import { root } from '../../../scripts/lib/paths.mjs';
 import { recordings } from '../../browser/demo.mjs';
 import { launch, outputFolder, viewports } from '../../browser/session.mjs';
 
-const python = process.env.NOTEBOOKS_PYTHON ?? '/tmp/nb/v/bin/python'; // DEV
+/** The Python of a virtual environment with the package and the hosts (scripts/test-notebooks.mjs). */
+export const python = process.env.NOTEBOOKS_PYTHON;
 
 /** Python snippets of docs/notebooks.md, in order. */
 export const snippets = [
@@ -28,8 +29,7 @@ export const of = {
 /** A folder with the recordings that the snippets name. */
 export function workFolder() {
   const folder = mkdtempSync(join(tmpdir(), 'boresight-notebooks-'));
-  for (const name of ['front_radar.csv.gz', 'pose_10hz.csv.gz'])
-    cpSync(join(recordings('delphi'), name), join(folder, name));
+  for (const name of ['delphi', 'awr1642']) cpSync(recordings(name), folder, { recursive: true });
   return folder;
 }
 
