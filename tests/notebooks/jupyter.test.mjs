@@ -147,10 +147,13 @@ test('elements follow the theme of JupyterLab, and end with their outputs', asyn
   await page.locator('boresight-spectrum[theme="dark"]').waitFor();
   await page.locator('#jupyterlab-splash').waitFor({ state: 'detached' });
   await view.screenshot('jupyterlab-dark');
+  const workers = () => page.workers().filter((worker) => worker.url().startsWith('blob:')).length;
+  assert.ok(workers() > 0, 'drives and captures were worked on');
   await page.getByRole('menuitem', { name: 'Edit', exact: true }).click();
   await page.getByRole('menuitem', { name: 'Clear Outputs of All Cells', exact: true }).click();
   await page.locator('boresight-spectrum').waitFor({ state: 'detached' });
   await page.locator('boresight-drive').first().waitFor({ state: 'detached' });
+  assert.equal(workers(), 0);
 });
 
 test('nothing left the machine, and nothing failed in the page', () => {

@@ -35,6 +35,7 @@ export function workFolder() {
 
 /** Starts `python -m` with arguments that know a free port, and waits until `path` answers. What it writes is told on failure. */
 export async function start(folder, path, args) {
+  if (!python) throw new Error('npm run test:notebooks starts these tests');
   const port = await freePort();
   const url = `http://127.0.0.1:${port}/`;
   const home = join(folder, '.home');
@@ -78,6 +79,7 @@ export async function start(folder, path, args) {
   };
   const atExit = () => kill('SIGKILL');
   process.once('exit', atExit);
+  for (const signal of ['SIGINT', 'SIGTERM']) process.once(signal, () => process.exit(1));
   const close = async () => {
     kill('SIGTERM');
     const late = setTimeout(() => kill('SIGKILL'), 5_000);
