@@ -77,7 +77,11 @@ export async function start(folder, path, args) {
       // It has ended.
     }
   };
-  const atExit = () => kill('SIGKILL');
+  const removeFolder = () => rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
+  const atExit = () => {
+    kill('SIGKILL');
+    removeFolder();
+  };
   process.once('exit', atExit);
   for (const signal of ['SIGINT', 'SIGTERM']) process.once(signal, () => process.exit(1));
   const close = async () => {
@@ -87,7 +91,7 @@ export async function start(folder, path, args) {
     clearTimeout(late);
     kill('SIGKILL');
     process.off('exit', atExit);
-    rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
+    removeFolder();
   };
   for (let tries = 0; ; tries++) {
     const ok = await fetch(new URL(path, url)).then(
