@@ -1,8 +1,9 @@
 // The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist, all in single files ->
-// dist/inline. The demo: web/app/dist.
+// dist/inline, and with the elements in one module -> python/boresight-widget. The demo: web/app/dist.
 import { existsSync, rmSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { makeInline } from './lib/inline.mjs';
+import { makeNotebook, notebookFolder } from './lib/notebook.mjs';
 import { npmTools } from './lib/npm-tools.mjs';
 import { dist, environment, root, wasmTarget } from './lib/paths.mjs';
 import { isMain, main, run } from './lib/run.mjs';
@@ -227,11 +228,33 @@ export async function buildReference() {
   if (!done) say('dist/reference is up to date');
 }
 
+/** What the Python package of widgets holds (scripts/lib/notebook.mjs). */
+export async function buildNotebook() {
+  const inputs = [
+    'package.json',
+    'package-lock.json',
+    'scripts/lib/notebook.mjs',
+    'vite.notebook.config.ts',
+    'web/elements',
+    'web/notebook',
+    'web/plots',
+    'dist/elements/custom-elements.json',
+    'dist/inline/boresight.js',
+  ];
+  const outputs = ['widget.js', 'elements.json', 'LICENSES.md'].map((name) => `${notebookFolder}/${name}`);
+  const done = await whenChanged('notebook', { inputs, outputs }, async () => {
+    say(`web/notebook, web/elements, dist/inline -> ${notebookFolder} (vite)`);
+    await makeNotebook();
+  });
+  if (!done) say(`${notebookFolder} is up to date`);
+}
+
 export async function buildPackage() {
   for (const one of modules) await buildModule(one);
   await buildLibrary();
   await buildElements();
   await buildInline();
+  await buildNotebook();
 }
 
 /** `variables`: of the environment that vite.config.ts reads. */

@@ -1,9 +1,19 @@
 // The core .wasm is what a page loads before it can do anything; that of networks, loaded when one is asked for, has room
 // for a runtime. The self-contained files are what a dashboard holds. scripts/lib/sizes.mjs has the limits.
 import { readFileSync } from 'node:fs';
-import { coreWasm, drivesWasm, inlineScript, neuralWasm } from './lib/paths.mjs';
+import { join } from 'node:path';
+import { notebookFolder } from './lib/notebook.mjs';
+import { coreWasm, drivesWasm, inlineScript, neuralWasm, root } from './lib/paths.mjs';
 import { main } from './lib/run.mjs';
-import { coreLimits, describeSize, inlineLimits, neuralLimits, overLimit, sizes } from './lib/sizes.mjs';
+import {
+  coreLimits,
+  describeSize,
+  inlineLimits,
+  neuralLimits,
+  notebookLimits,
+  overLimit,
+  sizes,
+} from './lib/sizes.mjs';
 
 await main(async () => {
   const given = process.argv[2];
@@ -16,6 +26,7 @@ await main(async () => {
         ['self-contained module', inlineScript('boresight'), inlineLimits],
         ['self-contained classic script', inlineScript('boresight.global'), inlineLimits],
         ['self-contained networks', inlineScript('networks'), {}],
+        ["notebooks' module, elements in it", join(root, notebookFolder, 'widget.js'), notebookLimits],
       ];
   const measured = await Promise.all(modules.map(([, file]) => sizes(readFileSync(file))));
   const found = modules.map(([name, , limits], at) => {
