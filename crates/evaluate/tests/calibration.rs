@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 #[test]
 fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn() {
-    let options = CalibrationExperiment { scenes: 2, seed: 3, duration_s: 30.0 };
+    let options = CalibrationExperiment { scenes: 2, seed: 3, duration_s: 30.0, standing: false };
     let how = |threads| How { threads, folder: None };
     let report = run(&options, how(2), |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(report, run(&options, how(1), |_| ControlFlow::Continue(())).unwrap());
@@ -64,4 +64,19 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
         assert!(tables.contains(&format!("| {} |", candidate.name)), "{}", candidate.name);
     }
     assert!(!tables.contains("NaN"), "{tables}");
+}
+
+#[test]
+fn what_moves_is_kept_from_the_methods_where_that_is_asked_for() {
+    let options = CalibrationExperiment { scenes: 1, seed: 3, duration_s: 20.0, standing: true };
+    let how = How { threads: 2, folder: None };
+    let report = run(&options, how, |_| ControlFlow::Continue(())).unwrap();
+    let dense = &report.conditions[1];
+    // The share is still that of the drive.
+    assert!(dense.moving_share[0] > 0.3, "{:?}", dense.moving_share);
+    // Without a queue of cars RANSAC finds the car's own motion, on radars ahead too.
+    let ransac = dense.methods.iter().find(|m| m.name == "weighted mean (Kellner et al.)").unwrap();
+    for radar in &ransac.radars {
+        assert!(radar.error_deg.largest < 1.0, "{}", radar.error_deg.largest);
+    }
 }

@@ -67,7 +67,12 @@ fn aoa_options(seed: u64) -> aoa::AoaExperiment {
 #[test]
 fn parts_make_the_whole() {
     check(&aoa_options(1));
-    check(&calibration::CalibrationExperiment { scenes: 2, seed: 3, duration_s: 12.0 });
+    check(&calibration::CalibrationExperiment {
+        scenes: 2,
+        seed: 3,
+        duration_s: 12.0,
+        standing: false,
+    });
     let setup = doa::Setup::Simulation;
     let entrants = Entrants::new(doa::default_methods(setup).unwrap(), vec![]);
     check(&doa::DoaExperiment { setup, trials: 1, seed: 1, entrants, end_to_end: None });

@@ -343,9 +343,12 @@ pub struct EvaluateCalibrationArguments {
     /// Length of a drive, s.
     #[arg(long, value_name = "S", default_value_t = 120.0)]
     pub duration: f64,
+    /// Keep all that moves from the methods, by the truth: what it costs them.
+    #[arg(long)]
+    pub standing: bool,
     /// Take the drives in this folder instead: each folder in it that holds one, a data set of RadarScenes for example. The
     /// mounting angles that logs state are taken as true.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["scenes", "duration", "seed"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scenes", "duration", "seed", "standing"])]
     pub drives: Option<PathBuf>,
     /// Lengths of the pieces that these drives are cut into, s.
     #[arg(long, value_name = "S,...", value_delimiter = ',', default_values_t = [25.0, 60.0, 120.0], requires = "drives")]

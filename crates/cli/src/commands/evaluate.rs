@@ -65,6 +65,7 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                 scenes: arguments.scenes,
                 seed: arguments.shared.seed,
                 duration_s: arguments.duration,
+                standing: arguments.standing,
             };
             evaluate(&options, &arguments.shared, files)
         }

@@ -171,6 +171,9 @@ pub struct CalibrationExperiment {
     pub seed: u64,
     /// Length of a drive, s.
     pub duration_s: f64,
+    /// Whether methods are kept from all that moves, by the truth: what it costs them.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub standing: bool,
 }
 
 impl Experiment for CalibrationExperiment {

@@ -127,7 +127,8 @@ mod tests {
 
     #[test]
     fn tables_are_those_of_the_records() {
-        let options = CalibrationExperiment { scenes: 4, seed: 0, duration_s: 120.0 };
+        let options =
+            CalibrationExperiment { scenes: 4, seed: 0, duration_s: 120.0, standing: false };
         let errors = [Some(0.1), None, Some(-0.3), None, Some(0.5), None, None, None];
         let records = errors.iter().zip(0..).map(|(error, number)| scene(number, *error));
         let report = CalibrationReport::new(&options, records);

@@ -45,7 +45,7 @@ pub fn run(options: &CalibrationExperiment, scene: u64) -> Result<SceneRecord, E
         false => Scenario::ALL[((number / 2) % kinds) as usize],
     };
     let moving_share = if dense { random.uniform(0.4, 0.8) } else { random.uniform(0.0, 0.3) };
-    let drive = simulate_drive(&DriveOptions {
+    let mut drive = simulate_drive(&DriveOptions {
         scenario,
         profile,
         // A car each.
@@ -59,6 +59,10 @@ pub fn run(options: &CalibrationExperiment, scene: u64) -> Result<SceneRecord, E
             .collect(),
         ..DriveOptions::default()
     })?;
+    let moving_share = share(&drive);
+    if options.standing {
+        keep_what_stands(&mut drive);
+    }
     let log = &drive.log;
     let nominal = |id: u8| log.sensors.iter().find(|s| s.id == id).and_then(|s| s.mounting);
     let whole = run_whole(
@@ -77,7 +81,7 @@ pub fn run(options: &CalibrationExperiment, scene: u64) -> Result<SceneRecord, E
             speed_at: &|time_s| Some(truth_at(&drive, time_s).speed_mps),
             scale: Some(drive.truth.yaw_rate.scale),
         },
-        Some(share(&drive)),
+        Some(moving_share),
     )?;
     Ok(SceneRecord { scene, scenario: scenario.name().into(), profile, dense, whole })
 }
@@ -98,6 +102,16 @@ fn share(drive: &SimulatedDrive) -> f64 {
         }
     }
     moving as f64 / (all as f64).max(1.0)
+}
+
+/// Takes detections that move out of the log.
+fn keep_what_stands(drive: &mut SimulatedDrive) {
+    for (scan, moving) in drive.log.scans.iter_mut().zip(&drive.moving) {
+        let mut moves = moving.iter();
+        scan.detections.retain(|_| moves.next() != Some(&true));
+        let mut moves = moving.iter();
+        scan.labels.retain(|_| moves.next() != Some(&true));
+    }
 }
 
 /// The radar's options. Of drives with the clean profile it is known that they have no bias of azimuths, no slip, and that range rates are
