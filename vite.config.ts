@@ -3,6 +3,7 @@ import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
 import { bundledDrive } from './scripts/lib/bundled-drive.mjs';
 import { compressed } from './scripts/lib/compressed.mjs';
+import { elementsModule } from './scripts/lib/manifest.mjs';
 import { networksLater } from './web/networks-later.ts';
 import { offline } from './web/offline.ts';
 
@@ -47,6 +48,7 @@ export default defineConfig(({ command }) => ({
     styles,
     withReference,
     bundledDrive(),
+    elementsModule(),
     ...(later === undefined ? [] : [networksLater(later)]),
     offline(later === undefined),
     compressed(),

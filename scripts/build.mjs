@@ -1,8 +1,9 @@
 // The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist, all in single files ->
 // dist/inline, and with the elements in one module -> python/boresight-widget. The demo: web/app/dist.
-import { existsSync, rmSync } from 'node:fs';
+import { existsSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { makeInline } from './lib/inline.mjs';
+import { manifest } from './lib/manifest.mjs';
 import { makeNotebook, notebookFolder } from './lib/notebook.mjs';
 import { npmTools } from './lib/npm-tools.mjs';
 import { dist, environment, root, wasmTarget } from './lib/paths.mjs';
@@ -177,7 +178,7 @@ export async function buildElements() {
     say('web/elements -> dist/elements (vite, tsc)');
     await run('vite', ['build', '-c', 'vite.elements.config.ts', '--logLevel', 'warn']);
     await run('tsc', ['-p', 'tsconfig.elements.json']);
-    await run('cem', ['analyze', '--globs', 'web/elements/*.ts', '--outdir', 'dist/elements', '--quiet']);
+    writeFileSync(join(dist, 'elements', 'custom-elements.json'), `${JSON.stringify(await manifest(), null, 2)}\n`);
   });
   if (!done) say('dist/elements is up to date');
 }
@@ -264,6 +265,7 @@ export async function buildDemo(variables = {}) {
     'vite.config.ts',
     'scripts/lib/compressed.mjs',
     'scripts/lib/bundled-drive.mjs',
+    'scripts/lib/manifest.mjs',
     'web/offline.ts',
     'web',
     'recordings',

@@ -1,6 +1,7 @@
 // What python/boresight-widget holds of the elements: its module, and what the manifest says of each.
 import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { elementsOf } from './manifest.mjs';
 import { dist, root } from './paths.mjs';
 import { run } from './run.mjs';
 
@@ -9,26 +10,6 @@ export const notebookFolder = 'python/boresight-widget/boresight_widget/static';
 
 /** Texts that go with every copy. */
 const licences = ['LICENSE', 'LICENSE-APACHE', 'NOTICE'];
-
-const told = ({ name, type, description = '' }) => ({ name, type: type?.text ?? '', description });
-
-/** Of each element: name, class, what it is given and what it tells, without what is the element's own. */
-export function elementsOf({ modules }) {
-  return modules
-    .flatMap(({ declarations }) => declarations)
-    .filter(({ customElement, tagName }) => customElement && tagName)
-    .map(({ tagName, name, description, members, attributes, events }) => ({
-      tag: tagName,
-      name: name.replace(/Element$/, ''),
-      description,
-      attributes: attributes.map(told),
-      properties: members
-        .filter(({ kind, privacy, readonly }) => kind === 'field' && privacy === undefined && !readonly)
-        .map(told),
-      events: events.map(({ name, description }) => ({ name, description })),
-    }))
-    .sort((a, b) => (a.tag < b.tag ? -1 : 1));
-}
 
 export async function makeNotebook() {
   await run('vite', ['build', '-c', 'vite.notebook.config.ts', '--logLevel', 'warn']);

@@ -70,7 +70,10 @@ export async function consumer({ files = {}, fixtures = [], examples = [], tools
   const filter = (path) => !['node_modules', 'dist'].includes(basename(path));
   for (const name of examples) cpSync(join(exampleFolder, name), join(folder, name), { recursive: true, filter });
   for (const name of fixtures) copyFileSync(join(here, 'fixtures', name), join(folder, name));
-  await run(npm, ['install', '--prefer-offline', '--no-audit', '--no-fund', '--no-package-lock'], { cwd: folder });
+  // Vite sets NODE_ENV where it serves, and npm would then leave these out.
+  await run(npm, ['install', '--include=dev', '--prefer-offline', '--no-audit', '--no-fund', '--no-package-lock'], {
+    cwd: folder,
+  });
   return {
     folder,
     tarball,

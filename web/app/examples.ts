@@ -159,4 +159,23 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
       },
     ],
   },
+  elements: {
+    about:
+      'The plots of this demo for pages and notebooks of your own: each element live, with its options as a form, and the code to copy.',
+    examples: [
+      { title: 'Spectrum', about: 'Angles and the power over them.', params: 'element=boresight-spectrum' },
+      {
+        title: 'Range and Doppler',
+        about: 'A map with what was detected in it.',
+        params: 'element=boresight-range-doppler&set=@colors:magma',
+      },
+      { title: 'Point cloud', about: 'A scan around the car.', params: 'element=boresight-point-cloud' },
+      {
+        title: 'Mounting angle',
+        about: 'An angle that settles, and its verdict.',
+        params: 'element=boresight-mounting-angle',
+      },
+      { title: 'A drive from its files', about: 'Reads, calibrates and shows.', params: 'element=boresight-drive' },
+    ],
+  },
 };

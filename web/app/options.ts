@@ -61,7 +61,7 @@ interface Own<V> {
   max?: V & number;
 }
 
-interface Schema {
+export interface Schema {
   description?: string;
   type?: string;
   minimum?: number;
@@ -69,6 +69,7 @@ interface Schema {
   maximum?: number;
   default?: unknown;
   'x-unit'?: string;
+  'x-flag'?: string;
   oneOf?: { const: string; description: string }[];
   properties?: Record<string, Schema>;
   items?: Schema;
@@ -153,6 +154,14 @@ export function optionsOf<N extends keyof Records>(record: N) {
       return { ...choice<T>(first, values), option };
     },
   };
+}
+
+/** An option as a field, by the names of record and option alone; null where it has no default. */
+export function schemaField(record: string, path: string): Field<unknown> & OfOption {
+  const options = optionsOf(record as 'CalibrationOptions');
+  const known = path as 'minInliers';
+  const has = found(record as keyof Records, path).default !== undefined;
+  return (has ? options.field(known) : options.maybe(known)) as unknown as Field<unknown> & OfOption;
 }
 
 /** A share that the page has in percent. */

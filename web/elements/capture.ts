@@ -1,4 +1,4 @@
-import type { CaptureInfo } from 'boresight';
+import type { CaptureInfo, ChainOptions } from 'boresight';
 import type { PoolCapture } from 'boresight/worker';
 import { Intake, type NamedBytes } from './intake.ts';
 import { RangeDopplerElement } from './range-doppler.ts';
@@ -21,6 +21,7 @@ export class CaptureElement extends RangeDopplerElement {
   #intake: Intake | undefined;
   #slider: HTMLInputElement | undefined;
   #files: NamedBytes[] = [];
+  #options: ChainOptions | null = null;
   #capture: PoolCapture | null = null;
 
   /** The files: bytes with their names. */
@@ -31,6 +32,16 @@ export class CaptureElement extends RangeDopplerElement {
   set files(given: readonly NamedBytes[] | null) {
     this.#files = [...(given ?? [])];
     if (this.#intake && this.#files.length) void this.#load();
+  }
+
+  /** Options of the chain from frames to detections; the attribute `method` goes before their method. */
+  get options(): ChainOptions | null {
+    return this.#options;
+  }
+
+  set options(given: ChainOptions | null) {
+    this.#options = given;
+    void this.#process();
   }
 
   /** What is known of the capture that is open. */
@@ -101,7 +112,8 @@ export class CaptureElement extends RangeDopplerElement {
     const frame = Math.min(Math.max(Math.round(this.numberOf('frame', 0)), 0), capture.info.frames - 1);
     if (this.#slider) this.#slider.value = String(frame);
     const method = this.getAttribute('method');
-    const options = method ? { angle: { method: method as 'capon' } } : undefined;
+    const given = this.#options ?? {};
+    const options = method ? { ...given, angle: { ...given.angle, method: method as 'capon' } } : given;
     const result = await this.#intake?.run(`Frame ${frame + 1} of ${capture.info.frames}`, ({ signal }) =>
       capture.processFrame(frame, options, { signal }),
     );

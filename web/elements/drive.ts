@@ -1,4 +1,4 @@
-import type { CalibrationMethod, Drive, DriveCalibration } from 'boresight';
+import type { CalibrateDriveOptions, CalibrationMethod, Drive, DriveCalibration } from 'boresight';
 import { Intake, type NamedBytes } from './intake.ts';
 import { MountingAngleElement } from './mounting-angle.ts';
 
@@ -21,6 +21,7 @@ export class DriveElement extends MountingAngleElement {
   #intake: Intake | undefined;
   #radars: HTMLSelectElement | undefined;
   #files: NamedBytes[] = [];
+  #options: CalibrateDriveOptions | null = null;
   #drive: Drive | null = null;
   #calibration: DriveCalibration | null = null;
 
@@ -32,6 +33,16 @@ export class DriveElement extends MountingAngleElement {
   set files(given: readonly NamedBytes[] | null) {
     this.#files = [...(given ?? [])];
     if (this.#intake && this.#files.length) void this.#load();
+  }
+
+  /** Options of the calibration; what attributes say goes before them. */
+  get options(): CalibrateDriveOptions | null {
+    return this.#options;
+  }
+
+  set options(given: CalibrateDriveOptions | null) {
+    this.#options = given;
+    void this.#calibrate();
   }
 
   /** A drive that was read or simulated already, in place of files. */
@@ -101,11 +112,12 @@ export class DriveElement extends MountingAngleElement {
   async #calibrate(): Promise<void> {
     const drive = this.#drive;
     if (!drive || !this.#intake || !this.isConnected) return;
-    const sensor = this.numberOf('sensor', drive.sensors[0]?.id ?? 0);
+    const given = this.#options ?? {};
+    const sensor = this.numberOf('sensor', given.sensor ?? drive.sensors[0]?.id ?? 0);
     if (this.#radars) this.#radars.value = String(sensor);
-    const method = (this.getAttribute('method') ?? 'recursive') as CalibrationMethod;
+    const method = (this.getAttribute('method') ?? given.method ?? 'recursive') as CalibrationMethod;
     const xM = this.numberOf('x-m', Number.NaN);
-    const options = { sensor, method, ...(Number.isFinite(xM) ? { xM } : {}) };
+    const options = { ...given, sensor, method, ...(Number.isFinite(xM) ? { xM } : {}) };
     const found = await this.#intake.run('Calibrating', ({ pool, signal, onProgress }) =>
       pool.calibrateDrive(drive, options, { signal, onProgress }),
     );

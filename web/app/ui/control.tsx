@@ -92,7 +92,8 @@ function explained(
   return [help ?? of.option?.help, note, choice].filter(Boolean).join(' ');
 }
 
-function Control(props: Loose & { of: Field<unknown> & Partial<OfOption>; onChange: (value: unknown) => void }) {
+/** The control of a field that stands alone. */
+export function Control(props: Loose & { of: Field<unknown> & Partial<OfOption>; onChange: (value: unknown) => void }) {
   const { of, value, onChange, label, name, disabled } = props;
   const common = {
     label,

@@ -143,17 +143,26 @@ async function tableOf(sent: Uint8Array, signal: AbortSignal): Promise<Uint8Arra
   }
 }
 
+/** A bundled file. */
+export async function fetched(name: string, address: string, signal: AbortSignal): Promise<Uint8Array> {
+  const response = await fetch(address, { signal });
+  if (response.ok) return new Uint8Array(await response.arrayBuffer());
+  throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
+}
+
+/** The files of the bundled drive. */
+export function bundledDrive(signal: AbortSignal): Promise<{ name: string; bytes: Uint8Array }[]> {
+  return Promise.all(
+    bundledFiles.map(async ([name, address]) => {
+      const bytes = await fetched(name, address, signal);
+      return { name, bytes: address === radarAddress ? await tableOf(bytes, signal) : bytes };
+    }),
+  );
+}
+
 export function openBundled(): Promise<unknown> {
   return open('Loading the bundled drive', async (signal, job) => {
-    const files = await Promise.all(
-      bundledFiles.map(async ([name, address]) => {
-        const response = await fetch(address, { signal });
-        if (!response.ok)
-          throw new FileProblem('not-found', name, `could not be loaded: the server answered ${response.status}`);
-        const bytes = new Uint8Array(await response.arrayBuffer());
-        return { name, bytes: address === radarAddress ? await tableOf(bytes, signal) : bytes };
-      }),
-    );
+    const files = await bundledDrive(signal);
     const sizes = files.map(({ name, bytes }) => ({ name, bytes: bytes.length }));
     const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
     return {
