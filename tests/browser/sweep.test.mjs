@@ -38,7 +38,7 @@ browserTest(
     assert.ok(Math.abs(slope - 1) < 0.05, `slope ${slope}`);
     await typeNumber(page.locator('input[name="snr"]'), '10');
     await page.waitForFunction(() =>
-      /before the last change/.test(document.querySelector('[data-plot="sweep-error"] figcaption').innerText),
+      /before the last change/.test(within('[data-plot="sweep-error"]', 'figcaption').innerText),
     );
   },
 );

@@ -11,8 +11,6 @@ import { PlotElement } from './plot-element.ts';
  * Power on the ground around the car.
  *
  * @element boresight-birds-eye
- * @attr {string} heading - above the plot
- * @attr {'light' | 'dark' | 'auto'} theme - colours; those of the system by default
  * @attr {'viridis' | 'cividis' | 'magma'} colors - of the map
  * @attr {number} high-db - level of the last colour; the highest there is by default
  * @attr {number} low-db - level of the first colour

@@ -29,8 +29,6 @@ const STANDING = methodStyle('recursive');
  * Range rate over azimuth, with the curve of what stands.
  *
  * @element boresight-doppler-azimuth
- * @attr {string} heading - above the plot
- * @attr {'light' | 'dark' | 'auto'} theme - colours; those of the system by default
  * @attr {number} sector - how far to each side the plot shows, deg (90)
  */
 export class DopplerAzimuthElement extends PlotElement {

@@ -26,8 +26,6 @@ const STYLE = methodStyle('recursive');
  * A mounting angle with its deviation over time, and whether it is where it should be.
  *
  * @element boresight-mounting-angle
- * @attr {string} heading - above the plot
- * @attr {'light' | 'dark' | 'auto'} theme - colours; those of the system by default
  * @attr {number} nominal-deg - where the radar should look
  * @attr {number} tolerance-deg - how far off it may be (1)
  * @attr {number} sigmas - deviations that the band shows, and that a verdict needs (2)

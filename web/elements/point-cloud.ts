@@ -2,7 +2,7 @@ import { AHEAD, LEFT } from '../plots/axes.ts';
 import { carOutline } from '../plots/car.ts';
 import { detectionLayer, detectionLegend, nearest } from '../plots/detections.ts';
 import { fixed, signed } from '../plots/format.ts';
-import type { Interval, View } from '../plots/plot.ts';
+import type { Interval, View } from '../plots/types.ts';
 import type { Drawing } from './drawing.ts';
 import { PlotElement } from './plot-element.ts';
 
@@ -29,8 +29,6 @@ export interface Place {
  * Detections around the car, from above.
  *
  * @element boresight-point-cloud
- * @attr {string} heading - above the plot
- * @attr {'light' | 'dark' | 'auto'} theme - colours; those of the system by default
  * @attr {number} range - how far the plot shows, m; as far as there are points by default
  */
 export class PointCloudElement extends PlotElement {

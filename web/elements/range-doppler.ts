@@ -18,8 +18,6 @@ const DETECTION = { ...TRUTH_STYLE, marker: 'square' as const };
  * Power over range and range rate, with what was detected.
  *
  * @element boresight-range-doppler
- * @attr {string} heading - above the plot
- * @attr {'light' | 'dark' | 'auto'} theme - colours; those of the system by default
  * @attr {'viridis' | 'cividis' | 'magma'} colors - of the map
  * @attr {number} high-db - level of the last colour; the highest there is by default
  * @attr {number} low-db - level of the first colour

@@ -10,8 +10,6 @@ import { PlotElement } from './plot-element.ts';
  * Spectra of angle, one a method, with the angles found.
  *
  * @element boresight-spectrum
- * @attr {string} heading - above the plot
- * @attr {'light' | 'dark' | 'auto'} theme - colours; those of the system by default
  * @attr {number} floor-db - the lowest level shown, dB below the highest (60)
  */
 export class SpectrumElement extends PlotElement {

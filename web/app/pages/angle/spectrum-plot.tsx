@@ -1,10 +1,9 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
-import { useMemo, useRef } from 'preact/hooks';
+import { useMemo } from 'preact/hooks';
+import type { LegendItem, MovablePoints } from '../../../elements/drawing.ts';
 import { AZIMUTH } from '../../../plots/axes.ts';
 import { fixed, signed } from '../../../plots/format.ts';
-import { Handles } from '../../../plots/handles.ts';
 import { bands, horizontalLine, type Layer, markers } from '../../../plots/layers.ts';
-import type { Plot } from '../../../plots/plot.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { faint, methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
@@ -12,10 +11,10 @@ import { type Curve, closes, curve, oneSeries, onOneGrid, sourceMarkers, withBar
 import { announce } from '../../state/announce.ts';
 import { hasMoved, rememberMoved } from '../../state/settings.ts';
 import { KeepButton } from '../../ui/comparison.tsx';
-import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { compared, type Kept, kept } from './compare.ts';
 import { results, type Scene } from './compute.ts';
-import { addTarget, angleState, LIMITS, removeTarget, setTarget, setupOf } from './state.ts';
+import { addTarget, LIMITS, removeTarget, setTarget, setupOf } from './state.ts';
 
 const EXTENT = { x: [-90, 90], y: [-50, 14] } as const;
 
@@ -69,7 +68,6 @@ export function truthLayer(targets: readonly { azimuthDeg: number; powerDb: numb
 }
 
 export function SpectrumPlot({ scene }: { scene: Scene }) {
-  const handles = useRef<Handles | null>(null);
   const { targets, snr } = scene.state;
   const found = results.value;
   const a = kept.value;
@@ -118,13 +116,15 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
     };
   }, [scene, found, a]);
 
-  handles.current?.set(
-    targets.map((target, i) => ({
+  const movable: MovablePoints = {
+    points: targets.map((target, i) => ({
       x: target.azimuthDeg,
       y: target.powerDb,
       label: `Target ${i + 1}: azimuth ${signed(target.azimuthDeg, 1)} degrees, power ${signed(target.powerDb, 1)} dB. Arrows move it, plus and minus change power, Delete removes.`,
     })),
-  );
+    steps: { x: [0.1, 1], y: [0.5, 3] },
+    help: 'Drag: angle and power. Keys: arrows 0.1° (Shift: 1°), + and − power, Delete removes.',
+  };
 
   const legend: LegendItem[] = [
     { id: 'truth', label: 'Target, CRB ±σ band', style: TRUTH_RING, line: false, hollow: true },
@@ -155,44 +155,6 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       ),
   ];
 
-  const attach = (plot: Plot): (() => void) => {
-    const focusSoon = (index: number): void => {
-      requestAnimationFrame(() => (index >= 0 ? handles.current?.focus(index) : plot.host.focus()));
-    };
-    const made = new Handles(plot, {
-      move: (index, azimuthDeg, powerDb) => {
-        rememberMoved();
-        setTarget(index, { azimuthDeg, powerDb });
-      },
-      nudge: (index, dx, dy, coarse) => {
-        rememberMoved();
-        const target = angleState.value.targets[index];
-        if (!target) return;
-        setTarget(index, {
-          azimuthDeg: target.azimuthDeg + dx * (coarse ? 1 : 0.1),
-          powerDb: target.powerDb + dy * (coarse ? 3 : 0.5),
-        });
-      },
-      remove: (index) => {
-        removeTarget(index);
-        announce(`Target ${index + 1} removed.`, 0);
-        focusSoon(Math.min(index, angleState.value.targets.length - 1));
-      },
-    });
-    handles.current = made;
-    made.set(
-      angleState.value.targets.map((target, i) => ({
-        x: target.azimuthDeg,
-        y: target.powerDb,
-        label: `Target ${i + 1}`,
-      })),
-    );
-    return () => {
-      made.destroy();
-      handles.current = null;
-    };
-  };
-
   const { state } = scene;
   return (
     <PlotFrame
@@ -201,7 +163,15 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
       height="tall"
       content={content}
       legend={legend}
-      onPlot={attach}
+      movable={movable}
+      onDrag={(index, azimuthDeg, powerDb) => {
+        rememberMoved();
+        setTarget(index, { azimuthDeg, powerDb });
+      }}
+      onRemove={(index) => {
+        removeTarget(index);
+        announce(`Target ${index + 1} removed.`, 0);
+      }}
       keys="Tab to a target to move it."
       tools={<KeepButton of={compared} />}
       overlay={
@@ -211,12 +181,9 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
           </p>
         ) : null
       }
-      options={{
-        x: AZIMUTH,
-        y: { label: 'Level (dB re 0 dB target)' },
-        onDoubleClick: ({ x, y }) => {
-          if (targets.length < LIMITS.targets) addTarget({ azimuthDeg: x, powerDb: y });
-        },
+      axes={{ x: AZIMUTH, y: { label: 'Level (dB re 0 dB target)' } }}
+      onDoubleClick={({ x, y }) => {
+        if (targets.length < LIMITS.targets) addTarget({ azimuthDeg: x, powerDb: y });
       }}
       readout={({ x, y }) => `Azimuth ${signed(x, 2)}°   Level ${fixed(y, 1)}\u00a0dB`}
       csv={() =>

@@ -2,16 +2,15 @@
 
 import type { MethodInfo } from 'boresight';
 import { useMemo } from 'preact/hooks';
+import type { OwnPlotElement } from '../../../elements/plot.ts';
 import { AHEAD, LEFT } from '../../../plots/axes.ts';
 import { carOutline } from '../../../plots/car.ts';
 import { decibels, fixed, signed } from '../../../plots/format.ts';
 import { COLOR_BAR_HEIGHT, colorBarBelow, heatImage } from '../../../plots/heat.ts';
 import { faded } from '../../../plots/layers.ts';
-import { png } from '../../../plots/picture.ts';
-import type { Plot, PlotContent, View } from '../../../plots/plot.ts';
+import type { PlotContent, View } from '../../../plots/plot.ts';
 import { download, fileName, sideBySide, toCsv } from '../../../plots/save.ts';
 import { api } from '../../data.ts';
-import { captionLines } from '../../ui/caption.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { boardPoints, grid, input, type Point, shownRadars } from './input.ts';
 import { fieldsOfView, truth } from './layers.ts';
@@ -32,19 +31,13 @@ function colorLimits(span: number, top: number | null): [number, number] {
   return [high - span, high];
 }
 
-/** The plots that are shown, for one picture of all of them. */
-const plots = new Map<string, Plot>();
+/** The images that are shown, for one picture of all of them. */
+const shown = new Map<string, OwnPlotElement>();
 
 /** All images as one. */
 export async function saveAll(): Promise<void> {
-  const shown = api.methods().flatMap((info) => {
-    const plot = plots.get(info.name);
-    const image = images.peek().get(info.name);
-    return plot && image
-      ? [png(plot, { heading: `${info.title}, ${detailOf(image)}`, legend: legendItems(), caption: captionLines() })]
-      : [];
-  });
-  if (shown.length) download(await sideBySide(await Promise.all(shown)), fileName(['birdseye', ...fileParts()], 'png'));
+  const all = api.methods().flatMap(({ name }) => shown.get(name)?.picture() ?? []);
+  if (all.length) download(await sideBySide(await Promise.all(all)), fileName(['birdseye', ...fileParts()], 'png'));
 }
 
 function fileParts(): (string | number)[] {
@@ -130,20 +123,12 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
       height="portrait"
       content={content}
       view={view}
-      keys="Arrows move, with Shift the cursor."
-      imageLegend={legendItems()}
-      options={{
-        x: LEFT,
-        y: AHEAD,
-        bottom: COLOR_BAR_HEIGHT,
-        equal: true,
-        navigate: true,
-        grid: false,
-        cursorKey: 'birdseye',
-        minZoom: 0.01,
-        onView: (next, zoomed) => {
-          zoom.value = zoomed ? turned(next) : null;
-        },
+      legendElsewhere
+      legend={legendItems()}
+      axes={{ x: LEFT, y: AHEAD, bottom: COLOR_BAR_HEIGHT, equal: true, navigate: true, grid: false, minZoom: 0.01 }}
+      cursorKey="birdseye"
+      onView={(next, zoomed) => {
+        zoom.value = zoomed ? turned(next) : null;
       }}
       readout={({ x: yM, y: xM }) => {
         const cell = cellAt(image, xM, yM);
@@ -173,9 +158,9 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
         )
       }
       fileParts={fileParts()}
-      onPlot={(plot) => {
-        plots.set(info.name, plot);
-        return () => plots.delete(info.name);
+      attach={(element) => {
+        shown.set(info.name, element);
+        return () => shown.delete(info.name);
       }}
     />
   );

@@ -83,12 +83,13 @@ export function CellPanel({
       name="cell-spectrum"
       height="fill"
       content={content}
-      imageLegend={infos.map(({ name, title, spectrum }) => ({
+      legendElsewhere
+      legend={infos.map(({ name, title, spectrum }) => ({
         label: title,
         style: methodStyle(name),
         line: spectrum,
       }))}
-      options={{
+      axes={{
         x: AZIMUTH,
         y: { label: 'Power (dBFS)' },
       }}

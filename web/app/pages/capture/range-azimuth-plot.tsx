@@ -103,6 +103,7 @@ function Picture({ shown, name }: { shown: ShownMap; name: string | number }) {
         tools={
           <button
             type="button"
+            slot="actions"
             aria-pressed={playing.value}
             data-action="play-map"
             disabled={frames < 2}
@@ -112,13 +113,8 @@ function Picture({ shown, name }: { shown: ShownMap; name: string | number }) {
           </button>
         }
         keys="Space plays; left and right arrows step by a frame, with Shift by ten."
-        options={{
-          x: AZIMUTH,
-          y: { label: 'Range (m)' },
-          right: COLOR_BAR_WIDTH,
-          grid: false,
-          onKey: frameKey,
-        }}
+        axes={{ x: AZIMUTH, y: { label: 'Range (m)' }, right: COLOR_BAR_WIDTH, grid: false }}
+        onKey={frameKey}
         readout={({ x, y }) => {
           const [column, row] = [nearestCell(x, azimuthDeg), nearestCell(y, rangeM)];
           const level = levelsDb[column * rangeM.length + row] ?? Number.NaN;

@@ -79,15 +79,13 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
             ],
           }
         : {})}
-      options={{
-        x: RANGE_AXIS,
-        y: { label: 'Power (dBFS)' },
-        right: COLOR_BAR_WIDTH,
-        cursorKey: 'range',
-        onView: (next, zoomed) => {
-          rangeZoom.value = zoomed ? next.x : null;
-        },
-        onClick: ({ index }) => index !== null && update({ cell: { rangeBin: index, dopplerBin: cell.dopplerBin } }),
+      axes={{ x: RANGE_AXIS, y: { label: 'Power (dBFS)' }, right: COLOR_BAR_WIDTH }}
+      cursorKey="range"
+      onView={(next, zoomed) => {
+        rangeZoom.value = zoomed ? next.x : null;
+      }}
+      onClick={({ index }) => {
+        if (index !== null) update({ cell: { rangeBin: index, dopplerBin: cell.dopplerBin } });
       }}
       readout={({ x, index }) =>
         `Range ${fixed(x, 3)} m   Power ${fixed(view.rangeProfileDb[index ?? -1] ?? Number.NaN, 1)} dBFS`
@@ -195,19 +193,15 @@ export function RangeDopplerMap({ view, cell, label, fileParts }: Props) {
       content={content}
       view={zoom}
       keys="Arrows choose a cell, with Shift by ten; N and P go through the detections; Home takes the strongest."
-      options={{
-        x: RANGE_AXIS,
-        y: { label: 'Range rate (m/s), + receding' },
-        right: COLOR_BAR_WIDTH,
-        grid: false,
-        cursorKey: 'range',
-        onClick: ({ x, y }) =>
-          select({ rangeBin: nearestCell(x, view.rangeM), dopplerBin: nearestCell(y, view.rateMps) }),
-        onKey: key,
-        onView: (next, zoomed) => {
-          rangeZoom.value = zoomed && (next.x[0] > extent.x[0] || next.x[1] < extent.x[1]) ? next.x : null;
-          rateZoom.value = zoomed && (next.y[0] > extent.y[0] || next.y[1] < extent.y[1]) ? next.y : null;
-        },
+      axes={{ x: RANGE_AXIS, y: { label: 'Range rate (m/s), + receding' }, right: COLOR_BAR_WIDTH, grid: false }}
+      cursorKey="range"
+      onClick={({ x, y }) =>
+        select({ rangeBin: nearestCell(x, view.rangeM), dopplerBin: nearestCell(y, view.rateMps) })
+      }
+      onKey={key}
+      onView={(next, zoomed) => {
+        rangeZoom.value = zoomed && (next.x[0] > extent.x[0] || next.x[1] < extent.x[1]) ? next.x : null;
+        rateZoom.value = zoomed && (next.y[0] > extent.y[0] || next.y[1] < extent.y[1]) ? next.y : null;
       }}
       readout={({ x, y }) => {
         const [range, doppler] = [nearestCell(x, view.rangeM), nearestCell(y, view.rateMps)];

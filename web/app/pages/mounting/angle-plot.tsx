@@ -2,11 +2,11 @@
 
 import type { AngleHistory } from 'boresight';
 import { useMemo } from 'preact/hooks';
+import type { LegendItem } from '../../../elements/drawing.ts';
 import { fixed, signed } from '../../../plots/format.ts';
 import { areaBetween, dots, horizontalLine, type Layer, polyline } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { methodStyle, type SeriesStyle, THEMES, TRUTH_STYLE } from '../../../plots/theme.ts';
-import type { LegendItem } from '../../ui/plot-frame.tsx';
 import { loaded, sensor } from './drive.ts';
 import { quantiles } from './frame.ts';
 import { after } from './playhead.ts';

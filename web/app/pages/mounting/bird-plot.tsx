@@ -1,5 +1,7 @@
 /** The frame from above, in the car's frame, with the angle applied. */
+
 import { useMemo } from 'preact/hooks';
+import type { LegendItem } from '../../../elements/drawing.ts';
 import { AHEAD, LEFT } from '../../../plots/axes.ts';
 import { carOutline, ground } from '../../../plots/car.ts';
 import { detectionLayer, detectionLegend, nearest } from '../../../plots/detections.ts';
@@ -7,7 +9,7 @@ import { fixed, signed } from '../../../plots/format.ts';
 import type { Layer } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { ACCENT_STYLE } from '../../../plots/theme.ts';
-import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded } from './drive.ts';
 import { type FrameView, inCar, quantiles, sample, usedAngleDeg } from './frame.ts';
 import { where } from './process.ts';
@@ -70,7 +72,8 @@ export function BirdPlot({ view, label }: { view: FrameView; label: string }) {
       content={content}
       legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."
-      options={{ x: LEFT, y: AHEAD, equal: true, onKey: frameKey }}
+      axes={{ x: LEFT, y: AHEAD, equal: true }}
+      onKey={frameKey}
       readout={(position) => {
         const i = nearest(places.left, places.ahead, position, extent);
         if (i === null) return `Ahead ${signed(position.y, 1)} m   left ${signed(position.x, 1)} m`;

@@ -1,5 +1,7 @@
 /** Range rate against azimuth of one frame, with the curve of what stands. */
+
 import { useMemo } from 'preact/hooks';
+import type { LegendItem } from '../../../elements/drawing.ts';
 import { AZIMUTH } from '../../../plots/axes.ts';
 import { detectionLayer, detectionLegend, nearest } from '../../../plots/detections.ts';
 import { type Motion, standingRate } from '../../../plots/doppler.ts';
@@ -8,7 +10,7 @@ import { COLOR_BAR_WIDTH, colorBar } from '../../../plots/heat.ts';
 import { type Layer, polyline } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { methodStyle, type SeriesStyle, TRUTH_STYLE, weightColor } from '../../../plots/theme.ts';
-import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded } from './drive.ts';
 import { expectedMotion, type FrameView, quantiles, sample } from './frame.ts';
 import { shownMethod } from './process.ts';
@@ -92,12 +94,12 @@ export function DopplerPlot({ view, label }: { view: FrameView; label: string })
       content={content}
       legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."
-      options={{
+      axes={{
         x: AZIMUTH,
         y: { label: residual ? 'Residual (m/s)' : 'Range rate (m/s), + receding' },
         right: COLOR_BAR_WIDTH,
-        onKey: frameKey,
       }}
+      onKey={frameKey}
       readout={(position) => {
         const i = nearest(view.azimuthDeg, y, position, content.extent);
         if (i === null) return `Azimuth ${signed(position.x, 1)}°   ${signed(position.y, 2)} m/s`;

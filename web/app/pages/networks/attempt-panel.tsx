@@ -159,7 +159,7 @@ function ScenePlot({ shown }: { shown: Attempt }) {
           line: Boolean(estimate?.spectrum),
         })),
       ]}
-      options={{
+      axes={{
         x: AZIMUTH,
         y: { label: onRegion ? 'Level (dB re the strongest)' : 'Level (dB re 0 dB target)' },
       }}
