@@ -12,7 +12,7 @@ import { SpectrumElement } from './spectrum.ts';
 
 export type { Layer, LayerContext } from '../plots/layers.ts';
 export type { Axes, AxisOptions, CursorPosition, PlotContent, PlotSeries, View } from '../plots/types.ts';
-export type { DopplerFrame } from './doppler-azimuth.ts';
+export type { DopplerFrame, MotionCurve } from './doppler-azimuth.ts';
 export type { Drawing, LegendItem, MovablePoints } from './drawing.ts';
 export type { NamedBytes } from './intake.ts';
 export type { Alarm, AngleOverTime } from './mounting-angle.ts';

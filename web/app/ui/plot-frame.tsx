@@ -1,31 +1,23 @@
 /** A plot of a page: an element, with what all plots of the demo have. */
-import type { ComponentChildren } from 'preact';
+import type { ComponentChildren, ComponentType } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { defineElement } from '../../elements/define.ts';
-import type { Drawing, MovablePoints } from '../../elements/drawing.ts';
+import type { OwnDrawing } from '../../elements/plot.ts';
 import { OwnPlotElement } from '../../elements/plot.ts';
-import type { Axes, CursorPosition, View } from '../../plots/types.ts';
+import type { PlotElement } from '../../elements/plot-element.ts';
+import type { CursorPosition, View } from '../../plots/types.ts';
 import { theme } from '../state/theme.ts';
 import { captionLines } from './caption.ts';
 
 defineElement('boresight-plot', OwnPlotElement);
 
-declare module 'preact' {
-  namespace JSX {
-    interface IntrinsicElements {
-      'boresight-plot': Record<string, unknown>;
-    }
-  }
-}
-
-export interface PlotFrameProps extends Drawing {
+/** What a page says of a plot and hears from it, whatever element it is. */
+export interface ElementProps {
   title: string;
   /** What of it is shown, beside the title. */
   detail?: string;
   /** For file names and tests. */
   name: string;
-  axes: Axes;
-  movable?: MovablePoints;
   /** Whether the page has the legend elsewhere: it is then on saved pictures alone. */
   legendElsewhere?: boolean;
   imageRemarks?: readonly string[];
@@ -53,15 +45,18 @@ export interface PlotFrameProps extends Drawing {
   onDrag?(index: number, x: number, y: number): void;
   onRemove?(index: number): void;
   /** Once the element is there; what it returns is called when it goes. */
-  attach?(element: OwnPlotElement): () => void;
+  attach?(element: PlotElement): () => void;
 }
 
-export function PlotFrame(props: PlotFrameProps) {
-  const element = useRef<OwnPlotElement>(null);
+/** An element by the name it is defined under, with properties and attributes of its own. */
+export function ElementFrame({ tag, own, ...props }: ElementProps & { tag: string; own: Record<string, unknown> }) {
+  const element = useRef<PlotElement>(null);
   useEffect(() => (element.current && props.attach?.(element.current)) || undefined, []);
-  const { axes, content, legend, alternative, readout, csv, movable } = props;
+  // Types of JSX know no elements by a name in a variable.
+  const Tag = tag as unknown as ComponentType<Record<string, unknown>>;
   return (
-    <boresight-plot
+    <Tag
+      {...own}
       ref={element}
       class={`panel plot-frame ${props.height}`}
       data-plot={props.name}
@@ -74,7 +69,6 @@ export function PlotFrame(props: PlotFrameProps) {
       file-name={[props.name, ...(props.fileParts ?? [])].filter((part) => part !== '').join('-')}
       theme={theme.value}
       tools
-      drawing={{ axes, content, legend, alternative, readout, csv, movable }}
       remarks={props.remarks}
       caption={() => captionLines(props.imageRemarks ?? props.remarks)}
       {...(props.view === undefined ? {} : { zoom: props.view })}
@@ -97,6 +91,21 @@ export function PlotFrame(props: PlotFrameProps) {
     >
       {props.tools}
       {props.overlay}
-    </boresight-plot>
+    </Tag>
   );
+}
+
+/** A plot of no kind of its own. */
+export function PlotFrame({
+  axes,
+  content,
+  legend,
+  alternative,
+  readout,
+  csv,
+  movable,
+  ...props
+}: ElementProps & OwnDrawing) {
+  const drawing = { axes, content, legend, alternative, readout, csv, movable };
+  return <ElementFrame tag="boresight-plot" own={{ drawing }} {...props} />;
 }

@@ -2,7 +2,7 @@
 
 import type { MethodInfo } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import type { OwnPlotElement } from '../../../elements/plot.ts';
+import type { PlotElement } from '../../../elements/plot-element.ts';
 import { AHEAD, LEFT } from '../../../plots/axes.ts';
 import { carOutline } from '../../../plots/car.ts';
 import { decibels, fixed, signed } from '../../../plots/format.ts';
@@ -32,7 +32,7 @@ function colorLimits(span: number, top: number | null): [number, number] {
 }
 
 /** The images that are shown, for one picture of all of them. */
-const shown = new Map<string, OwnPlotElement>();
+const shown = new Map<string, PlotElement>();
 
 /** All images as one. */
 export async function saveAll(): Promise<void> {

@@ -7,11 +7,12 @@ import { carOutline, ground } from '../../../plots/car.ts';
 import { detectionLayer, detectionLegend, nearest } from '../../../plots/detections.ts';
 import { fixed, signed } from '../../../plots/format.ts';
 import type { Layer } from '../../../plots/layers.ts';
+import { quantiles } from '../../../plots/quantiles.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { ACCENT_STYLE } from '../../../plots/theme.ts';
 import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded } from './drive.ts';
-import { type FrameView, inCar, quantiles, sample, usedAngleDeg } from './frame.ts';
+import { type FrameView, inCar, sample, usedAngleDeg } from './frame.ts';
 import { where } from './process.ts';
 import { fileParts, frameKey } from './time-plot.tsx';
 

@@ -1,9 +1,10 @@
 /** A plot over driving time: one zoom and one cursor for all, the playhead, and a click that goes there. */
 
 import { effect, signal, useSignal } from '@preact/signals';
+import type { OwnDrawing } from '../../../elements/plot.ts';
 import { frameKeys } from '../../../plots/frame-keys.ts';
 import type { AxisOptions, Interval, View } from '../../../plots/plot.ts';
-import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
+import { type ElementProps, PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded, scans, sensor } from './drive.ts';
 import { playing, step, time, togglePlaying } from './playhead.ts';
 
@@ -25,7 +26,7 @@ export function sinceStart(timeS: Float64Array): Float64Array {
 /** The stretch of time all these plots are zoomed to. */
 const zoom = signal<Interval | null>(null);
 
-type Props = Omit<PlotFrameProps, 'axes' | 'fileParts'> & { y: AxisOptions };
+type Props = Omit<ElementProps & OwnDrawing, 'axes' | 'fileParts'> & { y: AxisOptions };
 
 export function TimePlot({ y, ...props }: Props) {
   const zoomY = useSignal<Interval | null>(null);

@@ -1,0 +1,61 @@
+// What elements show beyond their data: what is public because the demo and dashboards want it.
+import assert from 'node:assert/strict';
+import { elementTest } from './elements.mjs';
+
+/** What an element says of itself. */
+const said = (page, name) =>
+  page.evaluate(async (name) => {
+    await drawn();
+    const element = document.querySelector(name);
+    const [legend, words] = ['legend', 'alternative'].map((one) => part(element, one));
+    return {
+      label: part(element, 'plot').ariaLabel,
+      legend: [...legend.querySelectorAll('li')].map(({ textContent }) => textContent),
+      words: words.textContent,
+      csv: element.csv().trimEnd().split('\r\n'),
+    };
+  }, name);
+
+/** What is read off at a place of the plot, as shares of it from left and top. */
+const readAt = async (page, name, x, y) => {
+  const over = page.locator(`${name} .u-over`);
+  const { width, height } = await over.boundingBox();
+  await over.hover({ position: { x: x * width, y: y * height } });
+  return page.locator(`${name} .readout`).innerText();
+};
+
+elementTest('Doppler over azimuth has curves, residuals, a sector and a bar of weights', async ({ page }) => {
+  const name = 'boresight-doppler-azimuth';
+  await page.evaluate(() => {
+    const motion = { vxMps: 10, vyMps: 0 };
+    const azimuthDeg = [-20, 0, 20];
+    const rangeRateMps = azimuthDeg.map((angle, i) => -10 * Math.cos((angle * Math.PI) / 180) + (i === 1 ? 0.5 : 0));
+    add(
+      'boresight-doppler-azimuth',
+      { sector: '-40 60' },
+      { frame: { azimuthDeg, rangeRateMps, motion, weights: [1, 0, 1] } },
+    );
+  });
+  const before = await said(page, name);
+  assert.deepEqual(before.legend, ['Static, weight ≥ 0.5', 'Outlier', 'What stands']);
+  assert.equal(before.csv[0], 'azimuth_deg,range_rate_mps,range_m,rcs_dbsm,residual_mps,weight');
+  assert.match(before.csv[2], /^0,-9\.5,,,0\.5,0$/);
+  assert.match(
+    await readAt(page, name, 0.4, 0.5),
+    /^Azimuth \+(19|20)\.\d° {3}−?\d+\.\d\d m\/s$/,
+    'the sector is not symmetric',
+  );
+  const width = () => page.locator(`${name} .u-over`).evaluate(({ clientWidth }) => clientWidth);
+  const whole = await width();
+  await page.evaluate(() => {
+    const element = document.querySelector('boresight-doppler-azimuth');
+    element.setAttribute('residual', '');
+    element.setAttribute('weight-bar', '');
+    const style = { color: { light: '#000', dark: '#fff' } };
+    element.motions = [{ id: 'slow', label: 'Slower', motion: { vxMps: 9, vyMps: 0 }, style }];
+  });
+  assert.equal((await said(page, name)).legend.at(-1), 'Slower');
+  assert.ok((await width()) < whole - 40, 'there is room for the bar');
+  // The rates less those of what stands are 0, but for one.
+  assert.match(await readAt(page, name, 0.6, 0.5), /0\.\d\d m\/s|residual \+0\.50/);
+});
