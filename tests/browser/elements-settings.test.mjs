@@ -59,3 +59,66 @@ elementTest('Doppler over azimuth has curves, residuals, a sector and a bar of w
   // The rates less those of what stands are 0, but for one.
   assert.match(await readAt(page, name, 0.6, 0.5), /0\.\d\d m\/s|residual \+0\.50/);
 });
+
+elementTest(
+  'a spectrum has levels as estimated, targets that move, bounds, and estimates to compare with',
+  async ({ page }) => {
+    const name = 'boresight-spectrum';
+    await page.evaluate(() => {
+      const targets = [{ azimuthDeg: -12, powerDb: 0 }];
+      const { data, shape } = boresight.simulateSnapshots({
+        array: 'ula8',
+        targets,
+        snapshots: 50,
+        snrDb: 20,
+        seed: 1,
+      });
+      const estimate = boresight.estimate(
+        { snapshots: { data, shape: shape.slice(-2) } },
+        { array: 'ula8', method: 'capon', sources: 1 },
+      );
+      const now = { estimate, id: 'now', label: 'Now' };
+      add(
+        'boresight-spectrum',
+        {
+          levels: 'absolute',
+          'high-db': 10,
+          'floor-db': 50,
+          sector: '-40 40',
+          unit: 'dBm',
+          movable: '',
+          'noise-db': -20,
+        },
+        {
+          estimates: [
+            now,
+            { ...now, id: 'before', label: 'Before', behind: true },
+            { estimate: null, id: 'none', label: 'Later' },
+          ],
+          targets: targets.map(({ azimuthDeg }) => ({ azimuthDeg, powerDb: 0 })),
+          boundsDeg: [0.5],
+          lines: [{ azimuthDeg: 20, label: 'wall' }],
+        },
+      );
+      document.addEventListener('boresight-drag', ({ detail: { x, y } }) => {
+        document.querySelector('boresight-spectrum').targets = [{ azimuthDeg: x, powerDb: y }];
+      });
+    });
+    const { legend, csv, words } = await said(page, name);
+    assert.deepEqual(legend, ['Target, CRB ±σ band', 'Now–', 'Before', 'Later']);
+    assert.equal(csv[0], 'azimuth_deg,now_dbm,before_dbm');
+    assert.match(words, /^Now: −1[12]\.\d\d°\.$/, 'what is behind is not told again');
+    // The plot ends at 40 degrees to the left, 10 dB up and 40 down.
+    assert.match(await readAt(page, name, 0.5, 0.5), /Azimuth [+−]?0\.\d+° {3}Level −1[45]\.\d\u00a0dBm/);
+    const handle = page.getByRole('button', { name: /^Target 1: azimuth −12\.0 degrees, power 0\.0 dB/ });
+    await handle.focus();
+    await page.keyboard.press('Shift+ArrowLeft');
+    await page.getByRole('button', { name: /^Target 1: azimuth −11\.0/ }).waitFor();
+    await page.evaluate(() => document.querySelector('boresight-spectrum').setAttribute('legend', 'image'));
+    await page.locator(`${name} [part="legend"]`).waitFor({ state: 'hidden' });
+    assert.match(
+      await readAt(page, name, 0.5, 0.5),
+      /Azimuth .*° {3}Now −?\d+\.\d {3}Before: |Now −?\d+\.\d {3}Before −?\d+\.\d dBm/,
+    );
+  },
+);

@@ -35,7 +35,7 @@ elementTest(
     assert.match(said.alternative, /capon: .*[+-−]1[12]\.\d+°/);
     assert.match(said.alternative, /esprit: /);
     assert.equal(said.heading, 'Two sources');
-    assert.equal(said.legend, 'caponmusicesprit');
+    assert.equal(said.legend, 'capon–music–esprit', 'those with spectra have values at the cursor');
     assert.ok(said.ink > 0.02, `${said.ink} of the plot is drawn on`);
 
     await page.evaluate(() => {
@@ -45,7 +45,8 @@ elementTest(
     await page.keyboard.press('Tab');
     await page.keyboard.press('ArrowRight');
     const readout = page.locator('boresight-spectrum').locator('[part="readout"]');
-    assert.match(await readout.textContent(), /Azimuth .*° {3}capon -?−?\d+\.\d dB/);
+    assert.match(await readout.textContent(), /Azimuth .*° {3}Level −?\d+\.\d\u00a0dB/);
+    assert.match(await page.locator('boresight-spectrum [part="legend"]').innerText(), /capon\s+−?\d+\.\d\u00a0dB/);
     assert.ok((await page.evaluate(() => cursors.at(-1)?.x)) !== undefined, 'the event leaves the shadow root');
 
     const looks = await page.evaluate(async () => {

@@ -10,6 +10,7 @@ import { methodStyle, type SeriesStyle, weightColor } from '../plots/theme.ts';
 import type { Interval } from '../plots/types.ts';
 import type { Drawing, LegendItem } from './drawing.ts';
 import { PlotElement } from './plot-element.ts';
+import { sectorOf } from './sector.ts';
 
 /** Detections of a scan as columns of one length, and the motion they show. */
 export interface DopplerFrame {
@@ -94,7 +95,7 @@ export class DopplerAzimuthElement extends PlotElement {
     const own: MotionCurve[] = motion ? [{ id: 'standing', label: 'What stands', motion, style: STANDING }] : [];
     const motions = this.#motions ?? own;
     const drawn = [...motions].sort((a, b) => Number(a.leading ?? false) - Number(b.leading ?? false));
-    const x = this.#sector();
+    const x = sectorOf(this.getAttribute('sector'), [-90, 90]);
     const extent = { x, y: rateExtent(y, motion && [x, motion], against !== null) };
     return {
       content: {
@@ -144,16 +145,6 @@ export class DopplerAzimuthElement extends PlotElement {
           ]),
         ),
     };
-  }
-
-  #sector(): Interval {
-    const [first = Number.NaN, second = Number.NaN] = (this.getAttribute('sector') ?? '')
-      .trim()
-      .split(/\s+/)
-      .map(Number);
-    if (first < second) return [Math.max(first, -180), Math.min(second, 180)];
-    const reach = Math.min(Math.abs(first) || 90, 180);
-    return [-reach, reach];
   }
 }
 

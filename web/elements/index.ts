@@ -20,6 +20,7 @@ export type { OwnDrawing } from './plot.ts';
 export type { Place, PointCloud } from './point-cloud.ts';
 export { usePool } from './pool.ts';
 export type { RangeDopplerFrame } from './range-doppler.ts';
+export type { NamedEstimate, ShownTarget } from './spectrum.ts';
 export {
   BirdsEyeElement,
   CaptureElement,

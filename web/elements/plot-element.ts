@@ -73,7 +73,7 @@ export abstract class PlotElement extends ElementBase {
   protected abstract draw(): Drawing | null;
 
   /** @internal Points that people move. */
-  protected movable(): MovablePoints | null {
+  protected movablePoints(): MovablePoints | null {
     return null;
   }
 
@@ -135,7 +135,7 @@ export abstract class PlotElement extends ElementBase {
       this.#stage = new Stage(this.#frame.plot, {
         tell: (name, detail, cancelable) => this.tell(name, detail, cancelable),
         point: (position) => this.#point(position),
-        movable: () => this.movable(),
+        movable: () => this.movablePoints(),
         moved: () => this.#soon(),
       });
       this.build(this.#frame.above);

@@ -40,7 +40,7 @@ export class OwnPlotElement extends PlotElement {
   }
 
   /** @internal */
-  protected override movable(): MovablePoints | null {
+  protected override movablePoints(): MovablePoints | null {
     return this.#drawing?.movable ?? null;
   }
 }
