@@ -122,3 +122,54 @@ elementTest(
     );
   },
 );
+
+elementTest('a bird’s-eye view has ground, overlays, radars and words of one’s own', async ({ page }) => {
+  const name = 'boresight-birds-eye';
+  await page.evaluate(() => {
+    const n = 20;
+    const at = (make) => Float64Array.from({ length: n }, (_, i) => make(i));
+    const view = { xM: at((i) => i + 0.5), yM: at((i) => i - 9.5), cellM: 1, shape: [n, n], mountings: [] };
+    const cells = { power: new Float32Array(n * n).fill(100), seen: new Uint8Array(n * n).fill(1) };
+    cells.seen.fill(0, 0, n);
+    cells.power.fill(0, n, 2 * n);
+    // From 10 m ahead on, what is to the left is stronger.
+    for (let i = 10; i < n; i++) cells.power.fill(1000, i * n + n / 2, (i + 1) * n);
+    window.drawnOver = 0;
+    add(
+      'boresight-birds-eye',
+      { unit: 'dBFS', bar: 'below', 'without-car': '', 'high-db': 30, 'low-db': 0 },
+      {
+        extent: { xM: [0, 40], yM: [-10, 10] },
+        view: { ...view, ...cells, radar: new Int8Array(n * n) },
+        radars: [{ name: 'front', title: 'Front radar' }],
+        overlays: [() => (drawnOver += 1)],
+        signs: [{ label: 'Wall', style: { color: { light: '#000', dark: '#fff' } }, line: true }],
+        about: (xM, yM) => (xM > 15 ? `wall at ${yM.toFixed(0)}` : ''),
+      },
+    );
+  });
+  const { csv, legend, words } = await said(page, name);
+  assert.deepEqual(legend, ['Wall']);
+  assert.match(words, /20 m ahead by 20 m across in cells of 1 m; levels from 0 to 30 dBFS/);
+  assert.equal(csv.length, 1 + 19 * 20, 'cells that no radar sees are left out');
+  assert.equal(csv.at(-1), '19.500,9.500,30.00,front');
+  assert.equal(csv[1], '1.500,-9.500,,front', 'nothing is no level');
+  assert.ok((await page.evaluate(() => drawnOver)) > 0);
+  // The whole ground is shown: its middle is 20 m ahead.
+  assert.match(
+    await readAt(page, name, 0.5, 0.55),
+    /^x \+1[5-8]\.\d m {2}y .* m {2}[23]0\.0\u00a0dBFS {2}front radar {2}wall at -?\d+$/,
+  );
+  assert.match(await readAt(page, name, 0.5, 0.3), /not seen {2}wall/);
+  const colours = (across = 0.5) =>
+    page.locator(`${name} .u-wrap canvas`).evaluate((canvas, share) => {
+      const { width, height } = canvas;
+      return [...canvas.getContext('2d').getImageData(width * share, height * 0.46, 1, 1).data];
+    }, across);
+  const [[left], [right]] = [await colours(0.47), await colours(0.6)];
+  assert.ok(left > right + 50, `the highest levels are yellow: ${left} to the left, ${right} to the right`);
+  const before = await colours();
+  await page.evaluate(() => document.querySelector('boresight-birds-eye').setAttribute('opacity', '0.2'));
+  await said(page, name);
+  assert.notDeepEqual(await colours(), before);
+});

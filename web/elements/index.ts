@@ -12,6 +12,7 @@ import { SpectrumElement } from './spectrum.ts';
 
 export type { Layer, LayerContext } from '../plots/layers.ts';
 export type { Axes, AxisOptions, CursorPosition, PlotContent, PlotSeries, View } from '../plots/types.ts';
+export type { Ground, RadarName } from './birds-eye.ts';
 export type { DopplerFrame, MotionCurve } from './doppler-azimuth.ts';
 export type { Drawing, LegendItem, MovablePoints } from './drawing.ts';
 export type { NamedBytes } from './intake.ts';
