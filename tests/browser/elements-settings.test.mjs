@@ -173,3 +173,41 @@ elementTest('a bird’s-eye view has ground, overlays, radars and words of one�
   await said(page, name);
   assert.notDeepEqual(await colours(), before);
 });
+
+elementTest('a cell of a range-Doppler map is chosen by click and keys, if it may be', async ({ page }) => {
+  const name = 'boresight-range-doppler';
+  await page.evaluate(() => {
+    window.cells = [];
+    document.addEventListener('boresight-cell', ({ detail }) => cells.push(detail));
+    const frame = {
+      rangeM: Float64Array.from({ length: 10 }, (_, i) => i),
+      rateMps: Float64Array.from({ length: 5 }, (_, i) => i - 2),
+      rangeDopplerDb: Float32Array.from({ length: 50 }, (_, i) => -100 + i),
+      detections: [
+        { rangeM: 3, rateMps: 1 },
+        { rangeM: 7, rateMps: -1 },
+      ],
+    };
+    add('boresight-range-doppler', { legend: 'none' }, { frame });
+  });
+  await page.locator(`${name} .u-over`).click({ position: { x: 30, y: 30 } });
+  assert.deepEqual(await page.evaluate(() => cells), [], 'nothing is chosen unless it may be');
+  await page.evaluate(() => document.querySelector('boresight-range-doppler').setAttribute('selectable', ''));
+  const { words, label, csv } = await said(page, name);
+  assert.match(label, /Arrows choose a cell/);
+  assert.match(words, /levels from -?−?110 to −50 dBFS/);
+  assert.equal(csv.length, 51);
+  assert.equal(await page.locator(`${name} [part="legend"]`).isVisible(), false);
+  await page.locator(`${name} .plot`).focus();
+  for (const key of ['n', 'n', 'ArrowUp', 'Shift+ArrowRight', 'Home']) await page.keyboard.press(key);
+  const bins = (await page.evaluate(() => cells)).map((cell) => cell && [cell.rangeBin, cell.dopplerBin]);
+  assert.deepEqual(bins, [[7, 1], [3, 3], [3, 4], [9, 4], null], 'the strongest comes first, and the map ends');
+  const { width, height } = await page.locator(`${name} .u-over`).boundingBox();
+  await page.locator(`${name} .u-over`).click({ position: { x: width * 0.25, y: height * 0.5 } });
+  assert.deepEqual(await page.evaluate(() => cells.at(-1)), { rangeBin: 2, dopplerBin: 2 });
+  await page.locator(`${name} [part="live"]`).filter({ hasText: 'Range 2.00 metres' }).waitFor({ state: 'attached' });
+  assert.match(
+    await readAt(page, name, 0.25, 0.5),
+    /^Range 2\.000 m {3}Rate 0\.000 m\/s {3}Power −88\.0 dBFS {3}bin 2, 2$/,
+  );
+});

@@ -105,10 +105,10 @@ export class Frame {
     this.legend.point(position);
   }
 
-  /** Has a screen reader say it once the cursor rests. */
-  announce(): void {
+  /** Has a screen reader say something, what the cursor points at by default, once all rests. */
+  announce(text = this.#readout.textContent ?? ''): void {
     clearTimeout(this.#said);
-    this.#said = setTimeout(() => say(this.#live, this.#readout.textContent ?? ''), REST_MS);
+    this.#said = setTimeout(() => say(this.#live, text), REST_MS);
   }
 
   close(): void {

@@ -22,7 +22,7 @@ export const ElementBase = (globalThis.HTMLElement ?? class {}) as typeof HTMLEl
  * @attr {string} heading - above the plot
  * @attr {string} hint - how to use it, said below the plot
  * @attr {string} keys - what keys do beside the plot's own, for screen readers
- * @attr {'image'} legend - the legend is on saved pictures alone, where the page has one of its own
+ * @attr {'image' | 'none'} legend - the legend is on saved pictures alone, where the page has one of its own, or nowhere
  * @attr {'light' | 'dark' | 'auto'} theme - colours; those of the system by default
  * @attr {boolean} tools - buttons that zoom and save
  * @fires boresight-cursor - the cursor points somewhere (`detail`: x, y, index) or nowhere (`detail`: null)
@@ -75,6 +75,24 @@ export abstract class PlotElement extends ElementBase {
   /** @internal Points that people move. */
   protected movablePoints(): MovablePoints | null {
     return null;
+  }
+
+  /** @internal A click. */
+  protected pick(_position: CursorPosition): void {}
+
+  /** @internal A key; whether it was used. */
+  protected key(_event: KeyboardEvent): boolean {
+    return false;
+  }
+
+  /** @internal What its own keys do, in words. */
+  protected keyHelp(): string {
+    return '';
+  }
+
+  /** @internal Tells a screen reader. */
+  protected announce(text: string): void {
+    this.#frame?.announce(text);
   }
 
   /** @internal Above the plot, below the heading; built once. */
@@ -136,6 +154,8 @@ export abstract class PlotElement extends ElementBase {
         tell: (name, detail, cancelable) => this.tell(name, detail, cancelable),
         point: (position) => this.#point(position),
         movable: () => this.movablePoints(),
+        pick: (position) => this.pick(position),
+        key: (event) => this.key(event),
         moved: () => this.#soon(),
       });
       this.build(this.#frame.above);
@@ -176,7 +196,7 @@ export abstract class PlotElement extends ElementBase {
     const words = [this.getAttribute('heading'), this.getAttribute('detail')].filter(Boolean);
     const what: Picture = {
       heading: words.join(', '),
-      legend: this.#drawing?.legend ?? [],
+      legend: (this.getAttribute('legend') !== 'none' && this.#drawing?.legend) || [],
       caption: this.#caption ? this.#caption() : this.#remarks,
     };
     return (as === 'png' ? png : svg)(plot, what);
@@ -247,7 +267,7 @@ export abstract class PlotElement extends ElementBase {
       remarks: this.#remarks,
       hint: said('hint'),
       tools: this.hasAttribute('tools'),
-      legend: said('legend') !== 'image',
+      legend: !said('legend'),
       navigate: axes.navigate ?? false,
     });
     const { plot, again } = stage.on(axes, {
@@ -266,7 +286,7 @@ export abstract class PlotElement extends ElementBase {
   };
 
   #label({ navigate }: Axes): string {
-    const own = this.getAttribute('keys') ?? (navigate ? 'Arrows move, with Shift the cursor.' : '');
+    const own = this.getAttribute('keys') ?? (navigate ? 'Arrows move, with Shift the cursor.' : this.keyHelp());
     const heading = this.getAttribute('heading') ?? this.localName.replace('boresight-', '').replaceAll('-', ' ');
     return [
       `${heading}.`,

@@ -12,6 +12,9 @@ export interface StageOwner {
   tell(name: string, detail: unknown, cancelable?: boolean): boolean;
   point(position: CursorPosition | null): void;
   movable(): MovablePoints | null;
+  /** Clicks and keys that are the element's own, unless the page took them. */
+  pick(position: CursorPosition): void;
+  key(event: KeyboardEvent): boolean;
   /** A point was moved, wherever the page then has it. */
   moved(): void;
 }
@@ -47,17 +50,20 @@ export class Stage {
     }
     this.discard();
     this.#key = key;
-    const { tell, point } = this.#owner;
+    const { tell, point, pick, key: ownKey } = this.#owner;
     this.plot = new Plot(this.#host, {
       ...axes,
       ...(group ? { cursorKey: group } : {}),
       label,
       theme,
       onCursor: point,
-      onClick: (position) => tell('boresight-select', position),
+      onClick: (position) => {
+        tell('boresight-select', position);
+        pick(position);
+      },
       onDoubleClick: (position) => tell('boresight-double-click', position, true),
       onView: (view, zoomed) => tell('boresight-view', { ...view, zoomed }),
-      onKey: (event) => tell('boresight-key', event, true),
+      onKey: (event) => tell('boresight-key', event, true) || ownKey(event),
     });
     return { plot: this.plot, again: true };
   }

@@ -98,6 +98,12 @@ function mirrored(image: HTMLCanvasElement): HTMLCanvasElement {
   return other;
 }
 
+/** Limits of colours that span so much, below a level that is rounded up. */
+export function limitsBelow(topDb: number, spanDb: number): [number, number] {
+  const ceiling = Number.isFinite(topDb) ? Math.ceil(topDb / 5) * 5 : 0;
+  return [ceiling - spanDb, ceiling];
+}
+
 type BarColors = ColorMapName | ((share: number, theme: ThemeName) => string);
 
 function barColor(colors: BarColors): (share: number, theme: ThemeName) => string {

@@ -18,8 +18,8 @@ export interface ElementProps {
   detail?: string;
   /** For file names and tests. */
   name: string;
-  /** Whether the page has the legend elsewhere: it is then on saved pictures alone. */
-  legendElsewhere?: boolean;
+  /** Where the page has the legend elsewhere it is on saved pictures alone, or nowhere. */
+  listed?: 'image' | 'none';
   imageRemarks?: readonly string[];
   /** Said below the plot and on the exported image. */
   remarks?: readonly string[];
@@ -64,7 +64,7 @@ export function ElementFrame({ tag, own, ...props }: ElementProps & { tag: strin
       detail={props.detail}
       hint={props.hint}
       keys={props.keys}
-      legend={props.legendElsewhere ? 'image' : undefined}
+      legend={props.listed}
       cursor-group={props.cursorKey}
       file-name={[props.name, ...(props.fileParts ?? [])].filter((part) => part !== '').join('-')}
       theme={theme.value}

@@ -114,7 +114,7 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
       detail={detailOf(image)}
       name={`image-${info.name}`}
       height="portrait"
-      legendElsewhere
+      listed="image"
       view={view}
       cursorKey="birdseye"
       onView={(next, zoomed) => {

@@ -72,7 +72,7 @@ export function CellPanel({
       detail={place}
       name="cell-spectrum"
       height="fill"
-      legendElsewhere
+      listed="image"
       fileParts={[...fileParts, `cell${cell.rangeBin}-${cell.dopplerBin}`]}
       remarks={[`${label}, cell ${cell.rangeBin}, ${cell.dopplerBin}.`]}
       overlay={

@@ -2,7 +2,7 @@
 import { useMemo } from 'preact/hooks';
 import { AZIMUTH } from '../../../plots/axes.ts';
 import { count, fixed, signed } from '../../../plots/format.ts';
-import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../../plots/heat.ts';
+import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, limitsBelow, nearestCell } from '../../../plots/heat.ts';
 import type { PlotContent } from '../../../plots/plot.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { api } from '../../data.ts';
@@ -21,7 +21,6 @@ import {
   type ShownMap,
 } from './range-azimuth.ts';
 import { captureState } from './state.ts';
-import { limitsBelow } from './view.ts';
 
 export function RangeAzimuth({ fileParts }: { fileParts: readonly (string | number)[] }) {
   const shown = rangeAzimuth.value;
