@@ -211,3 +211,40 @@ elementTest('a cell of a range-Doppler map is chosen by click and keys, if it ma
     /^Range 2\.000 m {3}Rate 0\.000 m\/s {3}Power −88\.0 dBFS {3}bin 2, 2$/,
   );
 });
+
+elementTest(
+  'a point cloud shows where the radar looks and should look, on the ground that is asked for',
+  async ({ page }) => {
+    const name = 'boresight-point-cloud';
+    await page.evaluate(() => {
+      const points = { rangeM: [10, 10], azimuthDeg: [0, 90], rcsDbsm: [5, Number.NaN], weights: [1, 0] };
+      const mounting = { xM: 1, yM: 0, yawDeg: 90 };
+      const extent = { xM: [-20, 20], yM: [-20, 20] };
+      add(
+        'boresight-point-cloud',
+        { boresight: '', 'nominal-deg': 88, 'drag-zooms': '' },
+        { points, mounting, extent },
+      );
+    });
+    const { legend, csv, words } = await said(page, name);
+    assert.deepEqual(legend.slice(-2), ['Boresight, +90.00°', 'Nominal, +88.00°']);
+    assert.match(words, /^2 detections, of which 1 are taken as static/);
+    // Turned to the left: what is ahead of the radar is left of the car, what is left of it behind.
+    const places = csv.slice(1).map((row) => row.split(',').map(Number));
+    assert.deepEqual(
+      places.map(([x, y]) => [Math.round(x), Math.round(y)]),
+      [
+        [1, 10],
+        [-9, 0],
+      ],
+    );
+    const zoom = () => page.evaluate(() => document.querySelector('boresight-point-cloud').zoom);
+    const { x, y, width, height } = await page.locator(`${name} .u-over`).boundingBox();
+    await page.mouse.move(x + width * 0.3, y + height * 0.3);
+    await page.mouse.down();
+    await page.mouse.move(x + width * 0.6, y + height * 0.7, { steps: 4 });
+    await page.mouse.up();
+    const shown = await zoom();
+    assert.ok(shown && shown.y[1] - shown.y[0] < 25, 'a drag zoomed to its region');
+  },
+);

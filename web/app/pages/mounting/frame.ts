@@ -68,12 +68,6 @@ export const frameView = computed<FrameView | null>(() => {
   };
 });
 
-/** Where detections are in the car's frame if the radar is mounted at an angle. */
-export function inCar(rangeM: number, azimuthDeg: number, angleDeg: number): [x: number, y: number] {
-  const direction = ((azimuthDeg + angleDeg) * Math.PI) / 180;
-  return [(where.value?.xM ?? 0) + rangeM * Math.cos(direction), (where.value?.yM ?? 0) + rangeM * Math.sin(direction)];
-}
-
 /** The angle in use: the one that was found, else the nominal one. */
 export const usedAngleDeg = computed(() => shown.value?.result.angleDeg ?? where.value?.nominalDeg ?? 0);
 
