@@ -248,3 +248,32 @@ elementTest(
     assert.ok(shown && shown.y[1] - shown.y[0] < 25, 'a drag zoomed to its region');
   },
 );
+
+elementTest('a mounting angle’s plot holds its band and its tolerance, and gives its numbers', async ({ page }) => {
+  const name = 'boresight-mounting-angle';
+  await page.evaluate(() => {
+    const count = 50;
+    const history = {
+      timeS: Float64Array.from({ length: count }, (_, i) => 100 + i),
+      angleDeg: new Float64Array(count).fill(10),
+      sigmaDeg: Float64Array.from({ length: count }, (_, i) => 5 / (1 + i)),
+    };
+    add('boresight-mounting-angle', { 'nominal-deg': 10, 'tolerance-deg': 2, tools: '' }, { history });
+  });
+  const { csv } = await said(page, name);
+  assert.deepEqual([csv.length, csv[0], csv[1]], [51, 'time_s,angle_deg,sigma_deg', '100,10,5']);
+  const levels = [];
+  for (const at of [0.02, 0.98]) {
+    const over = page.locator(`${name} .u-over`);
+    const { width, height } = await over.boundingBox();
+    await page.evaluate(() => {
+      document.addEventListener('boresight-cursor', ({ detail }) => {
+        window.level = detail?.y ?? window.level;
+      });
+    });
+    await over.hover({ position: { x: width / 2, y: height * at } });
+    levels.push(await page.evaluate(() => level));
+  }
+  // The tolerance is drawn in, and what was not yet known at first is not.
+  assert.ok(levels[0] > 12 && levels[0] < 14 && levels[1] < 8 && levels[1] > 6, levels.join());
+});
