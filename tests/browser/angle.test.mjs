@@ -91,7 +91,7 @@ browserTest('angle lab: a target can be moved, added and removed from the keyboa
   await parametersWith(page, (params) => params.get('targets') === '12:0');
   assert.equal(await page.locator('.plot-handle').count(), 1);
   assert.ok(
-    await page.locator('.plot-handle[data-target="0"]').evaluate((node) => node === document.activeElement),
+    await page.locator('.plot-handle[data-target="0"]').evaluate((node) => node === focused()),
     'the focus stays on a target',
   );
   await page.locator('[data-action="add-target"]').focus();
@@ -170,7 +170,7 @@ browserTest('angle lab: a drag zooms, the cursor reads out, a key resets', { pat
   await shown(page, 'music');
   const plot = page.locator('[data-plot="spectrum"]');
   const over = await plot.locator('.u-over').boundingBox();
-  const label = () => plot.locator('[data-readout]').innerText();
+  const label = () => plot.locator('.readout').innerText();
   await page.mouse.move(over.x + over.width / 2, over.y + over.height / 2);
   // A pixel is 0.2 dB, and the middle may lie between two.
   assert.match(await label(), /Azimuth [+−]?0\.\d\d°\s+Level −1(7\.9|8\.[01])/);
@@ -180,7 +180,7 @@ browserTest('angle lab: a drag zooms, the cursor reads out, a key resets', { pat
   await page.mouse.up();
   await page.mouse.move(over.x + over.width / 2, over.y + over.height / 2);
   assert.match(await label(), /Azimuth \+22\.\d\d°/);
-  await plot.locator('.plot-host').press('0');
+  await plot.locator('.plot').press('0');
   await page.mouse.move(over.x + over.width / 2 + 1, over.y + over.height / 2);
   assert.match(await label(), /Azimuth [+−]?0\.\d\d°/);
 });
@@ -236,9 +236,7 @@ browserTest(
     await page.locator('select[name="array"]').selectOption('at');
     await typeText(page.locator('input[name="positions"]'), '0, 1.3, 2.9, 4.1');
     await parametersWith(page, (params) => params.get('array') === 'at:0,1.3,2.9,4.1');
-    await page.waitForFunction(() =>
-      /at|positions/.test(document.querySelector('[data-plot="spectrum"] figcaption').innerText),
-    );
+    await page.waitForFunction(() => /at|positions/.test(within('[data-plot="spectrum"]', 'figcaption').innerText));
     assert.ok((await csv()).at(-1)[0] < 89);
   },
 );

@@ -31,7 +31,7 @@ const painted = (page, method) =>
 async function reading(page, method, x = 0.5, y = 0.5) {
   const { width, height } = await page.locator(`${image(method)} .u-over`).boundingBox();
   await page.locator(`${image(method)} .u-over`).hover({ position: { x: width * x, y: height * y } });
-  const text = await page.locator(`${image(method)} [data-readout]`).innerText();
+  const text = await page.locator(`${image(method)} .readout`).innerText();
   const [, atX, atY] = /x ([+−]?[\d.]+) m\s+y ([+−]?[\d.]+) m/.exec(text) ?? assert.fail(`the reading is “${text}”`);
   return { text, x: Number(atX.replace('−', '-')), y: Number(atY.replace('−', '-')) };
 }
@@ -107,7 +107,7 @@ browserTest(
     assert.ok(Math.abs(middle.x - 21) < 1 && Math.abs(middle.y) < 1, middle.text);
     assert.match(middle.text, /dBFS\s+front left/);
     assert.match(
-      await page.locator(`${image('iaa')} [data-readout]`).innerText(),
+      await page.locator(`${image('iaa')} .readout`).innerText(),
       /x \+2[01]\.\d m\s+y [+−]?0\.\d m/,
       'the cursor is shared',
     );
@@ -120,7 +120,7 @@ browserTest(
       top.x,
       'a wheel over an image that is not chosen scrolls the page',
     );
-    const host = page.locator(`${image('bartlett')} .plot-host`);
+    const host = page.locator(`${image('bartlett')} .plot`);
     await host.focus();
     await page.keyboard.press('+');
     const zoomed = await reading(page, 'iaa', 0.5, 0);

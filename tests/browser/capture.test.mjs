@@ -80,7 +80,7 @@ browserTest(
     await cellReady(page);
     const title = () => page.locator('[data-plot="cell-spectrum"] .detail').innerText();
     assert.match(await title(), /2\.95 m/);
-    const map = page.locator('[data-plot="range-doppler"] .plot-host');
+    const map = page.locator('[data-plot="range-doppler"] .plot');
     await map.focus();
     await page.keyboard.press('n');
     await parametersWith(page, (params) => params.has('cell'));
@@ -194,7 +194,7 @@ browserTest(
     await page.locator('input[name="frame"]').press('ArrowRight');
     await page.waitForFunction(() => /frame 2 of 480/.test(document.querySelector('output').textContent));
     await page.waitForFunction(() =>
-      document.querySelector('[data-plot="range-doppler"] figcaption')?.textContent.includes('Frame 2 of 480'),
+      within('[data-plot="range-doppler"]', 'figcaption')?.textContent.includes('Frame 2 of 480'),
     );
   },
 );

@@ -2,59 +2,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
-import { recording, recordings } from './demo.mjs';
-import { browserTest } from './harness.mjs';
-import { serve } from './session.mjs';
-
-const PAGE = `<!doctype html><html lang="en"><title>elements</title>
-<script type="importmap">{ "imports": {
-  "boresight": "/lib/browser.js", "boresight/worker": "/worker/browser.js", "boresight/elements": "/elements/index.js"
-} }</script>
-<style>body { margin: 8px; display: grid; grid-template-columns: 1fr 1fr; gap: 8px; background: Canvas; color: CanvasText }</style>
-<body></body></html>`;
-
-/** The built package as a site, on which there is no page. */
-let site;
-const served = async () => (site ??= await serve(root));
-after(() => site?.close());
-
-/** A page with the package and the elements at hand. */
-async function open(page, url) {
-  await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: PAGE }));
-  await page.goto(new URL('page.html', url).href);
-  await page.evaluate(async () => {
-    window.boresight = await import('boresight');
-    window.elements = await import('boresight/elements');
-    await Promise.all([boresight.init(), boresight.initDrives()]);
-    window.add = (name, attributes = {}, properties = {}) => {
-      const made = document.createElement(name);
-      for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-      document.body.append(Object.assign(made, properties));
-      return made;
-    };
-    /** Two frames of the screen later all is drawn. */
-    window.drawn = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-    window.part = (element, name) => element.shadowRoot.querySelector(`[part="${name}"]`);
-    /** Pixels of the plot that are not its background. */
-    window.inked = (element) => {
-      const canvas = element.shadowRoot.querySelector('.u-wrap canvas');
-      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-      let count = 0;
-      for (let i = 3; i < data.length; i += 4) if (data[i] > 0) count += 1;
-      return count / (data.length / 4);
-    };
-  });
-}
-
-const elementTest = (name, body, options = {}) =>
-  browserTest(`elements: ${name}`, { served, path: 'lib/index.js', ...options }, async (view) => {
-    // What was there before the page was opened is no problem of the elements.
-    await open(view.page, view.url);
-    view.problems.length = 0;
-    await body(view);
-  });
+import { assertCsv, assertPng, recording, recordings, saved } from './demo.mjs';
+import { elementTest } from './elements.mjs';
 
 elementTest(
   'a spectrum shows its angles, is used by keys, and follows theme, properties and size',
@@ -85,7 +35,7 @@ elementTest(
     assert.match(said.alternative, /capon: .*[+-−]1[12]\.\d+°/);
     assert.match(said.alternative, /esprit: /);
     assert.equal(said.heading, 'Two sources');
-    assert.equal(said.legend, 'caponmusicesprit');
+    assert.equal(said.legend, 'capon–music–esprit', 'those with spectra have values at the cursor');
     assert.ok(said.ink > 0.02, `${said.ink} of the plot is drawn on`);
 
     await page.evaluate(() => {
@@ -95,7 +45,8 @@ elementTest(
     await page.keyboard.press('Tab');
     await page.keyboard.press('ArrowRight');
     const readout = page.locator('boresight-spectrum').locator('[part="readout"]');
-    assert.match(await readout.textContent(), /Azimuth .*° {3}capon -?−?\d+\.\d dB/);
+    assert.match(await readout.textContent(), /Azimuth .*° {3}Level −?\d+\.\d\u00a0dB/);
+    assert.match(await page.locator('boresight-spectrum [part="legend"]').innerText(), /capon\s+−?\d+\.\d\u00a0dB/);
     assert.ok((await page.evaluate(() => cursors.at(-1)?.x)) !== undefined, 'the event leaves the shadow root');
 
     const looks = await page.evaluate(async () => {
@@ -318,6 +269,162 @@ elementTest(
     assert.ok(after.usedSize < before.usedSize + 1_000_000, JSON.stringify([before, after]));
   },
 );
+
+/** A plot of one's own of a line, with a point to move, and what it tells. */
+const addLine = (page) =>
+  page.evaluate(async () => {
+    window.told = [];
+    for (const name of ['select', 'view', 'drag', 'remove', 'key', 'double-click'])
+      document.addEventListener(`boresight-${name}`, (event) => {
+        const { key, ...detail } = event.detail;
+        told.push({ name, key: key ?? event.detail.key, ...detail });
+        if (name === 'double-click' || event.detail.key === 'n') event.preventDefault();
+      });
+    const x = [0, 1, 2, 3, 4];
+    const style = { color: { light: '#0072b2', dark: '#4aa8e8' } };
+    window.lineOf = (points) => ({
+      axes: { x: { label: 'Time (s)' }, y: { label: 'Level (dB)' } },
+      content: {
+        x,
+        series: [{ id: 'a', label: 'A', y: [0, 10, 20, 30, 40], style }],
+        extent: { x: [0, 4], y: [0, 40] },
+      },
+      legend: [
+        { id: 'a', label: 'A', style, line: true, value: ({ index }) => `${10 * index} dB`, rest: 'of 40 dB' },
+        { label: 'B', style, line: false },
+      ],
+      readout: ({ x: time }) => `Time ${time.toFixed(1)} s`,
+      csv: () => 'time_s,level_db\r\n0,0\r\n',
+      movable: { points, steps: { x: [0.5, 1], y: [1, 5] }, help: 'Drag it' },
+    });
+    const element = add(
+      'boresight-plot',
+      { heading: 'Line', detail: 'of 5', hint: 'Click it.', tools: '', 'file-name': 'line', 'cursor-group': 'time' },
+      { remarks: ['Straight.'], drawing: lineOf([{ x: 2, y: 20, label: 'Point 1' }]) },
+    );
+    element.append(Object.assign(document.createElement('button'), { slot: 'actions', textContent: 'Own' }));
+    document.addEventListener('boresight-drag', ({ detail: { x: at, y } }) => {
+      element.drawing = lineOf([{ x: at, y, label: 'Point 1' }]);
+    });
+    document.addEventListener('boresight-remove', () => {
+      element.drawing = lineOf([]);
+    });
+    add('boresight-plot', { 'cursor-group': 'time', tools: '' }, { drawing: { ...lineOf([]), csv: undefined } });
+    await drawn();
+  });
+
+elementTest(
+  'a plot of one’s own has tools, words and values, and saves what it shows',
+  async ({ page, screenshot }) => {
+    await addLine(page);
+    const [line, other] = [page.locator('boresight-plot').first(), page.locator('boresight-plot').last()];
+    assert.deepEqual(await line.getByRole('button').allInnerTexts(), [
+      'Own',
+      '+',
+      '−',
+      'Reset',
+      'PNG',
+      'SVG',
+      'CSV',
+      '',
+    ]);
+    assert.equal(await other.getByRole('button', { name: 'CSV' }).count(), 0, 'there are no numbers');
+    assert.equal(await line.locator('[part="remarks"]').innerText(), 'Straight. Click it.');
+    assert.equal(await line.locator('[part="readout"]').innerText(), 'Cursor: point at the plot');
+    assert.deepEqual(await line.locator('[part="legend"] li').allInnerTexts(), ['A\nof 40 dB', 'B']);
+    const said = await page.evaluate(() => {
+      const root = document.querySelector('boresight-plot').shadowRoot;
+      const ids = root.querySelector('.plot').getAttribute('aria-describedby').split(' ');
+      return [root.querySelector('.plot').ariaLabel, ...ids.map((id) => root.getElementById(id).textContent)];
+    });
+    assert.deepEqual(said, [
+      'Line. Plus and minus zoom, 0 resets. Left and right move the cursor.',
+      'of 5',
+      'Aof 40 dBB',
+      'Straight. Click it.',
+    ]);
+
+    await line.locator('.plot').focus();
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await line.locator('[part="readout"]').innerText(), 'Time 3.0 s');
+    assert.equal(await line.locator('[part="legend"] li').first().innerText(), 'A\n30 dB');
+    await line.locator('[part="live"]').filter({ hasText: 'Time 3.0 s' }).waitFor({ state: 'attached' });
+    assert.equal(await other.locator('[part="live"]').textContent(), '', 'only where the focus is is it said');
+
+    await line.locator('.u-over').hover({ position: { x: 200, y: 60 } });
+    assert.match(
+      await other.locator('[part="readout"]').innerText(),
+      /Time [0-3]\.\d s/,
+      'the group shares its cursor',
+    );
+
+    await page.evaluate(() => {
+      document.querySelector('boresight-plot').caption = () => ['Figure 1.'];
+    });
+    assertCsv(await saved(page, 'boresight-plot >> nth=0 >> [data-export="csv"]'), 'time_s,level_db');
+    assertPng(await saved(page, 'boresight-plot >> nth=0 >> [data-export="png"]'));
+    const { name, bytes } = await saved(page, 'boresight-plot >> nth=0 >> [data-export="svg"]');
+    assert.equal(name, 'boresight-line.svg');
+    const drawing = bytes.toString('utf8');
+    for (const text of ['Line, of 5', '>A<', '>B<', 'Figure 1.']) assert.ok(drawing.includes(text), text);
+    assert.ok(!drawing.includes('Straight.'), 'the caption is in place of the remarks');
+    await screenshot('elements-own');
+  },
+);
+
+elementTest('points are moved, keys and clicks told, and a zoom is set from outside', async ({ page }) => {
+  await addLine(page);
+  const line = page.locator('boresight-plot').first();
+  const last = () => page.evaluate(() => told.at(-1));
+  const point = line.locator('.plot-handle');
+  const { x, y, width, height } = await point.boundingBox();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(x + width / 2 + 60, y + height / 2, { steps: 3 });
+  await page.mouse.up();
+  const moved = await last();
+  assert.equal(moved.name, 'drag');
+  assert.ok(moved.x > 2.2 && Math.abs(moved.y - 20) < 0.5, JSON.stringify(moved));
+  for (const key of ['Shift+ArrowLeft', 'ArrowLeft', 'ArrowLeft', '+']) await page.keyboard.press(key);
+  const nudged = await last();
+  assert.ok(Math.abs(nudged.x - (moved.x - 2)) < 1e-9 && Math.abs(nudged.y - (moved.y + 1)) < 1e-9);
+  await page.keyboard.press('Delete');
+  await page.waitForFunction(() => focused().matches('.plot'), undefined, { polling: 'raf' });
+  assert.equal(await point.count(), 0);
+
+  const shown = () => page.evaluate(() => document.querySelector('boresight-plot').zoom);
+  await page.keyboard.press('n');
+  assert.equal(await shown(), null);
+  await page.keyboard.press('+');
+  assert.deepEqual((await shown()).x, [1, 3]);
+  const { key, name, zoomed } = await last();
+  assert.deepEqual([key, name, zoomed], [undefined, 'view', true]);
+  const over = line.locator('.u-over');
+  await over.dblclick({ position: { x: 100, y: 50 } });
+  assert.equal((await last()).name, 'double-click');
+  assert.deepEqual((await shown()).x, [1, 3], 'what is prevented does not reset the zoom');
+  await over.click({ position: { x: 100, y: 50 } });
+  assert.equal((await last()).name, 'select');
+  await line.getByRole('button', { name: 'Reset' }).click();
+  assert.equal(await shown(), null);
+
+  const events = await page.evaluate(async () => {
+    const element = document.querySelector('boresight-plot');
+    const before = told.length;
+    element.zoom = { x: [0, 2], y: [0, 40] };
+    element.playhead = 1;
+    await drawn();
+    return told.length - before;
+  });
+  assert.equal(events, 0, 'what is set is not told');
+  const box = await over.boundingBox();
+  const head = await line.locator('.playhead').boundingBox();
+  assert.ok(Math.abs(head.x + head.width / 2 - (box.x + box.width / 2)) < 1.5, JSON.stringify([head, box]));
+  await page.evaluate(() => {
+    document.querySelector('boresight-plot').playhead = null;
+  });
+  await line.locator('.playhead').waitFor({ state: 'hidden' });
+});
 
 elementTest('the manifest lists each element with the attributes it listens to', async ({ page }) => {
   const { modules } = JSON.parse(readFileSync(join(root, 'dist', 'elements', 'custom-elements.json'), 'utf8'));

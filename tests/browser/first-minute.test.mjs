@@ -94,9 +94,7 @@ browserTest(
     const snr = page.locator('input[name="snr"]');
     await snr.click();
     await snr.press('ArrowUp');
-    await page.waitForFunction(() =>
-      /SNR 21\.0/.test(document.querySelector('[data-plot="spectrum"] figcaption').innerText),
-    );
+    await page.waitForFunction(() => /SNR 21\.0/.test(within('[data-plot="spectrum"]', 'figcaption').innerText));
     await snr.press('Escape');
     assert.ok(!(await snr.isVisible()));
     assert.ok(await page.locator('.sidebar-toggle').evaluate((node) => node === document.activeElement));
@@ -110,7 +108,7 @@ browserTest('first minute: Tab goes to the plots before the controls', { path: '
   await page.keyboard.press('Enter');
   for (let tabs = 1; tabs <= 8; tabs++) {
     await page.keyboard.press('Tab');
-    if (await page.evaluate(() => document.activeElement.matches('.plot-host, .plot-handle'))) return;
+    if (await page.evaluate(() => focused().matches('.plot, .plot-handle'))) return;
   }
   assert.fail('no plot within eight tab stops');
 });
@@ -199,7 +197,7 @@ browserTest(
   { path: '#/angle', viewport: 'phone' },
   async ({ page }) => {
     const hint = await page.locator('[data-hint]').boundingBox();
-    for (const selector of ['.tools', '.plot-host']) {
+    for (const selector of ['.tools', '.plot']) {
       const box = await page.locator(`[data-plot="spectrum"] ${selector}`).boundingBox();
       assert.ok(hint.y >= box.y + box.height || hint.y + hint.height <= box.y, `${selector} is covered`);
     }

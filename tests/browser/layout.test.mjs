@@ -81,13 +81,13 @@ for (const { name, path, ready } of pages) {
         .locator('input[type="checkbox"]:visible, input[type="radio"]:visible')
         .evaluateAll((boxes) => boxes.filter((box) => box.getBoundingClientRect().width < 16).map(({ id }) => id));
       assert.deepEqual(small, []);
-      const silent = await page.locator('.plot-host').evaluateAll((hosts) =>
+      const silent = await page.locator('.plot').evaluateAll((hosts) =>
         hosts
           .filter((host) => {
             const ids = host.getAttribute('aria-describedby')?.split(' ') ?? [];
-            return ids.length === 0 || ids.some((id) => !document.getElementById(id)?.textContent.trim());
+            return ids.length === 0 || ids.some((id) => !host.getRootNode().getElementById(id)?.textContent.trim());
           })
-          .map((host) => host.closest('figure').dataset.plot),
+          .map((host) => host.getRootNode().host.dataset.plot),
       );
       assert.deepEqual(silent, []);
     },

@@ -94,7 +94,7 @@ browserTest(
     const slider = page.locator('input[name="time"]');
     await slider.press('ArrowRight');
     assert.equal(await frameNumber(page), before + 1);
-    await page.locator('[data-plot="birds-eye"] .plot-host').press('Shift+ArrowRight');
+    await page.locator('[data-plot="birds-eye"] .plot').press('Shift+ArrowRight');
     assert.equal(await frameNumber(page), before + 11);
     await page.locator('#content').evaluate((node) => node.focus());
     await page.keyboard.press('ArrowLeft');
@@ -126,7 +126,7 @@ browserTest(
       const over = page.locator(`[data-plot="${plot}"] .u-over`);
       const { width, height } = await over.boundingBox();
       await over.hover({ position: { x: width / 2, y: height / 2 } });
-      return page.locator(`[data-plot="${plot}"] [data-readout]`).innerText();
+      return page.locator(`[data-plot="${plot}"] .readout`).innerText();
     };
     const numbers = (text) => [...text.replaceAll('−', '-').matchAll(/[+-]?\d+\.\d+/g)].map(Number);
     const [, middle] = numbers(await readout('angle-history'));
@@ -139,7 +139,7 @@ browserTest(
     assert.ok(Math.abs(time - 375) < 3, `${time} s`);
     assert.ok(angle > middle + 0.02, `${angle} degrees, ${middle} before`);
     assert.ok(Math.abs(numbers(await readout('frame-weights'))[0] - 375) < 3, 'the other plot has the same time');
-    await page.locator('[data-plot="frame-weights"] .plot-host').press('0');
+    await page.locator('[data-plot="frame-weights"] .plot').press('0');
     assert.ok(Math.abs(numbers(await readout('angle-history'))[0] - 300) < 3, 'and shows all of it again');
   },
 );

@@ -13,7 +13,7 @@ browserTest(
     const [found] = await cell(page, 'unrolled-iaa', 'found');
     assert.ok(found >= 2, `found ${found} of 3`);
     const csv = await saved(page, '[data-plot="attempt"] [data-export="csv"]');
-    const rows = assertCsv(csv, 'azimuth_deg,unrolled-iaa_db,iaa_db,bartlett_db');
+    const rows = assertCsv(csv, 'azimuth_deg,unrolled_iaa_db,iaa_db,bartlett_db');
     // The coarse grid is drawn through the points of the fine one, and no further than it goes.
     assert.ok(rows.length > 1000, `${rows.length} rows`);
     const own = rows.filter(([, db]) => db !== '');

@@ -15,10 +15,10 @@ browserTest(
   async ({ page }) => {
     const fetched = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => name));
     page.on('request', (request) => fetched.push(request.url()));
-    await page.waitForSelector('.plot-host canvas');
+    await page.waitForSelector('.plot canvas');
     for (const name of ['capture', 'networks', 'birdseye']) {
       await page.locator(`nav a[href^="#/${name}"]`).click();
-      await page.waitForSelector('.plot-host canvas');
+      await page.waitForSelector('.plot canvas');
       await page.waitForTimeout(300);
     }
     assert.deepEqual(
@@ -243,9 +243,9 @@ browserTest('networks: the page is used from the keyboard', { path: '#/networks'
   await page.locator(`[data-network="${models.at(-1)}"] button`).focus();
   await page.keyboard.press('Enter');
   await page.waitForSelector(`[data-card="${models.at(-1)}"]`);
-  await page.locator('[data-plot="metrics"] .plot-host').focus();
+  await page.locator('[data-plot="metrics"] .plot').focus();
   await page.keyboard.press('ArrowRight');
-  assert.match(await page.locator('[data-plot="metrics"] [data-readout]').innerText(), /SNR −?\d+ dB/);
+  assert.match(await page.locator('[data-plot="metrics"] .readout').innerText(), /SNR −?\d+ dB/);
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll('button, input:not([hidden]), select, [role="application"]')]
       .filter((node) => !(node.getAttribute('aria-label') ?? node.labels?.[0]?.textContent ?? node.textContent).trim())
@@ -261,18 +261,18 @@ browserTest(
   async ({ page }) => {
     await page.waitForSelector('[data-card]');
     await page.evaluate(() => {
-      document.querySelector('[data-plot="metrics"] .u-over').dataset.old = '';
+      within('[data-plot="metrics"]', '.u-over').dataset.old = '';
       const { setTimeout } = window;
       window.setTimeout = (work, delay = 1500, ...rest) => setTimeout(work, delay, ...rest);
     });
     await page.locator(`[data-network="${models.at(-1)}"] button`).click();
     // As soon as it is there, and where it is out of sight, so that nothing has drawn it.
-    const host = '[data-plot="metrics"] .plot-host:has(.u-over:not([data-old]))';
+    const host = '[data-plot="metrics"] .plot:has(.u-over:not([data-old]))';
     await page.waitForSelector(host, { state: 'attached' });
     await page.locator(host).evaluate((plot) => plot.focus({ preventScroll: true }));
     await page.keyboard.press('ArrowRight');
     await page.evaluate(() => new Promise(requestAnimationFrame));
-    assert.match(await page.locator('[data-plot="metrics"] [data-readout]').textContent(), /SNR −?\d+ dB/);
+    assert.match(await page.locator('[data-plot="metrics"] .readout').textContent(), /SNR −?\d+ dB/);
   },
 );
 
@@ -281,7 +281,7 @@ for (const name of ['aoa', 'doa'].filter((one) => existsSync(experiment(one)))) 
     `networks: the figures of ${name} are drawn, and a network that loses is said to`,
     { path: '#/networks' },
     async ({ page }) => {
-      await page.waitForSelector(`[data-experiment="${name}"] .plot-host canvas`);
+      await page.waitForSelector(`[data-experiment="${name}"] .plot canvas`);
       const report = JSON.parse(readFileSync(experiment(name)));
       const isNetwork = (method) => /^(aaetr|learned-pursuit|unrolled-iaa|dnn|cnn3d|counting)/.test(method);
       if (!report.methods.some(isNetwork)) {

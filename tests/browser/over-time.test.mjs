@@ -56,8 +56,7 @@ browserTest('over time: columns are the frames’ own profiles and maps', { path
   for (const frame of [2, 3]) {
     if (frame > 2) await page.locator('input[name="frame"]').press('ArrowRight');
     await page.waitForFunction(
-      (shown) =>
-        document.querySelector('[data-plot="range-profile"] figcaption')?.textContent.includes(`Frame ${shown} of`),
+      (shown) => within('[data-plot="range-profile"]', 'figcaption')?.textContent.includes(`Frame ${shown} of`),
       frame,
     );
     const profile = await csv(page, 'range-profile', 'range_m,power_dbfs');
@@ -98,7 +97,7 @@ browserTest('over time: a click or a key goes to a frame, which is marked', { pa
     return line.x + line.width / 2 - (await over.boundingBox()).x;
   };
   close(await at(), middle(6), 1.5, 'the mark');
-  await plot.locator('.plot-host').focus();
+  await plot.locator('.plot').focus();
   await page.keyboard.press('ArrowRight');
   await parametersWith(page, (params) => params.get('frame') === '6');
   close(await at(), middle(7), 1.5, 'the mark');
@@ -116,20 +115,18 @@ browserTest('over time: the gate is where the cell is, and as wide as typed', { 
   await whole(page, 8);
   const gate = () => page.locator('[data-plot="micro-doppler"] .detail').innerText();
   const first = await gate();
-  await page.locator('[data-plot="range-time"] .plot-host').focus();
+  await page.locator('[data-plot="range-time"] .plot').focus();
   await page.keyboard.press('Shift+ArrowUp');
   await parametersWith(page, (params) => params.has('cell'));
   await page.waitForFunction(
-    (before) => document.querySelector('[data-plot="micro-doppler"] .detail').textContent !== before,
+    (before) => within('[data-plot="micro-doppler"]', '.detail').textContent !== before,
     first,
   );
   const bin = Number(parameters(page).get('cell').split(':')[0]);
   const width = page.locator('input[name="gate"]');
   await typeNumber(width, '0');
   await leave(width);
-  await page.waitForFunction(() =>
-    /^[\d.]+ m$/.test(document.querySelector('[data-plot="micro-doppler"] .detail').textContent),
-  );
+  await page.waitForFunction(() => /^[\d.]+ m$/.test(within('[data-plot="micro-doppler"]', '.detail').textContent));
   const profile = await csv(page, 'range-profile', 'range_m,power_dbfs');
   close(Number.parseFloat(await gate()), profile[bin][0], 0.006, 'the gate is the bin of the cell');
   await parametersWith(page, (params) => params.get('gate') === '0');

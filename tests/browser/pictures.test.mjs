@@ -22,7 +22,7 @@ const sizeOf = ({ bytes }) => ({ width: bytes.readUInt32BE(16), height: bytes.re
 
 const hostOf = (page, plot) =>
   page
-    .locator(`[data-plot="${plot}"] .plot-host`)
+    .locator(`[data-plot="${plot}"] .plot`)
     .evaluate(({ clientWidth, clientHeight }) => ({ width: clientWidth, height: clientHeight }));
 
 /** What a reader of the file finds in it. */

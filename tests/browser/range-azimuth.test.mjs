@@ -24,7 +24,7 @@ browserTest(
     assert.match(await caption(page), /^Bartlett.*spectra of the \d+ cells/);
     await page.locator('select[name="angle"]').selectOption('nomp');
     await page.waitForFunction(() =>
-      /^NOMP, targets/.test(document.querySelector('[data-plot="range-azimuth"] figcaption')?.textContent),
+      /^NOMP, targets/.test(within('[data-plot="range-azimuth"]', 'figcaption')?.textContent),
     );
     const few = await map(page);
     assert.ok(Math.abs(strongest(few)[0] + 10.8) <= 2);
@@ -43,7 +43,7 @@ browserTest('range-azimuth: it plays, and says which frame it is', { path: '#/ca
   await page.waitForFunction(
     () => Number(document.querySelector('[data-range-azimuth]')?.getAttribute('data-range-azimuth')) > 0,
   );
-  await page.locator('[data-plot="range-azimuth"] .plot-host').focus();
+  await page.locator('[data-plot="range-azimuth"] .plot').focus();
   await page.keyboard.press(' ');
   await page.waitForSelector('[data-action="play-map"][aria-pressed="false"]');
   await page.waitForFunction(() => {
@@ -91,7 +91,7 @@ browserTest(
     await page.waitForSelector('[data-interrupted] [data-action="resume-map"]');
     await page.locator('input[name="frame"]').press('ArrowRight');
     await page.waitForFunction(() =>
-      document.querySelector('[data-plot="range-profile"] figcaption')?.textContent.includes('Frame 2 of'),
+      within('[data-plot="range-profile"]', 'figcaption')?.textContent.includes('Frame 2 of'),
     );
     assert.equal(await page.locator('[data-range-azimuth], [data-action="cancel-map"]').count(), 0, 'it rests');
     await page.locator('[data-action="resume-map"]').click();

@@ -36,6 +36,18 @@ export async function launch() {
   return chromium.launch({ executablePath, headless: true, args: browserArguments });
 }
 
+/** What scripts of tests have at hand on every page: Playwright's locators see into elements, `document` does not. */
+function atHand() {
+  /** What is inside an element, by a selector of its own. */
+  globalThis.within = (host, selector) => document.querySelector(host)?.shadowRoot?.querySelector(selector);
+  /** What has the focus, inside elements too. */
+  globalThis.focused = () => {
+    let found = document.activeElement;
+    while (found?.shadowRoot?.activeElement) found = found.shadowRoot.activeElement;
+    return found;
+  };
+}
+
 /** Opens a page in a fresh context and keeps a list of what goes wrong on it. */
 export async function openPage(browser, url, { viewport = 'desktop', scheme = 'light', path = '', ...rest } = {}) {
   const context = await browser.newContext({
@@ -61,6 +73,7 @@ export async function openPage(browser, url, { viewport = 'desktop', scheme = 'l
   context.on('response', (response) => {
     if (response.status() >= 400) problems.push(`status ${response.status()}: ${response.url()}`);
   });
+  await context.addInitScript(atHand);
   const page = await context.newPage();
   page.setDefaultTimeout(20_000);
   await page.goto(new URL(path, url).href, { waitUntil: 'load' });

@@ -21,7 +21,7 @@ for (const path of new Set(PLOTS.map((one) => one.path))) {
       const { width, height } = await frame.locator('.u-over').boundingBox();
       const at = async (share) => {
         await frame.locator('.u-over').hover({ position: { x: width * share, y: height * 0.6 } });
-        const text = await frame.locator('[data-readout]').innerText();
+        const text = await frame.locator('.readout').innerText();
         return Number(new RegExp(`\\b${axis} ([+−]?[\\d.]+)`, 'i').exec(text)?.[1].replace('−', '-'));
       };
       const [left, right] = [await at(0.1), await at(0.9)];
@@ -34,11 +34,11 @@ browserTest(
   'left is left: arrows move the cursor and a target to their side',
   { path: '#/angle' },
   async ({ page }) => {
-    const host = page.locator('[data-plot="spectrum"] .plot-host');
+    const host = page.locator('[data-plot="spectrum"] .plot');
     const readout = async () =>
       Number(
         /Azimuth ([+−]?[\d.]+)/
-          .exec(await page.locator('[data-plot="spectrum"] [data-readout]').innerText())[1]
+          .exec(await page.locator('[data-plot="spectrum"] .readout').innerText())[1]
           .replace('−', '-'),
       );
     await page.waitForSelector('[data-row="music"] [data-field="azimuth"][data-value]');
@@ -50,7 +50,7 @@ browserTest(
     const { x } = await target.boundingBox();
     await target.press('Shift+ArrowLeft');
     await page.waitForFunction(
-      (before) => document.querySelector('.plot-handle').getBoundingClientRect().x < before,
+      (before) => within('[data-plot="spectrum"]', '.plot-handle').getBoundingClientRect().x < before,
       x,
     );
   },

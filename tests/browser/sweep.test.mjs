@@ -38,7 +38,7 @@ browserTest(
     assert.ok(Math.abs(slope - 1) < 0.05, `slope ${slope}`);
     await typeNumber(page.locator('input[name="snr"]'), '10');
     await page.waitForFunction(() =>
-      /before the last change/.test(document.querySelector('[data-plot="sweep-error"] figcaption').innerText),
+      /before the last change/.test(within('[data-plot="sweep-error"]', 'figcaption').innerText),
     );
   },
 );
@@ -58,7 +58,7 @@ browserTest(
       if (separation > 13) assert.equal(fft, 1);
       if (separation > 4) assert.equal(music, 1);
     }
-    assert.match(await page.locator('[data-plot="sweep-error"]').innerText(), /50 runs/);
+    assert.match(await page.locator('[data-plot="sweep-error"] figcaption').innerText(), /50 runs/);
   },
 );
 
@@ -81,6 +81,6 @@ browserTest(
     await typeNumber(page.locator('input[name="runs"]'), '20');
     await typeNumber(page.locator('input[name="sweep-to"]'), '50');
     await run(page);
-    assert.match(await page.locator('[data-plot="sweep-error"]').innerText(), /1 target, 20 runs/);
+    assert.match(await page.locator('[data-plot="sweep-error"] figcaption').innerText(), /1 target, 20 runs/);
   },
 );

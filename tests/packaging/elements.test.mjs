@@ -24,12 +24,20 @@ before(async () => {
         element.estimates = estimate({ snapshots }, { array: 'ula8', method: 'music', sources: 2 });
       `,
       'typed.ts': `
-        import { define, type JsxElements, type MountingAngleElement } from 'boresight/elements';
+        import { define, type JsxElements, type MountingAngleElement, type OwnDrawing } from 'boresight/elements';
         define();
         const made = document.createElement('boresight-mounting-angle');
         const angle: MountingAngleElement = made;
         angle.add(1, { angleDeg: 2, sigmaDeg: 0.1 });
         const attributes: JsxElements['boresight-spectrum'] = { heading: 'A', truthDeg: [1], 'floor-db': 40 };
+        const own: OwnDrawing = {
+          axes: { x: { label: 'Time (s)' }, y: { label: 'Level (dB)' } },
+          content: { x: [0, 1], series: [], extent: { x: [0, 1], y: [0, 1] }, above: [({ ctx, x }) => ctx.lineTo(x(0), 1)] },
+          readout: ({ x }) => String(x),
+        };
+        document.createElement('boresight-plot').drawing = own;
+        // @ts-expect-error an axis has a label
+        own.axes.x = {};
         made.setAttribute('heading', String(attributes['heading']));
         // @ts-expect-error the angle is missing
         angle.add(1, { sigmaDeg: 0.1 });
@@ -76,7 +84,7 @@ test('a server reads it and defines nothing', async () => {
     '--eval',
     "const { define, elements } = await import('boresight/elements'); define(); console.log(Object.keys(elements).length)",
   ]);
-  assert.equal(stdout.trim(), '8');
+  assert.equal(stdout.trim(), '9');
 });
 
 test('its types fit into a strict project', async () => {

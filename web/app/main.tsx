@@ -1,7 +1,5 @@
 import { render } from 'preact';
 import './style.css';
-import 'uplot/dist/uPlot.min.css';
-import '../plots/plot.css';
 import { App } from './app.tsx';
 import icon from './icon.svg?inline';
 

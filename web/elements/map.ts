@@ -1,5 +1,7 @@
 /** What elements of colour-coded maps have in common. */
+
 import { COLOR_MAPS, type ColorMapName } from '../plots/colormap.ts';
+import { limitsBelow } from '../plots/heat.ts';
 
 /** Attributes of colours. */
 export const COLOR_ATTRIBUTES = ['colors', 'low-db', 'high-db', 'span-db'];
@@ -9,9 +11,7 @@ export function colorsOf(given: string | null): ColorMapName {
   return COLOR_MAPS.find((name) => name === given) ?? COLOR_MAPS[0];
 }
 
-/**
- * Levels of the first and last colour: from attributes, else the highest level, rounded up, and so many decibels below it.
- */
+/** Levels of the first and last colour: from attributes, else from the highest level down. */
 export function limitsOf(
   values: ArrayLike<number>,
   number: (name: string, absent: number) => number,
@@ -19,7 +19,8 @@ export function limitsOf(
 ): [number, number] {
   let top = Number.NEGATIVE_INFINITY;
   for (let i = 0; i < values.length; i++) if ((values[i] as number) > top) top = values[i] as number;
-  const high = number('high-db', Number.isFinite(top) ? Math.ceil(top) : 0);
-  const low = number('low-db', high - Math.abs(number('span-db', span)));
+  const down = Math.abs(number('span-db', span)) || span;
+  const high = number('high-db', limitsBelow(top, down)[1]);
+  const low = number('low-db', high - down);
   return low < high ? [low, high] : [high - span, high];
 }

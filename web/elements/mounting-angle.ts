@@ -1,6 +1,8 @@
 import type { CalibrationResult } from 'boresight';
+import { angleBand, angleExtent } from '../plots/angle-history.ts';
 import { fixed, signed } from '../plots/format.ts';
-import { areaBetween, horizontalLine, type Layer, polyline } from '../plots/layers.ts';
+import { horizontalLine, type Layer } from '../plots/layers.ts';
+import { toCsv } from '../plots/save.ts';
 import { methodStyle } from '../plots/theme.ts';
 import type { Drawing } from './drawing.ts';
 import { PlotElement } from './plot-element.ts';
@@ -26,8 +28,6 @@ const STYLE = methodStyle('recursive');
  * A mounting angle with its deviation over time, and whether it is where it should be.
  *
  * @element boresight-mounting-angle
- * @attr {string} heading - above the plot
- * @attr {'light' | 'dark' | 'auto'} theme - colours; those of the system by default
  * @attr {number} nominal-deg - where the radar should look
  * @attr {number} tolerance-deg - how far off it may be (1)
  * @attr {number} sigmas - deviations that the band shows, and that a verdict needs (2)
@@ -78,7 +78,7 @@ export class MountingAngleElement extends PlotElement {
 
   /** @internal */
   protected override axes() {
-    return { x: { label: 'Time (s)' }, y: { label: 'Mounting angle (°)' } };
+    return { x: { label: 'Time (s)' }, y: { label: 'Mounting angle (°)', width: 64 } };
   }
 
   /** @internal */
@@ -118,9 +118,6 @@ export class MountingAngleElement extends PlotElement {
     const sigmas = Math.abs(this.numberOf('sigmas', 2)) || 2;
     const start = timeS[0] as number;
     const x = Float64Array.from(timeS, (time) => time - start);
-    const edge = (sign: number): Float64Array =>
-      Float64Array.from(angleDeg, (angle, i) => angle + sign * sigmas * (sigmaDeg[i] as number));
-    const [low, high] = [edge(-1), edge(1)];
     const nominal = this.numberOf('nominal-deg', Number.NaN);
     const tolerance = Math.abs(this.numberOf('tolerance-deg', 1));
     const limits: Layer[] = Number.isFinite(nominal)
@@ -131,17 +128,28 @@ export class MountingAngleElement extends PlotElement {
         ]
       : [];
     const last = this.#last();
+    const { band, line } = angleBand(x, this.#history, sigmas, STYLE);
+    const alwaysDeg = Number.isFinite(nominal) ? [nominal - 1.2 * tolerance, nominal + 1.2 * tolerance] : [];
+    const nominalDeg = Number.isFinite(nominal) ? nominal : null;
     return {
       content: {
         x,
         series: [],
-        below: [areaBetween(x, low, high, STYLE)],
-        above: [...limits, polyline(x, angleDeg, STYLE)],
-        extent: { x: [0, Math.max(x[x.length - 1] as number, 1)], y: extent(low, high, nominal, tolerance) },
+        below: [band],
+        above: [...limits, line],
+        extent: {
+          x: [0, Math.max(x[x.length - 1] as number, 1)],
+          y: angleExtent([this.#history], sigmas, { nominalDeg, shownDeg: last?.angleDeg, alwaysDeg }),
+        },
       },
       alternative: last
         ? `After ${fixed(x[x.length - 1] as number, 0)} s: ${signed(last.angleDeg, 2)}°, standard deviation ${fixed(last.sigmaDeg, 2)}°${Number.isFinite(nominal) ? `; ${WORDS[this.#judge(last)]}` : ''}.`
         : 'No angle yet.',
+      csv: () =>
+        toCsv(
+          ['time_s', 'angle_deg', 'sigma_deg'],
+          Array.from(timeS, (time, i) => [time, angleDeg[i], sigmaDeg[i]]),
+        ),
       readout: ({ x: time, index }) =>
         `${fixed(time, 1)} s   ${signed(angleDeg[index ?? -1] ?? Number.NaN, 2)}° ± ${fixed(sigmaDeg[index ?? -1] ?? Number.NaN, 2)}°`,
     };
@@ -163,21 +171,4 @@ export class MountingAngleElement extends PlotElement {
     if (off + chance <= tolerance) return 'pass';
     return off - chance > tolerance ? 'fail' : 'undecided';
   }
-}
-
-/** Angles the plot shows: the later nine tenths of the band, and the tolerance where it is near. */
-function extent(low: Float64Array, high: Float64Array, nominal: number, tolerance: number): [number, number] {
-  let [least, most] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
-  for (let i = Math.floor(low.length / 10); i < low.length; i++) {
-    if (!Number.isFinite(low[i]) || !Number.isFinite(high[i])) continue;
-    least = Math.min(least, low[i] as number);
-    most = Math.max(most, high[i] as number);
-  }
-  if (!Number.isFinite(least)) return Number.isFinite(nominal) ? [nominal - 5, nominal + 5] : [-5, 5];
-  if (Number.isFinite(nominal)) {
-    least = Math.min(least, nominal - 1.2 * tolerance);
-    most = Math.max(most, nominal + 1.2 * tolerance);
-  }
-  const margin = Math.max(0.05 * (most - least), 0.02);
-  return [least - margin, most + margin];
 }

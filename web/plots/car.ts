@@ -1,5 +1,6 @@
 /** The car's frame on a plot, and the car in it. */
 import type { Layer, LayerContext } from './layers.ts';
+import { ACCENT_STYLE, type SeriesStyle } from './theme.ts';
 
 /** Where a place in the car's frame (x ahead, y left) is on the canvas. The car looks up: the vertical axis is x. */
 export const ground =
@@ -34,5 +35,48 @@ export function carOutline(): Layer {
     }
     ctx.lineWidth = ratio;
     ctx.stroke();
+  };
+}
+
+/** Where a radar is on the car, and where it looks. */
+export interface Place {
+  xM: number;
+  yM: number;
+  yawDeg: number;
+}
+
+/** Where in the car's frame a radar sees something. */
+export function inCar({ xM, yM, yawDeg }: Place, rangeM: number, azimuthDeg: number): [x: number, y: number] {
+  const direction = ((azimuthDeg + yawDeg) * Math.PI) / 180;
+  return [xM + rangeM * Math.cos(direction), yM + rangeM * Math.sin(direction)];
+}
+
+/** How a radar's boresight is drawn. */
+export const BORESIGHT: SeriesStyle = { color: ACCENT_STYLE.color };
+export const NOMINAL: SeriesStyle = { ...BORESIGHT, dash: [3, 4] };
+
+/** The radar and where it looks: as found, and as it should. */
+export function boresight({ xM, yM, yawDeg }: Place, nominalDeg: number | null): Layer {
+  return (context) => {
+    const { ctx, plot, themeName, ratio } = context;
+    const reach = Math.hypot(plot.bbox.width, plot.bbox.height);
+    const [px, py] = ground(context)(xM, yM);
+    const ray = (direction: number, dash: number[]): void => {
+      const radians = (direction * Math.PI) / 180;
+      ctx.setLineDash(dash.map((d) => d * ratio));
+      ctx.beginPath();
+      ctx.moveTo(px, py);
+      ctx.lineTo(px - reach * Math.sin(radians), py - reach * Math.cos(radians));
+      ctx.stroke();
+    };
+    ctx.strokeStyle = BORESIGHT.color[themeName];
+    ctx.fillStyle = BORESIGHT.color[themeName];
+    ctx.lineWidth = 1.3 * ratio;
+    if (nominalDeg !== null) ray(nominalDeg, NOMINAL.dash ?? []);
+    ray(yawDeg, []);
+    ctx.setLineDash([]);
+    ctx.beginPath();
+    ctx.arc(px, py, 3.5 * ratio, 0, 2 * Math.PI);
+    ctx.fill();
   };
 }

@@ -1,9 +1,8 @@
 /** Detections on a plot, by the weight with which they were taken as static. */
 
 import { drawMarker, type Layer } from './layers.ts';
-import type { LegendEntry } from './picture.ts';
-import type { CursorPosition, View } from './plot.ts';
 import { methodStyle, type SeriesStyle, THEMES, weightColor } from './theme.ts';
+import type { CursorPosition, LegendEntry, View } from './types.ts';
 
 /** What is known of detections beside where they are: how they were weighed, and which the drive knows to move. */
 export interface Weighed {

@@ -1,17 +1,10 @@
 /** Points on a plot that can be dragged or moved with the keyboard. */
 import type { Plot } from './plot.ts';
-
-export interface HandlePoint {
-  x: number;
-  y: number;
-  label: string;
-}
+import type { HandlePoint, HandleSteps } from './types.ts';
 
 export interface HandleActions {
-  /** A drag: where the point was put. */
+  /** Where the point was put, by a drag or by the keyboard. */
   move(index: number, x: number, y: number): void;
-  /** The keyboard: arrows by `dx` steps of the axis, plus and minus by `dy`; `coarse` with shift held. */
-  nudge(index: number, dx: number, dy: number, coarse: boolean): void;
   remove(index: number): void;
 }
 
@@ -20,6 +13,7 @@ export class Handles {
   #plot: Plot;
   #actions: HandleActions;
   #points: readonly HandlePoint[] = [];
+  #steps: HandleSteps = { x: [0.1, 1], y: [0.5, 3] };
   #buttons: HTMLButtonElement[] = [];
   #layer: HTMLElement;
   #stop: () => void;
@@ -32,11 +26,17 @@ export class Handles {
     this.#stop = plot.onDraw(() => this.#place());
   }
 
-  set(points: readonly HandlePoint[]): void {
+  set(points: readonly HandlePoint[], steps: HandleSteps, title: string): void {
     this.#points = points;
+    this.#steps = steps;
     while (this.#buttons.length > points.length) this.#buttons.pop()?.remove();
     while (this.#buttons.length < points.length) this.#buttons.push(this.#button(this.#buttons.length));
-    points.forEach((point, i) => this.#buttons[i]?.setAttribute('aria-label', point.label));
+    points.forEach((point, i) => {
+      const button = this.#buttons[i];
+      if (!button) return;
+      button.setAttribute('aria-label', point.label);
+      if (button.title !== title) button.title = title;
+    });
     this.#place();
   }
 
@@ -67,7 +67,6 @@ export class Handles {
     button.type = 'button';
     button.className = 'plot-handle';
     button.dataset.target = String(index);
-    button.title = 'Drag: angle and power. Keys: arrows 0.1° (Shift: 1°), + and − power, Delete removes.';
     let held: { dx: number; dy: number } | null = null;
     button.addEventListener('pointerdown', (event) => {
       if (event.button !== 0) return;
@@ -117,14 +116,15 @@ export class Handles {
       _: [0, -1],
     };
     const step = steps[event.key];
-    if (step)
-      this.#actions.nudge(
-        index,
-        this.#plot.direction * step[0],
-        step[1],
-        event.shiftKey && event.key.startsWith('Arrow'),
-      );
-    else if (event.key === 'Delete' || event.key === 'Backspace') this.#actions.remove(index);
+    const point = this.#points[index];
+    if (step && point) {
+      const coarse = Number(event.shiftKey && event.key.startsWith('Arrow'));
+      const x = point.x + this.#plot.direction * step[0] * (this.#steps.x[coarse] as number);
+      const y = point.y + step[1] * (this.#steps.y[coarse] as number);
+      // The next key may come before the points are set again.
+      this.#points = this.#points.map((one, i) => (i === index ? { ...one, x, y } : one));
+      this.#actions.move(index, x, y);
+    } else if (event.key === 'Delete' || event.key === 'Backspace') this.#actions.remove(index);
     else return;
     event.preventDefault();
     event.stopPropagation();

@@ -72,10 +72,36 @@ export function heatImage(map: HeatMap): Layer {
   target.putImageData(pixels, 0, 0);
   const [left, right] = cellExtent(map.x);
   const [bottom, top] = cellExtent(map.y);
+  let turned: HTMLCanvasElement | undefined;
   return ({ ctx, x, y }) => {
     ctx.imageSmoothingEnabled = false;
-    ctx.drawImage(image, x(left), y(top), x(right) - x(left), y(bottom) - y(top));
+    const [from, to] = [x(left), x(right)];
+    // A canvas draws an image of negative width where it is asked to, but does not mirror it.
+    if (to < from) turned ??= mirrored(image);
+    ctx.drawImage(
+      to < from && turned ? turned : image,
+      Math.min(from, to),
+      y(top),
+      Math.abs(to - from),
+      y(bottom) - y(top),
+    );
   };
+}
+
+/** An image with left and right exchanged, for axes whose largest value stands at the left. */
+function mirrored(image: HTMLCanvasElement): HTMLCanvasElement {
+  const other = document.createElement('canvas');
+  [other.width, other.height] = [image.width, image.height];
+  const ctx = other.getContext('2d');
+  ctx?.scale(-1, 1);
+  ctx?.drawImage(image, -image.width, 0);
+  return other;
+}
+
+/** Limits of colours that span so much, below a level that is rounded up. */
+export function limitsBelow(topDb: number, spanDb: number): [number, number] {
+  const ceiling = Number.isFinite(topDb) ? Math.ceil(topDb / 5) * 5 : 0;
+  return [ceiling - spanDb, ceiling];
 }
 
 type BarColors = ColorMapName | ((share: number, theme: ThemeName) => string);

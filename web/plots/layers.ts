@@ -1,11 +1,15 @@
 /** Things drawn on a plot besides its series: functions of canvas, plot and theme. */
-import type uPlot from 'uplot';
 import { parseColor } from './colormap.ts';
 import type { MarkerShape, PlotTheme, SeriesStyle, ThemeName } from './theme.ts';
 
+/** The plot that is drawn: the box between its axes, device pixels. */
+export interface Drawn {
+  readonly bbox: { readonly left: number; readonly top: number; readonly width: number; readonly height: number };
+}
+
 export interface LayerContext {
   ctx: CanvasRenderingContext2D;
-  plot: uPlot;
+  plot: Drawn;
   theme: PlotTheme;
   themeName: ThemeName;
   /** Device pixels a CSS pixel. */
@@ -180,7 +184,7 @@ export function dots(px: ArrayLike<number>, py: ArrayLike<number>, style: Series
   };
 }
 
-export function clipToPlot(ctx: CanvasRenderingContext2D, { bbox: { left, top, width, height } }: uPlot): void {
+export function clipToPlot(ctx: CanvasRenderingContext2D, { bbox: { left, top, width, height } }: Drawn): void {
   ctx.beginPath();
   ctx.rect(left, top, width, height);
   ctx.clip();
@@ -409,4 +413,18 @@ export function drawSwatch(
       ratio,
     });
   }
+}
+
+/** The same on a canvas of its own, as sharp as the screen is. */
+export function paintSwatch(
+  canvas: HTMLCanvasElement,
+  sign: { style: SeriesStyle; line: boolean; hollow?: boolean },
+  theme: PlotTheme,
+  themeName: ThemeName,
+): void {
+  const ratio = devicePixelRatio || 1;
+  [canvas.width, canvas.height] = [SWATCH.width * ratio, SWATCH.height * ratio];
+  [canvas.style.width, canvas.style.height] = [`${SWATCH.width}px`, `${SWATCH.height}px`];
+  const ctx = canvas.getContext('2d');
+  if (ctx) drawSwatch(ctx, sign, { x: 0, y: canvas.height / 2, ratio }, theme, themeName);
 }

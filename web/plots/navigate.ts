@@ -63,7 +63,7 @@ export function navigate(plot: Plot): () => void {
   };
   /** A wheel over a plot that nobody chose scrolls the page. */
   const wheel = (event: WheelEvent): void => {
-    if (!event.ctrlKey && document.activeElement !== plot.host) return;
+    if (!event.ctrlKey && !plot.host.matches(':focus')) return;
     event.preventDefault();
     about = place(event);
     const pixels = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 * event.deltaY : event.deltaY;

@@ -1,17 +1,10 @@
 /** Plots as pictures to save: a heading above, legend and caption below. */
 import { drawSwatch, SWATCH } from './layers.ts';
 import type { Plot } from './plot.ts';
-import { type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
+import type { LegendEntry } from './types.ts';
 
 /** Of what is on the screen: pictures are printed and projected. */
 const SCALE = 2;
-
-export interface LegendEntry {
-  label: string;
-  style: SeriesStyle;
-  line: boolean;
-  hollow?: boolean;
-}
 
 export interface Picture {
   heading: string;
@@ -82,8 +75,7 @@ interface Layout {
 function layout(plot: Plot, { heading, legend, caption }: Picture): Layout {
   const ratio = plot.ratio * SCALE;
   const { width, height: plotHeight } = plot.sizeAt(SCALE);
-  const themeName: ThemeName = plot.theme;
-  const theme = THEMES[themeName];
+  const { theme: themeName, palette: theme } = plot;
   const small = `${11 * ratio}px ${theme.font}`;
   const margin = 12 * ratio;
   const line = 17 * ratio;
@@ -131,7 +123,7 @@ function layout(plot: Plot, { heading, legend, caption }: Picture): Layout {
 }
 
 function background(ctx: CanvasRenderingContext2D, plot: Plot, { width, height }: Layout): void {
-  ctx.fillStyle = THEMES[plot.theme].background;
+  ctx.fillStyle = plot.palette.background;
   ctx.fillRect(0, 0, width, height);
 }
 

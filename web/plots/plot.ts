@@ -7,87 +7,11 @@ import { divert } from './divert.ts';
 import { significant, ticks } from './format.ts';
 import { clipToPlot, type Layer, type LayerContext, polyline } from './layers.ts';
 import { navigate } from './navigate.ts';
-import { type PlotTheme, type SeriesStyle, THEMES, type ThemeName } from './theme.ts';
+import { type PlotTheme, THEMES, type ThemeName } from './theme.ts';
 import { atOnce, drop, inTurn } from './turns.ts';
+import type { AxisOptions, CursorPosition, Interval, PlotContent, PlotOptions, PlotSeries, View } from './types.ts';
 
-export type Interval = readonly [number, number];
-export interface View {
-  x: Interval;
-  y: Interval;
-}
-
-export interface AxisOptions {
-  /** Quantity and unit: `Range (m)`. */
-  label: string;
-  /** Preferred tick steps. */
-  steps?: number[];
-  /** Space for the labels of a vertical axis, CSS pixels. */
-  width?: number;
-  /** The largest value stands at the left. */
-  descending?: boolean;
-  /** Lowest value with a label: what is below is no number of the axis. */
-  from?: number;
-  /** Values are logarithms to base 10 of the quantity, which the labels show. */
-  log?: boolean;
-}
-
-export interface PlotSeries {
-  id: string;
-  label: string;
-  y: ArrayLike<number | null>;
-  style: SeriesStyle;
-}
-
-export interface PlotContent {
-  /** Abscissae, ascending, shared by all series. */
-  x: ArrayLike<number>;
-  series: readonly PlotSeries[];
-  /** Drawn under the axes. */
-  below?: readonly Layer[];
-  /** Drawn over the series. */
-  above?: readonly Layer[];
-  /** What is shown when nothing is zoomed. */
-  extent: View;
-}
-
-export interface CursorPosition {
-  x: number;
-  y: number;
-  /** Nearest abscissa's index. */
-  index: number | null;
-}
-
-export interface PlotOptions {
-  /** What a screen reader says the plot is. */
-  label: string;
-  x: AxisOptions;
-  y: AxisOptions;
-  /** Space for a colour bar, CSS pixels. */
-  right?: number;
-  /** The same under the axis. */
-  bottom?: number;
-  /** Smallest share of the extent a zoom may show. */
-  minZoom?: number;
-  /** Plots with the same key share their cursor's abscissa, those with equal scales the whole of it. */
-  cursorKey?: string;
-  theme: ThemeName;
-  grid?: boolean;
-  /** A unit takes as much room on one axis as on the other: for places. */
-  equal?: boolean;
-  /**
-   * A drag, two fingers or the arrows move the view, the wheel zooms; else a drag zooms to a region, as it does with
-   * Shift here.
-   */
-  navigate?: boolean;
-  onCursor?(position: CursorPosition | null): void;
-  onClick?(position: CursorPosition): void;
-  /** Default: reset the zoom. */
-  onDoubleClick?(position: CursorPosition): void;
-  /** Called for zooms made here, not through `setView`. */
-  onView?(view: View, zoomed: boolean): void;
-  /** Return true where the key was used. */
-  onKey?(event: KeyboardEvent): boolean;
-}
+export type * from './types.ts';
 
 /** Decades, and 2 and 5 between them where there are few; as logarithms. */
 function logSplits(low: number, high: number): number[] {
@@ -166,6 +90,11 @@ export class Plot {
 
   get theme(): ThemeName {
     return this.#theme;
+  }
+
+  /** Its colours. */
+  get palette(): PlotTheme {
+    return this.#palette;
   }
 
   /** 1 where values grow to the right, -1 where they grow to the left. */
@@ -465,8 +394,7 @@ export class Plot {
   };
 
   #doubleClick(event: MouseEvent): void {
-    if (this.#options.onDoubleClick) this.#options.onDoubleClick(this.#position(event));
-    else this.resetZoom();
+    if (!this.#options.onDoubleClick?.(this.#position(event))) this.resetZoom();
   }
 
   #key = (event: KeyboardEvent): void => {
@@ -573,7 +501,7 @@ export class Plot {
   #drawBelow(u: uPlot, scale = 1): void {
     const { ctx, width, height } = u;
     ctx.save();
-    ctx.fillStyle = THEMES[this.#theme].background;
+    ctx.fillStyle = this.#palette.background;
     ctx.fillRect(0, 0, width * this.ratio, height * this.ratio);
     clipToPlot(ctx, u);
     this.#drawLayers(this.#content.below ?? [], u, scale);

@@ -9,6 +9,7 @@ export function KeepButton<S>({ of }: { of: Comparison<S> }) {
   return (
     <button
       type="button"
+      slot="actions"
       class="plain"
       data-action="keep-a"
       title="Keep these settings and their results as A, and go on changing B beside them"

@@ -122,7 +122,7 @@ export function ArrayPanel({ scene }: { scene: Scene }) {
           name="elements"
           height="short"
           content={layout}
-          options={{
+          axes={{
             x: { label: 'y (half wavelengths), positive left', descending: true },
             y: { label: 'z (half wavelengths)' },
           }}
@@ -146,7 +146,7 @@ export function ArrayPanel({ scene }: { scene: Scene }) {
           name="pattern"
           height="short"
           content={response}
-          options={{ x: AZIMUTH, y: { label: 'Response (dB)' } }}
+          axes={{ x: AZIMUTH, y: { label: 'Response (dB)' } }}
           readout={({ x, index }) =>
             `Azimuth ${signed(x, 2)}°   Response ${fixed(pattern.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB`
           }

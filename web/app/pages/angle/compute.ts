@@ -12,8 +12,8 @@ import type {
   SnapshotOptions,
   SnapshotResult,
 } from 'boresight';
+import { cut, highest } from '../../../plots/spectra.ts';
 import { api, describeError, type Problem, pool } from '../../data.ts';
-import { cut, highest } from '../../estimates.ts';
 import { whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';

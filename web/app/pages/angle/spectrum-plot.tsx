@@ -1,207 +1,68 @@
 /** Spectra of all chosen methods over each other, with truth, estimates and bounds; targets can be dragged. */
-import { useMemo, useRef } from 'preact/hooks';
-import { AZIMUTH } from '../../../plots/axes.ts';
-import { fixed, signed } from '../../../plots/format.ts';
-import { Handles } from '../../../plots/handles.ts';
-import { bands, horizontalLine, type Layer, markers } from '../../../plots/layers.ts';
-import type { Plot } from '../../../plots/plot.ts';
-import { toCsv } from '../../../plots/save.ts';
-import { faint, methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
+import { useMemo } from 'preact/hooks';
+import { defineElement } from '../../../elements/define.ts';
+import { type NamedEstimate, SpectrumElement } from '../../../elements/spectrum.ts';
+import { closes } from '../../../plots/spectra.ts';
+import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
-import { type Curve, closes, curve, oneSeries, onOneGrid, sourceMarkers, withBars } from '../../estimates.ts';
 import { announce } from '../../state/announce.ts';
 import { hasMoved, rememberMoved } from '../../state/settings.ts';
 import { KeepButton } from '../../ui/comparison.tsx';
-import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { ElementFrame } from '../../ui/plot-frame.tsx';
 import { compared, type Kept, kept } from './compare.ts';
 import { results, type Scene } from './compute.ts';
-import { addTarget, angleState, LIMITS, removeTarget, setTarget, setupOf } from './state.ts';
+import { addTarget, LIMITS, removeTarget, setTarget, setupOf } from './state.ts';
 
-const EXTENT = { x: [-90, 90], y: [-50, 14] } as const;
+defineElement('boresight-spectrum', SpectrumElement);
 
-function curves({ scene: { geometry }, results }: Kept): (Curve | null)[] {
-  return api.methods().map(({ name, title }) => {
-    const estimate = results.get(name)?.estimate;
-    return estimate ? curve(estimate, title, closes(geometry.positions)) : null;
+/** What each method found, also of those that have found nothing yet. */
+function estimatesOf({ scene: { geometry }, results }: Kept): NamedEstimate[] {
+  const closed = closes(geometry.positions);
+  return api.methods().flatMap(({ name, title, spectrum }) => {
+    const result = results.get(name);
+    return result ? [{ estimate: result.estimate ?? null, id: name, label: title, line: spectrum, closed }] : [];
   });
 }
 
-/** A's curves by the side of B's. */
-const ofA = (curve: Curve): Curve => ({ ...curve, method: `${curve.method}-a`, title: `A: ${curve.title}` });
+/** A's estimates by the side of B's. */
+const ofA = ({ id, label, ...rest }: NamedEstimate): NamedEstimate => ({
+  ...rest,
+  id: `${id}-a`,
+  label: `A: ${label}`,
+  style: methodStyle(id),
+  behind: true,
+});
 
 const SHIFTED = 'Pseudo-spectra (MUSIC, min-norm) are shifted to the strongest estimated power.';
 
-const TRUTH_RING = { ...TRUTH_STYLE, marker: 'circle' } as const;
-
-/** Targets as crosshairs: a stem up to their power, a ring, and their number. */
-export function truthLayer(targets: readonly { azimuthDeg: number; powerDb: number }[]): Layer {
-  return ({ ctx, plot, theme, ratio, x, y }) => {
-    const { left, top, width, height } = plot.bbox;
-    ctx.strokeStyle = theme.truth;
-    ctx.fillStyle = theme.truth;
-    ctx.font = `600 ${11 * ratio}px ${theme.font}`;
-    ctx.textAlign = 'center';
-    ctx.textBaseline = 'bottom';
-    targets.forEach((target, i) => {
-      const px = x(target.azimuthDeg);
-      if (px < left || px > left + width) return;
-      const py = Math.min(Math.max(y(target.powerDb), top), top + height);
-      const r = 8 * ratio;
-      ctx.lineWidth = ratio;
-      ctx.setLineDash([4 * ratio, 3 * ratio]);
-      ctx.beginPath();
-      ctx.moveTo(px, top + height);
-      ctx.lineTo(px, py + r);
-      ctx.stroke();
-      ctx.setLineDash([]);
-      ctx.lineWidth = 1.5 * ratio;
-      ctx.beginPath();
-      ctx.arc(px, py, r, 0, 2 * Math.PI);
-      ctx.stroke();
-      const label = Math.max(py - r - 3 * ratio, top + 12 * ratio);
-      ctx.strokeStyle = theme.background;
-      ctx.lineWidth = 3 * ratio;
-      ctx.strokeText(String(i + 1), px, label);
-      ctx.strokeStyle = theme.truth;
-      ctx.fillText(String(i + 1), px, label);
-    });
-  };
-}
-
 export function SpectrumPlot({ scene }: { scene: Scene }) {
-  const handles = useRef<Handles | null>(null);
-  const { targets, snr } = scene.state;
+  const { state, geometry, bound } = scene;
+  const { targets, snr } = state;
   const found = results.value;
   const a = kept.value;
-  const own = curves({ scene, results: found });
-  const shown = onOneGrid([...own, ...(a ? curves(a).map((item) => item && ofA(item)) : [])]);
-  const methodOfA = new Map(a ? [...a.results.keys()].map((name) => [`${name}-a`, name]) : []);
-  const content = useMemo(() => {
-    const { unambiguousDeg } = scene.geometry;
-    const outside: [number, number][] =
-      unambiguousDeg < 89.9
-        ? [
-            [-90, -unambiguousDeg],
-            [unambiguousDeg, 90],
-          ]
-        : [];
-    const bound = scene.state.targets.flatMap((target, i) => {
-      const sigma = scene.bound?.[i];
-      return sigma !== undefined && Number.isFinite(sigma)
-        ? [[target.azimuthDeg - sigma, target.azimuthDeg + sigma] as const]
-        : [];
-    });
-    const estimates = [...found].flatMap(([method, { estimate }]) => sourceMarkers(method, estimate?.sources ?? []));
-    return {
-      x: shown[0]?.azimuthDeg ?? [],
-      series: shown.map((item) => {
-        const method = methodOfA.get(item.method);
-        return { ...oneSeries(item), ...(method ? { style: faint(methodStyle(method)) } : {}) };
-      }),
-      extent: EXTENT,
-      below: [bands(outside, (t) => t.shade), bands(bound, (t) => t.band)],
-      above: [
-        horizontalLine(-snr, 'noise at one element'),
-        markers(
-          [...(a?.results ?? [])].flatMap(([method, { estimate }]) =>
-            sourceMarkers(method, estimate?.sources ?? []).map(({ x, y }) => ({
-              x,
-              y,
-              style: faint(methodStyle(method)),
-              hollow: true,
-            })),
-          ),
-        ),
-        markers(estimates),
-        truthLayer(targets),
-      ],
-    };
-  }, [scene, found, a]);
-
-  handles.current?.set(
-    targets.map((target, i) => ({
-      x: target.azimuthDeg,
-      y: target.powerDb,
-      label: `Target ${i + 1}: azimuth ${signed(target.azimuthDeg, 1)} degrees, power ${signed(target.powerDb, 1)} dB. Arrows move it, plus and minus change power, Delete removes.`,
-    })),
+  const estimates = useMemo(
+    () => [...estimatesOf({ scene, results: found }), ...(a ? estimatesOf(a).map(ofA) : [])],
+    [scene, found, a],
   );
-
-  const legend: LegendItem[] = [
-    { id: 'truth', label: 'Target, CRB ±σ band', style: TRUTH_RING, line: false, hollow: true },
-    ...api
-      .methods()
-      .filter(({ name }) => found.has(name))
-      .map((info): LegendItem => {
-        const curve = shown.find(({ method }) => method === info.name);
-        return {
-          id: info.name,
-          label: withBars(info.title, found.get(info.name)?.estimate?.sources ?? []),
-          style: methodStyle(info.name),
-          line: info.spectrum,
-          ...(curve ? { value: ({ index }) => `${fixed(curve.valuesDb[index ?? -1] ?? Number.NaN, 1)}\u00a0dB` } : {}),
-        };
-      }),
-    ...api
-      .methods()
-      .filter(({ name }) => a?.results.has(name))
-      .map(
-        (info): LegendItem => ({
-          id: `${info.name}-a`,
-          label: `A: ${info.title}`,
-          style: faint(methodStyle(info.name)),
-          line: info.spectrum,
-          hollow: true,
-        }),
-      ),
-  ];
-
-  const attach = (plot: Plot): (() => void) => {
-    const focusSoon = (index: number): void => {
-      requestAnimationFrame(() => (index >= 0 ? handles.current?.focus(index) : plot.host.focus()));
-    };
-    const made = new Handles(plot, {
-      move: (index, azimuthDeg, powerDb) => {
-        rememberMoved();
-        setTarget(index, { azimuthDeg, powerDb });
-      },
-      nudge: (index, dx, dy, coarse) => {
-        rememberMoved();
-        const target = angleState.value.targets[index];
-        if (!target) return;
-        setTarget(index, {
-          azimuthDeg: target.azimuthDeg + dx * (coarse ? 1 : 0.1),
-          powerDb: target.powerDb + dy * (coarse ? 3 : 0.5),
-        });
-      },
-      remove: (index) => {
-        removeTarget(index);
-        announce(`Target ${index + 1} removed.`, 0);
-        focusSoon(Math.min(index, angleState.value.targets.length - 1));
-      },
-    });
-    handles.current = made;
-    made.set(
-      angleState.value.targets.map((target, i) => ({
-        x: target.azimuthDeg,
-        y: target.powerDb,
-        label: `Target ${i + 1}`,
-      })),
-    );
-    return () => {
-      made.destroy();
-      handles.current = null;
-    };
-  };
-
-  const { state } = scene;
   return (
-    <PlotFrame
+    <ElementFrame
+      tag="boresight-spectrum"
+      own={{
+        estimates,
+        targets,
+        boundsDeg: bound ?? null,
+        levels: 'absolute',
+        'floor-db': 64,
+        'high-db': 14,
+        'noise-db': -snr,
+        'unambiguous-deg': geometry.unambiguousDeg,
+        sector: 90,
+        'y-label': 'Level (dB re 0 dB target)',
+        movable: true,
+      }}
       title="Angle spectrum"
       name="spectrum"
       height="tall"
-      content={content}
-      legend={legend}
-      onPlot={attach}
       keys="Tab to a target to move it."
       tools={<KeepButton of={compared} />}
       overlay={
@@ -211,23 +72,17 @@ export function SpectrumPlot({ scene }: { scene: Scene }) {
           </p>
         ) : null
       }
-      options={{
-        x: AZIMUTH,
-        y: { label: 'Level (dB re 0 dB target)' },
-        onDoubleClick: ({ x, y }) => {
-          if (targets.length < LIMITS.targets) addTarget({ azimuthDeg: x, powerDb: y });
-        },
+      onDrag={(index, azimuthDeg, powerDb) => {
+        rememberMoved();
+        setTarget(index, { azimuthDeg, powerDb });
       }}
-      readout={({ x, y }) => `Azimuth ${signed(x, 2)}°   Level ${fixed(y, 1)}\u00a0dB`}
-      csv={() =>
-        toCsv(
-          ['azimuth_deg', ...shown.map(({ method }) => `${method.replaceAll('-', '_')}_db`)],
-          Array.from(shown[0]?.azimuthDeg ?? [], (azimuth, i) => [
-            azimuth,
-            ...shown.map(({ valuesDb }) => valuesDb[i]),
-          ]),
-        )
-      }
+      onRemove={(index) => {
+        removeTarget(index);
+        announce(`Target ${index + 1} removed.`, 0);
+      }}
+      onDoubleClick={({ x, y }) => {
+        if (targets.length < LIMITS.targets) addTarget({ azimuthDeg: x, powerDb: y });
+      }}
       fileParts={[state.array.split(':')[0] ?? '', `seed${state.seed}`]}
       remarks={[`${setupOf(state)}, seed ${state.seed}. ${SHIFTED}`]}
       imageRemarks={[SHIFTED]}

@@ -1,11 +1,13 @@
 /** Monte-Carlo runs of the page's scene: error and share found against one setting, with the bound. */
+
 import { useMemo } from 'preact/hooks';
+import type { LegendItem } from '../../../elements/drawing.ts';
 import { fixed, percentage, significant } from '../../../plots/format.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
 import { NumberField } from '../../ui/number-field.tsx';
-import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { ProgressLine } from '../../ui/progress.tsx';
 import { Control } from './controls.tsx';
 import { angleState, update } from './state.ts';
@@ -173,7 +175,7 @@ function Plots({ made, stale }: { made: Sweep; stale: boolean }) {
           },
           ...legend(each(({ rmseDeg }) => `${significant(rmseDeg)}°`)),
         ]}
-        options={{ x: axis, y: { label: 'RMSE of azimuth (°)', log: true } }}
+        axes={{ x: axis, y: { label: 'RMSE of azimuth (°)', log: true } }}
         readout={({ index }) => `${title} ${at(index)} ${unit}`}
         csv={csv}
         fileParts={[swept]}
@@ -185,7 +187,7 @@ function Plots({ made, stale }: { made: Sweep; stale: boolean }) {
         height="medium"
         content={found}
         legend={legend(each((score) => percentage(score.found)))}
-        options={{ x: axis, y: { label: 'Share of targets (%)' } }}
+        axes={{ x: axis, y: { label: 'Share of targets (%)' } }}
         readout={({ index }) => `${title} ${at(index)} ${unit}`}
         csv={csv}
         fileParts={[swept]}

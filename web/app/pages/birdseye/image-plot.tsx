@@ -2,17 +2,14 @@
 
 import type { MethodInfo } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { AHEAD, LEFT } from '../../../plots/axes.ts';
-import { carOutline } from '../../../plots/car.ts';
-import { decibels, fixed, signed } from '../../../plots/format.ts';
-import { COLOR_BAR_HEIGHT, colorBarBelow, heatImage } from '../../../plots/heat.ts';
-import { faded } from '../../../plots/layers.ts';
-import { png } from '../../../plots/picture.ts';
-import type { Plot, PlotContent, View } from '../../../plots/plot.ts';
-import { download, fileName, sideBySide, toCsv } from '../../../plots/save.ts';
+import { BirdsEyeElement } from '../../../elements/birds-eye.ts';
+import { defineElement } from '../../../elements/define.ts';
+import type { PlotElement } from '../../../elements/plot-element.ts';
+import { decibels } from '../../../plots/format.ts';
+import { download, fileName, sideBySide } from '../../../plots/save.ts';
+import type { View } from '../../../plots/types.ts';
 import { api } from '../../data.ts';
-import { captionLines } from '../../ui/caption.ts';
-import { PlotFrame } from '../../ui/plot-frame.tsx';
+import { ElementFrame } from '../../ui/plot-frame.tsx';
 import { boardPoints, grid, input, type Point, shownRadars } from './input.ts';
 import { fieldsOfView, truth } from './layers.ts';
 import { legendItems } from './legend.tsx';
@@ -32,19 +29,15 @@ function colorLimits(span: number, top: number | null): [number, number] {
   return [high - span, high];
 }
 
-/** The plots that are shown, for one picture of all of them. */
-const plots = new Map<string, Plot>();
+defineElement('boresight-birds-eye', BirdsEyeElement);
+
+/** The images that are shown, for one picture of all of them. */
+const shown = new Map<string, PlotElement>();
 
 /** All images as one. */
 export async function saveAll(): Promise<void> {
-  const shown = api.methods().flatMap((info) => {
-    const plot = plots.get(info.name);
-    const image = images.peek().get(info.name);
-    return plot && image
-      ? [png(plot, { heading: `${info.title}, ${detailOf(image)}`, legend: legendItems(), caption: captionLines() })]
-      : [];
-  });
-  if (shown.length) download(await sideBySide(await Promise.all(shown)), fileName(['birdseye', ...fileParts()], 'png'));
+  const all = api.methods().flatMap(({ name }) => shown.get(name)?.picture() ?? []);
+  if (all.length) download(await sideBySide(await Promise.all(all)), fileName(['birdseye', ...fileParts()], 'png'));
 }
 
 function fileParts(): (string | number)[] {
@@ -58,18 +51,6 @@ function detailOf({ stale, problem, from, measure }: MethodImage): string {
   return `${made}${measure ? `, ${decibels(measure.outsideDb)} outside` : ''}`;
 }
 
-/** A view's cell at a place. */
-function cellAt({ view, radars }: MethodImage, xM: number, yM: number): { levelDb: number; radar: string } | null {
-  if (!view) return null;
-  const [ahead, across] = view.shape;
-  const i = Math.round((xM - (view.xM[0] as number)) / view.cellM);
-  const j = Math.round((yM - (view.yM[0] as number)) / view.cellM);
-  if (i < 0 || j < 0 || i >= ahead || j >= across) return null;
-  const at = i * across + j;
-  const radar = radars?.[view.radar[at] as number];
-  return radar ? { levelDb: 10 * Math.log10(view.power[at] as number), radar: radar.title } : null;
-}
-
 /** What a true point under the cursor belongs to. */
 function thingAt(points: readonly Point[], xM: number, yM: number): string {
   let best: Point | null = null;
@@ -78,7 +59,7 @@ function thingAt(points: readonly Point[], xM: number, yM: number): string {
     const distance = Math.hypot(point.xM - xM, point.yM - yM);
     if (distance < nearest) [best, nearest] = [point, distance];
   }
-  return best ? `  ${(best.kind ?? 'board’s object').replace('-', ' ')}` : '';
+  return best ? `${(best.kind ?? 'board’s object').replace('-', ' ')}` : '';
 }
 
 /** The plots' horizontal axis is the car's y, their vertical one its x. */
@@ -88,94 +69,61 @@ export function ImagePlot({ info, image }: { info: MethodInfo; image: MethodImag
   const { span, top, colors, opacity, truth: truthShown, fields } = birdseyeState.value;
   const looked = input.value;
   const limits = colorLimits(Number(span), top);
-  const heat = useMemo(
-    () =>
-      image.view && image.levelsDb
-        ? heatImage({ x: image.view.yM.slice().reverse(), y: image.view.xM, values: image.levelsDb, limits, colors })
-        : () => {},
-    [image.view, limits[0], limits[1], colors],
-  );
   const points = useMemo(
     () => (looked?.street ? [...new Set(frames.value.flatMap(({ visible }) => visible ?? []))] : boardPoints.value),
     [frames.value, boardPoints.value, looked],
   );
-  const { xM, yM } = grid.value;
   const view = useMemo(() => turned(zoom.value), [zoom.value]);
-  const content = useMemo(
-    (): PlotContent => ({
-      x: [],
-      series: [],
-      extent: { x: yM, y: xM },
-      below: [faded(heat, opacity / 100)],
-      above: [
-        ...(looked?.street ? [carOutline()] : []),
-        ...(fields
-          ? [
-              fieldsOfView(
-                shownRadars.value.map((radar) => ({ radar, rangeM: api.waveformSummary(radar.waveform).maxRangeM })),
-              ),
-            ]
-          : []),
-        ...(truthShown ? [truth(looked?.street ?? null, points)] : []),
-        colorBarBelow(limits, colors, 'dBFS'),
-      ],
-    }),
-    [heat, opacity, truthShown, fields, points, shownRadars.value, grid.value],
+  const overlays = useMemo(
+    () => [
+      ...(fields
+        ? [
+            fieldsOfView(
+              shownRadars.value.map((radar) => ({ radar, rangeM: api.waveformSummary(radar.waveform).maxRangeM })),
+            ),
+          ]
+        : []),
+      ...(truthShown ? [truth(looked?.street ?? null, points)] : []),
+    ],
+    [truthShown, fields, points, shownRadars.value],
   );
+  const about = useMemo(
+    () => (truthShown ? (xM: number, yM: number) => thingAt(points, xM, yM) : null),
+    [truthShown, points],
+  );
+  const signs = useMemo(legendItems, [birdseyeState.value]);
   return (
-    <PlotFrame
+    <ElementFrame
+      tag="boresight-birds-eye"
+      own={{
+        view: image.view,
+        extent: grid.value,
+        radars: image.radars,
+        overlays,
+        signs,
+        about,
+        bar: 'below',
+        colors,
+        'low-db': limits[0],
+        'high-db': limits[1],
+        opacity: opacity / 100,
+        unit: 'dBFS',
+        'without-car': !looked?.street,
+      }}
       title={info.title}
       detail={detailOf(image)}
       name={`image-${info.name}`}
       height="portrait"
-      content={content}
+      listed="image"
       view={view}
-      keys="Arrows move, with Shift the cursor."
-      imageLegend={legendItems()}
-      options={{
-        x: LEFT,
-        y: AHEAD,
-        bottom: COLOR_BAR_HEIGHT,
-        equal: true,
-        navigate: true,
-        grid: false,
-        cursorKey: 'birdseye',
-        minZoom: 0.01,
-        onView: (next, zoomed) => {
-          zoom.value = zoomed ? turned(next) : null;
-        },
+      cursorKey="birdseye"
+      onView={(next, zoomed) => {
+        zoom.value = zoomed ? turned(next) : null;
       }}
-      readout={({ x: yM, y: xM }) => {
-        const cell = cellAt(image, xM, yM);
-        return `x ${signed(xM, 1)} m  y ${signed(yM, 1)} m  ${cell ? `${Number.isFinite(cell.levelDb) ? `${fixed(cell.levelDb, 1)}\u00a0dBFS` : 'nothing'}  ${cell.radar.toLowerCase()}` : 'not seen'}${truthShown ? thingAt(points, xM, yM) : ''}`;
-      }}
-      csv={() =>
-        toCsv(
-          ['x_m', 'y_m', 'power_dbfs', 'radar'],
-          (function* rows() {
-            const { view, radars } = image;
-            if (!view) return;
-            const [ahead, across] = view.shape;
-            for (let i = 0; i < ahead; i++) {
-              for (let j = 0; j < across; j++) {
-                const at = i * across + j;
-                const levelDb = 10 * Math.log10(view.power[at] as number);
-                if (view.seen[at])
-                  yield [
-                    view.xM[i]?.toFixed(3),
-                    view.yM[j]?.toFixed(3),
-                    Number.isFinite(levelDb) ? levelDb.toFixed(2) : '',
-                    radars?.[view.radar[at] as number]?.name,
-                  ];
-              }
-            }
-          })(),
-        )
-      }
       fileParts={fileParts()}
-      onPlot={(plot) => {
-        plots.set(info.name, plot);
-        return () => plots.delete(info.name);
+      attach={(element) => {
+        shown.set(info.name, element);
+        return () => shown.delete(info.name);
       }}
     />
   );

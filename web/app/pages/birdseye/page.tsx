@@ -91,7 +91,7 @@ function Awaited({ title }: { title: string }) {
       <div class="panel-head">
         <h3 class="muted">{title}</h3>
       </div>
-      <div class="plot-host portrait" />
+      <div class="portrait" />
     </div>
   );
 }

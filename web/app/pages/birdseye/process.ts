@@ -35,11 +35,6 @@ export interface RadarFrame {
 
 export interface MethodImage {
   view?: BirdsEyeView;
-  /**
-   * Of the view as it is drawn, dB: column by column from the left, each from behind to ahead; not a number where no
-   * radar sees.
-   */
-  levelsDb?: Float32Array;
   peakDb?: number;
   radars?: readonly Radar[];
   measure?: SidelobeMeasure | undefined;
@@ -352,14 +347,13 @@ async function imageOf(
     step();
     report();
   }
-  const { view, levelsDb, peakDb, measure } = await imageOfMaps(looked, parts, gate, signal);
+  const { view, peakDb, measure } = await imageOfMaps(looked, parts, gate, signal);
   const warnings = new Map<string, Warning>();
   for (const { estimate } of parts) for (const warning of estimate.warnings) warnings.set(warning.code, warning);
   const sum = (value: (part: (typeof parts)[number]) => number): number =>
     parts.reduce((total, part) => total + value(part), 0);
   return {
     view,
-    levelsDb,
     peakDb,
     measure,
     radars: made.map(({ radar }) => radar),
@@ -379,26 +373,18 @@ async function imageOfMaps(
   parts: readonly { frame: RadarFrame; map: RangeAzimuthMap }[],
   gate: number | null,
   signal: AbortSignal,
-): Promise<{ view: BirdsEyeView; levelsDb: Float32Array; peakDb: number; measure: SidelobeMeasure | undefined }> {
+): Promise<{ view: BirdsEyeView; peakDb: number; measure: SidelobeMeasure | undefined }> {
   const view = await pool().birdsEyeView(
     { radars: parts.map(({ frame, map }) => ({ map, mounting: frame.radar.mounting })), grid: grid.peek() },
     { signal },
   );
   let peak = 0;
   for (const power of view.power) peak = Math.max(peak, power);
-  const [ahead, across] = view.shape;
-  const levelsDb = new Float32Array(view.power.length);
-  for (let i = 0; i < ahead; i++) {
-    for (let j = 0; j < across; j++) {
-      const at = i * across + j;
-      levelsDb[(across - 1 - j) * ahead + i] = view.seen[at] ? 10 * Math.log10(view.power[at] as number) : Number.NaN;
-    }
-  }
   const targets = uniquePoints(parts.flatMap(({ frame }) => frame.visible ?? []));
   const measure = looked.street
     ? await pool().sidelobeMeasure(view, targets, gateOf(parts, gate), { signal })
     : undefined;
-  return { view, levelsDb, peakDb: 10 * Math.log10(peak), measure };
+  return { view, peakDb: 10 * Math.log10(peak), measure };
 }
 
 /**

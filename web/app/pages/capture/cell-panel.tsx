@@ -2,17 +2,18 @@
 
 import type { ArrayGeometry, Cell, FrameResult, Method } from 'boresight';
 import { useMemo } from 'preact/hooks';
-import { AZIMUTH } from '../../../plots/axes.ts';
+import { defineElement } from '../../../elements/define.ts';
+import { type NamedEstimate, SpectrumElement } from '../../../elements/spectrum.ts';
 import { fixed, signed } from '../../../plots/format.ts';
-import { bands, markers, verticalLines } from '../../../plots/layers.ts';
-import { toCsv } from '../../../plots/save.ts';
+import { closes } from '../../../plots/spectra.ts';
 import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
-import { closes, curve, highest, onOneGrid, series, sourceMarkers } from '../../estimates.ts';
-import { PlotFrame } from '../../ui/plot-frame.tsx';
+import { ElementFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import type { CellResult } from './process.ts';
 import { captureState } from './state.ts';
+
+defineElement('boresight-spectrum', SpectrumElement);
 
 export function CellPanel({
   view,
@@ -36,74 +37,42 @@ export function CellPanel({
   fileParts: readonly (string | number)[];
 }) {
   const infos = api.methods().filter(({ name }) => results.has(name));
-  const shown = useMemo(
+  const estimates = useMemo(
     () =>
-      onOneGrid(
-        infos.map(({ name, title }) => {
-          const estimate = results.get(name)?.estimate;
-          return estimate ? curve(estimate, title, positions !== undefined && closes(positions)) : null;
+      infos.map(
+        ({ name, title, spectrum }): NamedEstimate => ({
+          estimate: results.get(name)?.estimate ?? null,
+          id: name,
+          label: title,
+          line: spectrum,
         }),
       ),
     [results],
   );
-  const content = useMemo(() => {
-    const sources = [...results].flatMap(([method, { estimate }]) => sourceMarkers(method, estimate?.sources ?? []));
-    const top = Math.max(...shown.map(({ valuesDb }) => highest(valuesDb)), ...sources.map(({ y }) => y));
-    const ceiling = Number.isFinite(top) ? Math.ceil((top + 4) / 5) * 5 : 0;
-    const outside: [number, number][] =
-      unambiguousDeg < 89.9
-        ? [
-            [-90, -unambiguousDeg],
-            [unambiguousDeg, 90],
-          ]
-        : [];
-    return {
-      x: shown[0]?.azimuthDeg ?? [],
-      series: series(shown),
-      extent: { x: [-90, 90] as const, y: [ceiling - 50, ceiling] as const },
-      below: [bands(outside, (t) => t.shade)],
-      above: [
-        ...(boardDeg === undefined
-          ? []
-          : [
-              verticalLines([{ x: boardDeg, label: `board ${signed(boardDeg, 1)}°` }], {
-                dash: [2, 4],
-                color: (t) => t.muted,
-              }),
-            ]),
-        markers(sources),
-      ],
-    };
-  }, [results, shown, boardDeg]);
+  const lines = useMemo(
+    () => (boardDeg === undefined ? [] : [{ azimuthDeg: boardDeg, label: `board ${signed(boardDeg, 1)}°` }]),
+    [boardDeg],
+  );
   const place = `${fixed(view.rangeM[cell.rangeBin] ?? Number.NaN, 2)} m, ${signed(view.rateMps[cell.dopplerBin] ?? Number.NaN, 2)} m/s`;
   return (
-    <PlotFrame
+    <ElementFrame
+      tag="boresight-spectrum"
+      own={{
+        estimates,
+        lines,
+        levels: 'absolute',
+        'floor-db': 50,
+        sector: 90,
+        'unambiguous-deg': unambiguousDeg,
+        unit: 'dBFS',
+        'y-label': 'Power (dBFS)',
+        closed: positions !== undefined && closes(positions),
+      }}
       title="Angle spectrum"
       detail={place}
       name="cell-spectrum"
       height="fill"
-      content={content}
-      imageLegend={infos.map(({ name, title, spectrum }) => ({
-        label: title,
-        style: methodStyle(name),
-        line: spectrum,
-      }))}
-      options={{
-        x: AZIMUTH,
-        y: { label: 'Power (dBFS)' },
-      }}
-      readout={({ x, index }) =>
-        `Azimuth ${signed(x, 2)}°   ${shown.map(({ title, valuesDb }) => `${title.split(' ')[0]} ${fixed(valuesDb[index ?? -1] ?? Number.NaN, 1)}`).join('   ')} dBFS`
-      }
-      csv={() =>
-        toCsv(
-          ['azimuth_deg', ...shown.map(({ method }) => `${method.replaceAll('-', '_')}_dbfs`)],
-          Array.from(shown[0]?.azimuthDeg ?? [], (azimuth, i) => [
-            azimuth,
-            ...shown.map(({ valuesDb }) => valuesDb[i]),
-          ]),
-        )
-      }
+      listed="image"
       fileParts={[...fileParts, `cell${cell.rangeBin}-${cell.dopplerBin}`]}
       remarks={[`${label}, cell ${cell.rangeBin}, ${cell.dopplerBin}.`]}
       overlay={

@@ -2,7 +2,7 @@
 import { useMemo } from 'preact/hooks';
 import { AZIMUTH } from '../../../plots/axes.ts';
 import { count, fixed, signed } from '../../../plots/format.ts';
-import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../../plots/heat.ts';
+import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, limitsBelow, nearestCell } from '../../../plots/heat.ts';
 import type { PlotContent } from '../../../plots/plot.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { api } from '../../data.ts';
@@ -21,7 +21,6 @@ import {
   type ShownMap,
 } from './range-azimuth.ts';
 import { captureState } from './state.ts';
-import { limitsBelow } from './view.ts';
 
 export function RangeAzimuth({ fileParts }: { fileParts: readonly (string | number)[] }) {
   const shown = rangeAzimuth.value;
@@ -103,6 +102,7 @@ function Picture({ shown, name }: { shown: ShownMap; name: string | number }) {
         tools={
           <button
             type="button"
+            slot="actions"
             aria-pressed={playing.value}
             data-action="play-map"
             disabled={frames < 2}
@@ -112,13 +112,8 @@ function Picture({ shown, name }: { shown: ShownMap; name: string | number }) {
           </button>
         }
         keys="Space plays; left and right arrows step by a frame, with Shift by ten."
-        options={{
-          x: AZIMUTH,
-          y: { label: 'Range (m)' },
-          right: COLOR_BAR_WIDTH,
-          grid: false,
-          onKey: frameKey,
-        }}
+        axes={{ x: AZIMUTH, y: { label: 'Range (m)' }, right: COLOR_BAR_WIDTH, grid: false }}
+        onKey={frameKey}
         readout={({ x, y }) => {
           const [column, row] = [nearestCell(x, azimuthDeg), nearestCell(y, rangeM)];
           const level = levelsDb[column * rangeM.length + row] ?? Number.NaN;

@@ -5,11 +5,10 @@ import { useMemo } from 'preact/hooks';
 import { count, fixed, signed } from '../../../plots/format.ts';
 import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, nearestCell } from '../../../plots/heat.ts';
 import { horizontalLine } from '../../../plots/layers.ts';
-import { Playhead } from '../../../plots/playhead.ts';
-import type { Interval, Plot, PlotContent, View } from '../../../plots/plot.ts';
+import type { Interval, PlotContent, View } from '../../../plots/plot.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { announce } from '../../state/announce.ts';
-import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { ProgressLine, Stopped } from '../../ui/progress.tsx';
 import {
   cancelOverTime,
@@ -205,41 +204,32 @@ function HeatOverTime({
     update({ cell: { ...cell, rangeBin: at } });
     announce(`Range ${fixed(view.rangeM[at] ?? 0, 2)} metres.`, 300);
   };
-  const follow: PlotFrameProps['onPlot'] = (plot: Plot) => {
-    const head = new Playhead(plot);
-    const stop = effect(() => head.set(captureState.value.frame === 'all' ? Number.NaN : frameAt() * interval));
-    return () => {
-      stop();
-      head.destroy();
-    };
-  };
   return (
     <PlotFrame
       {...frame}
       height="medium"
       content={content}
       view={zoom}
-      onPlot={follow}
+      attach={(element) =>
+        effect(() => {
+          element.playhead = captureState.value.frame === 'all' ? Number.NaN : frameAt() * interval;
+        })
+      }
       keys="Space plays; left and right arrows step by a frame, with Shift by ten; up and down arrows move the range gate."
-      options={{
-        x: { label: 'Time (s)' },
-        y: { label: across.label },
-        right: COLOR_BAR_WIDTH,
-        grid: false,
-        cursorKey: 'capture-time',
-        onClick: ({ x }) => go(x),
-        onView: (next, zoomed) => {
-          const within = (part: Interval, all: Interval): boolean => zoomed && (part[0] > all[0] || part[1] < all[1]);
-          timeZoom.value = within(next.x, extent.x) ? next.x : null;
-          zoomY.value = within(next.y, extent.y) ? next.y : null;
-        },
-        onKey: (event) => {
-          if (event.key === 'ArrowUp' || event.key === 'ArrowDown') {
-            moveGate((event.key === 'ArrowUp' ? 1 : -1) * (event.shiftKey ? 10 : 1));
-            return true;
-          }
-          return frameKey(event);
-        },
+      axes={{ x: { label: 'Time (s)' }, y: { label: across.label }, right: COLOR_BAR_WIDTH, grid: false }}
+      cursorKey="capture-time"
+      onClick={({ x }) => go(x)}
+      onView={(next, zoomed) => {
+        const within = (part: Interval, all: Interval): boolean => zoomed && (part[0] > all[0] || part[1] < all[1]);
+        timeZoom.value = within(next.x, extent.x) ? next.x : null;
+        zoomY.value = within(next.y, extent.y) ? next.y : null;
+      }}
+      onKey={(event) => {
+        if (event.key === 'ArrowUp' || event.key === 'ArrowDown') {
+          moveGate((event.key === 'ArrowUp' ? 1 : -1) * (event.shiftKey ? 10 : 1));
+          return true;
+        }
+        return frameKey(event);
       }}
       readout={({ x, y }) => {
         const [column, row] = [nearestCell(x, timeS), nearestCell(y, across.values)];

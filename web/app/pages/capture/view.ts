@@ -1,5 +1,6 @@
 /** What the plots and the table need beside a result: the chosen cell and the limits of the colours. */
 import type { Cell, Detection, FrameResult } from 'boresight';
+import { limitsBelow } from '../../../plots/heat.ts';
 
 /** The chosen cell, or the strongest detection's, kept within the map. */
 export function shownCell(view: FrameResult, cell: Cell | null): Cell {
@@ -23,9 +24,4 @@ export function colorLimits(powersDb: Float32Array, spanDb: number): [number, nu
   let top = Number.NEGATIVE_INFINITY;
   for (const power of powersDb) if (power > top) top = power;
   return limitsBelow(top, spanDb);
-}
-
-export function limitsBelow(topDb: number, spanDb: number): [number, number] {
-  const ceiling = Number.isFinite(topDb) ? Math.ceil(topDb / 5) * 5 : 0;
-  return [ceiling - spanDb, ceiling];
 }

@@ -2,13 +2,13 @@
 
 import type { AngleHistory } from 'boresight';
 import { useMemo } from 'preact/hooks';
+import type { LegendItem } from '../../../elements/drawing.ts';
+import { angleBand, angleExtent } from '../../../plots/angle-history.ts';
 import { fixed, signed } from '../../../plots/format.ts';
-import { areaBetween, dots, horizontalLine, type Layer, polyline } from '../../../plots/layers.ts';
+import { dots, horizontalLine, type Layer } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { methodStyle, type SeriesStyle, THEMES, TRUTH_STYLE } from '../../../plots/theme.ts';
-import type { LegendItem } from '../../ui/plot-frame.tsx';
 import { loaded, sensor } from './drive.ts';
-import { quantiles } from './frame.ts';
 import { after } from './playhead.ts';
 import { results, shown, shownMethod, where } from './process.ts';
 import { mountingState } from './state.ts';
@@ -56,10 +56,9 @@ export function AnglePlot() {
     )) {
       const x = sinceStart(history.timeS);
       const style = methodStyle(way);
-      const edge = (sign: number): Float64Array =>
-        history.angleDeg.map((angle, i) => angle + sign * sigmas * (history.sigmaDeg[i] as number));
-      below.push(areaBetween(x, edge(-1), edge(1), style));
-      lines.push(polyline(x, history.angleDeg, style));
+      const { band: area, line } = angleBand(x, history, sigmas, style);
+      below.push(area);
+      lines.push(line);
     }
     if (frames && singles && alone) lines.unshift(dots(sinceStart(frames.frames.timeS), alone, ALONE, 0.4));
     if (frames && method && singles)
@@ -71,11 +70,9 @@ export function AnglePlot() {
     const extent = {
       x: timeExtent(),
       y: angleExtent(
-        curves,
+        curves.map(({ history }) => history),
         sigmas,
-        trueDeg,
-        nominalDeg,
-        found.get(method ?? 'recursive')?.calibration?.result.angleDeg,
+        { trueDeg, nominalDeg, shownDeg: found.get(method ?? 'recursive')?.calibration?.result.angleDeg },
       ),
     };
     if (nominalDeg !== null)
@@ -145,41 +142,4 @@ export function AnglePlot() {
       ]}
     />
   );
-}
-
-/** Most that is shown on either side of the angle, deg: a method that is far off must not hide what the others do. */
-const REACH_DEG = 4;
-
-/** What is worth showing: the first part of the drive, when little is known, may run out of sight. */
-function angleExtent(
-  curves: readonly Curve[],
-  sigmas: number,
-  trueDeg: number | undefined,
-  nominalDeg: number | null,
-  shownDeg: number | undefined,
-): [number, number] {
-  const edges: number[] = [];
-  const ends: number[] = trueDeg === undefined ? [] : [trueDeg];
-  for (const {
-    history: { angleDeg, sigmaDeg },
-  } of curves) {
-    for (let i = Math.floor(angleDeg.length * 0.1); i < angleDeg.length; i++) {
-      const [angle, sigma] = [angleDeg[i] as number, sigmas * (sigmaDeg[i] as number)];
-      if (Number.isFinite(sigma)) edges.push(angle - sigma, angle + sigma);
-    }
-    const last = angleDeg.at(-1);
-    if (last !== undefined && Number.isFinite(last)) ends.push(last);
-  }
-  const [low, high] = quantiles(edges, 0.04, 0.96) ?? [nominalDeg ?? -1, nominalDeg ?? 1];
-  const centre = trueDeg ?? shownDeg ?? (low + high) / 2;
-  const bottom = Math.max(Math.min(low, ...ends), centre - REACH_DEG);
-  const top = Math.min(Math.max(high, ...ends), centre + REACH_DEG);
-  const room = Math.max(0.2 * (top - bottom), 0.05);
-  const shown: [number, number] = [bottom - room, top + room];
-  // The nominal angle is drawn in where that leaves the rest readable.
-  if (nominalDeg !== null && nominalDeg > shown[1] && nominalDeg - shown[1] < top - bottom)
-    shown[1] = nominalDeg + room;
-  if (nominalDeg !== null && nominalDeg < shown[0] && shown[0] - nominalDeg < top - bottom)
-    shown[0] = nominalDeg - room;
-  return shown;
 }

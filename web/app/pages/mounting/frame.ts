@@ -68,25 +68,8 @@ export const frameView = computed<FrameView | null>(() => {
   };
 });
 
-/** Where detections are in the car's frame if the radar is mounted at an angle. */
-export function inCar(rangeM: number, azimuthDeg: number, angleDeg: number): [x: number, y: number] {
-  const direction = ((azimuthDeg + angleDeg) * Math.PI) / 180;
-  return [(where.value?.xM ?? 0) + rangeM * Math.cos(direction), (where.value?.yM ?? 0) + rangeM * Math.sin(direction)];
-}
-
 /** The angle in use: the one that was found, else the nominal one. */
 export const usedAngleDeg = computed(() => shown.value?.result.angleDeg ?? where.value?.nominalDeg ?? 0);
-
-/** Values below and above which a share lies, of what is finite; of at most about 20,000. */
-export function quantiles(values: ArrayLike<number>, low: number, high: number): [number, number] | null {
-  const every = Math.max(Math.floor(values.length / 20_000), 1);
-  const all = new Float64Array(Math.ceil(values.length / every));
-  let size = 0;
-  for (let i = 0; i < values.length; i += every) if (Number.isFinite(values[i])) all[size++] = values[i] as number;
-  if (!size) return null;
-  const some = all.subarray(0, size).sort();
-  return [some[Math.floor(low * (size - 1))] as number, some[Math.ceil(high * (size - 1))] as number];
-}
 
 /** Numbers of the detections of the radar that is looked at, at most about 20,000 of them. */
 export const sample = computed(() => {

@@ -62,7 +62,7 @@ function followDrive(): () => void {
 function startPage(): () => void {
   const stops = [startDrive(), startProcess(), startTrajectory(), startClock(), followDrive()];
   const key = (event: KeyboardEvent): void => {
-    const on = event.target as HTMLElement;
+    const on = event.composedPath()[0] as HTMLElement;
     if (
       event.ctrlKey ||
       event.metaKey ||

@@ -1,13 +1,14 @@
 /** What became of each frame: its inliers, its weight, and why it was left out. */
+
 import { useMemo } from 'preact/hooks';
+import type { LegendItem } from '../../../elements/drawing.ts';
 import { fixed } from '../../../plots/format.ts';
 import { clipToPlot, dots, type Layer, polyline } from '../../../plots/layers.ts';
+import { quantiles } from '../../../plots/quantiles.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { ACCENT_STYLE, methodStyle, type SeriesStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
-import type { LegendItem } from '../../ui/plot-frame.tsx';
 import { loaded, scans } from './drive.ts';
-import { quantiles } from './frame.ts';
 import { after, frame } from './playhead.ts';
 import { shown, shownMethod } from './process.ts';
 import { sinceStart, startTime, TimePlot, timeExtent } from './time-plot.tsx';

@@ -1,10 +1,10 @@
 /** A plot over driving time: one zoom and one cursor for all, the playhead, and a click that goes there. */
 
 import { effect, signal, useSignal } from '@preact/signals';
+import type { OwnDrawing } from '../../../elements/plot.ts';
 import { frameKeys } from '../../../plots/frame-keys.ts';
-import { Playhead } from '../../../plots/playhead.ts';
-import type { AxisOptions, Interval, Plot, View } from '../../../plots/plot.ts';
-import { PlotFrame, type PlotFrameProps } from '../../ui/plot-frame.tsx';
+import type { AxisOptions, Interval, View } from '../../../plots/plot.ts';
+import { type ElementProps, PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded, scans, sensor } from './drive.ts';
 import { playing, step, time, togglePlaying } from './playhead.ts';
 
@@ -26,19 +26,11 @@ export function sinceStart(timeS: Float64Array): Float64Array {
 /** The stretch of time all these plots are zoomed to. */
 const zoom = signal<Interval | null>(null);
 
-type Props = Omit<PlotFrameProps, 'options' | 'fileParts'> & { y: AxisOptions };
+type Props = Omit<ElementProps & OwnDrawing, 'axes' | 'fileParts'> & { y: AxisOptions };
 
 export function TimePlot({ y, ...props }: Props) {
   const zoomY = useSignal<Interval | null>(null);
   const { extent } = props.content;
-  const follow = (plot: Plot): (() => void) => {
-    const head = new Playhead(plot);
-    const stop = effect(() => head.set(time.value - startTime()));
-    return () => {
-      stop();
-      head.destroy();
-    };
-  };
   const view: View | null =
     zoom.value || zoomY.value ? { x: zoom.value ?? extent.x, y: zoomY.value ?? extent.y } : null;
   return (
@@ -46,24 +38,25 @@ export function TimePlot({ y, ...props }: Props) {
       {...props}
       view={view}
       fileParts={fileParts()}
-      onPlot={follow}
+      attach={(element) =>
+        effect(() => {
+          element.playhead = time.value - startTime();
+        })
+      }
       keys="Space plays; arrows step by a frame, with Shift by ten."
       hint="Click to go to a time."
-      options={{
-        x: { label: 'Driving time (s)' },
-        y,
-        cursorKey: 'drive-time',
-        onClick: (position) => {
-          playing.value = false;
-          time.value = position.x + startTime();
-        },
-        onView: (next, zoomed) => {
-          const within = (part: Interval, all: Interval): boolean => zoomed && (part[0] > all[0] || part[1] < all[1]);
-          zoom.value = within(next.x, extent.x) ? next.x : null;
-          zoomY.value = within(next.y, extent.y) ? next.y : null;
-        },
-        onKey: frameKey,
+      axes={{ x: { label: 'Driving time (s)' }, y }}
+      cursorKey="drive-time"
+      onClick={(position) => {
+        playing.value = false;
+        time.value = position.x + startTime();
       }}
+      onView={(next, zoomed) => {
+        const within = (part: Interval, all: Interval): boolean => zoomed && (part[0] > all[0] || part[1] < all[1]);
+        zoom.value = within(next.x, extent.x) ? next.x : null;
+        zoomY.value = within(next.y, extent.y) ? next.y : null;
+      }}
+      onKey={frameKey}
     />
   );
 }

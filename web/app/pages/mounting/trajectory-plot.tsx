@@ -2,12 +2,13 @@
 
 import type { Trajectory } from 'boresight';
 import { useMemo } from 'preact/hooks';
+import type { LegendItem } from '../../../elements/drawing.ts';
 import { fixed, signed } from '../../../plots/format.ts';
 import { type Layer, markers, polyline } from '../../../plots/layers.ts';
 import type { View } from '../../../plots/plot.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { methodStyle, type SeriesStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
-import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { loaded } from './drive.ts';
 import { after, time } from './playhead.ts';
 import { shown, shownMethod } from './process.ts';
@@ -110,12 +111,12 @@ export function TrajectoryPlot() {
       content={content}
       legend={legend}
       keys="Space plays; arrows step by a frame, with Shift by ten."
-      options={{
+      axes={{
         x: { label: 'Along the first heading (m)' },
         y: { label: 'Left of it (m)' },
         equal: true,
-        onKey: frameKey,
       }}
+      onKey={frameKey}
       readout={({ x, y }) => `Along ${signed(x, 0)} m   left ${signed(y, 0)} m`}
       csv={() =>
         toCsv(

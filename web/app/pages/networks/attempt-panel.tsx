@@ -1,27 +1,17 @@
 /** The scene that a network was tried on: truth, spectrum, what each method found, and how far off it is. */
+
 import { useEffect, useMemo, useRef } from 'preact/hooks';
-import { AZIMUTH } from '../../../plots/axes.ts';
-import { fixed, milliseconds, signed } from '../../../plots/format.ts';
-import { bands, markers } from '../../../plots/layers.ts';
+import { defineElement } from '../../../elements/define.ts';
+import { type NamedEstimate, SpectrumElement } from '../../../elements/spectrum.ts';
+import { fixed, milliseconds } from '../../../plots/format.ts';
 import { download, fileName, toCsv } from '../../../plots/save.ts';
-import { methodStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
-import { curve, onOneGrid, series, sourceMarkers, withBars } from '../../estimates.ts';
+import { methodStyle } from '../../../plots/theme.ts';
 import { type Sight, sightOf } from '../../networks/models.ts';
 import { LoadState } from '../../ui/network-note.tsx';
-import { PlotFrame } from '../../ui/plot-frame.tsx';
+import { ElementFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { assign } from '../angle/assign.ts';
-import { truthLayer } from '../angle/spectrum-plot.tsx';
-import {
-  type Attempt,
-  attempt,
-  attemptProblem,
-  COVARIANCE_SNAPSHOTS,
-  type Row,
-  selected,
-  strongest,
-  trying,
-} from './attempt.ts';
+import { type Attempt, attempt, attemptProblem, COVARIANCE_SNAPSHOTS, type Row, selected, trying } from './attempt.ts';
 import { networksState, update } from './state.ts';
 
 /** Within this of a target an estimate is right, degrees: the papers' limits for snapshots and regions. */
@@ -34,6 +24,8 @@ const SCENES: Record<Sight, string> = {
   region:
     'One simulated region of interest, drawn from the seed: the network beside classical methods on the same numbers. All are told the number of targets but those that count it.',
 };
+
+defineElement('boresight-spectrum', SpectrumElement);
 
 export function AttemptPanel() {
   const place = useRef<HTMLElement>(null);
@@ -94,85 +86,37 @@ export function AttemptPanel() {
 function ScenePlot({ shown }: { shown: Attempt }) {
   const { truth, rows, bound, fieldOfViewDeg } = shown;
   const onRegion = shown.sight === 'region';
-  // Levels of regions are relative to the strongest source.
-  const level = ({ estimate }: Row): number => (onRegion ? strongest(estimate?.sources ?? []) : 0);
-  const curves = useMemo(
+  const estimates = useMemo(
     () =>
-      onOneGrid(
-        rows.map((row) => {
-          const one = row.estimate ? curve(row.estimate, row.title) : null;
-          return one && onRegion ? { ...one, valuesDb: one.valuesDb.map((value) => value - level(row)) } : one;
+      rows.map(
+        ({ method, title, estimate }, i): NamedEstimate => ({
+          estimate: estimate ?? null,
+          id: method,
+          label: title,
+          leading: i === 0,
         }),
       ),
     [shown],
   );
-  const content = useMemo(
-    () => ({
-      x: curves[0]?.azimuthDeg ?? [],
-      series: series(curves),
-      extent: { x: [-fieldOfViewDeg - 3, fieldOfViewDeg + 3] as const, y: [onRegion ? -30 : -40, 8] as const },
-      below: [
-        bands(
-          truth.flatMap(({ azimuthDeg }, i) =>
-            bound?.[i] ? [[azimuthDeg - (bound[i] as number), azimuthDeg + (bound[i] as number)] as const] : [],
-          ),
-          (t) => t.band,
-        ),
-      ],
-      above: [
-        markers(
-          rows
-            .flatMap((row) =>
-              sourceMarkers(row.method, row.estimate?.sources ?? []).map((marker) => ({
-                ...marker,
-                y: marker.y - level(row),
-                size: row === rows[0] ? 6 : 4.5,
-              })),
-            )
-            .reverse(),
-        ),
-        truthLayer(truth),
-      ],
-    }),
-    [shown],
-  );
   return (
-    <PlotFrame
+    <ElementFrame
       key={shown.model}
+      tag="boresight-spectrum"
+      own={{
+        estimates,
+        targets: truth,
+        boundsDeg: bound ?? null,
+        // Levels of regions are relative to the strongest source.
+        levels: onRegion ? undefined : 'absolute',
+        'floor-db': onRegion ? 30 : 48,
+        'high-db': 8,
+        sector: fieldOfViewDeg + 3,
+        'y-label': onRegion ? 'Level (dB re the strongest)' : 'Level (dB re 0 dB target)',
+      }}
       title="Scene"
       detail={shown.scene}
       name="attempt"
       height="tall"
-      content={content}
-      legend={[
-        {
-          id: 'truth',
-          label: bound ? 'Target, CRB ±σ band' : 'Target',
-          style: { ...TRUTH_STYLE, marker: 'circle' },
-          line: false,
-          hollow: true,
-        },
-        ...rows.map(({ method, title, estimate }) => ({
-          id: method,
-          label: withBars(title, estimate?.sources ?? []),
-          style: methodStyle(method),
-          line: Boolean(estimate?.spectrum),
-        })),
-      ]}
-      options={{
-        x: AZIMUTH,
-        y: { label: onRegion ? 'Level (dB re the strongest)' : 'Level (dB re 0 dB target)' },
-      }}
-      readout={({ x, y }) => `Azimuth ${signed(x, 2)}°   Level ${fixed(y, 1)}\u00a0dB`}
-      csv={() =>
-        toCsv(
-          ['azimuth_deg', ...curves.map(({ method }) => `${method}_db`)],
-          Array.from(curves[0]?.azimuthDeg ?? [], (azimuth, i) => [
-            azimuth,
-            ...curves.map(({ valuesDb }) => valuesDb[i]),
-          ]),
-        )
-      }
       fileParts={[shown.model]}
     />
   );

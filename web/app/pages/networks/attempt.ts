@@ -1,6 +1,6 @@
 /** A network tried on one simulated scene, beside classical methods and the truth. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { Estimate, EstimateInput, EstimatorOptions, Method, NetworkInfo, NetworkMethod, Source } from 'boresight';
+import type { Estimate, EstimateInput, EstimatorOptions, Method, NetworkInfo, NetworkMethod } from 'boresight';
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { load, loadings, models } from '../../networks/load.ts';
 import { type Card, elementsOf, type Model, type Sight, sightOf, targetsOf } from '../../networks/models.ts';
@@ -317,7 +317,3 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, job: Job)
   );
   return made;
 }
-
-/** Of the strongest source, so that curves and signs of all methods stand on one scale. */
-export const strongest = (sources: readonly Source[]): number =>
-  sources.reduce((most, { powerDb }) => Math.max(most, powerDb), Number.NEGATIVE_INFINITY);

@@ -299,7 +299,7 @@ export function MetricsPanel({ model }: { model: Model }) {
       name="metrics"
       height="short"
       content={plot.content}
-      options={{ x: { label: 'SNR (dB)', steps: [1, 5, 10] }, y: { label: plot.label } }}
+      axes={{ x: { label: 'SNR (dB)', steps: [1, 5, 10] }, y: { label: plot.label } }}
       legend={plot.lines.map(({ id, label, style, y }) => ({
         id,
         label,

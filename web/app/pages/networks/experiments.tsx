@@ -1,12 +1,14 @@
 /** The papers' experiments as plots, with where the networks lose said in words. */
+
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
+import type { LegendItem } from '../../../elements/drawing.ts';
 import { count, fixed } from '../../../plots/format.ts';
 import { type Layer, markers, polyline } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { TRUTH_STYLE } from '../../../plots/theme.ts';
 import { SelectField } from '../../ui/field.tsx';
-import { type LegendItem, PlotFrame } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { aoaFigures, doaFigures, type Figure, precisionRecall } from './figures.ts';
 import { styleOf, titleOf } from './methods.ts';
@@ -305,7 +307,7 @@ function FigurePlot({ figure, chosen }: { figure: Figure; chosen(method: string)
       height="medium"
       content={content}
       legend={legend}
-      options={{
+      axes={{
         x: { label: figure.xLabel, steps: figure.xSteps },
         y: { label: figure.yLabel, ...(figure.log ? { log: true, width: 58 } : {}) },
       }}
@@ -368,7 +370,7 @@ function PrecisionRecall({ report, chosen }: { report: AoaReport; chosen(method:
       height="medium"
       content={content}
       legend={shown.map(({ method }) => ({ id: method, label: titleOf(method), style: styleOf(method), line: true }))}
-      options={{ x: { label: 'Recall' }, y: { label: 'Precision' } }}
+      axes={{ x: { label: 'Recall' }, y: { label: 'Precision' } }}
       readout={({ x, y }) => `Recall ${fixed(x, 3)}   Precision ${fixed(y, 3)}`}
       csv={() =>
         toCsv(

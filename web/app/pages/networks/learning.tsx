@@ -54,7 +54,7 @@ export function LearningPanel({ model: { card, name } }: { model: Model }) {
       name="learning"
       height="short"
       content={plot.content}
-      options={{ x: { label: 'Samples seen (thousands)' }, y: { label: 'Largest F1, mean' } }}
+      axes={{ x: { label: 'Samples seen (thousands)' }, y: { label: 'Largest F1, mean' } }}
       legend={plot.lines.map(({ title, style, x, y }) => ({
         id: title,
         label: `${title}: ${fixed(y.at(-1) ?? Number.NaN, 3)} after ${count(1000 * (x.at(-1) ?? 0))}`,

@@ -1,8 +1,7 @@
 /** Estimates as the plots show them. */
-import type { Estimate, Method, Position, Source } from 'boresight';
-import type { Marker } from '../plots/layers.ts';
-import type { PlotSeries } from '../plots/plot.ts';
-import { methodStyle } from '../plots/theme.ts';
+import type { Estimate, Position, Source } from 'boresight';
+import type { Marker } from './layers.ts';
+import type { SeriesStyle } from './theme.ts';
 
 export interface Curve {
   method: string;
@@ -80,21 +79,12 @@ function resampled({ azimuthDeg, valuesDb }: Curve, onto: Float64Array): Pick<Cu
   return { azimuthDeg: onto, valuesDb: onto.map(between) };
 }
 
-export const oneSeries = ({ method, title, valuesDb }: Curve): PlotSeries => ({
-  id: method,
-  label: title,
-  y: valuesDb,
-  style: methodStyle(method),
-});
-
-export const series = (curves: readonly Curve[]): PlotSeries[] => curves.map(oneSeries);
-
 /** Sources of a method on its spectrum, with bars of the deviations they state. */
-export function sourceMarkers(method: Method, sources: readonly Source[]): Marker[] {
+export function sourceMarkers(sources: readonly Source[], style: SeriesStyle): Marker[] {
   return sources.map(({ azimuthDeg, powerDb, deviation }) => ({
     x: azimuthDeg,
     y: powerDb,
-    style: methodStyle(method),
+    style,
     ...(deviation ? { deviation: { x: deviation.azimuthDeg, y: deviation.powerDb } } : {}),
   }));
 }
