@@ -18,7 +18,10 @@ export function elementsOf({ modules }) {
       properties: members
         .filter(({ kind, privacy, readonly }) => kind === 'field' && privacy === undefined && !readonly)
         .map(told),
-      events: events.map(({ name, description }) => ({ name, description })),
+      // The analyzer takes what is dispatched by a variable for an event of that name.
+      events: events
+        .filter(({ name }) => name.startsWith('boresight-'))
+        .map(({ name, description }) => ({ name, description })),
     }))
     .sort((a, b) => (a.tag < b.tag ? -1 : 1));
 }

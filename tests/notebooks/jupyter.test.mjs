@@ -78,7 +78,7 @@ test('every widget shows data of the shapes that are documented', async () => {
   const { page } = view;
   const words = {
     'boresight-range-doppler':
-      '64 ranges to 31.5 m, 32 range rates; levels from −91 to −31 dBFS.\nDetection at 20.00 m, +3.00 m/s.',
+      '64 ranges to 31.5 m, 32 range rates; levels from −90 to −30 dBFS.\nDetection at 20.00 m, +3.00 m/s.',
     'boresight-birds-eye': '20 m ahead by 30 m across in cells of 0.5 m; levels from −40 to 0 dB.',
     'boresight-mounting-angle': 'After 59 s: +1.50°, standard deviation 0.10°; within tolerance.',
     'boresight-capture': /ranges to .*Detection at/s,

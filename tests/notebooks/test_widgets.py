@@ -25,8 +25,33 @@ def test_each_element_has_a_widget_with_all_that_it_takes_and_tells():
         for one in element.properties.values():
             assert one.shape, f"the shape of {one.type} is stated"
         for one in element.attributes.values():
-            assert one.type in ("string", "number") or one.choices, one.type
+            assert one.type in ("string", "number", "boolean") or one.choices, one.type
         assert element.description in getattr(bw, name).__doc__
+
+
+def test_options_go_as_they_are_with_the_names_of_javascript():
+    given = {"min_speed_mps": np.float64(3), "cfar": {"guard_cells": [4, 2], "peak_grouping": False}, "sources": "mdl"}
+    assert sent(bw.Capture(options=given), "options") == {
+        "minSpeedMps": 3,
+        "cfar": {"guardCells": [4, 2], "peakGrouping": False},
+        "sources": "mdl",
+    }
+    with pytest.raises(TypeError, match=r"options\.cfar is of object"):
+        bw.Capture(options={"cfar": object()})
+
+
+def test_a_switch_is_true_or_false():
+    assert bw.PointCloud(drag_zooms=True).get_state("drag_zooms")["drag_zooms"] is True
+    with pytest.raises(traitlets.TraitError):
+        bw.PointCloud(drag_zooms="yes")
+
+
+def test_the_part_shown_and_words_below():
+    plot = bw.Spectrum(zoom={"x": [-10, 10], "y": (-40, 0)}, remarks=["one", "two"])
+    assert sent(plot, "zoom") == {"x": [-10, 10], "y": [-40, 0]}
+    assert sent(plot, "remarks") == ["one", "two"]
+    with pytest.raises(TypeError, match="remarks is of str"):
+        bw.Spectrum(remarks="one")
 
 
 def test_names_go_both_ways():
@@ -86,7 +111,7 @@ SHORT = {"azimuth_deg": [0, 1, 2], "values_db": [0, 1]}
 @pytest.mark.parametrize(
     ("name", "given", "error", "words"),
     [
-        ("Spectrum", {"headin": "x"}, TypeError, "Spectrum takes no headin; it takes estimates, floor_db, heading"),
+        ("Spectrum", {"headin": "x"}, TypeError, "Spectrum takes no headin; it takes bounds_deg, closed, cursor_group"),
         ("Spectrum", {"theme": "blue"}, traitlets.TraitError, "'light', 'dark', 'auto'"),
         ("Spectrum", {"floor_db": "60"}, traitlets.TraitError, "a finite number"),
         ("Spectrum", {"floor_db": np.nan}, traitlets.TraitError, "a finite number"),

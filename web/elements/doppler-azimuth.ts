@@ -58,6 +58,7 @@ export class DopplerAzimuthElement extends PlotElement {
   #frame: DopplerFrame | null = null;
   #motions: readonly MotionCurve[] | null = null;
 
+  /** The detections of a scan and the radar's motion. */
   get frame(): DopplerFrame | null {
     return this.#frame;
   }

@@ -1,6 +1,7 @@
 /** What elements draw, and what they say of it. */
 import type { CursorPosition, HandlePoint, HandleSteps, LegendEntry, PlotContent } from '../plots/types.ts';
 
+/** An entry of a legend, with what the cursor reads. */
 export interface LegendItem extends LegendEntry {
   /** Tells it from the others. */
   id?: string;
@@ -9,6 +10,7 @@ export interface LegendItem extends LegendEntry {
   rest?: string;
 }
 
+/** What is drawn, and what is said of it. */
 export interface Drawing {
   content: PlotContent;
   legend?: readonly LegendItem[];

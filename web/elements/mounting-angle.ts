@@ -44,6 +44,7 @@ export class MountingAngleElement extends PlotElement {
   #value: HTMLElement | undefined;
   #verdict: HTMLElement | undefined;
 
+  /** The angle over time, with its deviation. */
   get history(): AngleOverTime {
     return this.#history;
   }

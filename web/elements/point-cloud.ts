@@ -46,6 +46,7 @@ export class PointCloudElement extends PlotElement {
   /** Where points were so far, so that a live plot does not jump: to the left and ahead, m. */
   #seen = { left: [-5, 5], ahead: [-5, 5] };
 
+  /** The detections of a scan. */
   get points(): PointCloud | null {
     return this.#points;
   }

@@ -35,8 +35,8 @@ export class Mounted {
     if (name === 'theme') {
       this.#theme = typeof value === 'string' && value !== 'auto' ? value : null;
       this.#colour();
-    } else if (value === null || value === undefined) this.element.removeAttribute(name);
-    else this.element.setAttribute(name, String(value));
+    } else if (value === null || value === undefined || value === false) this.element.removeAttribute(name);
+    else this.element.setAttribute(name, value === true ? '' : String(value));
   }
 
   /** Sets data from their bytes, unless they are those it has. */

@@ -7,6 +7,7 @@ export interface Drawn {
   readonly bbox: { readonly left: number; readonly top: number; readonly width: number; readonly height: number };
 }
 
+/** What a layer draws on; `x` and `y` place values on the canvas, in device pixels. */
 export interface LayerContext {
   ctx: CanvasRenderingContext2D;
   plot: Drawn;
@@ -18,6 +19,7 @@ export interface LayerContext {
   y(value: number): number;
 }
 
+/** Something drawn besides curves. */
 export type Layer = (c: LayerContext) => void;
 
 /** A layer that lets through what is under it; opacity from 0 to 1. */

@@ -2,12 +2,15 @@
 import type { Layer } from './layers.ts';
 import type { SeriesStyle, ThemeName } from './theme.ts';
 
+/** From and to. */
 export type Interval = readonly [number, number];
+/** A part of a plot. */
 export interface View {
   x: Interval;
   y: Interval;
 }
 
+/** An axis. */
 export interface AxisOptions {
   /** Quantity and unit: `Range (m)`. */
   label: string;
@@ -23,6 +26,7 @@ export interface AxisOptions {
   log?: boolean;
 }
 
+/** A curve. */
 export interface PlotSeries {
   id: string;
   label: string;
@@ -30,6 +34,7 @@ export interface PlotSeries {
   style: SeriesStyle;
 }
 
+/** What a plot shows. */
 export interface PlotContent {
   /** Abscissae, ascending, shared by all series. */
   x: ArrayLike<number>;
@@ -42,6 +47,7 @@ export interface PlotContent {
   extent: View;
 }
 
+/** Where the cursor points, in the units of the axes. */
 export interface CursorPosition {
   x: number;
   y: number;

@@ -11,8 +11,17 @@ from .names import keys_in_snake, snake
 
 STATIC = files("boresight_widget") / "static"
 
-#: Names of what comes back, where they are not those of the events: `view` is data of an element, too.
-EVENTS = {"select": "selection", "view": "extent"}
+#: Names of what comes back, where they are not those of the events: `view` and `cell` are data of elements, too.
+EVENTS = {"select": "selection", "view": "viewed", "cell": "chosen_cell"}
+
+#: Keys are the host's, and an event of the browser says nothing in Python.
+NOT_TOLD = ("key",)
+
+#: Names the traits of a widget, which has them already; of an element it is a help for keyboards.
+NOT_TAKEN = ("keys",)
+
+#: Draws what functions in JavaScript say.
+IN_JAVASCRIPT = ("boresight-plot",)
 
 
 @dataclass(frozen=True)
@@ -38,8 +47,17 @@ class Property:
     description: str
 
     @property
+    def plain_type(self):
+        return self.type.removesuffix(" | null").removeprefix("readonly ")
+
+    @property
+    def crosses(self):
+        """Whether it can be given from Python."""
+        return self.plain_type not in shapes.IN_JAVASCRIPT
+
+    @property
     def shape(self):
-        return shapes.SHAPES[self.type.removeprefix("readonly ").removesuffix(" | null")]
+        return shapes.SHAPES[self.plain_type]
 
     def take(self, value):
         """The bytes of a value, None of none; raises TypeError or ValueError where it does not fit."""
@@ -82,9 +100,13 @@ def _read():
         raise ImportError("boresight_widget has no front end: `npm run build` puts it into the package") from problem
     elements = {}
     for made in manifest["elements"]:
-        attributes = {snake(one["name"]): Attribute(**one) for one in made["attributes"]}
+        if made["tag"] in IN_JAVASCRIPT:
+            continue
+        attributes = {
+            snake(one["name"]): Attribute(**one) for one in made["attributes"] if one["name"] not in NOT_TAKEN
+        }
         events = {one["name"]: one["name"].removeprefix("boresight-") for one in made["events"]}
-        events = {event: EVENTS.get(name, name) for event, name in events.items()}
+        events = {event: snake(EVENTS.get(name, name)) for event, name in events.items() if name not in NOT_TOLD}
         elements[made["name"]] = Element(
             tag=made["tag"],
             name=made["name"],
@@ -94,10 +116,12 @@ def _read():
             properties={
                 snake(one["name"]): Property(**one)
                 for one in made["properties"]
-                if snake(one["name"]) not in attributes
+                if snake(one["name"]) not in attributes and Property(**one).crosses
             },
             events=events,
-            event_descriptions={events[one["name"]]: one["description"] for one in made["events"]},
+            event_descriptions={
+                events[one["name"]]: one["description"] for one in made["events"] if one["name"] in events
+            },
         )
     return manifest["version"], elements
 

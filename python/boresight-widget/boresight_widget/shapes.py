@@ -139,6 +139,30 @@ class Rows:
 
 
 @dataclass(frozen=True)
+class Texts:
+    """Strings."""
+
+    def take(self, value, where, sizes):
+        if isinstance(value, str) or not isinstance(value, Iterable):
+            raise TypeError(f"{where} is of {_said(value)}; it takes a list of texts")
+        return [Text().take(item, f"{where}[{i}]", {}) for i, item in enumerate(value)]
+
+
+@dataclass(frozen=True)
+class Options:
+    """Options of a function of the package, which checks them itself: mappings, lists, texts, numbers and switches."""
+
+    def take(self, value, where, sizes):
+        if hasattr(value, "items"):
+            return {camel(str(key)): self.take(item, f"{where}.{key}", {}) for key, item in value.items()}
+        if isinstance(value, list | tuple):
+            return [self.take(item, f"{where}[{i}]", {}) for i, item in enumerate(value)]
+        if value is None or isinstance(value, bool | str):
+            return value
+        return Number().take(value, where, {})
+
+
+@dataclass(frozen=True)
 class Plain:
     """An array of one dimension that is sent as a list: a few numbers."""
 
@@ -187,9 +211,21 @@ def _spectrum(taken):
 WEIGHED = {"weights?": column(dtype="f4"), "moving?": column(dtype="u1")}
 MOTION = Fields({"vxMps": Number(), "vyMps": Number()})
 
+INTERVALS = {"x": Plain(), "y": Plain()}
+GROUND = {"xM": Plain(), "yM": Plain()}
+
+#: Types that hold functions or signs of the browser's, which no notebook sends.
+IN_JAVASCRIPT = (
+    "(() => readonly string[])",
+    "((xM: number, yM: number) => string)",
+    "Layer[]",
+    "LegendItem[]",
+    "MotionCurve[]",
+)
+
 #: By the types of the elements' properties, without `readonly` and `| null`.
 SHAPES = {
-    "Estimate[]": Items(
+    "(Estimate | NamedEstimate)[]": Items(
         Fields(
             {
                 "method?": Text(),
@@ -206,7 +242,18 @@ SHAPES = {
             _estimate,
         )
     ),
+    "number": Number(),
     "number[]": Plain(),
+    "ArrayLike<number>": Plain(),
+    "string[]": Texts(),
+    "View": Fields(INTERVALS),
+    "Ground": Fields(GROUND),
+    "ShownTarget[]": Items(Fields({"azimuthDeg": Number(), "powerDb": Number()})),
+    "{ azimuthDeg: number; label: string }[]": Items(Fields({"azimuthDeg": Number(), "label": Text()})),
+    "RadarName[]": Items(Fields({"name": Text(), "title?": Text()})),
+    "Cell": Fields({"rangeBin": Number(), "dopplerBin": Number(), "frame?": Number()}),
+    "ChainOptions": Options(),
+    "CalibrateDriveOptions": Options(),
     "RangeDopplerFrame": Fields(
         {
             "rangeM": column("range_m"),
@@ -216,7 +263,7 @@ SHAPES = {
         }
     ),
     "PointCloud": Fields(
-        {"rangeM": column(), "azimuthDeg": column(), "rangeRateMps?": column(), **WEIGHED},
+        {"rangeM": column(), "azimuthDeg": column(), "rangeRateMps?": column(), "rcsDbsm?": column(), **WEIGHED},
     ),
     "Place": Fields({"xM": Number(), "yM": Number(), "yawDeg": Number()}),
     "BirdsEyeView": Fields(

@@ -43,6 +43,15 @@ class Number(traitlets.TraitType):
         return int(value) if isinstance(value, numbers.Integral) else float(value)
 
 
+class Words(traitlets.Unicode):
+    """Text, where a number stands for itself."""
+
+    def validate(self, obj, value):
+        if isinstance(value, numbers.Real) and not isinstance(value, bool):
+            value = str(value)
+        return super().validate(obj, value)
+
+
 class Told(traitlets.TraitType):
     """What an event told last; None before."""
 
@@ -60,8 +69,10 @@ def _setting(attribute):
         trait = traitlets.Enum(attribute.choices, None, allow_none=True, help=attribute.description)
     elif attribute.type == "number":
         trait = Number(None, allow_none=True, help=attribute.description)
+    elif attribute.type == "boolean":
+        trait = traitlets.Bool(None, allow_none=True, help=attribute.description)
     else:
-        trait = traitlets.Unicode(None, allow_none=True, help=attribute.description)
+        trait = Words(None, allow_none=True, help=attribute.description)
     return trait.tag(sync=True)
 
 
