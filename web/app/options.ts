@@ -61,7 +61,7 @@ interface Own<V> {
   max?: V & number;
 }
 
-interface Schema {
+export interface Schema {
   description?: string;
   type?: string;
   minimum?: number;
@@ -69,8 +69,11 @@ interface Schema {
   maximum?: number;
   default?: unknown;
   'x-unit'?: string;
+  /** What the option is called on the command line. */
+  'x-flag'?: string;
   oneOf?: { const: string; description: string }[];
   properties?: Record<string, Schema>;
+  required?: readonly string[];
   items?: Schema;
   additionalProperties?: Schema | false;
 }
@@ -83,9 +86,10 @@ function inner(outer: Schema, key: string): Schema | undefined {
   return one ? { ...rest, ...one, default: Array.isArray(list) ? list[Number(key)] : undefined } : undefined;
 }
 
-function found(record: keyof Records, path: string): Schema {
+/** What the schema says of a record, or of what a path leads to from it. */
+export function described(record: string, path = ''): Schema {
   let at: Schema | undefined = ($defs as Record<string, Schema>)[record];
-  for (const key of path.split('.')) at &&= inner(at, key);
+  for (const key of path.split('.').filter(Boolean)) at &&= inner(at, key);
   if (!at) throw new Error(`${record} have no ${path}`);
   return at;
 }
@@ -94,8 +98,8 @@ function found(record: keyof Records, path: string): Schema {
 export function optionsOf<N extends keyof Records>(record: N) {
   type R = Records[N];
 
-  function described(path: string): { schema: Schema; option: Option } {
-    const schema = found(record, path);
+  function optionAt(path: string): { schema: Schema; option: Option } {
+    const schema = described(record, path);
     const choices = Object.fromEntries((schema.oneOf ?? []).map((one) => [one.const, one.description]));
     return {
       schema,
@@ -109,7 +113,7 @@ export function optionsOf<N extends keyof Records>(record: N) {
   }
 
   function make(path: string, own: Own<unknown>, fallback: unknown): object {
-    const { schema, option } = described(path);
+    const { schema, option } = optionAt(path);
     if (schema.oneOf) return { ...choice(fallback as string, Object.keys(option.choices)), option };
     if (schema.type === 'boolean') return { ...flag(fallback as boolean), option };
     const above = schema.exclusiveMinimum !== undefined && own.min === undefined;
@@ -125,7 +129,7 @@ export function optionsOf<N extends keyof Records>(record: N) {
   return {
     /** An option with its default. */
     field<P extends Path<R>>(path: P, own: Own<At<R, P>> = {}): FieldOf<At<R, P>> {
-      const fallback = own.fallback ?? found(record, path).default;
+      const fallback = own.fallback ?? described(record, path).default;
       if (fallback === undefined) throw new Error(`${record}.${path} has no default`);
       return make(path, own, fallback) as FieldOf<At<R, P>>;
     },
@@ -139,14 +143,14 @@ export function optionsOf<N extends keyof Records>(record: N) {
 
     /** A choice that may be left to what follows from others, which has a name in the address. */
     or<P extends Path<R>, const T extends string>(path: P, none: T): OfOption & ChoiceField<T | (At<R, P> & string)> {
-      const { option } = described(path);
+      const { option } = optionAt(path);
       const values = Object.keys(option.choices) as (At<R, P> & string)[];
       return { ...choice<T | (At<R, P> & string)>(none, [none, ...values]), option };
     },
 
     /** Some values of an option, as they are written in the address. */
     picks<const T extends string>(path: Path<R>, values: readonly T[], fallback?: T): OfOption & ChoiceField<T> {
-      const { schema, option } = described(path);
+      const { schema, option } = optionAt(path);
       const usual = values.find((value) => value === schema.default || Number(value) === schema.default);
       const first = fallback ?? usual;
       if (first === undefined) throw new Error(`the default of ${option.name} is not among ${values}`);
