@@ -51,7 +51,11 @@ export const runCommands = (text, files = {}) =>
     await mkdir(join(folder, 'bin'));
     await symlink(await boresight(), join(folder, 'bin', 'boresight'));
     const env = { ...process.env, PATH: `${join(folder, 'bin')}:${process.env.PATH}` };
-    const { stdout } = await run('bash', ['-euo', 'pipefail', '-c', text], { cwd: folder, env, maxBuffer: MOST_OUTPUT });
+    const { stdout } = await run('bash', ['-euo', 'pipefail', '-c', text], {
+      cwd: folder,
+      env,
+      maxBuffer: MOST_OUTPUT,
+    });
     // Values begin and end at the first column.
-    return [...stdout.matchAll(/^(?:\[\]|[[{]\n[^]*?^[\]}])$/gm)].map(([json]) => JSON.parse(json));
+    return [...stdout.matchAll(/^(?:\[\]|[[{]\n[\s\S]*?^[\]}])$/gm)].map(([json]) => JSON.parse(json));
   });

@@ -27,16 +27,18 @@ async function codeOf(page) {
 
 /** The numbers of a table, by row and field. */
 const tableOf = (page, table) =>
-  page.locator(`[data-table="${table}"] [data-row]`).evaluateAll((rows) =>
-    Object.fromEntries(
-      rows.map((row) => [
-        row.dataset.row,
-        [...row.querySelectorAll('[data-field]')].flatMap(({ dataset }) =>
-          dataset.value === undefined ? [] : [{ ...dataset, value: Number(dataset.value) }],
-        ),
-      ]),
-    ),
-  );
+  page
+    .locator(`[data-table="${table}"] [data-row]`)
+    .evaluateAll((rows) =>
+      Object.fromEntries(
+        rows.map((row) => [
+          row.dataset.row,
+          [...row.querySelectorAll('[data-field]')].flatMap(({ dataset }) =>
+            dataset.value === undefined ? [] : [{ ...dataset, value: Number(dataset.value) }],
+          ),
+        ]),
+      ),
+    );
 
 /** Lines of a script by their first word, without it. */
 function linesBy(lines) {
@@ -87,7 +89,9 @@ const ANGLE = '[data-table="results"] [data-row] [data-field="azimuth"][data-val
 
 browserTest('code: angle lab as it opens', { path: '#/angle' }, async ({ page }) => {
   await page.waitForSelector(ANGLE);
-  const { javascript, commandLine } = await checkAngle(page, ['bartlett', 'capon', 'music', 'root-music'], { close: 1e-9 });
+  const { javascript, commandLine } = await checkAngle(page, ['bartlett', 'capon', 'music', 'root-music'], {
+    close: 1e-9,
+  });
   console.log(javascript, commandLine);
 });
 
@@ -98,8 +102,10 @@ browserTest(
   },
   async ({ page }) => {
     await page.waitForSelector(ANGLE);
-    const { javascript, commandLine } = await checkAngle(page, ['bartlett', 'iaa', 'nomp', 'maximum-likelihood'], { close: 1e-6 });
-  console.log(javascript, commandLine);
+    const { javascript, commandLine } = await checkAngle(page, ['bartlett', 'iaa', 'nomp', 'maximum-likelihood'], {
+      close: 1e-6,
+    });
+    console.log(javascript, commandLine);
   },
 );
 
@@ -107,7 +113,187 @@ browserTest(
   'code: angle lab, noise alone and a network',
   { path: '#/angle?array=lrr48&targets=-&snapshots=1&methods=bartlett,learned-pursuit,aaetr&sources=known' },
   async ({ page }) => {
-    const { javascript, commandLine } = await checkAngle(page, ['bartlett', 'aaetr', 'learned-pursuit'], { close: 1e-4 });
-  console.log(javascript, commandLine);
+    const { javascript, commandLine } = await checkAngle(page, ['bartlett', 'aaetr', 'learned-pursuit'], {
+      close: 1e-4,
+    });
+    console.log(javascript, commandLine);
+  },
+);
+
+const near = (a, b, close) => Math.abs(a - b) <= close;
+
+/** Of a capture: detections, the cell's angles, the board's objects and regions. */
+async function checkCapture(page, { cells, close = 0 }) {
+  await page.waitForSelector('[data-table="detections"] [data-field="rangeM"][data-value]', { timeout: 60_000 });
+  await page.waitForFunction(
+    (names) =>
+      names.every((name) => {
+        const row = document.querySelector(`[data-table="cell"] [data-row="${name}"]`);
+        return row && !row.classList.contains('stale') && row.querySelector('[data-value]');
+      }),
+    cells,
+    { timeout: 60_000 },
+  );
+  const table = await page
+    .locator('[data-table="detections"] tr[data-detection]:not([data-detection="board"])')
+    .evaluateAll((rows) =>
+      rows.map((row) =>
+        Object.fromEntries(
+          [...row.querySelectorAll('[data-field][data-value]')].map(({ dataset }) => [
+            dataset.field,
+            Number(dataset.value),
+          ]),
+        ),
+      ),
+    );
+  const cell = await tableOf(page, 'cell');
+  const code = await codeOf(page);
+  console.log(code.javascript, code.commandLine);
+  const printed = linesBy(await runScript(code.javascript.text));
+  const detections = printed.get('detection') ?? [];
+  assert.equal(detections.length, table.length);
+  assert.ok(table.length > 0);
+  const [listed] = await runCommands(code.commandLine.text);
+  assert.equal(listed.length, table.length);
+  for (const { rangeM, rateMps, azimuthDeg, powerDb, snrDb } of table) {
+    const same = detections.find(([range, rate, azimuth]) => range === rangeM && rate === rateMps && azimuth === azimuthDeg);
+    assert.ok(same, `a detection at ${rangeM} m, ${azimuthDeg} degrees`);
+    assert.deepEqual(same.slice(-2), [powerDb, snrDb]);
+    const told = listed.find(
+      (row) => near(row.rangeM, rangeM, close) && near(row.rateMps, rateMps, close) && near(row.azimuthDeg, azimuthDeg, close),
+    );
+    assert.ok(told, `the command line has a detection at ${rangeM} m, ${azimuthDeg} degrees`);
+    assert.ok(near(told.powerDb, powerDb, close) && near(told.snrDb, snrDb, close));
+  }
+  for (const method of cells) {
+    const [{ value }] = cell[method].filter(({ field }) => field === 'azimuth');
+    assert.equal(printed.get(method)[0][0], value, method);
+  }
+  return { code, printed };
+}
+
+browserTest('code: capture as it opens', { path: '#/capture' }, async ({ page }) => {
+  await checkCapture(page, { cells: ['bartlett', 'capon', 'iaa'], close: 1e-6 });
+});
+
+browserTest(
+  'code: one frame of the capture with many settings',
+  {
+    path: '#/capture?frame=3&window=blackman&rangePadding=2&dopplerPadding=4&cfar=ordered-statistic&rank=0.6&falseAlarm=1e-4&guardRange=3&grouping=0&nearest=1&sector=60&angle=iaa&methods=bartlett,nomp&sources=2&refine=1&cell=60:30',
+  },
+  async ({ page }) => {
+    await checkCapture(page, { cells: ['bartlett', 'nomp'], close: 1e-4 });
+  },
+);
+
+browserTest('code: regions of the capture', { path: '#/capture?regions=1&frame=0&methods=bartlett' }, async ({ page }) => {
+  await page.waitForSelector('[data-region]', { timeout: 60_000 });
+  const shown = await page.locator('[data-region]').evaluateAll((rows) =>
+    rows.map((row) => {
+      const of = (field) => row.querySelector(`[data-field="${field}"]`).dataset.value;
+      return [Number(of('rangeM')), Number(of('coarse')), Number(of('sources')), ...of('azimuths').split(',').filter(Boolean).map(Number)];
+    }),
+  );
+  const { code, printed } = await checkCapture(page, { cells: ['bartlett'], close: 1e-6 });
+  assert.deepEqual(printed.get('region'), shown);
+  const told = (await runCommands(code.commandLine.text)).at(-1);
+  console.log(JSON.stringify(told).slice(0, 600));
+});
+
+const BIRDSEYE = ['outsideDb', 'peakOutsideDb', 'litOutside', 'litTargets', 'cells', 'sources', 'unresolved', 'outside'];
+
+async function checkBirdseye(page, methods, fields = BIRDSEYE) {
+  await page.waitForFunction(
+    (names) =>
+      names.every((name) => {
+        const row = document.querySelector(`[data-table="results"] [data-row="${name}"]`);
+        return row && !row.classList.contains('stale') && row.querySelector('[data-value]');
+      }),
+    methods,
+    { timeout: 80_000 },
+  );
+  const table = await tableOf(page, 'results');
+  const code = await codeOf(page);
+  console.log(code.javascript, code.commandLine);
+  const printed = linesBy(await runScript(code.javascript.text));
+  for (const method of methods) {
+    const shown = fields.map((name) => table[method].find(({ field }) => field === name).value);
+    assert.deepEqual(printed.get(method), [shown], method);
+  }
+  const told = code.commandLine.text ? await runCommands(code.commandLine.text) : [];
+  for (const [i, [row]] of told.entries()) {
+    console.log(row, printed.get(methods[i]));
+  }
+  return code;
+}
+
+browserTest('code: bird’s eye as it opens', { path: '#/birdseye' }, async ({ page }) => {
+  await checkBirdseye(page, ['bartlett', 'iaa', 'nomp']);
+});
+
+browserTest(
+  'code: bird’s eye with many settings',
+  { path: '#/birdseye?seed=3&speed=4&radars=left,right&methods=capon,learned-pursuit&falseAlarm=1e-4&grouping=1&gate=2&reach=40&from=targets&refine=1' },
+  async ({ page }) => {
+    await checkBirdseye(page, ['capon', 'learned-pursuit']);
+  },
+);
+
+browserTest('code: bird’s eye of the capture', { path: '#/birdseye?source=capture&frame=2&methods=bartlett,iaa' }, async ({ page }) => {
+  await checkBirdseye(page, ['bartlett', 'iaa'], BIRDSEYE.slice(4));
+});
+
+const MOUNTING = ['angleDeg', 'sigmaDeg', 'converged', 'misaligned', 'scale', 'scaleSigma', 'biasDegps', 'biasSigmaDegps', 'inlierShare', 'used'];
+
+async function checkMounting(page, ways, { close = 0 } = {}) {
+  await page.waitForFunction(
+    (names) =>
+      names.every((name) => {
+        const row = document.querySelector(`[data-table="results"] [data-row="${name}"]`);
+        return row && !row.classList.contains('stale') && row.querySelector('[data-value]');
+      }),
+    ways,
+    { timeout: 80_000 },
+  );
+  const rows = await page
+    .locator('[data-table="results"] [data-row]')
+    .evaluateAll((all) => all.map((row) => [row.dataset.row, [...row.querySelectorAll('[data-field][data-value]')].map(({ dataset }) => [dataset.field, dataset.value])]));
+  const table = {};
+  for (const [name, cells] of rows) table[name] = { ...table[name], ...Object.fromEntries(cells) };
+  const code = await codeOf(page);
+  console.log(code.javascript, code.commandLine);
+  const printed = linesBy(await runScript(code.javascript.text));
+  for (const way of ways) {
+    const [values] = printed.get(way);
+    for (const [i, field] of MOUNTING.entries())
+      if (table[way][field] !== undefined) assert.equal(String(values[i]), table[way][field], `${way}: ${field}`);
+  }
+  const told = code.commandLine.text ? await runCommands(code.commandLine.text) : [];
+  for (const [i, row] of told.entries()) {
+    for (const field of ['angleDeg', 'sigmaDeg', 'scale']) {
+      const difference = Math.abs(row[field] - Number(table[ways[i]][field]));
+      assert.ok(!(difference > close), `${ways[i]}: ${field} differs by ${difference}`);
+    }
+  }
+  return code;
+}
+
+browserTest('code: mounting as it opens', { path: '#/mounting' }, async ({ page }) => {
+  await checkMounting(page, ['recursive', 'weighted-mean', 'least-squares'], { close: 1e-9 });
+});
+
+browserTest(
+  'code: mounting of a simulated drive',
+  { path: '#/mounting?source=simulated&scenario=country-road&seed=7&duration=40&misalignment=-2&sensor=2&methods=recursive,kabsch,joint&alarm=0.5&maxYawRate=60&inlierRatio=0.4' },
+  async ({ page }) => {
+    await checkMounting(page, ['recursive', 'kabsch', 'joint'], { close: 1e-3 });
+  },
+);
+
+browserTest(
+  'code: mounting with a network',
+  { path: '#/mounting?source=simulated&seed=1&duration=20&methods=weighted-mean,recursive&motion=deepego-plus&profile=radarscenes' },
+  async ({ page }) => {
+    await checkMounting(page, ['recursive', 'weighted-mean'], { close: 1e-3 });
   },
 );

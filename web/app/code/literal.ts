@@ -51,8 +51,8 @@ function partsOf(value: unknown): { open: string; close: string; parts: Part[]; 
   if (typeof value !== 'object' || value === null || value instanceof Expression) return null;
   const parts = Object.entries(value).flatMap(([name, one]): Part[] => {
     if (one === undefined) return [];
-    // A variable of the same name needs no second mention.
-    if (one instanceof Expression && one.text === name) return [['', one]];
+    // A variable of the same name needs no second mention, and what is spread has none.
+    if (one instanceof Expression && (one.text === name || one.text.startsWith('...'))) return [['', one]];
     return [[`${key(name)}: `, one]];
   });
   return { open: '{', close: '}', parts, space: ' ' };
@@ -85,7 +85,11 @@ export function literal(
   const inner = indent + STEP;
   // Short parts without names share lines.
   const flat = space === '' && parts.every(([, one]) => !(one instanceof Object) || single(one).length <= 24);
-  if (flat) return `${open}\n${filled(parts.map(([, one]) => single(one)), inner)}\n${indent}${close}`;
+  if (flat)
+    return `${open}\n${filled(
+      parts.map(([, one]) => single(one)),
+      inner,
+    )}\n${indent}${close}`;
   const lines = parts.map(
     ([name, one]) => `${inner}${name}${literal(one, { indent: inner, before: inner.length + name.length })},`,
   );
@@ -107,7 +111,10 @@ function filled(parts: readonly string[], indent: string): string {
 export function call(start: string, values: readonly unknown[], end = ';', indent = ''): string {
   const line = `${indent}${start}(${values.map(single).join(', ')})${end}`;
   if (line.length <= COLUMNS) return line;
-  const first = values.slice(0, -1).map((one) => `${single(one)}, `).join('');
+  const first = values
+    .slice(0, -1)
+    .map((one) => `${single(one)}, `)
+    .join('');
   const head = `${indent}${start}(${first}`;
   if (head.length <= COLUMNS - 2) {
     const last = literal(values.at(-1), { indent, before: head.length, after: 1 + end.length });

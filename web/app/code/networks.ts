@@ -52,7 +52,7 @@ export class NetworkCode {
     script.use('boresight/neural', 'initNeural', 'Network').use('node:fs/promises', 'readFile');
     script.add('await initNeural();');
     if (models.some((model) => placeOf(model) === 'package'))
-      script.add('const packaged = (file) => readFile(new URL(import.meta.resolve(`boresight/models/${file}`)));');
+      script.add("const packaged = (file) => readFile(new URL(import.meta.resolve('boresight/models/' + file)));");
   }
 
   /** Opens one with options; gives the name of its variable. */

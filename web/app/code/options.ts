@@ -45,10 +45,13 @@ function without({ properties = {}, required = [] }: Schema, options: Options, k
 const written = (value: unknown): string =>
   Array.isArray(value) ? value.map(written).join(',') : typeof value === 'number' ? numeral(value) : String(value);
 
-/** Words of the command line for options of a record that are not as they are by default; `keep` is given anyway. */
-export function flags(name: string, options: object, keep: readonly string[] = []): string[] {
+/**
+ * Words of the command line for options of a record that are not as they are by default; `keep` is given anyway. `prefix`
+ * is what the flags of all begin with.
+ */
+export function flags(name: string, options: object, keep: readonly string[] = [], prefix = ''): string[] {
   const schema = recordAt(name);
-  return flagsOf(schema, without(schema, options as Options, keep), '', name);
+  return flagsOf(schema, without(schema, options as Options, keep), prefix, name);
 }
 
 function flagsOf({ properties = {} }: Schema, options: Options, before: string, name: string): string[] {
@@ -58,7 +61,8 @@ function flagsOf({ properties = {} }: Schema, options: Options, before: string, 
     if (!schema || own === undefined) throw new Error(`${name} have no ${key} on the command line`);
     const flag = before + own;
     if (schema.properties && isRecord(value)) return flagsOf(schema, value, `${flag}-`, `${name}.${key}`);
-    if (typeof value === 'boolean') return value === (schema.default === true) ? [] : [value ? `--${flag}` : `--no-${flag}`];
+    if (typeof value === 'boolean')
+      return value === (schema.default === true) ? [] : [value ? `--${flag}` : `--no-${flag}`];
     return flagged(flag, written(value));
   });
 }

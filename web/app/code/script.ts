@@ -39,7 +39,9 @@ export class Script {
       .map(([module, names]) => {
         const sorted = [...names].sort((a, b) => (a.toLowerCase() < b.toLowerCase() ? -1 : 1));
         const line = `import { ${sorted.join(', ')} } from '${module}';`;
-        return line.length <= COLUMNS ? line : `import {\n${sorted.map((name) => `  ${name},\n`).join('')}} from '${module}';`;
+        return line.length <= COLUMNS
+          ? line
+          : `import {\n${sorted.map((name) => `  ${name},\n`).join('')}} from '${module}';`;
       });
     return `${[...imports, '', ...this.#lines].join('\n')}\n`;
   }

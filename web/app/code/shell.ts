@@ -23,7 +23,8 @@ export function command(words: readonly string[], after = ''): string {
     const line = lines[lines.length - 1] as string;
     const value = words[i + 1];
     // A value stays beside its flag.
-    const along = word.startsWith('--') && value !== undefined && !value.startsWith('-') ? shellWord(value).length + 1 : 0;
+    const along =
+      word.startsWith('--') && value !== undefined && !value.startsWith('-') ? shellWord(value).length + 1 : 0;
     const joined = line === '' ? text : `${line} ${text}`;
     if (line !== '' && joined.length + along + 2 > COLUMNS && !isValue(words, i)) lines.push(`  ${text}`);
     else lines[lines.length - 1] = joined;

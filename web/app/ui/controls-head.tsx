@@ -31,15 +31,7 @@ async function copyLink(): Promise<void> {
 const typing = (target: EventTarget | null): boolean =>
   target instanceof HTMLInputElement && target.type === 'text' && document.activeElement === target;
 
-export function ControlsHead({
-  but = '',
-  code,
-  onDefaults,
-}: {
-  but?: string;
-  code?: CodeSource;
-  onDefaults(): void;
-}) {
+export function ControlsHead({ but = '', code, onDefaults }: { but?: string; code: CodeSource; onDefaults(): void }) {
   useEffect(() => {
     const key = (event: KeyboardEvent): void => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey || typing(event.target)) return;
@@ -94,7 +86,7 @@ export function ControlsHead({
           type="button"
           data-action="show-code"
           title="What this page shows as a script for Node and as commands, which give the same numbers"
-          onClick={() => code && void showCode(code)}
+          onClick={() => void showCode(code)}
         >
           {codeProblem.value ? 'Not loaded' : 'Copy as code'}
         </button>

@@ -73,7 +73,11 @@ function javascript(made: Scene, lacks: readonly string[]): Part {
     });
     script.add("console.log('bound', ...bound.azimuthDeg);");
   }
-  if (shown.length) printer(script, shown.some(({ model }) => model));
+  if (shown.length)
+    printer(
+      script,
+      shown.some(({ model }) => model),
+    );
   const plain = shown.filter(({ model }) => !model);
   if (plain[0]) {
     script.use('boresight', 'estimate').add('');
@@ -136,7 +140,11 @@ function commandLine(made: Scene, lacks: readonly string[]): Part {
   const models = shown.flatMap(({ model }) => model ?? []);
   return {
     text: `${lines.join('\n')}\n`,
-    needs: [NEEDS.program, modelNeeds(models), `It writes ${[file, DATA].filter(Boolean).join(', ')} and snapshots.json.`]
+    needs: [
+      NEEDS.program,
+      modelNeeds(models),
+      `It writes ${[file, DATA].filter(Boolean).join(', ')} and snapshots.json.`,
+    ]
       .filter(Boolean)
       .join(' '),
     lacks: [...lacks, ...(made.bound?.length ? ['The bound is not on the command line.'] : [])],
