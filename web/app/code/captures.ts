@@ -1,7 +1,7 @@
 /** Captures in code: where their files are, and how they are opened. */
 import type { Loaded } from '../pages/capture/files.ts';
 import { isStudio } from '../pages/capture/studio.ts';
-import { NEEDS } from './code.ts';
+import { inRepository, NEEDS } from './code.ts';
 import { quoted } from './literal.ts';
 import type { Script } from './script.ts';
 import { command, fileWord, heredoc, shellWord } from './shell.ts';
@@ -24,7 +24,7 @@ function namesOf({ files, bundled }: Loaded): Names {
 
 /** What a capture needs in words. */
 export function captureNeeds(capture: Loaded): string {
-  if (capture.bundled) return NEEDS.repository(`The recording (${FOLDER}) is`);
+  if (capture.bundled) return inRepository('the recording', FOLDER);
   const { bin, cfg, dat } = namesOf(capture);
   return NEEDS.own([...bin, cfg, dat].filter((name) => name !== null));
 }

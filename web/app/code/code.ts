@@ -21,11 +21,20 @@ export function nothing(why: string): Code {
   return { javascript: part, commandLine: part };
 }
 
-/** Sentences of what is needed. */
+/** What code may need, in sentences. */
 export const NEEDS = {
   package: 'Node 20 or newer and the package: npm install boresight.',
   program: 'The command line of Boresight (boresight), in bash.',
-  repository: (files: string): string => `${files} from the Boresight repository; run it in the repository’s root.`,
+  root: 'Run it in the root of the Boresight repository',
   own: (names: readonly string[]): string =>
     `Your ${names.length > 1 ? 'files' : 'file'} ${names.join(', ')} in the folder you run it in.`,
 } as const;
+
+/** What is in a folder of the repository. */
+export const inRepository = (what: string, folder: string): string => `${NEEDS.root}, for ${what} in ${folder}.`;
+
+/** Sentences as one paragraph, each once. */
+export const sentences = (...all: readonly string[]): string => [...new Set(all.filter(Boolean))].join(' ');
+
+/** A script or commands. */
+export const textOf = (lines: readonly string[]): string => (lines.length ? `${lines.join('\n')}\n` : '');

@@ -1,7 +1,7 @@
 /** Networks in code: where their files are, and how they are opened. */
 import { files } from '../../../package.json';
 import type { Model } from '../networks/models.ts';
-import { NEEDS } from './code.ts';
+import { inRepository, NEEDS, sentences } from './code.ts';
 import { expression, quoted } from './literal.ts';
 import type { Script } from './script.ts';
 import { fileWord } from './shell.ts';
@@ -32,10 +32,10 @@ export function modelWords(model: Model, flag = 'model'): string[] {
 /** What networks need on the command line. */
 export function modelNeeds(models: readonly Model[]): string {
   const own = models.filter(({ address }) => !address).map((model) => filesOf(model).onnx);
-  return [
-    ...(own.length < models.length ? [NEEDS.repository('Networks (models/) are')] : []),
-    ...(own.length ? [NEEDS.own(own)] : []),
-  ].join(' ');
+  return sentences(
+    own.length < models.length ? inRepository('networks', 'models/') : '',
+    own.length ? NEEDS.own(own) : '',
+  );
 }
 
 /** The networks of a script. */

@@ -1,6 +1,6 @@
 /** The present scene of the angle lab as code. */
 import type { EstimatorOptions, Method, SnapshotTarget } from 'boresight';
-import { type Code, NEEDS, nothing, type Part } from '../../code/code.ts';
+import { type Code, NEEDS, nothing, type Part, sentences, textOf } from '../../code/code.ts';
 import { expression } from '../../code/literal.ts';
 import { modelNeeds, modelWords, NetworkCode } from '../../code/networks.ts';
 import { flags, pairs, withoutDefaults } from '../../code/options.ts';
@@ -93,7 +93,7 @@ function javascript(made: Scene, lacks: readonly string[]): Part {
     const network = networks.open(model, { array: expression('array'), ...options });
     script.add(`print('${method}', ${network}.estimate({ snapshots }));`);
   }
-  return { text: script.text(), needs: [NEEDS.package, networks.needs()].filter(Boolean).join(' '), lacks };
+  return { text: script.text(), needs: sentences(NEEDS.package, networks.needs()), lacks };
 }
 
 /** A line for each source; networks may state deviations too. */
@@ -138,15 +138,10 @@ function commandLine(made: Scene, lacks: readonly string[]): Part {
     ),
   ];
   const models = shown.flatMap(({ model }) => model ?? []);
+  const files = [file, DATA, 'snapshots.json'].filter(Boolean);
   return {
-    text: `${lines.join('\n')}\n`,
-    needs: [
-      NEEDS.program,
-      modelNeeds(models),
-      `It writes ${[file, DATA].filter(Boolean).join(', ')} and snapshots.json.`,
-    ]
-      .filter(Boolean)
-      .join(' '),
+    text: textOf(lines),
+    needs: sentences(NEEDS.program, modelNeeds(models), `It writes ${files.join(', ')}.`),
     lacks: [...lacks, ...(made.bound?.length ? ['The bound is not on the command line.'] : [])],
   };
 }

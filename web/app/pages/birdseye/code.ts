@@ -1,7 +1,7 @@
 /** The bird's-eye images as code: how clean they are, and what they are made of. */
 import type { Gate, ImageFrom, Method } from 'boresight';
 import { captureNeeds, openCapture } from '../../code/captures.ts';
-import { type Code, NEEDS, nothing, type Part } from '../../code/code.ts';
+import { type Code, NEEDS, nothing, type Part, sentences, textOf } from '../../code/code.ts';
 import { expression, literal } from '../../code/literal.ts';
 import { modelNeeds, modelWords, NetworkCode } from '../../code/networks.ts';
 import { flags, withoutDefaults } from '../../code/options.ts';
@@ -9,6 +9,7 @@ import { Script } from '../../code/script.ts';
 import { command } from '../../code/shell.ts';
 import { api } from '../../data.ts';
 import type { Model } from '../../networks/models.ts';
+import type { Loaded } from '../capture/files.ts';
 import { chainOptions, grid, type Input, input, type Radar, shownRadars, streetOptions } from './input.ts';
 import { imageOptions, images, networkFor } from './process.ts';
 import { type BirdseyeState, birdseyeCodec, birdseyeState } from './state.ts';
@@ -43,7 +44,7 @@ export function birdseyeCode(): Code {
     if (image.problem || (looked.street && !image.gate)) return [];
     const { from, angle = {} } = imageOptions(info.name, first, state);
     // The radar says its field of view.
-    const { fieldOfViewDeg: _, ...rest } = angle;
+    const { method: _, fieldOfViewDeg: __, ...rest } = angle;
     return [
       {
         method: info.name,
@@ -68,47 +69,65 @@ export function birdseyeCode(): Code {
 
 const modelsOf = (list: readonly Image[]): Model[] => [...new Set(list.flatMap(({ model }) => model ?? []))];
 
+/** Of the image, where the truth is known. */
+const MEASURES = ['outsideDb', 'peakOutsideDb', 'litOutside', 'litTargets'];
+
 function javascript(made: Made): Part {
   const { state, looked, radars, list, lacks } = made;
   const [first] = radars as [Radar];
-  const script = new Script().use('boresight', 'init', 'birdsEyeView', 'imagePlan', 'rangeAzimuthMap');
+  const script = new Script().use('boresight', 'birdsEyeView', 'imagePlan', 'init', 'rangeAzimuthMap');
   script.add('await init();');
   const networks = new NetworkCode(script, modelsOf(list));
-  const isPlain = list.some(({ model }) => !model);
-  if (isPlain) script.use('boresight', 'Estimator');
   script.add('');
   const { waveform: _, array: __, ...chain } = chainOptions(first, state);
   const detection = withoutDefaults('DetectionOptions', chain);
   if (looked.street) street(script, made, detection);
-  else capture(script, made, detection);
+  else if (looked.capture) capture(script, made, looked.capture, detection);
   script.constant('grid', grid.peek());
-  const measures = looked.street ? ['outsideDb', 'peakOutsideDb', 'litOutside', 'litTargets'] : [];
-  if (looked.street) script.use('boresight', 'sidelobeMeasure');
+  if (looked.street) script.use('boresight', 'sidelobeMeasure').constant('gate', list[0]?.gate);
+  imageFunction(script, looked.street !== null, list);
+  script.add('');
+  script.call('console.log', 'method', ...(looked.street ? MEASURES : []), ...COUNTS);
+  for (const { method, from, angle, model } of list)
+    script.call('image', method, from, angle, ...(model ? [expression(networks.open(model))] : []));
+  const own = looked.capture ? captureNeeds(looked.capture) : '';
+  return { text: script.text(), needs: sentences(NEEDS.package, own, networks.needs()), lacks };
+}
+
+const COUNTS = ['cells', 'directions', 'unresolved', 'offMap'];
+
+/** The function that makes an image, and prints how clean it is. */
+function imageFunction(script: Script, measured: boolean, list: readonly Image[]): void {
   const isNetwork = list.some(({ model }) => model);
+  const estimator = list.every(({ model }) => model) ? 'network' : 'network ?? new Estimator(plan.estimator)';
+  if (list.some(({ model }) => !model)) script.use('boresight', 'Estimator');
   script.add(
     '',
-    `function image(method, from, options${looked.street ? ', gate' : ''}${isNetwork ? ', network' : ''}) {`,
+    `function image(method, from, options${isNetwork ? ', network' : ''}) {`,
     '  const parts = frames.map(({ radar, cells }) => {',
     '    const { waveform, array, fieldOfViewDeg, mounting } = radar;',
     '    const angle = { method, ...options, fieldOfViewDeg };',
     '    const plan = imagePlan({ waveform, array, from, angle, grid: { fieldOfViewDeg } });',
     ...(isNetwork
-      ? [
-          '    network?.setOptions(plan.estimator);',
-          `    const estimator = network${isPlain ? ' ?? new Estimator(plan.estimator)' : ''};`,
-        ]
+      ? ['    network?.setOptions(plan.estimator);', `    const estimator = ${estimator};`]
       : ['    const estimator = new Estimator(plan.estimator);']),
-    '    const spectra = api_spectra;'.replace('api_spectra', "plan.from === 'spectra'"),
+    "    const spectra = plan.from === 'spectra';",
     '    const estimates = estimator.estimateBatch({ snapshots: cells.snapshots }, { spectra });',
-    isNetwork ? '    if (estimator !== network) estimator.free();' : '    estimator.free();',
+    `    ${isNetwork ? 'if (estimator !== network) ' : ''}estimator.free();`,
     '    const map = rangeAzimuthMap({ cells, estimates, from: plan.from, grid: plan.grid });',
-    '    return { map, mounting, cells, estimates };',
+    '    return { map, mounting, estimates };',
     '  });',
     '  const view = birdsEyeView({ radars: parts.map(({ map, mounting }) => ({ map, mounting })), grid });',
+  );
+  if (measured) {
+    script.add('  const measure = sidelobeMeasure(view, seen, gate);');
+    script.add(`  const measures = [${MEASURES.map((name) => `'${name}'`).join(', ')}].map((name) => measure[name]);`);
+  }
+  script.add(
     '  const sum = (of) => parts.reduce((total, part) => total + of(part), 0);',
     '  console.log(',
     '    method,',
-    ...(looked.street ? ['    ...measured(view, gate),'] : []),
+    ...(measured ? ['    ...measures,'] : []),
     '    sum(({ estimates }) => estimates.cells),',
     '    sum(({ estimates }) => estimates.cell.length),',
     '    sum(({ estimates }) => estimates.unresolved),',
@@ -117,21 +136,6 @@ function javascript(made: Made): Part {
     '  return view;',
     '}',
   );
-  if (looked.street)
-    script.add(
-      'function measured(view, gate) {',
-      `  const { ${measures.join(', ')} } = sidelobeMeasure(view, seen, gate);`,
-      `  return [${measures.join(', ')}];`,
-      '}',
-    );
-  script.add('');
-  script.call('console.log', 'method', ...measures, 'cells', 'directions', 'unresolved', 'offMap');
-  for (const { method, from, angle, gate, model } of list) {
-    const network = model ? [expression(networks.open(model))] : [];
-    script.call('image', method, from, angle, ...(looked.street ? [gate] : []), ...network);
-  }
-  const needs = [NEEDS.package, looked.capture ? captureNeeds(looked.capture) : '', networks.needs()];
-  return { text: script.text(), needs: needs.filter(Boolean).join(' '), lacks };
 }
 
 function street(script: Script, { state, radars }: Made, detection: object): void {
@@ -141,12 +145,13 @@ function street(script: Script, { state, radars }: Made, detection: object): voi
     'names',
     radars.map(({ name }) => name),
   );
-  const chain = literal({ waveform: expression('waveform'), array: expression('array'), ...detection }, { before: 40 });
+  const chain = { waveform: expression('waveform'), array: expression('array'), ...detection };
+  const start = '  const chain = ';
   script.add(
     'const frames = names.map((name) => {',
     '  const { cube, radar, targets } = simulateStreet({ ...street, radar: name });',
     '  const { waveform, array } = radar;',
-    `  const chain = ${chain.replaceAll('\n', '\n  ')};`,
+    `${start}${literal(chain, { indent: '  ', before: start.length })};`,
     '  return { radar, targets, cells: frameCells(cube, chain) };',
     '});',
     '// Points that some radar sees count once.',
@@ -156,14 +161,15 @@ function street(script: Script, { state, radars }: Made, detection: object): voi
   );
 }
 
-function capture(script: Script, { state, looked, radars }: Made, detection: object): void {
+function capture(script: Script, { state, radars }: Made, open: Loaded, detection: object): void {
   const [radar] = radars as [Radar];
-  if (!looked.capture) return;
-  openCapture(script, looked.capture);
-  const { info } = looked.capture;
-  script.add('const { waveform } = capture.info.config;');
-  script.add(info.config.array ? 'const { array } = capture.info.config;' : 'const { tx, rx } = capture.info.array;');
-  if (!info.config.array) script.add('const array = { tx, rx };');
+  openCapture(script, open);
+  const { info } = open;
+  if (info.config.array) script.add('const { waveform, array } = capture.info.config;');
+  else {
+    script.add('const { waveform } = capture.info.config;', 'const { tx, rx } = capture.info.array;');
+    script.add('const array = { tx, rx };');
+  }
   script.add('// A capture says nothing of a car: its radar stands at the origin.');
   script.constant('radar', {
     waveform: expression('waveform'),
@@ -206,9 +212,10 @@ function streetCommands({ state, radars, list, lacks }: Made): Part {
     ]),
   );
   return {
-    text: lines.length ? `${lines.join('\n')}\n` : '',
-    needs: [NEEDS.program, modelNeeds(models)].filter(Boolean).join(' '),
+    text: textOf(lines),
+    needs: sentences(NEEDS.program, modelNeeds(models)),
     lacks: [
+      'The command line looks for directions up to 90° to each side, the page within the field of view of each radar: measures differ in the last digits.',
       'The command line does not tell how many directions there are, nor how many cells are unresolved.',
       ...lacks,
     ],

@@ -1,7 +1,7 @@
 /** The shown frame of the capture as code. */
 import type { AngleOptions, ChainOptions, Method } from 'boresight';
 import { boardLogName, captureNeeds, captureWords, openCapture } from '../../code/captures.ts';
-import { type Code, NEEDS, nothing, type Part } from '../../code/code.ts';
+import { type Code, NEEDS, nothing, type Part, sentences, textOf } from '../../code/code.ts';
 import { expression, quoted } from '../../code/literal.ts';
 import { modelNeeds, modelWords, NetworkCode } from '../../code/networks.ts';
 import { flags, withoutDefaults } from '../../code/options.ts';
@@ -103,14 +103,17 @@ function javascript(made: Made): Part {
     script.add(
       `const { detections } = capture.${frame === 'all' ? 'combineFrames(chain)' : `processFrame(${frame}, chain)`};`,
     );
-  script.call('console.log', 'detections', ...ROW);
-  script.add(`for (const { ${ROW.join(', ')} } of detections)`, `  console.log('detection', ${ROW.join(', ')});`);
+  script.constant('columns', ROW);
+  script.add(
+    "console.log('detection', ...columns);",
+    "for (const row of detections) console.log('detection', ...columns.map((name) => row[name]));",
+  );
   const log = boardLogName(capture);
   const index = boardIndex(state);
   if (log !== null && index !== null) {
     script.use('boresight', 'parseBoardLog');
     script.add('', '// What the board itself reported.');
-    script.add(`const { frames } = parseBoardLog(await readFile(${quoted(log)}), cfg);`);
+    script.add(`const dat = await readFile(${quoted(log)});`, 'const { frames } = parseBoardLog(dat, cfg);');
     script.add(`for (const { rangeM, rateMps, azimuthDeg } of frames[${index}].objects)`);
     script.add("  console.log('board', rangeM, rateMps, azimuthDeg);");
   }
@@ -126,7 +129,13 @@ function javascript(made: Made): Part {
       ...['bin', 'cfg', 'regionOptions', String(at)].map((name) => `  ${name},`),
       ');',
       'for (const { rangeM, coarseAzimuthDeg, sources, targets } of regions)',
-      "  console.log('region', rangeM, coarseAzimuthDeg, sources, ...targets.map(({ azimuthDeg }) => azimuthDeg));",
+      '  console.log(',
+      "    'region',",
+      '    rangeM,',
+      '    coarseAzimuthDeg,',
+      '    sources,',
+      '    ...targets.map(({ azimuthDeg }) => azimuthDeg),',
+      '  );',
     );
   }
   return { text: script.text(), needs: sentences(NEEDS.package, captureNeeds(capture), networks.needs()), lacks };
@@ -148,7 +157,8 @@ function cells(script: Script, { cell, angle, methods, chain }: Made, networks: 
     const more = Object.keys(options).length;
     if (more) script.constant('angle', options);
     script.add(
-      `for (const method of methods) print(method, capture.cellSpectrum(cell, { method${more ? ', ...angle' : ''} }, chain));`,
+      'for (const method of methods)',
+      `  print(method, capture.cellSpectrum(cell, { method${more ? ', ...angle' : ''} }, chain));`,
     );
   }
   for (const { method, model } of methods) {
@@ -165,8 +175,6 @@ function boardIndex({ board }: CaptureState): number | null {
   if (!frames) return null;
   return board === 'last' ? frames - 1 : Math.min(Number(board), frames - 1);
 }
-
-const sentences = (...parts: string[]): string => parts.filter(Boolean).join(' ');
 
 function commandLine(made: Made): Part {
   const { shown, state, model, methods, lacks } = made;
@@ -201,7 +209,7 @@ function commandLine(made: Made): Part {
   }
   const used = [...(model ? [model] : []), ...(made.trio ? Object.values(made.trio.networks) : [])];
   return {
-    text: `${lines.join('\n')}\n`,
+    text: textOf(lines),
     needs: sentences(NEEDS.program, captureNeeds(capture), modelNeeds(used)),
     lacks: [
       ...(methods.length ? ['The command line estimates no angles in a cell of one’s own choice.'] : []),

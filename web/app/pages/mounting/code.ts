@@ -1,5 +1,5 @@
 /** The mounting angles of the drive as code. */
-import { type Code, NEEDS, nothing, type Part } from '../../code/code.ts';
+import { type Code, inRepository, NEEDS, nothing, type Part, sentences, textOf } from '../../code/code.ts';
 import { expression, quoted } from '../../code/literal.ts';
 import { flags, withoutDefaults } from '../../code/options.ts';
 import { Script } from '../../code/script.ts';
@@ -69,7 +69,7 @@ const isMapped = ({ files, own }: Loaded): boolean =>
 
 function driveNeeds(open: Loaded): string {
   if (open.source === 'simulated') return '';
-  if (open.source === 'delphi') return NEEDS.repository(`The drive (${FOLDER}) is`);
+  if (open.source === 'delphi') return inRepository('the drive', FOLDER);
   const names = namesOf(open);
   return isMapped(open)
     ? `Your tables with the columns that you chose, as ${names.join(', ')}: save the session, a ZIP archive with both in its folder mounting.`
@@ -111,13 +111,11 @@ function javascript({ state, open, options, ways, lacks }: Made): Part {
     ...withoutDefaults('CalibrationOptions', all, PLACE),
     ...(withNetwork ? { network: expression('network') } : {}),
   });
-  script.call('console.log', 'method', ...FOUND, 'used');
+  script.constant('found', FOUND);
   script.add(
-    'function print(method, { result }) {',
-    `  const { ${FOUND.join(', ')}, frames } = result;`,
-    `  const found = [${FOUND.join(', ')}];`,
-    '  console.log(method, ...found, frames.used);',
-    '}',
+    "console.log('method', ...found, 'used');",
+    'const print = (method, { result }) =>',
+    '  console.log(method, ...found.map((name) => result[name]), result.frames.used);',
   );
   for (const way of ways) {
     const own = optionsOf(way, options);
@@ -136,11 +134,11 @@ function javascript({ state, open, options, ways, lacks }: Made): Part {
       ...(needsNetwork(own.motion) ? { network: expression('network') } : {}),
     });
     script.add(
-      'const found = jointCalibration(drive, together);',
-      `print('joint', found.find(({ sensor }) => sensor === ${options.sensor}));`,
+      'const all = jointCalibration(drive, together);',
+      `print('joint', all.find(({ sensor }) => sensor === ${options.sensor}));`,
     );
   }
-  const needs = [NEEDS.package, driveNeeds(open), networkNeeds(options)].filter(Boolean).join(' ');
+  const needs = sentences(NEEDS.package, driveNeeds(open), networkNeeds(options));
   return { text: script.text(), needs, lacks };
 }
 
@@ -188,15 +186,11 @@ function commandLine({ state, open, options, ways, lacks }: Made): Part {
       );
     }
   }
-  const needs = [
+  const needs = sentences(
     NEEDS.program,
     driveNeeds(open),
     networkNeeds(options),
     open.source === 'simulated' ? 'It writes the folder drive.' : '',
-  ];
-  return {
-    text: lines.length ? `${lines.join('\n')}\n` : '',
-    needs: needs.filter(Boolean).join(' '),
-    lacks: [...not, ...lacks],
-  };
+  );
+  return { text: textOf(lines), needs, lacks: [...not, ...lacks] };
 }

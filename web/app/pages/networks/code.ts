@@ -1,6 +1,6 @@
 /** The scene that a network is tried on, as code. */
 import type { SceneSampling } from 'boresight';
-import { type Code, NEEDS, nothing, type Part } from '../../code/code.ts';
+import { type Code, NEEDS, nothing, type Part, sentences, textOf } from '../../code/code.ts';
 import { expression } from '../../code/literal.ts';
 import { modelNeeds, modelWords, NetworkCode } from '../../code/networks.ts';
 import { flags, withoutDefaults } from '../../code/options.ts';
@@ -40,7 +40,7 @@ function begun(...names: string[]): Script {
   return new Script().use('boresight', 'init', ...names).add('await init();');
 }
 
-const needsOf = (networks: NetworkCode): string => [NEEDS.package, networks.needs()].filter(Boolean).join(' ');
+const needsOf = (networks: NetworkCode): string => sentences(NEEDS.package, networks.needs());
 
 function snapshotScript(model: Model, scene: Scene, lacks: string[]): Part {
   const { simulation, options, fieldOfViewDeg, beside, array: name } = snapshotCalls(model.card, scene);
@@ -90,8 +90,8 @@ function snapshotCommands(model: Model, scene: Scene, lacks: string[]): Part {
     estimate(model.card.network, ...modelWords(model), ...flags('SharedEstimatorOptions', { ...told, fieldOfViewDeg })),
     ...beside.map((method) => estimate(method, ...flags('SharedEstimatorOptions', told))),
   ];
-  const needs = [NEEDS.program, modelNeeds([model]), `It writes ${DATA} and snapshots.json, which has the truth.`];
-  return { text: `${lines.join('\n')}\n`, needs: needs.join(' '), lacks };
+  const written = `It writes ${DATA}, and snapshots.json, which has the truth.`;
+  return { text: textOf(lines), needs: sentences(NEEDS.program, modelNeeds([model]), written), lacks };
 }
 
 const NO_REGION: Part = {
