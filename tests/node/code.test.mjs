@@ -21,7 +21,7 @@ const HOSTILE = [
   'a "quoted" name',
   'line\nbreak.cfg',
   '`touch gone`',
-  '$(touch gone) $HOME ${x}',
+  '$(touch gone) $HOME $' + '{x}',
   '-rf',
   '--config',
   'back\\slash\\n',

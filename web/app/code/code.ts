@@ -6,7 +6,7 @@ export interface Part {
   text: string;
   /** What it needs beside itself. */
   needs: string;
-  /** What the page shows and this does not, in sentences. */
+  /** What the page shows and this does not, or otherwise, in sentences. */
   lacks: readonly string[];
 }
 

@@ -101,7 +101,7 @@ function OneWay({ part: { text, needs, lacks }, title }: { part: Part; title: st
     <>
       {needs && <p data-needs>{needs}</p>}
       {lacks.length > 0 && (
-        <ul class="lacks" aria-label="Not in this code">
+        <ul class="lacks" aria-label="Remarks on this code">
           {lacks.map((lack) => (
             <li key={lack}>{lack}</li>
           ))}

@@ -53,6 +53,14 @@ export function ControlsHead({ but = '', code, onDefaults }: { but?: string; cod
           showHelp.value = on;
         }}
       />
+      <button
+        type="button"
+        class="plain"
+        title={`Back to the settings a fresh visit starts with${but}`}
+        onClick={onDefaults}
+      >
+        Defaults
+      </button>
       <div class="row">
         <button
           type="button"
@@ -89,14 +97,6 @@ export function ControlsHead({ but = '', code, onDefaults }: { but?: string; cod
           onClick={() => void showCode(code)}
         >
           {codeProblem.value ? 'Not loaded' : 'Copy as code'}
-        </button>
-        <button
-          type="button"
-          class="plain"
-          title={`Back to the settings a fresh visit starts with${but}`}
-          onClick={onDefaults}
-        >
-          Defaults
         </button>
       </div>
     </div>

@@ -212,6 +212,7 @@ function commandLine(made: Made): Part {
     text: textOf(lines),
     needs: sentences(NEEDS.program, captureNeeds(capture), modelNeeds(used)),
     lacks: [
+      'Transforms are in single precision, and the command line plans them otherwise: angles may differ by some 0.01°, levels by some 0.01 dB, most by far less.',
       ...(methods.length ? ['The command line estimates no angles in a cell of one’s own choice.'] : []),
       ...lacks,
     ],
