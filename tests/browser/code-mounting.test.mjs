@@ -67,7 +67,7 @@ browserTest(
     timeout: 180_000,
   },
   async ({ page }) => {
-    await checkMounting(page, ['recursive', 'kabsch', 'joint'], 1e-3);
+    await checkMounting(page, ['recursive', 'kabsch', 'joint'], 1e-5);
   },
 );
 
@@ -78,7 +78,7 @@ browserTest(
     timeout: 180_000,
   },
   async ({ page }) => {
-    await checkMounting(page, ['recursive', 'weighted-mean'], 1e-3);
+    await checkMounting(page, ['recursive', 'weighted-mean'], 1e-5);
   },
 );
 

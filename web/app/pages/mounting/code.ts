@@ -159,7 +159,7 @@ function commandLine({ state, open, options, ways, lacks }: Made): Part {
         ...['--out', 'drive'],
       ]),
     );
-    not.push('The drive is written in single precision, as the format has it; the last digits differ by that.');
+    not.push('The drive is written in single precision, as the format has it: angles differ by some 0.000001°.');
   }
   const log = open.source === 'simulated' ? ['drive'] : namesOf(open).map(fileWord);
   for (const way of ways) {
