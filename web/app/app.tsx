@@ -1,6 +1,7 @@
 /** The shell: heading, pages, footer; loads the package before a page is shown. */
 import { useEffect, useState } from 'preact/hooks';
 import { askAhead } from './ahead.ts';
+import { ShownCode } from './code/shown.tsx';
 import { api, describeError, load, type Problem } from './data.ts';
 import icon from './icon.svg?inline';
 import { keepOffline, newRelease } from './offline/release.ts';
@@ -160,6 +161,7 @@ export function App() {
           )}
         </p>
       </footer>
+      <ShownCode />
       <p class="visually-hidden" role="status" aria-live="polite" data-live>
         {announcement.value}
       </p>

@@ -69,9 +69,11 @@ export interface Schema {
   maximum?: number;
   default?: unknown;
   'x-unit'?: string;
+  /** What the option is called on the command line. */
   'x-flag'?: string;
   oneOf?: { const: string; description: string }[];
   properties?: Record<string, Schema>;
+  required?: readonly string[];
   items?: Schema;
   additionalProperties?: Schema | false;
 }
@@ -84,9 +86,10 @@ function inner(outer: Schema, key: string): Schema | undefined {
   return one ? { ...rest, ...one, default: Array.isArray(list) ? list[Number(key)] : undefined } : undefined;
 }
 
-function found(record: keyof Records, path: string): Schema {
+/** What the schema says of a record, or of what a path leads to from it. */
+export function described(record: string, path = ''): Schema {
   let at: Schema | undefined = ($defs as Record<string, Schema>)[record];
-  for (const key of path.split('.')) at &&= inner(at, key);
+  for (const key of path.split('.').filter(Boolean)) at &&= inner(at, key);
   if (!at) throw new Error(`${record} have no ${path}`);
   return at;
 }
@@ -95,8 +98,8 @@ function found(record: keyof Records, path: string): Schema {
 export function optionsOf<N extends keyof Records>(record: N) {
   type R = Records[N];
 
-  function described(path: string): { schema: Schema; option: Option } {
-    const schema = found(record, path);
+  function optionAt(path: string): { schema: Schema; option: Option } {
+    const schema = described(record, path);
     const choices = Object.fromEntries((schema.oneOf ?? []).map((one) => [one.const, one.description]));
     return {
       schema,
@@ -110,7 +113,7 @@ export function optionsOf<N extends keyof Records>(record: N) {
   }
 
   function make(path: string, own: Own<unknown>, fallback: unknown): object {
-    const { schema, option } = described(path);
+    const { schema, option } = optionAt(path);
     if (schema.oneOf) return { ...choice(fallback as string, Object.keys(option.choices)), option };
     if (schema.type === 'boolean') return { ...flag(fallback as boolean), option };
     const above = schema.exclusiveMinimum !== undefined && own.min === undefined;
@@ -126,7 +129,7 @@ export function optionsOf<N extends keyof Records>(record: N) {
   return {
     /** An option with its default. */
     field<P extends Path<R>>(path: P, own: Own<At<R, P>> = {}): FieldOf<At<R, P>> {
-      const fallback = own.fallback ?? found(record, path).default;
+      const fallback = own.fallback ?? described(record, path).default;
       if (fallback === undefined) throw new Error(`${record}.${path} has no default`);
       return make(path, own, fallback) as FieldOf<At<R, P>>;
     },
@@ -140,14 +143,14 @@ export function optionsOf<N extends keyof Records>(record: N) {
 
     /** A choice that may be left to what follows from others, which has a name in the address. */
     or<P extends Path<R>, const T extends string>(path: P, none: T): OfOption & ChoiceField<T | (At<R, P> & string)> {
-      const { option } = described(path);
+      const { option } = optionAt(path);
       const values = Object.keys(option.choices) as (At<R, P> & string)[];
       return { ...choice<T | (At<R, P> & string)>(none, [none, ...values]), option };
     },
 
     /** Some values of an option, as they are written in the address. */
     picks<const T extends string>(path: Path<R>, values: readonly T[], fallback?: T): OfOption & ChoiceField<T> {
-      const { schema, option } = described(path);
+      const { schema, option } = optionAt(path);
       const usual = values.find((value) => value === schema.default || Number(value) === schema.default);
       const first = fallback ?? usual;
       if (first === undefined) throw new Error(`the default of ${option.name} is not among ${values}`);
@@ -160,7 +163,7 @@ export function optionsOf<N extends keyof Records>(record: N) {
 export function schemaField(record: string, path: string): Field<unknown> & OfOption {
   const options = optionsOf(record as 'CalibrationOptions');
   const known = path as 'minInliers';
-  const has = found(record as keyof Records, path).default !== undefined;
+  const has = described(record, path).default !== undefined;
   return (has ? options.field(known) : options.maybe(known)) as unknown as Field<unknown> & OfOption;
 }
 

@@ -51,8 +51,8 @@ function partsOf(value: unknown): { open: string; close: string; parts: Part[]; 
   if (typeof value !== 'object' || value === null || value instanceof Expression) return null;
   const parts = Object.entries(value).flatMap(([name, one]): Part[] => {
     if (one === undefined) return [];
-    // A variable of the same name needs no second mention.
-    if (one instanceof Expression && one.text === name) return [['', one]];
+    // A variable of the same name needs no second mention, and what is spread has none.
+    if (one instanceof Expression && (one.text === name || one.text.startsWith('...'))) return [['', one]];
     return [[`${key(name)}: `, one]];
   });
   return { open: '{', close: '}', parts, space: ' ' };

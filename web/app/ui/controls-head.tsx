@@ -1,6 +1,7 @@
 /** What stands above the controls of every page. */
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
+import { type CodeSource, codeProblem, showCode } from '../code/shown.tsx';
 import { undo } from '../state/address.ts';
 import { announce } from '../state/announce.ts';
 import { canRedo, canUndo } from '../state/history.ts';
@@ -30,7 +31,15 @@ async function copyLink(): Promise<void> {
 const typing = (target: EventTarget | null): boolean =>
   target instanceof HTMLInputElement && target.type === 'text' && document.activeElement === target;
 
-export function ControlsHead({ but = '', onDefaults }: { but?: string; onDefaults(): void }) {
+interface Head {
+  /** What defaults leave as it is. */
+  but?: string;
+  /** Absent where the page itself shows it. */
+  code?: CodeSource;
+  onDefaults(): void;
+}
+
+export function ControlsHead({ but = '', code, onDefaults }: Head) {
   useEffect(() => {
     const key = (event: KeyboardEvent): void => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey || typing(event.target)) return;
@@ -52,6 +61,14 @@ export function ControlsHead({ but = '', onDefaults }: { but?: string; onDefault
           showHelp.value = on;
         }}
       />
+      <button
+        type="button"
+        class="plain"
+        title={`Back to the settings a fresh visit starts with${but}`}
+        onClick={onDefaults}
+      >
+        Defaults
+      </button>
       <div class="row">
         <button
           type="button"
@@ -81,14 +98,16 @@ export function ControlsHead({ but = '', onDefaults }: { but?: string; onDefault
         >
           {copied.value ?? 'Copy link'}
         </button>
-        <button
-          type="button"
-          class="plain"
-          title={`Back to the settings a fresh visit starts with${but}`}
-          onClick={onDefaults}
-        >
-          Defaults
-        </button>
+        {code && (
+          <button
+            type="button"
+            data-action="show-code"
+            title="What this page shows as a script for Node and as commands, which give the same numbers"
+            onClick={() => void showCode(code)}
+          >
+            {codeProblem.value ? 'Not loaded' : 'Copy as code'}
+          </button>
+        )}
       </div>
     </div>
   );

@@ -5,6 +5,7 @@
 import { batch, effect, signal } from '@preact/signals';
 import type {
   ArrayGeometry,
+  BoundOptions,
   Estimate,
   EstimatorOptions,
   Method,
@@ -161,11 +162,10 @@ const boundKind = ({ snapshots, fluctuation }: AngleState): Scene['boundKind'] =
  * The bound for the signals drawn. Coherent targets repeat one snapshot N times, which is one
  * snapshot of N times the power, with the phases that were drawn.
  */
-export function boundOf(state: AngleState, truth: SnapshotResult['truth'][number] | undefined): Float64Array {
-  if (!state.targets.length) return new Float64Array(0);
+export function boundOptions(state: AngleState, truth: SnapshotResult['truth'][number] | undefined): BoundOptions {
   const fixed = state.snapshots === 1 || state.fluctuation === 'coherent';
   const repeats = fixed ? 10 * Math.log10(state.snapshots) : 0;
-  return api.cramerRaoBound({
+  return {
     array: arrayInput(state.array),
     snapshots: fixed ? 1 : state.snapshots,
     kind: boundKind(state),
@@ -177,8 +177,11 @@ export function boundOf(state: AngleState, truth: SnapshotResult['truth'][number
         ...(fixed && phaseDeg !== undefined ? { phaseDeg } : {}),
       };
     }),
-  }).azimuthDeg;
+  };
 }
+
+export const boundOf = (state: AngleState, truth: SnapshotResult['truth'][number] | undefined): Float64Array =>
+  state.targets.length ? api.cramerRaoBound(boundOptions(state, truth)).azimuthDeg : new Float64Array(0);
 
 /** Elements x snapshots of the only scene. */
 function input({ snapshots }: Scene) {

@@ -24,6 +24,7 @@ export function Controls() {
   return (
     <Sidebar label="Angle lab settings" button="array, targets and settings">
       <ControlsHead
+        code={async () => (await import('./code.ts')).angleCode}
         onDefaults={() => {
           angleState.value = angleCodec.defaults;
         }}

@@ -22,7 +22,7 @@ export function Controls() {
   const street = state.source === 'street';
   return (
     <Sidebar label="Bird’s-eye view settings" button="scene and settings">
-      <ControlsHead onDefaults={restoreDefaults} />
+      <ControlsHead code={async () => (await import('./code.ts')).birdseyeCode} onDefaults={restoreDefaults} />
       <Group title="Scene">
         <Control
           label="Input"

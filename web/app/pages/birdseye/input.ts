@@ -1,6 +1,6 @@
 /** What is looked at: the simulated street, or the capture that is open. */
 import { computed } from '@preact/signals';
-import type { ArrayInput, CubeChainOptions, Mounting, StreetScene, ViewGrid, Waveform } from 'boresight';
+import type { ArrayInput, CubeChainOptions, Mounting, StreetOptions, StreetScene, ViewGrid, Waveform } from 'boresight';
 import { api, describeError, type Problem } from '../../data.ts';
 import { boardLog, type Loaded, loaded, waiting } from '../capture/files.ts';
 import { type BirdseyeState, birdseyeState, MAX_CELLS, MAX_REACH_M, RADARS } from './state.ts';
@@ -36,9 +36,10 @@ const AT_ORIGIN: Mounting = { xM: 0, yM: 0, yawDeg: 0 };
 /** What a board on a bench sees. */
 const CAPTURE_FIELD_DEG = 75;
 
-const streetKey = computed(() =>
-  JSON.stringify({ seed: birdseyeState.value.seed, egoSpeedMps: birdseyeState.value.speed }),
-);
+/** What the street is made from. */
+export const streetOptions = ({ seed, speed }: BirdseyeState): StreetOptions => ({ seed, egoSpeedMps: speed });
+
+const streetKey = computed(() => JSON.stringify(streetOptions(birdseyeState.value)));
 
 const street = computed<Input | Problem>(() => {
   try {

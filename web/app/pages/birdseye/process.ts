@@ -10,6 +10,7 @@ import type {
   BirdsEyeView,
   FrameCells,
   Gate,
+  ImageFrameOptions,
   ImageFrom,
   Method,
   RangeAzimuthMap,
@@ -23,7 +24,17 @@ import { quickestFirst, whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
-import { chainOptions, grid, gridProblem, type Input, input, type Point, type Radar, shownRadars } from './input.ts';
+import {
+  chainOptions,
+  grid,
+  gridProblem,
+  type Input,
+  input,
+  type Point,
+  type Radar,
+  shownRadars,
+  streetOptions,
+} from './input.ts';
 import { type BirdseyeState, birdseyeState } from './state.ts';
 
 /** A radar's frame: what was detected, and the street's points it can see. */
@@ -38,6 +49,8 @@ export interface MethodImage {
   peakDb?: number;
   radars?: readonly Radar[];
   measure?: SidelobeMeasure | undefined;
+  /** Within which energy counts as the target's. */
+  gate?: Gate;
   /** What the image was made of, for methods without spectra its targets. */
   from?: ImageFrom;
   cells?: number;
@@ -273,10 +286,9 @@ async function frameOf(looked: Input, radar: Radar, state: BirdseyeState, signal
     const cells = await once(`cells ${key}`, () => kept.frameCells(at, options, { signal }));
     return { radar, cells, visible: null };
   }
-  const { seed, egoSpeedMps } = JSON.parse(looked.key.slice(looked.key.indexOf('{')));
   const { street } = kept;
   const simulated =
-    street.get(radar.name) ?? (await pool().simulateStreet({ seed, egoSpeedMps, radar: radar.name }, { signal }));
+    street.get(radar.name) ?? (await pool().simulateStreet({ ...streetOptions(state), radar: radar.name }, { signal }));
   street.set(radar.name, simulated);
   const cells = await once(`cells ${key}`, () => pool().frameCells(simulated.cube, chain, { signal }));
   const visible = simulated.targets.map(({ target }) => looked.street?.targets[target] as Point);
@@ -286,6 +298,27 @@ async function frameOf(looked: Input, radar: Radar, state: BirdseyeState, signal
 interface Steps {
   step(): void;
   report(part?: number): void;
+}
+
+/** What a method's image of a radar's cells is made by, beside the radar itself. */
+export function imageOptions(
+  method: Method,
+  { fieldOfViewDeg }: Pick<Radar, 'fieldOfViewDeg'>,
+  { from, sources, points, refine }: BirdseyeState,
+): Omit<ImageFrameOptions, 'waveform' | 'array'> {
+  const { spectrum = false, sourceCount = false } = api.methods().find(({ name }) => name === method) ?? {};
+  return {
+    from: spectrum ? from : 'targets',
+    // One snapshot does not tell how many there are.
+    angle: {
+      method,
+      ...(sourceCount ? { sources: Number(sources) } : {}),
+      gridPoints: Number(points),
+      ...(refine ? { refine } : {}),
+      fieldOfViewDeg,
+    },
+    grid: { fieldOfViewDeg },
+  };
 }
 
 async function imageOf(
@@ -315,20 +348,7 @@ async function imageOf(
     const { radar, cells } = one;
     const key = `${method} ${network ?? ''} ${refine} ${points} ${sourceCount ? state.sources : ''} ${detectionKey(looked, radar, state)}`;
     const job: JobOptions = { signal, onProgress: (done, total) => report(total > 0 ? done / total : 0) };
-    const plan = api.imagePlan({
-      waveform: radar.waveform,
-      array: radar.array,
-      from: hasSpectrum ? state.from : 'targets',
-      // One snapshot does not tell how many there are.
-      angle: {
-        method,
-        ...(sourceCount ? { sources: Number(state.sources) } : {}),
-        gridPoints: Number(points),
-        ...(refine ? { refine } : {}),
-        fieldOfViewDeg: radar.fieldOfViewDeg,
-      },
-      grid: { fieldOfViewDeg: radar.fieldOfViewDeg },
-    });
+    const plan = api.imagePlan({ waveform: radar.waveform, array: radar.array, ...imageOptions(method, radar, state) });
     const { estimate, milliseconds } = await once(`estimates ${key}`, async () => {
       const started = performance.now();
       // Spectra come along for the time when they are asked for.
@@ -347,7 +367,7 @@ async function imageOf(
     step();
     report();
   }
-  const { view, peakDb, measure } = await imageOfMaps(looked, parts, gate, signal);
+  const { view, peakDb, measure, gate: within } = await imageOfMaps(looked, parts, gate, signal);
   const warnings = new Map<string, Warning>();
   for (const { estimate } of parts) for (const warning of estimate.warnings) warnings.set(warning.code, warning);
   const sum = (value: (part: (typeof parts)[number]) => number): number =>
@@ -356,6 +376,7 @@ async function imageOf(
     view,
     peakDb,
     measure,
+    gate: within,
     radars: made.map(({ radar }) => radar),
     from: parts[0]?.from ?? state.from,
     cells: sum(({ estimate }) => estimate.cells),
@@ -371,9 +392,9 @@ async function imageOf(
 async function imageOfMaps(
   looked: Input,
   parts: readonly { frame: RadarFrame; map: RangeAzimuthMap }[],
-  gate: number | null,
+  gateM: number | null,
   signal: AbortSignal,
-): Promise<{ view: BirdsEyeView; peakDb: number; measure: SidelobeMeasure | undefined }> {
+): Promise<Required<Pick<MethodImage, 'view' | 'peakDb' | 'gate'>> & Pick<MethodImage, 'measure'>> {
   const view = await pool().birdsEyeView(
     { radars: parts.map(({ frame, map }) => ({ map, mounting: frame.radar.mounting })), grid: grid.peek() },
     { signal },
@@ -381,10 +402,9 @@ async function imageOfMaps(
   let peak = 0;
   for (const power of view.power) peak = Math.max(peak, power);
   const targets = uniquePoints(parts.flatMap(({ frame }) => frame.visible ?? []));
-  const measure = looked.street
-    ? await pool().sidelobeMeasure(view, targets, gateOf(parts, gate), { signal })
-    : undefined;
-  return { view, peakDb: 10 * Math.log10(peak), measure };
+  const gate = gateOf(parts, gateM);
+  const measure = looked.street ? await pool().sidelobeMeasure(view, targets, gate, { signal }) : undefined;
+  return { view, peakDb: 10 * Math.log10(peak), measure, gate };
 }
 
 /**

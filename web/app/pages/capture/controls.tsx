@@ -38,6 +38,7 @@ export function Controls() {
   return (
     <Sidebar label="Capture settings" button="files and settings">
       <ControlsHead
+        code={async () => (await import('./code.ts')).captureCode}
         but="; the files stay"
         onDefaults={() => {
           captureState.value = { ...captureCodec.defaults, source: captureState.value.source };

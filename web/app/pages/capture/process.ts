@@ -10,7 +10,7 @@ import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
 import { type Loaded, loaded } from './files.ts';
 import { estimateCell, runChain } from './source.ts';
-import { type CaptureState, captureState, chainOptions, sourceOption } from './state.ts';
+import { type CaptureState, captureState, cellAngle, chainOptions, sourceOption } from './state.ts';
 import { shownCell } from './view.ts';
 
 export interface CellResult {
@@ -41,10 +41,7 @@ export const cellResults = signal<ReadonlyMap<Method, CellResult>>(new Map());
 /** Options as text: effects that depend on them run when they change, not with every cell. */
 const options = computed(() => JSON.stringify(chainOptions(captureState.value)));
 /** The same of what the cell's angles depend on beside it. */
-const cellOptions = computed(() => {
-  const { refine } = captureState.value;
-  return JSON.stringify({ sources: sourceOption(captureState.value), ...(refine ? { refine } : {}) });
-});
+const cellOptions = computed(() => JSON.stringify(cellAngle(captureState.value)));
 const attempts = signal(0);
 
 /** The same with the network its method needs, which is loaded first. */

@@ -10,7 +10,7 @@ import { arrayProblem, type Model, targetsOf, trainedOnBoards } from '../../netw
 import { type Loaded, loaded } from './files.ts';
 import { frameAt } from './playback.ts';
 import { usedArray } from './process.ts';
-import { captureState } from './state.ts';
+import { captureState, regionOptions } from './state.ts';
 
 export interface ShownRegions {
   capture: Loaded;
@@ -44,21 +44,7 @@ export const trio = computed<Trio | string | null>(() => {
 });
 
 /** As text, so that effects run when they change. */
-const options = computed(() => {
-  const { array, regionWindow, regionReach, countLoading, rotation, regionRefine, falseAlarm, nearest, farthest } =
-    captureState.value;
-  const made: CaptureRegionOptions = {
-    ...(array === 'auto' ? {} : { array }),
-    regionWindow,
-    reachBins: regionReach,
-    countLoading,
-    rotation,
-    refine: regionRefine,
-    cfar: { falseAlarm: Number(falseAlarm) },
-    ...(nearest > 0 || farthest > 0 ? { region: { rangeM: [nearest, farthest || 1e6] } } : {}),
-  };
-  return JSON.stringify(made);
-});
+const options = computed(() => JSON.stringify(regionOptions(captureState.value)));
 
 let running: AbortController | undefined;
 

@@ -1,6 +1,6 @@
 /** State of the capture page: all of it in the address but the files themselves. */
 import { signal } from '@preact/signals';
-import type { Cell, ChainOptions, Method } from 'boresight';
+import type { AngleOptions, CaptureRegionOptions, Cell, ChainOptions, Method } from 'boresight';
 import { COLOR_MAPS } from '../../../plots/colormap.ts';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
@@ -136,4 +136,25 @@ export function chainOptions(state: CaptureState): ChainOptions {
 
 export function sourceOption(state: CaptureState): number | 'aic' | 'mdl' {
   return state.sources === 'aic' || state.sources === 'mdl' ? state.sources : Number(state.sources);
+}
+
+/** What the angles of a cell are estimated by beside the method. */
+export const cellAngle = (state: CaptureState): AngleOptions => ({
+  sources: sourceOption(state),
+  ...(state.refine ? { refine: state.refine } : {}),
+});
+
+/** How regions are found and their targets told apart. */
+export function regionOptions(state: CaptureState): CaptureRegionOptions {
+  const { array, nearest, farthest } = state;
+  return {
+    ...(array === 'auto' ? {} : { array }),
+    regionWindow: state.regionWindow,
+    reachBins: state.regionReach,
+    countLoading: state.countLoading,
+    rotation: state.rotation,
+    refine: state.regionRefine,
+    cfar: { falseAlarm: Number(state.falseAlarm) },
+    ...(nearest > 0 || farthest > 0 ? { region: { rangeM: [nearest, farthest || 1e6] } } : {}),
+  };
 }

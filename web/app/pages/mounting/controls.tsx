@@ -16,7 +16,11 @@ export function Controls() {
   const format = loaded.value?.drive.format ?? '';
   return (
     <Sidebar label="Mounting angle settings" button="drive and settings">
-      <ControlsHead but="; the drive stays" onDefaults={restoreDefaults} />
+      <ControlsHead
+        code={async () => (await import('./code.ts')).mountingCode}
+        but="; the drive stays"
+        onDefaults={restoreDefaults}
+      />
       <Group title="Drive">
         <Source />
       </Group>

@@ -48,15 +48,22 @@ export const jointPossible = computed(() => {
 /** The chosen ways that are possible. */
 const chosen = computed(() => mountingState.value.methods.filter((way) => way !== 'joint' || jointPossible.value));
 
+/** What all methods are asked by; null where there is no drive, or no place of the radar. */
+export function asked(): Options | null {
+  const open = loaded.value;
+  const radar = sensor.value;
+  const options = open && where.value && calibrationOptions(mountingState.value, where.value, open.drive.format);
+  return radar && options ? { sensor: radar.id, ...options } : null;
+}
+
 const attempts = signal(0);
 /** What the results are of; as text, so that effects run when it changes only. */
 const job = computed(() => {
   const open = loaded.value;
-  const radar = sensor.value;
-  const options = open && where.value && calibrationOptions(mountingState.value, where.value, open.drive.format);
+  const options = asked();
   const own = needsNetwork(options?.motion) ? ownNetwork.value : null;
   const network = own && [own.name, own.bytes.length, networkNumber(own)].join();
-  return open && radar && options ? JSON.stringify({ sensor: radar.id, network, ...options }) : '';
+  return open && options ? JSON.stringify({ network, ...options }) : '';
 });
 const methods = computed(() => chosen.value.join(','));
 
@@ -116,17 +123,23 @@ export function start(): () => void {
   };
 }
 
-type Options = Omit<CalibrationOptions, 'method'> & { sensor: number };
+/** Of all ways, for one radar. */
+export type Options = Omit<CalibrationOptions, 'method'> & { sensor: number };
 
-/** The options of a way, with the network where its motion needs one. */
-export async function withNetwork(way: Way, { motion, ...options }: Options): Promise<Options & MotionNetwork> {
+/** The options of a way: its motion may be another than the one asked for. */
+export function optionsOf(way: Way, { motion, ...options }: Options): Options {
   const own = way === 'joint' && !needsNetwork(motion) ? undefined : motionOf(way, motion);
-  if (own === undefined) return options;
-  return { ...options, motion: own, ...(needsNetwork(own) && { network: await network() }) };
+  return own === undefined ? options : { ...options, motion: own };
+}
+
+/** The same with the network where its motion needs one. */
+export async function withNetwork(way: Way, asked: Options): Promise<Options & MotionNetwork> {
+  const options = optionsOf(way, asked);
+  return needsNetwork(options.motion) ? { ...options, network: await network() } : options;
 }
 
 /** Of all radars of a drive together, one of them as asked for. */
-export function jointOptions(drive: Drive, options: Options & MotionNetwork): JointCalibrationOptions {
+export function jointOptions(drive: Pick<Drive, 'sensors'>, options: Options & MotionNetwork): JointCalibrationOptions {
   const { sensor, xM, yM, nominalDeg, ...common } = options;
   const mine = { sensor, xM, ...(yM === undefined ? {} : { yM }), ...(nominalDeg === undefined ? {} : { nominalDeg }) };
   return { ...common, sensors: drive.sensors.map(({ id }) => (id === sensor ? mine : id)) };

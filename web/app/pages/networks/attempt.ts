@@ -1,6 +1,14 @@
 /** A network tried on one simulated scene, beside classical methods and the truth. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { Estimate, EstimateInput, EstimatorOptions, Method, NetworkInfo, NetworkMethod } from 'boresight';
+import type {
+  Estimate,
+  EstimateInput,
+  EstimatorOptions,
+  Method,
+  NetworkInfo,
+  NetworkMethod,
+  SnapshotOptions,
+} from 'boresight';
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { load, loadings, models } from '../../networks/load.ts';
 import { type Card, elementsOf, type Model, type Sight, sightOf, targetsOf } from '../../networks/models.ts';
@@ -87,7 +95,7 @@ export function start(): () => void {
   };
 }
 
-type Scene = Pick<NetworksState, 'targets' | 'snr' | 'seed' | 'refine' | 'range' | 'array'>;
+export type Scene = Pick<NetworksState, 'targets' | 'snr' | 'seed' | 'refine' | 'range' | 'array'>;
 
 async function attemptOn(model: Model, scene: Scene, controller: AbortController): Promise<void> {
   trying.value = true;
@@ -181,26 +189,34 @@ export function snapshotScene(card: Card, targets: number) {
     : ({ snapshots: 1, powerDb: [-13, 0], beside: ['iaa', 'nomp', 'bartlett'] } as const);
 }
 
+/** What the package is asked for a scene of snapshots; the network is told its field of view as well. */
+export function snapshotCalls(card: Card, scene: Scene) {
+  const targets = targetsIn(scene, card);
+  const array = arrayFor(card, scene.array);
+  const { snapshots, powerDb, beside, ...told } = snapshotScene(card, targets);
+  const fieldOfViewDeg = typeof card.data?.fieldOfViewDeg === 'number' ? card.data.fieldOfViewDeg : 60;
+  const simulation: SnapshotOptions = {
+    array,
+    targets: { count: [targets, targets], fieldOfViewDeg, powerDb },
+    snapshots,
+    snrDb: scene.snr,
+    seed: scene.seed,
+  };
+  const options = { array, gridPoints: 2048, ...told, ...(scene.refine ? { refine: true } : {}) };
+  return { targets, array, fieldOfViewDeg, simulation, options, beside };
+}
+
 async function onSnapshots(model: Model, info: NetworkInfo, scene: Scene, job: Job): Promise<Attempt> {
   const { signal } = job;
   const { card, name } = model;
   const method = card.network as NetworkMethod;
   const { snr: snrDb, seed, refine } = scene;
-  const targets = targetsIn(scene, card);
-  const array = arrayFor(card, scene.array);
-  const { snapshots, powerDb, beside, ...told } = snapshotScene(card, targets);
-  const fieldOfViewDeg = typeof card.data?.fieldOfViewDeg === 'number' ? card.data.fieldOfViewDeg : 60;
-  const drawn = api.simulateSnapshots({
-    array,
-    targets: { count: [targets, targets], fieldOfViewDeg, powerDb },
-    snapshots,
-    snrDb,
-    seed,
-  });
+  const { targets, array, fieldOfViewDeg, simulation, options, beside } = snapshotCalls(card, scene);
+  const { snapshots = 1 } = simulation;
+  const drawn = api.simulateSnapshots(simulation);
   const truth = [...(drawn.truth[0] ?? [])].sort((a, b) => a.azimuthDeg - b.azimuthDeg);
   const [, elements, count] = drawn.shape;
   const input: EstimateInput = { snapshots: { data: drawn.data, shape: [elements, count] } };
-  const options = { array, gridPoints: 2048, ...told, ...(refine ? { refine } : {}) };
   const made: Attempt = {
     model: name,
     sight: sightOf(card),
@@ -240,6 +256,35 @@ async function onSnapshots(model: Model, info: NetworkInfo, scene: Scene, job: J
   return made;
 }
 
+/** What a number of targets is counted by, beside the network. */
+export const COUNT_RULES = [
+  { criterion: 'mdl', forwardBackward: false },
+  { criterion: 'mdl', forwardBackward: true },
+  { criterion: 'aic', forwardBackward: false },
+] as const;
+
+/** What of a region a method takes: the covariance of all its bins, or the strongest bin's snapshots. */
+export type RegionInput = 'covariance' | 'snapshots';
+
+/** What the package is asked for a region, of the network and of the methods beside it. */
+export function regionCalls(array: string, targets: number, refine: boolean) {
+  const options = {
+    array,
+    fieldOfViewDeg: 15,
+    sources: targets,
+    maxPeaks: targets,
+    ...(refine ? { refine } : {}),
+  };
+  const smooth = { ...options, smoothing: 6, forwardBackward: true };
+  const beside: readonly { method: Method; of: RegionInput; name: string; options: typeof options }[] = [
+    { method: 'maximum-likelihood', of: 'covariance', name: '', options },
+    { method: 'music', of: 'covariance', name: '', options },
+    { method: 'root-music', of: 'covariance', name: ', smoothed', options: smooth },
+    { method: 'iaa', of: 'snapshots', name: ', strongest bin', options },
+  ];
+  return { ofNetwork: { array, sources: targets, fieldOfViewDeg: 10 }, beside };
+}
+
 async function onRegion(model: Model, info: NetworkInfo, scene: Scene, job: Job): Promise<Attempt> {
   const { signal } = job;
   const { card, name } = model;
@@ -267,17 +312,12 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, job: Job)
   };
   if (card.network === 'counting') {
     const answer = await pool().countWithNetwork(info.id, input, { signal });
-    const rules = [
-      ['mdl', false],
-      ['mdl', true],
-      ['aic', false],
-    ] as const;
     return {
       ...made,
       counts: [
         { rule: 'network', title: model.title, sources: answer.sources, probability: [...answer.probability] },
-        ...rules.map(
-          ([criterion, forwardBackward]): Count => ({
+        ...COUNT_RULES.map(
+          ({ criterion, forwardBackward }): Count => ({
             rule: `${criterion}${forwardBackward ? '-reversed' : ''}`,
             title: `${criterion.toUpperCase()}${forwardBackward ? ', forward-backward' : ''}`,
             sources: api.countSources(input, { criterion, forwardBackward }).count,
@@ -287,30 +327,18 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, job: Job)
     };
   }
   const method = card.network;
-  const options = {
-    array,
-    fieldOfViewDeg: 15,
-    sources: targets,
-    maxPeaks: targets,
-    ...(refine ? { refine } : {}),
-  };
-  const smooth = { ...options, smoothing: 6, forwardBackward: true };
+  const { ofNetwork, beside } = regionCalls(array, targets, refine);
+  const inputs: Record<RegionInput, EstimateInput> = { covariance: input, snapshots: { snapshots } };
   made.rows = await rowsOf(
     [
       {
         method,
         title: model.title,
-        run: () =>
-          pool().estimateRegion(
-            region,
-            { array, sources: targets, fieldOfViewDeg: 10, method, network: info.id },
-            { signal },
-          ),
+        run: () => pool().estimateRegion(region, { ...ofNetwork, method, network: info.id }, { signal }),
       },
-      classical('maximum-likelihood', input, options, signal),
-      classical('music', input, options, signal),
-      classical('root-music', input, smooth, signal, `${title('root-music')}, smoothed`),
-      classical('iaa', { snapshots }, options, signal, `${title('iaa')}, strongest bin`),
+      ...beside.map(({ method, of, name, options }) =>
+        classical(method, inputs[of], options, signal, `${title(method)}${name}`),
+      ),
     ],
     made,
     job,

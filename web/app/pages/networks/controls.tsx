@@ -20,6 +20,7 @@ export function Controls() {
   return (
     <Sidebar label="Networks settings" button="network and scene">
       <ControlsHead
+        code={async () => (await import('./code.ts')).networksCode}
         onDefaults={() => {
           networksState.value = networksCodec.defaults;
         }}

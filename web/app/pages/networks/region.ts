@@ -1,5 +1,5 @@
 /** Regions of interest of the 3D-CNN's paper (Sang et al. 2021), simulated with the radar that a network was trained on. */
-import type { RegionOfInterest } from 'boresight';
+import type { CubeOptions, RegionOfInterest } from 'boresight';
 import { api } from '../../data.ts';
 import type { Card } from '../../networks/models.ts';
 
@@ -36,25 +36,37 @@ export function anglesOf(targets: number, seed: number): number[] {
   return pairs[step] as number[];
 }
 
-/** Equal targets that stand still. The SNR is of one sample of one chirp at one element. */
+/** Equal targets that stand still, as a cube is simulated of them. The SNR is of one sample of one chirp at one element. */
+export function cubeOptions(
+  { array, rangeM: [nearest, farthest] }: Radar,
+  targets: number,
+  snrDb: number,
+  seed: number,
+  together: boolean,
+): Omit<CubeOptions, 'waveform'> {
+  const share = (seed * 0.618034) % 1;
+  const rangeM = [share, (share + 0.381966) % 1].map((part) => nearest + (farthest - nearest) * part);
+  return {
+    array,
+    snrDb,
+    seed,
+    targets: anglesOf(targets, seed).map((azimuthDeg, i) => ({
+      azimuthDeg,
+      rangeM: rangeM[together ? 0 : i] as number,
+    })),
+  };
+}
+
 export function simulateRegion(
-  { waveform, array, rangeM: [nearest, farthest] }: Radar,
+  radar: Radar,
   targets: number,
   snrDb: number,
   seed: number,
   together: boolean,
 ): RegionScene {
-  const azimuthDeg = anglesOf(targets, seed);
-  const share = (seed * 0.618034) % 1;
-  const rangeM = [share, (share + 0.381966) % 1].map((part) => nearest + (farthest - nearest) * part);
-  const cube = api.simulateCube({
-    waveform: api.waveformPreset(waveform),
-    array,
-    snrDb,
-    seed,
-    targets: azimuthDeg.map((azimuth, i) => ({ azimuthDeg: azimuth, rangeM: rangeM[together ? 0 : i] as number })),
-  });
+  const options = cubeOptions(radar, targets, snrDb, seed, together);
+  const cube = api.simulateCube({ waveform: api.waveformPreset(radar.waveform), ...options });
   const found = api.strongestRegion(cube);
   const [bins = 0, , chirps = 0] = found.region.shape;
-  return { ...found, azimuthDeg, vectors: bins * chirps };
+  return { ...found, azimuthDeg: anglesOf(targets, seed), vectors: bins * chirps };
 }

@@ -1,0 +1,63 @@
+/** Captures in code: where their files are, and how they are opened. */
+import type { Loaded } from '../pages/capture/files.ts';
+import { isStudio } from '../pages/capture/studio.ts';
+import { inRepository, NEEDS } from './code.ts';
+import { quoted } from './literal.ts';
+import type { Script } from './script.ts';
+import { command, fileWord, heredoc, shellWord } from './shell.ts';
+
+const FOLDER = 'recordings/awr1642/';
+
+interface Names {
+  bin: string[];
+  /** Null where the configuration is no .cfg: its text then stands in the code. */
+  cfg: string | null;
+  dat: string | null;
+}
+
+function namesOf({ files, bundled }: Loaded): Names {
+  const path = (name: string): string => (bundled ? FOLDER + name : name);
+  const named = (wanted: string): string[] => files.filter(({ kind }) => kind === wanted).map(({ name }) => path(name));
+  const cfg = named('cfg')[0] ?? null;
+  return { bin: named('bin'), cfg: cfg !== null && isStudio(cfg) ? null : cfg, dat: named('dat')[0] ?? null };
+}
+
+/** What a capture needs in words. */
+export function captureNeeds(capture: Loaded): string {
+  if (capture.bundled) return inRepository('the recording', FOLDER);
+  const { bin, cfg, dat } = namesOf(capture);
+  return NEEDS.own([...bin, cfg, dat].filter((name) => name !== null));
+}
+
+/** Opens a capture as `capture`, of samples `bin` and configuration `cfg`. */
+export function openCapture(script: Script, capture: Loaded): void {
+  const { bin, cfg } = namesOf(capture);
+  script.use('node:fs/promises', 'readFile').use('boresight', 'Capture');
+  if (bin.length > 1) {
+    script.add('// The recording is in several files.');
+    script.constant('parts', bin);
+    script.add('const bin = Buffer.concat(await Promise.all(parts.map((name) => readFile(name))));');
+  } else script.add(`const bin = await readFile(${quoted(bin[0] ?? '')});`);
+  if (cfg === null) {
+    script.add('// What mmWave Studio wrote, as a .cfg.');
+    script.constant('lines', capture.cfg.trimEnd().split('\n'));
+    script.add("const cfg = lines.join('\\n');");
+  } else script.add(`const cfg = await readFile(${quoted(cfg)}, 'utf8');`);
+  script.add('const capture = new Capture(bin, cfg);');
+}
+
+/** What stands before the commands on a capture, and how they name it. */
+export function captureWords(capture: Loaded): { before: string[]; words: string[] } {
+  const { bin, cfg } = namesOf(capture);
+  const [whole, config] = [bin.length > 1 ? 'capture.bin' : (bin[0] ?? ''), cfg ?? 'capture.cfg'];
+  return {
+    before: [
+      ...(bin.length > 1 ? [command(['cat', ...bin.map(fileWord)], ` > ${shellWord(whole)}`)] : []),
+      ...(cfg === null ? [heredoc(config, capture.cfg)] : []),
+    ],
+    words: [fileWord(whole), '--config', fileWord(config)],
+  };
+}
+
+/** The board's own log, where there is one. */
+export const boardLogName = (capture: Loaded): string | null => namesOf(capture).dat;
