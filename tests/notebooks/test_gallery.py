@@ -14,8 +14,9 @@ TAGS = {element.tag.removeprefix("boresight-"): element for element in ELEMENTS.
 @pytest.fixture
 def recordings(tmp_path, monkeypatch):
     """A folder with the files of the recordings, in which the cells run."""
-    for path in ROOT.glob("recordings/*/*"):
-        (tmp_path / path.name).symlink_to(path)
+    for pattern in ("awr1642/*.bin", "awr1642/*.cfg", "delphi/*.gz"):
+        for path in (ROOT / "recordings").glob(pattern):
+            (tmp_path / path.name).symlink_to(path)
     monkeypatch.chdir(tmp_path)
 
 
