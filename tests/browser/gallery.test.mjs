@@ -1,8 +1,7 @@
 // The page Elements: each element shows its data, its form changes it, and its code shows the same elsewhere.
 import assert from 'node:assert/strict';
-import { createReadStream, readFileSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { extname, join } from 'node:path';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
 import { consumer } from '../packaging/consumer.mjs';
@@ -27,12 +26,11 @@ const RECORDINGS = {
   'front_radar.csv.gz': 'delphi',
   'pose_10hz.csv.gz': 'delphi',
 };
-const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm' };
 /** The package as a page without a bundler finds it. */
 const IMPORTS = {
-  boresight: '/dist/lib/browser.js',
-  'boresight/worker': '/dist/worker/browser.js',
-  'boresight/elements': '/dist/elements/index.js',
+  boresight: '/lib/browser.js',
+  'boresight/worker': '/worker/browser.js',
+  'boresight/elements': '/elements/index.js',
 };
 
 let browser;
@@ -66,22 +64,12 @@ const codeOf = async (page, kind) => {
   return page.locator(`[data-code="${kind.toLowerCase()}"]`).textContent();
 };
 
-/** A server of a page, of what `dist` has and of recordings. */
-async function host(pages) {
-  const server = createServer((request, response) => {
-    const path = decodeURIComponent(new URL(request.url, 'http://host').pathname);
-    const name = path.split('/').at(-1);
-    const type = { 'Content-Type': TYPES[extname(path)] ?? 'application/octet-stream' };
-    if (pages[path]) return response.writeHead(200, { 'Content-Type': 'text/html' }).end(pages[path]);
-    if (name === 'favicon.ico') return response.writeHead(204).end();
-    const file = RECORDINGS[name] ? join(root, 'recordings', RECORDINGS[name], name) : join(root, path);
-    if (!RECORDINGS[name] && !/^\/dist\/[\w./-]+$/.test(path)) return response.writeHead(404).end();
-    response.writeHead(200, type);
-    return createReadStream(file).pipe(response);
+/** Puts bundled recordings beside a page. */
+const beside = (page) =>
+  page.route(/\.(bin|cfg|gz)$/, async (route) => {
+    const name = new URL(route.request().url()).pathname.split('/').at(-1);
+    await route.fulfill({ body: readFileSync(join(root, 'recordings', RECORDINGS[name], name)) });
   });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
-  return { url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
-}
 
 for (const name of NAMES) {
   test(`${name}: the code for a page shows what the gallery shows`, { skip: skipWithoutBrowser }, async () => {
@@ -91,14 +79,20 @@ for (const name of NAMES) {
     assert.deepEqual(gallery.problems, []);
     await gallery.close();
     const map = `<script type="importmap">${JSON.stringify({ imports: IMPORTS })}</script>`;
-    const server = await host({ '/': `<!doctype html><title>copied</title>${map}${code}` });
-    const copy = await openPage(browser, server.url);
+    // The built package is the site.
+    const site = await serve(root);
+    const copy = await openPage(browser, site.url, { path: 'lib/index.js' });
     try {
+      await beside(copy.page);
+      const body = `<!doctype html><title>copied</title><link rel="icon" href="data:,">${map}${code}`;
+      await copy.page.route('**/copied.html', (route) => route.fulfill({ contentType: 'text/html', body }));
+      copy.problems.length = 0;
+      await copy.page.goto(`${site.url}copied.html`);
       assert.equal(await words(copy.page, name), shown);
       assert.deepEqual(copy.problems, []);
     } finally {
       await copy.close();
-      await server.close();
+      await site.close();
     }
   });
 }
@@ -141,10 +135,7 @@ test('the code for React shows the same, all elements on a page', {
     const built = await serve(project.folder, { build: { outDir: join(project.folder, 'dist') } });
     const page = await browser.newPage();
     try {
-      await page.route(/\.(bin|cfg|gz)$/, async (route) => {
-        const name = new URL(route.request().url()).pathname.split('/').at(-1);
-        await route.fulfill({ body: readFileSync(join(root, 'recordings', RECORDINGS[name], name)) });
-      });
+      await beside(page);
       await page.goto(built.url);
       for (const name of NAMES) assert.equal(await words(page, name), shown[name], name);
     } finally {
