@@ -16,9 +16,10 @@ export const values = (page, selector) =>
       cells.flatMap(({ dataset }) => (dataset.value === undefined ? [] : [Number(dataset.value)])),
     );
 
-/** Loads the page again once its pictures are there: a request that is under way would fail. */
+/** Loads the page again once its pictures and the other pages' scripts are there: a request that is under way would fail. */
 export async function reload(page) {
   await page.waitForFunction(() => [...document.images].every(({ complete }) => complete));
+  await page.waitForLoadState('networkidle');
   await page.reload();
 }
 

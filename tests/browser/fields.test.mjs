@@ -15,6 +15,7 @@ const states = {
   'mounting angle': ['?source=simulated&duration=10&methods=weighted-mean'],
   'birds-eye view': ['?methods=bartlett'],
   networks: [''],
+  elements: ['?element=boresight-spectrum', '?element=boresight-mounting-angle'],
 };
 const tried = pages.flatMap(({ name, path }) =>
   states[name].map((state) => ({ name: `${name}${state}`, path: path + state })),
@@ -26,7 +27,8 @@ for (const { name, path } of tried) {
     await fields.first().waitFor();
     // What a radar of the drive brings comes with the drive.
     if (path.startsWith('#/mounting')) await page.waitForSelector('input[name="xM"]');
-    for (const group of await page.locator('details.group:not([open]) > summary').all()) await group.click();
+    const shut = page.locator('details.group:not([open]) > summary');
+    while ((await shut.count()) > 0) await shut.first().click();
     const names = await fields.evaluateAll((list) => list.map((input) => input.name));
     const native = await page.locator('input[type="number"]').count();
     assert.equal(native, 0, 'the browser’s own fields of numbers hide what is wrong with a text');

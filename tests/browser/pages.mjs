@@ -13,5 +13,5 @@ export const pages = [
     ready: '[aria-busy="false"] [data-row="iaa"]:not(.stale) [data-field="outsideDb"][data-value]',
   },
   { name: 'networks', path: '#/networks', ready: '[data-card] [data-facts="card"]' },
-  { name: 'elements', path: '#/elements', ready: '#plots[aria-busy="false"] boresight-spectrum .plot canvas' },
+  { name: 'elements', path: '#/elements', ready: '#plots[aria-busy="false"] .gallery-element .plot canvas' },
 ];

@@ -1,4 +1,6 @@
 /** What the gallery shows as code: of a page, of React, of a notebook. */
+
+import { elements } from 'virtual:elements';
 import { call, literal, quoted } from '../../code/literal.ts';
 import type { Sample } from './sample.ts';
 
@@ -43,7 +45,7 @@ const usesPool = ({ sample }: Shown): boolean => sample.steps({}).length > 0;
 
 const tag = (shown: Shown): string =>
   attributes(shown)
-    .map(([name, value]) => ` ${name}="${escaped(value)}"`)
+    .map(([name, value]) => (value === '' ? ` ${name}` : ` ${name}="${escaped(value)}"`))
     .join('');
 
 function html(shown: Shown): string {
@@ -124,12 +126,12 @@ function dictionary(value: Readonly<Record<string, unknown>>): string {
 
 function notebook(shown: Shown): string {
   const { sample, options } = shown;
-  const own = Object.fromEntries(
-    attributes(shown).map(([name, value]) => {
-      const number = Number(value);
-      return [name, value.trim() !== '' && Number.isFinite(number) ? number : value];
-    }),
-  );
+  const told = elements.find(({ tag }) => tag === sample.tag)?.attributes ?? [];
+  const typed = (name: string, value: string): unknown => {
+    const type = told.find((one) => one.name === name)?.type;
+    return type === 'number' ? Number(value) : type === 'boolean' ? true : value;
+  };
+  const own = Object.fromEntries(attributes(shown).map(([name, value]) => [name, typed(name, value)]));
   // Elements with files take the options of their work; the others' data are one's own.
   const all = sample.recording && Object.keys(options).length ? { ...own, options } : own;
   return sample.python.replace('settings = {}', () => `settings = ${dictionary(all)}`);

@@ -27,6 +27,7 @@ export function Form() {
   const { tag, leaves } = sample.value;
   const groups = [...new Set(leaves.map(({ group }) => group))];
   const changed = [...elementsState.value.set.keys()];
+  const attributes = attributesOf(told.value);
   return (
     <Sidebar label="Element settings" button="element and options">
       <ControlsHead onDefaults={() => update({ set: new Map() })} />
@@ -43,11 +44,21 @@ export function Form() {
       </Group>
       {/* Each element has a form of its own. */}
       <div key={tag}>
-        <Group title="Its attributes">
-          {attributesOf(told.value).map((leaf) => (
-            <Option key={leaf.path} leaf={leaf} />
-          ))}
-        </Group>
+        {['', 'all elements'].map((group) => (
+          <Group
+            key={group}
+            title={group ? 'Attributes of all elements' : 'Its attributes'}
+            open={
+              group === '' || changed.some((path) => attributes.some((one) => one.path === path && one.group === group))
+            }
+          >
+            {attributes
+              .filter((leaf) => leaf.group === group)
+              .map((leaf) => (
+                <Option key={leaf.path} leaf={leaf} />
+              ))}
+          </Group>
+        ))}
         {groups.map((group) => (
           <Group
             key={group}

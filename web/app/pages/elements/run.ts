@@ -39,7 +39,7 @@ export const settings = computed((): Readonly<Record<string, string>> => {
   const own = [...elementsState.value.set].filter(([path]) => path.startsWith('@'));
   return {
     ...sample.value.settings,
-    ...Object.fromEntries(own.map(([path, value]) => [path.slice(1), String(value)])),
+    ...Object.fromEntries(own.map(([path, value]) => [path.slice(1), value === true ? '' : String(value)])),
   };
 });
 
