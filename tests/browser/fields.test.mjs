@@ -6,7 +6,7 @@ import { pages } from './pages.mjs';
 import { leave, typeNumber } from './type.mjs';
 
 /** The first two that fit a field are typed into it. */
-const TEXTS = ['-7.25', '0.5', '-0.05', '1.5', '12', '7'];
+const TEXTS = ['-7.25', '0.5', '-0.05', '1.5', '12', '7', '100', '1024'];
 
 /** Pages in states that show all their fields, with one quick method: the typing is work enough. */
 const states = {
