@@ -57,12 +57,11 @@ export async function soakElements({ milliseconds, hz = 20, sampleMs = SAMPLE_MS
   // The built package is the site.
   const server = await serve(root);
   const browser = await launch();
-  const { page, context, problems } = await openPage(browser, server.url, { path: 'lib/index.js' });
+  const { page, context, problems } = await openPage(browser, server.url, { path: 'about:blank' });
   const series = Object.fromEntries(Object.keys(LEAST).map((name) => [name, []]));
   const counts = { frames: 0, samples: 0 };
   try {
     await page.route('**/dashboard.html', (route) => route.fulfill({ contentType: 'text/html', body: PAGE }));
-    problems.length = 0;
     await page.goto(`${server.url}dashboard.html`);
     await page.waitForFunction(() => window.ready);
     const devtools = await context.newCDPSession(page);

@@ -81,12 +81,11 @@ for (const name of NAMES) {
     const map = `<script type="importmap">${JSON.stringify({ imports: IMPORTS })}</script>`;
     // The built package is the site.
     const site = await serve(root);
-    const copy = await openPage(browser, site.url, { path: 'lib/index.js' });
+    const copy = await openPage(browser, site.url, { path: 'about:blank' });
     try {
       await beside(copy.page);
       const body = `<!doctype html><title>copied</title><link rel="icon" href="data:,">${map}${code}`;
       await copy.page.route('**/copied.html', (route) => route.fulfill({ contentType: 'text/html', body }));
-      copy.problems.length = 0;
       await copy.page.goto(`${site.url}copied.html`);
       assert.equal(await words(copy.page, name), shown);
       assert.deepEqual(copy.problems, []);
@@ -164,7 +163,7 @@ test('a form of the schema changes picture, code and link, key by key', { skip: 
     () => document.querySelector('boresight-spectrum').estimates[0].spectrum.azimuthDeg.length < 100,
   );
   const html = await codeOf(page, 'HTML');
-  assert.match(html, /method: 'music', sources: 2, gridPoints: 64/);
+  assert.match(html, /sources: 2, method: 'music', gridPoints: 64/);
   await parametersWith(page, (given) => given.get('set') === 'method:music,gridPoints:64');
   // A number that none may be is refused with its range, and counts for nothing.
   await typeNumber(points, '5');
@@ -193,7 +192,8 @@ test('a link brings an element with its options, and what it says wrongly is nam
   const { page, close } = await opened('birds-eye', '&set=@colors:magma,egoSpeedMps:5');
   await words(page, 'birds-eye');
   assert.equal(await page.locator('boresight-birds-eye').getAttribute('colors'), 'magma');
-  assert.match(await codeOf(page, 'HTML'), /egoSpeedMps: 5/);
+  assert.match(await codeOf(page, 'HTML'), /seed: 1, egoSpeedMps: 5/);
+  assert.equal(await page.locator('[data-option="StreetOptions.seed"] input').inputValue(), '1', 'the form has what is so');
   await close();
   const wrong = await openPage(browser, demo.url, { path: '#/elements?element=boresight-birds-eye&set=nothing:1' });
   await wrong.page.getByText('“set=nothing:1”').waitFor();

@@ -10,8 +10,9 @@ import { elementsState, sample, set, told, update } from './state.ts';
 
 function Option({ leaf: { path, label, field } }: { leaf: Leaf }) {
   const held = elementsState.value.set.get(path);
-  const given = path.startsWith('@') ? sample.value.settings?.[path.slice(1)] : undefined;
-  const usual = given === undefined ? field.fallback : field.read(given);
+  const { settings = {}, usual: options = {} } = sample.value;
+  const given = path.startsWith('@') ? field.read(settings[path.slice(1)] ?? '') : options[path];
+  const usual = given ?? field.fallback;
   const value = held === undefined ? usual : held;
   const change = (next: unknown): void => set(path, next === usual || next === '' ? null : next);
   if (field.fallback === '') {

@@ -29,9 +29,14 @@ export const made = signal<Made | null>(null);
 export const problem = signal<Problem | null>(null);
 export const working = signal(false);
 
-/** The options of the data that are not as usual, as the package takes them. */
+/** The options of the data that are not as by default, as the package takes them. */
 export const options = computed(() =>
-  nested(new Map([...elementsState.value.set].filter(([path]) => !path.startsWith('@')))),
+  nested(
+    new Map([
+      ...Object.entries(sample.value.usual ?? {}),
+      ...[...elementsState.value.set].filter(([path]) => !path.startsWith('@')),
+    ]),
+  ),
 );
 
 /** The settings of the element that are not as usual. */

@@ -33,7 +33,9 @@ export interface Sample {
   title: string;
   /** The options that the form has, beside those of the element. */
   leaves: readonly Leaf[];
-  /** What is called with them. */
+  /** Options that the sample has otherwise than by default. */
+  usual?: Values;
+  /** What is called with the options, the usual ones among them. */
   steps(options: Values): readonly Step[];
   /** The element's properties. */
   properties(options: Values): Values;

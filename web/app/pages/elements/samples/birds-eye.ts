@@ -5,8 +5,9 @@ export const birdsEye: Sample = {
   tag: 'boresight-birds-eye',
   title: 'A street by one radar',
   leaves: formOf('StreetOptions'),
+  usual: { seed: 1 },
   steps: (options) => [
-    { name: 'street', call: 'simulateStreet', args: [{ radar: 'front-left', seed: 1, ...options }] },
+    { name: 'street', call: 'simulateStreet', args: [{ radar: 'front-left', ...options }] },
     {
       name: 'image',
       call: 'imageFrame',

@@ -8,8 +8,9 @@ export const pointCloud: Sample = {
   tag: 'boresight-point-cloud',
   title: 'A scan',
   leaves: formOf('SimulateDriveOptions', ['car']),
+  usual: { durationS: 10, seed: 1 },
   steps: (options) => [
-    { name: 'drive', call: 'simulateDrive', args: [{ durationS: 10, seed: 1, ...options }] },
+    { name: 'drive', call: 'simulateDrive', args: [options] },
     { name: 'motion', call: 'scanMotion', args: [from('drive', ({ drive }) => drive)] },
     {
       name: 'scan',

@@ -12,7 +12,8 @@ export const spectrum: Sample = {
     choiceLeaf('method', 'Method', 'How angles are estimated.', methodNames, 'capon'),
     ...formOf('SharedEstimatorOptions', ['sources', 'confidence']),
   ],
-  steps: ({ method = 'capon', ...options }) => [
+  usual: { method: 'capon' },
+  steps: (options) => [
     { name: 'scene', call: 'simulateSnapshots', args: [{ array, targets, snapshots: 50, snrDb: 20, seed: 1 }] },
     {
       name: 'estimate',
@@ -24,7 +25,7 @@ export const spectrum: Sample = {
             shape: from('scene.shape.slice(1)', ({ scene }) => scene.shape.slice(1)),
           },
         },
-        { array, method, sources: targets.length, ...options },
+        { array, sources: targets.length, ...options },
       ],
     },
   ],
