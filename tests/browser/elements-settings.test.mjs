@@ -129,11 +129,12 @@ elementTest('a bird’s-eye view has ground, overlays, radars and words of one�
     const n = 20;
     const at = (make) => Float64Array.from({ length: n }, (_, i) => make(i));
     const view = { xM: at((i) => i + 0.5), yM: at((i) => i - 9.5), cellM: 1, shape: [n, n], mountings: [] };
-    const cells = { power: new Float32Array(n * n).fill(100), seen: new Uint8Array(n * n).fill(1) };
-    cells.seen.fill(0, 0, n);
-    cells.power.fill(0, n, 2 * n);
-    // From 10 m ahead on, what is to the left is stronger.
-    for (let i = 10; i < n; i++) cells.power.fill(1000, i * n + n / 2, (i + 1) * n);
+    const each = (Kind, make) => Kind.from({ length: n * n }, (_, i) => make(Math.floor(i / n), i % n));
+    const cells = {
+      // The second row ahead is empty; from 10 m ahead on, what is to the left is stronger.
+      power: each(Float32Array, (ahead, left) => (ahead === 1 ? 0 : ahead >= 10 && left >= n / 2 ? 1000 : 100)),
+      seen: each(Uint8Array, (ahead) => Number(ahead > 0)),
+    };
     window.drawnOver = 0;
     add(
       'boresight-birds-eye',
@@ -255,7 +256,7 @@ elementTest('a mounting angle’s plot holds its band and its tolerance, and giv
     const count = 50;
     const history = {
       timeS: Float64Array.from({ length: count }, (_, i) => 100 + i),
-      angleDeg: new Float64Array(count).fill(10),
+      angleDeg: Float64Array.from({ length: count }, () => 10),
       sigmaDeg: Float64Array.from({ length: count }, (_, i) => 5 / (1 + i)),
     };
     add('boresight-mounting-angle', { 'nominal-deg': 10, 'tolerance-deg': 2, tools: '' }, { history });

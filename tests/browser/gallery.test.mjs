@@ -193,7 +193,11 @@ test('a link brings an element with its options, and what it says wrongly is nam
   await words(page, 'birds-eye');
   assert.equal(await page.locator('boresight-birds-eye').getAttribute('colors'), 'magma');
   assert.match(await codeOf(page, 'HTML'), /seed: 1, egoSpeedMps: 5/);
-  assert.equal(await page.locator('[data-option="StreetOptions.seed"] input').inputValue(), '1', 'the form has what is so');
+  assert.equal(
+    await page.locator('[data-option="StreetOptions.seed"] input').inputValue(),
+    '1',
+    'the form has what is so',
+  );
   await close();
   const wrong = await openPage(browser, demo.url, { path: '#/elements?element=boresight-birds-eye&set=nothing:1' });
   await wrong.page.getByText('“set=nothing:1”').waitFor();
