@@ -1,31 +1,14 @@
 /** What stands above the controls of every page. */
-import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { type CodeSource, codeProblem, showCode } from '../code/shown.tsx';
 import { undo } from '../state/address.ts';
-import { announce } from '../state/announce.ts';
 import { canRedo, canUndo } from '../state/history.ts';
 import { link } from '../state/route.ts';
 import { showHelp } from '../state/settings.ts';
+import { copier } from './copy.ts';
 import { CheckField } from './field.tsx';
 
-/** What became of the last link, for a moment. */
-const copied = signal<'Copied' | 'Not copied' | null>(null);
-const SHOWN_MS = 2500;
-
-async function copyLink(): Promise<void> {
-  setTimeout(() => {
-    copied.value = null;
-  }, SHOWN_MS);
-  try {
-    await navigator.clipboard.writeText(link());
-    copied.value = 'Copied';
-    announce('The link is copied.', 0);
-  } catch {
-    copied.value = 'Not copied';
-    announce('The browser does not let pages copy; the link is in the address bar.', 0);
-  }
-}
+const linkCopier = copier('The link', 'the link is in the address bar');
 
 /** A text being typed has an undo of its own. */
 const typing = (target: EventTarget | null): boolean =>
@@ -94,9 +77,9 @@ export function ControlsHead({ but = '', code, onDefaults }: Head) {
           type="button"
           data-action="copy-link"
           title="Copy a link to this page with these settings; files of your own are not in it"
-          onClick={() => void copyLink()}
+          onClick={() => void linkCopier.copy(link())}
         >
-          {copied.value ?? 'Copy link'}
+          {linkCopier.told.value ?? 'Copy link'}
         </button>
         {code && (
           <button

@@ -1,6 +1,6 @@
 /** The code of what is shown, to copy. */
 import { signal } from '@preact/signals';
-import { announce } from '../../state/announce.ts';
+import { copier } from '../../ui/copy.ts';
 import { codeOf, KINDS, type Kind } from './code.ts';
 import { options, settings } from './run.ts';
 import { sample } from './state.ts';
@@ -13,22 +13,7 @@ const NEEDS: Record<Kind, string> = {
 };
 
 const kind = signal<Kind>('html');
-const copied = signal<string | null>(null);
-const SHOWN_MS = 2500;
-
-async function copy(text: string): Promise<void> {
-  setTimeout(() => {
-    copied.value = null;
-  }, SHOWN_MS);
-  try {
-    await navigator.clipboard.writeText(text);
-    copied.value = 'Copied';
-    announce('The code is copied.', 0);
-  } catch {
-    copied.value = 'Not copied';
-    announce('The browser does not let pages copy; select the code.', 0);
-  }
-}
+const codeCopier = copier('The code', 'select the code');
 
 export function CodePanel() {
   const chosen = kind.value;
@@ -58,8 +43,8 @@ export function CodePanel() {
           ))}
         </div>
         <div class="tools">
-          <button type="button" data-action="copy-code" onClick={() => void copy(text)}>
-            {copied.value ?? 'Copy'}
+          <button type="button" data-action="copy-code" onClick={() => void codeCopier.copy(text)}>
+            {codeCopier.told.value ?? 'Copy'}
           </button>
         </div>
       </div>

@@ -24,10 +24,22 @@ function Option({ leaf: { path, label, field } }: { leaf: Leaf }) {
   return <Control of={field} name={path} label={label} value={value} onChange={change} />;
 }
 
+/** The options of a group. */
+function Options({ title, group, of, open }: { title: string; group: string; of: readonly Leaf[]; open: boolean }) {
+  const leaves = of.filter((leaf) => leaf.group === group);
+  const isChanged = leaves.some(({ path }) => elementsState.value.set.has(path));
+  return (
+    <Group title={title} open={open || isChanged}>
+      {leaves.map((leaf) => (
+        <Option key={leaf.path} leaf={leaf} />
+      ))}
+    </Group>
+  );
+}
+
 export function Form() {
   const { tag, leaves } = sample.value;
   const groups = [...new Set(leaves.map(({ group }) => group))];
-  const changed = [...elementsState.value.set.keys()];
   const attributes = attributesOf(told.value);
   return (
     <Sidebar label="Element settings" button="element and options">
@@ -45,35 +57,16 @@ export function Form() {
       </Group>
       {/* Each element has a form of its own. */}
       <div key={tag}>
-        {['', 'all elements'].map((group) => (
-          <Group
-            key={group}
-            title={group ? 'Attributes of all elements' : 'Its attributes'}
-            open={
-              group === '' || changed.some((path) => attributes.some((one) => one.path === path && one.group === group))
-            }
-          >
-            {attributes
-              .filter((leaf) => leaf.group === group)
-              .map((leaf) => (
-                <Option key={leaf.path} leaf={leaf} />
-              ))}
-          </Group>
-        ))}
+        <Options title="Its attributes" group="" of={attributes} open />
+        <Options title="Attributes of all elements" group="all elements" of={attributes} open={false} />
         {groups.map((group) => (
-          <Group
+          <Options
             key={group}
             title={group ? `Options: ${group.toLowerCase()}` : 'Options of its data'}
-            open={
-              group === '' || changed.some((path) => leaves.some((leaf) => leaf.path === path && leaf.group === group))
-            }
-          >
-            {leaves
-              .filter((leaf) => leaf.group === group)
-              .map((leaf) => (
-                <Option key={leaf.path} leaf={leaf} />
-              ))}
-          </Group>
+            group={group}
+            of={leaves}
+            open={group === ''}
+          />
         ))}
       </div>
     </Sidebar>
