@@ -66,7 +66,9 @@ export function ElementsPage() {
             <h3 id="element-shown">
               <code>{`<${sample.value.tag}>`}</code>
             </h3>
-            <span class="muted detail">{told.value.description}</span>
+            <span class="muted detail">
+              {told.value.description} Shown with {sample.value.recording ? 'a bundled recording' : 'simulated data'}.
+            </span>
           </div>
           {shown && shown.sample === sample.value ? (
             <Shown key={shown.sample.tag} made={shown} />
