@@ -8,6 +8,7 @@ const allowed = {
   image: ['core', 'signal'],
   calibrate: ['core'],
   formats: ['core'],
+  live: ['core', 'calibrate', 'formats'],
   report: ['calibrate'],
   neural: ['core', 'signal', 'aoa'],
   pipeline: ['core', 'signal', 'aoa', 'image'],

@@ -10,7 +10,7 @@ use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::cell::{Cell, RefCell};
 use std::fs::File;
-use std::io::Write;
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// The files of a run: all reading and writing goes through it, so that nothing is lost by accident.
@@ -121,7 +121,19 @@ fn source(path: &Path) -> Result<Source, CliError> {
     let failed = |error| CliError::File { action: "read", path: path.into(), error };
     let mut hasher = Sha256::new();
     let mut file = File::open(path).map_err(failed)?;
-    let bytes = std::io::copy(&mut file, &mut hasher).map_err(failed)?;
+    let mut buffer = vec![0; 1 << 16];
+    let mut bytes = 0;
+    loop {
+        match file.read(&mut buffer) {
+            Ok(0) => break,
+            Ok(count) => {
+                hasher.update(&buffer[..count]);
+                bytes += count as u64;
+            }
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(failed(error)),
+        }
+    }
     let sha256 = hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     Ok(Source { name, bytes, sha256 })

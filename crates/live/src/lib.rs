@@ -1,0 +1,1 @@
+//! Radars and results over sockets.
