@@ -2,6 +2,7 @@
 //! [`DriveLog`](boresight_core::DriveLog): which format it is is found from the
 //! files' contents, and every row that is left out is counted.
 
+pub mod clouds;
 pub mod delphi;
 pub(crate) mod motion;
 mod open;
