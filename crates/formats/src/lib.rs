@@ -4,6 +4,7 @@
 //! - [`dca1000`]: raw samples recorded by the DCA1000 capture card, read with such a configuration.
 //! - [`ti_uart`]: the packets a board's demo firmware sends over its serial port.
 //! - [`npy`]: NumPy arrays.
+//! - [`hdf5`]: arrays of HDF5 files, MATLAB's 7.3 among them.
 //! - [`pcd`]: point clouds of the Point Cloud Library.
 //! - [`tables`]: detections and snapshots as CSV.
 //! - [`radarscenes`]: sequences of the `RadarScenes` data set.
@@ -31,6 +32,7 @@
 pub mod dca1000;
 pub mod drive_log;
 mod error;
+pub mod hdf5;
 pub mod mmwave_cfg;
 pub mod npy;
 pub mod pcd;
