@@ -58,7 +58,6 @@ impl Display for Untold {
 
 /// What was found out of one sign.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct SignFinding {
     /// Whether it is the usual one (left, receding); `None` where the drive does not tell.
     pub usual: Option<bool>,
@@ -72,7 +71,6 @@ pub struct SignFinding {
 
 /// What was found out of the signs of a log.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
 pub struct SignFindings {
     /// Of azimuths: usual is positive to the left.
     pub azimuth: SignFinding,

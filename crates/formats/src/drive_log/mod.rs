@@ -11,7 +11,9 @@ pub(crate) mod scans;
 pub mod table;
 mod text;
 
-pub use open::{DriveFormat, DriveRead, is_hdf5, is_table, no_drive_log, open, open_owned};
+pub use open::{
+    DriveFormat, DriveRead, in_file, is_hdf5, is_table, no_drive_log, open, open_owned,
+};
 pub use report::{DropReason, MountingSource, ReadReport};
 
 #[cfg(test)]

@@ -112,7 +112,7 @@ pub fn is_hdf5(name: &str) -> bool {
 }
 
 /// Names the file in an error.
-pub(super) fn in_file(error: FormatError, name: &str) -> FormatError {
+pub fn in_file(error: FormatError, name: &str) -> FormatError {
     let name: String = name.chars().take(60).collect();
     match error {
         FormatError::Table { line, what, expected, given } => {
