@@ -21,6 +21,8 @@ pub enum DropReason {
     MotionNotFinite,
     /// A second motion sample of the same time, or a pose so near to another that their difference is noise.
     MotionDuplicate,
+    /// A pose with no other near it in time, so that it tells no motion.
+    MotionAlone,
     /// A detection that its radar calls invalid (`invalid_state` of nuScenes).
     InvalidState,
     /// A detection whose range rate its radar calls ambiguous (`ambig_state` of nuScenes).

@@ -46,7 +46,6 @@ pub(super) fn motion(
         }
     }
     let mut samples = vec![];
-    let mut alone = 0_u64;
     for (i, timed) in kept.iter().enumerate() {
         let near = |other: Option<&TimedPose>| {
             other.copied().filter(|other| (other.stamp_ns - timed.stamp_ns).abs() <= MOST_APART_NS)
@@ -55,7 +54,7 @@ pub(super) fn motion(
         let after = near(kept.get(i + 1));
         let (from, to) = (before.unwrap_or(*timed), after.unwrap_or(*timed));
         if from.stamp_ns == to.stamp_ns {
-            alone += 1;
+            report.drop(DropReason::MotionAlone);
             continue;
         }
         let apart_s = (to.stamp_ns - from.stamp_ns) as f64 / 1e9;
@@ -75,10 +74,6 @@ pub(super) fn motion(
             "differentiated-poses",
             "yaw rate and speed are differences of the poses over their times",
         ));
-    }
-    if alone > 0 {
-        let message = format!("{alone} poses stand alone and tell no motion");
-        report.remarks.push(Remark::new("lone-poses", message));
     }
     samples
 }
