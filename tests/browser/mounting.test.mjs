@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
+import { clouds } from '../node/lib/clouds.mjs';
 import {
   assertCsv,
   assertJson,
@@ -226,6 +227,20 @@ browserTest(
       await page.locator('[data-plot="birds-eye"] .legend').innerText(),
       /Ring: moving by the drive’s own labels/,
     );
+  },
+);
+
+browserTest(
+  'mounting angle: clouds of nuScenes are dropped with their tables',
+  { path: '#/mounting?source=simulated&duration=5&methods=recursive' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-fact="name"]');
+    await drop(page, clouds());
+    await page.waitForFunction(() => /, pcd/.test(document.querySelector('[data-fact="name"]').textContent));
+    await ready(page);
+    assert.ok(Math.abs((await value(page, 'recursive', 'angleDeg')) - 2) < 0.1);
+    assert.equal(await page.locator('input[name="xM"]').inputValue(), '3.5');
+    assert.match(await page.locator('.warnings').first().innerText(), /differences of the poses/);
   },
 );
 

@@ -12,6 +12,7 @@ export { countSources, cramerRaoBound } from './estimate/theory.js';
 export { BoardLogStream, parseBoardLog } from './formats/board.js';
 export { parseConfig } from './formats/config.js';
 export { readDetectionsCsv, readSnapshotsCsv, writeDetectionsCsv, writeSnapshotsCsv } from './formats/csv.js';
+export { listArrays, readArray } from './formats/hdf5.js';
 export { readNpy, writeNpy } from './formats/npy.js';
 export { birdsEyeView, imageFrame, imagePlan, rangeAzimuthMap, sidelobeMeasure } from './image/image.js';
 export { array, arrayPresets } from './radar/array.js';

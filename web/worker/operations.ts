@@ -277,6 +277,8 @@ export const operations = {
   birdsEyeView: api.birdsEyeView,
   sidelobeMeasure: api.sidelobeMeasure,
   parseBoardLog: api.parseBoardLog,
+  readArray: api.readArray,
+  listArrays: api.listArrays,
   readNpy: api.readNpy,
   writeNpy: api.writeNpy,
   readDetectionsCsv: api.readDetectionsCsv,

@@ -36,6 +36,8 @@ export interface Runtime {
 /** What needs the module of drives. */
 const ofDrives: readonly OperationName[] = [
   'readDrive',
+  'readArray',
+  'listArrays',
   'simulateDrive',
   'driveScenarios',
   'scanMotion',

@@ -89,6 +89,8 @@ export const argumentCounts = {
   waveformSummary: 1,
   parseConfig: 1,
   parseBoardLog: 2,
+  readArray: 2,
+  listArrays: 1,
   readNpy: 1,
   writeNpy: 1,
   readDetectionsCsv: 1,

@@ -3,19 +3,35 @@
 use crate::arguments::LogPaths;
 use crate::error::CliError;
 use crate::files::Files;
+use boresight_calibrate::{CalibrationOptions, signs};
 use boresight_core::DriveLog;
-use boresight_formats::drive_log::{is_hdf5, is_table, no_drive_log, open_owned};
+use boresight_formats::drive_log::clouds::{Clouds, Tables, format_of, is_cloud};
+use boresight_formats::drive_log::{in_file, is_hdf5, is_table, no_drive_log, open_owned};
 use boresight_formats::radarscenes::{Companions, read_path, sequence_names};
 use boresight_formats::{DriveFormat, DriveRead, ReadReport};
 use std::error::Error;
+use std::fs::File;
 use std::path::{Path, PathBuf};
 
 const RADAR_DATA: &str = "radar_data.h5";
 
+/// Reads a drive log, with the signs that its options say.
+pub fn open_path(
+    log: &LogPaths,
+    format: Option<DriveFormat>,
+    files: &Files,
+) -> Result<DriveRead, CliError> {
+    let mut read = read_log(log, format, files)?;
+    let gap_s = CalibrationOptions::default().max_gap_s;
+    read.report.remarks.extend(signs::apply(&mut read.log, log.signs.options, gap_s)?);
+    Ok(read)
+}
+
 /// Reads a drive log from one folder, one file, or several files that belong together. Of a folder
 /// only tables and HDF5 files are read, and with the latter the JSON files of a sequence, in its
-/// folder and the one above; of the folder of a data set, the sequence that is asked for.
-pub fn open_path(
+/// folder and the one above; of the folder of a data set, the sequence that is asked for; of point clouds also those of the
+/// folders in it.
+fn read_log(
     log: &LogPaths,
     format: Option<DriveFormat>,
     files: &Files,
@@ -36,6 +52,9 @@ pub fn open_path(
             names.push(name(path));
             found.push((*path).to_owned());
         }
+    }
+    if let Some(read) = read_clouds(&paths, format, sequence, files)? {
+        return Ok(read);
     }
     found.sort();
     found.dedup();
@@ -81,10 +100,61 @@ pub fn drives_in(folder: &Path, files: &Files) -> Result<Vec<(String, PathBuf)>,
 /// The log of one drive, for experiments.
 pub fn load(path: &Path) -> Result<DriveLog, Box<dyn Error + Send + Sync>> {
     // A message in place of the error, which may not leave its thread.
-    let log = LogPaths { paths: vec![path.into()], sequence: None };
+    let log = LogPaths { paths: vec![path.into()], ..LogPaths::default() };
     open_path(&log, None, &Files::new(false))
         .map(|read| read.log)
         .map_err(|error| error.to_string().into())
+}
+
+/// Reads point clouds, one file at a time, with the tables beside, if there are clouds.
+fn read_clouds(
+    paths: &[&Path],
+    format: Option<DriveFormat>,
+    sequence: Option<&str>,
+    files: &Files,
+) -> Result<Option<DriveRead>, CliError> {
+    let mut all: Vec<PathBuf> = vec![];
+    for path in paths {
+        if path.is_dir() {
+            for path in entries(path)? {
+                all.extend(if path.is_dir() { entries(&path)? } else { vec![path] });
+            }
+        } else {
+            all.push((*path).to_owned());
+        }
+    }
+    let of = |path: &PathBuf| {
+        format_of(&name(path)).filter(|own| format.is_none_or(|format| format == *own))
+    };
+    let wanted = |path: &&PathBuf| sequence.is_none_or(|start| name(path).starts_with(start));
+    let Some(format) = all.iter().find_map(of) else { return Ok(None) };
+    let mut clouds = Clouds::new(format);
+    let mut any = false;
+    for path in all.iter().filter(|path| of(path) == Some(format)).filter(wanted) {
+        any = true;
+        // The folder names the radar where the file does not.
+        let folder = path.parent().map(name).unwrap_or_default();
+        let given = format!("{folder}/{}", name(path));
+        clouds.add(&given, &files.read(path)?).map_err(|error| in_file(error, &name(path)))?;
+    }
+    if let (false, Some(given)) = (any, sequence) {
+        return Err(CliError::Option {
+            option: "--sequence",
+            expected: "what the names of the clouds begin with".into(),
+            given: format!("{given:?}"),
+        });
+    }
+    let mut tables = Tables::default();
+    for path in all.iter().filter(|path| !is_cloud(&name(path)) && Tables::has(&name(path))) {
+        let file = File::open(path).map_err(|error| CliError::File {
+            action: "read",
+            path: path.into(),
+            error,
+        })?;
+        files.note_input(path);
+        tables.take(&name(path), Box::new(file));
+    }
+    Ok(Some(clouds.finish(tables)?))
 }
 
 /// Refuses `--sequence` where there is nothing to choose from.

@@ -21,7 +21,7 @@ pub trait OnCommandLine: Described + Default + Serialize + DeserializeOwned + Cl
 }
 
 /// Options read from flags, those not given at their defaults.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Flags<T> {
     /// The options.
     pub options: T,
@@ -385,6 +385,7 @@ mod tests {
         every_flag::<boresight_pipeline::ChainOptions>(16);
         every_flag::<boresight_pipeline::regions::RegionChainOptions>(19);
         every_flag::<boresight_calibrate::CalibrationOptions>(19);
+        every_flag::<boresight_calibrate::SignOptions>(2);
         every_flag::<boresight_simulate::DriveOptions>(19);
         every_flag::<boresight_simulate::SnapshotRequest>(10);
         every_flag::<boresight_simulate::SceneSampling>(4);

@@ -19,6 +19,7 @@ mod files;
 mod flags;
 mod json;
 mod network;
+mod numbers;
 mod output;
 mod pairs;
 mod picture;

@@ -4,6 +4,8 @@
 //! - [`dca1000`]: raw samples recorded by the DCA1000 capture card, read with such a configuration.
 //! - [`ti_uart`]: the packets a board's demo firmware sends over its serial port.
 //! - [`npy`]: NumPy arrays.
+//! - [`hdf5`]: arrays of HDF5 files, MATLAB's 7.3 among them.
+//! - [`pcd`]: point clouds of the Point Cloud Library.
 //! - [`tables`]: detections and snapshots as CSV.
 //! - [`radarscenes`]: sequences of the `RadarScenes` data set.
 //! - [`drive_log`]: drives, as point clouds and the car's motion.
@@ -30,8 +32,10 @@
 pub mod dca1000;
 pub mod drive_log;
 mod error;
+pub mod hdf5;
 pub mod mmwave_cfg;
 pub mod npy;
+pub mod pcd;
 pub mod radarscenes;
 pub mod tables;
 pub mod ti_uart;
@@ -42,4 +46,5 @@ pub use drive_log::{DriveFormat, DriveRead, DropReason, MountingSource, ReadRepo
 pub use error::FormatError;
 pub use mmwave_cfg::RadarConfig;
 pub use npy::{NpyArray, NpyData};
+pub use pcd::PointCloud;
 pub use ti_uart::{BoardFrame, BoardLog, BoardLogCounts, BoardObject, UartStream};

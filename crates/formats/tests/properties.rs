@@ -3,18 +3,26 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_formats::drive_log::open;
+use boresight_formats::hdf5;
 use boresight_formats::tables::{read_detections, read_snapshots};
 use boresight_formats::ti_uart::MAGIC;
-use boresight_formats::{BoardLog, Capture, NpyArray, RadarConfig, UartStream, npy};
+use boresight_formats::{BoardLog, Capture, NpyArray, PointCloud, RadarConfig, UartStream, npy};
 use proptest::prelude::*;
 
 const CFG: &[u8] = include_bytes!("../../../recordings/awr1642/profile.cfg");
 const DAT: &[u8] =
     include_bytes!("../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat");
 
+const ASCII_CLOUD: &[u8] = include_bytes!("../../../fuzz/seeds/pcd/ascii.pcd");
+const BINARY_CLOUD: &[u8] = include_bytes!("../../../fuzz/seeds/pcd/nuscenes.pcd");
+const PACKED_CLOUD: &[u8] = include_bytes!("../../../fuzz/seeds/pcd/packed.pcd");
+
 fn every_reader(bytes: &[u8]) {
     let recorded = RadarConfig::parse(CFG).unwrap();
     let _ = NpyArray::parse(bytes);
+    let _ = PointCloud::parse(bytes);
+    let _ = hdf5::list(bytes.to_vec());
+    let _ = open(&[("00549.bin", bytes)], None);
     let _ = read_detections(bytes);
     let _ = read_snapshots(bytes);
     let _ = BoardLog::parse(bytes, Some(&recorded));
@@ -98,6 +106,25 @@ proptest! {
                 prop_assert_eq!(kept + dropped, read.report.detections + read.report.motion);
                 prop_assert!(read.log.scans.is_sorted_by(|a, b| a.time_s <= b.time_s));
                 prop_assert!(read.log.motion.is_sorted_by(|a, b| a.time_s < b.time_s));
+            }
+        }
+    }
+
+    #[test]
+    fn every_point_of_a_cloud_is_kept_or_counted(
+        text in mutated(ASCII_CLOUD), rows in mutated(BINARY_CLOUD), packed in mutated(PACKED_CLOUD),
+        table in mutated(b"[{\"token\":\"a\",\"timestamp\":1532402927664178,\"translation\":[1,2,3],\
+                           \"rotation\":[1,0,0,0.5]}]"),
+    ) {
+        for cloud in [text, rows, packed] {
+            every_reader(&cloud);
+            let files = [("R_1532402927664178.pcd", &cloud[..]), ("ego_pose.json", &table)];
+            for files in [&files[..], &files[..1]] {
+                let Ok(read) = open(files, None) else { continue };
+                let kept: usize = read.log.scans.iter().map(|scan| scan.detections.len()).sum();
+                let kept = (kept + read.log.motion.len()) as u64;
+                let dropped: u64 = read.report.drops().map(|(_, count)| count).sum();
+                prop_assert_eq!(kept + dropped, read.report.detections + read.report.motion);
             }
         }
     }

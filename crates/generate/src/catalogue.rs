@@ -48,6 +48,7 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
         entry::<boresight_image::ViewGridOptions>("ViewGrid", "Bird's-eye views")?,
         entry::<boresight_aoa::counting::CountOptions>("CountOptions", "Counting sources")?,
         entry::<boresight_wasm::drive::ReadDriveOptions>("ReadDriveOptions", "Reading drives")?,
+        entry::<boresight_wasm::hdf5::ReadArrayOptions>("ReadArrayOptions", "Reading arrays")?,
         entry::<boresight_core::Limits>("Limits", "What one call may take")?,
     ])
 }
@@ -55,8 +56,8 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
 /// What functions return, by subject.
 pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
     use boresight_wasm::{
-        calibration_methods, capture, config, count, drive, estimate, image, npy, region, street,
-        trajectory,
+        calibration_methods, capture, config, count, drive, estimate, hdf5, image, npy, region,
+        street, trajectory,
     };
     vec![
         ("Arrays and waveforms", vec![Geometry::KIND, Waveform::KIND, WaveformSummary::KIND]),
@@ -131,6 +132,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
             "Files and boards",
             vec![
                 npy::NpyRecord::KIND,
+                hdf5::ArrayRecord::KIND,
                 boresight_formats::BoardFrame::KIND,
                 boresight_formats::BoardLogCounts::KIND,
                 boresight_formats::BoardLog::KIND,

@@ -5,6 +5,7 @@ use crate::carry;
 use crate::error::Fallible;
 use crate::read::{Fields, Read};
 use crate::report::reporter;
+use boresight_calibrate::{CalibrationOptions, SignOptions, signs};
 use boresight_core::Remark;
 use boresight_core::describe::Described;
 use boresight_core::drive::DriveLog;
@@ -29,15 +30,20 @@ const SCANS_A_REPORT: usize = 128;
 pub struct ReadDriveOptions {
     /// The format of the files; found from their contents where none is named.
     format: Option<DriveFormat>,
+    /// What the signs in them mean.
+    #[serde(rename = "..signs")]
+    signs: SignOptions,
 }
 
 /// Reads a drive from named files.
 #[wasm_bindgen(js_name = readDrive)]
 pub fn read_drive(files: &JsValue, options: &JsValue) -> Fallible<JsValue> {
-    let ReadDriveOptions { format } = carry::read_optional(options)?;
+    let ReadDriveOptions { format, signs } = carry::read_optional(options)?;
     let files = Vec::<File>::read(files, "files")?;
     let files = files.into_iter().map(|file| (file.name, file.bytes)).collect();
-    let read = drive_log::open_owned(files, format)?;
+    let mut read = drive_log::open_owned(files, format)?;
+    let gap_s = CalibrationOptions::default().max_gap_s;
+    read.report.remarks.extend(signs::apply(&mut read.log, signs, gap_s)?);
     Ok(carry::write(&DriveRecord::new(&read.log, read.format.name(), &read.report)))
 }
 

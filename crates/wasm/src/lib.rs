@@ -44,10 +44,12 @@ pub mod error;
 #[cfg(feature = "chain")]
 pub mod estimate;
 pub mod given;
+#[cfg(feature = "drives")]
+pub mod hdf5;
 #[cfg(feature = "core")]
 pub mod image;
 mod limits;
-#[cfg(feature = "core")]
+#[cfg(any(feature = "core", feature = "drives"))]
 pub mod npy;
 #[cfg(feature = "chain")]
 pub mod options;

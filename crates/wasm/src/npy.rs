@@ -1,4 +1,7 @@
-//! NumPy's array files.
+//! NumPy's array files, and the arrays of other files as these.
+
+// The module of drives has the record alone.
+#![cfg_attr(not(feature = "core"), allow(unused_imports))]
 
 use crate::bytes::Bytes;
 use crate::carry;
@@ -12,7 +15,7 @@ use serde::{Serialize, Serializer};
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// An array of a `.npy` file.
+/// An array of a file: `.npy`, MATLAB's or HDF5.
 #[derive(Described, Serialize)]
 #[option(name = "NpyArray")]
 pub struct NpyRecord {
@@ -60,6 +63,7 @@ impl From<NpyArray> for NpyRecord {
     }
 }
 
+#[cfg(feature = "core")]
 /// Reads a `.npy` file; integers become `Float64Array`.
 #[wasm_bindgen(js_name = readNpy)]
 pub fn read_npy(bytes: &JsValue) -> Fallible<JsValue> {
@@ -67,6 +71,7 @@ pub fn read_npy(bytes: &JsValue) -> Fallible<JsValue> {
     Ok(carry::write(&NpyRecord::from(array)))
 }
 
+#[cfg(feature = "core")]
 /// The bytes of a `.npy` file of `{ kind, data, shape }`, in the precision of `data`.
 #[wasm_bindgen(js_name = writeNpy)]
 pub fn write_npy(array: &JsValue) -> Fallible<Uint8Array> {

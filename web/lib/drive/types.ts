@@ -44,7 +44,9 @@ export interface DriveData {
 
 /**
  * A file of a drive. Its name, with or without folders before it, tells tables (`.csv`, `.csv.gz`), HDF5 (`.h5`,
- * `.hdf5`) and what stands beside that (`scenes.json`, `sensors.json`, `sequences.json`) from the rest.
+ * `.hdf5`), point clouds (`.pcd`), frames of View-of-Delft (`00549.bin`) and what stands beside them (`scenes.json`,
+ * `sensors.json`, `sequences.json`; `sample_data.json`, `ego_pose.json` and others of nuScenes) from the rest. Of clouds
+ * whose names have a time alone, the folder names the radar.
  */
 export interface DriveFile {
   name: string;

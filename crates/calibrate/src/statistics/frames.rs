@@ -9,24 +9,24 @@ use boresight_core::drive::STATIC_LABEL;
 const MIN_SPEED_MPS: f64 = 3.0;
 
 /// A scan in which the radar's motion was found.
-pub(super) struct Frame<'a> {
-    pub(super) scan: &'a Scan,
-    pub(super) motion: Motion,
+pub(crate) struct Frame<'a> {
+    pub(crate) scan: &'a Scan,
+    pub(crate) motion: Motion,
 }
 
 /// What the Doppler curve leaves of a detection.
-pub(super) struct Residual {
+pub(crate) struct Residual {
     /// Azimuth, rad.
-    pub(super) azimuth_rad: f64,
+    pub(crate) azimuth_rad: f64,
     /// Minus range rate less the curve's, m/s.
-    pub(super) residual_mps: f64,
+    pub(crate) residual_mps: f64,
     /// Change of the curve with azimuth, m/s a radian.
-    pub(super) slope_mps: f64,
+    pub(crate) slope_mps: f64,
 }
 
 /// The scans in which RANSAC and least squares (equation 3 of Zhu et al.) find a motion faster than
 /// 3 m/s.
-pub(super) fn frames<'a>(scans: &[&'a Scan]) -> Result<Vec<Frame<'a>>, CalibrateError> {
+pub(crate) fn frames<'a>(scans: &[&'a Scan]) -> Result<Vec<Frame<'a>>, CalibrateError> {
     let options = CalibrationOptions::default();
     let mut estimator = MotionEstimator::new(&options, MotionMethod::Ransac)?;
     Ok(scans
@@ -41,12 +41,12 @@ pub(super) fn frames<'a>(scans: &[&'a Scan]) -> Result<Vec<Frame<'a>>, Calibrate
 
 impl Frame<'_> {
     /// Speed of the radar, m/s.
-    pub(super) fn speed_mps(&self) -> f64 {
+    pub(crate) fn speed_mps(&self) -> f64 {
         self.motion.velocity_mps[0].hypot(self.motion.velocity_mps[1])
     }
 
     /// Residuals of the detections labelled static; of all, where there are no labels.
-    pub(super) fn residuals(&self) -> impl Iterator<Item = Residual> {
+    pub(crate) fn residuals(&self) -> impl Iterator<Item = Residual> {
         let [vx, vy] = self.motion.velocity_mps;
         let labels = &self.scan.labels;
         self.scan

@@ -3,9 +3,9 @@
 
 mod angles;
 mod counts;
-mod frames;
+pub(crate) mod frames;
 mod noise;
-mod robust;
+pub(crate) mod robust;
 mod speed;
 
 use crate::CalibrateError;

@@ -12,10 +12,14 @@ Each new frame is a recorded one with all that it holds moved in range (equation
 ranges than were recorded. FILE is, by its ending:
   .bin  raw samples of a DCA1000 capture card, with --config
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or --waveform
+  .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
 The new frames are a data cube, for whose estimates the same --config or --waveform stands.")]
 pub struct AugmentArguments {
     /// The capture or the data cube.
     pub file: PathBuf,
+    /// Which array of a .mat or .h5 file that has several.
+    #[arg(long, value_name = "NAME")]
+    pub dataset: Option<String>,
     /// The board's configuration (.cfg).
     #[arg(long, value_name = "CFG")]
     pub config: Option<PathBuf>,

@@ -1,7 +1,7 @@
 //! What `log`, `calibrate` and `odometry` take.
 
 use crate::flags::{Flags, OnCommandLine};
-use boresight_calibrate::CalibrationOptions;
+use boresight_calibrate::{CalibrationOptions, SignOptions};
 use boresight_core::describe::Named;
 use boresight_formats::DriveFormat;
 use clap::Args;
@@ -9,15 +9,19 @@ use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 
 /// Where a drive log is.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct LogPaths {
     /// The log: its folder, its one file, or its files. Tables (.csv, also packed as .csv.gz) are
-    /// recognised by their columns. Of RadarScenes also the folder of the data set.
+    /// recognised by their columns. Of RadarScenes also the folder of the data set; of point clouds (.pcd) the folder of one radar
+    /// or of several, with that of their tables (v1.0-mini, say) beside.
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
-    /// Which sequence of a data set's folder, such as sequence_7 or 7.
+    /// Which sequence of a data set's folder, such as sequence_7 or 7; of point clouds what their names begin with.
     #[arg(long, value_name = "NAME")]
     pub sequence: Option<String>,
+    /// What the signs in it mean.
+    #[command(flatten)]
+    pub signs: Flags<SignOptions>,
 }
 
 /// Arguments of `log`.
@@ -92,6 +96,10 @@ pub struct OdometryArguments {
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+impl OnCommandLine for SignOptions {
+    const HEADING: &'static str = "Signs of the log";
 }
 
 impl OnCommandLine for CalibrationOptions {

@@ -15,6 +15,7 @@ FILE is, by its ending:
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or
         --waveform; or snapshots (elements, elements x snapshots or scenes x elements x snapshots),
         with --array
+  .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
   .csv  snapshots with the columns snapshot, element, re, im, with --array
   .dat  packets of a TI board's data port: the board's own detections are printed")]
 pub struct EstimateArguments {
@@ -47,6 +48,9 @@ pub struct EstimateArguments {
 /// The radar that a capture or a data cube is of.
 #[derive(Debug, Args)]
 pub struct RadarArguments {
+    /// Which array of a .mat or .h5 file that has several.
+    #[arg(long, value_name = "NAME")]
+    pub dataset: Option<String>,
     /// The board's configuration (.cfg).
     #[arg(long, value_name = "CFG")]
     pub config: Option<PathBuf>,

@@ -12,6 +12,7 @@ use std::path::PathBuf;
 FILE is, by its ending:
   .bin  raw samples of a DCA1000 capture card, with --config
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or --waveform
+  .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
 
 Networks are ONNX files with their cards beside them. Those of models/ take 8 elements half a wavelength apart along y.
 One line a target is printed; JSON has all regions, those without a target too.")]

@@ -5,34 +5,36 @@ use crate::arguments::AugmentArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::json;
+use crate::numbers;
 use crate::run::Run;
 use boresight_core::{Complex32, Waveform};
+use boresight_formats::RadarConfig;
 use boresight_formats::npy::{Element, preamble};
-use boresight_formats::{NpyArray, RadarConfig};
 use boresight_pipeline::{CubeFrames, FrameSource, PipelineError, Progress};
 use boresight_signal::{ShiftedFrame, shift_range};
 use serde_json::json;
 
 /// Runs the command and returns what it prints.
 pub fn run(arguments: &AugmentArguments, files: &Files) -> Result<String, CliError> {
-    let bytes = files.read(&arguments.file)?;
     let config = arguments.config.as_deref();
     match files::ending(&arguments.file).as_str() {
         "bin" => {
+            let bytes = files.read(&arguments.file)?;
             let (source, config) = capture::read(config, &bytes, files)?;
             write(arguments, &config.waveform, &source, files)
         }
-        "npy" => {
+        ending if numbers::ENDINGS.contains(&ending) => {
             let waveform = match config {
                 Some(path) => RadarConfig::parse(&files.read(path)?)?.waveform,
                 None => cube::named_waveform(arguments.waveform.as_deref(), files)?,
             };
-            let cube = cube::read(&NpyArray::parse(&bytes)?)?;
+            let dataset = arguments.dataset.as_deref();
+            let cube = cube::read(&numbers::read(&arguments.file, dataset, files)?)?;
             write(arguments, &waveform, &CubeFrames(cube.view()), files)
         }
         other => Err(CliError::Option {
             option: "FILE",
-            expected: "a file ending in .bin or .npy".into(),
+            expected: "a file ending in .bin, .npy, .mat or .h5".into(),
             given: if other.is_empty() { "no ending".into() } else { format!(".{other}") },
         }),
     }

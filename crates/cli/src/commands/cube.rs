@@ -57,7 +57,7 @@ pub fn read(file: &NpyArray) -> Result<Array5<Complex32>, CliError> {
         shape.insert(0, 1);
     }
     let wrong = || CoreError::Shape {
-        what: "the .npy file".into(),
+        what: "the array".into(),
         expected: "1 to 3 axes (snapshots), or 4 or 5 (a data cube)".into(),
         given: file.shape.clone(),
     };

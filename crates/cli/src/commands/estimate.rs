@@ -4,7 +4,8 @@ use super::{board, capture, cube, snapshots};
 use crate::arguments::EstimateArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
-use boresight_formats::{NpyArray, tables};
+use crate::numbers;
+use boresight_formats::tables;
 use ndarray::Array3;
 
 /// Runs the command and returns what it prints.
@@ -18,8 +19,8 @@ pub fn run(arguments: &EstimateArguments, files: &Files) -> Result<String, CliEr
             let scenes: Array3<_> = matrix.insert_axis(ndarray::Axis(0));
             snapshots::run(arguments, &scenes, files)
         }
-        "npy" => {
-            let array = NpyArray::parse(&files.read(path)?)?;
+        ending if numbers::ENDINGS.contains(&ending) => {
+            let array = numbers::read(path, arguments.radar.dataset.as_deref(), files)?;
             match array.shape.len() {
                 1..=3 => snapshots::run(arguments, &snapshots::scenes(&array)?, files),
                 _ => cube::run(arguments, &array, files),
@@ -27,7 +28,7 @@ pub fn run(arguments: &EstimateArguments, files: &Files) -> Result<String, CliEr
         }
         other => Err(CliError::Option {
             option: "FILE",
-            expected: "a file ending in .bin, .npy, .csv or .dat".into(),
+            expected: "a file ending in .bin, .npy, .mat, .h5, .csv or .dat".into(),
             given: if other.is_empty() { "no ending".into() } else { format!(".{other}") },
         }),
     }

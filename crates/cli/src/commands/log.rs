@@ -8,6 +8,8 @@ use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::json;
 use crate::output::remark;
+use boresight_calibrate::CalibrationOptions;
+use boresight_calibrate::signs::{SignFindings, find_signs};
 use boresight_core::describe::Named;
 use boresight_core::drive::DriveLog;
 use boresight_formats::drive_log::table::{write_detections, write_motion};
@@ -29,7 +31,12 @@ pub fn run(arguments: &LogArguments, files: &Files) -> Result<String, CliError> 
     if arguments.statistics {
         return log_statistics::run(&read.log, arguments.json);
     }
-    Ok(if arguments.json { format!("{:#}\n", as_json(&read)) } else { as_text(&read) })
+    let signs = find_signs(&read.log, CalibrationOptions::default().max_gap_s)?;
+    Ok(if arguments.json {
+        format!("{:#}\n", as_json(&read, &signs))
+    } else {
+        as_text(&read, &signs)
+    })
 }
 
 fn export(
@@ -65,7 +72,7 @@ fn spans(log: &DriveLog) -> [Option<(f64, f64)>; 2] {
     [span(log.scans.iter().map(|s| s.time_s)), span(log.motion.iter().map(|s| s.time_s))]
 }
 
-fn as_json(read: &DriveRead) -> Value {
+fn as_json(read: &DriveRead, signs: &SignFindings) -> Value {
     let log = &read.log;
     let sensors: Vec<Value> = log
         .sensors
@@ -99,10 +106,11 @@ fn as_json(read: &DriveRead) -> Value {
         "rowsRead": { "detections": report.detections, "motion": report.motion },
         "incomplete": { "detections": report.incomplete, "motion": report.motion_incomplete },
         "dropped": dropped,
+        "signs": json::result(signs),
     })
 }
 
-fn as_text(read: &DriveRead) -> String {
+fn as_text(read: &DriveRead, signs: &SignFindings) -> String {
     let log = &read.log;
     let seconds = |span: Option<(f64, f64)>| {
         span.map_or("none".to_owned(), |(a, b)| format!("{a:.3} to {b:.3} s ({:.3} s)", b - a))
@@ -132,6 +140,7 @@ fn as_text(read: &DriveRead) -> String {
     if let Some(source) = report.mountings {
         text += match source {
             MountingSource::SensorsJson => "mountings   from sensors.json\n",
+            MountingSource::CalibratedSensor => "mountings   from calibrated_sensor.json\n",
             _ => "mountings   those of the format's own car\n",
         };
     }
@@ -145,6 +154,9 @@ fn as_text(read: &DriveRead) -> String {
     }
     for (reason, count) in report.drops() {
         text += &format!("dropped     {count} {}\n", reason.name());
+    }
+    for remark in [signs.azimuth_remark(), signs.range_rate_remark()] {
+        text += &format!("signs       {}\n", remark.message);
     }
     text
 }

@@ -8,9 +8,8 @@ use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::output::{Column, Table, remark};
 use crate::run::Run;
-use crate::{json, network};
+use crate::{json, network, numbers};
 use boresight_core::units::power_to_db;
-use boresight_formats::NpyArray;
 use boresight_neural::{NeuralError, RegionNetworks};
 use boresight_pipeline::regions::RegionFrame;
 use boresight_pipeline::{CubeFrames, FrameSource, RegionChain};
@@ -25,14 +24,14 @@ pub fn run(arguments: &RegionsArguments, files: &Files) -> Result<String, CliErr
             let (source, radar) = capture::open(&arguments.radar, &bytes, files)?;
             print(arguments, &radar, &source, files)
         }
-        "npy" => {
-            let file = NpyArray::parse(&files.read(path)?)?;
+        ending if numbers::ENDINGS.contains(&ending) => {
+            let file = numbers::read(path, arguments.radar.dataset.as_deref(), files)?;
             let (cube, radar) = cube::open(&arguments.radar, &file, files)?;
             print(arguments, &radar, &CubeFrames(cube.view()), files)
         }
         other => Err(CliError::Option {
             option: "FILE",
-            expected: "a file ending in .bin or .npy".into(),
+            expected: "a file ending in .bin, .npy, .mat or .h5".into(),
             given: if other.is_empty() { "no ending".into() } else { format!(".{other}") },
         }),
     }

@@ -2,6 +2,7 @@
 //! [`DriveLog`](boresight_core::DriveLog): which format it is is found from the
 //! files' contents, and every row that is left out is counted.
 
+pub mod clouds;
 pub mod delphi;
 pub(crate) mod motion;
 mod open;
@@ -10,7 +11,9 @@ pub(crate) mod scans;
 pub mod table;
 mod text;
 
-pub use open::{DriveFormat, DriveRead, is_hdf5, is_table, no_drive_log, open, open_owned};
+pub use open::{
+    DriveFormat, DriveRead, in_file, is_hdf5, is_table, no_drive_log, open, open_owned,
+};
 pub use report::{DropReason, MountingSource, ReadReport};
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::report::ReadReport;
 use super::text::{Rows, is_gzip};
-use super::{delphi, table};
+use super::{clouds, delphi, table};
 use crate::error::FormatError;
 use crate::radarscenes::{self, Companions};
 use boresight_core::CoreError;
@@ -22,6 +22,10 @@ pub enum DriveFormat {
     Delphi,
     /// [`table`]: the general tables.
     Csv,
+    /// [`clouds`]: point clouds, a file a scan, as of nuScenes and TruckScenes.
+    Pcd,
+    /// [`clouds::view_of_delft`]: frames of View-of-Delft.
+    ViewOfDelft,
 }
 
 impl DriveFormat {
@@ -108,7 +112,7 @@ pub fn is_hdf5(name: &str) -> bool {
 }
 
 /// Names the file in an error.
-fn in_file(error: FormatError, name: &str) -> FormatError {
+pub fn in_file(error: FormatError, name: &str) -> FormatError {
     let name: String = name.chars().take(60).collect();
     match error {
         FormatError::Table { line, what, expected, given } => {
@@ -120,6 +124,13 @@ fn in_file(error: FormatError, name: &str) -> FormatError {
         FormatError::Hdf5 { what, expected, given } => {
             FormatError::Hdf5 { what: format!("{what} in {name}"), expected, given }
         }
+        FormatError::Binary { format, offset, what, expected, given } => FormatError::Binary {
+            format,
+            offset,
+            what: format!("{what} in {name}"),
+            expected,
+            given,
+        },
         other => other,
     }
 }
@@ -176,6 +187,9 @@ fn open_files(
     mut files: Vec<File<'_>>,
     format: Option<DriveFormat>,
 ) -> Result<DriveRead, FormatError> {
+    if let Some(read) = clouds::open(&files, format)? {
+        return Ok(read);
+    }
     let roles: Vec<_> =
         files.iter().map(|(name, bytes)| role(name, bytes)).collect::<Result<_, _>>()?;
     let wanted = |candidate| format.is_none_or(|format| format == candidate);
@@ -232,12 +246,12 @@ fn open_files(
                 .map_err(radar_error);
         }
         DriveFormat::Delphi => delphi::read_radar(&bytes, &mut report).map_err(radar_error)?,
-        DriveFormat::Csv => table::read_detections(&bytes, &mut report).map_err(radar_error)?,
+        _ => table::read_detections(&bytes, &mut report).map_err(radar_error)?,
     };
     if let Some((name, bytes)) = bytes_beside(0) {
         log.motion = match format {
             DriveFormat::Delphi => delphi::read_poses(bytes, &mut report),
-            DriveFormat::Csv | DriveFormat::Radarscenes => table::read_motion(bytes, &mut report),
+            _ => table::read_motion(bytes, &mut report),
         }
         .map_err(|error| in_file(error, name))?;
     }
@@ -260,6 +274,10 @@ pub fn no_drive_log<'a>(
         DriveFormat::Csv => {
             "a CSV with the columns time_s, azimuth_rad or azimuth_deg, range_rate_mps".to_owned()
         }
+        DriveFormat::Pcd => {
+            "point clouds of a radar, a .pcd a scan (nuScenes, TruckScenes)".to_owned()
+        }
+        DriveFormat::ViewOfDelft => "frames of View-of-Delft, as in 00549.bin".to_owned(),
     };
     let expected = match format {
         Some(format) => one(format),

@@ -19,8 +19,18 @@ pub enum DropReason {
     Duplicate,
     /// A motion sample with a NaN or an infinity where a number is needed.
     MotionNotFinite,
-    /// A second motion sample of the same time.
+    /// A second motion sample of the same time, or a pose so near to another that their difference is noise.
     MotionDuplicate,
+    /// A pose with no other near it in time, so that it tells no motion.
+    MotionAlone,
+    /// A detection that its radar calls invalid (`invalid_state` of nuScenes).
+    InvalidState,
+    /// A detection whose range rate its radar calls ambiguous (`ambig_state` of nuScenes).
+    AmbiguousDoppler,
+    /// A detection on a thing that has stopped, or of an unknown kind (`dyn_prop` of nuScenes).
+    DynamicProperty,
+    /// A detection of an earlier scan, which another frame has as its own.
+    EarlierScan,
 }
 
 /// Where the mountings of a log are from.
@@ -32,6 +42,8 @@ pub enum MountingSource {
     SensorsJson,
     /// The format's own car, as no file states them.
     Format,
+    /// `calibrated_sensor.json` of the data set.
+    CalibratedSensor,
 }
 
 /// What a reader found, kept and left out.

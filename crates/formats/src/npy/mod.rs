@@ -9,6 +9,7 @@ mod read;
 mod write;
 
 use boresight_core::{Complex32, Complex64};
+pub(crate) use read::first_index_first;
 pub use write::{Element, preamble, write};
 
 /// Numbers of an array, in C order.

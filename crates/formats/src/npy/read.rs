@@ -156,15 +156,17 @@ fn numbers<T, const N: usize>(
     };
     let count = body.len() / N;
     let Some(shape) = fortran else { return (0..count).map(at).collect() };
-    (0..count)
-        .map(|index| {
-            let (mut rest, mut source, mut stride) = (index, 0, count);
-            for &length in shape.iter().rev() {
-                stride /= length;
-                source += rest % length * stride;
-                rest /= length;
-            }
-            at(source)
-        })
-        .collect()
+    (0..count).map(|index| at(first_index_first(shape, index))).collect()
+}
+
+/// Where the element of an index in C order stands in an array of Fortran order.
+pub(crate) fn first_index_first(shape: &[usize], index: usize) -> usize {
+    let (mut rest, mut place) = (index, 0);
+    let mut stride: usize = shape.iter().product();
+    for &length in shape.iter().rev() {
+        stride /= length;
+        place += rest % length * stride;
+        rest /= length;
+    }
+    place
 }

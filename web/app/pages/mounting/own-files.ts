@@ -7,8 +7,9 @@ import type { NamedFile } from '../../ui/entries.ts';
 import { driveProblem, filesWanted, OWN, open } from './drive.ts';
 import { update } from './state.ts';
 
-/** What stands beside an HDF5 file. */
-const BESIDE = /(^|\/)(scenes|sensors|sequences)\.json$/i;
+/** What stands beside an HDF5 file, beside point clouds, and beside frames of View-of-Delft. */
+const BESIDE =
+  /(^|\/)(scenes|sensors|sequences|sensor|calibrated_sensor|sample_data|ego_pose|ego_motion_chassis|\d{4,9})\.json$/i;
 /** What a tab can hold beside its copies in workers. */
 const LARGEST_BYTES = 1024 ** 3;
 
@@ -83,14 +84,14 @@ async function openDrive(all: readonly NamedFile[], given?: readonly NamedFile[]
         throw new FileProblem(
           'no-drive-log',
           'The folder',
-          'it is empty; a .csv, .csv.gz or .h5 with a drive is expected',
+          'it is empty; a .csv, .csv.gz, .h5 or .pcd with a drive is expected',
         );
       if (drives.length === 0) {
         const what = all.length === 1 ? first.name : `${all.length} files`;
         throw new FileProblem(
           'no-drive-log',
           what,
-          'no drive is in it; .csv or .csv.gz tables, or the radar_data.h5 of a RadarScenes sequence, are expected',
+          'no drive is in it; .csv or .csv.gz tables, the radar_data.h5 of a RadarScenes sequence, or .pcd files, are expected',
         );
       }
       const sequences = drives.filter(({ name }) => /\.(h5|hdf5)$/i.test(name)).length;

@@ -59,14 +59,14 @@ export function Source() {
           <button
             type="button"
             onClick={() => input.current?.click()}
-            title="Tables (.csv, .csv.gz) of detections and motion, or radar_data.h5"
+            title="Tables (.csv, .csv.gz) of detections and motion, radar_data.h5, or point clouds (.pcd) with their tables"
           >
             Open files
           </button>
           <button
             type="button"
             onClick={() => folder.current?.click()}
-            title="The folder of a RadarScenes sequence, or of tables"
+            title="The folder of a RadarScenes sequence, of point clouds, or of tables"
           >
             Open a folder
           </button>
@@ -85,7 +85,7 @@ export function Source() {
             type="file"
             multiple
             hidden
-            accept=".csv,.gz,.h5,.hdf5"
+            accept=".csv,.gz,.h5,.hdf5,.pcd,.bin,.json"
             aria-label="Drive files"
             data-input="files"
             onChange={pick}
@@ -101,8 +101,8 @@ export function Source() {
           />
         </div>
         <p class={showHelp.value ? 'help' : 'muted small'}>
-          Or drop the folder of a RadarScenes sequence, Delphi tables or CSV tables of any columns anywhere on the page.
-          Nothing is uploaded.
+          Or drop the folder of a RadarScenes sequence, radar clouds of nuScenes or TruckScenes, frames of
+          View-of-Delft, Delphi tables or CSV tables of any columns anywhere on the page. Nothing is uploaded.
         </p>
       </div>
     </>
