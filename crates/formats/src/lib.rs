@@ -30,9 +30,11 @@
 pub mod dca1000;
 pub mod drive_log;
 mod error;
+pub mod mcap;
 pub mod mmwave_cfg;
 pub mod npy;
 pub mod radarscenes;
+pub mod ros;
 pub mod tables;
 pub mod ti_uart;
 

@@ -3,6 +3,7 @@
 //! files' contents, and every row that is left out is counted.
 
 pub mod delphi;
+pub mod mcap;
 pub(crate) mod motion;
 mod open;
 mod report;
