@@ -5,6 +5,10 @@
 
 mod definition;
 mod encoding;
+#[cfg(test)]
+pub(crate) mod made;
+#[cfg(test)]
+mod tests;
 mod value;
 
 pub use definition::{Definition, Definitions, Field, Kind, Many};

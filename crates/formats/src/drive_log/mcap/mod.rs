@@ -14,6 +14,8 @@ mod list;
 mod motion;
 mod quantity;
 mod reader;
+#[cfg(test)]
+mod tests;
 mod topic;
 mod topics;
 
