@@ -4,16 +4,20 @@ use crate::arguments::LogPaths;
 use crate::error::CliError;
 use crate::files::Files;
 use boresight_core::DriveLog;
-use boresight_formats::drive_log::{is_hdf5, is_table, no_drive_log, open_owned};
+use boresight_formats::drive_log::{
+    is_hdf5, is_mcap, is_mcap_name, is_table, no_drive_log, open_owned,
+};
 use boresight_formats::radarscenes::{Companions, read_path, sequence_names};
-use boresight_formats::{DriveFormat, DriveRead, ReadReport};
+use boresight_formats::{DriveFormat, DriveRead, McapDriveReader, ReadReport};
 use std::error::Error;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 const RADAR_DATA: &str = "radar_data.h5";
 
 /// Reads a drive log from one folder, one file, or several files that belong together. Of a folder
-/// only tables and HDF5 files are read, and with the latter the JSON files of a sequence, in its
+/// only tables, HDF5 files and MCAP files are read, and with the latter the JSON files of a sequence, in its
 /// folder and the one above; of the folder of a data set, the sequence that is asked for.
 pub fn open_path(
     log: &LogPaths,
@@ -28,7 +32,8 @@ pub fn open_path(
         if path.is_dir() {
             for path in entries(path)? {
                 names.push(name(&path));
-                if path.is_file() && (is_table(&name(&path)) || is_hdf5(&name(&path))) {
+                let is_kind = [is_table, is_hdf5, is_mcap_name].iter().any(|is| is(&name(&path)));
+                if path.is_file() && is_kind {
                     found.push(path);
                 }
             }
@@ -39,6 +44,13 @@ pub fn open_path(
     }
     found.sort();
     found.dedup();
+    if format.is_none_or(|format| format == DriveFormat::Mcap) {
+        let (parts, others): (Vec<_>, Vec<_>) = found.iter().partition(|path| is_recording(path));
+        if !parts.is_empty() {
+            not_wanted(sequence)?;
+            return read_recording(log, &parts, &others, files);
+        }
+    }
     if format.is_none_or(|format| format == DriveFormat::Radarscenes) {
         let set = match paths[..] {
             [folder] if folder.is_dir() && !found.iter().any(|path| is_hdf5(&name(path))) => {
@@ -64,7 +76,7 @@ pub fn open_path(
     for path in &found {
         contents.push((name(path), files.read(path)?));
     }
-    Ok(open_owned(contents, format)?)
+    Ok(open_owned(contents, format, &log.topics.options)?)
 }
 
 /// The drives in a folder, by name: the sequences of a data set of RadarScenes, or else the folders in it; without any the folder itself.
@@ -81,10 +93,39 @@ pub fn drives_in(folder: &Path, files: &Files) -> Result<Vec<(String, PathBuf)>,
 /// The log of one drive, for experiments.
 pub fn load(path: &Path) -> Result<DriveLog, Box<dyn Error + Send + Sync>> {
     // A message in place of the error, which may not leave its thread.
-    let log = LogPaths { paths: vec![path.into()], sequence: None };
+    let log = LogPaths { paths: vec![path.into()], ..LogPaths::default() };
     open_path(&log, None, &Files::new(false))
         .map(|read| read.log)
         .map_err(|error| error.to_string().into())
+}
+
+/// Whether a file is MCAP: by its name, or by its beginning.
+fn is_recording(path: &Path) -> bool {
+    let mut begin = vec![];
+    is_mcap_name(&name(path))
+        || File::open(path).is_ok_and(|file| file.take(8).read_to_end(&mut begin).is_ok())
+            && is_mcap(&begin)
+}
+
+/// Reads the parts of a recording, none of which is held as a whole.
+fn read_recording(
+    log: &LogPaths,
+    parts: &[&PathBuf],
+    others: &[&PathBuf],
+    files: &Files,
+) -> Result<DriveRead, CliError> {
+    let mut reader = McapDriveReader::new(log.topics.options.clone());
+    for path in parts {
+        files.note_input(path);
+        let failed = |error| CliError::File { action: "read", path: (*path).into(), error };
+        reader.push_all(File::open(path).map_err(failed)?).map_err(failed)??;
+        reader.end_file();
+    }
+    let mut read = reader.finish()?;
+    for path in others {
+        read.report.ignored(&name(path));
+    }
+    Ok(read)
 }
 
 /// Refuses `--sequence` where there is nothing to choose from.

@@ -9,7 +9,10 @@ use boresight_core::Remark;
 use boresight_core::describe::Described;
 use boresight_core::drive::DriveLog;
 use boresight_core::drive_columns::DriveColumns;
-use boresight_formats::drive_log::{self, DriveFormat, DropReason, MountingSource, ReadReport};
+use boresight_formats::drive_log::{
+    self, DriveFormat, DriveRead, DriveTopic, DropReason, McapDriveReader, MountingSource,
+    ReadReport, TopicOptions,
+};
 use boresight_pipeline::Progress;
 use boresight_simulate::drive::TruthColumns;
 use boresight_simulate::{DriveOptions, Scenario, simulate_drive_reporting};
@@ -29,16 +32,56 @@ const SCANS_A_REPORT: usize = 128;
 pub struct ReadDriveOptions {
     /// The format of the files; found from their contents where none is named.
     format: Option<DriveFormat>,
+    /// Which topics of a recording are read.
+    #[serde(rename = "..topics")]
+    topics: TopicOptions,
 }
 
 /// Reads a drive from named files.
 #[wasm_bindgen(js_name = readDrive)]
 pub fn read_drive(files: &JsValue, options: &JsValue) -> Fallible<JsValue> {
-    let ReadDriveOptions { format } = carry::read_optional(options)?;
+    let ReadDriveOptions { format, topics } = carry::read_optional(options)?;
     let files = Vec::<File>::read(files, "files")?;
     let files = files.into_iter().map(|file| (file.name, file.bytes)).collect();
-    let read = drive_log::open_owned(files, format)?;
-    Ok(carry::write(&DriveRecord::new(&read.log, read.format.name(), &read.report)))
+    Ok(record_of(&drive_log::open_owned(files, format, &topics)?))
+}
+
+fn record_of(read: &DriveRead) -> JsValue {
+    carry::write(&DriveRecord::new(&read.log, read.format.name(), &read.report))
+}
+
+/// Reads a drive from the bytes of an MCAP file as they come.
+#[wasm_bindgen]
+pub struct DriveStream(McapDriveReader);
+
+#[wasm_bindgen]
+impl DriveStream {
+    /// A reader of the topics that the options name.
+    #[wasm_bindgen(constructor)]
+    pub fn new(options: &JsValue) -> Fallible<Self> {
+        let ReadDriveOptions { format, topics } = carry::read_optional(options)?;
+        match format {
+            None | Some(DriveFormat::Mcap) => Ok(Self(McapDriveReader::new(topics))),
+            Some(_) => Err(drive_log::no_drive_log(format, std::iter::empty()).into()),
+        }
+    }
+
+    /// Takes the next bytes.
+    pub fn push(&mut self, bytes: &JsValue) -> Fallible<()> {
+        let Bytes(bytes) = Bytes::read(bytes, "bytes")?;
+        Ok(self.0.push(&bytes)?)
+    }
+
+    /// Ends a file; what comes next is the next part of the recording.
+    #[wasm_bindgen(js_name = endFile)]
+    pub fn end_file(&mut self) {
+        self.0.end_file();
+    }
+
+    /// The drive; what comes next is of another one.
+    pub fn finish(&mut self) -> Fallible<JsValue> {
+        Ok(record_of(&self.0.take().finish()?))
+    }
 }
 
 /// Simulates a drive.
@@ -108,6 +151,10 @@ pub struct DriveRecord<'a> {
     mountings: Option<MountingSource>,
     /// What the files held.
     counts: DriveCounts,
+    /// Topics of a recording and what each is used for; none in other formats.
+    topics: &'a [DriveTopic],
+    /// When the drive begins by the clock of the recording, since 1970, where its times were shifted.
+    start_s: Option<f64>,
     /// What else to know.
     warnings: &'a [Remark],
 }
@@ -152,6 +199,8 @@ impl<'a> DriveRecord<'a> {
                 incomplete_motion: report.motion_incomplete,
                 dropped: report.drops().collect(),
             },
+            topics: &report.topics,
+            start_s: report.start_s,
             warnings: &report.remarks,
         }
     }

@@ -3,21 +3,25 @@
 use crate::flags::{Flags, OnCommandLine};
 use boresight_calibrate::CalibrationOptions;
 use boresight_core::describe::Named;
-use boresight_formats::DriveFormat;
+use boresight_formats::{DriveFormat, TopicOptions};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
 
 /// Where a drive log is.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub struct LogPaths {
     /// The log: its folder, its one file, or its files. Tables (.csv, also packed as .csv.gz) are
-    /// recognised by their columns. Of RadarScenes also the folder of the data set.
+    /// recognised by their columns. Of RadarScenes also the folder of the data set; of a recording in
+    /// MCAP (.mcap) all its parts.
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
     /// Which sequence of a data set's folder, such as sequence_7 or 7.
     #[arg(long, value_name = "NAME")]
     pub sequence: Option<String>,
+    /// Which topics are read.
+    #[command(flatten)]
+    pub topics: Flags<TopicOptions>,
 }
 
 /// Arguments of `log`.
@@ -33,6 +37,9 @@ pub struct LogArguments {
     /// its angle scatters and how long that lasts, slip, delay, speed.
     #[arg(long)]
     pub statistics: bool,
+    /// Print the messages of this topic of an MCAP file, one a line as JSON, in place of what the log holds.
+    #[arg(long, value_name = "TOPIC")]
+    pub messages: Option<String>,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
@@ -92,6 +99,10 @@ pub struct OdometryArguments {
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+impl OnCommandLine for TopicOptions {
+    const HEADING: &'static str = "Recordings in MCAP";
 }
 
 impl OnCommandLine for CalibrationOptions {

@@ -11,6 +11,7 @@ pub(crate) mod scans;
 pub mod table;
 mod text;
 
+pub use mcap::{DriveTopic, McapDriveReader, TopicOptions, is_mcap, is_mcap_name};
 pub use open::{DriveFormat, DriveRead, is_hdf5, is_table, no_drive_log, open, open_owned};
 pub use report::{DropReason, MountingSource, ReadReport};
 

@@ -124,6 +124,11 @@ impl McapDriveReader {
         self.topics.by_channel.clear();
     }
 
+    /// What was taken so far; what comes next is of another drive, of the same topics.
+    pub fn take(&mut self) -> Self {
+        std::mem::replace(self, Self::new(self.topics.options.clone()))
+    }
+
     /// The drive.
     ///
     /// # Errors
