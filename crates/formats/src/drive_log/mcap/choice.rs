@@ -41,10 +41,11 @@ fn listed(all: &[Topic], words: impl Fn(&Topic) -> String) -> String {
     if text.is_empty() { "no topics".into() } else { text }
 }
 
-/// Places of the radars' topics.
+/// Places of the radars' topics; `lost` says what of the file was not read.
 pub(super) fn choose_radars(
     options: &TopicOptions,
     all: &mut [Topic],
+    lost: &str,
 ) -> Result<Vec<usize>, FormatError> {
     let is_radar = |topic: &Topic| topic.is_radar() && topic.messages > 0;
     check_named(&options.radar_topics, all, "a topic with detections", is_radar)?;
@@ -70,7 +71,11 @@ pub(super) fn choose_radars(
             let why = topic.refused.as_deref().unwrap_or("the car's motion or frames");
             format!("{} ({}): {why}", topic.name, topic.message_type)
         };
-        return Err(FormatError::NoDriveLog { expected: no_radar(), given: listed(all, why) });
+        let mut given = listed(all, why);
+        if !lost.is_empty() {
+            given += &format!("; {lost}");
+        }
+        return Err(FormatError::NoDriveLog { expected: no_radar(), given });
     }
     Ok(radars)
 }

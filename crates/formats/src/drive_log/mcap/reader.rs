@@ -138,7 +138,9 @@ impl McapDriveReader {
         self.end_file();
         let Self { topics: Topics { options, mut all, frames, .. }, remarks, .. } = self;
         all.sort_by(|a, b| (&a.name, &a.message_type).cmp(&(&b.name, &b.message_type)));
-        let radars = choose_radars(&options, &mut all)?;
+        let lost = remarks.iter().map(|remark| &*remark.message);
+        let lost = lost.collect::<Vec<_>>().join("; ");
+        let radars = choose_radars(&options, &mut all, &lost)?;
         let motions = choose_motions(&options, &mut all)?;
         let mut drive = Drive { all, frames, report: ReadReport::default(), base: String::new() };
         drive.base = options.base_frame.unwrap_or_else(|| BASE_FRAME.into());
