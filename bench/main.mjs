@@ -23,6 +23,7 @@ import { compare, here, median } from './measure.mjs';
 import { networkRows } from './networks.mjs';
 import { NumPy } from './numpy.mjs';
 import { ransac } from './ransac-js.mjs';
+import { recordingRows } from './recordings.mjs';
 import { table, tally, verdict } from './report.mjs';
 
 const root = fileURLToPath(new URL('..', import.meta.url));
@@ -426,6 +427,7 @@ for (const one of classical) await classicalRow(one);
 await cubeRows();
 await driveRows();
 await boundaryRows();
+await recordingRows({ row, boresight, quick: options.quick });
 await networkRows(networks, { row, pace, neural, positions: boresight.array('lrr48').positions });
 await row('init() in a fresh process', { unit: 's' }, () => ({ value: initSeconds(entry, options.quick ? 3 : 15) }));
 await row('core .wasm, raw', { unit: 'bytes' }, () => ({ value: wasm.bytes }));

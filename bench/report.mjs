@@ -16,6 +16,10 @@ export function formatTime(seconds) {
   return `${(seconds * scale).toPrecision(3)} ${unit}`;
 }
 
+/** A time, or where bytes were read in it, how fast they were. */
+const formatSpeed = ({ readBytes }, seconds) =>
+  readBytes && seconds ? `${(readBytes / seconds / 1e6).toPrecision(3)} MB/s` : formatTime(seconds);
+
 const formatTarget = ({ target, unit }) => {
   if (!target) return '';
   const text = (value) => (unit === 's' ? formatTime(value) : unit === 'bytes' ? `${value / 1000} KB` : `${value} x`);
@@ -27,11 +31,11 @@ const formatSpread = ({ median, low, high }) =>
 
 function cells(row) {
   const figure =
-    row.unit === 'bytes' ? `${(row.value / 1000).toFixed(1)} KB` : formatTime(row.ours?.median ?? row.value);
+    row.unit === 'bytes' ? `${(row.value / 1000).toFixed(1)} KB` : formatSpeed(row, row.ours?.median ?? row.value);
   return [
     row.name,
     row.error ? `error: ${row.error}` : figure,
-    row.missing ? row.missing : row.other ? `${row.otherName} ${formatTime(row.other.median)}` : '',
+    row.missing ? row.missing : row.other ? `${row.otherName} ${formatSpeed(row, row.other.median)}` : '',
     row.ratio ? formatSpread(row.ratio) : '',
     formatTarget(row),
     verdict(row),

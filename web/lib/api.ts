@@ -6,6 +6,7 @@ export { strongestRegion } from './capture/region.js';
 export { calibrateDrive, calibrationReport, frameVerdicts, jointCalibration } from './drive/calibration.js';
 export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive/drive.js';
 export { driveFrame, scanMotion } from './drive/frame.js';
+export { DriveStream } from './drive/stream.js';
 export { relativeTrajectoryError, trajectory } from './drive/trajectory.js';
 export { Estimator, estimate, methods, unsuited } from './estimate/estimate.js';
 export { countSources, cramerRaoBound } from './estimate/theory.js';

@@ -6,11 +6,12 @@ import { reading, wrong } from '../lib/runtime/errors.js';
 import type * as lib from '../lib/types.js';
 import { joined, joinedBatches, stretchesOf } from './batch.js';
 import { type OnKept, PoolCapture } from './capture.js';
-import { checkedJob, type JobOptions, rejectTyped } from './job.js';
+import { checkedJob, type JobOptions, passedOn, rejectTyped } from './job.js';
 import type { PoolOptions } from './options.js';
 import { Crew, type Piece, type Runtime } from './pool.js';
 import { argumentCounts, type PromisedFunctions } from './promised.js';
 import type { OperationName, Operations } from './protocol.js';
+import { partsOf, piecesOf } from './recording.js';
 import { split } from './split.js';
 import { packed } from './transfer.js';
 
@@ -199,6 +200,33 @@ export class Pool {
     return this.#one('combineFrames', [bytes, config, options], job);
   }
 
+  /**
+   * Reads a drive from an MCAP file (a ROS 2 bag), or from the parts of one in their order, of which no more than a piece
+   * is held at a time: a `File` or other `Blob`, or anything that gives bytes, such as a stream. Progress counts bytes;
+   * their total is 0 where it is not known.
+   */
+  async readDriveStream(
+    recording: lib.Recording | readonly lib.Recording[],
+    options?: lib.ReadDriveOptions,
+    job: JobOptions = {},
+  ): Promise<lib.Drive> {
+    const { onProgress, ...quiet } = checkedJob(job);
+    const parts = partsOf(recording);
+    const stream = this.#crew.addStream({ options });
+    let pieces = 0;
+    try {
+      for await (const { bytes, own, last, done, total } of piecesOf(parts)) {
+        const args = [stream, pieces, bytes, last] as const;
+        await this.#one('pushDrive', [...args], { ...quiet, transfer: own || (quiet.transfer ?? false) }, { stream });
+        pieces += 1;
+        report(onProgress, done, total);
+      }
+      return await this.#one('finishDrive', [stream, pieces], quiet, { stream });
+    } finally {
+      this.#crew.remove('stream', stream);
+    }
+  }
+
   /** Progress counts scans. */
   simulateDrive(options?: lib.SimulateDriveOptions, job?: JobOptions): Promise<lib.SimulatedDrive> {
     return this.#one('simulateDrive', [options], job);
@@ -350,11 +378,20 @@ export class Pool {
     name: N,
     args: Parameters<Operations[N]>,
     job?: JobOptions,
-    kept?: { network?: string | readonly string[]; capture?: string },
+    kept?: { network?: string | readonly string[]; capture?: string; stream?: string },
   ): Promise<ReturnType<Operations[N]>> {
     const network = withNetworks.includes(name) ? networkIn(args) : undefined;
     const [result] = await this.#crew.run([{ name, args, units: 1, network, ...kept }], job);
     return result as ReturnType<Operations[N]>;
+  }
+}
+
+/** Says how far a job is. */
+function report(onProgress: JobOptions['onProgress'], done: number, total: number): void {
+  try {
+    onProgress?.(done, total);
+  } catch (thrown) {
+    throw passedOn(thrown);
   }
 }
 

@@ -38,6 +38,7 @@ import type { Network } from '../lib/neural/network.js';
 import { core } from '../lib/runtime/instance.js';
 import { bytesOf, type CaptureSource, withCapture } from './captures.js';
 import { keyOf, networkWith } from './networks.js';
+import { finishDrive, pushDrive } from './streams.js';
 
 /** What an operation is called on. */
 export interface Context {
@@ -247,6 +248,8 @@ export const operations = {
   calibrationMethods: api.calibrationMethods,
   mergeCalibrations: api.mergeCalibrations,
   readDrive: api.readDrive,
+  pushDrive,
+  finishDrive,
   simulateDrive,
   driveScenarios: api.driveScenarios,
   scanMotion: api.scanMotion,

@@ -17,6 +17,8 @@ export interface Piece<N extends OperationName> {
   network?: string | readonly string[] | undefined;
   /** The kept capture it needs. */
   capture?: string | undefined;
+  /** The recording it is a piece of, which one worker reads. */
+  stream?: string | undefined;
 }
 
 /** How a runtime makes workers. */
@@ -38,6 +40,8 @@ const ofDrives: readonly OperationName[] = [
   'readDrive',
   'readArray',
   'listArrays',
+  'pushDrive',
+  'finishDrive',
   'simulateDrive',
   'driveScenarios',
   'scanMotion',
@@ -149,6 +153,11 @@ export class Crew {
   addCapture(file: Files['capture']): string {
     const most = Math.max(1, Math.floor(COPIES_BYTES / (file.bytes.byteLength || 1)));
     return this.#add({ kind: 'capture', file, most });
+  }
+
+  /** Takes a recording that is read piece by piece, all by one worker. */
+  addStream(file: Files['stream']): string {
+    return this.#add({ kind: 'stream', file, most: 1 });
   }
 
   #add(kept: Kept): string {
@@ -269,7 +278,8 @@ export class Crew {
   /** Who is free for a task: one that has what it needs, before others that would have to be given it. */
   #memberFor({ job, index }: Task): Member | undefined {
     const idle = [...this.#members].filter(({ task }) => task === undefined);
-    const id = job.pieces[index]?.capture;
+    const piece = job.pieces[index];
+    const id = piece?.capture ?? piece?.stream;
     const kept = id === undefined ? undefined : this.#kept.get(id);
     if (id === undefined || kept === undefined) return idle[0] ?? this.#hire();
     const having = idle.find((member) => member.kept.has(id));
@@ -324,7 +334,8 @@ export class Crew {
       const file = this.#kept.get(id)?.file;
       if (!file) return sum;
       // What was given may be no such file: its worker says so.
-      const bytes: { byteLength: number } | undefined = 'onnx' in file ? file.onnx : file.bytes;
+      const bytes: { byteLength: number } | undefined =
+        'onnx' in file ? file.onnx : 'bytes' in file ? file.bytes : undefined;
       return sum + KEPT * (bytes?.byteLength ?? 0);
     }, 0);
   }
@@ -434,9 +445,10 @@ function terminated(): BoresightError {
 }
 
 /** The kept files that a piece names. */
-function needs({ network, capture }: Piece<OperationName>): [keyof Files, string][] {
+function needs({ network, capture, stream }: Piece<OperationName>): [keyof Files, string][] {
   return [
     ...(network === undefined ? [] : [network].flat().map((id) => ['network', id] as [keyof Files, string])),
     ...(capture === undefined ? [] : [['capture', capture] as [keyof Files, string]]),
+    ...(stream === undefined ? [] : [['stream', stream] as [keyof Files, string]]),
   ];
 }

@@ -2,6 +2,7 @@
 import type { PlainError } from '../lib/runtime/errors.js';
 import type { CaptureFile, Limits, NetworkFile } from '../lib/types.js';
 import type { operations } from './operations.js';
+import type { StreamFile } from './streams.js';
 
 export type Operations = typeof operations;
 export type OperationName = keyof Operations;
@@ -10,6 +11,7 @@ export type OperationName = keyof Operations;
 export interface Files {
   network: NetworkFile;
   capture: CaptureFile;
+  stream: StreamFile;
 }
 
 /** What a worker is given before it needs it: compiled modules, the core's first, and files to keep or to forget. */

@@ -7,6 +7,7 @@ import { core, initSync } from '../lib/runtime/instance.js';
 import { Instance } from '../lib/runtime/module.js';
 import { forgetCapture, keepCapture } from './captures.js';
 import { forgetNetwork, keepNetwork } from './networks.js';
+import { forgetStream, keepStream } from './streams.js';
 import { type Context, operations } from './operations.js';
 import type { Reply, Request, Setup } from './protocol.js';
 import { buffersOf } from './transfer.js';
@@ -48,11 +49,13 @@ export function serve(
     }
     if ('keep' in message) {
       if (message.keep === 'network') keepNetwork(message.of, message.file);
+      else if (message.keep === 'stream') keepStream(message.of, message.file);
       else keepCapture(message.of, message.file);
       return;
     }
     if ('forget' in message) {
       if (message.forget === 'network') forgetNetwork(message.of);
+      else if (message.forget === 'stream') forgetStream(message.of);
       else forgetCapture(message.of);
       return;
     }

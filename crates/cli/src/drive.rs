@@ -6,11 +6,14 @@ use crate::files::Files;
 use boresight_calibrate::{CalibrationOptions, signs};
 use boresight_core::DriveLog;
 use boresight_formats::drive_log::clouds::{Clouds, Tables, format_of, is_cloud};
-use boresight_formats::drive_log::{in_file, is_hdf5, is_table, no_drive_log, open_owned};
+use boresight_formats::drive_log::{
+    in_file, is_hdf5, is_mcap, is_mcap_name, is_table, no_drive_log, open_owned,
+};
 use boresight_formats::radarscenes::{Companions, read_path, sequence_names};
-use boresight_formats::{DriveFormat, DriveRead, ReadReport};
+use boresight_formats::{DriveFormat, DriveRead, McapDriveReader, ReadReport};
 use std::error::Error;
 use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 const RADAR_DATA: &str = "radar_data.h5";
@@ -28,7 +31,7 @@ pub fn open_path(
 }
 
 /// Reads a drive log from one folder, one file, or several files that belong together. Of a folder
-/// only tables and HDF5 files are read, and with the latter the JSON files of a sequence, in its
+/// only tables, HDF5 files, MCAP files and point clouds are read, and with HDF5 the JSON files of a sequence, in its
 /// folder and the one above; of the folder of a data set, the sequence that is asked for; of point clouds also those of the
 /// folders in it.
 fn read_log(
@@ -44,7 +47,8 @@ fn read_log(
         if path.is_dir() {
             for path in entries(path)? {
                 names.push(name(&path));
-                if path.is_file() && (is_table(&name(&path)) || is_hdf5(&name(&path))) {
+                let is_kind = [is_table, is_hdf5, is_mcap_name].iter().any(|is| is(&name(&path)));
+                if path.is_file() && is_kind {
                     found.push(path);
                 }
             }
@@ -58,6 +62,13 @@ fn read_log(
     }
     found.sort();
     found.dedup();
+    if format.is_none_or(|format| format == DriveFormat::Mcap) {
+        let (parts, others): (Vec<_>, Vec<_>) = found.iter().partition(|path| is_recording(path));
+        if !parts.is_empty() {
+            not_wanted(sequence)?;
+            return read_recording(log, &parts, &others, files);
+        }
+    }
     if format.is_none_or(|format| format == DriveFormat::Radarscenes) {
         let set = match paths[..] {
             [folder] if folder.is_dir() && !found.iter().any(|path| is_hdf5(&name(path))) => {
@@ -83,7 +94,7 @@ fn read_log(
     for path in &found {
         contents.push((name(path), files.read(path)?));
     }
-    Ok(open_owned(contents, format)?)
+    Ok(open_owned(contents, format, &log.topics.options)?)
 }
 
 /// The drives in a folder, by name: the sequences of a data set of RadarScenes, or else the folders in it; without any the folder itself.
@@ -155,6 +166,35 @@ fn read_clouds(
         tables.take(&name(path), Box::new(file));
     }
     Ok(Some(clouds.finish(tables)?))
+}
+
+/// Whether a file is MCAP: by its name, or by its beginning.
+fn is_recording(path: &Path) -> bool {
+    let mut begin = vec![];
+    is_mcap_name(&name(path))
+        || File::open(path).is_ok_and(|file| file.take(8).read_to_end(&mut begin).is_ok())
+            && is_mcap(&begin)
+}
+
+/// Reads the parts of a recording, none of which is held as a whole.
+fn read_recording(
+    log: &LogPaths,
+    parts: &[&PathBuf],
+    others: &[&PathBuf],
+    files: &Files,
+) -> Result<DriveRead, CliError> {
+    let mut reader = McapDriveReader::new(log.topics.options.clone());
+    for path in parts {
+        files.note_input(path);
+        let failed = |error| CliError::File { action: "read", path: (*path).into(), error };
+        reader.push_all(File::open(path).map_err(failed)?).map_err(failed)??;
+        reader.end_file();
+    }
+    let mut read = reader.finish()?;
+    for path in others {
+        read.report.ignored(&name(path));
+    }
+    Ok(read)
 }
 
 /// Refuses `--sequence` where there is nothing to choose from.

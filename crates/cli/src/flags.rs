@@ -104,6 +104,7 @@ impl Flag<'_> {
         };
         match kind {
             Kind::Tuple(_, length) => vec![one; *length].join(","),
+            Kind::List(_) => "NAME,...".into(),
             _ => one.into(),
         }
     }
@@ -131,6 +132,10 @@ impl Flag<'_> {
         };
         let one =
             |text: &str, kind: &Kind| self.read(text, kind).ok_or_else(|| wrong(&kind.expected()));
+        if let Kind::List(_) = kind {
+            let names = given.split(',').map(str::trim).filter(|name| !name.is_empty());
+            return Ok(Some(names.collect()));
+        }
         if let Kind::Tuple(of, length) = kind {
             let parts: Vec<&str> = given.split(',').collect();
             if parts.len() != length {
@@ -201,6 +206,7 @@ fn text(field: &Field, value: &Value) -> Option<String> {
             .iter()
             .map(|item| text(field, item))
             .collect::<Option<Vec<_>>>()
+            .filter(|all| !all.is_empty())
             .map(|all| all.join(",")),
         _ => None,
     }
@@ -225,7 +231,8 @@ fn flags<'a>(record: &'static Record, defaults: Option<&'a Value>, place: &Place
             Kind::Record(inner) => {
                 all.extend(flags(inner, default, &Place { above: path, ..place.clone() }));
             }
-            Kind::List(_) | Kind::Numbers(_) => {}
+            Kind::List(kind) if *kind != Kind::Text => {}
+            Kind::Numbers(_) => {}
             _ => all.push(Flag { prefix: place.prefix, path, field, default }),
         }
     }
@@ -391,6 +398,7 @@ mod tests {
         every_flag::<boresight_simulate::SceneSampling>(4);
         every_flag::<boresight_simulate::CubeRequest>(8);
         every_flag::<boresight_image::ViewGridOptions>(3);
+        every_flag::<boresight_formats::TopicOptions>(3);
     }
 
     #[test]

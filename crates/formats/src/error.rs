@@ -125,6 +125,16 @@ pub enum FormatError {
         /// The time given, s.
         given: f64,
     },
+    /// A topic that was named cannot be used.
+    #[error("topic {topic}: {given}; expected {expected}")]
+    Topic {
+        /// The topic.
+        topic: String,
+        /// What would have been accepted.
+        expected: String,
+        /// What it is.
+        given: String,
+    },
     /// What was given is no drive log.
     #[error("no drive log: {given}; expected {expected}")]
     NoDriveLog {
@@ -150,6 +160,7 @@ impl Diagnose for FormatError {
             Self::Json { .. } => "malformed-json",
             Self::Compressed { .. } => "malformed-gzip",
             Self::TimeBackwards { .. } => "time-backwards",
+            Self::Topic { .. } => "unknown-topic",
             Self::NoDriveLog { .. } => "no-drive-log",
         }
     }
@@ -188,6 +199,9 @@ impl Diagnose for FormatError {
                 format!("at least {previous} s"),
                 format!("{given} s"),
             ),
+            Self::Topic { topic, expected, given } => {
+                Details::new(format!("topic {topic}"), expected, given)
+            }
             Self::NoDriveLog { expected, given } => Details::new("drive log", expected, given),
         }
     }

@@ -8,9 +8,10 @@
 //! - [`pcd`]: point clouds of the Point Cloud Library.
 //! - [`tables`]: detections and snapshots as CSV.
 //! - [`radarscenes`]: sequences of the `RadarScenes` data set.
+//! - [`mcap`] and [`ros`]: recordings of robots and test cars, and the messages in them.
 //! - [`drive_log`]: drives, as point clouds and the car's motion.
 //!
-//! All readers work on bytes in memory, take nothing on trust from a header before comparing it
+//! All readers but those of streams work on bytes in memory, take nothing on trust from a header before comparing it
 //! with what is there, and say where a file is wrong.
 //!
 //! # Example
@@ -33,16 +34,21 @@ pub mod dca1000;
 pub mod drive_log;
 mod error;
 pub mod hdf5;
+pub mod mcap;
 pub mod mmwave_cfg;
 pub mod npy;
 pub mod pcd;
 pub mod radarscenes;
+pub mod ros;
 pub mod tables;
 pub mod ti_uart;
 
 pub use boresight_core::Remark;
 pub use dca1000::{Capture, RawFrame};
-pub use drive_log::{DriveFormat, DriveRead, DropReason, MountingSource, ReadReport};
+pub use drive_log::{
+    DriveFormat, DriveRead, DriveTopic, DropReason, McapDriveReader, MountingSource, ReadReport,
+    TopicOptions,
+};
 pub use error::FormatError;
 pub use mmwave_cfg::RadarConfig;
 pub use npy::{NpyArray, NpyData};

@@ -10,7 +10,10 @@ use boresight_core::Remark;
 use boresight_core::describe::Described;
 use boresight_core::drive::DriveLog;
 use boresight_core::drive_columns::DriveColumns;
-use boresight_formats::drive_log::{self, DriveFormat, DropReason, MountingSource, ReadReport};
+use boresight_formats::drive_log::{
+    self, DriveFormat, DriveRead, DriveTopic, DropReason, McapDriveReader, MountingSource,
+    ReadReport, TopicOptions,
+};
 use boresight_pipeline::Progress;
 use boresight_simulate::drive::TruthColumns;
 use boresight_simulate::{DriveOptions, Scenario, simulate_drive_reporting};
@@ -33,18 +36,64 @@ pub struct ReadDriveOptions {
     /// What the signs in them mean.
     #[serde(rename = "..signs")]
     signs: SignOptions,
+    /// Which topics of a recording are read.
+    #[serde(rename = "..topics")]
+    topics: TopicOptions,
 }
 
 /// Reads a drive from named files.
 #[wasm_bindgen(js_name = readDrive)]
 pub fn read_drive(files: &JsValue, options: &JsValue) -> Fallible<JsValue> {
-    let ReadDriveOptions { format, signs } = carry::read_optional(options)?;
+    let ReadDriveOptions { format, signs, topics } = carry::read_optional(options)?;
     let files = Vec::<File>::read(files, "files")?;
     let files = files.into_iter().map(|file| (file.name, file.bytes)).collect();
-    let mut read = drive_log::open_owned(files, format)?;
+    record_of(drive_log::open_owned(files, format, &topics)?, signs)
+}
+
+/// What JavaScript is given of a drive, once its signs are as they are meant.
+fn record_of(mut read: DriveRead, signs: SignOptions) -> Fallible<JsValue> {
     let gap_s = CalibrationOptions::default().max_gap_s;
     read.report.remarks.extend(signs::apply(&mut read.log, signs, gap_s)?);
     Ok(carry::write(&DriveRecord::new(&read.log, read.format.name(), &read.report)))
+}
+
+/// Reads a drive from the bytes of an MCAP file as they come.
+#[wasm_bindgen]
+pub struct DriveStream {
+    reader: McapDriveReader,
+    signs: SignOptions,
+}
+
+#[wasm_bindgen]
+impl DriveStream {
+    /// A reader of the topics that the options name.
+    #[wasm_bindgen(constructor)]
+    pub fn new(options: &JsValue) -> Fallible<Self> {
+        let ReadDriveOptions { format, signs, topics } = carry::read_optional(options)?;
+        match format {
+            None | Some(DriveFormat::Mcap) => {
+                Ok(Self { reader: McapDriveReader::new(topics), signs })
+            }
+            Some(_) => Err(drive_log::no_drive_log(format, std::iter::empty()).into()),
+        }
+    }
+
+    /// Takes the next bytes.
+    pub fn push(&mut self, bytes: &JsValue) -> Fallible<()> {
+        let Bytes(bytes) = Bytes::read(bytes, "bytes")?;
+        Ok(self.reader.push(&bytes)?)
+    }
+
+    /// Ends a file; what comes next is the next part of the recording.
+    #[wasm_bindgen(js_name = endFile)]
+    pub fn end_file(&mut self) {
+        self.reader.end_file();
+    }
+
+    /// The drive; what comes next is of another one.
+    pub fn finish(&mut self) -> Fallible<JsValue> {
+        record_of(self.reader.take().finish()?, self.signs.clone())
+    }
 }
 
 /// Simulates a drive.
@@ -114,6 +163,10 @@ pub struct DriveRecord<'a> {
     mountings: Option<MountingSource>,
     /// What the files held.
     counts: DriveCounts,
+    /// Topics of a recording and what each is used for; none in other formats.
+    topics: &'a [DriveTopic],
+    /// When the drive begins by the clock of the recording, since 1970, where its times were shifted.
+    start_s: Option<f64>,
     /// What else to know.
     warnings: &'a [Remark],
 }
@@ -158,6 +211,8 @@ impl<'a> DriveRecord<'a> {
                 incomplete_motion: report.motion_incomplete,
                 dropped: report.drops().collect(),
             },
+            topics: &report.topics,
+            start_s: report.start_s,
             warnings: &report.remarks,
         }
     }

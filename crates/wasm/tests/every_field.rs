@@ -40,7 +40,7 @@ fn options_of_streets() {
 fn options_of_scenes_counts_and_readers() {
     every_field::<boresight_simulate::SceneSampling>(4);
     every_field::<boresight_aoa::counting::CountOptions>(2);
-    every_field::<boresight_wasm::drive::ReadDriveOptions>(1);
+    every_field::<boresight_wasm::drive::ReadDriveOptions>(4);
 }
 
 #[wasm_bindgen_test]
@@ -175,6 +175,7 @@ fn other_values(field: &Field, kind: &Kind) -> Vec<JsValue> {
             vec![Array::of1(&object).into()]
         }
         Kind::Text => vec!["a name".into()],
+        Kind::List(Kind::Text) => vec![Array::of1(&"a name".into()).into()],
         Kind::List(_) | Kind::Numbers(_) | Kind::Record(_) => vec![],
     }
 }

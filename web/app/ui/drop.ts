@@ -20,7 +20,7 @@ const KINDS: readonly { page: Page; names: RegExp; what: string; address?: Recor
   {
     page: 'mounting',
     names: DRIVES,
-    what: 'drives (.csv, .csv.gz, .h5, .pcd, or a folder of them)',
+    what: 'drives (.csv, .csv.gz, .h5, .mcap, .pcd, or a folder of them)',
     address: { source: 'files' },
   },
   { page: 'networks', names: NETWORKS, what: 'networks (.onnx)' },

@@ -53,6 +53,9 @@ export interface DriveFile {
   bytes: Uint8Array | ArrayBuffer;
 }
 
+/** A recording that is read piece by piece: a file, or what gives its bytes. */
+export type Recording = Blob | AsyncIterable<Uint8Array>;
+
 /** A scan of a drive with the car's motion at its time; its arrays are views of the drive's. */
 export interface DriveFrame extends CalibrationFrame {
   sensor: number;

@@ -3,7 +3,7 @@
 use crate::flags::{Flags, OnCommandLine};
 use boresight_calibrate::{CalibrationOptions, SignOptions};
 use boresight_core::describe::Named;
-use boresight_formats::DriveFormat;
+use boresight_formats::{DriveFormat, TopicOptions};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 pub struct LogPaths {
     /// The log: its folder, its one file, or its files. Tables (.csv, also packed as .csv.gz) are
     /// recognised by their columns. Of RadarScenes also the folder of the data set; of point clouds (.pcd) the folder of one radar
-    /// or of several, with that of their tables (v1.0-mini, say) beside.
+    /// or of several, with that of their tables (v1.0-mini, say) beside; of a recording in MCAP (.mcap) all its parts.
     #[arg(required = true, value_name = "PATH")]
     pub paths: Vec<PathBuf>,
     /// Which sequence of a data set's folder, such as sequence_7 or 7; of point clouds what their names begin with.
@@ -22,6 +22,9 @@ pub struct LogPaths {
     /// What the signs in it mean.
     #[command(flatten)]
     pub signs: Flags<SignOptions>,
+    /// Which topics are read.
+    #[command(flatten)]
+    pub topics: Flags<TopicOptions>,
 }
 
 /// Arguments of `log`.
@@ -37,6 +40,9 @@ pub struct LogArguments {
     /// its angle scatters and how long that lasts, slip, delay, speed.
     #[arg(long)]
     pub statistics: bool,
+    /// Print the messages of this topic of an MCAP file, one a line as JSON, in place of what the log holds.
+    #[arg(long, value_name = "TOPIC")]
+    pub messages: Option<String>,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,
@@ -100,6 +106,10 @@ pub struct OdometryArguments {
 
 impl OnCommandLine for SignOptions {
     const HEADING: &'static str = "Signs of the log";
+}
+
+impl OnCommandLine for TopicOptions {
+    const HEADING: &'static str = "Recordings in MCAP";
 }
 
 impl OnCommandLine for CalibrationOptions {

@@ -6,14 +6,34 @@ use crate::error::CliError;
 use crate::files::Files;
 use crate::output::{Column, Table, remark};
 use boresight_formats::{BoardLog, RadarConfig};
+use std::fs::File;
+use std::path::Path;
+
+/// Packets out of messages of a recording, as [`run`] takes them.
+pub fn recorded(
+    arguments: &EstimateArguments,
+    path: &Path,
+    files: &Files,
+) -> Result<String, CliError> {
+    let failed = |error| CliError::File { action: "read", path: path.into(), error };
+    run(arguments, files, |config| {
+        files.note_input(path);
+        let file = File::open(path).map_err(failed)?;
+        Ok(BoardLog::of_mcap(file, None, config).map_err(failed)??)
+    })
+}
 
 /// The board's detections of each packet; `--frame` counts packets from 0.
-pub fn run(arguments: &EstimateArguments, bytes: &[u8], files: &Files) -> Result<String, CliError> {
+pub fn run(
+    arguments: &EstimateArguments,
+    files: &Files,
+    read: impl FnOnce(Option<&RadarConfig>) -> Result<BoardLog, CliError>,
+) -> Result<String, CliError> {
     let config = match &arguments.radar.config {
         Some(path) => Some(RadarConfig::parse(&files.read(path)?)?),
         None => None,
     };
-    let log = BoardLog::parse(bytes, config.as_ref());
+    let log = read(config.as_ref())?;
     remark(
         std::iter::once(format!("packets: {}", log.frames.len()))
             .chain(log.counts.remarks.iter().map(|remark| remark.message.clone())),

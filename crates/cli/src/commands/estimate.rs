@@ -5,7 +5,7 @@ use crate::arguments::EstimateArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::numbers;
-use boresight_formats::tables;
+use boresight_formats::{BoardLog, tables};
 use ndarray::Array3;
 
 /// Runs the command and returns what it prints.
@@ -13,7 +13,10 @@ pub fn run(arguments: &EstimateArguments, files: &Files) -> Result<String, CliEr
     let path = &arguments.file;
     match files::ending(path).as_str() {
         "bin" => capture::run(arguments, &files.read(path)?, files),
-        "dat" => board::run(arguments, &files.read(path)?, files),
+        "dat" => {
+            board::run(arguments, files, |config| Ok(BoardLog::parse(&files.read(path)?, config)))
+        }
+        "mcap" => board::recorded(arguments, path, files),
         "csv" => {
             let matrix = tables::read_snapshots(&files.read(path)?)?;
             let scenes: Array3<_> = matrix.insert_axis(ndarray::Axis(0));
@@ -28,7 +31,7 @@ pub fn run(arguments: &EstimateArguments, files: &Files) -> Result<String, CliEr
         }
         other => Err(CliError::Option {
             option: "FILE",
-            expected: "a file ending in .bin, .npy, .mat, .h5, .csv or .dat".into(),
+            expected: "a file ending in .bin, .npy, .mat, .h5, .csv, .dat or .mcap".into(),
             given: if other.is_empty() { "no ending".into() } else { format!(".{other}") },
         }),
     }

@@ -1,6 +1,6 @@
 //! `boresight log`: what is in a drive log.
 
-use super::log_statistics;
+use super::{log_statistics, messages};
 use crate::arguments::LogArguments;
 use crate::destination::Destination;
 use crate::drive::open_path;
@@ -13,12 +13,22 @@ use boresight_calibrate::signs::{SignFindings, find_signs};
 use boresight_core::describe::Named;
 use boresight_core::drive::DriveLog;
 use boresight_formats::drive_log::table::{write_detections, write_motion};
-use boresight_formats::{DriveRead, MountingSource};
+use boresight_formats::{DriveRead, DriveTopic, MountingSource};
 use serde_json::{Map, Value, json};
 use std::io::{BufWriter, Write};
 
 /// What is in a log, as text or JSON.
 pub fn run(arguments: &LogArguments, files: &Files) -> Result<String, CliError> {
+    if let Some(topic) = &arguments.messages {
+        let [path] = &arguments.log.paths[..] else {
+            return Err(CliError::Option {
+                option: "--messages",
+                expected: "one file as PATH".into(),
+                given: format!("{} paths", arguments.log.paths.len()),
+            });
+        };
+        return messages::run(path, topic, files);
+    }
     let read = open_path(&arguments.log, None, files)?;
     remark(read.report.remarks.iter().map(|remark| remark.message.clone()));
     if let Some(folder) = &arguments.export {
@@ -95,6 +105,8 @@ fn as_json(read: &DriveRead, signs: &SignFindings) -> Value {
         "format": read.format.name(),
         "sequence": sequence,
         "mountings": json::result(&report.mountings),
+        "topics": json::result(&report.topics),
+        "startS": report.start_s,
         "sensors": sensors,
         "scans": log.scans.len(),
         "detections": log.scans.iter().map(|s| s.detections.len()).sum::<usize>(),
@@ -108,6 +120,17 @@ fn as_json(read: &DriveRead, signs: &SignFindings) -> Value {
         "dropped": dropped,
         "signs": json::result(signs),
     })
+}
+
+/// What a topic is used for.
+fn topic_line(topic: &DriveTopic) -> String {
+    let used = match topic.sensor {
+        Some(id) => format!("{} {id}", topic.used_as.name()),
+        None => topic.used_as.name().into(),
+    };
+    let clock = topic.clock.map_or(String::new(), |clock| format!(", times by {}", clock.name()));
+    let DriveTopic { name, message_type, messages, note, .. } = topic;
+    format!("topic       {name} ({message_type}, {messages} messages): {used}{clock}; {note}\n")
 }
 
 fn as_text(read: &DriveRead, signs: &SignFindings) -> String {
@@ -141,8 +164,12 @@ fn as_text(read: &DriveRead, signs: &SignFindings) -> String {
         text += match source {
             MountingSource::SensorsJson => "mountings   from sensors.json\n",
             MountingSource::CalibratedSensor => "mountings   from calibrated_sensor.json\n",
+            MountingSource::TfStatic => "mountings   from the recording's fixed transforms\n",
             _ => "mountings   those of the format's own car\n",
         };
+    }
+    for topic in &report.topics {
+        text += &topic_line(topic);
     }
     for (count, lacking) in [
         (report.incomplete, "detections without range, cross-section, compensated rate or place"),

@@ -13,6 +13,7 @@ pub mod image;
 pub mod lists;
 pub mod log;
 pub mod log_statistics;
+mod messages;
 pub mod network;
 pub mod odometry;
 pub mod regions;

@@ -155,7 +155,7 @@ pub fn read_poses(bytes: &[u8], report: &mut ReadReport) -> Result<Vec<MotionSam
             speed_mps: Some(vx_mps.hypot(vy_mps).copysign(vx_mps)),
             pose: Some(Pose { x_m, y_m, yaw_rad }),
         };
-        motion::push(&mut samples, report, sample, row)?;
+        motion::push(&mut samples, report, sample, || format!("motion, line {}", line(row)))?;
     }
     rows.not_empty()?;
     Ok(samples)

@@ -4,6 +4,7 @@
 
 pub mod clouds;
 pub mod delphi;
+pub mod mcap;
 pub(crate) mod motion;
 mod open;
 mod report;
@@ -11,6 +12,7 @@ pub(crate) mod scans;
 pub mod table;
 mod text;
 
+pub use mcap::{DriveTopic, McapDriveReader, TopicOptions, is_mcap, is_mcap_name};
 pub use open::{
     DriveFormat, DriveRead, in_file, is_hdf5, is_table, no_drive_log, open, open_owned,
 };

@@ -1,16 +1,15 @@
 //! Detections and motion samples from numbers, as both kinds of tables make them.
 
 use super::report::{DropReason, ReadReport};
-use super::text::line;
 use crate::error::FormatError;
 use boresight_core::drive::{Detection, MotionSample};
 
-/// Adds a sample if its numbers are finite and its time is new.
+/// Adds a sample if its numbers are finite and its time is new; `place` says where it stands.
 pub(crate) fn push(
     samples: &mut Vec<MotionSample>,
     report: &mut ReadReport,
     sample: MotionSample,
-    record: &csv::StringRecord,
+    place: impl FnOnce() -> String,
 ) -> Result<(), FormatError> {
     report.motion += 1;
     let pose = sample.pose.is_none_or(|p| (p.x_m + p.y_m + p.yaw_rad).is_finite());
@@ -22,7 +21,7 @@ pub(crate) fn push(
     if let Some(previous) = samples.last().map(|s| s.time_s) {
         if sample.time_s < previous {
             return Err(FormatError::TimeBackwards {
-                place: format!("motion, line {}", line(record)),
+                place: place(),
                 previous,
                 given: sample.time_s,
             });

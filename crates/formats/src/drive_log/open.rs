@@ -1,5 +1,6 @@
 //! Finds which format files are in, by their contents.
 
+use super::mcap::{McapDriveReader, TopicOptions, is_mcap, is_mcap_name, no_radar};
 use super::report::ReadReport;
 use super::text::{Rows, is_gzip};
 use super::{clouds, delphi, table};
@@ -26,6 +27,8 @@ pub enum DriveFormat {
     Pcd,
     /// [`clouds::view_of_delft`]: frames of View-of-Delft.
     ViewOfDelft,
+    /// [`super::mcap`]: recordings of ROS and others.
+    Mcap,
 }
 
 impl DriveFormat {
@@ -65,11 +68,15 @@ enum Role {
     DelphiPose,
     Detections,
     Motion,
+    Mcap,
 }
 
 fn role(name: &str, bytes: &[u8]) -> Result<Option<Role>, FormatError> {
     if is_hdf5(name) {
         return Ok(Some(Role::Radarscenes));
+    }
+    if is_mcap(bytes) || is_mcap_name(name) {
+        return Ok(Some(Role::Mcap));
     }
     match name.rsplit(['/', '\\']).next() {
         Some("scenes.json") => return Ok(Some(Role::Scenes)),
@@ -167,25 +174,28 @@ pub fn open(
     files: &[(&str, &[u8])],
     format: Option<DriveFormat>,
 ) -> Result<DriveRead, FormatError> {
-    open_files(files.iter().map(|(name, bytes)| (*name, Cow::Borrowed(*bytes))).collect(), format)
+    let files = files.iter().map(|(name, bytes)| (*name, Cow::Borrowed(*bytes))).collect();
+    open_files(files, format, &TopicOptions::default())
 }
 
-/// As [`open`], from files that are given away, so that none is held twice.
+/// As [`open`], from files that are given away, so that none is held twice; `topics` are those of MCAP files.
 ///
 /// # Errors
 /// As [`open`].
 pub fn open_owned(
     files: Vec<(String, Vec<u8>)>,
     format: Option<DriveFormat>,
+    topics: &TopicOptions,
 ) -> Result<DriveRead, FormatError> {
     let (names, contents): (Vec<_>, Vec<_>) = files.into_iter().unzip();
     let owned = contents.into_iter().map(Cow::Owned);
-    open_files(names.iter().map(String::as_str).zip(owned).collect(), format)
+    open_files(names.iter().map(String::as_str).zip(owned).collect(), format, topics)
 }
 
 fn open_files(
     mut files: Vec<File<'_>>,
     format: Option<DriveFormat>,
+    topics: &TopicOptions,
 ) -> Result<DriveRead, FormatError> {
     if let Some(read) = clouds::open(&files, format)? {
         return Ok(read);
@@ -193,6 +203,9 @@ fn open_files(
     let roles: Vec<_> =
         files.iter().map(|(name, bytes)| role(name, bytes)).collect::<Result<_, _>>()?;
     let wanted = |candidate| format.is_none_or(|format| format == candidate);
+    if wanted(DriveFormat::Mcap) && roles.contains(&Some(Role::Mcap)) {
+        return open_mcap(files, &roles, topics);
+    }
     let mut read = None;
     for (candidate, radar, beside) in [
         (
@@ -258,6 +271,29 @@ fn open_files(
     Ok(DriveRead { log, report, format })
 }
 
+/// Reads the parts of a recording in the order of their names.
+fn open_mcap(
+    mut files: Vec<File<'_>>,
+    roles: &[Option<Role>],
+    topics: &TopicOptions,
+) -> Result<DriveRead, FormatError> {
+    let mut reader = McapDriveReader::new(topics.clone());
+    let (parts, others): (Vec<_>, Vec<_>) =
+        (0..files.len()).partition(|i| roles[*i] == Some(Role::Mcap));
+    let mut parts: Vec<_> = parts.into_iter().map(|i| (files[i].0, i)).collect();
+    parts.sort_unstable();
+    for (name, i) in parts {
+        let bytes = std::mem::take(&mut files[i].1);
+        reader.push(&bytes).map_err(|error| in_file(error, name))?;
+        reader.end_file();
+    }
+    let mut read = reader.finish()?;
+    for i in others {
+        read.report.ignored(files[i].0);
+    }
+    Ok(read)
+}
+
 /// The error for files that are no drive log, by their names.
 pub fn no_drive_log<'a>(
     format: Option<DriveFormat>,
@@ -278,6 +314,7 @@ pub fn no_drive_log<'a>(
             "point clouds of a radar, a .pcd a scan (nuScenes, TruckScenes)".to_owned()
         }
         DriveFormat::ViewOfDelft => "frames of View-of-Delft, as in 00549.bin".to_owned(),
+        DriveFormat::Mcap => no_radar(),
     };
     let expected = match format {
         Some(format) => one(format),

@@ -1,5 +1,6 @@
 //! What a reader kept of a drive log and what it left out.
 
+use super::mcap::DriveTopic;
 use boresight_core::Remark;
 use boresight_core::describe::{Described, Named};
 use serde::Serialize;
@@ -44,6 +45,8 @@ pub enum MountingSource {
     Format,
     /// `calibrated_sensor.json` of the data set.
     CalibratedSensor,
+    /// Fixed transforms of the recording (`/tf_static`).
+    TfStatic,
 }
 
 /// What a reader found, kept and left out.
@@ -62,6 +65,10 @@ pub struct ReadReport {
     pub sequence: Option<(String, Option<String>)>,
     /// Where the mountings are from, where the log has any.
     pub mountings: Option<MountingSource>,
+    /// Topics of the recording, by their names, where the format has topics.
+    pub topics: Vec<DriveTopic>,
+    /// Time of the recording at which the log begins, s since 1970, where its times were shifted.
+    pub start_s: Option<f64>,
     dropped: [u64; DropReason::VARIANTS.len()],
     /// What else to know.
     pub remarks: Vec<Remark>,
@@ -69,7 +76,11 @@ pub struct ReadReport {
 
 impl ReadReport {
     pub(crate) fn drop(&mut self, reason: DropReason) {
-        self.dropped[reason as usize] += 1;
+        self.drop_many(reason, 1);
+    }
+
+    pub(crate) fn drop_many(&mut self, reason: DropReason, count: u64) {
+        self.dropped[reason as usize] += count;
     }
 
     /// Remarks on a file that belongs to no drive log.

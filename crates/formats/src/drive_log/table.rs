@@ -143,7 +143,7 @@ pub fn read_motion(
             speed_mps.is_some() == speed_at.is_some() && pose.is_some() == pose_at.is_some();
         let sample = MotionSample { time_s, yaw_rate_radps, speed_mps, pose };
         let count = samples.len();
-        motion::push(&mut samples, report, sample, row)?;
+        motion::push(&mut samples, report, sample, || format!("motion, line {}", line(row)))?;
         report.motion_incomplete += u64::from(!whole && samples.len() > count);
     }
     rows.not_empty()?;

@@ -1,5 +1,6 @@
 use super::Companions;
 use crate::FormatError;
+use crate::drive_log::mcap::TopicOptions;
 use crate::drive_log::{DriveFormat, DropReason, MountingSource, ReadReport, open, open_owned};
 use boresight_core::Diagnose;
 use boresight_core::drive::RADARSCENES_SENSORS;
@@ -88,7 +89,7 @@ fn a_sequence_is_found_among_its_files() {
     assert_eq!(read.report.remarks.len(), 1);
     check(&read.log, &read.report, "opened");
     let owned = files.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())).to_vec();
-    let read = open_owned(owned, None).unwrap();
+    let read = open_owned(owned, None, &TopicOptions::default()).unwrap();
     check(&read.log, &read.report, "given away");
     let error = open(&[("radar_data.h5", &data[..100])], None).unwrap_err();
     assert_eq!(error.code(), "malformed-hdf5");

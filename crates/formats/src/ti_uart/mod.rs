@@ -6,6 +6,7 @@
 
 mod packet;
 mod parts;
+mod recorded;
 mod stream;
 
 use crate::mmwave_cfg::RadarConfig;

@@ -1,8 +1,10 @@
 /** Drives out of the user's own files. */
 import { signal } from '@preact/signals';
+import type { Drive } from 'boresight';
+import type { JobOptions } from 'boresight/worker';
 import type { ComponentType } from 'preact';
 import { aborted, api, describeError, FileProblem, pool } from '../../data.ts';
-import { DRIVES, TABLES } from '../../kinds.ts';
+import { DRIVES, RECORDINGS, TABLES } from '../../kinds.ts';
 import type { NamedFile } from '../../ui/entries.ts';
 import { driveProblem, filesWanted, OWN, open } from './drive.ts';
 import { update } from './state.ts';
@@ -71,6 +73,17 @@ function nameOf(all: readonly NamedFile[]): string {
   return path.at(-2) ?? (path.at(-1) as string).replace(DRIVES, '');
 }
 
+/** The parts of a recording in their order: `_2` before `_10`. */
+const byName = (a: NamedFile, b: NamedFile): number => a.name.localeCompare(b.name, 'en', { numeric: true });
+
+async function readWhole(kept: readonly NamedFile[], signal: AbortSignal, job: JobOptions): Promise<Drive> {
+  const files = await Promise.all(
+    kept.map(async ({ name, file }) => ({ name, bytes: new Uint8Array(await file.arrayBuffer()) })),
+  );
+  signal.throwIfAborted();
+  return pool().readDrive(files, {}, { ...job, transfer: true });
+}
+
 /** `given`: the files that those were made of, if others. */
 async function openDrive(all: readonly NamedFile[], given?: readonly NamedFile[]): Promise<unknown> {
   // A link to files comes with where their radar is.
@@ -84,14 +97,14 @@ async function openDrive(all: readonly NamedFile[], given?: readonly NamedFile[]
         throw new FileProblem(
           'no-drive-log',
           'The folder',
-          'it is empty; a .csv, .csv.gz, .h5 or .pcd with a drive is expected',
+          'it is empty; a .csv, .csv.gz, .h5, .mcap or .pcd with a drive is expected',
         );
       if (drives.length === 0) {
         const what = all.length === 1 ? first.name : `${all.length} files`;
         throw new FileProblem(
           'no-drive-log',
           what,
-          'no drive is in it; .csv or .csv.gz tables, the radar_data.h5 of a RadarScenes sequence, or .pcd files, are expected',
+          'no drive is in it; .csv or .csv.gz tables, the radar_data.h5 of a RadarScenes sequence, an .mcap recording, or .pcd files are expected',
         );
       }
       const sequences = drives.filter(({ name }) => /\.(h5|hdf5)$/i.test(name)).length;
@@ -101,22 +114,26 @@ async function openDrive(all: readonly NamedFile[], given?: readonly NamedFile[]
           `${all.length} files`,
           `${sequences} sequences are in them; one is expected: open the folder of that alone`,
         );
-      const kept = [...drives, ...all.filter(({ name }) => BESIDE.test(name))];
+      const recording = drives.filter(({ name }) => RECORDINGS.test(name)).sort(byName);
+      const kept = recording.length ? recording : [...drives, ...all.filter(({ name }) => BESIDE.test(name))];
       const size = kept.reduce((sum, { file }) => sum + file.size, 0);
       const what = kept.length === 1 ? (kept[0] as NamedFile).name : `${kept.length} files`;
-      if (size > LARGEST_BYTES) {
+      // Of recordings no more than a piece is held.
+      if (size > LARGEST_BYTES && recording.length === 0) {
         throw new FileProblem(
           'too-large',
           what,
           `${Math.round(size / 2 ** 20)} MiB; at most ${LARGEST_BYTES / 2 ** 20} MiB are expected: choose one sequence`,
         );
       }
-      const files = await Promise.all(
-        kept.map(async ({ name, file }) => ({ name, bytes: new Uint8Array(await file.arrayBuffer()) })),
-      );
-      signal.throwIfAborted();
       try {
-        const drive = await pool().readDrive(files, {}, { ...job, transfer: true });
+        const drive = recording.length
+          ? await pool().readDriveStream(
+              recording.map(({ file }) => file),
+              {},
+              job,
+            )
+          : await readWhole(kept, signal, job);
         return {
           name: nameOf(given ?? drives),
           source: 'files',

@@ -171,9 +171,10 @@ export function MountingPage() {
             determined” is an infinite one: the drive does not tell.
           </p>
           <p>
-            <b>Files.</b> A RadarScenes sequence (radar_data.h5), radar clouds (.pcd) of nuScenes or TruckScenes with
-            their tables, frames of View-of-Delft (.bin), Delphi ESR tables, or other tables of detections and of the
-            car’s motion (.csv): where their columns have names of their own, it is asked what they hold.
+            <b>Files.</b> A recording of ROS 2 (.mcap) with radar_msgs/RadarScan, point clouds with a velocity or tracks,
+            read in pieces whatever its size; a RadarScenes sequence (radar_data.h5), radar clouds (.pcd) of nuScenes or
+            TruckScenes with their tables, frames of View-of-Delft (.bin), Delphi ESR tables, or other tables of detections
+            and of the car’s motion (.csv): where their columns have names of their own, it is asked what they hold.
             <Template group="detections" /> and <Template group="motion" /> are tables to fill.
           </p>
         </About>
@@ -289,6 +290,12 @@ const REASONS: Record<string, string> = {
   'motion-duplicate': 'Motion duplicates',
 };
 
+const MOUNTINGS: Readonly<Record<MountingSource, string>> = {
+  'sensors-json': 'sensors.json',
+  format: 'what is known of the format',
+  'tf-static': 'the fixed transforms of the recording',
+};
+
 /** What was left out of the files, and what they had to say. */
 function Remarks() {
   const drive = loaded.value?.drive;
@@ -322,7 +329,7 @@ function Remarks() {
       {drive.mountings && (
         <p class="remark">
           Nominal mountings are from{' '}
-          {drive.mountings === 'sensors-json' ? 'sensors.json' : 'what is known of the format'}.
+          {MOUNTINGS[drive.mountings]}.
         </p>
       )}
       {drive.warnings.length > 0 && (

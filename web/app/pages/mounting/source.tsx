@@ -10,6 +10,7 @@ import { Control } from './control.ts';
 import { chooseSource, driveProblem, loaded, shownFiles } from './drive.ts';
 import { changeColumns, openFiles, tables } from './own-files.ts';
 import { mountingState, update } from './state.ts';
+import { Topics } from './topics.tsx';
 
 export function Source() {
   const input = useRef<HTMLInputElement>(null);
@@ -55,11 +56,12 @@ export function Source() {
             remark="The first 600 s of its drive with a Delphi (Aptiv) ESR. These are tracked objects at 20 Hz, not raw detections; the yaw rate is differentiated from the pose."
           />
         )}
+        {open && <Topics drive={open.drive} />}
         <div class="row">
           <button
             type="button"
             onClick={() => input.current?.click()}
-            title="Tables (.csv, .csv.gz) of detections and motion, radar_data.h5, or point clouds (.pcd) with their tables"
+            title="Tables (.csv, .csv.gz) of detections and motion, radar_data.h5, a recording of ROS 2 (.mcap), or point clouds (.pcd) with their tables"
           >
             Open files
           </button>
@@ -85,7 +87,7 @@ export function Source() {
             type="file"
             multiple
             hidden
-            accept=".csv,.gz,.h5,.hdf5,.pcd,.bin,.json"
+            accept=".csv,.gz,.h5,.hdf5,.mcap,.pcd,.bin,.json"
             aria-label="Drive files"
             data-input="files"
             onChange={pick}
@@ -101,8 +103,9 @@ export function Source() {
           />
         </div>
         <p class={showHelp.value ? 'help' : 'muted small'}>
-          Or drop the folder of a RadarScenes sequence, radar clouds of nuScenes or TruckScenes, frames of
-          View-of-Delft, Delphi tables or CSV tables of any columns anywhere on the page. Nothing is uploaded.
+          Or drop a recording of ROS 2 (.mcap), the folder of a RadarScenes sequence, radar clouds of nuScenes or
+          TruckScenes, frames of View-of-Delft, Delphi tables or CSV tables of any columns anywhere on the page. Nothing
+          is uploaded.
         </p>
       </div>
     </>
