@@ -23,7 +23,7 @@ pub enum DriveFormat {
     Delphi,
     /// [`table`]: the general tables.
     Csv,
-    /// [`super::mcap`]: recordings of ROS and others.
+    /// Recordings of ROS and others in MCAP.
     Mcap,
 }
 

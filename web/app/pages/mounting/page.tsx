@@ -1,4 +1,5 @@
 import { effect, useSignalEffect } from '@preact/signals';
+import type { MountingSource } from 'boresight';
 import { count, fixed, signed } from '../../../plots/format.ts';
 import { type Caption, useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
@@ -171,9 +172,10 @@ export function MountingPage() {
             determined” is an infinite one: the drive does not tell.
           </p>
           <p>
-            <b>Files.</b> A recording of ROS 2 (.mcap) with radar_msgs/RadarScan, point clouds with a velocity or tracks,
-            read in pieces whatever its size; a RadarScenes sequence (radar_data.h5), Delphi ESR tables, or other tables
-            of detections and of the car’s motion (.csv): where their columns have names of their own, it is asked what they hold.
+            <b>Files.</b> A recording of ROS 2 (.mcap) with radar_msgs/RadarScan, point clouds with a velocity or
+            tracks, read in pieces whatever its size; a RadarScenes sequence (radar_data.h5), Delphi ESR tables, or
+            other tables of detections and of the car’s motion (.csv): where their columns have names of their own, it
+            is asked what they hold.
             <Template group="detections" /> and <Template group="motion" /> are tables to fill.
           </p>
         </About>
@@ -325,12 +327,7 @@ function Remarks() {
           </div>
         ))}
       </dl>
-      {drive.mountings && (
-        <p class="remark">
-          Nominal mountings are from{' '}
-          {MOUNTINGS[drive.mountings]}.
-        </p>
-      )}
+      {drive.mountings && <p class="remark">Nominal mountings are from {MOUNTINGS[drive.mountings]}.</p>}
       {drive.warnings.length > 0 && (
         <ul class="warnings">
           {drive.warnings.map(({ code, message }, i) => (
