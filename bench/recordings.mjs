@@ -84,7 +84,8 @@ export async function recordingRows({ row, boresight, quick }) {
                 messages = read();
               }),
             );
-            if (messages !== counts[RADAR.topic]) throw new Error(`${side}: ${messages} of ${counts[RADAR.topic]} scans`);
+            if (messages !== counts[RADAR.topic])
+              throw new Error(`${side}: ${messages} of ${counts[RADAR.topic]} scans`);
           }
         }
         const ratios = times.theirs.map((time, round) => time / times.ours[round]);

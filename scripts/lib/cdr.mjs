@@ -9,7 +9,8 @@ export class Cdr {
 
   #room(size, count = size) {
     const at = this.#length + ((size - ((this.#length - 4) % size)) % size);
-    while (at + count > this.#bytes.length) this.#bytes = Buffer.concat([this.#bytes, Buffer.alloc(this.#bytes.length)]);
+    while (at + count > this.#bytes.length)
+      this.#bytes = Buffer.concat([this.#bytes, Buffer.alloc(this.#bytes.length)]);
     this.#length = at + count;
     return at;
   }

@@ -101,7 +101,11 @@ export async function writeRecording(write, options = {}) {
   await message(
     '/tf_static',
     START_NS,
-    new Cdr().u32(1).header(START_NS, 'base_link').text('radar').f64(RADAR.xM, 0, 0.5, ...turned),
+    new Cdr()
+      .u32(1)
+      .header(START_NS, 'base_link')
+      .text('radar')
+      .f64(RADAR.xM, 0, 0.5, ...turned),
   );
   const random = numbers(7);
   const image = imageBytes ? pixels(imageBytes, random) : null;

@@ -57,16 +57,20 @@ browserTest(
   },
 );
 
-browserTest('recordings: what is none is refused by name, and says what is in it', { path: small }, async ({ page }) => {
-  await page.waitForSelector('[data-fact="name"]');
-  const alert = page.locator('[role="alert"]');
-  await drop(page, [{ name: 'notes.mcap', bytes: Buffer.from('these are notes, and no recording') }]);
-  await page.waitForSelector('[data-error="malformed-file"]');
-  assert.match(await alert.innerText(), /notes\.mcap.*magic bytes/s);
-  const whole = await recordingBytes({ seconds: 1, imageBytes: 1000 });
-  // Until the first message all is there but messages.
-  const bytes = whole.subarray(0, 700);
-  await drop(page, [{ name: 'cut.mcap', bytes }]);
-  await page.waitForSelector('[data-error="no-drive-log"]');
-  assert.match(await alert.innerText(), /cut\.mcap.*no end/s);
-});
+browserTest(
+  'recordings: what is none is refused by name, and says what is in it',
+  { path: small },
+  async ({ page }) => {
+    await page.waitForSelector('[data-fact="name"]');
+    const alert = page.locator('[role="alert"]');
+    await drop(page, [{ name: 'notes.mcap', bytes: Buffer.from('these are notes, and no recording') }]);
+    await page.waitForSelector('[data-error="malformed-file"]');
+    assert.match(await alert.innerText(), /notes\.mcap.*magic bytes/s);
+    const whole = await recordingBytes({ seconds: 1, imageBytes: 1000 });
+    // Until the first message all is there but messages.
+    const bytes = whole.subarray(0, 700);
+    await drop(page, [{ name: 'cut.mcap', bytes }]);
+    await page.waitForSelector('[data-error="no-drive-log"]');
+    assert.match(await alert.innerText(), /cut\.mcap.*no end/s);
+  },
+);

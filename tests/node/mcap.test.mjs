@@ -68,7 +68,12 @@ describe('recordings', () => {
     assert.equal(drive.startS, Number(scans[0].timeNs) / 1e9);
     assert.deepEqual(drive.warnings, []);
     const used = Object.fromEntries(drive.topics.map(({ name, usedAs }) => [name, usedAs]));
-    const expected = { [RADAR.topic]: 'radar', '/camera/image': 'unused', '/tf_static': 'mountings', '/vehicle/twist': 'motion' };
+    const expected = {
+      [RADAR.topic]: 'radar',
+      '/camera/image': 'unused',
+      '/tf_static': 'mountings',
+      '/vehicle/twist': 'motion',
+    };
     assert.deepEqual(used, expected);
   });
 
@@ -120,7 +125,10 @@ describe('recordings', () => {
 
   test('that are cut or none are told', async () => {
     const cut = readDrive([file(bytes.subarray(0, bytes.length / 2))]);
-    assert.deepEqual(cut.warnings.map(({ code }) => code), ['cut-file']);
+    assert.deepEqual(
+      cut.warnings.map(({ code }) => code),
+      ['cut-file'],
+    );
     assert.ok(cut.scans.timeS.length > 30 && cut.scans.timeS.length < 70);
     throwsTyped(() => readDrive([file(Buffer.from('PK and so on'))]), 'malformed-file');
     const stream = new DriveStream();

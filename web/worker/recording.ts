@@ -26,7 +26,8 @@ const isIterable = (part: unknown): boolean =>
 export function partsOf(recording: Recording | readonly Recording[]): readonly Recording[] {
   const parts = isArray(recording) ? (recording as readonly Recording[]) : [recording as Recording];
   for (const part of parts) {
-    if (!isBlob(part) && !isIterable(part)) throw wrong('recording', 'a Blob, or an async iterable of Uint8Arrays', part);
+    if (!isBlob(part) && !isIterable(part))
+      throw wrong('recording', 'a Blob, or an async iterable of Uint8Arrays', part);
   }
   return parts;
 }

@@ -7,9 +7,9 @@ import { core, initSync } from '../lib/runtime/instance.js';
 import { Instance } from '../lib/runtime/module.js';
 import { forgetCapture, keepCapture } from './captures.js';
 import { forgetNetwork, keepNetwork } from './networks.js';
-import { forgetStream, keepStream } from './streams.js';
 import { type Context, operations } from './operations.js';
 import type { Reply, Request, Setup } from './protocol.js';
+import { forgetStream, keepStream } from './streams.js';
 import { buffersOf } from './transfer.js';
 
 /** How requests are run. */

@@ -823,13 +823,28 @@ export interface CountOptions {
  * - `radarscenes`: [`crate::radarscenes`]: `radar_data.h5` of a sequence.
  * - `delphi`: [`delphi`]: tracks of a Delphi front radar and poses.
  * - `csv`: [`table`]: the general tables.
+ * - `mcap`: Recordings of ROS and others in MCAP.
  */
-export type DriveFormat = 'radarscenes' | 'delphi' | 'csv';
+export type DriveFormat = 'radarscenes' | 'delphi' | 'csv' | 'mcap';
 
 /** How a drive is read. */
 export interface ReadDriveOptions {
   /** The format of the files; found from their contents where none is named. */
   format?: DriveFormat;
+  /**
+   * Topics of radars in an MCAP file; by default all with detections, and those with tracks where there are no
+   * others.
+   */
+  radarTopics?: readonly string[];
+  /**
+   * Topics of the car's motion in an MCAP file; by default one with the speed, and one with the yaw rate alone if
+   * there is one.
+   */
+  motionTopics?: readonly string[];
+  /**
+   * Frame of the car, centred on the rear axle, in which an MCAP file states where radars sit; base_link by default.
+   */
+  baseFrame?: string;
 }
 
 /** What one call may take. */

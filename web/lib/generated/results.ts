@@ -1053,8 +1053,9 @@ export interface DriveMotion {
  *
  * - `sensors-json`: `sensors.json` of the recording.
  * - `format`: The format's own car, as no file states them.
+ * - `tf-static`: Fixed transforms of the recording (`/tf_static`).
  */
-export type MountingSource = 'sensors-json' | 'format';
+export type MountingSource = 'sensors-json' | 'format' | 'tf-static';
 
 /** What the files of a drive held. */
 export interface DriveCounts {
@@ -1068,6 +1069,45 @@ export interface DriveCounts {
   incompleteMotion: number;
   /** Rows left out, by reason. */
   dropped: Partial<Record<DropReason, number>>;
+}
+
+/**
+ * What a topic of a recording is used for.
+ *
+ * - `radar`: The detections of a radar.
+ * - `tracks`: The tracks of a radar: filtered, and fewer.
+ * - `motion`: The car's motion.
+ * - `mountings`: Where radars sit.
+ * - `unused`: Nothing.
+ */
+export type TopicUse = 'radar' | 'tracks' | 'motion' | 'mountings' | 'unused';
+
+/**
+ * Which clock tells the times of a topic.
+ *
+ * - `stamp`: The stamp in the header of each message.
+ * - `log-time`: When each message was recorded.
+ */
+export type TopicClock = 'stamp' | 'log-time';
+
+/** A topic of a recording. */
+export interface DriveTopic {
+  /** Its name. */
+  name: string;
+  /** The type of its messages. */
+  messageType: string;
+  /** Messages on it. */
+  messages: number;
+  /** Messages of it that could not be decoded. */
+  unreadable: number;
+  /** What it is used for. */
+  usedAs: TopicUse;
+  /** Number of the radar, of a topic with one. */
+  sensor: number | null;
+  /** The clock of its times, of a topic that is used. */
+  clock: TopicClock | null;
+  /** What is read of it, or why it is not used. */
+  note: string;
 }
 
 /** A drive as read or simulated. */
@@ -1086,6 +1126,10 @@ export interface Drive {
   mountings: MountingSource | null;
   /** What the files held. */
   counts: DriveCounts;
+  /** Topics of a recording and what each is used for; none in other formats. */
+  topics: DriveTopic[];
+  /** When the drive begins by the clock of the recording, since 1970, where its times were shifted. */
+  startS: number | null;
   /** What else to know. */
   warnings: Warning[];
 }
@@ -1172,6 +1216,10 @@ export interface SimulatedDrive {
   mountings: MountingSource | null;
   /** What the files held. */
   counts: DriveCounts;
+  /** Topics of a recording and what each is used for; none in other formats. */
+  topics: DriveTopic[];
+  /** When the drive begins by the clock of the recording, since 1970, where its times were shifted. */
+  startS: number | null;
   /** What else to know. */
   warnings: Warning[];
   /** What really happened. */

@@ -23,11 +23,11 @@ pub enum DriveFormat {
     Delphi,
     /// [`table`]: the general tables.
     Csv,
-    /// [`clouds`]: point clouds, a file a scan, as of nuScenes and TruckScenes.
+    /// Point clouds, a file a scan, as of nuScenes and TruckScenes.
     Pcd,
-    /// [`clouds::view_of_delft`]: frames of View-of-Delft.
+    /// Frames of View-of-Delft.
     ViewOfDelft,
-    /// [`super::mcap`]: recordings of ROS and others.
+    /// Recordings of ROS and others in MCAP.
     Mcap,
 }
 

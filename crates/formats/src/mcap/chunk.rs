@@ -88,7 +88,7 @@ impl Inside {
                     *self.counts.entry(head.channel).or_default() += 1;
                 }
                 Step::Under | Step::TooLong => {}
-                Step::Chunk(..) | Step::InChunk(_) | Step::Damage(_) => self.is_damaged = true,
+                Step::Chunk(..) | Step::InChunk | Step::Damage(_) => self.is_damaged = true,
             }
             if self.is_damaged {
                 return false;

@@ -21,8 +21,8 @@ pub(super) enum Step<'a> {
     Passed(MessageHead, bool),
     /// The records of a chunk follow, packed in the way of this name into so many bytes.
     Chunk(ChunkHead, &'a [u8], u64),
-    /// Some of the records of a chunk.
-    InChunk(&'a [u8]),
+    /// What was taken are some of the records of a chunk.
+    InChunk,
     /// A record too long to be held is passed over.
     TooLong,
     /// What no file has.
@@ -95,6 +95,22 @@ impl Splitter {
     /// Whether the end of the file was met, with its magic bytes.
     pub fn is_over(&self) -> bool {
         matches!(self.state, State::Over)
+    }
+
+    /// Takes bytes of a chunk into the check sum of the data.
+    pub fn hash(&mut self, bytes: &[u8]) {
+        if let Some(crc) = &mut self.crc {
+            crc.update(bytes);
+        }
+    }
+
+    /// Takes all bytes of a chunk into the check sum of the data, by their own; without one there is no
+    /// sum of the data any more.
+    pub fn hash_all(&mut self, sum: Option<&crc32fast::Hasher>) {
+        match (&mut self.crc, sum) {
+            (Some(crc), Some(sum)) => crc.combine(sum),
+            (crc, _) => *crc = None,
+        }
     }
 
     /// Takes nothing more.
@@ -194,9 +210,11 @@ impl Splitter {
                     self.state = State::Head;
                     return Some(Step::Under);
                 }
+                // Whoever reads the chunk takes its check sum.
+                taken.crc = None;
                 let bytes = taken.some(input, left)?;
                 self.state = State::InChunk { left: left - bytes.len() as u64 };
-                Some(Step::InChunk(bytes))
+                Some(Step::InChunk)
             }
             State::Pass { left } => {
                 let bytes = taken.some(input, left)?;

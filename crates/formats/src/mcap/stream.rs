@@ -44,6 +44,16 @@ struct Contents {
     unpacked: u64,
 }
 
+/// Which check sum has the bytes of a piece of a chunk.
+enum Hashed {
+    /// None yet.
+    No,
+    /// That of the chunk, which is not yet whole.
+    Soon,
+    /// That of the chunk, with all of its bytes; none where it is damaged.
+    All(Option<crc32fast::Hasher>),
+}
+
 impl Default for McapStream {
     fn default() -> Self {
         Self { records: Splitter::of_file(), contents: Contents::default(), whole_until: 0 }
@@ -63,6 +73,7 @@ impl McapStream {
         let mut input = bytes;
         loop {
             let names = &contents.names;
+            let before = input;
             let Some(step) = records.next(&mut input, |channel| names.wants(channel)) else {
                 return Ok(());
             };
@@ -71,8 +82,8 @@ impl McapStream {
                 Step::Under => None,
                 Step::Record(opcode::DATA_END, content) => {
                     let stated = Fields(content).u32().unwrap_or(0);
-                    let sum = records.data_crc.unwrap_or(0);
-                    contents.counts.wrong_sum = stated != 0 && stated != sum;
+                    let sum = records.data_crc;
+                    contents.counts.wrong_sum = stated != 0 && sum.is_some_and(|sum| sum != stated);
                     None
                 }
                 Step::Damage(what) if offset <= MAGIC.len() as u64 => {
@@ -83,6 +94,15 @@ impl McapStream {
                         expected: "89 4D 43 41 50 30 0D 0A".into(),
                         given: "something else".into(),
                     });
+                }
+                Step::InChunk => {
+                    let piece = before.get(..before.len() - input.len()).unwrap_or_default();
+                    match contents.take_piece(piece, sink) {
+                        Hashed::No => records.hash(piece),
+                        Hashed::Soon => {}
+                        Hashed::All(sum) => records.hash_all(sum.as_ref()),
+                    }
+                    None
                 }
                 step => contents.take(step, sink),
             };
@@ -153,26 +173,30 @@ impl Contents {
                     self.end_chunk(&[], false, sink);
                 }
             }
-            Step::InChunk(piece) => {
-                let chunk = self.chunk.as_mut()?;
-                chunk.left -= piece.len() as u64;
-                let is_whole = piece.len() as u64 == chunk.packed;
-                match chunk.compression {
-                    None => {}
-                    Some(Compression::None) => {
-                        if !chunk.inside.is_damaged {
-                            chunk.inside.push(piece, chunk.unpacked, &mut self.names, sink);
-                        }
-                    }
-                    Some(_) if is_whole => {}
-                    Some(_) => chunk.pending.extend_from_slice(piece),
-                }
-                if chunk.left == 0 {
-                    self.end_chunk(if is_whole { piece } else { &[] }, false, sink);
-                }
-            }
+            Step::InChunk => {}
         }
         None
+    }
+
+    /// Takes a piece of a chunk.
+    fn take_piece(&mut self, piece: &[u8], sink: &mut dyn McapSink) -> Hashed {
+        let Some(chunk) = &mut self.chunk else { return Hashed::No };
+        chunk.left -= piece.len() as u64;
+        let is_plain = chunk.compression == Some(Compression::None);
+        let is_whole = piece.len() as u64 == chunk.packed;
+        if is_plain {
+            if !chunk.inside.is_damaged {
+                chunk.inside.push(piece, chunk.unpacked, &mut self.names, sink);
+            }
+        } else if chunk.compression.is_some() && !is_whole {
+            chunk.pending.extend_from_slice(piece);
+        }
+        if chunk.left > 0 {
+            return if is_plain { Hashed::Soon } else { Hashed::No };
+        }
+        let sum = (!chunk.inside.is_damaged).then(|| chunk.inside.crc.clone());
+        self.end_chunk(if is_whole { piece } else { &[] }, false, sink);
+        if is_plain { Hashed::All(sum) } else { Hashed::No }
     }
 
     fn count(&mut self, channel: u16, messages: u64) {

@@ -1,4 +1,5 @@
 import { effect, useSignalEffect } from '@preact/signals';
+import type { MountingSource } from 'boresight';
 import { count, fixed, signed } from '../../../plots/format.ts';
 import { type Caption, useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
@@ -326,12 +327,7 @@ function Remarks() {
           </div>
         ))}
       </dl>
-      {drive.mountings && (
-        <p class="remark">
-          Nominal mountings are from{' '}
-          {MOUNTINGS[drive.mountings]}.
-        </p>
-      )}
+      {drive.mountings && <p class="remark">Nominal mountings are from {MOUNTINGS[drive.mountings]}.</p>}
       {drive.warnings.length > 0 && (
         <ul class="warnings">
           {drive.warnings.map(({ code, message }, i) => (

@@ -88,7 +88,7 @@ impl Drive {
         }
         if let Some((one, other)) = motions {
             let topic =
-                |place: usize| self.all.get(place).map(|topic| self.motion_topic(topic, &seconds));
+                |place: usize| self.all.get(place).map(|topic| self.motion_topic(topic, seconds));
             let speeds = topic(one);
             let samples = match (other.and_then(topic), &speeds) {
                 (Some(rates), speeds) => rates.joined(speeds.as_ref()),
