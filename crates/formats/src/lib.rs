@@ -7,6 +7,8 @@
 //! - [`tables`]: detections and snapshots as CSV.
 //! - [`radarscenes`]: sequences of the `RadarScenes` data set.
 //! - [`drive_log`]: drives, as point clouds and the car's motion.
+//! - [`foxglove`]: drives as messages for viewers, and [`mcap`]: files of them.
+//! - [`json`]: results in the names and units that JavaScript has them in.
 //!
 //! All readers work on bytes in memory, take nothing on trust from a header before comparing it
 //! with what is there, and say where a file is wrong.
@@ -30,6 +32,9 @@
 pub mod dca1000;
 pub mod drive_log;
 mod error;
+pub mod foxglove;
+pub mod json;
+pub mod mcap;
 pub mod mmwave_cfg;
 pub mod npy;
 pub mod radarscenes;

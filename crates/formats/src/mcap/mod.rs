@@ -1,0 +1,4 @@
+//! MCAP files.
+
+#[cfg(not(target_arch = "wasm32"))]
+pub mod write;
