@@ -1,27 +1,17 @@
-//! One connection: its handshake, what it asks for, and what it is sent.
+//! One connection: what it asks for, and what it is sent.
 
-use super::origin;
-use super::protocol::{
-    self, Control, Level, Parameter, Request, SUBPROTOCOLS, Subscription, WITH_CONTROL,
-};
+use super::handshake::{Counted, handshake};
+use super::protocol::{self, Control, Level, Parameter, Request, Subscription, WITH_CONTROL};
 use super::queue::{Out, Outbox};
-use super::server::Shared;
+use super::shared::Shared;
 use serde_json::{Value, json};
-use std::io::{ErrorKind, Read, Write};
+use std::io::ErrorKind;
 use std::net::TcpStream;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
-use tungstenite::handshake::HandshakeError;
-use tungstenite::handshake::server::{
-    ErrorResponse, Request as HttpRequest, Response, ServerHandshake,
-};
-use tungstenite::http::{HeaderValue, StatusCode, header};
-use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Error, Message, WebSocket};
 
-/// A handshake takes no longer.
-const HANDSHAKE: Duration = Duration::from_secs(5);
 /// A client that takes no byte for so long is gone.
 const STALLED: Duration = Duration::from_secs(20);
 /// A silent client is asked whether it is there, and is gone after so long without an answer.
@@ -33,40 +23,10 @@ const PAUSE: Duration = Duration::from_millis(10);
 const BETWEEN_LOSSES: Duration = Duration::from_secs(1);
 /// Between a close frame and the end, for the client to answer.
 const FAREWELL: Duration = Duration::from_millis(200);
-/// Bytes of the longest message a client may send.
-const LONGEST: usize = 1 << 16;
 /// Bytes handed to the socket at a time.
 const BATCH: usize = 1 << 18;
 /// Messages of a client that are looked at before it is sent something again.
 const MOST_READ: usize = 64;
-
-/// A socket that counts.
-#[derive(Debug)]
-struct Counted {
-    stream: TcpStream,
-    read: u64,
-    written: u64,
-}
-
-impl Read for Counted {
-    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let count = self.stream.read(buffer)?;
-        self.read += count as u64;
-        Ok(count)
-    }
-}
-
-impl Write for Counted {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        let count = self.stream.write(bytes)?;
-        self.written += count as u64;
-        Ok(count)
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        self.stream.flush()
-    }
-}
 
 /// Serves a connection until it ends.
 pub(super) fn run(stream: TcpStream, shared: &Shared) {
@@ -83,75 +43,6 @@ pub(super) fn run(stream: TcpStream, shared: &Shared) {
     shared.leave(&outbox);
     shared.tally.lost.fetch_add(outbox.lost(), Ordering::Relaxed);
     shared.tally.bytes.fetch_add(socket.get_ref().written, Ordering::Relaxed);
-}
-
-fn handshake(stream: TcpStream, shared: &Shared) -> Option<(WebSocket<Counted>, &'static str)> {
-    let until = Instant::now() + HANDSHAKE;
-    stream.set_nonblocking(true).ok()?;
-    // Messages are whole when they are written.
-    stream.set_nodelay(true).ok()?;
-    let config = WebSocketConfig::default()
-        .read_buffer_size(4096)
-        .write_buffer_size(1 << 16)
-        .max_write_buffer_size(usize::MAX)
-        .max_message_size(Some(LONGEST))
-        .max_frame_size(Some(LONGEST));
-    let mut spoken = None;
-    let further = shared.options.origin.as_deref();
-    let answer = |request: &HttpRequest, response| answer(request, response, further, &mut spoken);
-    let counted = Counted { stream, read: 0, written: 0 };
-    let mut state = ServerHandshake::start(counted, answer, Some(config)).handshake();
-    let socket = loop {
-        match state {
-            Ok(socket) => break socket,
-            Err(HandshakeError::Failure(_)) => return None,
-            Err(HandshakeError::Interrupted(middle)) => {
-                if Instant::now() > until || shared.is_stopped() {
-                    return None;
-                }
-                std::thread::sleep(PAUSE);
-                state = middle.handshake();
-            }
-        }
-    };
-    Some((socket, spoken?))
-}
-
-/// The answer to a request for a socket, or why it gets none.
-fn answer(
-    request: &HttpRequest,
-    mut response: Response,
-    further: Option<&str>,
-    spoken: &mut Option<&'static str>,
-) -> Result<Response, ErrorResponse> {
-    let refuse = |status, why: &str| {
-        let mut refused = ErrorResponse::new(Some(format!("{why}\n")));
-        *refused.status_mut() = status;
-        Err(refused)
-    };
-    let origin = request.headers().get(header::ORIGIN).map(|origin| origin.to_str().unwrap_or(""));
-    if !origin::is_allowed(origin, further) {
-        return refuse(
-            StatusCode::FORBIDDEN,
-            "pages of this origin may not connect; --origin allows one",
-        );
-    }
-    let offered: Vec<&str> = request
-        .headers()
-        .get_all(header::SEC_WEBSOCKET_PROTOCOL)
-        .iter()
-        .flat_map(|value| value.to_str().unwrap_or("").split(','))
-        .map(str::trim)
-        .collect();
-    let Some(name) = SUBPROTOCOLS.into_iter().find(|name| offered.contains(name)) else {
-        return refuse(
-            StatusCode::BAD_REQUEST,
-            "expected a subprotocol foxglove.sdk.v1 or foxglove.websocket.v1",
-        );
-    };
-    response.headers_mut().insert(header::SEC_WEBSOCKET_PROTOCOL, HeaderValue::from_static(name));
-    *spoken = Some(name);
-    Ok(response)
 }
 
 struct Client<'a> {

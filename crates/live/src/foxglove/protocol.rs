@@ -90,25 +90,30 @@ impl Control {
                 ));
             }
         }
-        let (command, speed, seek, id) = parts(&bytes[1..])
+        let (command, control) = Self::parts(&bytes[1..])
             .ok_or_else(|| format!("a control of playback of {} bytes ends early", bytes.len()))?;
         if command > 1 {
             return Err(format!("playback command {command}; expected 0 or 1"));
         }
-        let id = String::from_utf8_lossy(id).into_owned();
-        Ok(Self { paused: command == 1, rate: f32::from_le_bytes(speed).into(), seek_ns: seek, id })
+        Ok(Self { paused: command == 1, ..control })
     }
-}
 
-/// Command, speed, time to seek and identifier of a control of playback; none if it ends early.
-fn parts(bytes: &[u8]) -> Option<(u8, [u8; 4], Option<u64>, &[u8])> {
-    let (&[command], bytes) = bytes.split_first_chunk()?;
-    let (&speed, bytes) = bytes.split_first_chunk()?;
-    let (&[has_seek], bytes) = bytes.split_first_chunk()?;
-    let (&seek, bytes) = bytes.split_first_chunk()?;
-    let (&length, bytes) = bytes.split_first_chunk()?;
-    let id = bytes.get(..u32::from_le_bytes(length) as usize)?;
-    Some((command, speed, (has_seek != 0).then(|| u64::from_le_bytes(seek)), id))
+    /// Command and what follows it; none if it ends early.
+    fn parts(bytes: &[u8]) -> Option<(u8, Self)> {
+        let (&[command], bytes) = bytes.split_first_chunk()?;
+        let (&speed, bytes) = bytes.split_first_chunk()?;
+        let (&[has_seek], bytes) = bytes.split_first_chunk()?;
+        let (&seek, bytes) = bytes.split_first_chunk()?;
+        let (&length, bytes) = bytes.split_first_chunk()?;
+        let id = bytes.get(..u32::from_le_bytes(length) as usize)?;
+        let control = Self {
+            paused: false,
+            rate: f32::from_le_bytes(speed).into(),
+            seek_ns: (has_seek != 0).then(|| u64::from_le_bytes(seek)),
+            id: String::from_utf8_lossy(id).into_owned(),
+        };
+        Some((command, control))
+    }
 }
 
 /// What the server is. A client with the control of playback is told so, and the times that it may seek.
