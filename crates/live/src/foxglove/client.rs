@@ -83,7 +83,12 @@ impl Client<'_> {
         let (mut read, mut written, mut losses) = (start(), start(), Instant::now());
         let mut asked = false;
         while !self.shared.is_stopped() {
-            if self.receive().is_err() || self.outbox.is_overrun() {
+            if self.receive().is_err() {
+                // After an error nothing can be read, least of all an answer.
+                let _ = self.socket.close(None);
+                return;
+            }
+            if self.outbox.is_overrun() {
                 break;
             }
             let flow = self.send();

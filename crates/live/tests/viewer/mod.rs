@@ -222,3 +222,10 @@ impl Viewer {
         }
     }
 }
+
+/// Asks for everything of the drive and gets it.
+pub fn sees_all(address: SocketAddr, scans: usize) {
+    let mut viewer = Viewer::new(address, "foxglove.websocket.v1");
+    viewer.subscribe(|topic| topic == "/radar/1/detections");
+    viewer.until(|viewer| viewer.of("/radar/1/detections").len() == scans / 2);
+}
