@@ -120,7 +120,8 @@ fn who_asks_and_does_not_read_is_cut_off() {
 #[test]
 fn a_viewer_that_does_not_read_loses_whole_messages_and_is_told_and_others_lose_none() {
     let log = drive(20_000);
-    let options = ServeOptions { rate: 2000.0, queue: 256, ..ServeOptions::default() };
+    // Room for all that the quick viewer asks for, and a third of what the slow one does.
+    let options = ServeOptions { rate: FAST, queue: 30_000, ..ServeOptions::default() };
     let counts = serve(&log, options, |address| {
         let mut slow = Viewer::new(address, V1);
         slow.subscribe(|_| true);

@@ -104,7 +104,7 @@ fn a_viewer_pauses_seeks_and_plays_on() {
         viewer.until(|viewer| viewer.time_ns == 5_000_000_000);
         let angle = &viewer.of("/radar/1/mounting").last().unwrap().1;
         let before = |angle: &&Value| angle["timestamp"]["sec"].as_u64().unwrap() < 5;
-        assert_eq!(Some(angle), expected.iter().filter(before).next_back());
+        assert_eq!(Some(angle), expected.iter().rfind(before));
         assert!(viewer.of("/radar/1/detections").len() < 50);
 
         viewer.control(0, 1e6, None, "on");

@@ -13,8 +13,8 @@ use std::sync::atomic::Ordering;
 use std::thread::{Builder, Scope};
 use std::time::Duration;
 
-/// Between two looks for new connections.
-const LOOK: Duration = Duration::from_millis(10);
+/// Between two looks for new connections: the system keeps some hundred that wait, which come in few milliseconds.
+const LOOK: Duration = Duration::from_millis(1);
 
 /// A server that listens.
 #[derive(Debug)]

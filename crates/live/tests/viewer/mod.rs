@@ -1,5 +1,5 @@
 //! A drive that is served, and a viewer of it.
-#![allow(clippy::unwrap_used, dead_code)]
+#![allow(clippy::unwrap_used, clippy::panic, dead_code)]
 
 use boresight_calibrate::CalibrationOptions;
 use boresight_core::drive::{Detection, DriveLog, MotionSample, Mounting, Pose, Scan, Sensor};
