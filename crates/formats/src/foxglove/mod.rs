@@ -56,3 +56,6 @@ pub fn frame_id(sensor: u8) -> String {
 pub const CAR: &str = "car";
 /// The log's global frame.
 pub const WORLD: &str = "world";
+
+#[cfg(test)]
+mod tests;

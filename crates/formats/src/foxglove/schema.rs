@@ -1,7 +1,7 @@
 //! JSON Schemas of described messages, in the part of JSON Schema that viewers read: a type a value, numbers of a name by `oneOf`,
 //! no null, no lists of lists.
 
-use boresight_core::describe::{Kind, Record, naming};
+use boresight_core::describe::{Kind, NumberType, Record, naming};
 use serde_json::{Map, Value, json};
 
 /// How fields are called outside Rust.
@@ -77,7 +77,11 @@ fn value(kind: &Kind, spelling: Spelling) -> Value {
         }
         Kind::Record(of) => record(of, spelling, &[]),
         Kind::Optional(inner) => value(inner, spelling),
-        Kind::Numbers(_) => json!({ "type": "array", "items": { "type": "number" } }),
+        Kind::Numbers(of) => {
+            let is_real = matches!(of, NumberType::F64 | NumberType::F32);
+            let item = if is_real { "number" } else { "integer" };
+            json!({ "type": "array", "items": { "type": item } })
+        }
         Kind::List(inner) | Kind::Tuple(inner, _) => {
             json!({ "type": "array", "items": value(innermost(inner), spelling) })
         }

@@ -19,5 +19,3 @@ pub use results::ResultTopics;
 pub use server::Server;
 pub use shared::Counts;
 
-#[cfg(test)]
-mod tests;
