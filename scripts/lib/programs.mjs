@@ -8,3 +8,10 @@ export async function program(name) {
   const exe = process.platform === 'win32' ? '.exe' : '';
   return resolve(root, process.env.CARGO_TARGET_DIR ?? 'target', 'debug', name + exe);
 }
+
+let built;
+/** The command line for tests: what the environment variable BORESIGHT names, else it is built. */
+export function commandLine() {
+  built ??= process.env.BORESIGHT ? Promise.resolve(process.env.BORESIGHT) : program('boresight');
+  return built;
+}

@@ -5,17 +5,10 @@ import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { promisify } from 'node:util';
 import { root } from '../../scripts/lib/paths.mjs';
-import { program } from '../../scripts/lib/programs.mjs';
+import { commandLine as boresight } from '../../scripts/lib/programs.mjs';
 
 const run = promisify(execFile);
 const MOST_OUTPUT = 2 ** 26;
-
-let built;
-/** The command line: what the environment variable BORESIGHT names, else it is built. */
-const boresight = () => {
-  built ??= process.env.BORESIGHT ? Promise.resolve(process.env.BORESIGHT) : program('boresight');
-  return built;
-};
 
 /** A folder as the code asks for: the package, the repository's files, and `files` by name. */
 async function inFolder(files, work) {

@@ -177,13 +177,18 @@ pub enum Alignment {
 impl Alignment {
     /// Of an angle and its standard deviation; none without a nominal angle.
     pub(crate) fn of(angle_rad: f64, sigma_rad: f64, options: &CalibrationOptions) -> Option<Self> {
-        let off = wrap(angle_rad - options.nominal_rad?).abs();
+        let off = drift_rad(angle_rad, options)?.abs();
         Some(match (off - options.alarm_rad, CHANCE * sigma_rad) {
             (beyond, chance) if beyond > chance => Self::Misaligned,
             (beyond, chance) if beyond <= -chance => Self::Aligned,
             _ => Self::Undecided,
         })
     }
+}
+
+/// How far an angle is from the nominal one, within half a turn; none without a nominal angle.
+fn drift_rad(angle_rad: f64, options: &CalibrationOptions) -> Option<f64> {
+    options.nominal_rad.map(|nominal_rad| wrap(angle_rad - nominal_rad))
 }
 
 /// A mounting angle and what it rests on. Standard deviations are infinite where the drive says nothing.
@@ -236,4 +241,12 @@ pub struct AngleEstimate {
     #[option(described_as = Vec<boresight_core::Remark>)]
     #[serde(rename = "warnings", serialize_with = "remark::serialize")]
     pub remarks: Vec<Remark>,
+}
+
+impl AngleEstimate {
+    /// How far the angle is from the nominal one of the options, within half a turn; none without a nominal angle.
+    #[must_use]
+    pub fn drift_rad(&self, options: &CalibrationOptions) -> Option<f64> {
+        drift_rad(self.angle_rad, options)
+    }
 }

@@ -47,6 +47,7 @@
 mod angle;
 mod batch;
 pub mod calibrator;
+pub mod car;
 pub mod drive;
 pub mod error;
 pub mod estimate;
@@ -67,6 +68,7 @@ mod symmetric;
 pub mod trajectory;
 
 pub use calibrator::Calibrator;
+pub use car::Car;
 pub use drive::Frames;
 pub use error::CalibrateError;
 pub use estimate::{Alignment, AngleEstimate, CHANCE, FrameCounts, Remark};

@@ -7,6 +7,7 @@ use boresight_core::{CoreError, Details, Diagnose};
 use boresight_evaluate::EvaluateError;
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
+use boresight_live::LiveError;
 use boresight_neural::NeuralError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
@@ -37,6 +38,9 @@ pub enum CliError {
     /// Calibration refused.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
+    /// A server cannot run.
+    #[error(transparent)]
+    Live(#[from] LiveError),
     /// An image cannot be made.
     #[error(transparent)]
     Image(#[from] ImageError),
@@ -152,6 +156,7 @@ impl CliError {
             Self::Signal(error) => error,
             Self::Angle(error) => error,
             Self::Calibrate(error) => error,
+            Self::Live(error) => error,
             Self::Image(error) => error,
             Self::Pipeline(error) => error,
             Self::Simulate(error) => error,

@@ -17,7 +17,6 @@ mod drive;
 mod error;
 mod files;
 mod flags;
-mod json;
 mod network;
 mod numbers;
 mod output;
@@ -43,6 +42,7 @@ fn main() -> ExitCode {
         Command::Evaluate { what } => commands::evaluate::run(&what, &files),
         Command::Image { what } => commands::image::run(&what, &files),
         Command::Log(arguments) => commands::log::run(&arguments, &files),
+        Command::Serve(arguments) => commands::serve::run(&arguments, &files),
         Command::Odometry(arguments) => commands::odometry::run(&arguments, &files),
         Command::Methods(format) => commands::lists::methods(format.json),
         Command::Network(arguments) => commands::network::run(&arguments, &files),

@@ -10,6 +10,8 @@
 //! - [`radarscenes`]: sequences of the `RadarScenes` data set.
 //! - [`mcap`] and [`ros`]: recordings of robots and test cars, and the messages in them.
 //! - [`drive_log`]: drives, as point clouds and the car's motion.
+//! - [`foxglove`]: drives as messages for viewers, and [`mcap`]: files of them.
+//! - [`json`]: results in the names and units that JavaScript has them in.
 //!
 //! All readers but those of streams work on bytes in memory, take nothing on trust from a header before comparing it
 //! with what is there, and say where a file is wrong.
@@ -33,7 +35,9 @@
 pub mod dca1000;
 pub mod drive_log;
 mod error;
+pub mod foxglove;
 pub mod hdf5;
+pub mod json;
 pub mod mcap;
 pub mod mmwave_cfg;
 pub mod npy;

@@ -1,1 +1,6 @@
-//! Radars and results over sockets.
+//! Radars and results over sockets: a server of drives for viewers.
+
+pub mod error;
+pub mod foxglove;
+
+pub use error::LiveError;

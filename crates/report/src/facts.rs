@@ -55,7 +55,7 @@ pub fn facts(e: &AngleEstimate) -> Vec<Fact> {
 /// Where the radar is, where it should be, and whether that is so, as a sentence; `None` without a nominal angle.
 pub fn sentence(e: &AngleEstimate, options: &CalibrationOptions) -> Option<String> {
     let nominal = options.nominal_rad?.to_degrees();
-    let off = (e.angle_rad.to_degrees() - nominal + 180.0).rem_euclid(360.0) - 180.0;
+    let off = e.drift_rad(options)?.to_degrees();
     let allowed = options.alarm_rad.to_degrees();
     let chance = CHANCE * e.sigma_rad.to_degrees();
     let verdict = match e.alignment? {

@@ -36,6 +36,9 @@ pub struct LogArguments {
     /// Write the log as general tables, detections.csv and motion.csv, to this folder.
     #[arg(long, value_name = "DIR")]
     pub export: Option<PathBuf>,
+    /// Write the log as messages for viewers: point clouds, the car's motion, transforms.
+    #[arg(long, value_name = "OUT.mcap")]
+    pub mcap: Option<PathBuf>,
     /// Print statistics of each radar in place of what the log holds: counts, outliers, noise, how
     /// its angle scatters and how long that lasts, slip, delay, speed.
     #[arg(long)]
@@ -78,6 +81,9 @@ pub struct CalibrateArguments {
     /// Write a report to print: verdict, angle, plots, conditions and the files it comes from, as one page of HTML.
     #[arg(long, value_name = "OUT.html")]
     pub report: Option<PathBuf>,
+    /// Write the drive and the angle as it went as messages for viewers.
+    #[arg(long, value_name = "OUT.mcap")]
+    pub mcap: Option<PathBuf>,
     /// Print JSON: an object, or an array of them where there are several radars.
     #[arg(long)]
     pub json: bool,

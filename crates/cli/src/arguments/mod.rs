@@ -6,6 +6,7 @@ mod estimate;
 mod evaluate;
 mod image;
 mod regions;
+mod serve;
 mod simulate;
 
 pub use augment::AugmentArguments;
@@ -17,6 +18,7 @@ pub use evaluate::{
 };
 pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 pub use regions::RegionsArguments;
+pub use serve::ServeArguments;
 pub use simulate::{
     CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,
 };
@@ -74,6 +76,8 @@ pub enum Command {
     Odometry(OdometryArguments),
     /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.
     Log(LogArguments),
+    /// Play a drive and its calibration to viewers such as Foxglove and Lichtblick, over a socket of this machine.
+    Serve(Box<ServeArguments>),
     /// Run an experiment on simulated scenes: tables, figures, records.
     Evaluate {
         /// What to run.

@@ -6,7 +6,6 @@ use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, Imag
 use crate::destination::Destination;
 use crate::error::CliError;
 use crate::files::{self, Files};
-use crate::json;
 use crate::network;
 use crate::output::remark;
 use crate::picture::{self, Truth};
@@ -16,6 +15,7 @@ use boresight_core::describe::Named;
 use boresight_core::drive::Mounting;
 use boresight_core::units::power_to_db;
 use boresight_evaluate::images::{CHAIN, ImageFigures, Maker, StreetFrames};
+use boresight_formats::json;
 use boresight_formats::{Capture, RadarConfig};
 use boresight_image::{BirdsEyeView, Grid, Outside, PointMeasure, ViewGrid, birds_eye_view};
 use boresight_pipeline::image::{Angles, Content, chain_options, frame_map, map_grid};

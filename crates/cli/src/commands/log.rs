@@ -1,19 +1,18 @@
 //! `boresight log`: what is in a drive log.
 
-use super::{log_statistics, messages};
+use super::{log_statistics, mcap, messages};
 use crate::arguments::LogArguments;
 use crate::destination::Destination;
 use crate::drive::open_path;
 use crate::error::CliError;
 use crate::files::{self, Files};
-use crate::json;
 use crate::output::remark;
 use boresight_calibrate::CalibrationOptions;
 use boresight_calibrate::signs::{SignFindings, find_signs};
 use boresight_core::describe::Named;
 use boresight_core::drive::DriveLog;
 use boresight_formats::drive_log::table::{write_detections, write_motion};
-use boresight_formats::{DriveRead, DriveTopic, MountingSource};
+use boresight_formats::{DriveRead, DriveTopic, MountingSource, json};
 use serde_json::{Map, Value, json};
 use std::io::{BufWriter, Write};
 
@@ -37,6 +36,9 @@ pub fn run(arguments: &LogArguments, files: &Files) -> Result<String, CliError> 
         files::make_folder(folder)?;
         export(files, detections, |out| write_detections(&read.log, out))?;
         export(files, motion, |out| write_motion(&read.log, out))?;
+    }
+    if let Some(path) = &arguments.mcap {
+        mcap::write_log(&read, files, files.destination(path)?)?;
     }
     if arguments.statistics {
         return log_statistics::run(&read.log, arguments.json);

@@ -88,7 +88,10 @@ pub fn run(arguments: &OdometryArguments, files: &Files) -> Result<String, CliEr
 
     let run = Run::start("frames")?;
     let mut joint = Joint::with_network(&radars, Some(&network))?;
-    feed(log, &options, &run, wanted, |sensor, frame| joint.add(sensor, frame).map(|_| ()))?;
+    feed(log, &options, &run, wanted, |sensor, frame| {
+        joint.add(sensor, frame)?;
+        Ok(())
+    })?;
     let estimates = joint.estimate();
     let car = &estimates[0].1;
     let mounting: Vec<Mounted> = radars

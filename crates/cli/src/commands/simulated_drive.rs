@@ -3,10 +3,11 @@
 use crate::arguments::DriveArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
+use crate::pairs;
 use crate::run::Run;
-use crate::{json, pairs};
 use boresight_core::describe::Named;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
+use boresight_formats::json;
 use boresight_formats::radarscenes::{Packing, write};
 use boresight_pipeline::Progress;
 use boresight_simulate::drive::PlacedRadar;

@@ -17,6 +17,8 @@ mod stream;
 #[cfg(test)]
 mod tests;
 mod unpack;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod write;
 
 pub use counts::McapCounts;
 pub use record::{Channel, MAGIC, Message, Schema};

@@ -2,6 +2,7 @@
 
 mod report;
 
+use super::mcap::{self, Mcap};
 use super::track::Track;
 use crate::arguments::CalibrateArguments;
 use crate::drive::open_path;
@@ -10,12 +11,10 @@ use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_calibrate::network::MotionNetwork;
-use boresight_calibrate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, Calibrator, FrameInput, FrameOutcome,
-    Frames, Joint, Outlook,
-};
+use boresight_calibrate::{AngleEstimate, CalibrationOptions, Car, FrameInput, Frames, Outlook};
 use boresight_core::drive::{DriveLog, Sensor};
 use boresight_formats::DriveFormat;
+use boresight_live::foxglove::ResultTopics;
 use boresight_pipeline::{PipelineError, Progress};
 use boresight_report::Recorder;
 use serde_json::Value;
@@ -53,16 +52,22 @@ pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliE
     }
     let trajectory =
         arguments.trajectory.as_deref().map(|path| files.destination(path)).transpose()?;
+    let mcap = arguments.mcap.as_deref().map(|path| files.destination(path)).transpose()?;
     let report = arguments.report.as_deref().map(|path| files.destination(path)).transpose()?;
     let network = arguments.network.as_deref().map(|path| read_network(path, files)).transpose()?;
     let network = network.unwrap_or_else(boresight_evaluate::calibration::network);
     let run = Run::start("frames")?;
-    let mut results = if arguments.joint {
-        jointly(arguments, log, &run)?
-    } else {
-        let one =
-            |sensor: &&Sensor| alone(log, sensor.id, options(arguments, sensor)?, &network, &run);
-        shown.iter().map(one).collect::<Result<_, CliError>>()?
+    let car = car(arguments, log, &shown, &network)?;
+    let mut results = match mcap {
+        Some(destination) => {
+            let mut topics = ResultTopics::new(log, &car)?;
+            let channels = topics.channels().to_vec();
+            mcap::write(files, destination, &channels, |file| {
+                topics.begin(&read.report.remarks, &mut file.out);
+                calibrated(car, log, &run, Some(Told { topics, file }))
+            })?
+        }
+        None => calibrated(car, log, &run, None)?,
     };
     run.finish();
     results.retain(|result| shown.iter().any(|sensor| sensor.id == result.sensor));
@@ -157,7 +162,7 @@ pub(super) fn feed<'a>(
     options: &CalibrationOptions,
     run: &Run,
     wanted: impl Fn(u8) -> bool,
-    mut add: impl FnMut(u8, FrameInput<'a>) -> Result<(), CalibrateError>,
+    mut add: impl FnMut(u8, FrameInput<'a>) -> Result<(), CliError>,
 ) -> Result<(), CliError> {
     let frames = Frames::of(log, wanted, options.max_gap_s);
     let total = frames.len();
@@ -170,76 +175,69 @@ pub(super) fn feed<'a>(
     Ok(())
 }
 
-fn alone(
-    log: &DriveLog,
-    sensor: u8,
-    options: CalibrationOptions,
-    network: &Arc<MotionNetwork>,
-    run: &Run,
-) -> Result<Calibrated, CliError> {
-    let mut calibrator = Calibrator::with_network(options, Some(network))?;
-    let mut track = Track::default();
-    let mut recorder = Recorder::default();
-    feed(
-        log,
-        &options,
-        run,
-        |id| id == sensor,
-        |_, frame| {
-            let outcome = calibrator.add(frame)?;
-            track.add(log, &options, &outcome);
-            if recorder.add(&frame, &outcome) {
-                recorder.look(frame.time_s, &calibrator.estimate());
-            }
-            Ok(())
-        },
-    )?;
-    let (estimate, outlook) = (calibrator.estimate(), calibrator.outlook());
-    Ok(Calibrated { sensor, options, estimate, track, outlook, recorder, joint: false })
-}
-
-/// All radars of the log at once.
-fn jointly(
+/// The calibration of the radars shown, or of all radars of the log together.
+fn car(
     arguments: &CalibrateArguments,
     log: &DriveLog,
+    shown: &[&Sensor],
+    network: &Arc<MotionNetwork>,
+) -> Result<Car, CliError> {
+    let one = |sensor: &Sensor| Ok((sensor.id, options(arguments, sensor)?));
+    if arguments.joint {
+        return Ok(Car::together(log.sensors.iter().map(one).collect::<Result<_, CliError>>()?)?);
+    }
+    let radars = shown.iter().map(|sensor| one(sensor)).collect::<Result<_, CliError>>()?;
+    Ok(Car::apart(radars, Some(network))?)
+}
+
+/// A pass over the log as messages, and where they go.
+struct Told<'a, 'b, 'c> {
+    topics: ResultTopics<'a>,
+    file: &'b mut Mcap<'c>,
+}
+
+/// What a pass over the log tells of each radar of the calibration.
+fn calibrated(
+    mut car: Car,
+    log: &DriveLog,
     run: &Run,
+    mut told: Option<Told>,
 ) -> Result<Vec<Calibrated>, CliError> {
-    let radars = log
-        .sensors
-        .iter()
-        .map(|sensor| Ok((sensor.id, options(arguments, sensor)?)))
-        .collect::<Result<Vec<(u8, CalibrationOptions)>, CliError>>()?;
-    let mut joint = Joint::new(&radars)?;
+    let radars = car.radars().to_vec();
     let mut followed = vec![(Track::default(), Recorder::default()); radars.len()];
+    let place = |sensor: u8| radars.iter().position(|(id, _)| *id == sensor);
+    let mut scans = log.scans.iter().filter(|scan| place(scan.sensor).is_some());
     feed(
         log,
         &radars[0].1,
         run,
-        |_| true,
+        |id| place(id).is_some(),
         |sensor, frame| {
-            let outcome: FrameOutcome = joint.add(sensor, frame)?;
-            if let Some(at) = radars.iter().position(|(id, _)| *id == sensor) {
+            let outcome = car.add(sensor, frame)?;
+            if let Some(at) = place(sensor) {
                 let (track, recorder) = &mut followed[at];
                 track.add(log, &radars[at].1, &outcome);
                 if recorder.add(&frame, &outcome) {
-                    recorder.look(frame.time_s, &joint.estimate()[at].1);
+                    recorder.look(frame.time_s, &car.estimate(sensor)?);
                 }
+            }
+            if let (Some(Told { topics, file }), Some(scan)) = (&mut told, scans.next()) {
+                topics.step(scan, outcome, &car, &mut file.out)?;
+                file.write()?;
             }
             Ok(())
         },
     )?;
-    Ok(radars
+    if let Some(Told { topics, file }) = &mut told {
+        topics.end(&car, &mut file.out)?;
+    }
+    let joint = car.is_joint();
+    radars
         .into_iter()
-        .zip(joint.estimate())
         .zip(followed)
-        .map(|(((sensor, options), (_, estimate)), (track, recorder))| Calibrated {
-            sensor,
-            options,
-            estimate,
-            track,
-            outlook: None,
-            recorder,
-            joint: true,
+        .map(|((sensor, options), (track, recorder))| {
+            let (estimate, outlook) = (car.estimate(sensor)?, car.outlook(sensor));
+            Ok(Calibrated { sensor, options, estimate, track, outlook, recorder, joint })
         })
-        .collect())
+        .collect()
 }

@@ -3,7 +3,7 @@
 use super::Calibrated;
 use crate::error::CliError;
 use crate::files::Files;
-use crate::json;
+use boresight_formats::json;
 use boresight_report::{About, Fact, Radar, facts};
 use jiff::Timestamp;
 use serde_json::{Value, json};
