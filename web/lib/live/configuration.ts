@@ -7,6 +7,8 @@ const BUFFER = 65_536;
 const ANSWER_MS = 5000;
 /** How long a prompt may come after the answer; firmware without one is not waited for longer, ms. */
 const PROMPT_MS = 200;
+/** What a board said before is over when nothing came for so long, ms; and is not waited for longer than this in all. */
+const [QUIET_MS, MOST_QUIET_MS] = [50, 1000];
 /** More than any line is answered with. */
 const MOST_ANSWER = 1 << 16;
 
@@ -51,6 +53,7 @@ export async function sendConfiguration(
   const heard = new Answers(serialBytes(port, { reconnect: false, signal: ending.signal }));
   const writer = port.writable?.getWriter();
   try {
+    await heard.quiet();
     for (const [at, line] of commands.entries()) {
       heard.forget();
       await writer?.write(new TextEncoder().encode(`${line.command}\n`));
@@ -58,6 +61,9 @@ export async function sendConfiguration(
       signal?.throwIfAborted();
       onLine?.({ ...line, answer, sent: at + 1, total: commands.length });
     }
+  } catch (error) {
+    signal?.throwIfAborted();
+    throw error;
   } finally {
     signal?.removeEventListener('abort', end);
     end();
@@ -77,6 +83,12 @@ class Answers {
 
   constructor(source: AsyncIterable<Uint8Array>) {
     this.#bytes = source[Symbol.asyncIterator]();
+  }
+
+  /** Hears out what a board has to say before it is sent anything. */
+  async quiet(): Promise<void> {
+    const until = performance.now() + MOST_QUIET_MS;
+    while (performance.now() < until && (await this.#more(QUIET_MS)));
   }
 
   /** What was said before a line was sent belongs to none. */
