@@ -15,6 +15,7 @@ export { readDetectionsCsv, readSnapshotsCsv, writeDetectionsCsv, writeSnapshots
 export { readNpy, writeNpy } from './formats/npy.js';
 export { birdsEyeView, imageFrame, imagePlan, rangeAzimuthMap, sidelobeMeasure } from './image/image.js';
 export { type BoardFrames, boardFrames } from './live/board-frames.js';
+export { type BridgeFrames, bridgeFrames } from './live/bridge.js';
 export { sendConfiguration } from './live/configuration.js';
 export { RecentBytes } from './live/recent-bytes.js';
 export { replayBytes } from './live/replay.js';

@@ -7,6 +7,7 @@ use boresight_core::{CoreError, Details, Diagnose};
 use boresight_evaluate::EvaluateError;
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
+use boresight_live::LiveError;
 use boresight_neural::NeuralError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
@@ -49,6 +50,9 @@ pub enum CliError {
     /// An experiment refused, or was stopped.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
+    /// A socket cannot be served.
+    #[error(transparent)]
+    Live(#[from] LiveError),
     /// A model cannot be loaded, or not for this use.
     #[error("{}: {error}", path.display())]
     Model {
@@ -156,6 +160,7 @@ impl CliError {
             Self::Pipeline(error) => error,
             Self::Simulate(error) => error,
             Self::Evaluate(error) => error,
+            Self::Live(error) => error,
             Self::Model { error, .. } => error.as_ref(),
             Self::Network { error, .. } => error,
             _ => return None,

@@ -96,3 +96,49 @@ export interface RecentCounts {
   seconds: number;
   forgottenBytes: number;
 }
+
+export interface BridgeOptions {
+  /** Ends the reading, without an error. */
+  signal?: AbortSignal;
+  /** Called when the bridge has said something. */
+  onChange?: (frames: {
+    readonly hello: BridgeHello | null;
+    readonly counts: Readonly<BridgeCounts>;
+    readonly skippedFrames: number;
+  }) => void;
+}
+
+/** What a bridge says of itself. */
+export interface BridgeHello {
+  version: number;
+  frameBytes: number;
+  frameIntervalS: number;
+  /** The text of the board's configuration. */
+  config: string;
+}
+
+/** What came from a capture card, and what did not. */
+export interface BridgeCounts {
+  /** Packets, each once. */
+  packets: number;
+  bytes: number;
+  lostPackets: number;
+  lostBytes: number;
+  /** Packets that came after a later one. */
+  reordered: number;
+  duplicates: number;
+  /** Packets that no card sends. */
+  malformed: number;
+  /** How often the card began anew. */
+  restarts: number;
+  frames: number;
+  /** Frames that lack bytes and were dropped. */
+  damagedFrames: number;
+}
+
+/** A frame of raw samples. */
+export interface BridgeFrame {
+  /** From 0 since the card was started. */
+  number: number;
+  bytes: Uint8Array<ArrayBuffer>;
+}
