@@ -15,8 +15,9 @@ use tungstenite::{Bytes, Error, Message, WebSocket};
 const MOST_WAITING: usize = 4;
 /// How often a client is told what came.
 const STATUS_EVERY: Duration = Duration::from_secs(1);
-/// How long a client's own messages are looked for between frames.
+/// How long a client's own messages are looked for, and how often while frames come.
 pub(super) const LISTEN: Duration = Duration::from_millis(1);
+const LISTEN_EVERY: Duration = Duration::from_millis(50);
 /// How long a client that takes nothing is waited for.
 pub(super) const STALLED: Duration = Duration::from_secs(10);
 
@@ -70,7 +71,7 @@ impl Mailbox {
         let none = |waiting: &mut Waiting| waiting.messages.is_empty() && !waiting.closing;
         let (mut waiting, _) = self
             .filled
-            .wait_timeout_while(waiting, 50 * LISTEN, none)
+            .wait_timeout_while(waiting, LISTEN_EVERY, none)
             .unwrap_or_else(PoisonError::into_inner);
         let message = waiting.messages.pop_front();
         (!waiting.closing).then_some((message, waiting.counts, waiting.skipped))
@@ -85,7 +86,7 @@ pub(super) fn message(frame: &Frame) -> Bytes {
 /// Sends a client what is left for it, until it goes or the bridge ends.
 pub(super) fn serve(mut socket: WebSocket<TcpStream>, mailbox: &Arc<Mailbox>) {
     let mut sent_frames = 0;
-    let mut told = Instant::now();
+    let (mut told, mut listened) = (Instant::now(), Instant::now());
     loop {
         let Some((message, counts, skipped_frames)) = mailbox.take() else {
             let reason = "the bridge ends".into();
@@ -107,6 +108,10 @@ pub(super) fn serve(mut socket: WebSocket<TcpStream>, mailbox: &Arc<Mailbox>) {
                 return;
             }
         }
+        if listened.elapsed() < LISTEN_EVERY {
+            continue;
+        }
+        listened = Instant::now();
         match socket.read() {
             // Nothing that a client says changes what it is sent; pings are answered by themselves.
             Ok(_) => {}
