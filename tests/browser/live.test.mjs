@@ -29,32 +29,26 @@ const countIs = (page, fact, value) =>
   page.waitForSelector(`[data-facts="live"] [data-fact="${fact}"][data-value="${value}"]`);
 const stateIs = (page, state) => page.waitForSelector(`[data-live-state="${state}"]`);
 
-/** Gives a page ports before its own scripts run: `ports.command` answers, `ports.data` is fed. */
-async function withPorts(page, { refuse = '' } = {}) {
-  await page.addInitScript({
-    content: `
-      ${fakeSerial}
-      ${feedRecording}
-      {
-        const FakePort = fakeSerial();
-        const answer = (line) => ${JSON.stringify(refuse)} && line.startsWith(${JSON.stringify(refuse)}) ? 'Error -1' : 'Done';
-        globalThis.ports = { command: new FakePort(answer), data: new FakePort(), spare: new FakePort() };
-        globalThis.asked = ['command', 'data', 'spare'];
-        Object.defineProperty(navigator, 'serial', {
-          value: { requestPort: async () => {
-            const name = asked.shift();
-            if (!name) throw new DOMException('No port selected by the user.', 'NotFoundError');
-            return ports[name];
-          } },
-        });
-        globalThis.feed = (base64, options) =>
-          feedRecording(ports[options?.port ?? 'data'], Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)), options);
-      }
-    `,
-  });
-  await page.reload();
-  await page.locator('[data-action="choose-command"]').waitFor();
-}
+/** Gives a page ports ahead of its own scripts: `ports.command` answers, but to what it refuses, and `ports.data` is fed. */
+const withPorts = ({ refuse = '-' } = {}) => `
+  ${fakeSerial}
+  ${feedRecording}
+  {
+    const FakePort = fakeSerial();
+    const answer = (line) => (line.startsWith('${refuse}') ? 'Error -1' : 'Done');
+    globalThis.ports = { command: new FakePort(answer), data: new FakePort(), spare: new FakePort() };
+    const asked = Object.values(ports);
+    const requestPort = async () => {
+      if (asked.length) return asked.shift();
+      throw new DOMException('No port selected by the user.', 'NotFoundError');
+    };
+    Object.defineProperty(navigator, 'serial', { value: { requestPort } });
+    globalThis.feed = (base64, { port = 'data', ...options }) =>
+      feedRecording(ports[port], Uint8Array.from(atob(base64), (one) => one.charCodeAt(0)), options);
+  }
+`;
+const before = withPorts();
+
 const feed = (page, bytes, options = {}) =>
   page.evaluate(([base64, given]) => globalThis.feed(base64, given), [Buffer.from(bytes).toString('base64'), options]);
 
@@ -66,8 +60,7 @@ async function connected(page) {
   await page.locator('[data-action="connect"]').click();
 }
 
-browserTest('live: a board’s bytes give the counts of its recording', { path: '#/live' }, async ({ page }) => {
-  await withPorts(page);
+browserTest('live: a board’s bytes give the counts of its recording', { path: '#/live', before }, async ({ page }) => {
   await connected(page);
   await feed(page, dat);
   await countIs(page, 'bytes', dat.length);
@@ -83,7 +76,7 @@ browserTest('live: a board’s bytes give the counts of its recording', { path: 
   const told = await page.locator('[data-plot="board-points"] .alternative').textContent();
   assert.match(told, /^[1-9]\d* detections/);
   for (const plot of ['board-points', 'board-profile'])
-    assert.ok(await page.locator(`[data-plot="${plot}"] canvas`).first().isVisible());
+    await page.locator(`[data-plot="${plot}"] .plot canvas`).first().waitFor();
   const file = await saved(page, '[data-action="save-dat"]');
   assert.match(file.name, /^boresight-live-.*\.dat$/);
   assert.deepEqual(file.bytes, dat);
@@ -92,9 +85,8 @@ browserTest('live: a board’s bytes give the counts of its recording', { path: 
 
 browserTest(
   'live: errors of the line are counted, and cost the packets they are in',
-  { path: '#/live' },
+  { path: '#/live', before },
   async ({ page }) => {
-    await withPorts(page);
     await connected(page);
     const errors = [
       { at: 20_000, name: 'FramingError', lost: 3 },
@@ -114,34 +106,36 @@ browserTest(
   },
 );
 
-browserTest('live: a board is unplugged, plugged in again, and changed', { path: '#/live' }, async ({ page }) => {
-  await withPorts(page);
-  await connected(page);
-  await feed(page, dat.subarray(0, 50_000));
-  await countIs(page, 'bytes', 50_000);
-  await page.evaluate(() => ports.data.unplug());
-  await stateIs(page, 'lost');
-  await page.locator('[data-notice="lost"]').waitFor();
-  await page.locator('[data-live]').getByText('The board was unplugged').waitFor({ state: 'attached' });
-  await page.evaluate(() => ports.data.plug());
-  await stateIs(page, 'open');
-  await feed(page, dat.subarray(50_000, 100_000));
-  await countIs(page, 'bytes', 100_000);
-  // Another port takes over, and nothing was lost on the way.
-  await page.locator('[data-action="choose-data"]').click();
-  await feed(page, dat.subarray(100_000), { port: 'spare' });
-  await countIs(page, 'bytes', dat.length);
-  await page.locator('[data-action="disconnect"]').click();
-  await stateIs(page, 'ended');
-  const all = await counts(page);
-  assert.deepEqual([all.frames, all.damagedPackets, all.losses], [250, 1, 1]);
-  // Whoever is asked for a port may choose none.
-  await page.locator('[data-action="choose-data"]').click();
-  assert.equal(await page.locator('[data-error]').count(), 0);
-});
+browserTest(
+  'live: a board is unplugged, plugged in again, and changed',
+  { path: '#/live', before },
+  async ({ page }) => {
+    await connected(page);
+    await feed(page, dat.subarray(0, 50_000));
+    await countIs(page, 'bytes', 50_000);
+    await page.evaluate(() => ports.data.unplug());
+    await stateIs(page, 'lost');
+    await page.locator('[data-notice="lost"]').waitFor();
+    await page.locator('[data-live]').getByText('The board was unplugged').waitFor({ state: 'attached' });
+    await page.evaluate(() => ports.data.plug());
+    await stateIs(page, 'open');
+    await feed(page, dat.subarray(50_000, 100_000));
+    await countIs(page, 'bytes', 100_000);
+    // Another port takes over, and nothing was lost on the way.
+    await page.locator('[data-action="choose-data"]').click();
+    await feed(page, dat.subarray(100_000), { port: 'spare' });
+    await countIs(page, 'bytes', dat.length);
+    await page.locator('[data-action="disconnect"]').click();
+    await stateIs(page, 'ended');
+    const all = await counts(page);
+    assert.deepEqual([all.frames, all.damagedPackets, all.losses], [250, 1, 1]);
+    // Whoever is asked for a port may choose none.
+    await page.locator('[data-action="choose-data"]').click();
+    assert.equal(await page.locator('[data-error]').count(), 0);
+  },
+);
 
-browserTest('live: a configuration is sent line by line', { path: '#/live' }, async ({ page }) => {
-  await withPorts(page);
+browserTest('live: a configuration is sent line by line', { path: '#/live', before }, async ({ page }) => {
   await connected(page);
   const field = page.locator('textarea[name="cfg"]');
   await page.waitForFunction(() => document.querySelector('textarea[name="cfg"]').value.includes('sensorStart'));
@@ -165,16 +159,19 @@ browserTest('live: a configuration is sent line by line', { path: '#/live' }, as
     .waitFor();
 });
 
-browserTest('live: a line that a board refuses is shown', { path: '#/live' }, async ({ page }) => {
-  await withPorts(page, { refuse: 'chirpCfg' });
-  await connected(page);
-  await page.waitForFunction(() => document.querySelector('textarea[name="cfg"]').value.includes('sensorStart'));
-  await page.locator('[data-action="send"]').click();
-  const told = page.locator('[data-error="command-refused"]');
-  await told.waitFor();
-  assert.match(await told.textContent(), /line \d+, chirpCfg .* is Error -1; expected Done/);
-  assert.match(await page.evaluate(() => ports.command.written), /chirpCfg[^\n]*\n$/);
-});
+browserTest(
+  'live: a line that a board refuses is shown',
+  { path: '#/live', before: withPorts({ refuse: 'chirpCfg' }) },
+  async ({ page }) => {
+    await connected(page);
+    await page.waitForFunction(() => document.querySelector('textarea[name="cfg"]').value.includes('sensorStart'));
+    await page.locator('[data-action="send"]').click();
+    const told = page.locator('[data-error="command-refused"]');
+    await told.waitFor();
+    assert.match(await told.textContent(), /line \d+, chirpCfg .* is Error -1; expected Done/);
+    assert.match(await page.evaluate(() => ports.command.written), /chirpCfg[^\n]*\n$/);
+  },
+);
 
 browserTest(
   'live: a recording comes the same way, from the demo, a drop and a link',
@@ -209,16 +206,18 @@ browserTest(
   },
 );
 
-browserTest('live: without serial ports recordings are offered', { path: '#/live' }, async ({ page }) => {
-  await page.addInitScript(() => Object.defineProperty(Navigator.prototype, 'serial', { value: undefined }));
-  await page.reload();
-  await page
-    .locator('[data-notice="no-serial"]')
-    .getByText(/Chrome, Edge/)
-    .waitFor();
-  await page.locator('[data-action="replay"]').click();
-  await page.locator('[data-plot="board-points"]').waitFor();
-});
+browserTest(
+  'live: without serial ports recordings are offered',
+  { path: '#/live', before: 'Object.defineProperty(Navigator.prototype, "serial", { value: undefined })' },
+  async ({ page }) => {
+    await page
+      .locator('[data-notice="no-serial"]')
+      .getByText(/Chrome, Edge/)
+      .waitFor();
+    await page.locator('[data-action="replay"]').click();
+    await page.locator('[data-plot="board-points"]').waitFor();
+  },
+);
 
 /** A heat map as boards send them: of the raw capture's frame, its cells at zero Doppler as Q and I. */
 browserTest(

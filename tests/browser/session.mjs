@@ -48,8 +48,12 @@ function atHand() {
   };
 }
 
-/** Opens a page in a fresh context and keeps a list of what goes wrong on it. */
-export async function openPage(browser, url, { viewport = 'desktop', scheme = 'light', path = '', ...rest } = {}) {
+/** Opens a page in a fresh context, with what `before` runs ahead of its scripts, and keeps a list of what goes wrong on it. */
+export async function openPage(
+  browser,
+  url,
+  { viewport = 'desktop', scheme = 'light', path = '', before = '', ...rest } = {},
+) {
   const context = await browser.newContext({
     viewport: viewports[viewport],
     colorScheme: scheme,
@@ -74,6 +78,7 @@ export async function openPage(browser, url, { viewport = 'desktop', scheme = 'l
     if (response.status() >= 400) problems.push(`status ${response.status()}: ${response.url()}`);
   });
   await context.addInitScript(atHand);
+  if (before) await context.addInitScript({ content: before });
   const page = await context.newPage();
   page.setDefaultTimeout(20_000);
   await page.goto(new URL(path, url).href, { waitUntil: 'load' });

@@ -171,7 +171,8 @@ async function runBoard(
     frames = api.boardFrames(source, usable(profile.peek()?.text));
     for await (const one of frames) {
       if (running !== mine) return;
-      next.frame = one;
+      // Of a packet that the end cut some parts are missing, which the one before has.
+      if (one.complete || mine.counts().processed < 2) next.frame = one;
       show();
     }
   };
