@@ -290,6 +290,9 @@ async function packetWithMaps() {
   return Buffer.concat([header, body, Buffer.alloc(length - 40 - body.length)]);
 }
 
+/** A page connects to this machine and no other. */
+const sockets = /^ws:\/\/127\.0\.0\.1:\d+\/$/;
+
 /** A bridge with the recorded capture in place of a card. */
 async function bridge(origin) {
   const { CARGO_TARGET_DIR: _, BORESIGHT: built, ...env } = process.env;
@@ -327,7 +330,7 @@ async function bridge(origin) {
 
 browserTest(
   'live: raw frames of a bridge give the detections of the recording',
-  { path: '#/live?source=raw', timeout: 240_000 },
+  { path: '#/live?source=raw', sockets, timeout: 240_000 },
   async ({ page, url }) => {
     const { Capture, init } = await import('boresight');
     await init();
@@ -375,11 +378,21 @@ browserTest(
 
 browserTest(
   'live: a bridge that is not there is told',
-  { path: '#/live?source=raw&bridge=9' },
+  { path: '#/live?source=raw&bridge=9', sockets },
   async ({ page, problems }) => {
     await page.locator('[data-action="connect-bridge"]').click();
     await page.locator('[data-error="bridge-not-reached"]').waitFor();
     // The browser itself says so too.
     assert.match(problems.splice(0).join(), /ws:\/\/127\.0\.0\.1:9/);
+    // No other machine's may be asked.
+    const refused = await page.evaluate(
+      () =>
+        new Promise((resolve) => {
+          addEventListener('securitypolicyviolation', ({ blockedURI }) => resolve(blockedURI));
+          new WebSocket('ws://192.0.2.1:8417');
+        }),
+    );
+    assert.match(refused, /192\.0\.2\.1/);
+    problems.length = 0;
   },
 );

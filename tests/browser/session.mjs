@@ -48,11 +48,14 @@ function atHand() {
   };
 }
 
-/** Opens a page in a fresh context, with what `before` runs ahead of its scripts, and keeps a list of what goes wrong on it. */
+/**
+ * Opens a page in a fresh context, with what `before` runs ahead of its scripts, and keeps a list of what goes wrong on it.
+ * Sockets go wrong but those whose address `sockets` matches.
+ */
 export async function openPage(
   browser,
   url,
-  { viewport = 'desktop', scheme = 'light', path = '', before = '', ...rest } = {},
+  { viewport = 'desktop', scheme = 'light', path = '', before = '', sockets = null, ...rest } = {},
 ) {
   const context = await browser.newContext({
     viewport: viewports[viewport],
@@ -80,6 +83,9 @@ export async function openPage(
   await context.addInitScript(atHand);
   if (before) await context.addInitScript({ content: before });
   const page = await context.newPage();
+  page.on('websocket', (socket) => {
+    if (!sockets?.test(socket.url())) problems.push(`socket to ${socket.url()}`);
+  });
   page.setDefaultTimeout(20_000);
   await page.goto(new URL(path, url).href, { waitUntil: 'load' });
 

@@ -59,7 +59,7 @@ export class BoardFrames implements AsyncIterable<BoardFrame> {
  * import { readFile } from 'node:fs/promises';
  *
  * await init();
- * const dat = await readFile('recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat');
+ * const dat = await readFile('board.dat');
  * const frames = boardFrames(replayBytes(dat, { rate: Infinity }));
  * let objects = 0;
  * for await (const frame of frames) objects += frame.objects.length;

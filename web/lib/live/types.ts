@@ -11,6 +11,7 @@ export interface BoardPort extends EventTarget {
 /** Whether bytes come: the port is still to be opened, open, unplugged and waited for, or no longer read. */
 export type SerialState = 'opening' | 'open' | 'lost' | 'ended';
 
+/** How a port is opened and read. */
 export interface SerialOptions {
   /** Bits a second; 921600, that of a board's data port, by default. */
   baudRate?: number;
@@ -40,6 +41,7 @@ export interface SerialCounts {
   losses: number;
 }
 
+/** How a configuration is sent. */
 export interface ConfigurationOptions {
   /** Bits a second; 115200, that of a board's command port, by default. */
   baudRate?: number;
@@ -62,6 +64,7 @@ export interface SentLine {
   total: number;
 }
 
+/** At which pace a file is handed on. */
 export interface ReplayOptions {
   /** Times the speed of `bytesPerSecond`; 1 by default, `Infinity` as fast as bytes are taken. */
   rate?: number;
@@ -82,6 +85,7 @@ export interface BoardCounts extends BoardLogCounts {
   restarts: number;
 }
 
+/** How much is kept. */
 export interface RecentOptions {
   /** How far back bytes are kept, s; 60 by default. */
   seconds?: number;
@@ -97,6 +101,7 @@ export interface RecentCounts {
   forgottenBytes: number;
 }
 
+/** How a bridge is read. */
 export interface BridgeOptions {
   /** Ends the reading, without an error. */
   signal?: AbortSignal;

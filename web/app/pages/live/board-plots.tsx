@@ -67,8 +67,8 @@ function Profile({ frame, config }: Props) {
   }
   const top = profile.reduce((most, value) => Math.max(most, value), 0);
   const series = [
-    { id: 'profile', label: 'Range profile', y: profile, style: ACCENT_STYLE },
-    ...(noise ? [{ id: 'noise', label: 'Noise profile', y: noise, style: TRUTH_STYLE }] : []),
+    { id: 'profile', label: 'Range profile', y: profile, style: { color: ACCENT_STYLE.color } },
+    ...(noise ? [{ id: 'noise', label: 'Noise profile', y: noise, style: { color: TRUTH_STYLE.color } }] : []),
   ];
   return (
     <PlotFrame

@@ -40,7 +40,7 @@ export function Controls() {
         <Control
           label="Source"
           name="source"
-          labels={{ board: 'a board’s detections', raw: 'raw samples' }}
+          labels={{ board: 'detections', raw: 'raw samples' }}
           help="Detections come over a board’s serial ports; raw samples from a DCA1000 capture card over `boresight bridge`."
         />
       </Group>
