@@ -1,10 +1,6 @@
 // The page Live: a recorded board through fake serial ports, recordings, and raw frames of a bridge.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
-import { once } from 'node:events';
-import { join } from 'node:path';
-import { root } from '../../scripts/lib/paths.mjs';
-import { program } from '../../scripts/lib/programs.mjs';
+import { startBridge } from '../lib/bridge.mjs';
 import { fakeSerial, feedRecording } from '../lib/fake-serial.mjs';
 import { drop, parametersWith, recording, saved } from './demo.mjs';
 import { browserTest } from './harness.mjs';
@@ -293,49 +289,14 @@ async function packetWithMaps() {
 /** A page connects to this machine and no other. */
 const sockets = /^ws:\/\/127\.0\.0\.1:\d+\/$/;
 
-/** A bridge with the recorded capture in place of a card. */
-async function bridge(origin) {
-  const { CARGO_TARGET_DIR: _, BORESIGHT: built, ...env } = process.env;
-  const path = built ?? (await program('boresight'));
-  const folder = join(root, 'recordings', 'awr1642');
-  const child = spawn(
-    path,
-    [
-      ...['bridge', '--config', join(folder, 'profile.cfg'), '--port', '0', '--listen', '127.0.0.1:0', '--json'],
-      ...['--replay', join(folder, 'xwr16xx_crw_dca_module_2018_1015v2.bin'), '--origin', origin],
-    ],
-    { env, stdio: ['ignore', 'pipe', 'pipe'] },
-  );
-  let said = '';
-  child.stderr.on('data', (text) => {
-    said += text;
-  });
-  for (let tries = 0; !/ws:\/\/127\.0\.0\.1:(\d+)/.test(said); tries++) {
-    assert.ok(tries < 200 && child.exitCode === null, said);
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
-  let printed = '';
-  child.stdout.on('data', (text) => {
-    printed += text;
-  });
-  return {
-    port: Number(/ws:\/\/127\.0\.0\.1:(\d+)/.exec(said)[1]),
-    end: async () => {
-      child.kill('SIGINT');
-      const [code] = await once(child, 'close');
-      return { code, counts: JSON.parse(printed) };
-    },
-  };
-}
-
 browserTest(
   'live: raw frames of a bridge give the detections of the recording',
   { path: '#/live?source=raw', sockets, timeout: 240_000 },
-  async ({ page, url }) => {
+  async ({ page }) => {
     const { Capture, init } = await import('boresight');
     await init();
     const capture = new Capture(recording('xwr16xx_crw_dca_module_2018_1015v2.bin'), cfg);
-    const running = await bridge(new URL(url).origin);
+    const running = await startBridge();
     try {
       await typeText(page.locator('input[name="bridge"]'), String(running.port));
       await page.locator('[data-action="connect-bridge"]').click();

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { bridgeFrames, Capture, init } from 'boresight';
 import { WebSocket, WebSocketServer } from 'ws';
+import { startBridge } from '../lib/bridge.mjs';
 import { rejectsTyped } from './lib/assert.mjs';
 import { bin, cfg } from './lib/recording.mjs';
 
@@ -108,4 +109,38 @@ test('what is no bridge, or goes, is told', async () => {
   }
   await rejectsTyped(all('http://127.0.0.1:1 '), 'bridge-not-reached');
   await rejectsTyped(all('ws://127.0.0.1:1'), 'bridge-not-reached');
+});
+
+test('the bridge of the command line hands a recording on, to pages that may', { timeout: 600_000 }, async () => {
+  const bridge = await startBridge('--rate', '2', '--origin', 'https://radar.example');
+  const open = (origin) =>
+    new Promise((resolve) => {
+      const socket = new WebSocket(bridge.address, origin ? { origin } : {});
+      socket.on('open', () => socket.close());
+      socket.on('unexpected-response', (_, { statusCode }) => resolve(statusCode));
+      socket.on('close', () => resolve('open'));
+      socket.on('error', () => {});
+    });
+  for (const [origin, expected] of [
+    [undefined, 'open'],
+    ['http://localhost:4173', 'open'],
+    ['https://radar.example', 'open'],
+    ['https://evil.example', 403],
+    ['null', 403],
+  ])
+    assert.equal(await open(origin), expected, origin);
+  const frames = bridgeFrames(bridge.address);
+  let last = -1;
+  let seen = 0;
+  for await (const { number, bytes } of frames) {
+    assert.ok(number > last);
+    last = number;
+    assert.ok(Buffer.from(bytes).equals(recorded(number % 8)), `frame ${number}`);
+    seen += 1;
+    if (seen === 10) break;
+  }
+  assert.equal(frames.hello.frameBytes, FRAME);
+  const { code, counts } = await bridge.end();
+  assert.equal(code, 0);
+  assert.ok(counts.frames >= 10 && counts.malformed === 0 && counts.restarts === 0, JSON.stringify(counts));
 });

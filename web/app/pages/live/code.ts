@@ -39,7 +39,7 @@ function recordingCode(name: string): Code {
     .add(`const cfg = await readFile(${quoted(path(cfgName()))}, 'utf8');`)
     .add('const frames = boardFrames(replayBytes(dat, { rate: Infinity }), cfg);')
     .add(...PRINTED);
-  const words = ['boresight', 'estimate', fileWord(path(name)), '--config', fileWord(path(cfgName())), '--csv'];
+  const words = ['boresight', 'estimate', fileWord(path(name)), '--config', fileWord(path(cfgName())), '--json'];
   return {
     javascript: part(script.text(), sentences(NEEDS.package, needs), ['The script reads as fast as it can.']),
     commandLine: part(textOf([command(words)]), sentences(NEEDS.program, needs), []),
@@ -85,7 +85,7 @@ function bridgeCode(): Code {
     .add('    console.log(number, rangeM, rateMps, azimuthDeg);')
     .add('  capture.free();')
     .add('}');
-  const estimate = ['boresight', 'estimate', 'capture.bin', '--config', fileWord(cfgName()), '--each'];
+  const estimate = ['boresight', 'estimate', 'capture.bin', '--config', fileWord(cfgName()), '--each', '--json'];
   const words = [
     command(['boresight', 'bridge', '--config', fileWord(cfgName()), '--port', String(state.bridge)]),
     '# Of a recording, the same detections:',
