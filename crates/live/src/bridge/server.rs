@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
-use tungstenite::handshake::server::{ErrorResponse, Request, Response};
+use tungstenite::handshake::server::{Callback, ErrorResponse, Request, Response};
 use tungstenite::http::{HeaderValue, StatusCode, header::ORIGIN};
 use tungstenite::protocol::WebSocketConfig;
 use tungstenite::{Message, accept_hdr_with_config};
@@ -244,8 +244,9 @@ fn welcome(stream: TcpStream, origins: &Origins, hello: String) -> Option<Client
         let config = WebSocketConfig::default()
             .max_message_size(Some(MOST_SAID))
             .max_frame_size(Some(MOST_SAID));
-        let check = |request: &Request, response: Response| admit(request, response, &origins);
-        let Ok(mut socket) = accept_hdr_with_config(theirs, check, Some(config)) else { return };
+        let Ok(mut socket) = accept_hdr_with_config(theirs, Door(&origins), Some(config)) else {
+            return;
+        };
         let listening = socket.get_ref().set_read_timeout(Some(LISTEN));
         if listening.is_ok() && socket.send(Message::Text(hello.into())).is_ok() {
             serve(socket, &mine);
@@ -256,27 +257,23 @@ fn welcome(stream: TcpStream, origins: &Origins, hello: String) -> Option<Client
 }
 
 /// Lets a page in, or answers why not.
-// The type of the answer is the library's.
-#[allow(clippy::result_large_err)]
-fn admit(
-    request: &Request,
-    response: Response,
-    origins: &Origins,
-) -> Result<Response, ErrorResponse> {
-    let origin = request.headers().get(ORIGIN).map(HeaderValue::to_str);
-    let allowed = match origin {
-        None => origins.allow(None),
-        Some(Ok(origin)) => origins.allow(Some(origin)),
-        Some(Err(_)) => false,
-    };
-    if allowed {
-        return Ok(response);
+struct Door<'a>(&'a Origins);
+
+impl Callback for Door<'_> {
+    fn on_request(self, request: &Request, response: Response) -> Result<Response, ErrorResponse> {
+        let allowed = match request.headers().get(ORIGIN).map(HeaderValue::to_str) {
+            None => self.0.allow(None),
+            Some(Ok(origin)) => self.0.allow(Some(origin)),
+            Some(Err(_)) => false,
+        };
+        if allowed {
+            return Ok(response);
+        }
+        let why = "this page may not read the radar: boresight bridge --origin\n";
+        let mut refused = ErrorResponse::new(Some(why.into()));
+        *refused.status_mut() = StatusCode::FORBIDDEN;
+        Err(refused)
     }
-    let mut refused = ErrorResponse::new(Some(
-        "this page may not read the radar: boresight bridge --origin\n".into(),
-    ));
-    *refused.status_mut() = StatusCode::FORBIDDEN;
-    Err(refused)
 }
 
 fn socket(what: &'static str) -> impl FnOnce(std::io::Error) -> LiveError {
