@@ -169,6 +169,11 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
         params: 'source=board&play=bundled',
       },
       {
+        title: 'Faster than its port',
+        about: 'The same at ten times what the port could send.',
+        params: 'source=board&play=bundled&pace=ten',
+      },
+      {
         title: 'All at once',
         about: 'The same recording as fast as it can be read.',
         params: 'source=board&play=bundled&pace=fast',

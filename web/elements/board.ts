@@ -120,7 +120,7 @@ export class BoardElement extends PointCloudElement {
     const drawing = super.draw();
     const told = this.#counts?.();
     if (!drawing || !told) return drawing;
-    const lost = told.damagedPackets ? `; ${count(told.damagedPackets)} packets were damaged` : '';
+    const lost = told.damagedPackets ? `; damaged packets: ${count(told.damagedPackets)}` : '';
     const said = `${this.#running ? 'Live, ' : ''}${count(told.frames)} frames${lost}.`;
     return { ...drawing, alternative: `${said} ${drawing.alternative ?? ''}` };
   }

@@ -1,5 +1,3 @@
-import { useComputed } from '@preact/signals';
-import { useEffect } from 'preact/hooks';
 import { useAddress } from '../../state/address.ts';
 import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
@@ -12,25 +10,35 @@ import { cancelSending, portProblem, sending } from './ports.ts';
 import { config, loadBundledProfile, profile } from './profile.ts';
 import { RawPlots } from './raw-plots.tsx';
 import { frame, live, liveProblem, raw, stop } from './session.ts';
-import { captionOf, liveCodec, liveState, update } from './state.ts';
+import { captionOf, liveCodec, liveState } from './state.ts';
+
+/** What the address last asked to be played, and how. */
+let played = '';
 
 export function LivePage() {
   useAddress('live', {
     codec: liveCodec,
     restore: (params) => {
-      liveState.value = liveCodec.read(params);
+      const asked = liveCodec.read(params);
+      liveState.value = asked;
+      // A link plays what it names; the same settings once more do not, and none ends a board.
+      const text = `${asked.play} ${asked.pace}`;
+      if (text === played) return;
+      played = text;
+      const now = live.peek();
+      const busy = now !== null && now.kind !== 'replay' && now.state !== 'ended';
+      if (asked.play === 'bundled' && !busy) queueMicrotask(() => void replayBundled());
     },
     start: () => {
       if (!profile.peek()) void loadBundledProfile().catch(() => {});
-      return stop;
+      return () => {
+        played = '';
+        stop();
+      };
     },
     write: () => liveCodec.write(liveState.value),
     caption: () => captionOf(liveState.peek(), live.peek()?.name ?? 'nothing'),
   });
-  const plays = useComputed(() => liveState.value.play === 'bundled');
-  useEffect(() => {
-    if (plays.value) void replayBundled();
-  }, [plays.value]);
   const now = live.value;
   const problems = [portProblem.value, liveProblem.value].filter((one) => one !== null);
   return (
@@ -89,7 +97,7 @@ function Beginning() {
       </p>
       {liveState.value.source === 'board' && (
         <p class="row">
-          <button type="button" class="primary" data-action="replay-now" onClick={() => update({ play: 'bundled' })}>
+          <button type="button" class="primary" data-action="replay-now" onClick={() => void replayBundled()}>
             Replay the bundled recording
           </button>
         </p>
