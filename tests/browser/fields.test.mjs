@@ -15,10 +15,11 @@ const states = {
   'mounting angle': ['?source=simulated&duration=10&methods=weighted-mean'],
   'birds-eye view': ['?methods=bartlett'],
   networks: [''],
+  live: ['', '?source=raw'],
   elements: ['?element=boresight-spectrum', '?element=boresight-mounting-angle'],
 };
 const tried = pages.flatMap(({ name, path }) =>
-  states[name].map((state) => ({ name: `${name}${state}`, path: path + state })),
+  states[name].map((state) => ({ name: `${name}${state}`, path: path.split('?')[0] + state })),
 );
 
 for (const { name, path } of tried) {

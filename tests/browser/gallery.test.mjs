@@ -19,10 +19,12 @@ const NAMES = [
   'mounting-angle',
   'capture',
   'drive',
+  'board',
 ];
 const RECORDINGS = {
   'xwr16xx_crw_dca_module_2018_1015v2.bin': 'awr1642',
   'profile.cfg': 'awr1642',
+  'xwr16xx_crw_demo_visualizer_2018_1015v2.dat': 'awr1642',
   'front_radar.csv.gz': 'delphi',
   'pose_10hz.csv.gz': 'delphi',
 };
@@ -44,9 +46,11 @@ after(async () => {
   await demo?.close();
 });
 
-/** What an element says that it shows, once it shows something. */
+/** What an element says that it shows, once it shows something that stays. */
 const words = async (page, name) => {
-  const told = page.locator(`boresight-${name} .alternative`).filter({ hasText: /./, hasNotText: 'No data yet.' });
+  const told = page
+    .locator(`boresight-${name} .alternative`)
+    .filter({ hasText: /./, hasNotText: /No data yet\.|^Live,/ });
   await told.waitFor({ state: 'attached', timeout: 40_000 });
   return told.textContent();
 };
@@ -66,7 +70,7 @@ const codeOf = async (page, kind) => {
 
 /** Puts bundled recordings beside a page. */
 const beside = (page) =>
-  page.route(/\.(bin|cfg|gz)$/, async (route) => {
+  page.route(/\.(bin|cfg|dat|gz)$/, async (route) => {
     const name = new URL(route.request().url()).pathname.split('/').at(-1);
     await route.fulfill({ body: readFileSync(join(root, 'recordings', RECORDINGS[name], name)) });
   });

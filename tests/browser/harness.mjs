@@ -27,7 +27,7 @@ after(async () => {
 
 /**
  * A test on a page of the demo. Options: `path`, `viewport` (`desktop`, `phone`), `scheme`
- * (`light`, `dark`), `served` (gives another site than the built demo), `timeout` (ms), and any of Playwright's context
+ * (`light`, `dark`), `before` (a script ahead of the page's own), `sockets` (addresses it may connect to), `served` (gives another site than the built demo), `timeout` (ms), and any of Playwright's context
  * options. On failure the page is pictured in tests/.output/screenshots.
  */
 export function browserTest(name, { served, timeout = 90_000, ...options }, body) {

@@ -13,5 +13,10 @@ export const pages = [
     ready: '[aria-busy="false"] [data-row="iaa"]:not(.stale) [data-field="outsideDb"][data-value]',
   },
   { name: 'networks', path: '#/networks', ready: '[data-card] [data-facts="card"]' },
+  {
+    name: 'live',
+    path: '#/live?play=bundled&pace=fast',
+    ready: '[data-live-state="ended"] ~ * [data-plot="board-points"] .plot canvas',
+  },
   { name: 'elements', path: '#/elements', ready: '#plots[aria-busy="false"] .gallery-element .plot canvas' },
 ];

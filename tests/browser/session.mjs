@@ -48,8 +48,15 @@ function atHand() {
   };
 }
 
-/** Opens a page in a fresh context and keeps a list of what goes wrong on it. */
-export async function openPage(browser, url, { viewport = 'desktop', scheme = 'light', path = '', ...rest } = {}) {
+/**
+ * Opens a page in a fresh context, with what `before` runs ahead of its scripts, and keeps a list of what goes wrong on it.
+ * Sockets go wrong but those whose address `sockets` matches.
+ */
+export async function openPage(
+  browser,
+  url,
+  { viewport = 'desktop', scheme = 'light', path = '', before = '', sockets = null, ...rest } = {},
+) {
   const context = await browser.newContext({
     viewport: viewports[viewport],
     colorScheme: scheme,
@@ -74,7 +81,11 @@ export async function openPage(browser, url, { viewport = 'desktop', scheme = 'l
     if (response.status() >= 400) problems.push(`status ${response.status()}: ${response.url()}`);
   });
   await context.addInitScript(atHand);
+  if (before) await context.addInitScript({ content: before });
   const page = await context.newPage();
+  page.on('websocket', (socket) => {
+    if (!sockets?.test(socket.url())) problems.push(`socket to ${socket.url()}`);
+  });
   page.setDefaultTimeout(20_000);
   await page.goto(new URL(path, url).href, { waitUntil: 'load' });
 

@@ -14,7 +14,7 @@ TAGS = {element.tag.removeprefix("boresight-"): element for element in ELEMENTS.
 @pytest.fixture
 def recordings(tmp_path, monkeypatch):
     """A folder with the files of the recordings, in which the cells run."""
-    for pattern in ("awr1642/*.bin", "awr1642/*.cfg", "delphi/*.gz"):
+    for pattern in ("awr1642/*.bin", "awr1642/*.cfg", "awr1642/*.dat", "delphi/*.gz"):
         for path in (ROOT / "recordings").glob(pattern):
             (tmp_path / path.name).symlink_to(path)
     monkeypatch.chdir(tmp_path)

@@ -1,6 +1,6 @@
 /** The examples in the comments of the package's sources, which the API reference shows, print what they say. */
 import assert from 'node:assert/strict';
-import { readdirSync, readFileSync } from 'node:fs';
+import { copyFileSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
@@ -24,6 +24,8 @@ const promised = (code) => [...code.matchAll(/\/\/ → (.*)$/gm)].map(([, line])
 let project;
 before(async () => {
   project = await consumer({ files: Object.fromEntries(examples.map(({ name, code }) => [`${name}.mjs`, code])) });
+  const recorded = 'recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat';
+  copyFileSync(join(root, recorded), join(project.folder, 'board.dat'));
 });
 after(() => project?.remove());
 

@@ -145,7 +145,7 @@ export function App() {
       </main>
       <footer class="site-foot">
         <KeptNote />
-        <p title="The page’s content security policy forbids connections to anywhere but its own server.">
+        <p title="The page’s content security policy forbids connections to anywhere but its own server and this machine.">
           Computed in this tab. Your data never leaves your machine.
         </p>
         <p>

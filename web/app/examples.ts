@@ -159,6 +159,28 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
       },
     ],
   },
+  live: {
+    about:
+      'A radar board on this machine, live: its detections over the serial port of this browser, or raw samples of a capture card over a bridge. A recording stands in where there is no board.',
+    examples: [
+      {
+        title: 'A recorded board',
+        about: 'Ten seconds of a TI AWR1642, as they came.',
+        params: 'source=board&play=bundled',
+      },
+      {
+        title: 'Faster than its port',
+        about: 'The same at ten times what the port could send.',
+        params: 'source=board&play=bundled&pace=ten',
+      },
+      {
+        title: 'All at once',
+        about: 'The same recording as fast as it can be read.',
+        params: 'source=board&play=bundled&pace=fast',
+      },
+      { title: 'Raw samples', about: 'Of a DCA1000 capture card, over `boresight bridge`.', params: 'source=raw' },
+    ],
+  },
   elements: {
     about:
       'The plots of this demo for pages and notebooks of your own: each element live, with its options as a form, and the code to copy.',

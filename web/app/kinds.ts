@@ -4,6 +4,8 @@
 export const CAPTURE_KINDS = ['bin', 'cfg', 'dat'] as const;
 /** mmWave Studio writes JSON in place of the .cfg; other JSON belongs to networks. */
 export const CAPTURES = new RegExp(`\\.(${CAPTURE_KINDS.join('|')}|mmwave\\.json|setup\\.json)$`, 'i');
+/** What the live page replays; elsewhere they go with a capture. */
+export const BOARDS = /\.(dat|cfg)$/i;
 export const TABLES = /\.csv(\.gz)?$/i;
 /** Recordings of ROS 2 and others, or parts of one. */
 export const RECORDINGS = /\.mcap$/i;

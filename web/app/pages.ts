@@ -10,6 +10,7 @@ const SCRIPTS: Record<Page, () => Promise<ComponentType>> = {
   mounting: async () => (await import('./pages/mounting/page.tsx')).MountingPage,
   birdseye: async () => (await import('./pages/birdseye/page.tsx')).BirdseyePage,
   networks: async () => (await import('./pages/networks/page.tsx')).NetworksPage,
+  live: async () => (await import('./pages/live/page.tsx')).LivePage,
   elements: async () => (await import('./pages/elements/page.tsx')).ElementsPage,
 };
 

@@ -1,5 +1,6 @@
 /** Radar plots as custom elements. Importing this defines them all. */
 import { BirdsEyeElement } from './birds-eye.ts';
+import { BoardElement } from './board.ts';
 import { CaptureElement } from './capture.ts';
 import { defineElement } from './define.ts';
 import { DopplerAzimuthElement } from './doppler-azimuth.ts';
@@ -24,6 +25,7 @@ export type { RangeDopplerFrame } from './range-doppler.ts';
 export type { NamedEstimate, ShownTarget } from './spectrum.ts';
 export {
   BirdsEyeElement,
+  BoardElement,
   CaptureElement,
   DopplerAzimuthElement,
   DriveElement,
@@ -37,6 +39,7 @@ export {
 /** The elements by the names they are defined under. */
 export const elements = {
   'boresight-birds-eye': BirdsEyeElement,
+  'boresight-board': BoardElement,
   'boresight-capture': CaptureElement,
   'boresight-doppler-azimuth': DopplerAzimuthElement,
   'boresight-drive': DriveElement,
@@ -64,6 +67,7 @@ define();
 declare global {
   interface HTMLElementTagNameMap {
     'boresight-birds-eye': BirdsEyeElement;
+    'boresight-board': BoardElement;
     'boresight-capture': CaptureElement;
     'boresight-doppler-azimuth': DopplerAzimuthElement;
     'boresight-drive': DriveElement;

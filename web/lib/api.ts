@@ -16,6 +16,12 @@ export { readDetectionsCsv, readSnapshotsCsv, writeDetectionsCsv, writeSnapshots
 export { listArrays, readArray } from './formats/hdf5.js';
 export { readNpy, writeNpy } from './formats/npy.js';
 export { birdsEyeView, imageFrame, imagePlan, rangeAzimuthMap, sidelobeMeasure } from './image/image.js';
+export { type BoardFrames, boardFrames } from './live/board-frames.js';
+export { type BridgeFrames, bridgeFrames } from './live/bridge.js';
+export { sendConfiguration } from './live/configuration.js';
+export { RecentBytes } from './live/recent-bytes.js';
+export { replayBytes } from './live/replay.js';
+export { type SerialBytes, serialBytes } from './live/serial.js';
 export { array, arrayPresets } from './radar/array.js';
 export { waveformPreset, waveformPresets, waveformSummary } from './radar/waveform.js';
 export { BoresightError, type ErrorDetails } from './runtime/errors.js';

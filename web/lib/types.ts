@@ -11,6 +11,7 @@ export type * from './estimate/types.js';
 export type * from './generated/options.js';
 export type * from './generated/results.js';
 export type * from './image/types.js';
+export type * from './live/types.js';
 export type * from './neural/types.js';
 export type * from './radar/types.js';
 export type * from './simulate/types.js';

@@ -44,6 +44,7 @@ fn main() -> ExitCode {
         Command::Log(arguments) => commands::log::run(&arguments, &files),
         Command::Serve(arguments) => commands::serve::run(&arguments, &files),
         Command::Odometry(arguments) => commands::odometry::run(&arguments, &files),
+        Command::Bridge(arguments) => commands::bridge::run(&arguments, &files),
         Command::Methods(format) => commands::lists::methods(format.json),
         Command::Network(arguments) => commands::network::run(&arguments, &files),
         Command::Regions(arguments) => commands::regions::run(&arguments, &files),

@@ -13,12 +13,18 @@ pub struct Run {
     stop: Arc<AtomicBool>,
 }
 
+/// Becomes true at Ctrl-C; once in a process.
+pub fn interrupted() -> Result<Arc<AtomicBool>, CliError> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = stop.clone();
+    ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed))?;
+    Ok(stop)
+}
+
 impl Run {
     /// Starts watching; once in a process. `steps` is what progress counts.
     pub fn start(steps: &str) -> Result<Self, CliError> {
-        let stop = Arc::new(AtomicBool::new(false));
-        let asked = stop.clone();
-        ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed))?;
+        let stop = interrupted()?;
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
         if let Ok(style) = ProgressStyle::with_template(&format!(
             "{{bar:40}} {{pos}}/{{len}} {steps}, {{eta}} left"

@@ -1,6 +1,12 @@
-//! Radars and results over sockets: a server of drives for viewers.
+//! Radars and results over sockets.
+//!
+//! - [`bridge`]: raw samples of a DCA1000 capture card, from its UDP packets to frames over a WebSocket.
+//! - [`foxglove`]: a server that plays drives and their calibration to viewers.
+//! - [`origin`]: which pages may connect to either.
 
-pub mod error;
+pub mod bridge;
+mod error;
 pub mod foxglove;
+pub mod origin;
 
 pub use error::LiveError;

@@ -214,9 +214,11 @@ MOTION = Fields({"vxMps": Number(), "vyMps": Number()})
 INTERVALS = {"x": Plain(), "y": Plain()}
 GROUND = {"xM": Plain(), "yM": Plain()}
 
-#: Types that hold functions or signs of the browser's, which no notebook sends.
+#: Types that hold functions, ports or signs of the browser's, which no notebook sends.
 IN_JAVASCRIPT = (
     "(() => readonly string[])",
+    "AsyncIterable<Uint8Array>",
+    "BoardPort",
     "((xM: number, yM: number) => string)",
     "Layer[]",
     "LegendItem[]",
@@ -243,6 +245,7 @@ SHAPES = {
         )
     ),
     "number": Number(),
+    "string": Text(),
     "number[]": Plain(),
     "ArrayLike<number>": Plain(),
     "string[]": Texts(),

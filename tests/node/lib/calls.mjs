@@ -125,6 +125,9 @@ function snapshotOf(options, frame) {
   return bytes;
 }
 
+/** What goes on over time: sources of bytes and frames, and what is sent to a board. */
+export const live = ['boardFrames', 'bridgeFrames', 'RecentBytes', 'replayBytes', 'sendConfiguration', 'serialBytes'];
+
 /** How many arguments handles are made with. */
 const MADE_WITH = { Estimator: 1, Capture: 2, BoardLogStream: 1, Calibration: 1 };
 

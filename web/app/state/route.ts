@@ -1,7 +1,7 @@
 /** Which page is shown, and its state as the address's query after the hash. */
 import { signal } from '@preact/signals';
 
-export const PAGES = ['angle', 'capture', 'mounting', 'birdseye', 'networks', 'elements'] as const;
+export const PAGES = ['angle', 'capture', 'mounting', 'birdseye', 'networks', 'live', 'elements'] as const;
 export type Page = (typeof PAGES)[number];
 
 export const TITLES: Record<Page, string> = {
@@ -10,6 +10,7 @@ export const TITLES: Record<Page, string> = {
   mounting: 'Mounting angle',
   birdseye: 'Bird’s-eye view',
   networks: 'Networks',
+  live: 'Live',
   elements: 'Elements',
 };
 

@@ -2,7 +2,7 @@
 import { type ReadonlySignal, signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { describeError } from '../data.ts';
-import { CAPTURES, DRIVES, NETWORKS, SESSIONS } from '../kinds.ts';
+import { BOARDS, CAPTURES, DRIVES, NETWORKS, SESSIONS } from '../kinds.ts';
 import { openDropped } from '../session/session.ts';
 import { type Page, pageAddress, route } from '../state/route.ts';
 import { droppedFiles, type NamedFile } from './entries.ts';
@@ -24,6 +24,7 @@ const KINDS: readonly { page: Page; names: RegExp; what: string; address?: Recor
     address: { source: 'files' },
   },
   { page: 'networks', names: NETWORKS, what: 'networks (.onnx)' },
+  { page: 'live', names: BOARDS, what: 'recordings of boards (.dat)' },
 ];
 
 const over = signal(false);

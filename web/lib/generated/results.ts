@@ -1265,6 +1265,22 @@ export interface BoardObject {
   snrDb?: number;
 }
 
+/** How long the board took, as it says. */
+export interface BoardStats {
+  /** Processing between frames. */
+  processingS: number;
+  /** Time to send the packet. */
+  transmitS: number;
+  /** Margin left between frames. */
+  frameMarginS: number;
+  /** Margin left between chirps. */
+  chirpMarginS: number;
+  /** Load while chirps are sent, percent. */
+  activeLoadPercent: number;
+  /** Load between frames, percent. */
+  idleLoadPercent: number;
+}
+
 /** One packet: what the board made of one frame. */
 export interface BoardFrame {
   /** Number the board gave the frame. */
@@ -1279,6 +1295,15 @@ export interface BoardFrame {
   rangeProfileDb?: Float64Array;
   /** Noise profile, likewise. */
   noiseProfileDb?: Float64Array;
+  /** Range x virtual antenna at zero Doppler, as sent, receiver fastest: real and imaginary parts in turn. */
+  azimuthHeatMap?: Float32Array;
+  /**
+   * Range x Doppler map over the board's own unit, as sent: Doppler fastest, from zero up to the highest and on from
+   * the lowest.
+   */
+  rangeDopplerDb?: Float64Array;
+  /** Timing. */
+  stats?: BoardStats;
   /**
    * Whether the whole packet was there; false for one that the end of the input cut, of which the leading whole parts
    * are given.

@@ -1,6 +1,7 @@
 //! What the command line takes: a file a command, and what several share.
 
 mod augment;
+mod bridge;
 mod drives;
 mod estimate;
 mod evaluate;
@@ -10,6 +11,7 @@ mod serve;
 mod simulate;
 
 pub use augment::AugmentArguments;
+pub use bridge::BridgeArguments;
 pub use drives::{CalibrateArguments, LogArguments, LogPaths, OdometryArguments};
 pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
 pub use evaluate::{
@@ -90,6 +92,8 @@ pub enum Command {
         #[command(subcommand)]
         what: ImageCommand,
     },
+    /// Hand raw samples of a DCA1000 capture card to pages, from its UDP packets over a WebSocket.
+    Bridge(BridgeArguments),
     /// List the methods of angle estimation, and what each needs.
     Methods(ListFormat),
     /// Tell what a trained network is: inputs, outputs, what its card says of it.

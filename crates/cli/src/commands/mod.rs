@@ -2,6 +2,7 @@
 
 pub mod augment;
 mod board;
+pub mod bridge;
 pub mod calibrate;
 mod capture;
 mod chain;

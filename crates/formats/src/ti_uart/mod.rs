@@ -10,8 +10,8 @@ mod recorded;
 mod stream;
 
 use crate::mmwave_cfg::RadarConfig;
+use boresight_core::Remark;
 use boresight_core::describe::{Described, columns};
-use boresight_core::{Complex32, Remark};
 use serde::{Serialize, Serializer};
 pub use stream::UartStream;
 
@@ -54,16 +54,16 @@ pub struct BoardObject {
 }
 
 /// How long the board took, as it says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
 pub struct BoardStats {
-    /// Processing between frames, us.
-    pub processing_us: u32,
-    /// Time to send the packet, us.
-    pub transmit_us: u32,
-    /// Margin left between frames, us.
-    pub frame_margin_us: u32,
-    /// Margin left between chirps, us.
-    pub chirp_margin_us: u32,
+    /// Processing between frames.
+    pub processing_s: f64,
+    /// Time to send the packet.
+    pub transmit_s: f64,
+    /// Margin left between frames.
+    pub frame_margin_s: f64,
+    /// Margin left between chirps.
+    pub chirp_margin_s: f64,
     /// Load while chirps are sent, percent.
     pub active_load_percent: u32,
     /// Load between frames, percent.
@@ -95,14 +95,15 @@ pub struct BoardFrame {
     /// Noise profile, likewise.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
     pub noise_profile_db: Option<Vec<f64>>,
-    /// Range x virtual antenna at zero Doppler, as sent, receiver fastest.
-    #[serde(skip)]
-    pub azimuth_heat_map: Option<Vec<Complex32>>,
-    /// Range x Doppler map as sent, Doppler fastest.
-    #[serde(skip)]
-    pub range_doppler_map: Option<Vec<u16>>,
+    /// Range x virtual antenna at zero Doppler, as sent, receiver fastest: real and imaginary parts in turn.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
+    pub azimuth_heat_map: Option<Vec<f32>>,
+    /// Range x Doppler map over the board's own unit, as sent: Doppler fastest, from zero up to the highest and on from
+    /// the lowest.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "columns::serialize_some")]
+    pub range_doppler_db: Option<Vec<f64>>,
     /// Timing.
-    #[serde(skip)]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub stats: Option<BoardStats>,
     /// Parts of a type not known here.
     #[serde(skip)]

@@ -3,7 +3,6 @@
 use super::packet::{HEADER, Header, Part, u16_at, u32_at};
 use super::{BoardFrame, BoardObject, BoardStats};
 use crate::mmwave_cfg::RadarConfig;
-use boresight_core::Complex32;
 
 /// What a configuration adds to the packets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +44,7 @@ pub(super) fn decode(
         range_profile_db: None,
         noise_profile_db: None,
         azimuth_heat_map: None,
-        range_doppler_map: None,
+        range_doppler_db: None,
         stats: None,
         unknown_parts: 0,
         complete: true,
@@ -61,7 +60,7 @@ pub(super) fn decode(
             2 => frame.range_profile_db = Some(profile(bytes, db)?),
             3 => frame.noise_profile_db = Some(profile(bytes, db)?),
             4 | 8 => frame.azimuth_heat_map = Some(heat_map(bytes)?),
-            5 => frame.range_doppler_map = Some(words(bytes)?),
+            5 => frame.range_doppler_db = Some(profile(bytes, db)?),
             6 => frame.stats = Some(stats(bytes)?),
             7 => side = Some(bytes),
             9 => {} // temperatures
@@ -154,38 +153,35 @@ fn placed(right_m: f64, forward_m: f64, up_m: f64, rate_mps: Option<f64>) -> Boa
     }
 }
 
-fn words(bytes: &[u8]) -> Option<Vec<u16>> {
-    bytes
-        .len()
-        .is_multiple_of(2)
-        .then(|| bytes.chunks_exact(2).map(|w| u16::from_le_bytes([w[0], w[1]])).collect())
-}
-
 fn profile(bytes: &[u8], unit_db: f64) -> Option<Vec<f64>> {
-    Some(words(bytes)?.into_iter().map(|count| f64::from(count) * unit_db).collect())
+    let count = |word: &[u8]| f64::from(u16::from_le_bytes([word[0], word[1]]));
+    let whole = bytes.len().is_multiple_of(2);
+    whole.then(|| bytes.chunks_exact(2).map(|word| count(word) * unit_db).collect())
 }
 
 /// Q before I, 16 bits each.
-fn heat_map(bytes: &[u8]) -> Option<Vec<Complex32>> {
+fn heat_map(bytes: &[u8]) -> Option<Vec<f32>> {
     bytes.len().is_multiple_of(4).then(|| {
         bytes
             .chunks_exact(4)
-            .map(|entry| {
+            .flat_map(|entry| {
                 let imaginary = i16::from_le_bytes([entry[0], entry[1]]);
                 let real = i16::from_le_bytes([entry[2], entry[3]]);
-                Complex32::new(f32::from(real), f32::from(imaginary))
+                [f32::from(real), f32::from(imaginary)]
             })
             .collect()
     })
 }
 
+/// Times come in microseconds.
 fn stats(bytes: &[u8]) -> Option<BoardStats> {
     let at = |index: usize| u32_at(bytes, 4 * index);
+    let seconds = |index: usize| at(index).map(|time_us| f64::from(time_us) * 1e-6);
     Some(BoardStats {
-        processing_us: at(0)?,
-        transmit_us: at(1)?,
-        frame_margin_us: at(2)?,
-        chirp_margin_us: at(3)?,
+        processing_s: seconds(0)?,
+        transmit_s: seconds(1)?,
+        frame_margin_s: seconds(2)?,
+        chirp_margin_s: seconds(3)?,
         active_load_percent: at(4)?,
         idle_load_percent: at(5)?,
     })

@@ -53,7 +53,7 @@ fn profile_and_timing_are_read() {
     assert_eq!(profile.len(), 256);
     let peak = (20..256).max_by(|&a, &b| profile[a].total_cmp(&profile[b])).unwrap();
     assert_eq!(peak, 58);
-    assert_eq!(frame.stats.unwrap().processing_us, 0x0eba);
+    assert!((frame.stats.unwrap().processing_s - 0x0eba as f64 * 1e-6).abs() < 1e-12);
     assert_eq!(frame.objects[0].rate_mps, None);
     assert_eq!(log.frames[249].range_profile_db, None);
 }
@@ -163,4 +163,28 @@ fn headers_without_sub_frame_number_and_empty_frames_are_read() {
     assert_eq!(log.frames[0].objects, []);
     let none = packet(0x0306_0000, &[], 0, true);
     assert_eq!(BoardLog::parse(&none, None).frames.len(), 1);
+}
+
+#[test]
+fn maps_come_in_the_units_of_the_profile() {
+    // One range bin on four antennas, Q before I; two range bins of four Doppler bins.
+    let heat: Vec<u8> = [2_i16, 1, -4, 3, 0, 0, i16::MIN, i16::MAX]
+        .iter()
+        .flat_map(|word| word.to_le_bytes())
+        .collect();
+    let words: Vec<u8> = (0..8_u16).flat_map(|word| (256 * 12 * word).to_le_bytes()).collect();
+    let profile = words[..2 * 2].to_vec();
+    let parts = [(2, profile), (4, heat), (5, words)];
+    let frame = &BoardLog::parse(&packet(0x0201_0000, &parts, 0, true), None).frames[0];
+    let expected = [1.0, 2.0, 3.0, -4.0, 0.0, 0.0, f32::from(i16::MAX), f32::from(i16::MIN)];
+    assert_eq!(frame.azimuth_heat_map.as_deref(), Some(&expected[..]));
+    let map = frame.range_doppler_db.as_ref().unwrap();
+    // The sum of log2 |x| over twelve antennas, in Q8: a factor of two is 6.02 dB.
+    for (count, db) in map.iter().enumerate() {
+        assert!((db - 20.0 * (count as f64) * 2_f64.log10()).abs() < 1e-9, "{count}: {db}");
+    }
+    assert_eq!(frame.range_profile_db.as_deref(), Some(&map[..2]));
+    let odd = packet(0x0201_0000, &[(5, vec![0; 7])], 0, true);
+    let log = BoardLog::parse(&odd, None);
+    assert!(log.frames.is_empty() && log.counts.damaged_packets > 0, "{:?}", log.counts);
 }

@@ -3,9 +3,9 @@
 // The answer of a handshake is a type of tungstenite's.
 #![allow(clippy::result_large_err)]
 
-use super::origin;
 use super::protocol::SUBPROTOCOLS;
 use super::shared::Shared;
+use crate::origin::Origins;
 use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
@@ -70,8 +70,8 @@ pub(super) fn handshake(
         .max_message_size(Some(LONGEST))
         .max_frame_size(Some(LONGEST));
     let mut spoken = None;
-    let further = shared.options.origin.as_deref();
-    let answer = |request: &HttpRequest, response| answer(request, response, further, &mut spoken);
+    let answer =
+        |request: &HttpRequest, response| answer(request, response, &shared.origins, &mut spoken);
     let counted = Counted { stream, read: 0, written: 0 };
     let mut state = ServerHandshake::start(counted, answer, Some(config)).handshake();
     let socket = loop {
@@ -94,7 +94,7 @@ pub(super) fn handshake(
 fn answer(
     request: &HttpRequest,
     mut response: Response,
-    further: Option<&str>,
+    origins: &Origins,
     spoken: &mut Option<&'static str>,
 ) -> Result<Response, ErrorResponse> {
     let refuse = |status, why: &str| {
@@ -103,7 +103,7 @@ fn answer(
         Err(refused)
     };
     let origin = request.headers().get(header::ORIGIN).map(|origin| origin.to_str().unwrap_or(""));
-    if !origin::is_allowed(origin, further) {
+    if !origins.allow(origin) {
         return refuse(
             StatusCode::FORBIDDEN,
             "pages of this origin may not connect; --origin allows one",

@@ -4,7 +4,6 @@
 mod client;
 mod handshake;
 pub mod options;
-pub mod origin;
 pub mod play;
 mod player;
 mod protocol;

@@ -6,6 +6,7 @@ use super::play::Play;
 use super::player::{Player, Watch};
 use super::shared::{Counts, Shared};
 use crate::LiveError;
+use crate::origin::Origins;
 use boresight_core::describe::{self, Naming};
 use std::io::ErrorKind;
 use std::net::{SocketAddr, TcpListener, TcpStream};
@@ -21,23 +22,26 @@ const LOOK: Duration = Duration::from_millis(1);
 pub struct Server {
     listener: TcpListener,
     options: ServeOptions,
+    origins: Origins,
 }
 
 impl Server {
     /// Listens at the address of the options.
     ///
     /// # Errors
-    /// [`boresight_core::CoreError::OutOfRange`] naming an option, and [`LiveError::Listen`].
+    /// [`boresight_core::CoreError::OutOfRange`] naming an option, [`LiveError::Origin`] and [`LiveError::Listen`].
     pub fn bind(options: ServeOptions) -> Result<Self, LiveError> {
         describe::check(&options, Naming::Rust)?;
         let ServeOptions { host, port, .. } = &options;
+        let origins = Origins::of_viewers(options.origin.as_deref())?;
         let failed = |error: std::io::Error| LiveError::Listen {
+            what: "viewers",
             address: format!("{host}:{port}"),
             given: error.to_string(),
         };
         let listener = TcpListener::bind((host.as_str(), *port)).map_err(failed)?;
         listener.set_nonblocking(true).map_err(failed)?;
-        Ok(Self { listener, options })
+        Ok(Self { listener, options, origins })
     }
 
     /// The address, with the port that was free where 0 was asked for.
@@ -51,13 +55,14 @@ impl Server {
     /// # Errors
     /// Those of [`Play::step`].
     pub fn run(self, play: &mut Play, watch: Watch) -> Result<Counts, LiveError> {
-        let shared = Shared::new(self.options, play);
+        let shared = Shared::new(self.options, self.origins, play);
         let listener = self.listener;
         let played = std::thread::scope(|scope| {
             let accepts = Builder::new().spawn_scoped(scope, || accept(&listener, scope, &shared));
             let played = match accepts {
                 Ok(_) => Player::new(&shared, play, watch).run(),
                 Err(error) => Err(LiveError::Listen {
+                    what: "viewers",
                     address: "a thread of its own".into(),
                     given: error.to_string(),
                 }),

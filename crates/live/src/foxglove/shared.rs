@@ -4,6 +4,7 @@ use super::options::ServeOptions;
 use super::play::Play;
 use super::protocol::{self, Control, Playing};
 use super::queue::{Out, Outbox};
+use crate::origin::Origins;
 use boresight_core::describe::Described;
 use boresight_formats::foxglove::{Channel, Message};
 use serde::Serialize;
@@ -64,6 +65,8 @@ impl Tally {
 /// What connections and the drive share.
 pub(super) struct Shared {
     pub(super) options: ServeOptions,
+    /// Pages that may connect.
+    pub(super) origins: Origins,
     pub(super) channels: Vec<Channel>,
     pub(super) tally: Tally,
     /// Connections there are.
@@ -93,13 +96,14 @@ pub(super) struct State {
 }
 
 impl Shared {
-    pub(super) fn new(options: ServeOptions, play: &Play) -> Self {
+    pub(super) fn new(options: ServeOptions, origins: Origins, play: &Play) -> Self {
         let channels = play.channels().to_vec();
         let started = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         Self {
             advertise: protocol::advertise(&channels),
             session: format!("{}-{}", started.as_nanos(), std::process::id()),
             span_ns: play.span_ns(),
+            origins,
             state: Mutex::new(State {
                 clients: vec![],
                 holds: vec![None; channels.len()],

@@ -2,6 +2,7 @@
 import { computed, effect, signal } from '@preact/signals';
 import cfgAddress from '../../../../recordings/awr1642/profile.cfg?url';
 import binAddress from '../../../../recordings/awr1642/xwr16xx_crw_dca_module_2018_1015v2.bin?url';
+import datAddress from '../../../../recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat?url';
 import { aborted, describeError, type Problem, pool } from '../../data.ts';
 import { nested } from '../../schema-fields.ts';
 import { bundledDrive, fetched } from '../mounting/drive.ts';
@@ -13,10 +14,19 @@ const capture = [
   ['profile.cfg', cfgAddress],
 ] as const;
 
+const board = [
+  ['xwr16xx_crw_demo_visualizer_2018_1015v2.dat', datAddress],
+  ['profile.cfg', cfgAddress],
+] as const;
+
+type Addresses = readonly (readonly [name: string, address: string])[];
+const all = (files: Addresses) => (signal: AbortSignal) =>
+  Promise.all(files.map(async ([name, address]) => ({ name, bytes: await fetched(name, address, signal) })));
+
 /** Bundled recordings that elements with files are shown with, as the demo has them. */
 const RECORDINGS = {
-  capture: (signal: AbortSignal) =>
-    Promise.all(capture.map(async ([name, address]) => ({ name, bytes: await fetched(name, address, signal) }))),
+  capture: all(capture),
+  board: all(board),
   drive: bundledDrive,
 };
 

@@ -44,7 +44,7 @@ export interface Sample {
   /** Python for a notebook, with a line of settings. */
   python: string;
   /** A bundled recording, which steps have as `files`, and the names of its files. */
-  recording?: { of: 'capture' | 'drive'; files: readonly string[] };
+  recording?: { of: 'capture' | 'drive' | 'board'; files: readonly string[] };
 }
 
 /** The options of a record, some of which a sample sets itself. */

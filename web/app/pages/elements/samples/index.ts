@@ -1,5 +1,6 @@
 import type { Sample } from '../sample.ts';
 import { birdsEye } from './birds-eye.ts';
+import { board } from './board.ts';
 import { capture } from './capture.ts';
 import { dopplerAzimuth } from './doppler-azimuth.ts';
 import { drive } from './drive.ts';
@@ -17,4 +18,5 @@ export const SAMPLES: readonly Sample[] = [
   mountingAngle,
   capture,
   drive,
+  board,
 ];
