@@ -1,4 +1,4 @@
-// Runs tests/interop: files exchanged with h5py and the RadarScenes package.
+// Runs tests/interop: files exchanged with h5py, the RadarScenes package, mcap and rosbags.
 import { pytest } from './lib/python.mjs';
 import { main } from './lib/run.mjs';
 
