@@ -1,4 +1,4 @@
-// Runs tests/interop: files exchanged with h5py, the RadarScenes package and MCAP's.
+// Runs tests/interop: files exchanged with h5py, the RadarScenes package, MCAP's and rosbags.
 import { pytest } from './lib/python.mjs';
 import { main } from './lib/run.mjs';
 

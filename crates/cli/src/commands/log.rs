@@ -132,7 +132,10 @@ fn topic_line(topic: &DriveTopic) -> String {
     };
     let clock = topic.clock.map_or(String::new(), |clock| format!(", times by {}", clock.name()));
     let DriveTopic { name, message_type, messages, note, .. } = topic;
-    format!("topic       {name} ({message_type}, {messages} messages): {used}{clock}; {note}\n")
+    let plural = if *messages == 1 { "" } else { "s" };
+    format!(
+        "topic       {name} ({message_type}, {messages} message{plural}): {used}{clock}; {note}\n"
+    )
 }
 
 fn as_text(read: &DriveRead, signs: &SignFindings) -> String {
