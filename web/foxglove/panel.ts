@@ -8,6 +8,7 @@ import type {
   Topic,
 } from '@foxglove/extension';
 import { MessageProblem } from '../messages/problem.ts';
+import { count } from '../plots/format.ts';
 import { THEMES, type ThemeName } from '../plots/theme.ts';
 import { opened } from './runtime.ts';
 import { edited, kept, type Settings, tree, type ValuesOf } from './settings.ts';
@@ -51,6 +52,7 @@ function mount<S extends Settings>(host: PanelExtensionContext, panel: Panel<S>)
   let subscribed = '[]';
   /** Messages that come before the calibration can begin; null once it can. */
   let held: Immutable<MessageEvent>[] | null = [];
+  let lost = 0;
   const words = document.createElement('p');
   words.setAttribute('role', 'status');
   Object.assign(words.style, { flex: 'none', margin: '0', padding: '4px 12px 6px', fontSize: '12px' });
@@ -60,8 +62,12 @@ function mount<S extends Settings>(host: PanelExtensionContext, panel: Panel<S>)
   const say = (): void => {
     if (gone) return;
     const { status, wanted } = view.said();
-    const text = [wanted ?? status, problem].filter(Boolean).join(' ');
+    const early = lost ? `${count(lost)} messages came before that was ready, and were left out.` : '';
+    const text = [wanted ?? (held ? 'The calibration is made ready …' : status), early, problem]
+      .filter(Boolean)
+      .join(' ');
     if (words.textContent !== text) words.textContent = text;
+    box.setAttribute('aria-busy', String(held !== null));
     view.element.style.display = wanted === null ? '' : 'none';
   };
   const view = panel.make(say);
@@ -99,6 +105,7 @@ function mount<S extends Settings>(host: PanelExtensionContext, panel: Panel<S>)
   const take = (event: Immutable<MessageEvent>): void => {
     if (held) {
       if (held.length < MOST_HELD) held.push(event);
+      else lost += 1;
       return;
     }
     try {

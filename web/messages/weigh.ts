@@ -2,17 +2,22 @@
 import { BoresightError, Calibration, type FrameOutcome } from 'boresight';
 import type { Scan } from './scan.ts';
 
+/** The method keeps each frame, and only what it says of the newest is wanted: it begins anew after so many. */
+const MOST_FRAMES = 512;
+
 /** Needs `initDrives()`. */
 export class Weigher {
   #calibration: Calibration | null = null;
+  #frames = 0;
 
   /** What becomes of a scan; null where it is refused. */
   weigh({ timeS, azimuthDeg, rangeRateMps, rangeM, rcsDbsm }: Scan): FrameOutcome | null {
     // Where the car has no speed to be compared with, its yaw rate does not matter to the fit.
     const frame = { timeS, azimuthDeg, rangeRateMps, rangeM, rcsDbsm, yawRateDegps: 0 };
     for (const again of [false, true]) {
-      if (again) this.free();
-      this.#calibration ??= new Calibration({ method: 'recursive', motion: 'ransac', xM: 0 });
+      if (again || this.#frames === MOST_FRAMES) this.free();
+      this.#calibration ??= new Calibration({ method: 'weighted-mean', motion: 'ransac', xM: 0 });
+      this.#frames += 1;
       try {
         return this.#calibration.addFrame(frame);
       } catch (error) {
@@ -26,6 +31,6 @@ export class Weigher {
 
   free(): void {
     this.#calibration?.free();
-    this.#calibration = null;
+    [this.#calibration, this.#frames] = [null, 0];
   }
 }
