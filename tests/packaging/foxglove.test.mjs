@@ -274,7 +274,8 @@ function hostTest(name, body) {
           return panel;
         };
         globalThis.ready = async (panel) => {
-          while (panel.element.querySelector('[aria-busy=true]')) await new Promise((resolve) => setTimeout(resolve, 10));
+          while (panel.element.querySelector('[aria-busy=true]'))
+            await new Promise((resolve) => setTimeout(resolve, 10));
         };
         globalThis.says = (panel) => panel.element.querySelector('[role=status]').textContent;
       });

@@ -4,6 +4,7 @@ import {
   Calibration,
   type CalibrationFrame,
   type CalibrationOptions,
+  type CalibrationOutlook,
   type CalibrationResult,
   type FrameOutcome,
   scanMotion,
@@ -92,6 +93,11 @@ export class Follower {
 
   estimate(): CalibrationResult {
     return this.#calibration.estimate();
+  }
+
+  /** What driving on would bring. */
+  outlook(): CalibrationOutlook | null {
+    return this.#calibration.outlook();
   }
 
   addMotion(sample: MotionSample): void {
