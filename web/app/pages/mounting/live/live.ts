@@ -5,7 +5,7 @@ import { defineElement } from '../../../../elements/define.ts';
 import { MountingAngleElement } from '../../../../elements/mounting-angle.ts';
 import { type FollowCounts, type Followed, Follower } from '../../../../messages/follow.ts';
 import { hasMotion, MOTION_SCHEMAS, type MotionSample, motionOf } from '../../../../messages/motion.ts';
-import { hasPlaces, placesOf } from '../../../../messages/places.ts';
+import { type FramePlace, hasPlaces, placesOf } from '../../../../messages/places.ts';
 import { isRos2, ros2Message } from '../../../../messages/ros2.ts';
 import { hasScans, SCAN_SCHEMAS, scanOf } from '../../../../messages/scan.ts';
 import { schemaOf } from '../../../../messages/schemas.ts';
@@ -50,8 +50,18 @@ export const view = signal<LiveView | null>(null);
 /** The angle over time, which is kept here while other pages are shown. */
 export const angle: MountingAngleElement = document.createElement('boresight-mounting-angle');
 
+/** Where the server says that frames are, by their names; transforms may come before the first scan, and but once. */
+const places = signal<ReadonlyMap<string, FramePlace>>(new Map());
+const MOST_PLACES = 256;
+/** The frame that the last scan was in. */
+const scanFrame = signal('');
+const toldNominalDeg = signal<number | null>(null);
+
 /** Where the server says that the radar is. */
-const told = signal<Place>({ xM: null, yM: 0, nominalDeg: null });
+const told = computed((): Place => {
+  const { xM = null, yM = 0 } = places.value.get(scanFrame.value) ?? {};
+  return { xM, yM, nominalDeg: toldNominalDeg.value };
+});
 
 /** Where the radar is taken to be. */
 export const livePlace = computed((): Place => {
@@ -129,7 +139,7 @@ export async function connect(): Promise<void> {
   if (addressProblem(address)) return;
   batch(() => {
     liveProblem.value = null;
-    told.value = { xM: null, yM: 0, nominalDeg: null };
+    [places.value, scanFrame.value, toldNominalDeg.value] = [new Map(), '', null];
     connection.value = { kind: 'connecting' };
   });
   const mine = new Connection(address, {
@@ -262,9 +272,6 @@ function take(channel: Channel, data: ArrayBufferView, timeS: number): void {
 const timed = <T extends { timeS: number }>(one: T, timeS: number): T =>
   Number.isFinite(one.timeS) ? one : { ...one, timeS };
 
-/** The frame that the last scan was in. */
-const scanFrame = signal('');
-
 function takeScan(schemaName: string, message: unknown, timeS: number): void {
   const { azimuthSign, rangeRateSign } = mountingState.peek();
   const signs = { azimuth: azimuthSign === 'right' ? -1 : 1, rangeRate: rangeRateSign === 'closing' ? -1 : 1 } as const;
@@ -289,14 +296,17 @@ const sameRadar = (topic: string): boolean => folder(topic) === folder(scanChann
 const folder = (topic: string): string => topic.slice(0, topic.lastIndexOf('/'));
 
 function takePlace(schemaName: string, message: unknown): void {
-  const before = told.peek();
   if (schemaName === 'boresight.MountingAngle') {
     const nominalDeg = isFields(message) ? numberOf(message, 'nominalDeg') : Number.NaN;
-    if (Number.isFinite(nominalDeg) && nominalDeg !== before.nominalDeg) told.value = { ...before, nominalDeg };
+    if (Number.isFinite(nominalDeg)) toldNominalDeg.value = nominalDeg;
     return;
   }
-  const mine = placesOf(schemaName, message).find(({ child }) => child === scanFrame.peek());
-  if (mine && (mine.xM !== before.xM || mine.yM !== before.yM)) told.value = { ...before, xM: mine.xM, yM: mine.yM };
+  const before = places.peek();
+  const news = placesOf(schemaName, message).filter(({ child, xM, yM }) => {
+    const known = before.get(child);
+    return known ? known.xM !== xM || known.yM !== yM : before.size < MOST_PLACES;
+  });
+  if (news.length) places.value = new Map([...before, ...news.map((one) => [one.child, one] as const)]);
 }
 
 const NO_COUNTS: FollowCounts = { scans: 0, motion: 0, late: 0, refused: 0, incomplete: 0, restarts: 0 };
