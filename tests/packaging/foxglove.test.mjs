@@ -316,7 +316,7 @@ hostTest('the panel of the mounting angle calibrates as Node does', async ({ pag
       status: says(panel),
     };
   }, PLACE);
-  assert.match(found.first, /how far the radar is ahead/);
+  assert.match(found.first, /how far it is ahead/);
   assert.deepEqual(found.wanted, [{ topic: '/radar/scan' }, { topic: '/odometry' }]);
   assert.deepEqual({ ...found.state, ...PLACE }, found.state, 'the place is kept with the layout');
   const { result, history } = calibrateDrive(made.drive, { sensor: 1, ...PLACE });
@@ -377,6 +377,47 @@ hostTest('settings, a turn of the data, and what is kept', async ({ page }) => {
   assert.equal(found.state.azimuth, 'right');
   assert.equal(found.tolerance, '1', 'what a layout has that cannot be read falls back');
   assert.equal(found.kept.xM, 3.6, 'a place outside the range is no place');
+});
+
+hostTest('transforms say where the radar is, where the settings do not', async ({ page }) => {
+  const found = await page.evaluate(async () => {
+    const names = ['Mounting angle', 'Detections from above', 'Doppler over azimuth'];
+    topics.push({ name: '/tf_static', schemaName: 'tf2_msgs/msg/TFMessage', datatype: '' });
+    const panels = [];
+    for (const name of names) panels.push(await opened(name, { nominalDeg: 30 }));
+    const transform = (parent, child, x, y) => ({
+      header: { stamp: { sec: 0, nanosec: 0 }, frame_id: parent },
+      child_frame_id: child,
+      transform: { translation: { x, y, z: 0.5 }, rotation: { x: 0, y: 0, z: 0, w: 1 } },
+    });
+    const transforms = [
+      transform('base_link', 'radar_2', 1, 1),
+      transform('sensor_kit', 'radar_1', 0.2, 0.1),
+      transform('base_link', 'radar_1', 1e9, 0),
+    ];
+    const tell = (list) => ({
+      ...events[0],
+      topic: '/tf_static',
+      schemaName: 'tf2_msgs/msg/TFMessage',
+      message: { transforms: list },
+    });
+    await play(panels, [tell(transforms), ...events.slice(0, 300)]);
+    const before = says(panels[0]);
+    await play(panels, [tell([transform('base_link', 'radar_1', 3.6, 0.7), null, 7]), ...events.slice(300, 1500)]);
+    const element = (panel) => panel.element.firstChild.firstChild;
+    return {
+      subscribed: panels.map(({ subscriptions }) => subscriptions.map(({ topic }) => topic)),
+      before,
+      angles: element(panels[0]).history.timeS.length,
+      mounting: element(panels[1]).mounting,
+      curves: element(panels[2]).motions.map(({ id }) => id),
+    };
+  });
+  assert.deepEqual(found.subscribed, Array(3).fill(['/radar/scan', '/odometry', '/tf_static']));
+  assert.match(found.before, /No transform says where the radar is/);
+  assert.ok(found.angles > 5, `${found.angles} angles`);
+  assert.deepEqual(found.mounting, { xM: 3.6, yM: 0.7, yawDeg: 30 });
+  assert.deepEqual(found.curves, ['scan', 'car']);
 });
 
 hostTest('the panels of a scan show it, with what stands', async ({ page, screenshot }) => {

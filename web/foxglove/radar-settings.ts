@@ -72,12 +72,16 @@ export const placeSettings = {
     {
       group: 'Radar',
       label: 'Ahead of rear axle (m)',
-      help: 'Where the radar is along the car; negative behind the axle.',
+      help: 'Where the radar is along the car, negative behind the axle; as transforms of the data say if not given.',
     },
     { min: -100, max: 100, step: 0.1 },
   ),
   yM: maybeNumber(
-    { group: 'Radar', label: 'Left of centre line (m)', help: 'Where the radar is across the car; 0 if not given.' },
+    {
+      group: 'Radar',
+      label: 'Left of centre line (m)',
+      help: 'Where the radar is across the car; as transforms of the data say, or 0, if not given.',
+    },
     { min: -100, max: 100, step: 0.1 },
   ),
   nominalDeg: maybeNumber(

@@ -11,6 +11,12 @@ export interface FramePlace {
   yM: number;
 }
 
+/** Frames that are those of a car; where a radar is in another one, such as that of a kit of sensors, is not its place on the car. */
+const CARS = ['car', 'base_link', 'base_footprint', 'ego_vehicle', 'vehicle'];
+/** No radar of a car is farther from its rear axle, m. */
+const FARTHEST_M = 100;
+/** Most frames that are kept. */
+const MOST_KEPT = 256;
 /** Most transforms of a message. */
 const MOST = 1024;
 
@@ -18,7 +24,7 @@ const text = (of: Fields, name: string): string => (typeof of[name] === 'string'
 
 function placed(parent: string, child: string, translation: Fields): FramePlace[] {
   const place = { parent, child, xM: numberOf(translation, 'x'), yM: numberOf(translation, 'y') };
-  return child && Number.isFinite(place.xM + place.yM) ? [place] : [];
+  return child && Math.max(Math.abs(place.xM), Math.abs(place.yM)) <= FARTHEST_M ? [place] : [];
 }
 
 const ofFoxglove = (message: Fields): FramePlace[] =>
@@ -47,9 +53,33 @@ const KINDS: Readonly<Record<string, (message: Fields) => FramePlace[]>> = {
 
 export const hasPlaces = (schemaName: string): boolean => Object.hasOwn(KINDS, schemaOf(schemaName));
 
-/** The places in a message. Throws a `MessageProblem` where it is none. */
-export function placesOf(schemaName: string, message: unknown): FramePlace[] {
+/** The places in a message. */
+function placesOf(schemaName: string, message: unknown): FramePlace[] {
   const read = KINDS[schemaOf(schemaName)];
   if (!read || !isFields(message)) throw new MessageProblem('malformed', `${schemaName} has no transforms`);
   return read(message);
+}
+
+/** Places on the car that were told, by the names of frames: transforms may come before the first scan, and but once. */
+export class Places {
+  readonly #places = new Map<string, FramePlace>();
+
+  /** Takes those of a message; whether any is new. Throws a `MessageProblem` where it is none. */
+  take(schemaName: string, message: unknown): boolean {
+    const news = placesOf(schemaName, message).filter(({ parent, child, xM, yM }) => {
+      if (!CARS.includes(parent)) return false;
+      const known = this.#places.get(child);
+      return known ? known.xM !== xM || known.yM !== yM : this.#places.size < MOST_KEPT;
+    });
+    for (const one of news) this.#places.set(one.child, one);
+    return news.length > 0;
+  }
+
+  at(frameId: string): FramePlace | undefined {
+    return this.#places.get(frameId);
+  }
+
+  clear(): void {
+    this.#places.clear();
+  }
 }

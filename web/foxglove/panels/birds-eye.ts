@@ -2,7 +2,7 @@
 import { defineElement } from '../../elements/define.ts';
 import { PointCloudElement } from '../../elements/point-cloud.ts';
 import type { Panel } from '../panel.ts';
-import { placeSettings, signSettings, signsOf, topicSettings } from '../radar-settings.ts';
+import { placeSettings, signSettings, topicSettings } from '../radar-settings.ts';
 import { choiceSetting, maybeNumber, type ValuesOf } from '../settings.ts';
 import { Latest } from './latest.ts';
 
@@ -35,8 +35,8 @@ export const birdsEyePanel: Panel<typeof settings> = {
     const latest = new Latest();
     let values: Values;
     const show = (): void => {
-      const { xM, yM, nominalDeg, weighed } = values;
-      element.mounting = { xM: xM ?? 0, yM: yM ?? 0, yawDeg: nominalDeg ?? 0 };
+      const { nominalDeg, weighed } = values;
+      element.mounting = { ...(latest.place(values) ?? { xM: 0, yM: 0 }), yawDeg: nominalDeg ?? 0 };
       if (!latest.scan) {
         element.points = null;
         return;
@@ -52,12 +52,12 @@ export const birdsEyePanel: Panel<typeof settings> = {
         values = given;
         if (given.rangeM === null) element.removeAttribute('range');
         else element.setAttribute('range', String(given.rangeM));
-        const wanted = latest.set(given, signsOf(given), topics);
+        const wanted = latest.set(given, topics);
         show();
         return wanted;
       },
       take(event) {
-        if (latest.take(event, signsOf(values))) show();
+        if (latest.take(event, values)) show();
       },
       clear() {
         latest.clear();

@@ -4,7 +4,7 @@ import { DopplerAzimuthElement, type MotionCurve } from '../../elements/doppler-
 import { carriedMotion } from '../../plots/doppler.ts';
 import { methodStyle } from '../../plots/theme.ts';
 import type { Panel } from '../panel.ts';
-import { placeSettings, signSettings, signsOf, topicSettings } from '../radar-settings.ts';
+import { placeSettings, signSettings, topicSettings } from '../radar-settings.ts';
 import { choiceSetting, numberSetting, type ValuesOf } from '../settings.ts';
 import { Latest, type LatestScan } from './latest.ts';
 
@@ -39,7 +39,7 @@ export const dopplerPanel: Panel<typeof settings> = {
         return;
       }
       const { azimuthDeg, rangeRateMps, rangeM, rcsDbsm } = scan.scan;
-      const curves = curvesOf(scan, values);
+      const curves = curvesOf(scan, latest.place(values), values.nominalDeg);
       const motion = curves[0]?.motion ?? null;
       element.frame = { azimuthDeg, rangeRateMps, rangeM, rcsDbsm, motion, weights: scan.outcome?.weights ?? null };
       element.motions = curves;
@@ -50,12 +50,12 @@ export const dopplerPanel: Panel<typeof settings> = {
         values = given;
         element.toggleAttribute('residual', given.shown === 'residuals');
         element.setAttribute('sector', String(given.sectorDeg));
-        const wanted = latest.set(given, signsOf(given), topics);
+        const wanted = latest.set(given, topics);
         show();
         return wanted;
       },
       take(event) {
-        if (latest.take(event, signsOf(values))) show();
+        if (latest.take(event, values)) show();
       },
       clear() {
         latest.clear();
@@ -68,15 +68,19 @@ export const dopplerPanel: Panel<typeof settings> = {
 };
 
 /** What stands as the scan itself has it, and as the car's motion and the radar's nominal angle have it. */
-function curvesOf({ outcome, motion }: LatestScan, { xM, yM, nominalDeg }: Values): MotionCurve[] {
+function curvesOf(
+  { outcome, motion }: LatestScan,
+  place: { xM: number; yM: number } | null,
+  nominalDeg: number | null,
+): MotionCurve[] {
   const curves: MotionCurve[] = [];
   if (outcome?.motion) {
     const [vxMps, vyMps] = outcome.motion.velocityMps;
     const style = methodStyle('recursive');
     curves.push({ id: 'scan', label: 'What stands, by the scan', motion: { vxMps, vyMps }, style, leading: true });
   }
-  if (motion && Number.isFinite(motion.speedMps) && xM !== null && nominalDeg !== null) {
-    const carried = carriedMotion({ xM, yM: yM ?? 0, yawDeg: nominalDeg }, motion.speedMps, motion.yawRateDegps);
+  if (motion && Number.isFinite(motion.speedMps) && place && nominalDeg !== null) {
+    const carried = carriedMotion({ ...place, yawDeg: nominalDeg }, motion.speedMps, motion.yawRateDegps);
     curves.push({
       id: 'car',
       label: 'By the car and the nominal angle',

@@ -1,4 +1,5 @@
 /** The mounting angle of a radar, calibrated in the panel as scans and motion come. */
+import type { CalibrationResult } from 'boresight';
 
 import { defineElement } from '../../elements/define.ts';
 import { MountingAngleElement } from '../../elements/mounting-angle.ts';
@@ -8,6 +9,7 @@ import { scanOf } from '../../messages/scan.ts';
 import { secondsOf } from '../../messages/values.ts';
 import { count } from '../../plots/format.ts';
 import type { Panel, View } from '../panel.ts';
+import { RadarPlace } from '../place.ts';
 import {
   motionTopics,
   placeSettings,
@@ -53,25 +55,30 @@ export const mountingPanel: Panel<typeof settings> = {
     let values: Values | null = null;
     let follower: Follower | null = null;
     let made = '';
+    let last: CalibrationResult | null = null;
+    const radar = new RadarPlace();
     let [scans, motion] = ['', ''];
     const clear = (): void => {
       follower?.free();
-      follower = null;
+      follower = last = null;
       made = '';
       element.history = null;
     };
     const follow = (): void => {
-      if (!values || !isOpen() || values.xM === null) return;
-      const { xM, yM, nominalDeg, azimuth, rangeRate } = values;
+      const place = values && radar.of(values);
+      if (!values || !isOpen() || !place) return;
+      const { nominalDeg, azimuth, rangeRate } = values;
+      const { xM, yM } = place;
       // What the angle depends on: it begins anew where that changes.
       const now = JSON.stringify([xM, yM, nominalDeg, scans, motion, azimuth, rangeRate]);
       if (now === made) return;
       clear();
       made = now;
       follower = new Follower(
-        { xM, yM: yM ?? 0, ...(nominalDeg === null ? {} : { nominalDeg }) },
+        { xM, yM, ...(nominalDeg === null ? {} : { nominalDeg }) },
         {
           angle: (timeS, result) => {
+            last = result;
             if (Number.isFinite(result.sigmaDeg)) element.add(timeS, result);
           },
           restarted: () => {
@@ -94,16 +101,26 @@ export const mountingPanel: Panel<typeof settings> = {
         else element.setAttribute('nominal-deg', String(nominalDeg));
         element.setAttribute('tolerance-deg', String(toleranceDeg));
         element.setAttribute('sigmas', String(sigmas));
-        if (given.xM === null) clear();
+        if (!radar.of(given)) clear();
         follow();
-        return [from, by].flatMap((topic) => (topic ? [subscription(topic)] : []));
+        return [...[from, by].flatMap((topic) => (topic ? [subscription(topic)] : [])), ...radar.wanted(given, topics)];
       },
-      take({ topic, schemaName, message, receiveTime }) {
-        if (!follower || !values) return;
+      take(event) {
+        const { topic, schemaName, message, receiveTime } = event;
+        if (!values) return;
+        if (radar.take(event)) {
+          follow();
+          return;
+        }
         const receivedS = secondsOf(receiveTime) || 0;
         if (topic === motion && hasMotion(schemaName))
-          follower.addMotion(timed(motionOf(schemaName, message), receivedS));
-        else if (topic === scans) follower.addScan(timed(scanOf(schemaName, message, signsOf(values)), receivedS));
+          follower?.addMotion(timed(motionOf(schemaName, message), receivedS));
+        else if (topic === scans) {
+          const scan = timed(scanOf(schemaName, message, signsOf(values)), receivedS);
+          radar.in(scan.frameId);
+          follow();
+          follower?.addScan(scan);
+        }
       },
       clear() {
         clear();
@@ -115,10 +132,10 @@ export const mountingPanel: Panel<typeof settings> = {
           ? 'The data have no topic of radar scans (radar_msgs/RadarScan, or a cloud of points with range rates).'
           : !motion
             ? 'The data have no topic of the car’s motion (nav_msgs/Odometry, geometry_msgs/TwistStamped and others).'
-            : values?.xM === null
-              ? 'Say in the settings how far the radar is ahead of the rear axle: its angle depends on it.'
-              : null;
-        return { wanted, status: follower ? statusOf(follower) : '' };
+            : values && radar.of(values)
+              ? null
+              : 'No transform says where the radar is: say in the settings how far it is ahead of the rear axle, as its angle depends on that.';
+        return { wanted, status: follower ? statusOf(follower, last) : '' };
       },
       remove: clear,
     };
@@ -126,18 +143,18 @@ export const mountingPanel: Panel<typeof settings> = {
   },
 };
 
-/** What became of the scans. */
-function statusOf(follower: Follower): string {
+/** What became of the scans: in the angle as of its last second. */
+function statusOf(follower: Follower, last: CalibrationResult | null): string {
   const { scans, motion, late, refused, incomplete, restarts } = follower.counts;
-  const { frames } = follower.estimate();
+  const frames = last?.frames;
   const parts: [number, string][] = [
     [scans, 'scans'],
-    [frames.used, 'used'],
-    [frames.withoutMotion, 'without motion'],
-    [frames.standing + frames.slow, 'at a standstill or slow'],
-    [frames.turning, 'turning too fast'],
-    [frames.sparse, 'with too few detections that stand'],
-    [frames.offSpeed, 'off the car’s speed'],
+    [frames?.used ?? 0, 'used'],
+    [frames?.withoutMotion ?? 0, 'without motion'],
+    [frames ? frames.standing + frames.slow : 0, 'at a standstill or slow'],
+    [frames?.turning ?? 0, 'turning too fast'],
+    [frames?.sparse ?? 0, 'with too few detections that stand'],
+    [frames?.offSpeed ?? 0, 'off the car’s speed'],
     [late, 'out of order'],
     [refused, 'refused'],
     [incomplete, 'detections without numbers'],

@@ -5,7 +5,7 @@ import { defineElement } from '../../../../elements/define.ts';
 import { MountingAngleElement } from '../../../../elements/mounting-angle.ts';
 import { type FollowCounts, type Followed, Follower } from '../../../../messages/follow.ts';
 import { hasMotion, MOTION_SCHEMAS, type MotionSample, motionOf } from '../../../../messages/motion.ts';
-import { type FramePlace, hasPlaces, placesOf } from '../../../../messages/places.ts';
+import { hasPlaces, Places } from '../../../../messages/places.ts';
 import { isRos2, ros2Message } from '../../../../messages/ros2.ts';
 import { hasScans, SCAN_SCHEMAS, scanOf } from '../../../../messages/scan.ts';
 import { schemaOf } from '../../../../messages/schemas.ts';
@@ -50,16 +50,17 @@ export const view = signal<LiveView | null>(null);
 /** The angle over time, which is kept here while other pages are shown. */
 export const angle: MountingAngleElement = document.createElement('boresight-mounting-angle');
 
-/** Where the server says that frames are, by their names; transforms may come before the first scan, and but once. */
-const places = signal<ReadonlyMap<string, FramePlace>>(new Map());
-const MOST_PLACES = 256;
+/** Where the server says that frames are, and how often it said so anew. */
+const places = new Places();
+const placesTold = signal(0);
 /** The frame that the last scan was in. */
 const scanFrame = signal('');
 const toldNominalDeg = signal<number | null>(null);
 
 /** Where the server says that the radar is. */
 const told = computed((): Place => {
-  const { xM = null, yM = 0 } = places.value.get(scanFrame.value) ?? {};
+  void placesTold.value;
+  const { xM = null, yM = 0 } = places.at(scanFrame.value) ?? {};
   return { xM, yM, nominalDeg: toldNominalDeg.value };
 });
 
@@ -139,7 +140,9 @@ export async function connect(): Promise<void> {
   if (addressProblem(address)) return;
   batch(() => {
     liveProblem.value = null;
-    [places.value, scanFrame.value, toldNominalDeg.value] = [new Map(), '', null];
+    places.clear();
+    placesTold.value += 1;
+    [scanFrame.value, toldNominalDeg.value] = ['', null];
     connection.value = { kind: 'connecting' };
   });
   const mine = new Connection(address, {
@@ -301,12 +304,7 @@ function takePlace(schemaName: string, message: unknown): void {
     if (Number.isFinite(nominalDeg)) toldNominalDeg.value = nominalDeg;
     return;
   }
-  const before = places.peek();
-  const news = placesOf(schemaName, message).filter(({ child, xM, yM }) => {
-    const known = before.get(child);
-    return known ? known.xM !== xM || known.yM !== yM : before.size < MOST_PLACES;
-  });
-  if (news.length) places.value = new Map([...before, ...news.map((one) => [one.child, one] as const)]);
+  if (places.take(schemaName, message)) placesTold.value += 1;
 }
 
 const NO_COUNTS: FollowCounts = { scans: 0, motion: 0, late: 0, refused: 0, incomplete: 0, restarts: 0 };
