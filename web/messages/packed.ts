@@ -101,6 +101,6 @@ function bytesOf(data: unknown): Uint8Array {
       throw new MessageProblem('malformed', 'the bytes of a cloud are no base64');
     }
   }
-  if (Array.isArray(data)) return Uint8Array.from(data as number[]);
+  if (Array.isArray(data)) return Uint8Array.from(data, (byte) => (typeof byte === 'number' ? byte : 0));
   throw new MessageProblem('malformed', 'a cloud without bytes');
 }

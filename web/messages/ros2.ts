@@ -77,6 +77,8 @@ export function ros2Message(schemaName: string, bytes: ArrayBufferView): unknown
     throw new MessageProblem('malformed', `the bytes are no ${schemaName}: ${(error as Error).message}`);
   }
   const over = bytes.byteLength - reader.lastReadByteLength();
+  // Arrays are read out of the buffer, which may go on behind the message.
+  if (over < 0) throw new MessageProblem('malformed', `${-over} bytes of a ${schemaName} are missing`);
   if (over > PADDING)
     throw new MessageProblem('malformed', `${over} bytes stand behind a ${schemaName}: it is another version of it`);
   return message;
