@@ -379,6 +379,48 @@ hostTest('settings, a turn of the data, and what is kept', async ({ page }) => {
   assert.equal(found.kept.xM, 3.6, 'a place outside the range is no place');
 });
 
+hostTest('a whole recording is read at once, and again where it changes', async ({ page }) => {
+  const found = await page.evaluate(async (place) => {
+    host.recording = events;
+    const panel = await opened('Mounting angle', place);
+    const element = panel.element.firstChild.firstChild;
+    await play([panel], events.slice(0, 500));
+    const played = element.history.timeS.length;
+    panel.edit('Calibrates', 'whole');
+    const { subscriptions } = panel;
+    const read = async () => {
+      while (!/That is the whole recording/.test(says(panel))) await new Promise((resolve) => setTimeout(resolve, 20));
+      return Array.from(element.history.angleDeg);
+    };
+    const first = await read();
+    await panel.play(events.slice(0, 500), { didSeek: true });
+    const sought = element.history.timeS.length;
+    const ranges = [...panel.ranges.keys()];
+    // A topic begins anew, while it is read and afterwards.
+    panel.ranges.get('/odometry')();
+    await new Promise((resolve) => setTimeout(resolve, 60));
+    const amid = element.history.timeS.length;
+    panel.ranges.get('/radar/scan')?.();
+    const second = await read();
+    panel.edit('Calibrates', 'played');
+    const after = [panel.ranges.size, panel.subscriptions.length, element.history.timeS.length];
+    panel.edit('Calibrates', 'whole');
+    panel.close();
+    return { played, subscriptions, first, sought, ranges, amid, second, after, left: panel.ranges.size };
+  }, PLACE);
+  const { history } = calibrateDrive(made.drive, { sensor: 1, ...PLACE });
+  assert.ok(found.played > 2 && found.first.length > 30, JSON.stringify(found));
+  near(found.first.at(-1), history.angleDeg.at(-1), 0.02);
+  assert.deepEqual(
+    [found.subscriptions, found.sought, found.ranges],
+    [[], found.first.length, ['/radar/scan', '/odometry']],
+  );
+  assert.ok(found.amid < found.first.length, `${found.amid}`);
+  assert.deepEqual(found.second, found.first);
+  assert.deepEqual(found.after.slice(0, 2), [0, 2]);
+  assert.equal(found.left, 0);
+});
+
 hostTest('transforms say where the radar is, where the settings do not', async ({ page }) => {
   const found = await page.evaluate(async () => {
     const names = ['Mounting angle', 'Detections from above', 'Doppler over azimuth'];

@@ -25,6 +25,8 @@ export class Host {
   readonly panels = new Map<string, ExtensionPanelRegistration>();
   readonly converters: Converter[] = [];
   readonly topics: Topic[] = [];
+  /** The messages of a recording, in order; null where the data are live. */
+  recording: readonly MessageEvent[] | null = null;
   /** Whether variables come with each message, as in Lichtblick, or by aliases alone. */
   handsOver = false;
   #aliases: TopicAliasFunction[] = [];
@@ -86,6 +88,8 @@ export class Opened {
   #watched = new Set<keyof RenderState>();
   #busy = false;
   #unmount: () => void;
+  /** Topics that are read as a whole, and what has them begin anew. */
+  readonly ranges = new Map<string, () => void>();
   #gone = false;
 
   constructor(host: Host, registration: ExtensionPanelRegistration, initialState: unknown) {
@@ -126,7 +130,33 @@ export class Opened {
       },
       setDefaultPanelTitle() {},
     };
+    const { recording } = host;
+    if (recording) this.#hand(recording);
     this.#unmount = registration.initPanel(this.#context) ?? (() => {});
+  }
+
+  /** Hands a recording out, topic by topic. */
+  #hand(recording: readonly MessageEvent[]): void {
+    this.#context.subscribeMessageRange = ({ topic, convertTo, onNewRangeIterator }) => {
+      const all = recording.filter((event) => event.topic === topic);
+      let cancelled = false;
+      const begin = (): void =>
+        void onNewRangeIterator(
+          (async function* () {
+            for (let at = 0; at < all.length && !cancelled; at += 200) {
+              await new Promise((resolve) => setTimeout(resolve));
+              yield all.slice(at, at + 200);
+            }
+          })(),
+        );
+      if (convertTo) throw new Error('this host converts no recordings');
+      queueMicrotask(begin);
+      this.ranges.set(topic, begin);
+      return () => {
+        cancelled = true;
+        this.ranges.delete(topic);
+      };
+    };
   }
 
   /** A render, which ends with `done`; fields that are not watched do not come. */

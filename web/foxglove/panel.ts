@@ -10,6 +10,7 @@ import type {
 import { MessageProblem } from '../messages/problem.ts';
 import { count } from '../plots/format.ts';
 import { THEMES, type ThemeName } from '../plots/theme.ts';
+import { rangesOf, readRecording } from './recording.ts';
 import { opened } from './runtime.ts';
 import { edited, kept, type Settings, tree, type ValuesOf } from './settings.ts';
 
@@ -19,6 +20,8 @@ export interface View<S extends Settings> {
   element: HTMLElement;
   /** Takes over settings and topics, and says what messages are wanted; once more when the calibration can begin. */
   set(values: ValuesOf<S>, topics: readonly Topic[]): Subscription[];
+  /** Whether messages of the whole recording are wanted, where the application has one, and not those that are played. */
+  whole?(): boolean;
   take(event: Immutable<MessageEvent>): void;
   /** What came before does not count: the data were wound, or it was asked for. */
   clear(): void;
@@ -49,7 +52,9 @@ function mount<S extends Settings>(host: PanelExtensionContext, panel: Panel<S>)
   let values = kept(panel.settings, host.initialState);
   let topics: readonly Topic[] = [];
   let problem = '';
-  let subscribed = '[]';
+  let subscribed = '';
+  let stopReading = (): void => {};
+  let read = '';
   /** Messages that come before the calibration can begin; null once it can. */
   let held: Immutable<MessageEvent>[] | null = [];
   let lost = 0;
@@ -63,7 +68,12 @@ function mount<S extends Settings>(host: PanelExtensionContext, panel: Panel<S>)
     if (gone) return;
     const { status, wanted } = view.said();
     const early = lost ? `${count(lost)} messages came before that was ready, and were left out.` : '';
-    const text = [wanted ?? (held ? 'The calibration is made ready …' : status), early, problem]
+    const text = [
+      wanted ?? (held ? 'The calibration is made ready …' : status),
+      wanted === null ? read : '',
+      early,
+      problem,
+    ]
       .filter(Boolean)
       .join(' ');
     if (words.textContent !== text) words.textContent = text;
@@ -81,11 +91,32 @@ function mount<S extends Settings>(host: PanelExtensionContext, panel: Panel<S>)
     const { background, muted, font } = THEMES[theme];
     Object.assign(box.style, { background, color: muted, fontFamily: font });
   };
+  const recording = {
+    begin: () => {
+      view.clear();
+      read = 'The recording is read, where the data are one …';
+    },
+    take: (event: Immutable<MessageEvent>) => {
+      take(event);
+      say();
+    },
+    end: () => {
+      read = 'That is the whole recording.';
+      say();
+    },
+  };
   const settle = (): void => {
     const wanted = view.set(values, topics);
+    const ranges = held === null && view.whole?.() ? rangesOf(host) : undefined;
     // To subscribe again would have some sources begin again.
-    if (JSON.stringify(wanted) !== subscribed) host.subscribe(wanted);
-    subscribed = JSON.stringify(wanted);
+    const now = JSON.stringify([wanted, ranges !== undefined]);
+    if (now !== subscribed) {
+      stopReading();
+      host.subscribe(ranges ? [] : wanted);
+      read = '';
+      stopReading = ranges && wanted.length ? readRecording(ranges, wanted, recording) : () => {};
+    }
+    subscribed = now;
     host.updatePanelSettingsEditor({
       nodes: tree(panel.settings, values, topics, panel.again ? [{ id: AGAIN, label: panel.again }] : []),
       actionHandler(action) {
@@ -125,7 +156,8 @@ function mount<S extends Settings>(host: PanelExtensionContext, panel: Panel<S>)
         topics = state.topics as readonly Topic[];
         settle();
       }
-      if (state.didSeek) view.clear();
+      // What is read as a whole does not go by what is played.
+      if (state.didSeek && !read) view.clear();
       for (const event of state.currentFrame ?? []) take(event);
       say();
     } finally {
@@ -153,6 +185,7 @@ function mount<S extends Settings>(host: PanelExtensionContext, panel: Panel<S>)
   );
   return () => {
     gone = true;
+    stopReading();
     host.unsubscribeAll();
     view.remove();
     box.remove();

@@ -21,13 +21,21 @@ import {
   topicSettings,
 } from '../radar-settings.ts';
 import { isOpen } from '../runtime.ts';
-import { numberSetting, type ValuesOf } from '../settings.ts';
+import { choiceSetting, numberSetting, type ValuesOf } from '../settings.ts';
 import { chosen } from '../topics.ts';
 
 const settings = {
   ...topicSettings,
   ...placeSettings,
   ...signSettings,
+  from: choiceSetting(
+    {
+      group: 'Topics',
+      label: 'Calibrates',
+      help: 'The whole recording is read at once, where the data are files and the application hands them over; live data are taken as they come.',
+    },
+    { played: 'what is played', whole: 'the whole recording' },
+  ),
   toleranceDeg: numberSetting(
     { group: 'Judgement', label: 'Misaligned from (°)', help: 'How far the angle may be off its nominal one.' },
     1,
@@ -105,6 +113,7 @@ export const mountingPanel: Panel<typeof settings> = {
         follow();
         return [...[from, by].flatMap((topic) => (topic ? [subscription(topic)] : [])), ...radar.wanted(given, topics)];
       },
+      whole: () => values?.from === 'whole',
       take(event) {
         const { topic, schemaName, message, receiveTime } = event;
         if (!values) return;
