@@ -280,7 +280,7 @@ browserTest('live server: what a hostile one sends is counted and left out', { p
     op: 'advertise',
     channels: [null, 3, {}, { id: 'x' }, { id: 1, topic: 'x'.repeat(1e6), encoding: 'json', schemaName: '' }],
   });
-  for (const bytes of [[], [1], [1, 2, 3], [2], [3, 255, 255, 255, 255], [4], [9, 9], new Uint8Array(20).fill(255)])
+  for (const bytes of [[], [1], [1, 2, 3], [2], [3, 255, 255, 255, 255], [4], [9, 9], Buffer.alloc(20, 255)])
     socket.send(Uint8Array.from(bytes));
   json({ op: 'unadvertise', channelIds: { length: 3 } });
   json({ op: 'serverInfo', name: { toString: 1 }, capabilities: null });
@@ -332,7 +332,7 @@ browserTest('live server: what a hostile one sends is counted and left out', { p
   await page.locator('select[name="scanTopic"]').selectOption('/cdr');
   await asked(3, 2);
   // Lengths of CDR that no bytes are behind.
-  for (const bytes of [[], [0, 1, 0, 0], [0, 1, 0, 0, ...new Uint8Array(60).fill(255)], new Uint8Array(5000).fill(127)])
+  for (const bytes of [[], [0, 1, 0, 0], [0, 1, 0, 0, ...Buffer.alloc(60, 255)], Buffer.alloc(5000, 127)])
     send(3, bytes);
   const before = await fact(page, 'malformed');
   for (let i = 0; i < 5000; i++) send(3, [i % 256]);

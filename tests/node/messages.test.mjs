@@ -284,6 +284,33 @@ test('what `boresight serve` packs and what RadarScan has are the same scan', as
     });
 });
 
+test('motion is read in each kind of message, and needs a yaw rate', () => {
+  const DEG = 180 / Math.PI;
+  const twist = { linear: { x: 7, y: 0, z: 0 }, angular: { x: 0, y: 0, z: 0.1 } };
+  const stamped = { header: { stamp: { sec: 2, nanosec: 250_000_000 } } };
+  for (const [schema, message, speed] of [
+    ['nav_msgs/msg/Odometry', { ...stamped, twist: { twist } }, 7],
+    ['geometry_msgs/msg/TwistWithCovarianceStamped', { ...stamped, twist: { twist } }, 7],
+    ['geometry_msgs/msg/TwistStamped', { ...stamped, twist }, 7],
+    ['geometry_msgs/msg/Twist', twist, 7],
+    ['autoware_vehicle_msgs/msg/VelocityReport', { ...stamped, longitudinal_velocity: 7, heading_rate: 0.1 }, 7],
+    ['sensor_msgs/msg/Imu', { ...stamped, angular_velocity: twist.angular }, Number.NaN],
+    [
+      'foxglove.Odometry',
+      { timestamp: { sec: 2, nsec: 250_000_000 }, linear_velocity: twist.linear, angular_velocity: twist.angular },
+      7,
+    ],
+    ['boresight.CarMotion', { timestamp: { sec: 2, nsec: 250_000_000 }, speedMps: 7, yawRateDegps: 0.1 * DEG }, 7],
+  ]) {
+    assert.ok(read.hasMotion(schema), schema);
+    const { timeS, yawRateDegps, speedMps } = read.motionOf(schema, message);
+    assert.deepEqual([timeS, speedMps], [message === twist ? Number.NaN : 2.25, speed], schema);
+    near(yawRateDegps, 0.1 * DEG, 1e-12);
+  }
+  assert.throws(() => read.motionOf('boresight.CarMotion', { speedMps: 7 }), { code: 'no-field' });
+  assert.throws(() => read.motionOf('sensor_msgs/Imu', {}), { code: 'malformed' });
+});
+
 /** Feeds messages in their order; gives what was told. */
 function followed(all, options, change = (one) => one) {
   const told = { angles: [], scans: [], restarts: 0 };

@@ -209,10 +209,13 @@ export class Opened {
     throw new Error(`no setting ${label}`);
   }
 
-  close(): void {
+  /** Takes the panel away; gives what it has left in its element. */
+  close(): number {
     this.#unmount();
     this.#gone = true;
+    const left = this.element.childElementCount + this.subscriptions.length;
     this.element.remove();
+    return left;
   }
 }
 
