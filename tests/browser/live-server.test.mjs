@@ -6,6 +6,7 @@ import { calibrateDrive } from 'boresight';
 import { WebSocketServer } from 'ws';
 import { drive, messages, pointCloud } from '../viewers/messages.mjs';
 import { foxgloveServer } from '../viewers/server.mjs';
+import { findings } from './axe.mjs';
 import { parameters, parametersWith } from './demo.mjs';
 import { browserTest, skipWithoutBrowser } from './harness.mjs';
 import { typeNumber, typeText } from './type.mjs';
@@ -119,6 +120,7 @@ browserTest(
     assert.ok((await fact(page, 'used')) > 480);
     await page.waitForSelector('[data-plot="live-doppler"] [data-series="recursive"]');
     await page.waitForSelector('[data-plot="live-above"] [data-series="boresight"]');
+    assert.deepEqual(await findings(page), []);
     await screenshot('live-server', { fullPage: true });
     // Other pages leave it alone.
     await page.goto(`${page.url().split('#')[0]}#/networks`);
@@ -242,6 +244,8 @@ browserTest(
     await page.locator('[data-action="disconnect"]').click();
     await connection(page, 'idle');
     mute.close();
+    assert.deepEqual(await findings(page), []);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'it fits a phone');
     await screenshot('live-server-idle');
     expectRefused(problems);
   },
