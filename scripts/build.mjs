@@ -1,7 +1,9 @@
 // The package: crates/wasm, crates/wasm-neural -> dist/wasm, web/lib and web/worker -> dist, all in single files ->
-// dist/inline, and with the elements in one module -> python/boresight-widget. The demo: web/app/dist.
+// dist/inline, and with the elements in one module -> python/boresight-widget, in one script -> dist/foxglove. The demo:
+// web/app/dist.
 import { existsSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
+import { foxeName, makeFoxglove } from './lib/foxglove.mjs';
 import { makeInline } from './lib/inline.mjs';
 import { manifest } from './lib/manifest.mjs';
 import { makeNotebook, notebookFolder } from './lib/notebook.mjs';
@@ -250,12 +252,40 @@ export async function buildNotebook() {
   if (!done) say(`${notebookFolder} is up to date`);
 }
 
+/** The extension for Foxglove and Lichtblick (scripts/lib/foxglove.mjs). */
+export async function buildFoxglove() {
+  const inputs = [
+    'package.json',
+    'package-lock.json',
+    'CHANGELOG.md',
+    'LICENSE',
+    'LICENSE-APACHE',
+    'NOTICE',
+    'scripts/lib/foxglove.mjs',
+    'scripts/lib/inline.mjs',
+    'web/elements',
+    'web/foxglove',
+    'web/inline',
+    'web/messages',
+    'web/plots',
+    'dist/lib/index.d.ts',
+    'dist/inline/boresight.js',
+  ];
+  const outputs = [`dist/foxglove/${foxeName()}`];
+  const done = await whenChanged('foxglove', { inputs, outputs }, async () => {
+    say(`web/foxglove -> ${outputs[0]} (vite)`);
+    await makeFoxglove();
+  });
+  if (!done) say(`${outputs[0]} is up to date`);
+}
+
 export async function buildPackage() {
   for (const one of modules) await buildModule(one);
   await buildLibrary();
   await buildElements();
   await buildInline();
   await buildNotebook();
+  await buildFoxglove();
 }
 
 /** `variables`: of the environment that vite.config.ts reads. */

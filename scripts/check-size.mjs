@@ -2,12 +2,14 @@
 // for a runtime. The self-contained files are what a dashboard holds. scripts/lib/sizes.mjs has the limits.
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
+import { foxeName, foxgloveFolder } from './lib/foxglove.mjs';
 import { notebookFolder } from './lib/notebook.mjs';
 import { coreWasm, drivesWasm, inlineScript, neuralWasm, root } from './lib/paths.mjs';
 import { main } from './lib/run.mjs';
 import {
   coreLimits,
   describeSize,
+  foxgloveLimits,
   inlineLimits,
   neuralLimits,
   notebookLimits,
@@ -27,6 +29,7 @@ await main(async () => {
         ['self-contained classic script', inlineScript('boresight.global'), inlineLimits],
         ['self-contained networks', inlineScript('networks'), {}],
         ["notebooks' module, elements in it", join(root, notebookFolder, 'widget.js'), notebookLimits],
+        ['extension for viewers', join(foxgloveFolder, foxeName()), foxgloveLimits],
       ];
   const measured = await Promise.all(modules.map(([, file]) => sizes(readFileSync(file))));
   const found = modules.map(([name, , limits], at) => {

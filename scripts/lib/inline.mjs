@@ -24,24 +24,31 @@ const packedParts = (archive) => ({
   load: (id) => (id === '\0packed' ? archive : null),
 });
 
-/** One script of an entry and all it imports. */
-async function bundled(entry, format, archive = '') {
+/**
+ * One script of an entry and all it imports, and the licences of what is other people's in it. `archive` is the module that
+ * holds the parts that it opens; imports of `boresight` are of what web/inline has of that name.
+ */
+async function bundled(entry, { format, archive = '', name = 'inline', footer = '' }) {
   const { build } = await import('vite');
+  const licences = 'LICENSES.md';
   const [{ output }] = await build({
     configFile: false,
     root,
     logLevel: 'warn',
     plugins: [ofDist, packedParts(archive)],
+    resolve: { alias: [{ find: /^boresight$/, replacement: join(sources, 'calibration.ts') }] },
     build: {
       write: false,
       target: 'es2022',
       minify: true,
-      lib: { entry, formats: [format], name: 'inline', fileName: 'inline' },
-      rolldownOptions: { output: { codeSplitting: false, minify: true } },
+      license: { fileName: licences },
+      lib: { entry, formats: [format], name, fileName: 'inline' },
+      rolldownOptions: { output: { codeSplitting: false, minify: true, footer } },
     },
   });
-  if (output.length !== 1) throw new Error(`${entry} makes ${output.map(({ fileName }) => fileName).join(', ')}`);
-  return output[0].code;
+  const chunks = output.filter(({ fileName }) => fileName !== licences);
+  if (chunks.length !== 1) throw new Error(`${entry} makes ${chunks.map(({ fileName }) => fileName).join(', ')}`);
+  return { code: chunks[0].code, licences: output.find(({ fileName }) => fileName === licences)?.source ?? '' };
 }
 
 /** Parts as a module that holds them: packed one after another, the first opened first. */
@@ -60,17 +67,24 @@ const write = (name, text) => {
   writeFileSync(join(folder, name), text);
 };
 
+/** One script of an entry with the module of drives inside. */
+export const bundledWithDrives = async (entry, options) =>
+  bundled(entry, { ...options, archive: await packedOf({ drives: wasm('boresight_drives') }) });
+
 /** The package in single files. */
 export async function makeInline() {
-  const worker = await bundled(join(dist, 'worker', 'browser-worker.js'), 'iife');
+  const { code: worker } = await bundled(join(dist, 'worker', 'browser-worker.js'), { format: 'iife' });
   write('boresight.worker.js', worker);
   const archive = await packedOf({
     worker: Buffer.from(worker),
     core: wasm('boresight'),
     drives: wasm('boresight_drives'),
   });
-  write('boresight.js', await bundled(join(sources, 'boresight.ts'), 'es', archive));
-  write('boresight.global.js', await bundled(join(sources, 'boresight.global.ts'), 'iife', archive));
   const networks = await packedOf({ networks: wasm('boresight_neural') });
-  write('networks.js', await bundled(join(sources, 'networks.ts'), 'es', networks));
+  for (const [name, format, parts] of [
+    ['boresight', 'es', archive],
+    ['boresight.global', 'iife', archive],
+    ['networks', 'es', networks],
+  ])
+    write(`${name}.js`, (await bundled(join(sources, `${name}.ts`), { format, archive: parts })).code);
 }

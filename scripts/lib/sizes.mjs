@@ -22,6 +22,8 @@ export const neuralLimits = { brotli: 3_000_000 };
 export const inlineLimits = { raw: 1_400_000, brotli: 950_000 };
 /** That with the elements: what a notebook sends for each widget. */
 export const notebookLimits = { raw: 1_500_000 };
+/** Of the extension for viewers, which is a ZIP archive: what is installed. */
+export const foxgloveLimits = { raw: 700_000 };
 
 /** What is wrong with a size, or null. */
 export const overLimit = (size, limits = coreLimits) =>

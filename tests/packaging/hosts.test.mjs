@@ -7,6 +7,7 @@ import { skipWithoutBrowser } from '../browser/harness.mjs';
 import { launch, openPage } from '../browser/session.mjs';
 import { consumer } from './consumer.mjs';
 import { servePages } from './pages.mjs';
+import { LICHTBLICK } from './policies.mjs';
 
 const skip = skipWithoutBrowser;
 const NONCE = 'b29yZXNpZ2h0';
@@ -19,18 +20,6 @@ const GRAFANA =
   `script-src 'self' 'unsafe-eval' 'unsafe-inline' 'strict-dynamic' 'nonce-${NONCE}';object-src 'none';font-src 'self';` +
   "style-src 'self' 'unsafe-inline' blob:;img-src * data:;base-uri 'self';" +
   "connect-src 'self' grafana.com ws://127.0.0.1/ wss://127.0.0.1/;manifest-src 'self';media-src 'none';form-action 'self';";
-
-/** The policy of Lichtblick's desktop application, `packages/suite-desktop/src/main/index.ts` at 0987c08. */
-const LICHTBLICK = [
-  "default-src 'self'",
-  "script-src 'self' 'unsafe-inline' 'unsafe-eval'",
-  "worker-src 'self' blob:",
-  "style-src 'self' 'unsafe-inline'",
-  "connect-src 'self' ws: wss: http: https: package: blob: data: file:",
-  "font-src 'self' data:",
-  "img-src 'self' data: https: package: x-foxglove-converted-tiff: http:",
-  "media-src 'self' data: https: http: blob: file:",
-].join('; ');
 
 const html = (...scripts) =>
   `<!doctype html><html lang="en"><meta charset="utf-8"><title>host</title><body></body>${scripts.join('\n')}</html>`;

@@ -5,6 +5,7 @@ import { MethodList } from '../../ui/method-list.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { Control } from './control.ts';
 import { loaded, sensor } from './drive.ts';
+import { Live } from './live.tsx';
 import { NetworkChoice } from './network-choice.tsx';
 import { jointPossible, shownMethod, where } from './process.ts';
 import { Source } from './source.tsx';
@@ -14,6 +15,7 @@ import { about, WAYS } from './ways.ts';
 export function Controls() {
   const state = mountingState.value;
   const format = loaded.value?.drive.format ?? '';
+  const live = state.source === 'live';
   return (
     <Sidebar label="Mounting angle settings" button="drive and settings">
       <ControlsHead
@@ -24,46 +26,8 @@ export function Controls() {
       <Group title="Drive">
         <Source />
       </Group>
-      <Group title="Radar">
-        <Radar />
-      </Group>
-      <Group title="Methods">
-        <MethodList
-          label="Methods"
-          prefix="calibration"
-          chosen={state.methods}
-          onChange={(methods) => update({ methods })}
-          items={WAYS.map((name) => {
-            const { title, reference } = about(name);
-            const off =
-              name === 'joint' && !jointPossible.value ? 'needs several radars whose places are known' : undefined;
-            return { name, title, about: reference, line: true, off };
-          })}
-        />
-        <Control
-          label="Frames by"
-          name="shown"
-          value={shownMethod.value ?? state.shown}
-          wide
-          only={state.methods.length ? state.methods : WAYS}
-          labels={(way) => about(way).title}
-          help="The method whose inliers, weights and trajectory are shown."
-        />
-        <Control
-          label="Motion by"
-          name="motion"
-          labels={{
-            auto: 'each its own',
-            ransac: 'RANSAC',
-            'weighted-least-squares': 'weighted LS',
-            'orthogonal-distance': 'orthogonal',
-            deepego: 'DeepEgo',
-            'deepego-plus': 'DeepEgo+',
-          }}
-          help="How the radar’s own motion is found in a frame, or over eight of them (DeepEgo+)."
-        />
-        <NetworkChoice />
-      </Group>
+      <Group title="Radar">{live ? <Live part="Place" /> : <Radar />}</Group>
+      {!live && <Methods />}
       <Group title="Frames and noise">
         <Control
           label="Slowest"
@@ -83,36 +47,85 @@ export function Controls() {
         <Control label="Misaligned from" name="alarm" step={0.1} />
         <Control label="Settled below σ" name="converged" step={0.01} />
       </Group>
-      <Group title="Display">
-        <Control
-          label="Band"
-          name="band"
-          labels={(band) => `± ${band} σ`}
-          help="The standard deviation each method claims, drawn around its angle over time."
-        />
-        <Control
-          label="Angles of single frames"
-          name="singles"
-          help="Dots: what each frame alone gives by the method whose frames are shown; where motions are smoothed, before and after."
-        />
-        <Control
-          label="Residuals to the fit"
-          name="residual"
-          help="Draws range rates less the fitted curve, which shows small deviations."
-        />
-        <Control
-          label="Heading"
-          name="heading"
-          labels={{ sensor: 'yaw-rate sensor', radar: 'radar alone' }}
-          help="What turns the car in its trajectory: the yaw rate as measured less its bias, or the radar's own motion, in which a wrong angle turns the car."
-        />
-      </Group>
+      {!live && <Display />}
     </Sidebar>
   );
 }
 
+function Methods() {
+  const state = mountingState.value;
+  return (
+    <Group title="Methods">
+      <MethodList
+        label="Methods"
+        prefix="calibration"
+        chosen={state.methods}
+        onChange={(methods) => update({ methods })}
+        items={WAYS.map((name) => {
+          const { title, reference } = about(name);
+          const off =
+            name === 'joint' && !jointPossible.value ? 'needs several radars whose places are known' : undefined;
+          return { name, title, about: reference, line: true, off };
+        })}
+      />
+      <Control
+        label="Frames by"
+        name="shown"
+        value={shownMethod.value ?? state.shown}
+        wide
+        only={state.methods.length ? state.methods : WAYS}
+        labels={(way) => about(way).title}
+        help="The method whose inliers, weights and trajectory are shown."
+      />
+      <Control
+        label="Motion by"
+        name="motion"
+        labels={{
+          auto: 'each its own',
+          ransac: 'RANSAC',
+          'weighted-least-squares': 'weighted LS',
+          'orthogonal-distance': 'orthogonal',
+          deepego: 'DeepEgo',
+          'deepego-plus': 'DeepEgo+',
+        }}
+        help="How the radar’s own motion is found in a frame, or over eight of them (DeepEgo+)."
+      />
+      <NetworkChoice />
+    </Group>
+  );
+}
+
+function Display() {
+  return (
+    <Group title="Display">
+      <Control
+        label="Band"
+        name="band"
+        labels={(band) => `± ${band} σ`}
+        help="The standard deviation each method claims, drawn around its angle over time."
+      />
+      <Control
+        label="Angles of single frames"
+        name="singles"
+        help="Dots: what each frame alone gives by the method whose frames are shown; where motions are smoothed, before and after."
+      />
+      <Control
+        label="Residuals to the fit"
+        name="residual"
+        help="Draws range rates less the fitted curve, which shows small deviations."
+      />
+      <Control
+        label="Heading"
+        name="heading"
+        labels={{ sensor: 'yaw-rate sensor', radar: 'radar alone' }}
+        help="What turns the car in its trajectory: the yaw rate as measured less its bias, or the radar's own motion, in which a wrong angle turns the car."
+      />
+    </Group>
+  );
+}
+
 /** Enough digits to read. */
-const short = (value: number | null): number | null => (value === null ? null : Number(value.toFixed(4)));
+export const short = (value: number | null): number | null => (value === null ? null : Number(value.toFixed(4)));
 
 function Radar() {
   const sensors = loaded.value?.drive.sensors ?? [];

@@ -207,7 +207,7 @@ function openSimulated(options: SimulateDriveOptions): Promise<unknown> {
   });
 }
 
-export function chooseSource(source: 'delphi' | 'simulated'): void {
+export function chooseSource(source: 'delphi' | 'simulated' | 'live'): void {
   update({ ...OWN, source });
 }
 
@@ -235,7 +235,10 @@ export function start(): () => void {
         },
         open ? 400 : 0,
       );
-    } else if (open?.source !== 'files') loaded.value = null;
+    } else {
+      if (wanted === 'live') cancelOpening();
+      if (wanted === 'live' || open?.source !== 'files') loaded.value = null;
+    }
   });
   return () => {
     clearTimeout(timer);

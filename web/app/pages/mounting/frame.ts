@@ -2,7 +2,7 @@
 
 import { computed } from '@preact/signals';
 import type { DriveFrame, FrameVerdict } from 'boresight';
-import type { Motion } from '../../../plots/doppler.ts';
+import { carriedMotion, type Motion } from '../../../plots/doppler.ts';
 import { api } from '../../data.ts';
 import { loaded, scans } from './drive.ts';
 import { frame } from './playhead.ts';
@@ -30,10 +30,7 @@ const STATIC_LABEL = 11;
 export function expectedMotion({ speedMps, yawRateDegps }: DriveFrame): Motion | null {
   const at = where.value;
   if (speedMps == null || yawRateDegps === null || at === null || at.xM === null) return null;
-  const rate = (yawRateDegps * Math.PI) / 180;
-  const [x, y] = [speedMps - rate * at.yM, rate * at.xM];
-  const [cos, sin] = [Math.cos((usedAngleDeg.value * Math.PI) / 180), Math.sin((usedAngleDeg.value * Math.PI) / 180)];
-  return { vxMps: cos * x + sin * y, vyMps: cos * y - sin * x };
+  return carriedMotion({ xM: at.xM, yM: at.yM, yawDeg: usedAngleDeg.value }, speedMps, yawRateDegps);
 }
 
 export const frameView = computed<FrameView | null>(() => {

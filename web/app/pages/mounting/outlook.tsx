@@ -1,5 +1,5 @@
 /** What driving on would bring, where the angle is not settled or its verdict does not stand. */
-import type { CalibrationResult } from 'boresight';
+import type { CalibrationOutlook, CalibrationResult } from 'boresight';
 import { fixed } from '../../../plots/format.ts';
 import { results } from './process.ts';
 
@@ -9,7 +9,11 @@ const open = ({ converged, alignment }: CalibrationResult): boolean => !converge
 export function Outlook() {
   const one = results.value.get('recursive');
   const { outlook, result } = one?.calibration ?? {};
-  if (!outlook || !result || one?.stale || !open(result)) return null;
+  return outlook && result && !one?.stale ? <OutlookOf outlook={outlook} result={result} /> : null;
+}
+
+export function OutlookOf({ outlook, result }: { outlook: CalibrationOutlook; result: CalibrationResult }) {
+  if (!open(result)) return null;
   return (
     <div class="outlook" data-outlook>
       <p>

@@ -22,6 +22,7 @@ import {
   start as startDrive,
 } from './drive.ts';
 import { frameView } from './frame.ts';
+import { Live } from './live.tsx';
 import { columnsDialog } from './own-files.ts';
 import { frame, playing, start as startClock, telling, time } from './playhead.ts';
 import { results, shownMethod, start as startProcess, where, working } from './process.ts';
@@ -85,7 +86,13 @@ function caption(): Caption {
   const open = loaded.peek();
   const files = open?.files.map(({ name }) => name).join(', ');
   return {
-    data: files || (open?.source === 'simulated' ? `simulated, ${open.name}` : 'no drive'),
+    data:
+      files ||
+      (state.source === 'live'
+        ? `live, ${state.server}`
+        : open?.source === 'simulated'
+          ? `simulated, ${open.name}`
+          : 'no drive'),
     settings: [
       `radar ${sensor.peek()?.id ?? 'none'}`,
       ...(open?.source === 'simulated' ? [`${state.duration} s, misaligned by ${state.misalignment}°`] : []),
@@ -117,6 +124,7 @@ export function MountingPage() {
   const problem = driveProblem.value;
   const open = loaded.value;
   const ColumnsDialog = columnsDialog.value;
+  const live = mountingState.value.source === 'live';
   return (
     <div class="page">
       <Controls />
@@ -141,12 +149,13 @@ export function MountingPage() {
             This drive does not say where the radar is: give its place ahead of the rear axle, under Radar.
           </p>
         )}
-        <Verdict />
+        {live ? <Live part="View" /> : <Verdict />}
         {open && <Summary />}
         {open && <TimeBar />}
         {open ? (
           <Plots />
         ) : (
+          !live &&
           !problem &&
           !filesWanted.value && (
             <div class="panel loading" role="status">

@@ -8,6 +8,7 @@ import { Licence } from '../../ui/licence.tsx';
 import { SeedField } from '../../ui/seed-field.tsx';
 import { Control } from './control.ts';
 import { chooseSource, driveProblem, loaded, shownFiles } from './drive.ts';
+import { Live } from './live.tsx';
 import { changeColumns, openFiles, tables } from './own-files.ts';
 import { mountingState, update } from './state.ts';
 import { Topics } from './topics.tsx';
@@ -29,14 +30,15 @@ export function Source() {
       <Control
         label="Drive"
         name="source"
-        only={['delphi', 'simulated']}
-        labels={{ delphi: 'bundled', files: 'own files' }}
-        help="The bundled drive is a car's front radar in traffic; a simulated one has a truth to compare with."
+        only={['delphi', 'simulated', 'live']}
+        labels={{ delphi: 'bundled', live: 'live server', files: 'own files' }}
+        help="The bundled drive is a car's front radar in traffic; a simulated one has a truth to compare with; a live server on this machine sends a drive as it goes on."
         onChange={(source) => {
           if (source !== 'files') chooseSource(source);
         }}
       />
       {state.source === 'simulated' && <Simulation />}
+      {state.source === 'live' && <Live part="Source" />}
       <div class={`drop${over.value ? ' over' : ''}`}>
         {files.length > 0 && (
           <ul class="files own" aria-label="Open files">

@@ -2,8 +2,9 @@
 import { signal } from '@preact/signals';
 import type { CalibrationOptions, DriveSensor } from 'boresight';
 import { optionsOf, percent } from '../../options.ts';
-import { choice, codec, flag, names, number, optional } from '../../state/codec.ts';
+import { choice, codec, flag, names, number, optional, text } from '../../state/codec.ts';
 import { seed } from '../../state/seed.ts';
+import { address } from './live/address.ts';
 import { WAYS, type Way } from './ways.ts';
 
 export const SPEEDS = ['0.5', '1', '2', '5', '10', '30'] as const;
@@ -12,9 +13,11 @@ const drive = optionsOf('SimulateDriveOptions');
 const calibration = optionsOf('CalibrationOptions');
 export const USUAL_SPEED = calibration.field('minSpeedMps').fallback;
 
+const topic = text('', (name) => name.length <= 200);
+
 export const mountingCodec = codec(
   {
-    source: choice('delphi', ['delphi', 'simulated', 'files']),
+    source: choice('delphi', ['delphi', 'simulated', 'live', 'files']),
     scenario: drive.field('scenario'),
     profile: drive.field('profile'),
     seed,
@@ -23,6 +26,13 @@ export const mountingCodec = codec(
     moving: percent(drive.maybe('movingShare')),
     /** Of all radars, and worth finding by default. The recursive method finds back from no farther. */
     misalignment: drive.field('misalignmentDeg.0', { fallback: 1.5, min: -20, max: 20 }),
+    /** The live server's address, and its topics; empty for the first that fits. */
+    server: address,
+    scanTopic: topic,
+    motionTopic: topic,
+    /** Where azimuths and range rates of its scans are positive. */
+    azimuthSign: choice('left', ['left', 'right']),
+    rangeRateSign: choice('receding', ['receding', 'closing']),
     /** The radar's number; null for the first. */
     sensor: optional(number(0, [0, 255], 'integer')),
     methods: names<Way>(['recursive', 'weighted-mean', 'least-squares'], WAYS),
@@ -61,8 +71,8 @@ export const mountingState = signal<MountingState>(defaults);
 
 /** Back to the settings of a fresh visit; the drive stays. */
 export function restoreDefaults(): void {
-  const { source, scenario, profile, seed, duration, moving, misalignment } = mountingState.value;
-  mountingState.value = { ...defaults, source, scenario, profile, seed, duration, moving, misalignment };
+  const { source, scenario, profile, seed, duration, moving, misalignment, server } = mountingState.value;
+  mountingState.value = { ...defaults, source, scenario, profile, seed, duration, moving, misalignment, server };
 }
 
 export function update(patch: Partial<MountingState>): void {

@@ -12,19 +12,20 @@ const APART = 3;
 /** Whether a drive tells the angle at all. */
 export const determined = ({ sigmaDeg }: CalibrationResult): boolean => Number.isFinite(sigmaDeg);
 
-interface Told {
+export interface Told {
   way: Way;
   result: CalibrationResult;
 }
 
+/** What is wrong where frames of files have no motion. */
+const NO_MOTION =
+  'the files have no motion at the time of the frames: add a table with time_s, yaw_rate_degps and speed_mps';
+
 /** In words why no method has an angle. */
-function whyNone(result: CalibrationResult): string {
+function whyNone(result: CalibrationResult, noMotion: string): string {
   const { frames } = result;
   const reasons: [keyof typeof frames, string][] = [
-    [
-      'withoutMotion',
-      'the files have no motion at the time of the frames: add a table with time_s, yaw_rate_degps and speed_mps',
-    ],
+    ['withoutMotion', noMotion],
     ['standing', 'the car stood'],
     ['slow', 'the car was slower than the slowest speed under “Frames and noise”'],
     ['turning', 'the car turned faster than the limit under “Frames and noise”'],
@@ -38,18 +39,22 @@ function whyNone(result: CalibrationResult): string {
 type Kind = 'none' | 'open' | 'good' | 'off' | 'awaited';
 
 /** What there is to say in a line, why, and whether it is to be acted on. */
-interface Said {
+export interface Said {
   kind: Kind;
   head: string;
   why: string;
 }
 
-function verdictOf(told: readonly Told[]): Said {
+export function verdictOf(told: readonly Told[], nominal: number | null | undefined, noMotion = NO_MOTION): Said {
   const first = told[0] as Told;
   const best =
     told.find(({ result }) => determined(result) && result.converged) ?? told.find((one) => determined(one.result));
   if (!best) {
-    return { kind: 'none', head: 'No angle: the drive does not tell it.', why: `${sentence(whyNone(first.result))}.` };
+    return {
+      kind: 'none',
+      head: 'No angle: the drive does not tell it.',
+      why: `${sentence(whyNone(first.result, noMotion))}.`,
+    };
   }
   const { way, result } = best;
   const angle = `${signed(result.angleDeg, 2)}° ± ${fixed(result.sigmaDeg, 2)}°`;
@@ -60,7 +65,6 @@ function verdictOf(told: readonly Told[]): Said {
       why: `By ${about(way).title}. A longer drive helps, above all one with curves and at more speed.`,
     };
   }
-  const nominal = where.value?.nominalDeg;
   const allowed = `${fixed(mountingState.value.alarm, 2)}°`;
   const words = (nominal: number) => ({
     misaligned: `: misaligned, ${fixed(Math.abs(result.angleDeg - nominal), 2)}° from its nominal ${signed(nominal, 2)}°, where ${allowed} are allowed.`,
@@ -110,7 +114,10 @@ export function Verdict() {
     const result = one?.stale ? undefined : one?.calibration?.result;
     return result ? [{ way, result }] : [];
   });
-  const said = told.length ? verdictOf(told) : awaited();
+  return <VerdictPanel said={told.length ? verdictOf(told, where.value?.nominalDeg) : awaited()} />;
+}
+
+export function VerdictPanel({ said }: { said: Said | null }) {
   if (!said) return null;
   return (
     <section class={`panel verdict ${said.kind}`} aria-label="Verdict" data-verdict={said.kind}>
