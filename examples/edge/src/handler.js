@@ -20,9 +20,13 @@ const paths = [...new Set(routes.map(({ path }) => path))].map((path) => ({
   methods: routes.filter((route) => route.path === path),
 }));
 
-/** What a path is of, and the names in it. @param {string} pathname */
-function matched(pathname) {
-  const given = pathname.split('/');
+/** What a request's path is of, and the names in it. @param {string} url */
+function matched(url) {
+  // A host may be one that no address has.
+  if (!URL.canParse(url)) {
+    throw new Problem(400, 'malformed-url', { what: 'the address', expected: 'a host and a path', given: 'something else' });
+  }
+  const given = new URL(url).pathname.split('/');
   const found = paths.find(
     ({ parts }) =>
       parts.length === given.length && parts.every((part, i) => (part.startsWith('{') ? given[i] : part === given[i])),
@@ -56,7 +60,7 @@ export function handlerOf(service, now = Date.now) {
 
   /** @param {Request} request */
   async function answer(request) {
-    const { methods, names } = matched(new URL(request.url).pathname);
+    const { methods, names } = matched(request.url);
     const allowed = [...methods.map(({ method }) => method), ...(methods.some(({ method }) => method === 'GET') ? ['HEAD'] : []), 'OPTIONS'];
     const allow = allowed.join(', ');
     if (request.method === 'OPTIONS') {

@@ -1,4 +1,4 @@
-// `npm test -- [--runtimes node,workerd] [--only kill,hostile,...]`: what the service is held to, on each runtime.
+// After `npm run build`: `npm test -- [--runtimes node,workerd] [--only kill,hostile,...]`: what the service is held to, on each runtime.
 import { parseArgs } from 'node:util';
 import { hostile } from './hostile.mjs';
 import { killed } from './kill.mjs';
