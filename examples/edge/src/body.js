@@ -1,7 +1,26 @@
 /** Bodies, read in pieces that come within a time and up to a size. */
 import { Problem } from './reply.js';
 
-const TICK = Symbol('the time is over');
+const LATE = Symbol('the time is over');
+/** Pieces that are there already are taken together up to so many bytes: what is kept is kept once for all of them. */
+const TOGETHER = 1 << 17;
+
+/**
+ * What comes within a time, or that it is over.
+ *
+ * @template T
+ * @param {Promise<T>} promise
+ * @param {number} ms
+ * @returns {Promise<T | typeof LATE>}
+ */
+function within(promise, ms) {
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  const late = new Promise((resolve) => {
+    timer = setTimeout(resolve, ms, LATE);
+  });
+  return Promise.race([promise, late]).finally(() => clearTimeout(timer));
+}
 
 /**
  * The pieces of a body as they come.
@@ -13,33 +32,37 @@ const TICK = Symbol('the time is over');
 export async function* pieces(request, idleS) {
   const reader = request.body?.getReader();
   if (!reader) return;
-  let whole = false;
+  const next = () => {
+    const reading = reader.read().catch(() => {
+      throw new Problem(400, 'cut', { what: 'the body', expected: 'all of it', given: 'cut short' });
+    });
+    // What goes wrong is seen when it is asked for, which may be later.
+    reading.catch(() => {});
+    return reading;
+  };
+  let reading = next();
   try {
     for (;;) {
-      /** @type {ReturnType<typeof setTimeout> | undefined} */
-      let timer;
-      const late = new Promise((resolve) => {
-        timer = setTimeout(resolve, idleS * 1000, TICK);
-      });
-      const reading = reader.read();
-      const read = await Promise.race([reading, late]).catch(() => {
-        throw new Problem(400, 'cut', { what: 'the body', expected: 'all of it', given: 'cut short' });
-      });
-      clearTimeout(timer);
-      if (read === TICK) {
-        reading.catch(() => {});
+      let read = await within(reading, idleS * 1000);
+      if (read === LATE) {
         const details = { what: 'the body', expected: `a piece every ${idleS} s`, given: 'none' };
         throw new Problem(408, 'too-slow', details, { headers: { connection: 'close' } });
       }
-      const { done, value } = /** @type {ReadableStreamReadResult<Uint8Array>} */ (read);
-      if (done) {
-        whole = true;
-        return;
+      const parts = [];
+      let length = 0;
+      while (read !== LATE && !read.done) {
+        parts.push(read.value);
+        length += read.value.length;
+        reading = next();
+        if (length >= TOGETHER) break;
+        // An error waits for its turn, after what came before it.
+        read = await within(reading, 0).catch(() => LATE);
       }
-      yield value;
+      if (length > 0) yield joined(parts, length);
+      if (read !== LATE && read.done) return;
     }
   } finally {
-    if (!whole) reader.cancel().catch(() => {});
+    reader.cancel().catch(() => {});
   }
 }
 

@@ -43,7 +43,7 @@ const server = serve({
   silent: true,
   // A request may last for days; body.js ends one that says nothing.
   node: { requestTimeout: 0 },
-  bun: { idleTimeout: 120 },
+  bun: { idleTimeout: 120, maxRequestBodySize: Number.MAX_SAFE_INTEGER },
 });
 await server.ready();
 console.log(`listening on ${server.url}`);

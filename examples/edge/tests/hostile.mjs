@@ -271,7 +271,11 @@ export async function hostile(runtime, { requests = 10_000, seed = 1, atOnce = 8
         assert.equal(json.accepted, 1);
       }
     };
+    const stalled = Object.values(TARGETS).map((target) =>
+      raw(service.url, `POST ${target}\r\n${AUTHORIZED}\r\nContent-Length: 5000\r\n\r\n{`, false),
+    );
     await Promise.all([...Array.from({ length: atOnce }, attack), honest()]);
+    assert.deepEqual(await Promise.all(stalled), ['408', '408']);
     const { json } = await service.about('victim');
     const [radar] = json.radars;
     assert.deepEqual(radar.result, await reference(all));
