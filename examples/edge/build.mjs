@@ -1,13 +1,18 @@
 // The page in one module, dist/page.js, and the worker with its modules of WebAssembly, dist/worker.
 import { copyFileSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { basename, dirname, join } from 'node:path';
+import { basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 const common = { bundle: true, format: 'esm', target: 'es2022', minify: true, logLevel: 'warning', write: true };
 
-await build({ ...common, entryPoints: [here('page/page.js')], outfile: here('dist/page/page.js'), external: ['node:*'] });
+await build({
+  ...common,
+  entryPoints: [here('page/page.js')],
+  outfile: here('dist/page/page.js'),
+  external: ['node:*'],
+});
 const types = { html: 'text/html', js: 'text/javascript', css: 'text/css' };
 const files = {
   '/': { type: types.html, text: readFileSync(here('page/index.html'), 'utf8') },

@@ -52,14 +52,16 @@ const gravest = (/** @type {{ alignment: string | null }[]} */ radars) =>
   GRAVITY[Math.max(0, ...radars.map(({ alignment }) => GRAVITY.indexOf(alignment ?? 'none')))] ?? 'none';
 const degrees = (/** @type {number | null} */ value) => (value === null ? '–' : `${value.toFixed(2)}°`);
 const count = (/** @type {number} */ value) => value.toLocaleString('en');
-const total = (/** @type {Record<string, number>} */ counts) => Object.values(counts).reduce((sum, one) => sum + one, 0);
+const total = (/** @type {Record<string, number>} */ counts) =>
+  Object.values(counts).reduce((sum, one) => sum + one, 0);
 
 /** @param {{ vehicle: string, radars: any[] }[]} vehicles */
 function showList(vehicles) {
   none.hidden = vehicles.length > 0;
   const links = new Map([...list.children].map((item) => [item.dataset.vehicle, item]));
   for (const { vehicle, radars } of vehicles) {
-    const item = links.get(vehicle) ?? made('li', {}, made('a', {}, made('span', { textContent: vehicle }), made('span')));
+    const item =
+      links.get(vehicle) ?? made('li', {}, made('a', {}, made('span', { textContent: vehicle }), made('span')));
     links.delete(vehicle);
     item.dataset.vehicle = vehicle;
     const [link] = item.children;
@@ -92,7 +94,19 @@ function showVehicle(given) {
     section.dataset.vehicle = vehicle;
   }
   const cards = new Map([...section.querySelectorAll('article')].map((one) => [one.dataset.radar, one]));
-  for (const { radar, nominalDeg, alarmDeg, alignment, history, frames, detections, repeated, refused, verdicts, result } of radars) {
+  for (const {
+    radar,
+    nominalDeg,
+    alarmDeg,
+    alignment,
+    history,
+    frames,
+    detections,
+    repeated,
+    refused,
+    verdicts,
+    result,
+  } of radars) {
     const article = cards.get(radar) ?? card(radar);
     cards.delete(radar);
     const [plot, facts] = article.children;
@@ -144,7 +158,10 @@ async function update() {
     showList(vehicles);
     showVehicle(vehicle);
     if (chosen() && !known) say(`There is no vehicle ${chosen()}.`, true);
-    else say(`${vehicles.length} ${vehicles.length === 1 ? 'vehicle' : 'vehicles'}, as of ${new Date().toLocaleTimeString()}`);
+    else
+      say(
+        `${vehicles.length} ${vehicles.length === 1 ? 'vehicle' : 'vehicles'}, as of ${new Date().toLocaleTimeString()}`,
+      );
   } catch (error) {
     if (mine !== turn) return;
     if (error.status === 401) return enter('This token is not one of a tenant.');

@@ -32,7 +32,10 @@ function only(given, names, what) {
 function complex(what, given) {
   if (!isObject(given)) throw wrongType(what, 'data and shape', given);
   only(given, ['data', 'shape'], what);
-  return { data: numbers(`${what}.data`, given.data, Number.POSITIVE_INFINITY), shape: /** @type {any} */ (given.shape) };
+  return {
+    data: numbers(`${what}.data`, given.data, Number.POSITIVE_INFINITY),
+    shape: /** @type {any} */ (given.shape),
+  };
 }
 
 /** Angles of snapshots or of a covariance. @param {Request} request @param {Limits} limits */
@@ -59,7 +62,8 @@ export async function detections(request, limits) {
     });
   const part = async (/** @type {string} */ name) => {
     const value = form.get(name);
-    if (value === null) throw new Problem(422, 'missing', { what: name, expected: 'a part of the form', given: 'none' });
+    if (value === null)
+      throw new Problem(422, 'missing', { what: name, expected: 'a part of the form', given: 'none' });
     return typeof value === 'string' ? new TextEncoder().encode(value) : new Uint8Array(await value.arrayBuffer());
   };
   const [capture, config] = [await part('capture'), await part('config')];

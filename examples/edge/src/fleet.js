@@ -19,23 +19,23 @@ export class Fleet {
   }
 
   /** Whether a tenant may have this vehicle. @param {string} vehicle @param {number} most */
-  admit(vehicle, most) {
+  async admit(vehicle, most) {
     const told = this.#load();
     if (!told.has(vehicle) && told.size >= most) return false;
-    if (!told.has(vehicle)) this.tell(vehicle, { receivedMs: Date.now(), refused: {}, radars: [] });
+    if (!told.has(vehicle)) await this.tell(vehicle, { receivedMs: Date.now(), refused: {}, radars: [] });
     return true;
   }
 
   /** @param {string} vehicle @param {Told} told */
   tell(vehicle, told) {
-    this.#storage.write([[vehicle, pack(told)]]);
     this.#load().set(vehicle, told);
+    return this.#storage.write([[vehicle, pack(told)]]);
   }
 
   /** @param {string} vehicle */
   forget(vehicle) {
-    this.#storage.write([[vehicle, null]]);
     this.#load().delete(vehicle);
+    return this.#storage.write([[vehicle, null]]);
   }
 
   vehicles() {

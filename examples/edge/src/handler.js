@@ -24,7 +24,11 @@ const paths = [...new Set(routes.map(({ path }) => path))].map((path) => ({
 function matched(url) {
   // A host may be one that no address has.
   if (!URL.canParse(url)) {
-    throw new Problem(400, 'malformed-url', { what: 'the address', expected: 'a host and a path', given: 'something else' });
+    throw new Problem(400, 'malformed-url', {
+      what: 'the address',
+      expected: 'a host and a path',
+      given: 'something else',
+    });
   }
   const given = new URL(url).pathname.split('/');
   const found = paths.find(
@@ -32,7 +36,9 @@ function matched(url) {
       parts.length === given.length && parts.every((part, i) => (part.startsWith('{') ? given[i] : part === given[i])),
   );
   if (!found) throw new Problem(404, 'not-found', { what: 'path', expected: 'one of /openapi.json', given: 'another' });
-  const names = found.parts.flatMap((part, i) => (part.startsWith('{') ? [[part.slice(1, -1), named(given[i] ?? '')]] : []));
+  const names = found.parts.flatMap((part, i) =>
+    part.startsWith('{') ? [[part.slice(1, -1), named(given[i] ?? '')]] : [],
+  );
   return { methods: found.methods, names: Object.fromEntries(names) };
 }
 
@@ -61,7 +67,11 @@ export function handlerOf(service, now = Date.now) {
   /** @param {Request} request */
   async function answer(request) {
     const { methods, names } = matched(request.url);
-    const allowed = [...methods.map(({ method }) => method), ...(methods.some(({ method }) => method === 'GET') ? ['HEAD'] : []), 'OPTIONS'];
+    const allowed = [
+      ...methods.map(({ method }) => method),
+      ...(methods.some(({ method }) => method === 'GET') ? ['HEAD'] : []),
+      'OPTIONS',
+    ];
     const allow = allowed.join(', ');
     if (request.method === 'OPTIONS') {
       return new Response(null, {
@@ -83,7 +93,11 @@ export function handlerOf(service, now = Date.now) {
     if (!route.role) return route.run({ request, names, tenant: '', service });
     const { tenant, role } = await tenantOf(request);
     if (route.role === 'write' && role === 'read') {
-      throw new Problem(403, 'forbidden', { what: 'the token', expected: 'one that may write', given: 'one that reads' });
+      throw new Problem(403, 'forbidden', {
+        what: 'the token',
+        expected: 'one that may write',
+        given: 'one that reads',
+      });
     }
     const state = tenants.get(tenant) ?? { bucket: new Bucket(limits.requests, now()), open: 0 };
     tenants.set(tenant, state);

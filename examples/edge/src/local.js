@@ -61,8 +61,8 @@ export class Objects {
     const storage = this.#database.open(this.#prefix + name);
     return {
       ...storage,
-      setAlarm: (/** @type {number} */ atMs) => {
-        storage.setAlarm(atMs);
+      setAlarm: async (/** @type {number} */ atMs) => {
+        await storage.setAlarm(atMs);
         this.#wake(name, atMs);
       },
     };

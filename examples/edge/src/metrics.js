@@ -22,7 +22,12 @@ const OF_RADARS = [
     (r) => [[{}, r.sigmaDeg ?? Number.POSITIVE_INFINITY]],
   ],
   ['boresight_nominal_angle_degrees', 'gauge', 'Angle the radar should have.', (r) => [[{}, r.nominalDeg]]],
-  ['boresight_alarm_limit_degrees', 'gauge', 'Limit of the alarm.', (r) => [[{}, r.nominalDeg === null ? null : r.alarmDeg]]],
+  [
+    'boresight_alarm_limit_degrees',
+    'gauge',
+    'Limit of the alarm.',
+    (r) => [[{}, r.nominalDeg === null ? null : r.alarmDeg]],
+  ],
   [
     'boresight_misaligned',
     'gauge',
@@ -65,7 +70,8 @@ const ESCAPES = /** @type {Record<string, string>} */ ({ '\\': '\\\\', '"': '\\"
 const escaped = (/** @type {string} */ value) => value.replace(/[\\"\n]/g, (character) => ESCAPES[character] ?? '');
 
 /** @param {number} value */
-const written = (value) => (Number.isFinite(value) ? String(value) : Number.isNaN(value) ? 'NaN' : value > 0 ? '+Inf' : '-Inf');
+const written = (value) =>
+  Number.isFinite(value) ? String(value) : Number.isNaN(value) ? 'NaN' : value > 0 ? '+Inf' : '-Inf';
 
 /** @param {Vehicles} vehicles */
 export function openMetrics(vehicles) {

@@ -112,10 +112,10 @@ export class Radar {
     return changes;
   }
 
-  /** Says that what {@link kept} gave is kept. */
-  settled() {
-    this.#changed = false;
-    this.history.changed = false;
+  /** Says that what {@link kept} gave is kept, or is not. @param {boolean} settled */
+  settle(settled) {
+    this.#changed = !settled;
+    this.history.changed = !settled;
   }
 
   /** What a fleet is told. */

@@ -40,7 +40,8 @@ export const routes = [
     method: 'POST',
     path: '/v1/capture',
     role: 'write',
-    summary: "Detections of a frame of a capture: a form with the board's bytes (capture), its .cfg (config) and options.",
+    summary:
+      "Detections of a frame of a capture: a form with the board's bytes (capture), its .cfg (config) and options.",
     takes: ['multipart/form-data'],
     gives: [JSON_TYPE],
     run: ({ request, service }) => detections(request, service.config.limits),

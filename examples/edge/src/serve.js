@@ -14,7 +14,12 @@ import { openSqlite } from './storage/sqlite.js';
 import { Vehicle } from './vehicle.js';
 
 const here = fileURLToPath(new URL('..', import.meta.url));
-const { PORT = '8080', HOST = '127.0.0.1', CONFIG = join(here, 'config.json'), DATA = join(here, 'data') } = process.env;
+const {
+  PORT = '8080',
+  HOST = '127.0.0.1',
+  CONFIG = join(here, 'config.json'),
+  DATA = join(here, 'data'),
+} = process.env;
 
 const config = configOf(readFileSync(CONFIG, 'utf8'));
 mkdirSync(DATA, { recursive: true });

@@ -30,6 +30,8 @@ export class Vehicle {
   #toldMs = 0;
   /** @type {number | null | undefined} */
   #alarmMs;
+  /** The last write, whatever becomes of it. @type {Promise<void>} */
+  #written = Promise.resolve();
 
   /**
    * @param {import('./storage/storage.js').Storage} storage
@@ -78,9 +80,11 @@ export class Vehicle {
 
   /** @param {Ask} ask */
   describe({ vehicle }) {
-    const { head, radars } = this.#known();
-    const { receivedMs, refused } = head;
-    return { vehicle, receivedMs, refused, radars: [...radars.values()].map((radar) => radar.describe()) };
+    return this.#steadily(() => {
+      const { head, radars } = this.#known();
+      const { receivedMs, refused } = head;
+      return json({ vehicle, receivedMs, refused, radars: [...radars.values()].map((radar) => radar.describe()) });
+    });
   }
 
   /**
@@ -106,9 +110,9 @@ export class Vehicle {
       problem.also.stored = tally;
       throw problem;
     } finally {
-      await this.#tellSoon(true);
+      await this.#tellSoon(true).catch((error) => console.error(error));
     }
-    const radars = [...this.#known().radars.values()].map((radar) => radar.summary());
+    const radars = await this.#steadily(() => this.#summaries());
     const status = tally.refused > 0 && tally.accepted + tally.repeated === 0 ? 422 : 200;
     return json({ ...tally, radars }, status);
   }
@@ -135,7 +139,10 @@ export class Vehicle {
     const before = radars.get(name);
     if (before) {
       made.free();
-      if (JSON.stringify(before.options) === JSON.stringify(made.options)) return json(before.summary());
+      if (JSON.stringify(before.options) === JSON.stringify(made.options)) {
+        if (head) await this.#commit(head);
+        return json(before.summary());
+      }
       const expected = 'the options that it was begun with; delete it to begin anew';
       throw new Problem(409, 'exists', { what: `radar ${name}`, expected, given: 'others' });
     }
@@ -145,7 +152,7 @@ export class Vehicle {
       throw new Problem(409, 'too-many', { what: 'radars', expected, given: 'one more' });
     }
     radars.set(name, made);
-    this.#commit(head ?? { tenant, vehicle, receivedMs: this.#now(), refused: {} });
+    await this.#commit(head ?? { tenant, vehicle, receivedMs: this.#now(), refused: {} });
     await this.#tellSoon(true);
     return json(made.summary(), 201);
   }
@@ -155,12 +162,12 @@ export class Vehicle {
     const { head, radars } = this.#known();
     const radar = radars.get(name);
     if (!radar) throw new Problem(404, 'not-found', { what: 'radar', expected: 'one of the vehicle', given: name });
-    this.#storage.write([
+    radars.delete(name);
+    radar.free();
+    await this.#storage.write([
       [`radar/${name}`, null],
       [`history/${name}`, null],
     ]);
-    radars.delete(name);
-    radar.free();
     await this.#tell(head);
     return new Response(null, { status: 204 });
   }
@@ -169,8 +176,9 @@ export class Vehicle {
   async forget({ tenant, vehicle }) {
     const { head } = this.#load();
     this.rest();
+    this.#state = { head: null, radars: new Map() };
     this.#alarmMs = undefined;
-    this.#storage.clear();
+    await this.#storage.clear();
     await (await this.#fleetOf(tenant)).forget(vehicle);
     if (!head) throw new Problem(404, 'not-found', { what: 'vehicle', expected: 'a known one', given: vehicle });
     return new Response(null, { status: 204 });
@@ -180,27 +188,43 @@ export class Vehicle {
   async #takeLines(lines, tally) {
     if (lines.length === 0) return;
     this.#lines.take(lines.length, this.#now(), 'frames of the vehicle');
-    /** Lines at which boresight stopped: what is kept is restored, and the rest taken without them. @type {Set<number>} */
+    /** Lines at which boresight stopped: the rest is taken without them. @type {Set<number>} */
     const fatal = new Set();
-    for (;;) {
+    const counted = await this.#steadily(async () => {
+      const { tally, kept } = this.#takeAtOnce(lines, fatal);
+      await kept;
+      return tally;
+    });
+    tally.accepted += counted.accepted;
+    tally.repeated += counted.repeated;
+    tally.refused += counted.refused;
+    tally.problems.push(...counted.problems.slice(0, TOLD - tally.problems.length));
+  }
+
+  /**
+   * Does something with the calibrations. Where boresight stopped, they are restored from what is kept, and it is done again.
+   *
+   * @template T
+   * @param {() => T | Promise<T>} work
+   * @returns {Promise<T>}
+   */
+  async #steadily(work) {
+    for (let left = 8; ; left--) {
       try {
-        const counted = this.#takeAtOnce(lines, fatal);
-        tally.accepted += counted.accepted;
-        tally.repeated += counted.repeated;
-        tally.refused += counted.refused;
-        tally.problems.push(...counted.problems.slice(0, TOLD - tally.problems.length));
-        return;
+        return await work();
       } catch (error) {
-        // What is in memory is ahead of what is kept, or of an instance that is gone.
-        this.rest();
-        if (!isBoresightError(error) || !['trap', 'handle-stale'].includes(error.code)) throw error;
+        if (left === 0 || !isBoresightError(error) || !['trap', 'handle-stale'].includes(error.code)) throw error;
+        const stopped = this.#state;
+        await this.#written;
+        // Another request may have brought them back meanwhile.
+        if (this.#state === stopped) this.rest();
         await initDrives();
       }
     }
   }
 
   /**
-   * Takes lines and keeps what came of them: all of it or nothing, with no other request in between.
+   * Takes lines with no other request in between, and has what came of them kept: all of it or nothing.
    *
    * @param {ReturnType<Lines['push']>} lines
    * @param {Set<number>} fatal
@@ -228,10 +252,8 @@ export class Vehicle {
         if (tally.problems.length < TOLD) tally.problems.push({ line: line.number, ...problem.toJSON() });
       }
     }
-    if (tally.accepted + tally.repeated + tally.refused > 0) {
-      this.#commit({ ...head, receivedMs: this.#now(), refused });
-    }
-    return tally;
+    const any = tally.accepted + tally.repeated + tally.refused > 0;
+    return { tally, kept: any ? this.#commit({ ...head, receivedMs: this.#now(), refused }) : undefined };
   }
 
   /**
@@ -282,19 +304,25 @@ export class Vehicle {
     throw new Problem(404, 'not-found', { what: 'vehicle', expected, given: 'an unknown one' });
   }
 
-  /** @param {Head} head */
+  #summaries() {
+    return [...this.#load().radars.values()].map((radar) => radar.summary());
+  }
+
+  /** Keeps what changed. Where that fails, it is kept with what changes next. @param {Head} head */
   #commit(head) {
-    const { radars } = this.#load();
-    const changes = [...radars.values()].flatMap((radar) => radar.kept());
-    try {
-      this.#storage.write([['vehicle', pack(head)], ...changes]);
-    } catch (error) {
+    const state = this.#load();
+    const radars = [...state.radars.values()];
+    const changes = radars.flatMap((radar) => radar.kept());
+    for (const radar of radars) radar.settle(true);
+    state.head = head;
+    const written = (async () => this.#storage.write([['vehicle', pack(head)], ...changes]))();
+    this.#written = written.catch((error) => {
       console.error(error);
-      this.rest();
+      for (const radar of radars) radar.settle(false);
+    });
+    return written.catch(() => {
       throw new Problem(503, 'not-stored', { what: 'the storage', expected: 'to take frames', given: 'an error' });
-    }
-    for (const radar of radars.values()) radar.settled();
-    this.#state = { head, radars };
+    });
   }
 
   /** Tells the fleet now, if that was not done lately; else a little later, where `later` says so. @param {boolean} later */
@@ -310,7 +338,7 @@ export class Vehicle {
   async #tell(head) {
     this.#toldMs = this.#now();
     const { tenant, vehicle, receivedMs, refused } = head;
-    const radars = [...this.#load().radars.values()].map((radar) => radar.summary());
+    const radars = await this.#steadily(() => this.#summaries());
     let nextMs = receivedMs + this.#config.retentionDays * DAY_MS;
     try {
       await (await this.#fleetOf(tenant)).tell(vehicle, { receivedMs, refused, radars });
@@ -333,7 +361,7 @@ export class Vehicle {
 /** What can be asked of a vehicle. */
 const actions = {
   /** @param {Vehicle} vehicle @param {Ask} ask */
-  describe: (vehicle, ask) => json(vehicle.describe(ask)),
+  describe: (vehicle, ask) => vehicle.describe(ask),
   /** @param {Vehicle} vehicle @param {Ask} _ @param {Request} request */
   take: (vehicle, _, request) => vehicle.take(request),
   /** @param {Vehicle} vehicle @param {Ask} ask @param {Request} request */

@@ -21,7 +21,9 @@ export class VehicleObject extends DurableObject {
   /** @param {any} context @param {Bindings} env */
   constructor(context, env) {
     super(context, env);
-    this.#vehicle = new Vehicle(durableStorage(context), configOf(env.CONFIG), (tenant) => objectOf(env.FLEETS, tenant));
+    this.#vehicle = new Vehicle(durableStorage(context), configOf(env.CONFIG), (tenant) =>
+      objectOf(env.FLEETS, tenant),
+    );
   }
 
   /** @param {Request} request */

@@ -5,7 +5,9 @@ import { killed } from './kill.mjs';
 import { RUNTIMES } from './lib/service.mjs';
 import { cpu, load, memory } from './measure.mjs';
 
-const { values } = parseArgs({ options: { runtimes: { type: 'string' }, only: { type: 'string' }, with: { type: 'string' } } });
+const { values } = parseArgs({
+  options: { runtimes: { type: 'string' }, only: { type: 'string' }, with: { type: 'string' } },
+});
 const parts = { kill: killed, hostile, cpu, memory, load };
 for (const name of values.only?.split(',') ?? Object.keys(parts)) {
   for (const runtime of values.runtimes?.split(',') ?? RUNTIMES) {

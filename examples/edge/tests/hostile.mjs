@@ -25,7 +25,25 @@ const FRAMES = '/v1/vehicles/intruder/frames';
 const JSON_TYPE = { 'content-type': 'application/json' };
 const NDJSON = { 'content-type': 'application/x-ndjson' };
 
-const VALUES = [null, true, -1, 0, 1e308, -1e308, 5e-324, 1e21, '', 'NaN', '\u0000', '🚗'.repeat(50), [], {}, [[]], [null], { length: 1e9 }];
+const VALUES = [
+  null,
+  true,
+  -1,
+  0,
+  1e308,
+  -1e308,
+  5e-324,
+  1e21,
+  '',
+  'NaN',
+  '\u0000',
+  '🚗'.repeat(50),
+  [],
+  {},
+  [[]],
+  [null],
+  { length: 1e9 },
+];
 /** JSON that is none, or that is more than one bargained for. */
 const TEXTS = [
   '',
@@ -138,29 +156,62 @@ const KINDS = {
     path: FRAMES,
     method: 'POST',
     headers: NDJSON,
-    body: Array.from({ length: random.below(8) }, () => `${nearFrame(random)}${random.one(['\n', '\r\n', '\n\n'])}`).join(''),
+    body: Array.from(
+      { length: random.below(8) },
+      () => `${nearFrame(random)}${random.one(['\n', '\r\n', '\n\n'])}`,
+    ).join(''),
   }),
   lines: ({ one, bytes, below }) => ({
     path: FRAMES,
     method: 'POST',
     headers: NDJSON,
-    body: one([one(TEXTS), '\n'.repeat(below(5000)), bytes(below(3000)), 'x'.repeat(100_000), '\r', '\u2028', '{"radar":"front"'.repeat(100)]),
+    body: one([
+      one(TEXTS),
+      '\n'.repeat(below(5000)),
+      bytes(below(3000)),
+      'x'.repeat(100_000),
+      '\r',
+      '\u2028',
+      '{"radar":"front"'.repeat(100),
+    ]),
   }),
   options: (random) => ({
     path: `/v1/vehicles/${random.one(['intruder', 'intruder', '%F0%9F%9A%97', 'a%22b%5Cc'])}/radars/${random.one(['front', 'r1', 'r2', '%22', '..', ''])}`,
     method: random.one(['PUT', 'PUT', 'PUT', 'DELETE']),
     headers: JSON_TYPE,
-    body: JSON.stringify(nearOptions(random, ['xM', 'yM', 'nominalDeg', 'alarmDeg', 'method', 'motion', 'network', 'memoryS', 'zzz'])),
+    body: JSON.stringify(
+      nearOptions(random, ['xM', 'yM', 'nominalDeg', 'alarmDeg', 'method', 'motion', 'network', 'memoryS', 'zzz']),
+    ),
   }),
   tokens: ({ one, bytes }) => ({
-    path: one(['/v1/vehicles/victim', '/v1/vehicles', '/metrics', '/v1/vehicles/victim/radars/front', '/v1/vehicles/victim/frames']),
+    path: one([
+      '/v1/vehicles/victim',
+      '/v1/vehicles',
+      '/metrics',
+      '/v1/vehicles/victim/radars/front',
+      '/v1/vehicles/victim/frames',
+    ]),
     method: one(['GET', 'DELETE', 'POST', 'PUT']),
     body: '{}',
-    token: one([null, 'x', `${TOKENS.write}x`, TOKENS.write.slice(1), TOKENS.other, 'a'.repeat(5000), Buffer.from(bytes(40)).toString('base64'), `${TOKENS.write} ${TOKENS.write}`]),
+    token: one([
+      null,
+      'x',
+      `${TOKENS.write}x`,
+      TOKENS.write.slice(1),
+      TOKENS.other,
+      'a'.repeat(5000),
+      Buffer.from(bytes(40)).toString('base64'),
+      `${TOKENS.write} ${TOKENS.write}`,
+    ]),
     headers: one([JSON_TYPE, NDJSON, { authorization: 'Basic dGVzdDp0ZXN0' }]),
   }),
   readers: ({ one }) => ({
-    path: one(['/v1/vehicles/victim', '/v1/vehicles/victim/radars/front', '/v1/vehicles/victim/frames', '/v1/estimate']),
+    path: one([
+      '/v1/vehicles/victim',
+      '/v1/vehicles/victim/radars/front',
+      '/v1/vehicles/victim/frames',
+      '/v1/estimate',
+    ]),
     method: one(['DELETE', 'POST', 'PUT']),
     body: '{}',
     token: TOKENS.read,
@@ -176,14 +227,33 @@ const KINDS = {
     path: one(['/v1/estimate', '/v1/capture', FRAMES]),
     method: 'POST',
     body: '{}',
-    headers: one([{ 'content-type': 'text/plain' }, { 'content-type': 'multipart/form-data' }, { 'content-type': 'multipart/form-data; boundary=' }, { ...JSON_TYPE, 'content-encoding': 'gzip' }, { 'content-type': ',;=' }, { 'content-type': 'x'.repeat(4000) }]),
+    headers: one([
+      { 'content-type': 'text/plain' },
+      { 'content-type': 'multipart/form-data' },
+      { 'content-type': 'multipart/form-data; boundary=' },
+      { ...JSON_TYPE, 'content-encoding': 'gzip' },
+      { 'content-type': ',;=' },
+      { 'content-type': 'x'.repeat(4000) },
+    ]),
   }),
   capture: ({ one, bytes, below, next }) => {
     const form = new FormData();
-    const config = ['sensorStop', 'channelCfg 15 5 0', 'profileCfg 0 77 7 7 58 0 0 68 1 256 5500 0 0 30', 'frameCfg 0 1 32 0 100 1 0', one(TEXTS).slice(0, 200)].filter(() => next() < 0.8).join('\n');
+    const config = [
+      'sensorStop',
+      'channelCfg 15 5 0',
+      'profileCfg 0 77 7 7 58 0 0 68 1 256 5500 0 0 30',
+      'frameCfg 0 1 32 0 100 1 0',
+      one(TEXTS).slice(0, 200),
+    ]
+      .filter(() => next() < 0.8)
+      .join('\n');
     form.set('capture', new Blob([bytes(one([0, 1, 100, 5000]))]), 'x.bin');
     if (next() < 0.9) form.set('config', one([config, new Blob([bytes(100)])]));
-    if (next() < 0.5) form.set('options', one([one(TEXTS).slice(0, 50_000), JSON.stringify({ frame: one(VALUES), cfar: one(VALUES) })]));
+    if (next() < 0.5)
+      form.set(
+        'options',
+        one([one(TEXTS).slice(0, 50_000), JSON.stringify({ frame: one(VALUES), cfar: one(VALUES) })]),
+      );
     for (let i = below(3); i > 0; i--) form.append('x', 'y');
     return { path: '/v1/capture', method: 'POST', body: form };
   },
@@ -194,7 +264,10 @@ const KINDS = {
     headers: one([JSON_TYPE, { 'content-type': 'multipart/form-data; boundary=x' }]),
   }),
   cut: ({ one, below }) => ({
-    raw: `POST ${one(TARGETS)}\r\n${AUTHORIZED}\r\nContent-Length: 5000\r\n\r\n${'{"radar":"front","timeS":1'.repeat(below(100))}`.slice(0, 30 + below(900)),
+    raw: `POST ${one(TARGETS)}\r\n${AUTHORIZED}\r\nContent-Length: 5000\r\n\r\n${'{"radar":"front","timeS":1'.repeat(below(100))}`.slice(
+      0,
+      30 + below(900),
+    ),
     cut: true,
   }),
   lengths: ({ one }) => ({
@@ -221,7 +294,9 @@ function raw(url, bytes, cut) {
     });
     socket.setEncoding('latin1').on('data', (piece) => (answer += piece));
     socket.on('error', () => {});
-    socket.on('close', () => resolve(/^HTTP\/1\.1 (\d+)/.exec(answer)?.[1] ?? (answer === 'no answer' ? answer : 'closed')));
+    socket.on('close', () =>
+      resolve(/^HTTP\/1\.1 (\d+)/.exec(answer)?.[1] ?? (answer === 'no answer' ? answer : 'closed')),
+    );
   });
 }
 

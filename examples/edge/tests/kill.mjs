@@ -11,7 +11,10 @@ async function drive(service, all, kills) {
   const counts = { killed: 0, repeated: 0, accepted: 0 };
   assert.equal((await service.put(vehicle, 'front', RADAR)).status, 201);
   for (let start = 0; start < all.length; start += BATCH) {
-    const body = all.slice(start, start + BATCH).map((frame) => line('front', frame)).join('');
+    const body = all
+      .slice(start, start + BATCH)
+      .map((frame) => line('front', frame))
+      .join('');
     if (kills.includes(start / BATCH)) {
       // Some of the batch is kept, and no answer comes.
       const half = new TextEncoder().encode(body);

@@ -1,5 +1,7 @@
 /** What the service takes: processor time of a frame, memory of vehicles, and how many vehicles it holds. */
 import assert from 'node:assert/strict';
+import { once } from 'node:events';
+import { createServer } from 'node:net';
 import { setTimeout as wait } from 'node:timers/promises';
 import { frames, line, RADAR } from './lib/drive.mjs';
 import { Service } from './lib/service.mjs';
@@ -9,13 +11,21 @@ const WARM = 100;
 const HZ = 13;
 
 /** Starts the service, does something with it, and stops it. */
-async function running(runtime, environment, work) {
-  const service = new Service(runtime, { config: { limits: FREE }, environment });
+async function running(runtime, environment, work, inspector) {
+  const service = new Service(runtime, { config: { limits: FREE }, environment, inspector });
   try {
     return await work(await service.start());
   } finally {
     await service.stop();
   }
+}
+
+async function freePort() {
+  const server = createServer().listen(0, '127.0.0.1');
+  await once(server, 'listening');
+  const { port } = server.address();
+  server.close();
+  return port;
 }
 
 async function accepted(answer, count) {
@@ -71,26 +81,40 @@ export function cpu(runtime, { detections = 225, durationS = 60, environment } =
 }
 
 /** Memory with vehicles that all have been driving, MB: of the process before, after, and at most. */
-export function memory(runtime, { vehicles = 100, durationS = 20, detections = 225, environment } = {}) {
-  return running(runtime, environment, async (service) => {
-    const all = await frames({ durationS, detections });
-    const lines = all.map((frame) => line('front', frame));
-    const body = lines.slice(0, WARM).join('');
-    await service.put('first', 'front', RADAR);
-    await accepted(service.frames('first', body), WARM);
-    const before = service.memory();
-    const names = Array.from({ length: vehicles }, (_, i) => `car ${i}`);
-    for (const name of names) await service.put(name, 'front', RADAR);
-    // In turns of a second, so that all of them stay awake.
-    for (let start = 0; start < lines.length; start += HZ) {
-      const part = lines.slice(start, start + HZ);
-      await Promise.all(names.map((name) => accepted(service.frames(name, part.join('')), part.length)));
-    }
-    const after = service.memory();
-    const mb = (bytes) => Math.round(bytes / 1e6);
-    const told = { runtime, vehicles, frames: lines.length, beforeMb: mb(before.now), afterMb: mb(after.now), mostMb: mb(after.most) };
-    return { ...told, kbAVehicle: Math.round((after.now - before.now) / 1e3 / vehicles) };
-  });
+export async function memory(runtime, { vehicles = 100, durationS = 20, detections = 225, environment } = {}) {
+  const inspector = runtime === 'workerd' ? await freePort() : undefined;
+  return running(
+    runtime,
+    environment,
+    async (service) => {
+      const all = await frames({ durationS, detections });
+      const lines = all.map((frame) => line('front', frame));
+      const body = lines.slice(0, WARM).join('');
+      await service.put('first', 'front', RADAR);
+      await accepted(service.frames('first', body), WARM);
+      const before = service.memory();
+      const names = Array.from({ length: vehicles }, (_, i) => `car ${i}`);
+      for (const name of names) await service.put(name, 'front', RADAR);
+      // In turns of a second, so that all of them stay awake.
+      for (let start = 0; start < lines.length; start += HZ) {
+        const part = lines.slice(start, start + HZ);
+        await Promise.all(names.map((name) => accepted(service.frames(name, part.join('')), part.length)));
+      }
+      const after = service.memory();
+      const mb = (bytes) => Math.round(bytes / 1e6);
+      const told = {
+        runtime,
+        vehicles,
+        frames: lines.length,
+        beforeMb: mb(before.now),
+        afterMb: mb(after.now),
+        mostMb: mb(after.most),
+      };
+      const isolate = inspector && (await service.isolate());
+      return { ...told, kbAVehicle: Math.round((after.now - before.now) / 1e3 / vehicles), isolate };
+    },
+    inspector,
+  );
 }
 
 /** So many vehicles at 13 Hz, a request a frame: whether all were taken in time, and how long each took. */

@@ -8,7 +8,9 @@ export function durableStorage({ storage }) {
   return {
     read() {
       sql.exec(TABLE);
-      return new Map([...sql.exec('SELECT key, value FROM kept')].map(({ key, value }) => [key, new Uint8Array(value)]));
+      return new Map(
+        [...sql.exec('SELECT key, value FROM kept')].map(({ key, value }) => [key, new Uint8Array(value)]),
+      );
     },
     write: (changes) =>
       storage.transactionSync(() => {

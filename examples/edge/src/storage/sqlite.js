@@ -1,3 +1,5 @@
+import { together } from './together.js';
+
 /** SQLite in one file: that of Node from 22.13 on, of Deno, and of Bun, which differ in their names alone. */
 
 const SCHEMA = `
@@ -27,32 +29,31 @@ export async function openSqlite(path) {
   const alarm = db.prepare('SELECT at_ms AS atMs FROM alarms WHERE name = ?');
   const setAlarm = db.prepare('INSERT OR REPLACE INTO alarms VALUES (?, ?)');
   const clearAlarm = db.prepare('DELETE FROM alarms WHERE name = ?');
-  const atOnce = (/** @type {() => void} */ work) => {
+  const commit = together((/** @type {(() => void)[]} */ writes) => {
     db.exec('BEGIN IMMEDIATE');
     try {
-      work();
+      for (const write of writes) write();
       db.exec('COMMIT');
     } catch (error) {
       db.exec('ROLLBACK');
       throw error;
     }
-  };
+  });
   return {
     open: (name) => ({
       read: () => new Map(read.all(name).map((/** @type {any} */ row) => [row.key, row.value])),
       write: (changes) =>
-        atOnce(() => {
+        commit(() => {
           for (const [key, value] of changes) value ? put.run(name, key, value) : take.run(name, key);
         }),
       clear: () =>
-        atOnce(() => {
+        commit(() => {
           clear.run(name);
           clearAlarm.run(name);
         }),
       alarm: () => alarm.get(name)?.atMs ?? null,
-      setAlarm: (atMs) => void setAlarm.run(name, atMs),
+      setAlarm: (atMs) => commit(() => setAlarm.run(name, atMs)),
     }),
     alarms: () => alarms.all(),
-    close: () => db.close(),
   };
 }

@@ -1,6 +1,7 @@
 /** The service as a process of a runtime, with data and settings of its own. */
 import { spawn } from 'node:child_process';
 import { createHash } from 'node:crypto';
+import { on, once } from 'node:events';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { delimiter, join, relative } from 'node:path';
@@ -9,7 +10,11 @@ import { fileURLToPath } from 'node:url';
 const here = fileURLToPath(new URL('../..', import.meta.url));
 /** A program of npm's, here or in a folder above, else of the path. */
 function program(name) {
-  const folders = [join(here, 'node_modules'), join(here, '..', 'node_modules'), join(here, '..', '..', 'node_modules')];
+  const folders = [
+    join(here, 'node_modules'),
+    join(here, '..', 'node_modules'),
+    join(here, '..', '..', 'node_modules'),
+  ];
   return folders.map((folder) => join(folder, '.bin', name)).find(existsSync) ?? name;
 }
 
@@ -39,9 +44,11 @@ export class Service {
   #folder = mkdtempSync(join(tmpdir(), 'boresight-edge-'));
   #runtime;
   #environment;
+  #inspector;
   errors = '';
 
-  constructor(runtime, { config = {}, environment = {} } = {}) {
+  constructor(runtime, { config = {}, environment = {}, inspector } = {}) {
+    this.#inspector = inspector;
     this.#runtime = runtime;
     this.#environment = environment;
     mkdirSync(join(this.#folder, 'data'));
@@ -61,7 +68,13 @@ export class Service {
   async start() {
     const [command, args] = COMMANDS[this.#runtime]?.() ?? [
       program('workerd'),
-      ['serve', join(this.#folder, 'config.capnp'), '--socket-addr=http=127.0.0.1:0', '--control-fd=3'],
+      [
+        'serve',
+        join(this.#folder, 'config.capnp'),
+        '--socket-addr=http=127.0.0.1:0',
+        '--control-fd=3',
+        ...(this.#inspector ? [`-i127.0.0.1:${this.#inspector}`] : []),
+      ],
     ];
     const env = {
       ...process.env,
@@ -77,7 +90,14 @@ export class Service {
     this.url = await new Promise((resolve, reject) => {
       child.once('error', reject);
       child.once('exit', (code) => reject(new Error(`${this.#runtime} ended with ${code}\n${this.errors}`)));
-      child.stdio[3].on('data', (told) => resolve(`http://127.0.0.1:${JSON.parse(told).port}`));
+      child.stdio[3].setEncoding('utf8').on('data', (told) => {
+        const listening = told
+          .split('\n')
+          .filter(Boolean)
+          .map((line) => JSON.parse(line))
+          .find(({ event }) => event === 'listen');
+        if (listening) resolve(`http://127.0.0.1:${listening.port}`);
+      });
       child.stdout.setEncoding('utf8').on('data', (told) => {
         const address = /http:\/\/\S+:\d+/.exec(told)?.[0];
         if (address) resolve(address);
@@ -131,6 +151,25 @@ export class Service {
   cpuMs() {
     const fields = readFileSync(`/proc/${this.pid}/stat`, 'utf8').split(') ')[1].split(' ');
     return (Number(fields[11]) + Number(fields[12])) * 10;
+  }
+
+  /** Memory of workerd's isolate after its garbage is collected, bytes: JavaScript's heap, and what WebAssembly and buffers hold. */
+  async isolate() {
+    const [{ webSocketDebuggerUrl }] = await (await fetch(`http://127.0.0.1:${this.#inspector}/json`)).json();
+    const { WebSocket } = await import('ws');
+    const socket = new WebSocket(webSocketDebuggerUrl);
+    await once(socket, 'open');
+    const ask = async (id, method) => {
+      socket.send(JSON.stringify({ id, method }));
+      for await (const [message] of on(socket, 'message')) {
+        const answer = JSON.parse(message);
+        if (answer.id === id) return answer.result;
+      }
+    };
+    await ask(1, 'HeapProfiler.collectGarbage');
+    const usage = await ask(2, 'Runtime.getHeapUsage');
+    socket.terminate();
+    return usage;
   }
 
   /** Memory of the process, bytes: now, and at most so far. */
