@@ -82,6 +82,19 @@ function card(name) {
   return article;
 }
 
+/** A history with the angle of now at its end. @param {any} history @param {number | null} timeS @param {any} result */
+function withNow(history, timeS, { angleDeg, sigmaDeg }) {
+  const now = timeS === null || timeS === history.timeS.at(-1) ? [] : [[timeS, angleDeg, sigmaDeg]];
+  return {
+    timeS: [...history.timeS, ...now.map(([time]) => time)],
+    angleDeg: [...history.angleDeg, ...now.map(([, angle]) => angle)],
+    // JSON has null where the deviation is infinite.
+    sigmaDeg: [...history.sigmaDeg, ...now.map(([, , sigma]) => sigma)].map(
+      (sigma) => sigma ?? Number.POSITIVE_INFINITY,
+    ),
+  };
+}
+
 /** @param {{ vehicle: string, receivedMs: number, radars: any[] } | null} given */
 function showVehicle(given) {
   if (!given) {
@@ -96,6 +109,7 @@ function showVehicle(given) {
   const cards = new Map([...section.querySelectorAll('article')].map((one) => [one.dataset.radar, one]));
   for (const {
     radar,
+    timeS,
     nominalDeg,
     alarmDeg,
     alignment,
@@ -115,8 +129,7 @@ function showVehicle(given) {
     plot.setAttribute('sigmas', '3');
     plot.setAttribute('tools', '');
     if (nominalDeg !== null) plot.setAttribute('nominal-deg', String(nominalDeg));
-    // JSON has null where the deviation is infinite.
-    plot.history = { ...history, sigmaDeg: history.sigmaDeg.map((sigma) => sigma ?? Number.POSITIVE_INFINITY) };
+    plot.history = withNow(history, timeS, result);
     const verdict = alignment ?? 'none';
     const rows = [
       ['Verdict', WORDS[verdict], verdict],

@@ -47,7 +47,7 @@ const server = serve({
   hostname: HOST,
   silent: true,
   // A request may last for days; body.js ends one that says nothing.
-  node: { requestTimeout: 0 },
+  node: { requestTimeout: 0, keepAliveTimeout: 65_000 },
   bun: { idleTimeout: 120, maxRequestBodySize: Number.MAX_SAFE_INTEGER },
 });
 await server.ready();

@@ -249,7 +249,9 @@ function vehicle() {
       state.alarmMs = null;
     },
     alarm: () => state.alarmMs,
-    setAlarm: (atMs) => void (state.alarmMs = atMs),
+    setAlarm(atMs) {
+      state.alarmMs = atMs;
+    },
   };
   const fleet = {
     admit: async () => true,
