@@ -39,10 +39,17 @@ export async function pack(folder) {
 
 /**
  * An empty project with the packed package installed. `files` maps a name to its text; `fixtures`
- * are copied from this folder; `examples` are folders of docs/examples, workspaces of the project;
+ * are copied from this folder; `examples` are folders of docs/examples, or of `from`, workspaces of the project;
  * `tools` are packages at the version that this checkout uses, `packages` others with their versions.
  */
-export async function consumer({ files = {}, fixtures = [], examples = [], tools = [], packages = {} }) {
+export async function consumer({
+  files = {},
+  fixtures = [],
+  examples = [],
+  from = exampleFolder,
+  tools = [],
+  packages = {},
+}) {
   const parent = temporaryFolder();
   const folder = join(parent, 'project');
   mkdirSync(folder);
@@ -68,7 +75,7 @@ export async function consumer({ files = {}, fixtures = [], examples = [], tools
   }
   // What was installed or built in an example is left there.
   const filter = (path) => !['node_modules', 'dist'].includes(basename(path));
-  for (const name of examples) cpSync(join(exampleFolder, name), join(folder, name), { recursive: true, filter });
+  for (const name of examples) cpSync(join(from, name), join(folder, name), { recursive: true, filter });
   for (const name of fixtures) copyFileSync(join(here, 'fixtures', name), join(folder, name));
   // Vite sets NODE_ENV where it serves, and npm would then leave these out.
   await run(npm, ['install', '--include=dev', '--prefer-offline', '--no-audit', '--no-fund', '--no-package-lock'], {

@@ -1,0 +1,140 @@
+/** The one fetch handler of all runtimes. */
+import { Bucket } from './bucket.js';
+import { isName } from './frame.js';
+import { Problem, refusal } from './reply.js';
+import { routes } from './routes.js';
+import { tokensOf } from './tokens.js';
+
+/**
+ * What a runtime gives the handler.
+ *
+ * @typedef {object} Service
+ * @property {import('./config.js').Config} config
+ * @property {(ask: import('./vehicle.js').Ask, request: Request) => Promise<Response>} vehicle
+ * @property {(tenant: string) => Promise<import('./metrics.js').Vehicles>} vehicles
+ * @property {(path: string) => Response} page
+ */
+
+const paths = [...new Set(routes.map(({ path }) => path))].map((path) => ({
+  parts: path.split('/'),
+  methods: routes.filter((route) => route.path === path),
+}));
+
+/** What a request's path is of, and the names in it. @param {string} url */
+function matched(url) {
+  // A host may be one that no address has.
+  if (!URL.canParse(url)) {
+    throw new Problem(400, 'malformed-url', {
+      what: 'the address',
+      expected: 'a host and a path',
+      given: 'something else',
+    });
+  }
+  const given = new URL(url).pathname.split('/');
+  const found = paths.find(
+    ({ parts }) =>
+      parts.length === given.length && parts.every((part, i) => (part.startsWith('{') ? given[i] : part === given[i])),
+  );
+  if (!found) throw new Problem(404, 'not-found', { what: 'path', expected: 'one of /openapi.json', given: 'another' });
+  const names = found.parts.flatMap((part, i) =>
+    part.startsWith('{') ? [[part.slice(1, -1), named(given[i] ?? '')]] : [],
+  );
+  return { methods: found.methods, names: Object.fromEntries(names) };
+}
+
+/** @param {string} encoded */
+function named(encoded) {
+  let name = '';
+  try {
+    name = decodeURIComponent(encoded);
+  } catch {}
+  if (isName(name)) return name;
+  const expected = '1 to 64 characters, no control characters and no slash';
+  throw new Problem(400, 'malformed-name', { what: 'a name in the path', expected, given: 'something else' });
+}
+
+/**
+ * @param {Service} service
+ * @param {() => number} [now]
+ * @returns {(request: Request) => Promise<Response>}
+ */
+export function handlerOf(service, now = Date.now) {
+  const { origins, limits } = service.config;
+  const tenantOf = tokensOf(service.config);
+  /** @type {Map<string, { bucket: Bucket, open: number }>} */
+  const tenants = new Map();
+
+  /** @param {Request} request */
+  async function answer(request) {
+    const { methods, names } = matched(request.url);
+    const allowed = [
+      ...methods.map(({ method }) => method),
+      ...(methods.some(({ method }) => method === 'GET') ? ['HEAD'] : []),
+      'OPTIONS',
+    ];
+    const allow = allowed.join(', ');
+    if (request.method === 'OPTIONS') {
+      return new Response(null, {
+        status: 204,
+        headers: {
+          allow,
+          'access-control-allow-methods': allow,
+          'access-control-allow-headers': 'authorization, content-type',
+          'access-control-max-age': '600',
+        },
+      });
+    }
+    const method = request.method === 'HEAD' ? 'GET' : request.method;
+    const route = methods.find((one) => one.method === method);
+    if (!route) {
+      const details = { what: 'method', expected: allow, given: request.method.slice(0, 32) };
+      throw new Problem(405, 'method-not-allowed', details, { headers: { allow } });
+    }
+    if (!route.role) return route.run({ request, names, tenant: '', service });
+    const { tenant, role } = await tenantOf(request);
+    if (route.role === 'write' && role === 'read') {
+      throw new Problem(403, 'forbidden', {
+        what: 'the token',
+        expected: 'one that may write',
+        given: 'one that reads',
+      });
+    }
+    const state = tenants.get(tenant) ?? { bucket: new Bucket(limits.requests, now()), open: 0 };
+    tenants.set(tenant, state);
+    state.bucket.take(1, now(), 'requests of the tenant');
+    if (state.open >= limits.open) {
+      const details = { what: 'open requests', expected: `${limits.open} at most`, given: 'more' };
+      throw new Problem(429, 'too-many-requests', details, { headers: { 'retry-after': '1' } });
+    }
+    state.open += 1;
+    try {
+      return await route.run({ request, names, tenant, service });
+    } finally {
+      state.open -= 1;
+    }
+  }
+
+  /** Who else may read the answer. @param {Request} request @returns {[string, string][]} */
+  const shared = (request) => {
+    const origin = request.headers.get('origin');
+    const any = origins.includes('*');
+    if (!origin || !(any || origins.includes(origin))) return origins.length > 0 && !any ? [['vary', 'origin']] : [];
+    return [
+      ['access-control-allow-origin', any ? '*' : origin],
+      ['access-control-expose-headers', 'retry-after, allow'],
+      ...(any ? [] : /** @type {[string, string][]} */ ([['vary', 'origin']])),
+    ];
+  };
+
+  return async (request) => {
+    const response = await answer(request).catch(refusal);
+    const headers = new Headers(response.headers);
+    if (!headers.has('cache-control')) headers.set('cache-control', 'no-store');
+    headers.set('x-content-type-options', 'nosniff');
+    for (const [name, value] of shared(request)) headers.set(name, value);
+    if (!headers.has('access-control-allow-origin')) {
+      for (const name of [...headers.keys()]) if (name.startsWith('access-control-')) headers.delete(name);
+    }
+    return new Response(request.method === 'HEAD' ? null : response.body, { status: response.status, headers });
+  };
+}

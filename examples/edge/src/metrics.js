@@ -1,0 +1,121 @@
+/** OpenMetrics 1.0 of a tenant's vehicles. */
+
+export const METRICS_TYPE = 'application/openmetrics-text; version=1.0.0; charset=utf-8';
+
+const ALIGNMENTS = ['aligned', 'misaligned', 'undecided'];
+
+/** @typedef {ReturnType<import('./fleet.js').Fleet['vehicles']>} Vehicles */
+/** @typedef {Vehicles[number]['radars'][number]} RadarSummary */
+/** @typedef {[labels: Record<string, string>, value: number | null | undefined]} Sample */
+
+/**
+ * What is measured of each radar: metric, type, what it is, and its samples.
+ *
+ * @type {[name: string, type: string, help: string, samples: (radar: RadarSummary) => Sample[]][]}
+ */
+const OF_RADARS = [
+  ['boresight_mounting_angle_degrees', 'gauge', 'Mounting angle of the radar.', (r) => [[{}, r.angleDeg]]],
+  [
+    'boresight_mounting_angle_sigma_degrees',
+    'gauge',
+    'Standard deviation of the mounting angle.',
+    (r) => [[{}, r.sigmaDeg ?? Number.POSITIVE_INFINITY]],
+  ],
+  ['boresight_nominal_angle_degrees', 'gauge', 'Angle the radar should have.', (r) => [[{}, r.nominalDeg]]],
+  [
+    'boresight_alarm_limit_degrees',
+    'gauge',
+    'Limit of the alarm.',
+    (r) => [[{}, r.nominalDeg === null ? null : r.alarmDeg]],
+  ],
+  [
+    'boresight_misaligned',
+    'gauge',
+    'Whether the angle differs from the nominal one beyond limit and chance.',
+    (r) => [[{}, r.misaligned === null ? null : Number(r.misaligned)]],
+  ],
+  [
+    'boresight_alignment',
+    'stateset',
+    'Whether the radar is where it should be.',
+    (r) =>
+      r.alignment === null
+        ? []
+        : ALIGNMENTS.map((state) => [{ boresight_alignment: state }, Number(r.alignment === state)]),
+  ],
+  ['boresight_frame_time_seconds', 'gauge', 'Time of the last frame on its own clock.', (r) => [[{}, r.timeS]]],
+  ['boresight_frames', 'counter', 'Frames taken.', (r) => [[{}, r.frames]]],
+  ['boresight_detections', 'counter', 'Detections in frames taken.', (r) => [[{}, r.detections]]],
+  ['boresight_frames_repeated', 'counter', 'Frames that were sent again.', (r) => [[{}, r.repeated]]],
+  [
+    'boresight_frames_judged',
+    'counter',
+    'Frames taken, by what became of them.',
+    ({ verdicts: { given: _, ...verdicts } }) =>
+      Object.entries(verdicts).map(([verdict, count]) => [{ verdict }, count]),
+  ],
+  ['boresight_frames_refused', 'counter', 'Frames refused, by reason.', (r) => reasons(r.refused)],
+];
+
+/** @type {[name: string, type: string, help: string, samples: (vehicle: Vehicles[number]) => Sample[]][]} */
+const OF_VEHICLES = [
+  ['boresight_received_timestamp_seconds', 'gauge', 'When frames last came.', (v) => [[{}, v.receivedMs / 1000]]],
+  ['boresight_lines_refused', 'counter', 'Lines refused that name no radar, by reason.', (v) => reasons(v.refused)],
+];
+
+/** @param {Record<string, number>} refused @returns {Sample[]} */
+const reasons = (refused) => Object.entries(refused).map(([reason, count]) => [{ reason }, count]);
+
+const ESCAPES = /** @type {Record<string, string>} */ ({ '\\': '\\\\', '"': '\\"', '\n': '\\n' });
+const escaped = (/** @type {string} */ value) => value.replace(/[\\"\n]/g, (character) => ESCAPES[character] ?? '');
+
+/** @param {number} value */
+const written = (value) =>
+  Number.isFinite(value) ? String(value) : Number.isNaN(value) ? 'NaN' : value > 0 ? '+Inf' : '-Inf';
+
+/** @param {Vehicles} vehicles */
+export function openMetrics(vehicles) {
+  const lines = [
+    ...OF_RADARS.flatMap(([name, type, help, samples]) =>
+      family(
+        name,
+        type,
+        help,
+        vehicles.flatMap(({ vehicle, radars }) =>
+          radars.flatMap((radar) => samples(radar).map(labelled({ vehicle, radar: radar.radar }))),
+        ),
+      ),
+    ),
+    ...OF_VEHICLES.flatMap(([name, type, help, samples]) =>
+      family(
+        name,
+        type,
+        help,
+        vehicles.flatMap((vehicle) => samples(vehicle).map(labelled({ vehicle: vehicle.vehicle }))),
+      ),
+    ),
+  ];
+  return `${lines.join('\n')}\n# EOF\n`;
+}
+
+/** @param {Record<string, string>} common @returns {(sample: Sample) => Sample} */
+const labelled =
+  (common) =>
+  ([labels, value]) => [{ ...common, ...labels }, value];
+
+/** @param {string} name @param {string} type @param {string} help @param {Sample[]} samples */
+function family(name, type, help, samples) {
+  const unit = /_(degrees|seconds)$/.exec(name)?.[1];
+  const ending = type === 'counter' ? '_total' : '';
+  return [
+    `# TYPE ${name} ${type}`,
+    ...(unit ? [`# UNIT ${name} ${unit}`] : []),
+    `# HELP ${name} ${help}`,
+    ...samples
+      .filter(([, value]) => value !== null && value !== undefined)
+      .map(([labels, value]) => {
+        const pairs = Object.entries(labels).map(([label, text]) => `${label}="${escaped(text)}"`);
+        return `${name}${ending}{${pairs.join(',')}} ${written(/** @type {number} */ (value))}`;
+      }),
+  ];
+}

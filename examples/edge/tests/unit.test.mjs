@@ -1,0 +1,365 @@
+/** The parts of the service, and a vehicle on a storage in memory that can fail. */
+import assert from 'node:assert/strict';
+import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { initDrives } from 'boresight';
+import { Bucket } from '../src/bucket.js';
+import { configOf } from '../src/config.js';
+import { digestOf, frameOf, isName } from '../src/frame.js';
+import { History } from '../src/history.js';
+import { Lines } from '../src/lines.js';
+import { openMetrics } from '../src/metrics.js';
+import { Recent } from '../src/recent.js';
+import { openFiles } from '../src/storage/files.js';
+import { openSqlite } from '../src/storage/sqlite.js';
+import { together } from '../src/storage/together.js';
+import { Vehicle } from '../src/vehicle.js';
+import { frames, line, RADAR, reference } from './lib/drive.mjs';
+
+const bytes = (text) => new TextEncoder().encode(text);
+const text = (given) => new TextDecoder().decode(given);
+
+test('lines are the same wherever a text is cut; long ones are left out by number', () => {
+  const whole = bytes(`a\n\nbcd\n${'x'.repeat(50)}\n${'y'.repeat(20)}\nend`);
+  for (let size = 1; size <= whole.length; size++) {
+    const lines = new Lines(20);
+    const found = [];
+    for (let at = 0; at < whole.length; at += size) found.push(...lines.push(whole.subarray(at, at + size)));
+    found.push(...lines.end());
+    const told = found.map(({ number, bytes }) => [number, bytes && text(bytes)]);
+    assert.deepEqual(told, [
+      [1, 'a'],
+      [2, ''],
+      [3, 'bcd'],
+      [4, undefined],
+      [5, 'y'.repeat(20)],
+      [6, 'end'],
+    ]);
+  }
+});
+
+test('a bucket lets a burst through, then its rate, and says when to come again', () => {
+  const bucket = new Bucket({ perS: 2, burst: 3 }, 0);
+  for (let i = 0; i < 3; i++) bucket.take(1, 0, 'x');
+  assert.throws(() => bucket.take(1, 0, 'x'), { status: 429, headers: { 'retry-after': '1' } });
+  bucket.take(1, 500, 'x');
+  assert.throws(() => bucket.take(1, 500, 'x'), { code: 'too-many-requests' });
+  // What is more than there is, is owed.
+  bucket.take(10, 2000, 'x');
+  assert.throws(() => bucket.take(1, 4000, 'x'), { headers: { 'retry-after': '2' } });
+  // A clock that runs backwards gives nothing.
+  assert.throws(() => bucket.take(1, 0, 'x'));
+});
+
+test('settings have defaults, and are refused where they are not settings', () => {
+  const { limits, retentionDays } = configOf('{"tenants":{},"limits":{"open":7}}');
+  assert.deepEqual([limits.open, limits.radars, retentionDays], [7, 16, 30]);
+  const token = { sha256: 'a'.repeat(64), role: 'read' };
+  configOf({ tenants: { a: { tokens: [token] } } });
+  for (const [given, message] of [
+    [{ limit: {} }, /config.limit is not a setting/],
+    [{ limits: { open: -1 } }, /config.limits.open is a number greater than 0/],
+    [{ origins: 'x' }, /config.origins is a list/],
+    [{ tenants: { 'A B': { tokens: [] } } }, /small letters/],
+    [{ tenants: { a: { tokens: [{ ...token, sha256: 'secret' }] } } }, /64 hexadecimal/],
+    [{ tenants: { a: { tokens: [{ ...token, role: 'admin' }] } } }, /read or write/],
+  ]) {
+    assert.throws(() => configOf(given), message);
+  }
+});
+
+test('names are of any script, without what paths and labels trip over', () => {
+  for (const name of ['WVWZZZ1JZXW000001', 'Prüfstand 3', '車両', 'a"b\\c', 'x'.repeat(64), '__proto__'])
+    assert.ok(isName(name), name);
+  for (const name of ['', '.', '..', 'a/b', 'a\nb', '\u0000', '\ud800', '\u2028', 'x'.repeat(65)])
+    assert.ok(!isName(name), name);
+});
+
+test('a frame of other fields or types is refused, and says which', () => {
+  const right = { radar: 1, timeS: 0, azimuthDeg: [1], rangeRateMps: [2], yawRateDegps: null };
+  assert.equal(frameOf(right, { detections: 5 }).radar, '1');
+  for (const [change, what] of [
+    [{ timeS: '0' }, 'frame.timeS'],
+    [{ azimuthDeg: [1, null] }, 'frame.azimuthDeg[1]'],
+    [{ azimuthDeg: { length: 1e9 } }, 'frame.azimuthDeg'],
+    [{ rangeRateMps: [1, 2, 3, 4, 5, 6] }, 'frame.rangeRateMps'],
+    [{ yawRateDegps: undefined }, 'frame.yawRateDegps'],
+    [{ speedMps: true }, 'frame.speedMps'],
+    [{ rangeM: [1] }, 'frame.rangeM'],
+  ]) {
+    assert.throws(
+      () => frameOf({ ...right, ...change }, { detections: 5 }),
+      ({ status, details }) => status === 422 && details.what === what,
+    );
+  }
+});
+
+test('digests differ where any number does', () => {
+  const frame = (change) => {
+    const { frame } = frameOf(
+      { radar: 1, timeS: 1, azimuthDeg: [1, 2], rangeRateMps: [3, 4], yawRateDegps: 5, ...change },
+      { detections: 9 },
+    );
+    return digestOf(frame).join();
+  };
+  const all = [
+    {},
+    { timeS: 2 },
+    { azimuthDeg: [2, 1] },
+    { azimuthDeg: [1, 2 + 1e-15] },
+    { rangeRateMps: [3, -4] },
+    { yawRateDegps: null },
+    { speedMps: 0 },
+  ];
+  assert.equal(new Set(all.map(frame)).size, all.length);
+  assert.equal(frame({}), frame({}));
+});
+
+test('the last frames are known again, after being kept too', () => {
+  const recent = new Recent();
+  for (let i = 0; i < 3000; i++) recent.add(i, [i, 2 * i]);
+  const kept = new Recent(recent.head, ...recent.parts.map((part) => new Uint8Array(part)));
+  for (const one of [recent, kept]) {
+    assert.ok(one.has(2999, [2999, 5998]) && one.has(2000, [2000, 4000]));
+    assert.ok(!one.has(2999, [2999, 0]) && !one.has(100, [100, 200]));
+  }
+});
+
+test('a history stays bounded and reaches back to the beginning', () => {
+  const history = new History();
+  for (let timeS = 0; timeS < 100_000; timeS++) {
+    if (history.due(timeS)) history.add(timeS, { angleDeg: timeS / 1000, sigmaDeg: 1 });
+  }
+  const { timeS, angleDeg } = history.toJSON();
+  assert.ok(timeS.length > 400 && timeS.length <= 1024, `${timeS.length} points`);
+  assert.equal(timeS[0], 0);
+  assert.ok(timeS.at(-1) > 99_000);
+  assert.ok(timeS.every((time, i) => angleDeg[i] === time / 1000 && !(time <= timeS[i - 1])));
+});
+
+test('labels are escaped, and no deviation is infinite', () => {
+  const radar = {
+    radar: 'a"b\\c',
+    angleDeg: 1.5,
+    sigmaDeg: null,
+    nominalDeg: null,
+    alarmDeg: 1,
+    misaligned: null,
+    alignment: null,
+    timeS: null,
+    frames: 1,
+    detections: 2,
+    repeated: 0,
+    refused: { shape: 3 },
+    verdicts: { given: 1, used: 1 },
+  };
+  const told = openMetrics([{ vehicle: 'line\nbreak', receivedMs: 1500, refused: {}, radars: [radar] }]);
+  const labels = 'vehicle="line\\nbreak",radar="a\\"b\\\\c"';
+  for (const expected of [
+    `boresight_mounting_angle_degrees{${labels}} 1.5`,
+    `boresight_mounting_angle_sigma_degrees{${labels}} +Inf`,
+    `boresight_frames_refused_total{${labels},reason="shape"} 3`,
+    'boresight_received_timestamp_seconds{vehicle="line\\nbreak"} 1.5',
+    '# UNIT boresight_mounting_angle_degrees degrees',
+  ]) {
+    assert.ok(told.includes(`${expected}\n`), expected);
+  }
+  assert.ok(!told.includes('boresight_misaligned{'), 'without a nominal angle');
+  assert.ok(told.endsWith('\n# EOF\n'));
+});
+
+test('writes that come together are kept together, and fail together', async () => {
+  const commits = [];
+  const write = together((writes) => {
+    commits.push(writes);
+    if (writes.includes('bad')) throw new Error('full');
+  });
+  await Promise.all([write(1), write(2)]);
+  await write(3);
+  const results = await Promise.allSettled([write('bad'), write(4)]);
+  await write(5);
+  assert.deepEqual(commits, [[1, 2], [3], ['bad', 4], [5]]);
+  assert.deepEqual(
+    results.map(({ status }) => status),
+    ['rejected', 'rejected'],
+  );
+});
+
+for (const [kind, open] of [
+  ['files', (folder) => openFiles(join(folder, 'files'))],
+  ['sqlite', (folder) => openSqlite(join(folder, 'edge.sqlite'))],
+]) {
+  test(`${kind}: what was written is there when opened again`, async (context) => {
+    const folder = mkdtempSync(join(tmpdir(), 'boresight-edge-'));
+    try {
+      const database = await open(folder);
+      if (!database) return context.skip('this runtime has no SQLite');
+      const one = database.open('a/1');
+      assert.equal(one.read().size, 0);
+      await one.write([
+        ['x', bytes('1')],
+        ['y', bytes('2')],
+      ]);
+      await one.write([
+        ['x', null],
+        ['z', new Uint8Array(100_000).fill(7)],
+      ]);
+      await database.open('a/2').write([['x', bytes('other')]]);
+      await one.setAlarm(5);
+      const again = await open(folder);
+      const read = again.open('a/1').read();
+      assert.deepEqual([...read.keys()].sort(), ['y', 'z']);
+      assert.equal(text(read.get('y')), '2');
+      assert.equal(read.get('z').length, 100_000);
+      assert.equal(await again.open('a/1').alarm(), 5);
+      assert.deepEqual(
+        again.alarms().map(({ name, atMs }) => [name, atMs]),
+        [['a/1', 5]],
+      );
+      await again.open('a/1').clear();
+      const last = await open(folder);
+      assert.deepEqual([last.open('a/1').read().size, last.alarms().length], [0, 0]);
+      assert.equal(text(last.open('a/2').read().get('x')), 'other');
+      if (kind === 'files') {
+        // What a killed process had begun to write.
+        writeFileSync(join(folder, 'files', 'x.new'), 'half');
+        await open(folder);
+        assert.ok(readdirSync(join(folder, 'files')).every((name) => name.endsWith('.kept')));
+      }
+    } finally {
+      rmSync(folder, { recursive: true, force: true });
+    }
+  });
+}
+
+/** A vehicle whose storage fails when told to, and whose clock is set. */
+function vehicle() {
+  const kept = new Map();
+  const state = { fails: false, nowMs: 1e12, alarmMs: null, told: [], forgotten: 0 };
+  const storage = {
+    read: () => new Map(kept),
+    write(changes) {
+      if (state.fails) throw new Error('the disk is full');
+      for (const [key, value] of changes) value ? kept.set(key, value.slice()) : kept.delete(key);
+    },
+    clear() {
+      kept.clear();
+      state.alarmMs = null;
+    },
+    alarm: () => state.alarmMs,
+    setAlarm(atMs) {
+      state.alarmMs = atMs;
+    },
+  };
+  const fleet = {
+    admit: async () => true,
+    tell: (_, told) => void state.told.push(told),
+    forget: () => void state.forgotten++,
+  };
+  const config = configOf({ tenants: {}, retentionDays: 1 });
+  const make = () =>
+    new Vehicle(
+      storage,
+      config,
+      () => fleet,
+      () => state.nowMs,
+    );
+  let live = make();
+  const ask = async (action, method, body, type, radar) => {
+    const headers = { 'content-type': type, ...(body && { 'content-length': String(bytes(body).length) }) };
+    const request = new Request('https://vehicle/', { method, ...(body && { body }), headers });
+    const answer = await live.answer({ tenant: 'test', vehicle: 'car', action, radar }, request);
+    return { status: answer.status, json: answer.status === 204 ? null : await answer.json() };
+  };
+  return {
+    state,
+    kept,
+    put: (options = RADAR) => ask('configure', 'PUT', JSON.stringify(options), 'application/json', 'front'),
+    take: (...all) => ask('take', 'POST', all.map((frame) => line('front', frame)).join(''), 'application/x-ndjson'),
+    about: () => ask('describe', 'GET'),
+    forgetRadar: () => ask('forgetRadar', 'DELETE', undefined, undefined, 'front'),
+    alarm: () => live.alarm(),
+    /** As a process that was killed and started anew. */
+    restart: () => (live = make()),
+  };
+}
+
+await initDrives();
+const all = await frames({ durationS: 8 });
+
+test('what no storage took is not acknowledged, and is taken once when it comes again', async (context) => {
+  context.mock.method(console, 'error', () => {});
+  const { put, take, about, state, restart } = vehicle();
+  state.fails = true;
+  assert.equal((await put()).status, 503);
+  state.fails = false;
+  // The radar is there, and is kept now.
+  assert.equal((await put()).status, 200);
+  assert.equal((await take(...all.slice(0, 30))).json.accepted, 30);
+  state.fails = true;
+  const refused = await take(...all.slice(30, 60));
+  assert.deepEqual([refused.status, refused.json.code, refused.json.stored.accepted], [503, 'not-stored', 0]);
+  state.fails = false;
+  assert.equal((await take(...all.slice(30, 60))).json.repeated, 30);
+  restart();
+  assert.equal((await take(...all.slice(60))).json.accepted, all.length - 60);
+  assert.deepEqual((await about()).json.radars[0].result, await reference(all));
+});
+
+test('frames out of order, far ahead or of no radar are refused and counted, and leave no trace', async () => {
+  const { put, take, about } = vehicle();
+  await put();
+  await take(...all.slice(0, 50));
+  const [frame] = all;
+  const { status, json } = await take(
+    { ...frame, timeS: frame.timeS + 0.001 },
+    { ...frame, timeS: 1e300 },
+    { ...frame, timeS: 1e10 },
+  );
+  assert.equal(status, 422);
+  assert.deepEqual(
+    json.problems.map(({ line, code }) => [line, code]),
+    [
+      [1, 'time-backwards'],
+      [2, 'out-of-range'],
+      [3, 'time-ahead'],
+    ],
+  );
+  const { radars } = (await about()).json;
+  assert.deepEqual(radars[0].refused, { 'time-backwards': 1, 'out-of-range': 1, 'time-ahead': 1 });
+  assert.deepEqual(radars[0].result, await reference(all.slice(0, 50)));
+});
+
+test('a radar keeps its options until it is forgotten', async () => {
+  const { put, take, about, forgetRadar } = vehicle();
+  assert.equal((await put()).status, 201);
+  await take(...all.slice(0, 20));
+  assert.equal((await put()).status, 200);
+  const other = await put({ ...RADAR, nominalDeg: 10 });
+  assert.deepEqual([other.status, other.json.code], [409, 'exists']);
+  assert.equal((await put({ ...RADAR, method: 'kabsch' })).json.code, 'unsuited-method');
+  assert.equal((await put({ ...RADAR, xM: 1e9 })).status, 422);
+  assert.equal((await forgetRadar()).status, 204);
+  assert.deepEqual((await about()).json.radars, []);
+  assert.equal((await put({ ...RADAR, nominalDeg: 10 })).status, 201);
+});
+
+test('a fleet is told every five seconds, and of the end by an alarm; then a vehicle is forgotten', async () => {
+  const { put, take, about, alarm, state, kept } = vehicle();
+  await put();
+  for (const [i, frame] of all.entries()) {
+    state.nowMs = 1e12 + 100 * i;
+    await take(frame);
+  }
+  assert.ok(state.told.length >= 2 && state.told.length <= 4, `${state.told.length} times`);
+  assert.ok(state.told.at(-1).radars[0].frames < all.length);
+  state.nowMs = state.alarmMs;
+  await alarm();
+  assert.equal(state.told.at(-1).radars[0].frames, all.length);
+  state.nowMs = state.alarmMs;
+  await alarm();
+  assert.deepEqual([state.forgotten, kept.size], [1, 0]);
+  assert.equal((await about()).status, 404);
+});
