@@ -92,7 +92,7 @@ impl DriveStream {
 
     /// The drive; what comes next is of another one.
     pub fn finish(&mut self) -> Fallible<JsValue> {
-        record_of(self.reader.take().finish()?, self.signs.clone())
+        record_of(self.reader.take().finish()?, self.signs)
     }
 }
 
