@@ -972,7 +972,12 @@ export interface SourceProbabilities {
  * - `status`: A detection that its radar's status calls none.
  * - `duplicate`: A second detection of the same track in one scan.
  * - `motion-not-finite`: A motion sample with a NaN or an infinity where a number is needed.
- * - `motion-duplicate`: A second motion sample of the same time.
+ * - `motion-duplicate`: A second motion sample of the same time, or a pose so near to another that their difference is
+ * noise.
+ * - `invalid-state`: A detection that its radar calls invalid (`invalid_state` of nuScenes).
+ * - `ambiguous-doppler`: A detection whose range rate its radar calls ambiguous (`ambig_state` of nuScenes).
+ * - `dynamic-property`: A detection on a thing that has stopped, or of an unknown kind (`dyn_prop` of nuScenes).
+ * - `earlier-scan`: A detection of an earlier scan, which another frame has as its own.
  */
 export type DropReason =
   | 'not-finite'
@@ -980,7 +985,11 @@ export type DropReason =
   | 'status'
   | 'duplicate'
   | 'motion-not-finite'
-  | 'motion-duplicate';
+  | 'motion-duplicate'
+  | 'invalid-state'
+  | 'ambiguous-doppler'
+  | 'dynamic-property'
+  | 'earlier-scan';
 
 /** A scenario that can be simulated. */
 export interface DriveScenarioInfo {
@@ -1053,8 +1062,9 @@ export interface DriveMotion {
  *
  * - `sensors-json`: `sensors.json` of the recording.
  * - `format`: The format's own car, as no file states them.
+ * - `calibrated-sensor`: `calibrated_sensor.json` of the data set.
  */
-export type MountingSource = 'sensors-json' | 'format';
+export type MountingSource = 'sensors-json' | 'format' | 'calibrated-sensor';
 
 /** What the files of a drive held. */
 export interface DriveCounts {
@@ -1178,13 +1188,23 @@ export interface SimulatedDrive {
   truth: DriveTruth;
 }
 
-/** An array of a `.npy` file. */
+/** An array of a file: `.npy`, MATLAB's or HDF5. */
 export interface NpyArray {
   /** Complex numbers are interleaved [re, im]. */
   kind: 'real' | 'complex';
   /** The numbers in C order, in their precision; integers as doubles. */
   data: Float32Array | Float64Array;
   /** Lengths of the axes. */
+  shape: number[];
+}
+
+/** An array of real or complex numbers in a file. */
+export interface ArrayEntry {
+  /** Its name, with those of its groups before it and `/` between. */
+  dataset: string;
+  /** What its numbers are. */
+  kind: 'real' | 'complex';
+  /** Lengths of its axes, in MATLAB's order in files of MATLAB. */
   shape: number[];
 }
 
