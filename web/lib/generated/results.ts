@@ -974,6 +974,7 @@ export interface SourceProbabilities {
  * - `motion-not-finite`: A motion sample with a NaN or an infinity where a number is needed.
  * - `motion-duplicate`: A second motion sample of the same time, or a pose so near to another that their difference is
  * noise.
+ * - `motion-alone`: A pose with no other near it in time, so that it tells no motion.
  * - `invalid-state`: A detection that its radar calls invalid (`invalid_state` of nuScenes).
  * - `ambiguous-doppler`: A detection whose range rate its radar calls ambiguous (`ambig_state` of nuScenes).
  * - `dynamic-property`: A detection on a thing that has stopped, or of an unknown kind (`dyn_prop` of nuScenes).
@@ -986,6 +987,7 @@ export type DropReason =
   | 'duplicate'
   | 'motion-not-finite'
   | 'motion-duplicate'
+  | 'motion-alone'
   | 'invalid-state'
   | 'ambiguous-doppler'
   | 'dynamic-property'
