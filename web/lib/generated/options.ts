@@ -823,28 +823,43 @@ export interface CountOptions {
  * - `radarscenes`: [`crate::radarscenes`]: `radar_data.h5` of a sequence.
  * - `delphi`: [`delphi`]: tracks of a Delphi front radar and poses.
  * - `csv`: [`table`]: the general tables.
- * - `mcap`: Recordings of ROS and others in MCAP.
+ * - `pcd`: [`clouds`]: point clouds, a file a scan, as of nuScenes and TruckScenes.
+ * - `view-of-delft`: [`clouds::view_of_delft`]: frames of View-of-Delft.
  */
-export type DriveFormat = 'radarscenes' | 'delphi' | 'csv' | 'mcap';
+export type DriveFormat = 'radarscenes' | 'delphi' | 'csv' | 'pcd' | 'view-of-delft';
+
+/**
+ * Which side azimuths are positive on.
+ *
+ * - `left`: Positive to the left, counter-clockwise seen from above: nothing is changed.
+ * - `right`: Positive to the right: all are turned round.
+ * - `auto`: As the drive tells: turned round where it is certain that they are positive to the right.
+ */
+export type AzimuthSign = 'left' | 'right' | 'auto';
+
+/**
+ * When range rates are positive.
+ *
+ * - `receding`: Positive when receding: nothing is changed.
+ * - `approaching`: Positive when approaching, as a Doppler frequency: all are turned round.
+ * - `auto`: As the drive tells: turned round where it is certain that they are positive when approaching.
+ */
+export type RangeRateSign = 'receding' | 'approaching' | 'auto';
 
 /** How a drive is read. */
 export interface ReadDriveOptions {
   /** The format of the files; found from their contents where none is named. */
   format?: DriveFormat;
-  /**
-   * Topics of radars in an MCAP file; by default all with detections, and those with tracks where there are no
-   * others.
-   */
-  radarTopics?: readonly string[];
-  /**
-   * Topics of the car's motion in an MCAP file; by default one with the speed, and one with the yaw rate alone if
-   * there is one.
-   */
-  motionTopics?: readonly string[];
-  /**
-   * Frame of the car, centred on the rear axle, in which an MCAP file states where radars sit; base_link by default.
-   */
-  baseFrame?: string;
+  /** The side on which azimuths are positive (default 'left'). */
+  azimuthSign?: AzimuthSign;
+  /** When range rates are positive (default 'receding'). */
+  rangeRateSign?: RangeRateSign;
+}
+
+/** Which array of a file is read. */
+export interface ReadArrayOptions {
+  /** Its name, with those of its groups before it and `/` between; needed where the file has several. */
+  dataset?: string;
 }
 
 /** What one call may take. */

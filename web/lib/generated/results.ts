@@ -972,7 +972,13 @@ export interface SourceProbabilities {
  * - `status`: A detection that its radar's status calls none.
  * - `duplicate`: A second detection of the same track in one scan.
  * - `motion-not-finite`: A motion sample with a NaN or an infinity where a number is needed.
- * - `motion-duplicate`: A second motion sample of the same time.
+ * - `motion-duplicate`: A second motion sample of the same time, or a pose so near to another that their difference is
+ * noise.
+ * - `motion-alone`: A pose with no other near it in time, so that it tells no motion.
+ * - `invalid-state`: A detection that its radar calls invalid (`invalid_state` of nuScenes).
+ * - `ambiguous-doppler`: A detection whose range rate its radar calls ambiguous (`ambig_state` of nuScenes).
+ * - `dynamic-property`: A detection on a thing that has stopped, or of an unknown kind (`dyn_prop` of nuScenes).
+ * - `earlier-scan`: A detection of an earlier scan, which another frame has as its own.
  */
 export type DropReason =
   | 'not-finite'
@@ -980,7 +986,12 @@ export type DropReason =
   | 'status'
   | 'duplicate'
   | 'motion-not-finite'
-  | 'motion-duplicate';
+  | 'motion-duplicate'
+  | 'motion-alone'
+  | 'invalid-state'
+  | 'ambiguous-doppler'
+  | 'dynamic-property'
+  | 'earlier-scan';
 
 /** A scenario that can be simulated. */
 export interface DriveScenarioInfo {
@@ -1053,9 +1064,9 @@ export interface DriveMotion {
  *
  * - `sensors-json`: `sensors.json` of the recording.
  * - `format`: The format's own car, as no file states them.
- * - `tf-static`: Fixed transforms of the recording (`/tf_static`).
+ * - `calibrated-sensor`: `calibrated_sensor.json` of the data set.
  */
-export type MountingSource = 'sensors-json' | 'format' | 'tf-static';
+export type MountingSource = 'sensors-json' | 'format' | 'calibrated-sensor';
 
 /** What the files of a drive held. */
 export interface DriveCounts {
@@ -1069,45 +1080,6 @@ export interface DriveCounts {
   incompleteMotion: number;
   /** Rows left out, by reason. */
   dropped: Partial<Record<DropReason, number>>;
-}
-
-/**
- * What a topic of a recording is used for.
- *
- * - `radar`: The detections of a radar.
- * - `tracks`: The tracks of a radar: filtered, and fewer.
- * - `motion`: The car's motion.
- * - `mountings`: Where radars sit.
- * - `unused`: Nothing.
- */
-export type TopicUse = 'radar' | 'tracks' | 'motion' | 'mountings' | 'unused';
-
-/**
- * Which clock tells the times of a topic.
- *
- * - `stamp`: The stamp in the header of each message.
- * - `log-time`: When each message was recorded.
- */
-export type TopicClock = 'stamp' | 'log-time';
-
-/** A topic of a recording. */
-export interface DriveTopic {
-  /** Its name. */
-  name: string;
-  /** The type of its messages. */
-  messageType: string;
-  /** Messages on it. */
-  messages: number;
-  /** Messages of it that could not be decoded. */
-  unreadable: number;
-  /** What it is used for. */
-  usedAs: TopicUse;
-  /** Number of the radar, of a topic with one. */
-  sensor: number | null;
-  /** The clock of its times, of a topic that is used. */
-  clock: TopicClock | null;
-  /** What is read of it, or why it is not used. */
-  note: string;
 }
 
 /** A drive as read or simulated. */
@@ -1126,10 +1098,6 @@ export interface Drive {
   mountings: MountingSource | null;
   /** What the files held. */
   counts: DriveCounts;
-  /** Topics of a recording and what each is used for; none in other formats. */
-  topics: DriveTopic[];
-  /** When the drive begins by the clock of the recording, since 1970, where its times were shifted. */
-  startS: number | null;
   /** What else to know. */
   warnings: Warning[];
 }
@@ -1216,23 +1184,29 @@ export interface SimulatedDrive {
   mountings: MountingSource | null;
   /** What the files held. */
   counts: DriveCounts;
-  /** Topics of a recording and what each is used for; none in other formats. */
-  topics: DriveTopic[];
-  /** When the drive begins by the clock of the recording, since 1970, where its times were shifted. */
-  startS: number | null;
   /** What else to know. */
   warnings: Warning[];
   /** What really happened. */
   truth: DriveTruth;
 }
 
-/** An array of a `.npy` file. */
+/** An array of a file: `.npy`, MATLAB's or HDF5. */
 export interface NpyArray {
   /** Complex numbers are interleaved [re, im]. */
   kind: 'real' | 'complex';
   /** The numbers in C order, in their precision; integers as doubles. */
   data: Float32Array | Float64Array;
   /** Lengths of the axes. */
+  shape: number[];
+}
+
+/** An array of real or complex numbers in a file. */
+export interface ArrayEntry {
+  /** Its name, with those of its groups before it and `/` between. */
+  dataset: string;
+  /** What its numbers are. */
+  kind: 'real' | 'complex';
+  /** Lengths of its axes, in MATLAB's order in files of MATLAB. */
   shape: number[];
 }
 
@@ -1265,22 +1239,6 @@ export interface BoardObject {
   snrDb?: number;
 }
 
-/** How long the board took, as it says. */
-export interface BoardStats {
-  /** Processing between frames. */
-  processingS: number;
-  /** Time to send the packet. */
-  transmitS: number;
-  /** Margin left between frames. */
-  frameMarginS: number;
-  /** Margin left between chirps. */
-  chirpMarginS: number;
-  /** Load while chirps are sent, percent. */
-  activeLoadPercent: number;
-  /** Load between frames, percent. */
-  idleLoadPercent: number;
-}
-
 /** One packet: what the board made of one frame. */
 export interface BoardFrame {
   /** Number the board gave the frame. */
@@ -1295,15 +1253,6 @@ export interface BoardFrame {
   rangeProfileDb?: Float64Array;
   /** Noise profile, likewise. */
   noiseProfileDb?: Float64Array;
-  /** Range x virtual antenna at zero Doppler, as sent, receiver fastest: real and imaginary parts in turn. */
-  azimuthHeatMap?: Float32Array;
-  /**
-   * Range x Doppler map over the board's own unit, as sent: Doppler fastest, from zero up to the highest and on from
-   * the lowest.
-   */
-  rangeDopplerDb?: Float64Array;
-  /** Timing. */
-  stats?: BoardStats;
   /**
    * Whether the whole packet was there; false for one that the end of the input cut, of which the leading whole parts
    * are given.

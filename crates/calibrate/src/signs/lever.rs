@@ -27,6 +27,11 @@ const SPEED_MPS: f64 = 1.0;
 const SPEED_SHARE: f64 = 0.05;
 /// Frames of a block, in which the line's constant is free; s.
 const BLOCK_S: f64 = 60.0;
+/// Seconds whose frames err together, and the share of the directions' scatter that a line may leave.
+const STRETCH_S: f64 = 3.0;
+const MOST_REST: f64 = 0.5;
+/// How many stretches must share the turns, if all turned alike.
+const LEAST_STRETCHES: f64 = 4.0;
 /// Scatter of frames beyond their own variance, rad^2 (0.4 deg), and frames that count as one on real drives.
 const SCATTER: f64 = 5e-5;
 const CORRELATED: f64 = 50.0;
@@ -138,13 +143,14 @@ fn level(points: &[Point], slope: f64) -> f64 {
     median(&points.iter().map(|p| p.direction_rad - slope * p.turn_rad).collect::<Vec<_>>())
 }
 
-/// Slope of direction on turn, with a constant of its own for each block, and its standard deviation. Frames that lie far
-/// from both lines of slope 1 and -1 are left out: they are of traffic.
+/// Slope of direction on turn, with a constant of its own for each block, and its standard deviation: the larger of what the frames' scatter makes of
+/// it and of what stretches of some seconds do, each of whose frames err together (the sandwich of Liang and Zeger 1986). Frames that lie far
+/// from both lines of slope 1 and -1 are left out: they are of traffic. `None` where the line leaves more than it explains: then the
+/// yaw rate is not that of the radar's car.
 fn slope(points: &[Point]) -> Option<(f64, f64)> {
-    let (mut xx, mut xy, mut yy, mut freedom) = (0.0, 0.0, 0.0, 0.0);
-    for block in
-        points.chunk_by(|a, b| (a.time_s / BLOCK_S).floor() == (b.time_s / BLOCK_S).floor())
-    {
+    let mut rows: Vec<[f64; 4]> = Vec::new();
+    let mut freedom = 0.0;
+    for block in points.chunk_by(|a, b| place(a, BLOCK_S) == place(b, BLOCK_S)) {
         let levels = [1.0, -1.0].map(|slope| (slope, level(block, slope)));
         let near = |point: &&Point| {
             levels.iter().any(|(slope, level)| {
@@ -158,20 +164,40 @@ fn slope(points: &[Point]) -> Option<(f64, f64)> {
             means[0] += point.turn_rad / point.variance;
             means[1] += point.direction_rad / point.variance;
         }
-        for point in &kept {
-            let [x, y] =
-                [point.turn_rad - means[0] / total, point.direction_rad - means[1] / total];
-            xx += x * x / point.variance;
-            xy += x * y / point.variance;
-            yy += y * y / point.variance;
-        }
+        let means = means.map(|mean| mean / total);
         freedom += kept.len() as f64 - 1.0;
+        rows.extend(kept.iter().map(|point| {
+            let [x, y] = [point.turn_rad - means[0], point.direction_rad - means[1]];
+            [place(point, STRETCH_S), x, y, 1.0 / point.variance]
+        }));
     }
-    let slope = xy / xx;
+    let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
+        rows.iter().map(|[_, x, y, weight]| weight * of(*x, *y)).sum()
+    };
+    let (xx, yy) = (sum(&|x, _| x * x), sum(&|_, y| y * y));
+    let slope = sum(&|x, y| x * y) / xx;
+    let rest = sum(&|x, y| (y - slope * x).powi(2));
     // Scatter below what frames have at least is luck.
-    let scatter = ((yy - slope * xy) / freedom).max(1.0);
-    let sigma = (scatter * CORRELATED / xx).sqrt();
-    (freedom > CORRELATED && slope.is_finite() && sigma.is_finite()).then_some((slope, sigma))
+    let by_frames = (rest / freedom).max(1.0) * CORRELATED / xx;
+    let stretches = rows.chunk_by(|a, b| a[0] == b[0]).map(|stretch| {
+        let score = |[_, x, y, weight]: &[f64; 4]| weight * x * (y - slope * x);
+        stretch.iter().map(score).sum::<f64>().powi(2)
+    });
+    let by_stretches = stretches.sum::<f64>() / (xx * xx);
+    let sigma = by_frames.max(by_stretches).sqrt();
+    // Few stretches with most of the turn may turn as they should by chance.
+    let weights = rows
+        .chunk_by(|a, b| a[0] == b[0])
+        .map(|stretch| stretch.iter().map(|[_, x, _, weight]| weight * x * x).sum::<f64>());
+    let squares: f64 = weights.map(|weight| weight * weight).sum();
+    let independent = xx * xx / squares;
+    let told = freedom > CORRELATED && rest < MOST_REST * yy && independent > LEAST_STRETCHES;
+    (told && slope.is_finite() && sigma.is_finite()).then_some((slope, sigma))
+}
+
+/// Number of the block of a length that a point lies in.
+fn place(point: &Point, length_s: f64) -> f64 {
+    (point.time_s / length_s).floor()
 }
 
 /// Deviations for receding range rates being positive, with azimuths as they are and mirrored: the radar's velocity should
