@@ -1,4 +1,4 @@
-// Runs tests/interop: files exchanged with h5py, the RadarScenes package, MCAP's and rosbags.
+// Runs tests/interop: files and metrics exchanged with h5py, the RadarScenes package, MCAP's, rosbags and Prometheus's.
 import { pytest } from './lib/python.mjs';
 import { main } from './lib/run.mjs';
 

@@ -80,6 +80,32 @@ export function cpu(runtime, { detections = 225, durationS = 60, environment } =
   });
 }
 
+/** How long the service takes to come, ms: to listen, and then to its first radar and first estimate, which load the modules. */
+export async function startup(runtime, { times = 5, environment } = {}) {
+  const took = { listeningMs: [], radarMs: [], estimateMs: [] };
+  const data = Array.from({ length: 16 }, (_, i) => (i % 2 ? 0 : 1));
+  const body = JSON.stringify({
+    snapshots: { data, shape: [8, 1] },
+    options: { method: 'bartlett', array: 'ula8', sources: 1 },
+  });
+  for (let time = 0; time < times; time++) {
+    const startMs = performance.now();
+    await running(runtime, environment, async (service) => {
+      took.listeningMs.push(performance.now() - startMs);
+      const timed = async (name, answer) => {
+        const askedMs = performance.now();
+        assert.ok((await answer()).status < 300);
+        took[name].push(performance.now() - askedMs);
+      };
+      await timed('radarMs', () => service.put('car', 'front', RADAR));
+      const headers = { 'content-type': 'application/json' };
+      await timed('estimateMs', () => service.ask('/v1/estimate', { method: 'POST', body, headers }));
+    });
+  }
+  const median = (values) => Math.round(values.sort((a, b) => a - b)[Math.floor(values.length / 2)]);
+  return { runtime, ...Object.fromEntries(Object.entries(took).map(([name, values]) => [name, median(values)])) };
+}
+
 /** Memory with vehicles that all have been driving, MB: of the process before, after, and at most. */
 export async function memory(runtime, { vehicles = 100, durationS = 20, detections = 225, environment } = {}) {
   const inspector = runtime === 'workerd' ? await freePort() : undefined;

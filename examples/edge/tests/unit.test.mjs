@@ -136,6 +136,8 @@ test('a history stays bounded and reaches back to the beginning', () => {
   assert.ok(timeS.length > 400 && timeS.length <= 1024, `${timeS.length} points`);
   assert.equal(timeS[0], 0);
   assert.ok(timeS.at(-1) > 99_000);
+  const gaps = timeS.slice(1).map((time, i) => time - timeS[i]);
+  assert.ok(Math.max(...gaps) <= 2 * Math.min(...gaps), 'evenly');
   assert.ok(timeS.every((time, i) => angleDeg[i] === time / 1000 && !(time <= timeS[i - 1])));
 });
 
@@ -297,13 +299,17 @@ test('what no storage took is not acknowledged, and is taken once when it comes 
   state.fails = false;
   // The radar is there, and is kept now.
   assert.equal((await put()).status, 200);
+  restart();
+  assert.equal((await about()).json.radars.length, 1);
   assert.equal((await take(...all.slice(0, 30))).json.accepted, 30);
   state.fails = true;
   const refused = await take(...all.slice(30, 60));
   assert.deepEqual([refused.status, refused.json.code, refused.json.stored.accepted], [503, 'not-stored', 0]);
   state.fails = false;
   assert.equal((await take(...all.slice(30, 60))).json.repeated, 30);
+  const { history } = (await about()).json.radars[0];
   restart();
+  assert.deepEqual((await about()).json.radars[0].history, history);
   assert.equal((await take(...all.slice(60))).json.accepted, all.length - 60);
   assert.deepEqual((await about()).json.radars[0].result, await reference(all));
 });

@@ -823,10 +823,11 @@ export interface CountOptions {
  * - `radarscenes`: [`crate::radarscenes`]: `radar_data.h5` of a sequence.
  * - `delphi`: [`delphi`]: tracks of a Delphi front radar and poses.
  * - `csv`: [`table`]: the general tables.
- * - `pcd`: [`clouds`]: point clouds, a file a scan, as of nuScenes and TruckScenes.
- * - `view-of-delft`: [`clouds::view_of_delft`]: frames of View-of-Delft.
+ * - `pcd`: Point clouds, a file a scan, as of nuScenes and TruckScenes.
+ * - `view-of-delft`: Frames of View-of-Delft.
+ * - `mcap`: Recordings of ROS and others in MCAP.
  */
-export type DriveFormat = 'radarscenes' | 'delphi' | 'csv' | 'pcd' | 'view-of-delft';
+export type DriveFormat = 'radarscenes' | 'delphi' | 'csv' | 'pcd' | 'view-of-delft' | 'mcap';
 
 /**
  * Which side azimuths are positive on.
@@ -854,6 +855,18 @@ export interface ReadDriveOptions {
   azimuthSign?: AzimuthSign;
   /** When range rates are positive (default 'receding'). */
   rangeRateSign?: RangeRateSign;
+  /**
+   * Topics of radars in an MCAP file; by default all with detections, and those with tracks where there are no others
+   * (default []).
+   */
+  radarTopics?: readonly string[];
+  /**
+   * Topics of the car's motion in an MCAP file; by default one with the speed, and one with the yaw rate alone if
+   * there is one (default []).
+   */
+  motionTopics?: readonly string[];
+  /** Frame of the car, centred on the rear axle, in which an MCAP file states where radars sit; base_link by default. */
+  baseFrame?: string;
 }
 
 /** Which array of a file is read. */

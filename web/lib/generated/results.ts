@@ -1065,8 +1065,9 @@ export interface DriveMotion {
  * - `sensors-json`: `sensors.json` of the recording.
  * - `format`: The format's own car, as no file states them.
  * - `calibrated-sensor`: `calibrated_sensor.json` of the data set.
+ * - `tf-static`: Fixed transforms of the recording (`/tf_static`).
  */
-export type MountingSource = 'sensors-json' | 'format' | 'calibrated-sensor';
+export type MountingSource = 'sensors-json' | 'format' | 'calibrated-sensor' | 'tf-static';
 
 /** What the files of a drive held. */
 export interface DriveCounts {
@@ -1080,6 +1081,45 @@ export interface DriveCounts {
   incompleteMotion: number;
   /** Rows left out, by reason. */
   dropped: Partial<Record<DropReason, number>>;
+}
+
+/**
+ * What a topic of a recording is used for.
+ *
+ * - `radar`: The detections of a radar.
+ * - `tracks`: The tracks of a radar: filtered, and fewer.
+ * - `motion`: The car's motion.
+ * - `mountings`: Where radars sit.
+ * - `unused`: Nothing.
+ */
+export type TopicUse = 'radar' | 'tracks' | 'motion' | 'mountings' | 'unused';
+
+/**
+ * Which clock tells the times of a topic.
+ *
+ * - `stamp`: The stamp in the header of each message.
+ * - `log-time`: When each message was recorded.
+ */
+export type TopicClock = 'stamp' | 'log-time';
+
+/** A topic of a recording. */
+export interface DriveTopic {
+  /** Its name. */
+  name: string;
+  /** The type of its messages. */
+  messageType: string;
+  /** Messages on it. */
+  messages: number;
+  /** Messages of it that could not be decoded. */
+  unreadable: number;
+  /** What it is used for. */
+  usedAs: TopicUse;
+  /** Number of the radar, of a topic with one. */
+  sensor: number | null;
+  /** The clock of its times, of a topic that is used. */
+  clock: TopicClock | null;
+  /** What is read of it, or why it is not used. */
+  note: string;
 }
 
 /** A drive as read or simulated. */
@@ -1098,6 +1138,10 @@ export interface Drive {
   mountings: MountingSource | null;
   /** What the files held. */
   counts: DriveCounts;
+  /** Topics of a recording and what each is used for; none in other formats. */
+  topics: DriveTopic[];
+  /** When the drive begins by the clock of the recording, since 1970, where its times were shifted. */
+  startS: number | null;
   /** What else to know. */
   warnings: Warning[];
 }
@@ -1184,6 +1228,10 @@ export interface SimulatedDrive {
   mountings: MountingSource | null;
   /** What the files held. */
   counts: DriveCounts;
+  /** Topics of a recording and what each is used for; none in other formats. */
+  topics: DriveTopic[];
+  /** When the drive begins by the clock of the recording, since 1970, where its times were shifted. */
+  startS: number | null;
   /** What else to know. */
   warnings: Warning[];
   /** What really happened. */
@@ -1239,6 +1287,22 @@ export interface BoardObject {
   snrDb?: number;
 }
 
+/** How long the board took, as it says. */
+export interface BoardStats {
+  /** Processing between frames. */
+  processingS: number;
+  /** Time to send the packet. */
+  transmitS: number;
+  /** Margin left between frames. */
+  frameMarginS: number;
+  /** Margin left between chirps. */
+  chirpMarginS: number;
+  /** Load while chirps are sent, percent. */
+  activeLoadPercent: number;
+  /** Load between frames, percent. */
+  idleLoadPercent: number;
+}
+
 /** One packet: what the board made of one frame. */
 export interface BoardFrame {
   /** Number the board gave the frame. */
@@ -1253,6 +1317,15 @@ export interface BoardFrame {
   rangeProfileDb?: Float64Array;
   /** Noise profile, likewise. */
   noiseProfileDb?: Float64Array;
+  /** Range x virtual antenna at zero Doppler, as sent, receiver fastest: real and imaginary parts in turn. */
+  azimuthHeatMap?: Float32Array;
+  /**
+   * Range x Doppler map over the board's own unit, as sent: Doppler fastest, from zero up to the highest and on from
+   * the lowest.
+   */
+  rangeDopplerDb?: Float64Array;
+  /** Timing. */
+  stats?: BoardStats;
   /**
    * Whether the whole packet was there; false for one that the end of the input cut, of which the leading whole parts
    * are given.
