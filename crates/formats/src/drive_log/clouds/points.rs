@@ -19,8 +19,11 @@ use boresight_core::drive::Detection;
 pub(super) const RADIAL: [&str; 7] =
     ["range_rate", "radial_velocity", "v_r", "vr", "doppler", "Doppler", "velocity"];
 
+/// A field that marks points, what keeps them, and why others are left out.
+type Mark = (&'static str, fn(f64) -> bool, DropReason);
+
 /// What is required of fields that mark points, and why others are left out.
-const MARKS: [(&str, fn(f64) -> bool, DropReason); 3] = [
+const MARKS: [Mark; 3] = [
     ("invalid_state", |state| state == 0.0, DropReason::InvalidState),
     ("ambig_state", |state| state == 3.0, DropReason::AmbiguousDoppler),
     ("dyn_prop", |property| (0.0..=6.0).contains(&property), DropReason::DynamicProperty),
