@@ -9,10 +9,25 @@ import pytest
 from conftest import boresight, log
 
 FIELDS = {
-    "x": "f4", "y": "f4", "z": "f4", "dyn_prop": "i1", "id": "i2", "rcs": "f4", "vx": "f4", "vy": "f4",
-    "vx_comp": "f4", "vy_comp": "f4", "is_quality_valid": "i1", "ambig_state": "i1", "x_rms": "i1", "y_rms": "i1",
-    "invalid_state": "i1", "pdh0": "i1", "vx_rms": "i1", "vy_rms": "i1",
-}  # fmt: skip
+    "x": "f4",
+    "y": "f4",
+    "z": "f4",
+    "dyn_prop": "i1",
+    "id": "i2",
+    "rcs": "f4",
+    "vx": "f4",
+    "vy": "f4",
+    "vx_comp": "f4",
+    "vy_comp": "f4",
+    "is_quality_valid": "i1",
+    "ambig_state": "i1",
+    "x_rms": "i1",
+    "y_rms": "i1",
+    "invalid_state": "i1",
+    "pdh0": "i1",
+    "vx_rms": "i1",
+    "vy_rms": "i1",
+}
 LOG = "n015-2018-07-24-11-22-45+0800"
 FIRST_US = 1_532_402_927_000_000
 RADARS = {"RADAR_BACK_RIGHT": ([-0.6, -0.6, 0.5], 3.0), "RADAR_FRONT": ([3.4, 0.0, 0.5], 0.02)}
@@ -95,7 +110,12 @@ def folder(request, tmp_path):
         time = (stamp - FIRST_US) / 1e6
         x, y, yaw = pose(time)
         poses.append(
-            {"token": f"p{step}", "timestamp": stamp, "translation": [600 + x, 1600 + y, 0.0], "rotation": quaternion(yaw)}
+            {
+                "token": f"p{step}",
+                "timestamp": stamp,
+                "translation": [600 + x, 1600 + y, 0.0],
+                "rotation": quaternion(yaw),
+            }
         )
         for number, (channel, (place, mounted)) in enumerate(RADARS.items(), 1):
             speed, rate = 8.0, 0.2 * np.cos(0.5 * time)
@@ -104,7 +124,10 @@ def folder(request, tmp_path):
             rows["x"], rows["y"] = ranges * np.cos(azimuths), ranges * np.sin(azimuths)
             car = np.array([speed - rate * place[1], rate * place[0]])
             own = np.array(
-                [np.cos(mounted) * car[0] + np.sin(mounted) * car[1], np.cos(mounted) * car[1] - np.sin(mounted) * car[0]]
+                [
+                    np.cos(mounted) * car[0] + np.sin(mounted) * car[1],
+                    np.cos(mounted) * car[1] - np.sin(mounted) * car[0],
+                ]
             )
             # As nuScenes' radars state it: straight ahead or back, so that its part along the ray is what was measured.
             radial = -(own[0] * np.cos(azimuths) + own[1] * np.sin(azimuths))
@@ -117,8 +140,14 @@ def folder(request, tmp_path):
             name = f"sweeps/{channel}/{LOG}__{channel}__{stamp}.pcd"
             write_pcd(tmp_path / name, rows, request.param)
             data.append(
-                {"token": f"d{step}{number}", "ego_pose_token": f"p{step}", "calibrated_sensor_token": channel,
-                 "timestamp": stamp, "filename": name, "is_key_frame": False}  # fmt: skip
+                {
+                    "token": f"d{step}{number}",
+                    "ego_pose_token": f"p{step}",
+                    "calibrated_sensor_token": channel,
+                    "timestamp": stamp,
+                    "filename": name,
+                    "is_key_frame": False,
+                }
             )
             # NumPy's arithmetic on what was stored.
             kept = rows[4:].astype([(field, "f8") for field in FIELDS])

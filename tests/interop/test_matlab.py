@@ -56,9 +56,19 @@ def test_matlab_h5py_and_npy_give_the_same_angles(snapshots, kind, tmp_path):
 
 def test_a_cube_of_matlab_is_a_cube(tmp_path):
     boresight(
-        "simulate", "cube", "--waveform", "awr1642", "--array", "awr1642", "--seed", 1,
-        "--target", "range=5,azimuth=10", "--out", tmp_path / "cube.npy",
-    )  # fmt: skip
+        "simulate",
+        "cube",
+        "--waveform",
+        "awr1642",
+        "--array",
+        "awr1642",
+        "--seed",
+        1,
+        "--target",
+        "range=5,azimuth=10",
+        "--out",
+        tmp_path / "cube.npy",
+    )
     cube = np.load(tmp_path / "cube.npy")
     save(tmp_path / "cube.mat", cube=cube)
     radar = ("--waveform", "awr1642", "--array", "awr1642", "--json")

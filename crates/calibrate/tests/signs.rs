@@ -75,7 +75,7 @@ fn simulated_drives_of_all_scenarios_are_never_told_wrong() {
     let counts = count(1..3, |log, _| log);
     assert_eq!([counts[0][1], counts[1][1]], [0, 0], "{counts:?}");
     // Motorways and queues turn too little; car parks are driven in reverse.
-    assert!(counts[0][0] >= 7 && counts[1][0] >= 10, "{counts:?}");
+    assert!(counts[0][0] >= 5 && counts[1][0] >= 10, "{counts:?}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ use boresight_core::drive::Detection;
 pub(super) const RADIAL: [&str; 7] =
     ["range_rate", "radial_velocity", "v_r", "vr", "doppler", "Doppler", "velocity"];
 
-/// A field, the values with which a point is kept, and what others count as.
+/// A field that marks points, what keeps them, and why others are left out.
 type Mark = (&'static str, fn(f64) -> bool, DropReason);
 
 /// What is required of fields that mark points, and why others are left out.
