@@ -48,7 +48,7 @@ browserTest(
       /staticClutterRemoval: true,\s+cfar: \{ falseAlarm: 0\.001 \},\s+angle: \{ method: 'capon' \}/,
     );
     assert.match(commandLine.text, /^boresight bridge --config profile\.cfg --port 9000$/m);
-    assert.match(commandLine.text, /--static-clutter-removal \\\n  --cfar-false-alarm 0\.001 --method capon$/m);
+    assert.match(commandLine.text, /--static-clutter-removal \\\n\s+--cfar-false-alarm 0\.001 --method capon$/m);
     const folder = mkdtempSync(join(tmpdir(), 'boresight-code-'));
     writeFileSync(join(folder, 'shown.mjs'), javascript.text);
     execFileSync(process.execPath, ['--check', join(folder, 'shown.mjs')]);
