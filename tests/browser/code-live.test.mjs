@@ -45,10 +45,10 @@ browserTest(
     assert.match(javascript.text, /bridgeFrames\('ws:\/\/127\.0\.0\.1:9000'\)/);
     assert.match(
       javascript.text,
-      /staticClutterRemoval: true, cfar: \{ falseAlarm: 0\.001 \}, angle: \{ method: 'capon' \}/,
+      /staticClutterRemoval: true,\s+cfar: \{ falseAlarm: 0\.001 \},\s+angle: \{ method: 'capon' \}/,
     );
     assert.match(commandLine.text, /^boresight bridge --config profile\.cfg --port 9000$/m);
-    assert.match(commandLine.text, /--false-alarm 0\.001/);
+    assert.match(commandLine.text, /--static-clutter-removal \\\n\s+--cfar-false-alarm 0\.001 --method capon$/m);
     const folder = mkdtempSync(join(tmpdir(), 'boresight-code-'));
     writeFileSync(join(folder, 'shown.mjs'), javascript.text);
     execFileSync(process.execPath, ['--check', join(folder, 'shown.mjs')]);

@@ -73,7 +73,9 @@ function boardCode(): Code {
 
 function bridgeCode(): Code {
   const state = liveState.peek();
-  const options = withoutDefaults('DetectionOptions', chainOptions(state));
+  const all = chainOptions(state);
+  const options = withoutDefaults('DetectionOptions', all);
+  const { angle = {}, ...chain } = all;
   const script = new Script()
     .use('boresight', 'bridgeFrames', 'Capture', 'init')
     .add('await init();')
@@ -89,7 +91,7 @@ function bridgeCode(): Code {
   const words = [
     command(['boresight', 'bridge', '--config', fileWord(cfgName()), '--port', String(state.bridge)]),
     '# Of a recording, the same detections:',
-    command([...estimate, ...flags('DetectionOptions', options)]),
+    command([...estimate, ...flags('DetectionOptions', chain), ...flags('DetectionOptions.angle', angle)]),
   ];
   return {
     javascript: part(script.text(), 'Node 22 or newer and the package: npm install boresight. A running bridge.', []),
