@@ -50,7 +50,7 @@ browserTest(
       await choose();
       await opened(page, 'large.mcap');
       await page.waitForSelector(`${cell}[data-value]`);
-      assert.match(await page.locator('.warnings').first().innerText(), /bytes after the end of the file/);
+      await page.locator('.warnings', { hasText: 'bytes after the end of the file' }).waitFor();
     } finally {
       rmSync(folder, { recursive: true, force: true });
     }

@@ -96,8 +96,12 @@ def test_the_drive_is_made_of_what_their_reader_sees(recording, tmp_path):
     assert told["rowsRead"]["detections"] == len(detections) + dropped
     with (tmp_path / "tables" / "detections.csv").open() as file:
         rows = list(csv.DictReader(file))
-    own = np.array([[float(row[name]) for name in ("time_s", "sensor", "azimuth_rad", "range_rate_mps", "range_m")]
-                    for row in rows])
+    own = np.array(
+        [
+            [float(row[name]) for name in ("time_s", "sensor", "azimuth_rad", "range_rate_mps", "range_m")]
+            for row in rows
+        ]
+    )
     np.testing.assert_array_equal(own.astype("f4"), np.array(sorted(detections, key=lambda d: d[:2])).astype("f4"))
     np.testing.assert_allclose(own[:, 0], [d[0] for d in sorted(detections, key=lambda d: d[:2])], rtol=0, atol=1e-12)
     with (tmp_path / "tables" / "motion.csv").open() as file:

@@ -78,7 +78,7 @@ export class DriveElement extends MountingAngleElement {
 
   /** @internal */
   protected override build(above: HTMLElement): void {
-    this.#intake = new Intake(this, 'a drive', '.csv,.gz,.h5,.hdf5,.json,.pcd', (files) => {
+    this.#intake = new Intake(this, 'a drive', '.csv,.gz,.h5,.hdf5,.mcap,.json,.pcd', (files) => {
       this.files = files;
     });
     const radars = Object.assign(document.createElement('select'), { hidden: true });
