@@ -18,4 +18,3 @@ pub use play::Play;
 pub use results::ResultTopics;
 pub use server::Server;
 pub use shared::Counts;
-
