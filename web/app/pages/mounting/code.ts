@@ -34,6 +34,8 @@ interface Made {
 }
 
 export function mountingCode(): Code {
+  if (mountingState.peek().source === 'live')
+    return nothing('Live data are not kept. Record them, and calibrate the recording.');
   const open = loaded.peek();
   const options = asked();
   if (!open || !options)
