@@ -181,10 +181,11 @@ export function MountingPage() {
             determined” is an infinite one: the drive does not tell.
           </p>
           <p>
-            <b>Files.</b> A recording of ROS 2 (.mcap) with radar_msgs/RadarScan, point clouds with a velocity or tracks,
-            read in pieces whatever its size; a RadarScenes sequence (radar_data.h5), radar clouds (.pcd) of nuScenes or
-            TruckScenes with their tables, frames of View-of-Delft (.bin), Delphi ESR tables, or other tables of detections
-            and of the car’s motion (.csv): where their columns have names of their own, it is asked what they hold.
+            <b>Files.</b> A recording of ROS 2 (.mcap) with radar_msgs/RadarScan, point clouds with a velocity or
+            tracks, read in pieces whatever its size; a RadarScenes sequence (radar_data.h5), radar clouds (.pcd) of
+            nuScenes or TruckScenes with their tables, frames of View-of-Delft (.bin), Delphi ESR tables, or other
+            tables of detections and of the car’s motion (.csv): where their columns have names of their own, it is
+            asked what they hold.
             <Template group="detections" /> and <Template group="motion" /> are tables to fill.
           </p>
         </About>
