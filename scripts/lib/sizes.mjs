@@ -18,10 +18,13 @@ export const describeSize = (name, { raw, gzip, brotli }) =>
 /** Of the core module: what a page loads at once. */
 export const coreLimits = { brotli: 410_000 };
 export const neuralLimits = { brotli: 3_000_000 };
-/** Of the core, drives and pool in one file. */
-export const inlineLimits = { raw: 1_400_000, brotli: 950_000 };
+/**
+ * Of the core, drives and pool in one file. Readers of MCAP, ROS messages, point clouds and MATLAB arrays, and what finds out
+ * signs, took it from 822 KB to 963 with HDF5 compiled for size; the limit was 950.
+ */
+export const inlineLimits = { raw: 1_400_000, brotli: 970_000 };
 /** That with the elements: what a notebook sends for each widget. */
-export const notebookLimits = { raw: 1_500_000 };
+export const notebookLimits = { raw: 1_600_000 };
 /** Of the extension for viewers, which is a ZIP archive: what is installed. */
 export const foxgloveLimits = { raw: 700_000 };
 

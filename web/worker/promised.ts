@@ -9,6 +9,7 @@ import type * as theory from '../lib/estimate/theory.js';
 import type * as board from '../lib/formats/board.js';
 import type * as config from '../lib/formats/config.js';
 import type * as csv from '../lib/formats/csv.js';
+import type * as hdf5 from '../lib/formats/hdf5.js';
 import type * as npy from '../lib/formats/npy.js';
 import type * as image from '../lib/image/image.js';
 import type * as array from '../lib/radar/array.js';
@@ -50,6 +51,7 @@ type Functions = typeof array &
   typeof csv &
   typeof drive &
   typeof estimate &
+  typeof hdf5 &
   typeof image &
   typeof npy &
   typeof region &

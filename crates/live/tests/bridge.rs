@@ -274,7 +274,7 @@ fn addresses_and_configurations_that_cannot_be_are_refused() {
     for options in taken {
         let error = Bridge::open(CFG, &options).err().unwrap();
         assert!(matches!(error, LiveError::Listen { .. }), "{error}");
-        assert_eq!(error.code(), "not-listening");
+        assert_eq!(error.code(), "cannot-listen");
     }
     bridge.end();
     let error = Bridge::open(b"sensorStart", &options()).err().unwrap();

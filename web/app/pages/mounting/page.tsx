@@ -304,6 +304,7 @@ const REASONS: Record<string, string> = {
 const MOUNTINGS: Readonly<Record<MountingSource, string>> = {
   'sensors-json': 'sensors.json',
   format: 'what is known of the format',
+  'calibrated-sensor': 'calibrated_sensor.json',
   'tf-static': 'the fixed transforms of the recording',
 };
 
