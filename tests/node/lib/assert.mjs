@@ -2,9 +2,14 @@
 import assert from 'node:assert/strict';
 import { BoresightError } from 'boresight';
 
-/** Asserts that `work` throws a BoresightError with this code whose details name `what`. */
+/** Asserts that `work` throws a BoresightError with this code whose details name `what`; returns it. */
 export function throwsTyped(work, code, what) {
-  assert.throws(work, (error) => isTyped(error, code, what));
+  let thrown;
+  assert.throws(work, (error) => {
+    thrown = error;
+    return isTyped(error, code, what);
+  });
+  return thrown;
 }
 
 /** The same for promises. */

@@ -1,4 +1,6 @@
 // A small, good call of every function and method of the package.
+
+import { readFileSync } from 'node:fs';
 import * as everything from 'boresight';
 import { batchOf, planeWaves } from './assert.mjs';
 import { golden } from './drives.mjs';
@@ -48,6 +50,7 @@ export function goodCalls() {
     speedMps: 10,
   };
   const detections = boresight.processCube(cube, chain)[0].detections;
+  const numbers = Uint8Array.from(readFileSync(new URL('../../golden/hdf5/one.h5', import.meta.url)));
   const plain = {
     array: [
       {
@@ -85,6 +88,8 @@ export function goodCalls() {
     readSnapshotsCsv: [boresight.writeSnapshotsCsv(snapshots)],
     simulateDrive: [simulatedDrive, (done) => done < 1],
     readDrive: [[golden('contiguous.h5')]],
+    readArray: [numbers, { dataset: 'frames/snapshots' }],
+    listArrays: [numbers],
     calibrateDrive: [drive, of],
     jointCalibration: [drive, { sensors: [1] }],
     calibrationReport: [
@@ -107,6 +112,7 @@ export function goodCalls() {
     'Capture.cellSpectrum': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, angle, {}],
     'Capture.combineFrames': [bytes, cfg, { frameCount: 1, angle }, () => true],
     'BoardLogStream.push': [cfg, Uint8Array.from(dat.subarray(0, 500))],
+    'DriveStream.push': [{}, Uint8Array.of(0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a)],
     'Calibration.addFrame': [calibration, frame],
     'Calibration.estimate': [calibration],
     'Calibration.snapshot': [recursive(calibration)],
@@ -129,7 +135,7 @@ function snapshotOf(options, frame) {
 export const live = ['boardFrames', 'bridgeFrames', 'RecentBytes', 'replayBytes', 'sendConfiguration', 'serialBytes'];
 
 /** How many arguments handles are made with. */
-const MADE_WITH = { Estimator: 1, Capture: 2, BoardLogStream: 1, Calibration: 1 };
+const MADE_WITH = { Estimator: 1, Capture: 2, BoardLogStream: 1, DriveStream: 1, Calibration: 1 };
 
 /** Calls by name with arguments as {@link goodCalls} has them. */
 export function callBy(name, args) {

@@ -1,4 +1,4 @@
-import { type BoresightError, failure } from '../runtime/errors.js';
+import { type BoresightError, failure, own } from '../runtime/errors.js';
 import type { BridgeCounts, BridgeFrame, BridgeHello, BridgeOptions } from './types.js';
 
 /** Of what `boresight bridge` sends. */
@@ -33,9 +33,9 @@ export class BridgeFrames implements AsyncIterable<BridgeFrame> {
   #wake: (() => void) | null = null;
 
   /** @internal */
-  constructor(address: string, options: BridgeOptions = {}) {
+  constructor(address: string, options?: BridgeOptions) {
     this.#address = address;
-    this.#options = options;
+    this.#options = own(options, 'options') as BridgeOptions;
   }
 
   /** What the bridge said of itself; null until it did. */

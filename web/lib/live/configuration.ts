@@ -1,4 +1,4 @@
-import { failure } from '../runtime/errors.js';
+import { failure, own, wrong } from '../runtime/errors.js';
 import { openPort, serialBytes } from './serial.js';
 import type { BoardPort, ConfigurationOptions } from './types.js';
 
@@ -24,6 +24,7 @@ interface Command {
 
 /** What of a configuration is sent: lines without comments, and none that are blank. */
 export function commandsOf(text: string): Command[] {
+  if (typeof text !== 'string') throw wrong('configuration', 'text', text);
   return text
     .replace(/^\ufeff/, '')
     .split(/\r\n|\r|\n/)
@@ -38,12 +39,13 @@ export function commandsOf(text: string): Command[] {
  * Throws `command-refused` with the line and what the board said of it, `command-timeout` where no answer comes,
  * `port-lost` where the board is unplugged, and `port-not-opened`.
  */
-export async function sendConfiguration(
-  port: BoardPort,
-  text: string,
-  options: ConfigurationOptions = {},
-): Promise<void> {
-  const { baudRate = COMMAND_BAUD, timeoutMs = ANSWER_MS, signal, onLine } = options;
+export async function sendConfiguration(port: BoardPort, text: string, options?: ConfigurationOptions): Promise<void> {
+  const {
+    baudRate = COMMAND_BAUD,
+    timeoutMs = ANSWER_MS,
+    signal,
+    onLine,
+  } = own(options, 'options') as ConfigurationOptions;
   const commands = commandsOf(text);
   signal?.throwIfAborted();
   const opened = await openPort(port, { baudRate, bufferSize: BUFFER });

@@ -1,4 +1,4 @@
-import { failure } from '../runtime/errors.js';
+import { failure, own } from '../runtime/errors.js';
 import type { RecentCounts, RecentOptions } from './types.js';
 
 interface Piece {
@@ -14,7 +14,8 @@ export class RecentBytes {
   #bytes = 0;
   #forgotten = 0;
 
-  constructor({ seconds = 60, bytes = 64 * 2 ** 20 }: RecentOptions = {}) {
+  constructor(options?: RecentOptions) {
+    const { seconds = 60, bytes = 64 * 2 ** 20 } = own(options, 'options') as RecentOptions;
     for (const [what, given] of Object.entries({ seconds, bytes })) {
       if (!(given > 0)) throw failure('out-of-range', { what, expected: 'a number above 0', given: String(given) });
     }

@@ -1,4 +1,4 @@
-import { failure, wrong } from '../runtime/errors.js';
+import { failure, own, wrong } from '../runtime/errors.js';
 import type { BytesInput } from '../types.js';
 import { DATA_BAUD } from './serial.js';
 import type { ReplayOptions } from './types.js';
@@ -15,10 +15,13 @@ const PIECE = 4096;
  * Bytes of a file as they would come over a port: at its speed, faster, or as fast as they are taken. Ends early, without
  * an error, when the signal says so.
  */
-export function replayBytes(
-  data: BytesInput | Blob,
-  { rate = 1, bytesPerSecond = DATA_BAUD / BITS_A_BYTE, pieceBytes = PIECE, signal }: ReplayOptions = {},
-): AsyncIterable<Uint8Array> {
+export function replayBytes(data: BytesInput | Blob, options?: ReplayOptions): AsyncIterable<Uint8Array> {
+  const {
+    rate = 1,
+    bytesPerSecond = DATA_BAUD / BITS_A_BYTE,
+    pieceBytes = PIECE,
+    signal,
+  } = own(options, 'options') as ReplayOptions;
   for (const [what, given, most] of [
     ['rate', rate, Number.POSITIVE_INFINITY],
     ['bytesPerSecond', bytesPerSecond, Number.MAX_VALUE],

@@ -1,4 +1,4 @@
-import { failure } from '../runtime/errors.js';
+import { failure, own } from '../runtime/errors.js';
 import type { BoardPort, SerialCounts, SerialOptions, SerialState } from './types.js';
 
 export const DATA_BAUD = 921_600;
@@ -40,7 +40,8 @@ export class SerialBytes implements AsyncIterable<Uint8Array> {
   #wake: (() => void) | null = null;
 
   /** @internal */
-  constructor(port: BoardPort, options: SerialOptions = {}) {
+  constructor(port: BoardPort, given?: SerialOptions) {
+    const options = own(given, 'options') as SerialOptions;
     const { baudRate = DATA_BAUD, bufferSize = 4 * LEAST_BUFFER } = options;
     for (const [what, least, given] of [
       ['baudRate', 1, baudRate],
