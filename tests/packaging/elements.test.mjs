@@ -84,7 +84,7 @@ test('a server reads it and defines nothing', async () => {
     '--eval',
     "const { define, elements } = await import('boresight/elements'); define(); console.log(Object.keys(elements).length)",
   ]);
-  assert.equal(stdout.trim(), '9');
+  assert.equal(stdout.trim(), '10');
 });
 
 test('its types fit into a strict project', async () => {

@@ -195,7 +195,7 @@ for (const example of ['react', 'vue', 'svelte', 'webpack', 'esbuild']) {
   test(`${example}: the build of a pool holds no module of networks`, () => {
     const { found, bytes } = modules(example);
     assert.deepEqual(found, ['boresight_bg.wasm', 'boresight_drives_bg.wasm']);
-    // Two modules of 1.3 MB, and scripts.
-    assert.ok(bytes < 3.5e6, `${bytes} bytes`);
+    // Modules of 1.3 and 1.8 MB, and scripts.
+    assert.ok(bytes < 4e6, `${bytes} bytes`);
   });
 }

@@ -1,9 +1,10 @@
 /** The examples in the comments of the package's sources, which the API reference shows, print what they say. */
 import assert from 'node:assert/strict';
-import { copyFileSync, readdirSync, readFileSync } from 'node:fs';
+import { copyFileSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
+import { recordingBytes } from '../../scripts/lib/recordings.mjs';
 import { consumer } from './consumer.mjs';
 
 const sources = ['web/lib', 'web/worker'].flatMap((folder) =>
@@ -26,6 +27,8 @@ before(async () => {
   project = await consumer({ files: Object.fromEntries(examples.map(({ name, code }) => [`${name}.mjs`, code])) });
   const recorded = 'recordings/awr1642/xwr16xx_crw_demo_visualizer_2018_1015v2.dat';
   copyFileSync(join(root, recorded), join(project.folder, 'board.dat'));
+  copyFileSync(join(root, 'tests/golden/hdf5/matlab.mat'), join(project.folder, 'measured.mat'));
+  writeFileSync(join(project.folder, 'drive.mcap'), await recordingBytes({ seconds: 5 }));
 });
 after(() => project?.remove());
 

@@ -9,16 +9,15 @@ import { drives } from './drive.js';
  *
  * @example
  * ```js
+ * import { createReadStream } from 'node:fs';
  * import { DriveStream, initDrives } from 'boresight';
  *
  * await initDrives();
- * async function readRecording(blob) {
- *   const stream = new DriveStream({ radarTopics: ['/radar/front'] });
- *   for await (const bytes of blob.stream()) stream.push(bytes);
- *   const drive = stream.finish();
- *   stream.free();
- *   return drive;
- * }
+ * const stream = new DriveStream();
+ * for await (const bytes of createReadStream('drive.mcap')) stream.push(bytes);
+ * const drive = stream.finish();
+ * stream.free();
+ * console.log(`${drive.scans.timeS.length} scans`); // → 100 scans
  * ```
  */
 export class DriveStream extends Handle<glue.DriveStream> {

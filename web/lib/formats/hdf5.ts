@@ -8,11 +8,14 @@ import type { ArrayEntry, BytesInput, NpyArray, ReadArrayOptions } from '../type
  *
  * @example
  * ```js
- * import { estimate, init, initDrives, readArray } from 'boresight';
+ * import { readFile } from 'node:fs/promises';
+ * import { initDrives, listArrays, readArray } from 'boresight';
  *
- * await Promise.all([init(), initDrives()]);
- * const snapshots = readArray(bytes, { dataset: 'X' });
- * console.log(estimate({ array: 'ula8', snapshots, method: 'music' }).sources);
+ * await initDrives();
+ * const bytes = await readFile('measured.mat');
+ * console.log(listArrays(bytes).map(({ dataset }) => dataset).join(', ')); // → X, counts, cube, single, board/gain
+ * const { kind, shape } = readArray(bytes, { dataset: 'X' });
+ * console.log(kind, shape.join(' x ')); // → complex 3 x 2
  * ```
  */
 export function readArray(bytes: BytesInput, options?: ReadArrayOptions): NpyArray {
