@@ -3,12 +3,12 @@
 //! Formats and drivers disagree: azimuths are positive to the left or to the right, range rates positive when
 //! receding or when approaching. A drive tells both where it is driven in a telling way:
 //!
-//! - Things that stand move from scan to scan by what the radar moves, and turn by what the car turns ([`passing`]).
+//! - Things that stand move from scan to scan by what the radar moves, and turn by what the car turns (`passing`).
 //!   That they come nearer where the range rates say so tells the sign of range rates, that they turn against the yaw
 //!   rate tells that of azimuths. It needs ranges, and for azimuths a yaw rate, but no mounting.
-//! - A radar ahead of the rear axle moves sideways as the car turns ([`lever`]): the direction of its velocity
+//! - A radar ahead of the rear axle moves sideways as the car turns (`lever`): the direction of its velocity
 //!   changes with yaw rate times lever arm over speed, with slope 1 if azimuths are positive to the left and -1 if not.
-//! - Where the radar's nominal direction is known, a car that drives forward approaches what lies ahead of it ([`lever`] too).
+//! - Where the radar's nominal direction is known, a car that drives forward approaches what lies ahead of it (`lever` too).
 //!
 //! A sign is told where its evidence is [`CERTAIN`] deviations strong and nothing speaks against it.
 

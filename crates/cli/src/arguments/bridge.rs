@@ -25,7 +25,7 @@ pub struct BridgeArguments {
     /// Address and port that the card sends to.
     #[arg(long, value_name = "ADDRESS:PORT", default_value = "0.0.0.0:4098")]
     pub listen: SocketAddr,
-    /// A page beside those of this machine that may connect, such as https://example.org; can be given again.
+    /// A page beside those of this machine that may connect, such as `https://example.org`; can be given again.
     #[arg(long, value_name = "ORIGIN")]
     pub origin: Vec<String>,
     /// A recording (.bin) that is sent over and over in place of a card, to the address of --listen.
