@@ -240,7 +240,8 @@ browserTest(
     await ready(page);
     assert.ok(Math.abs((await value(page, 'recursive', 'angleDeg')) - 2) < 0.1);
     assert.equal(await page.locator('input[name="xM"]').inputValue(), '3.5');
-    assert.match(await page.locator('.warnings').first().innerText(), /differences of the poses/);
+    const remarks = page.locator('[aria-labelledby="dropped-title"] .warnings');
+    assert.match(await remarks.innerText(), /differences of the poses/);
   },
 );
 
