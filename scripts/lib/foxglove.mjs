@@ -1,7 +1,6 @@
 // The extension for Foxglove and Lichtblick: one script, zipped with what the applications read of an extension.
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { strToU8, zipSync } from 'fflate';
 import { bundledWithDrives } from './inline.mjs';
 import { dist, root } from './paths.mjs';
 
@@ -34,6 +33,8 @@ function manifest() {
 }
 
 export async function makeFoxglove() {
+  // A package, which set-up brings after this file is read.
+  const { strToU8, zipSync } = await import('fflate');
   // The applications hand over `module`, and no `exports`.
   const { code, licences } = await bundledWithDrives(join(source, 'extension.ts'), {
     format: 'iife',
