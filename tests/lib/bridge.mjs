@@ -4,14 +4,14 @@ import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
-import { program } from '../../scripts/lib/programs.mjs';
+import { commandLine } from '../../scripts/lib/programs.mjs';
 
 const folder = join(root, 'recordings', 'awr1642');
 
 /** The command line: what the environment variable BORESIGHT names, else it is built. */
 export async function startBridge(...more) {
   const child = spawn(
-    process.env.BORESIGHT ?? (await program('boresight')),
+    await commandLine(),
     [
       ...['bridge', '--config', join(folder, 'profile.cfg'), '--port', '0', '--listen', '127.0.0.1:0', '--json'],
       ...['--replay', join(folder, 'xwr16xx_crw_dca_module_2018_1015v2.bin'), ...more],
