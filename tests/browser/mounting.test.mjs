@@ -178,7 +178,7 @@ browserTest(
   { path: '#/mounting?source=simulated&duration=5&methods=weighted-mean' },
   async ({ page }) => {
     await page.waitForSelector('[data-fact="name"]');
-    await page.locator('[data-input="folder"]').setInputFiles(recordings('delphi'));
+    await page.locator('[name="drive-folder"]').setInputFiles(recordings('delphi'));
     await page.waitForFunction(() => /delphi, delphi/.test(document.querySelector('[data-fact="name"]').textContent));
     await ready(page, 'weighted-mean');
     assert.match(await page.locator('.files').innerText(), /front_radar\.csv\.gz[\s\S]*pose_10hz\.csv\.gz/);

@@ -41,7 +41,7 @@ browserTest(
       writeFileSync(file, await recordingBytes({ seconds: 30 }));
       // Nothing follows that takes room on the disk.
       truncateSync(file, 2 ** 31);
-      const choose = () => page.locator('[data-input="files"]').setInputFiles(file);
+      const choose = () => page.locator('[name="drive-files"]').setInputFiles(file);
       await choose();
       const { max } = await clickWhenThere(page, '[data-opening] [data-action="cancel-opening"]');
       assert.equal(max, 1, 'it is told how far it is');

@@ -1,9 +1,10 @@
 /** Buttons that save and open a session, and the question before one replaces the user's own files. */
+
 import { useEffect, useRef } from 'preact/hooks';
+import { FileButton } from '../ui/file-button.tsx';
 import { answer, asking, openSession, saveSession, working } from './session.ts';
 
 export function SessionBar({ ready }: { ready: boolean }) {
-  const input = useRef<HTMLInputElement>(null);
   const doing = working.value;
   return (
     <div class="session-bar" role="group" aria-label="Session">
@@ -17,29 +18,18 @@ export function SessionBar({ ready }: { ready: boolean }) {
         {doing === 'saving' ? 'Saving' : 'Save'}
         <span class="wide-only"> session</span>
       </button>
-      <button
-        type="button"
-        data-action="open-session"
+      <FileButton
+        label="Session file"
+        accept=".boresight"
+        name="session"
+        action="open-session"
         disabled={!ready || doing !== null}
         title="Open a saved session (.boresight); or drop it anywhere on the page"
-        onClick={() => input.current?.click()}
+        onFiles={([first]) => first && void openSession(first.file)}
       >
         {doing === 'opening' ? 'Opening' : 'Open'}
         <span class="wide-only"> session</span>
-      </button>
-      <input
-        ref={input}
-        type="file"
-        hidden
-        accept=".boresight"
-        name="session"
-        aria-label="Session file"
-        onChange={(event) => {
-          const [file] = event.currentTarget.files ?? [];
-          event.currentTarget.value = '';
-          if (file) void openSession(file);
-        }}
-      />
+      </FileButton>
       <Question />
     </div>
   );

@@ -3,8 +3,8 @@ import { defineElement } from '../../elements/define.ts';
 import { PointCloudElement } from '../../elements/point-cloud.ts';
 import type { Panel } from '../panel.ts';
 import { placeSettings, signSettings, topicSettings } from '../radar-settings.ts';
-import { choiceSetting, maybeNumber, type ValuesOf } from '../settings.ts';
-import { Latest } from './latest.ts';
+import { choiceSetting, maybeNumber } from '../settings.ts';
+import { viewOfLatest } from './latest.ts';
 
 const settings = {
   ...topicSettings,
@@ -23,7 +23,6 @@ const settings = {
     { standing: 'what stands and what moves', none: 'all alike' },
   ),
 };
-type Values = ValuesOf<typeof settings>;
 
 export const birdsEyePanel: Panel<typeof settings> = {
   name: 'Detections from above',
@@ -32,39 +31,24 @@ export const birdsEyePanel: Panel<typeof settings> = {
     defineElement('boresight-point-cloud', PointCloudElement);
     const element = document.createElement('boresight-point-cloud') as PointCloudElement;
     element.toggleAttribute('boresight', true);
-    const latest = new Latest();
-    let values: Values;
-    const show = (): void => {
-      const { nominalDeg, weighed } = values;
-      element.mounting = { ...(latest.place(values) ?? { xM: 0, yM: 0 }), yawDeg: nominalDeg ?? 0 };
-      if (!latest.scan) {
-        element.points = null;
-        return;
-      }
-      const { scan, outcome } = latest.scan;
-      const weights = weighed === 'standing' && outcome?.motion ? outcome.weights : null;
-      const { rangeM, azimuthDeg, rangeRateMps, rcsDbsm } = scan;
-      element.points = { rangeM, azimuthDeg, rangeRateMps, rcsDbsm, weights };
-    };
-    return {
+    return viewOfLatest<typeof settings>(
       element,
-      set(given, topics) {
-        values = given;
-        if (given.rangeM === null) element.removeAttribute('range');
-        else element.setAttribute('range', String(given.rangeM));
-        const wanted = latest.set(given, topics);
-        show();
-        return wanted;
+      ({ rangeM }) => {
+        if (rangeM === null) element.removeAttribute('range');
+        else element.setAttribute('range', String(rangeM));
       },
-      take(event) {
-        if (latest.take(event, values)) show();
+      (latest, values) => {
+        const { nominalDeg, weighed } = values;
+        element.mounting = { ...(latest.place(values) ?? { xM: 0, yM: 0 }), yawDeg: nominalDeg ?? 0 };
+        if (!latest.scan) {
+          element.points = null;
+          return;
+        }
+        const { scan, outcome } = latest.scan;
+        const weights = weighed === 'standing' && outcome?.motion ? outcome.weights : null;
+        const { rangeM, azimuthDeg, rangeRateMps, rcsDbsm } = scan;
+        element.points = { rangeM, azimuthDeg, rangeRateMps, rcsDbsm, weights };
       },
-      clear() {
-        latest.clear();
-        show();
-      },
-      said: () => latest.said(),
-      remove: () => latest.clear(),
-    };
+    );
   },
 };

@@ -5,8 +5,8 @@ import { carriedMotion } from '../../plots/doppler.ts';
 import { methodStyle } from '../../plots/theme.ts';
 import type { Panel } from '../panel.ts';
 import { placeSettings, signSettings, topicSettings } from '../radar-settings.ts';
-import { choiceSetting, numberSetting, type ValuesOf } from '../settings.ts';
-import { Latest, type LatestScan } from './latest.ts';
+import { choiceSetting, numberSetting } from '../settings.ts';
+import { type LatestScan, viewOfLatest } from './latest.ts';
 
 const settings = {
   ...topicSettings,
@@ -22,7 +22,6 @@ const settings = {
     step: 5,
   }),
 };
-type Values = ValuesOf<typeof settings>;
 
 export const dopplerPanel: Panel<typeof settings> = {
   name: 'Doppler over azimuth',
@@ -30,40 +29,25 @@ export const dopplerPanel: Panel<typeof settings> = {
   make() {
     defineElement('boresight-doppler-azimuth', DopplerAzimuthElement);
     const element = document.createElement('boresight-doppler-azimuth') as DopplerAzimuthElement;
-    const latest = new Latest();
-    let values: Values;
-    const show = (): void => {
-      const { scan } = latest;
-      if (!scan) {
-        element.frame = element.motions = null;
-        return;
-      }
-      const { azimuthDeg, rangeRateMps, rangeM, rcsDbsm } = scan.scan;
-      const curves = curvesOf(scan, latest.place(values), values.nominalDeg);
-      const motion = curves[0]?.motion ?? null;
-      element.frame = { azimuthDeg, rangeRateMps, rangeM, rcsDbsm, motion, weights: scan.outcome?.weights ?? null };
-      element.motions = curves;
-    };
-    return {
+    return viewOfLatest<typeof settings>(
       element,
-      set(given, topics) {
-        values = given;
-        element.toggleAttribute('residual', given.shown === 'residuals');
-        element.setAttribute('sector', String(given.sectorDeg));
-        const wanted = latest.set(given, topics);
-        show();
-        return wanted;
+      ({ shown, sectorDeg }) => {
+        element.toggleAttribute('residual', shown === 'residuals');
+        element.setAttribute('sector', String(sectorDeg));
       },
-      take(event) {
-        if (latest.take(event, values)) show();
+      (latest, values) => {
+        const { scan } = latest;
+        if (!scan) {
+          element.frame = element.motions = null;
+          return;
+        }
+        const { azimuthDeg, rangeRateMps, rangeM, rcsDbsm } = scan.scan;
+        const curves = curvesOf(scan, latest.place(values), values.nominalDeg);
+        const motion = curves[0]?.motion ?? null;
+        element.frame = { azimuthDeg, rangeRateMps, rangeM, rcsDbsm, motion, weights: scan.outcome?.weights ?? null };
+        element.motions = curves;
       },
-      clear() {
-        latest.clear();
-        show();
-      },
-      said: () => latest.said(),
-      remove: () => latest.clear(),
-    };
+    );
   },
 };
 

@@ -6,8 +6,10 @@ import { type Scan, scanOf } from '../../messages/scan.ts';
 import { secondsOf } from '../../messages/values.ts';
 import { Weigher } from '../../messages/weigh.ts';
 import { count } from '../../plots/format.ts';
+import type { View } from '../panel.ts';
 import { RadarPlace } from '../place.ts';
 import { motionTopics, scanTopics, signsOf, subscription, timed } from '../radar-settings.ts';
+import type { Settings, ValuesOf } from '../settings.ts';
 import { chosen } from '../topics.ts';
 
 /** Motion that is older than this says nothing of a scan. */
@@ -93,4 +95,35 @@ export class Latest {
     const still = outcome?.motion ? `, ${count(outcome.motion.inliers)} taken as standing` : '';
     return { wanted, status: `${this.#scans}: ${count(scan.azimuthDeg.length)} detections${still}${left}.` };
   }
+}
+
+/**
+ * A view of the newest scan. `apply` gives the element what of the settings is its own; `show` draws the scan by them.
+ */
+export function viewOfLatest<S extends Settings>(
+  element: HTMLElement,
+  apply: (values: ValuesOf<S> & Given) => void,
+  show: (latest: Latest, values: ValuesOf<S> & Given) => void,
+): View<S> {
+  const latest = new Latest();
+  let values: ValuesOf<S> & Given;
+  return {
+    element,
+    set(given, topics) {
+      values = given as ValuesOf<S> & Given;
+      apply(values);
+      const wanted = latest.set(values, topics);
+      show(latest, values);
+      return wanted;
+    },
+    take(event) {
+      if (latest.take(event, values)) show(latest, values);
+    },
+    clear() {
+      latest.clear();
+      show(latest, values);
+    },
+    said: () => latest.said(),
+    remove: () => latest.clear(),
+  };
 }

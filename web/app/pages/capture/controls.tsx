@@ -1,7 +1,6 @@
 /** Files and options of the capture page. */
 
 import type { Method } from 'boresight';
-import { useRef } from 'preact/hooks';
 import { byteSize, power } from '../../../plots/format.ts';
 import { api } from '../../data.ts';
 import { COUNTED } from '../../methods.ts';
@@ -11,6 +10,7 @@ import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';
 import { useFileDrop } from '../../ui/drop.ts';
 import { Group } from '../../ui/field.tsx';
+import { FileButton } from '../../ui/file-button.tsx';
 import { Licence } from '../../ui/licence.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
@@ -183,7 +183,6 @@ function Network({ method }: { method: Method }) {
 
 function Files() {
   const over = useFileDrop('capture', (files) => void openFiles(files.map(({ file }) => file)));
-  const input = useRef<HTMLInputElement>(null);
   const { files, missing } = waiting.value ?? { files: loaded.value?.files ?? [], missing: [] };
   const parts = files.filter(({ kind }) => kind === 'bin').length;
   return (
@@ -216,13 +215,15 @@ function Files() {
         />
       )}
       <div class="row">
-        <button
-          type="button"
-          onClick={() => input.current?.click()}
+        <FileButton
+          label="Capture files"
+          accept=".bin,.cfg,.dat,.json"
+          multiple
           title="A raw capture (.bin, or all the numbered .bin of one recording) with its configuration (.cfg, or mmWave Studio’s .mmwave.json with .setup.json), and the board’s log (.dat) if there is one"
+          onFiles={(files) => void openFiles(files.map(({ file }) => file))}
         >
           Open files
-        </button>
+        </FileButton>
         <button
           type="button"
           onClick={() => void openBundled()}
@@ -230,19 +231,6 @@ function Files() {
         >
           Bundled capture
         </button>
-        <input
-          ref={input}
-          type="file"
-          multiple
-          hidden
-          accept=".bin,.cfg,.dat,.json"
-          aria-label="Capture files"
-          onChange={(event) => {
-            const list = [...(event.currentTarget.files ?? [])];
-            event.currentTarget.value = '';
-            void openFiles(list);
-          }}
-        />
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>
         Or drop a .bin with its .cfg (or .mmwave.json and .setup.json), and a .dat, anywhere on the page; all .bin of

@@ -1,5 +1,5 @@
 /** Ports, configuration and recordings of the live page. */
-import { useRef } from 'preact/hooks';
+
 import cfgLicence from '../../../../recordings/awr1642/LICENSE?url';
 import { api } from '../../data.ts';
 import { showHelp } from '../../state/settings.ts';
@@ -7,6 +7,7 @@ import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';
 import { useFileDrop } from '../../ui/drop.ts';
 import { Group } from '../../ui/field.tsx';
+import { FileButton } from '../../ui/file-button.tsx';
 import { Licence } from '../../ui/licence.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { openFiles, replayBundled } from './files.ts';
@@ -155,7 +156,6 @@ function Ports() {
 }
 
 function Configuration() {
-  const input = useRef<HTMLInputElement>(null);
   const said = parsed.value;
   const problem = said && 'problem' in said ? said.problem : null;
   return (
@@ -180,27 +180,19 @@ function Configuration() {
         {problem?.message}
       </p>
       <div class="row">
-        <button type="button" onClick={() => input.current?.click()}>
+        <FileButton
+          label="Configuration file"
+          accept=".cfg"
+          onFiles={(files) => void openFiles(files.map(({ file }) => file))}
+        >
           Open .cfg
-        </button>
+        </FileButton>
         <button type="button" data-action="bundled-cfg" onClick={() => void loadBundledProfile()}>
           Example
         </button>
         <button type="button" data-action="save-cfg" disabled={!profile.value?.text} onClick={saveProfile}>
           Save .cfg
         </button>
-        <input
-          ref={input}
-          type="file"
-          hidden
-          accept=".cfg"
-          aria-label="Configuration file"
-          onChange={(event) => {
-            const list = [...(event.currentTarget.files ?? [])];
-            event.currentTarget.value = '';
-            void openFiles(list);
-          }}
-        />
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>
         It tells the widths of bins; without it detections have no range rates. It counts from the next start on.
@@ -211,29 +203,21 @@ function Configuration() {
 
 function Recording() {
   const over = useFileDrop('live', (files) => void openFiles(files.map(({ file }) => file)));
-  const input = useRef<HTMLInputElement>(null);
   return (
     <div class={`drop${over.value ? ' over' : ''}`}>
       <div class="row">
-        <button type="button" data-action="open-dat" onClick={() => input.current?.click()}>
+        <FileButton
+          label="Recording"
+          accept=".dat,.cfg"
+          multiple
+          action="open-dat"
+          onFiles={(files) => void openFiles(files.map(({ file }) => file))}
+        >
           Replay a .dat
-        </button>
+        </FileButton>
         <button type="button" data-action="replay" onClick={() => void replayBundled()}>
           Bundled recording
         </button>
-        <input
-          ref={input}
-          type="file"
-          multiple
-          hidden
-          accept=".dat,.cfg"
-          aria-label="Recording"
-          onChange={(event) => {
-            const list = [...(event.currentTarget.files ?? [])];
-            event.currentTarget.value = '';
-            void openFiles(list);
-          }}
-        />
       </div>
       <Control
         label="Pace"

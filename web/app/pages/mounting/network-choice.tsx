@@ -1,12 +1,12 @@
 /** Whose weights motions by a network go by. */
-import { useRef } from 'preact/hooks';
+
 import { byteSize } from '../../../plots/format.ts';
+import { FileButton } from '../../ui/file-button.tsx';
 import { Notice } from '../../ui/notice.tsx';
 import { needsNetwork, networkProblem, openNetwork, ownNetwork } from './motion-network.ts';
 import { mountingState } from './state.ts';
 
 export function NetworkChoice() {
-  const input = useRef<HTMLInputElement>(null);
   if (!needsNetwork(mountingState.value.motion)) return null;
   const own = ownNetwork.value;
   const problem = networkProblem.value;
@@ -24,27 +24,20 @@ export function NetworkChoice() {
         The recursive method alone is as good or better on nearly all drives.
       </p>
       <div class="row">
-        <button type="button" onClick={() => input.current?.click()} title="A .bin file that the training exported">
+        <FileButton
+          label="Weights of a network of motion"
+          accept=".bin"
+          name="motion-network"
+          title="A .bin file that the training exported"
+          onFiles={([first]) => first && void openNetwork(first.file)}
+        >
           Open weights
-        </button>
+        </FileButton>
         {own && (
           <button type="button" onClick={() => (ownNetwork.value = null)}>
             Use those of the package
           </button>
         )}
-        <input
-          ref={input}
-          type="file"
-          hidden
-          accept=".bin"
-          aria-label="Weights of a network of motion"
-          name="motion-network"
-          onChange={(event) => {
-            const [file] = event.currentTarget.files ?? [];
-            event.currentTarget.value = '';
-            if (file) void openNetwork(file);
-          }}
-        />
       </div>
       {problem && (
         <Notice name="motion-network" onClose={() => (networkProblem.value = null)}>

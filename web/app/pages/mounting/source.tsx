@@ -1,9 +1,9 @@
 /** Where the drive comes from. */
-import { useRef } from 'preact/hooks';
+
 import { byteSize } from '../../../plots/format.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
-import { pickedFiles } from '../../ui/entries.ts';
+import { FileButton } from '../../ui/file-button.tsx';
 import { Licence } from '../../ui/licence.tsx';
 import { SeedField } from '../../ui/seed-field.tsx';
 import { Control } from './control.ts';
@@ -14,17 +14,10 @@ import { mountingState, update } from './state.ts';
 import { Topics } from './topics.tsx';
 
 export function Source() {
-  const input = useRef<HTMLInputElement>(null);
-  const folder = useRef<HTMLInputElement>(null);
   const over = useFileDrop('mounting', (files) => void openFiles(files));
   const state = mountingState.value;
   const open = loaded.value;
   const { files, licence } = shownFiles.value;
-  const pick = (event: { currentTarget: HTMLInputElement }): void => {
-    const list = pickedFiles(event.currentTarget.files);
-    event.currentTarget.value = '';
-    if (list.length) void openFiles(list);
-  };
   return (
     <>
       <Control
@@ -60,20 +53,25 @@ export function Source() {
         )}
         {open && <Topics drive={open.drive} />}
         <div class="row">
-          <button
-            type="button"
-            onClick={() => input.current?.click()}
+          <FileButton
+            label="Drive files"
+            accept=".csv,.gz,.h5,.hdf5,.mcap,.pcd,.bin,.json"
+            multiple
+            name="drive-files"
             title="Tables (.csv, .csv.gz) of detections and motion, radar_data.h5, a recording of ROS 2 (.mcap), or point clouds (.pcd) with their tables"
+            onFiles={(files) => void openFiles(files)}
           >
             Open files
-          </button>
-          <button
-            type="button"
-            onClick={() => folder.current?.click()}
+          </FileButton>
+          <FileButton
+            label="Drive folder"
+            folder
+            name="drive-folder"
             title="The folder of a RadarScenes sequence, of point clouds, or of tables"
+            onFiles={(files) => void openFiles(files)}
           >
             Open a folder
-          </button>
+          </FileButton>
           {tables.value.length > 0 && (driveProblem.value || open?.source === 'files') && (
             <button
               type="button"
@@ -84,25 +82,6 @@ export function Source() {
               Columns
             </button>
           )}
-          <input
-            ref={input}
-            type="file"
-            multiple
-            hidden
-            accept=".csv,.gz,.h5,.hdf5,.mcap,.pcd,.bin,.json"
-            aria-label="Drive files"
-            data-input="files"
-            onChange={pick}
-          />
-          <input
-            ref={folder}
-            type="file"
-            hidden
-            {...{ webkitdirectory: true }}
-            aria-label="Drive folder"
-            data-input="folder"
-            onChange={pick}
-          />
         </div>
         <p class={showHelp.value ? 'help' : 'muted small'}>
           Or drop a recording of ROS 2 (.mcap), the folder of a RadarScenes sequence, radar clouds of nuScenes or

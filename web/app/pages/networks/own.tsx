@@ -1,11 +1,12 @@
 /** A network of one's own: an ONNX file, with its card or without. */
+
 import { signal } from '@preact/signals';
-import { useRef } from 'preact/hooks';
 import { byteSize } from '../../../plots/format.ts';
 import { describeError, FileProblem, type Problem } from '../../data.ts';
 import { addModel, ownModels } from '../../networks/load.ts';
 import { showHelp } from '../../state/settings.ts';
 import { useFileDrop } from '../../ui/drop.ts';
+import { FileButton } from '../../ui/file-button.tsx';
 import { update } from './state.ts';
 
 export const ownProblem = signal<(Problem & { file: string }) | null>(null);
@@ -47,7 +48,6 @@ async function open(files: readonly File[]): Promise<void> {
 
 export function OwnNetwork() {
   const over = useFileDrop('networks', (files) => void open(files.map(({ file }) => file)));
-  const input = useRef<HTMLInputElement>(null);
   return (
     <div class={`drop${over.value ? ' over' : ''}`}>
       {ownModels.value.length > 0 && (
@@ -61,28 +61,17 @@ export function OwnNetwork() {
         </ul>
       )}
       <div class="row">
-        <button
-          type="button"
-          disabled={reading.value}
-          onClick={() => input.current?.click()}
+        <FileButton
+          label="ONNX file"
+          accept=".onnx,.json"
+          multiple
+          name="onnx"
           title="An .onnx file, and its card (.json) if there is one"
+          disabled={reading.value}
+          onFiles={(files) => void open(files.map(({ file }) => file))}
         >
           {reading.value ? 'Reading' : 'Open ONNX file'}
-        </button>
-        <input
-          ref={input}
-          type="file"
-          multiple
-          hidden
-          accept=".onnx,.json"
-          aria-label="ONNX file"
-          name="onnx"
-          onChange={(event) => {
-            const list = [...(event.currentTarget.files ?? [])];
-            event.currentTarget.value = '';
-            void open(list);
-          }}
-        />
+        </FileButton>
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>
         Or drop an .onnx, with its card or without, anywhere on the page. Its inputs and outputs must be those of one of
