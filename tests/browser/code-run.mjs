@@ -15,6 +15,8 @@ async function inFolder(files, work) {
   const folder = await mkdtemp(join(tmpdir(), 'boresight-code-'));
   try {
     await mkdir(join(folder, 'node_modules'));
+    // A scope of its own: one above may be a package of the same name.
+    await writeFile(join(folder, 'package.json'), '{ "private": true }\n');
     await symlink(root, join(folder, 'node_modules', 'boresight'), 'dir');
     for (const name of ['recordings', 'models']) await symlink(join(root, name), join(folder, name), 'dir');
     for (const [name, content] of Object.entries(files)) {

@@ -76,7 +76,11 @@ export async function openPage(
     const target = new URL(request.url());
     if (target.protocol.startsWith('http') && target.origin !== origin) problems.push(`request to ${target.href}`);
   });
-  context.on('requestfailed', (request) => problems.push(`failed: ${request.url()} ${request.failure()?.errorText}`));
+  context.on('requestfailed', (request) => {
+    const reason = request.failure()?.errorText;
+    // What the page itself gives up, as by its Cancel, is no failure.
+    if (reason !== 'net::ERR_ABORTED') problems.push(`failed: ${request.url()} ${reason}`);
+  });
   context.on('response', (response) => {
     if (response.status() >= 400) problems.push(`status ${response.status()}: ${response.url()}`);
   });
