@@ -3,7 +3,9 @@
 use crate::describe::Described;
 use crate::error::{CoreError, check_finite};
 use crate::lattice::Lattice;
+use crate::response::Correction;
 use serde::Serialize;
+use std::sync::Arc;
 
 /// Position in the sensor frame, half wavelengths: x forward, y left, z up.
 pub type Position = [f64; 3];
@@ -45,6 +47,8 @@ pub struct Array {
     channels: Vec<Channel>,
     tx: Vec<Position>,
     rx: Vec<Position>,
+    /// What is known of its errors.
+    correction: Option<Arc<Correction>>,
 }
 
 impl Array {
@@ -81,7 +85,7 @@ impl Array {
                 channels.push(Channel { tx: t, rx: r });
             }
         }
-        Ok(Self { positions, channels, tx: tx.to_vec(), rx: rx.to_vec() })
+        Ok(Self { positions, channels, tx: tx.to_vec(), rx: rx.to_vec(), correction: None })
     }
 
     /// A uniform linear array along y with half-wavelength spacing, from y = 0 upwards.
@@ -157,6 +161,21 @@ impl Array {
     /// Receiver positions, half wavelengths.
     pub fn rx(&self) -> &[Position] {
         &self.rx
+    }
+
+    /// What turns measured snapshots into those of the elements at [`Array::positions`]; nothing
+    /// where the array is taken as planned. Estimators take corrected snapshots.
+    pub fn correction(&self) -> Option<&Correction> {
+        self.correction.as_deref()
+    }
+
+    /// The same channels elsewhere, with what corrects them.
+    pub(crate) fn with(
+        &self,
+        positions: Vec<Position>,
+        correction: Option<Arc<Correction>>,
+    ) -> Self {
+        Self { positions, correction, ..self.clone() }
     }
 
     /// Length of the array along y, half wavelengths.

@@ -9,6 +9,7 @@ use boresight_aoa::{
 };
 use boresight_core::describe::remark::Coded;
 use boresight_core::order::sort_descending;
+use boresight_core::response::Correction;
 use boresight_core::{Array, Complex32, Complex64, Direction, Remark, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
@@ -50,7 +51,8 @@ impl Chain {
     /// Plans for frames of `waveform.loops` x `waveform.transmitters` x receivers x
     /// `waveform.samples`, whose channels are the elements of `array`: those of a MIMO array by
     /// their transmitter and receiver; of an array of plain positions, element `k` is channel
-    /// `tx * receivers + rx`.
+    /// `tx * receivers + rx`. What a calibrated array ([`Array::calibrated`]) knows of its errors is
+    /// taken off snapshots and ranges.
     ///
     /// # Errors
     /// [`PipelineError::Channels`] if the array has other channels than the frames; what the steps
@@ -256,7 +258,8 @@ impl Chain {
         let rate_mps = rates.first().copied().unwrap_or_default() + step * peak.doppler_bin;
         let bins = self.transform.range_m().len();
         let range_m = range_of_bin_m(waveform, bins, peak.range_bin)
-            - range_doppler_coupling_m(waveform, rate_mps);
+            - range_doppler_coupling_m(waveform, rate_mps)
+            - self.array.correction().map_or(0.0, Correction::range_bias_m);
         Cell { peak, range_m, rate_mps }
     }
 
@@ -277,6 +280,9 @@ impl Chain {
         let dopplers = self.map.power.ncols();
         let step = tdm::phase_step_rad(exact_doppler_bin, dopplers, transmitters, 0);
         tdm::compensate(&mut all, transmitters, step)?;
+        if let Some(correction) = self.array.correction() {
+            correction.apply(&mut all);
+        }
         Ok(self.channels.iter().map(|&channel| all[channel]).collect())
     }
 
@@ -310,6 +316,7 @@ impl Chain {
         Ok(FrameResult {
             frame: 0,
             frames: 1,
+            calibrated: self.array.correction().is_some(),
             range_m: self.transform.range_m().to_vec(),
             rate_mps: self.transform.rate_mps().to_vec(),
             range_profile_db: profile.into_iter().map(decibels).collect(),

@@ -16,6 +16,8 @@
 #[cfg(feature = "chain")]
 pub mod array;
 #[cfg(feature = "core")]
+pub mod array_calibration;
+#[cfg(feature = "core")]
 pub mod board;
 #[cfg(feature = "core")]
 pub mod bounds;
@@ -24,6 +26,8 @@ pub mod bytes;
 pub mod calibrate;
 #[cfg(feature = "core")]
 pub mod calibration_methods;
+#[cfg(feature = "chain")]
+pub mod calibrated;
 #[cfg(feature = "chain")]
 pub mod capture;
 pub mod carry;

@@ -1,10 +1,12 @@
 /** From frames to detections: captures and the chain. */
-import type { ArrayInput, DetectionOptions, Waveform } from '../types.js';
+import type { ArrayCalibrationInput, ArrayInput, DetectionOptions, Waveform } from '../types.js';
 
 /** Options of the chain from frames to detections. */
 export interface ChainOptions extends DetectionOptions {
   /** Default: the preset whose virtual elements match the capture. */
   array?: ArrayInput;
+  /** What is known of the array's errors. Default what the board's configuration says. */
+  calibration?: ArrayCalibrationInput;
 }
 
 export interface CombineOptions extends ChainOptions {

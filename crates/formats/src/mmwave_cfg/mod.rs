@@ -5,6 +5,7 @@
 //! reported as a [`Remark`].
 
 mod commands;
+mod compensation;
 mod line;
 mod sequence;
 
@@ -12,6 +13,7 @@ use crate::error::FormatError;
 use boresight_core::Remark;
 use boresight_core::{Array, Waveform, presets};
 use commands::Commands;
+pub use compensation::Compensation;
 use line::Line;
 
 /// Sample format of a capture.
@@ -52,6 +54,8 @@ pub struct RadarConfig {
     pub adc: AdcFormat,
     /// Frames to record; `None` until stopped.
     pub frames: Option<usize>,
+    /// Range bias and coefficients of the channels, where the line is there and can be read.
+    pub compensation: Option<Compensation>,
     /// Lines not understood, and settings that bear on the samples but are not applied.
     pub remarks: Vec<Remark>,
 }
@@ -90,12 +94,19 @@ impl RadarConfig {
     /// The virtual array of the configured channels in their order of transmission, for platforms
     /// whose antennas are known.
     pub fn array(&self) -> Option<Array> {
-        let board = presets::preset(board_preset(self.platform.as_deref()?)?).ok()?;
+        let board = self.board()?;
         let pick = |positions: &[[f64; 3]], which: &[usize]| -> Option<Vec<[f64; 3]>> {
             which.iter().map(|&k| positions.get(k).copied()).collect()
         };
         Array::mimo(&pick(board.tx(), &self.transmitters)?, &pick(board.rx(), &self.receivers)?)
             .ok()
+    }
+}
+
+impl RadarConfig {
+    /// The array of the platform's evaluation board, with all of its antennas.
+    fn board(&self) -> Option<Array> {
+        presets::preset(board_preset(self.platform.as_deref()?)?).ok()
     }
 }
 
