@@ -2,11 +2,13 @@
 
 import type {
   AngleOptions,
+  ArrayCalibrationResult,
   BatchEstimate,
   BatchInput,
   BatchOptions,
   BytesInput,
   CalibrateDriveOptions,
+  CaptureCalibrationOptions,
   CaptureInfo,
   CaptureRegionOptions,
   Cell,
@@ -181,6 +183,16 @@ function combineFrames(this: Context, source: CaptureSource, config: TextInput, 
   return withCapture(source, config, (capture) => capture.combineFrames(options, report));
 }
 
+function calibrateCapture(
+  this: Context,
+  source: CaptureSource,
+  config: TextInput,
+  options?: CaptureCalibrationOptions,
+): ArrayCalibrationResult {
+  const report = (done: number, total: number): boolean => this.report(done, total);
+  return withCapture(source, config, (capture) => capture.calibrateArray(options, report));
+}
+
 function cellSnapshots(source: CaptureSource, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
   return withCapture(source, config, (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
@@ -268,6 +280,8 @@ export const operations = {
   cubeRegions,
   regionStretch,
   combineFrames,
+  calibrateCapture,
+  calibrateBySteeringTable: api.calibrateBySteeringTable,
   cellSnapshots,
   cellSpectrum,
   captureCells,
