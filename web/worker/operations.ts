@@ -15,6 +15,7 @@ import type {
   ChainOptions,
   CombineOptions,
   ComplexData,
+  CubeCalibrationOptions,
   CubeChainOptions,
   CubeRegionOptions,
   DriveCalibration,
@@ -183,7 +184,7 @@ function combineFrames(this: Context, source: CaptureSource, config: TextInput, 
   return withCapture(source, config, (capture) => capture.combineFrames(options, report));
 }
 
-function calibrateCapture(
+function captureCalibration(
   this: Context,
   source: CaptureSource,
   config: TextInput,
@@ -191,6 +192,14 @@ function calibrateCapture(
 ): ArrayCalibrationResult {
   const report = (done: number, total: number): boolean => this.report(done, total);
   return withCapture(source, config, (capture) => capture.calibrateArray(options, report));
+}
+
+function calibrateCubeArray(
+  this: Context,
+  cube: ComplexData,
+  options: CubeCalibrationOptions,
+): ArrayCalibrationResult {
+  return api.calibrateCubeArray(cube, options, (done, total) => this.report(done, total));
 }
 
 function cellSnapshots(source: CaptureSource, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
@@ -280,8 +289,12 @@ export const operations = {
   cubeRegions,
   regionStretch,
   combineFrames,
-  calibrateCapture,
+  captureCalibration,
+  calibrateArray: api.calibrateArray,
+  calibrateCubeArray,
   calibrateBySteeringTable: api.calibrateBySteeringTable,
+  configuredCalibration: api.configuredCalibration,
+  tiCompensation: api.tiCompensation,
   cellSnapshots,
   cellSpectrum,
   captureCells,
