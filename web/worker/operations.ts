@@ -2,17 +2,20 @@
 
 import type {
   AngleOptions,
+  ArrayCalibrationResult,
   BatchEstimate,
   BatchInput,
   BatchOptions,
   BytesInput,
   CalibrateDriveOptions,
+  CaptureCalibrationOptions,
   CaptureInfo,
   CaptureRegionOptions,
   Cell,
   ChainOptions,
   CombineOptions,
   ComplexData,
+  CubeCalibrationOptions,
   CubeChainOptions,
   CubeRegionOptions,
   DriveCalibration,
@@ -181,6 +184,24 @@ function combineFrames(this: Context, source: CaptureSource, config: TextInput, 
   return withCapture(source, config, (capture) => capture.combineFrames(options, report));
 }
 
+function captureCalibration(
+  this: Context,
+  source: CaptureSource,
+  config: TextInput,
+  options?: CaptureCalibrationOptions,
+): ArrayCalibrationResult {
+  const report = (done: number, total: number): boolean => this.report(done, total);
+  return withCapture(source, config, (capture) => capture.calibrateArray(options, report));
+}
+
+function calibrateCubeArray(
+  this: Context,
+  cube: ComplexData,
+  options: CubeCalibrationOptions,
+): ArrayCalibrationResult {
+  return api.calibrateCubeArray(cube, options, (done, total) => this.report(done, total));
+}
+
 function cellSnapshots(source: CaptureSource, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
   return withCapture(source, config, (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
@@ -268,6 +289,11 @@ export const operations = {
   cubeRegions,
   regionStretch,
   combineFrames,
+  captureCalibration,
+  calibrateArray: api.calibrateArray,
+  calibrateCubeArray,
+  calibrateBySteeringTable: api.calibrateBySteeringTable,
+  tiCompensation: api.tiCompensation,
   cellSnapshots,
   cellSpectrum,
   captureCells,

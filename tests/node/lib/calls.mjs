@@ -49,6 +49,7 @@ export function goodCalls() {
     yawRateDegps: 1,
     speedMps: 10,
   };
+  const seen8 = (deg) => planeWaves(8, 1, [deg]);
   const detections = boresight.processCube(cube, chain)[0].detections;
   const numbers = Uint8Array.from(readFileSync(new URL('../../golden/hdf5/one.h5', import.meta.url)));
   const plain = {
@@ -77,6 +78,13 @@ export function goodCalls() {
     sidelobeMeasure: [view, [{ xM: 4, yM: 0 }], { gateM: 1 }],
     processCube: [cube, chain],
     frameCells: [cube, chain],
+    calibrateArray: [{ snapshots: batchOf([seen8(10), seen8(-20)]), noisePower: 1e-4 }, { array: 'awr1642' }],
+    calibrateCubeArray: [boresight.simulateCube({ ...simulated, frames: 2 }), chain, () => true],
+    calibrateBySteeringTable: [{ azimuthDeg: [0], responses: [Array.from({ length: 4 }, () => [1, 0])] }, array],
+    tiCompensation: [
+      boresight.calibrateArray({ snapshots: batchOf([seen8(10)]), noisePower: 1e-4 }, { array: 'awr1642' }).calibration,
+      cfg,
+    ],
     strongestRegion: [cube, { bins: 5, chirps: 4 }],
     parseConfig: [cfg],
     parseBoardLog: [Uint8Array.from(dat.subarray(0, 2000)), cfg],
@@ -110,6 +118,7 @@ export function goodCalls() {
     'Capture.frameCells': [bytes, cfg, 0, { peakGrouping: false }],
     'Capture.cellSnapshots': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, {}],
     'Capture.cellSpectrum': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, angle, {}],
+    'Capture.calibrateArray': [bytes, cfg, { maxCells: 4 }, () => true],
     'Capture.combineFrames': [bytes, cfg, { frameCount: 1, angle }, () => true],
     'BoardLogStream.push': [cfg, Uint8Array.from(dat.subarray(0, 500))],
     'DriveStream.push': [{}, Uint8Array.of(0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a)],

@@ -6,6 +6,7 @@ use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, Imag
 use crate::destination::Destination;
 use crate::error::CliError;
 use crate::files::{self, Files};
+use crate::array;
 use crate::network;
 use crate::output::remark;
 use crate::picture::{self, Truth};
@@ -120,6 +121,8 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
     let bytes = files.read(&arguments.file)?;
     let source = CaptureFrames(Capture::new(&bytes, &config)?);
     let array = board_array(arguments.array.as_deref(), &config, files)?;
+    let array =
+        array::calibrated_board(array, arguments.calibration.as_deref(), &config, files)?;
     let waveform = config.waveform;
     let names: Vec<&str> = shared.method.iter().map(String::as_str).collect();
     let pictures = pictures(shared, &names, files)?;
