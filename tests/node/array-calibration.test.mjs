@@ -31,7 +31,7 @@ describe('the array of a recorded capture', () => {
     assert.ok(leftOut.residualPhaseDeg < check.before.residualPhaseDeg);
   });
 
-  test('has one target at the board\'s angle in the other frames', () => {
+  test("has one target at the board's angle in the other frames", () => {
     const options = { firstFrame: 4, angle: { method: 'nomp' }, calibration: result.calibration };
     const near = ({ detections }) => detections.filter(({ rangeBin }) => rangeBin === 58);
     const calibrated = capture.combineFrames(options);
@@ -59,11 +59,15 @@ describe('the array of a recorded capture', () => {
     assert.match(line, /^compRangeBiasAndRxChanPhase 0( -?[\d.]+){16}$/);
     const text = new TextDecoder().decode(cfg).replace(/^compRangeBiasAndRxChanPhase.*$/m, line);
     const compensated = new Capture(bin, text);
-    assert.deepEqual(compensated.info.config.warnings.map(({ code }) => code), ['compensation-applied']);
-    const angle = { method: 'bartlett' };
-    const [by, given] = [compensated.cellSpectrum(at, angle), capture.cellSpectrum(at, angle, { calibration: result.calibration })].map(
-      ({ sources }) => sources[0].azimuthDeg,
+    assert.deepEqual(
+      compensated.info.config.warnings.map(({ code }) => code),
+      ['compensation-applied'],
     );
+    const angle = { method: 'bartlett' };
+    const [by, given] = [
+      compensated.cellSpectrum(at, angle),
+      capture.cellSpectrum(at, angle, { calibration: result.calibration }),
+    ].map(({ sources }) => sources[0].azimuthDeg);
     assert.ok(Math.abs(by - given) < 0.01, `${by} ${given}`);
     compensated.free();
   });

@@ -62,10 +62,9 @@ fn inside(value: Value, kind: &Kind, is_angle: bool) -> Result<Value, serde_json
             number.as_f64().map_or(Value::Null, |degrees| degrees.to_radians().into())
         }
         (value, Kind::Optional(kind)) => inside(value, kind, is_angle)?,
-        (Value::Array(items), Kind::List(kind) | Kind::Tuple(kind, _)) => items
-            .into_iter()
-            .map(|item| inside(item, kind, is_angle))
-            .collect::<Result<_, _>>()?,
+        (Value::Array(items), Kind::List(kind) | Kind::Tuple(kind, _)) => {
+            items.into_iter().map(|item| inside(item, kind, is_angle)).collect::<Result<_, _>>()?
+        }
         (Value::Array(items), Kind::Numbers(_)) => items
             .into_iter()
             .map(|item| inside(item, &Kind::Number, is_angle))

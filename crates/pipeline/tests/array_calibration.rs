@@ -62,8 +62,10 @@ fn half_of_the_frames_calibrate_the_board_for_the_others() {
         let first: Vec<_> = seen.detections.iter().filter(|d| d.range_bin == 58).collect();
         println!("{:?}", first.iter().map(|d| d.azimuth_rad.to_degrees()).collect::<Vec<_>>());
         let snapshots = chain.cell_snapshots(&recording(), 4..8, 58, 8).unwrap();
-        let count = count_sources_in(Data::Snapshots(snapshots.view()), false, Criterion::Mdl).unwrap();
-        let both = count_sources_in(Data::Snapshots(snapshots.view()), true, Criterion::Mdl).unwrap();
+        let count =
+            count_sources_in(Data::Snapshots(snapshots.view()), false, Criterion::Mdl).unwrap();
+        let both =
+            count_sources_in(Data::Snapshots(snapshots.view()), true, Criterion::Mdl).unwrap();
         println!("MDL {} forward-backward {}", count.1.sources, both.1.sources);
         assert_eq!(seen.calibrated, array.correction().is_some());
         if seen.calibrated {
@@ -77,7 +79,8 @@ fn half_of_the_frames_calibrate_the_board_for_the_others() {
 
 #[test]
 fn a_reflector_is_found_by_its_range_and_tells_the_turn() {
-    let at = Reflector { range_m: 2.95, azimuth_rad: Some(BOARD_DEG.to_radians()), elevation_rad: 0.0 };
+    let at =
+        Reflector { range_m: 2.95, azimuth_rad: Some(BOARD_DEG.to_radians()), elevation_rad: 0.0 };
     let options = CalibrationOptions {
         reflectors: vec![at],
         range_bias: true,
@@ -105,8 +108,7 @@ fn range_bias_is_taken_off_and_other_boards_are_refused() {
     let calibration = ArrayCalibration { range_bias_m: 0.5, ..ArrayCalibration::neutral(&plan) };
     let moved = plan.calibrated(&calibration).unwrap();
     let ranges = |array: &Array| -> Vec<f64> {
-        let mut chain =
-            Chain::new(&waveform, receivers, array, &ChainOptions::default()).unwrap();
+        let mut chain = Chain::new(&waveform, receivers, array, &ChainOptions::default()).unwrap();
         let seen = chain.combine(&recording(), 0..2, &mut unwatched).unwrap();
         seen.detections.iter().map(|d| d.range_m).filter(|m| *m > 2.0 && *m < 8.0).collect()
     };

@@ -3,12 +3,12 @@
 use super::capture::{Radar, board_array};
 use super::{capture, cube};
 use crate::arguments::{ArrayCommand, CalibrateArrayArguments, ShowCalibrationArguments};
+use crate::array;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::numbers;
 use crate::output::remark;
 use crate::run::Run;
-use crate::array;
 use boresight_array_calibration::{
     CalibrationOptions, CalibrationResult, CheckFigures, SteeringTable,
 };
