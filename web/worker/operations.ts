@@ -194,11 +194,7 @@ function captureCalibration(
   return withCapture(source, config, (capture) => capture.calibrateArray(options, report));
 }
 
-function calibrateCubeArray(
-  this: Context,
-  cube: ComplexData,
-  options: CubeCalibrationOptions,
-): ArrayCalibrationResult {
+function calibrateCubeArray(this: Context, cube: ComplexData, options: CubeCalibrationOptions): ArrayCalibrationResult {
   return api.calibrateCubeArray(cube, options, (done, total) => this.report(done, total));
 }
 

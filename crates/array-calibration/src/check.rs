@@ -3,8 +3,8 @@
 use crate::cells::Cell;
 use crate::error::ArrayCalibrationError;
 use crate::fit::{Fit, Fitted};
-use crate::plane_wave::{Cosines, PlaneWaves};
 use crate::options::CalibrationOptions;
+use crate::plane_wave::{Cosines, PlaneWaves};
 use crate::self_calibration::{calibrate, decibels};
 use boresight_core::describe::Described;
 use boresight_core::{Array, ArrayCalibration, Complex64, Direction};
@@ -78,23 +78,28 @@ pub fn check(
     frames: usize,
 ) -> Result<CalibrationCheck, ArrayCalibrationError> {
     if cells.is_empty() {
-        return Err(ArrayCalibrationError::NoCells { expected: "cells to check by".into(), given: 0 });
+        return Err(ArrayCalibrationError::NoCells {
+            expected: "cells to check by".into(),
+            given: 0,
+        });
     }
     let plan = Array::mimo(array.tx(), array.rx())?;
     let calibrated = plan.calibrated(calibration)?;
-    let corrected = cells.iter().map(|cell| corrected(&calibrated, cell)).collect::<Result<Vec<_>, _>>()?;
+    let corrected =
+        cells.iter().map(|cell| corrected(&calibrated, cell)).collect::<Result<Vec<_>, _>>()?;
     let before = figures(&plan, cells.iter())?;
     let after = figures(&calibrated, corrected.iter())?;
-    let checked = cells.iter().zip(&before).zip(&after).map(|((cell, before), after)| CheckedCell {
-        range_m: cell.range_m,
-        range_bin: cell.range_bin,
-        doppler_bin: cell.doppler_bin,
-        azimuth_before_rad: before.0.azimuth_rad,
-        azimuth_rad: after.0.azimuth_rad,
-        elevation_rad: after.0.elevation_rad,
-        before: before.1,
-        after: after.1,
-    });
+    let checked =
+        cells.iter().zip(&before).zip(&after).map(|((cell, before), after)| CheckedCell {
+            range_m: cell.range_m,
+            range_bin: cell.range_bin,
+            doppler_bin: cell.doppler_bin,
+            azimuth_before_rad: before.0.azimuth_rad,
+            azimuth_rad: after.0.azimuth_rad,
+            elevation_rad: after.0.elevation_rad,
+            before: before.1,
+            after: after.1,
+        });
     Ok(CalibrationCheck {
         frames,
         before: together(before.iter().map(|one| &one.1)),
@@ -119,8 +124,12 @@ pub fn leave_one_out(
     let plan = Array::mimo(array.tx(), array.rx())?;
     let mut all = vec![];
     for index in 0..cells.len().min(MOST_FOLDS) {
-        let others: Vec<Cell> =
-            cells.iter().enumerate().filter(|(at, _)| *at != index).map(|(_, c)| c.clone()).collect();
+        let others: Vec<Cell> = cells
+            .iter()
+            .enumerate()
+            .filter(|(at, _)| *at != index)
+            .map(|(_, c)| c.clone())
+            .collect();
         let Ok(made) = calibrate(&plan, &others, options) else { continue };
         let calibrated = plan.calibrated(&made.calibration)?;
         let left_out = corrected(&calibrated, &cells[index])?;
@@ -188,8 +197,7 @@ pub(crate) fn figures<'a>(
         let square = |of: &dyn Fn(&Complex64) -> f64| {
             (ratio.iter().map(|z| of(z).powi(2)).sum::<f64>() / count).sqrt()
         };
-        let mean_db =
-            ratio.iter().map(|z| 20.0 * z.norm().max(1e-5).log10()).sum::<f64>() / count;
+        let mean_db = ratio.iter().map(|z| 20.0 * z.norm().max(1e-5).log10()).sum::<f64>() / count;
         let figures = CheckFigures {
             residual_phase_rad: square(&|z| z.arg()),
             residual_gain_db: square(&|z| 20.0 * z.norm().max(1e-5).log10() - mean_db),
@@ -215,7 +223,8 @@ fn sidelobe_db(waves: &PlaneWaves, signal: &[Complex64], peak: Cosines) -> f64 {
         let reach = (1.0 - other * other).max(0.0).sqrt();
         let extent = waves.positions.iter().map(|p| p[axis + 1]).fold(f64::NEG_INFINITY, f64::max)
             - waves.positions.iter().map(|p| p[axis + 1]).fold(f64::INFINITY, f64::min);
-        let points = (2.0 * reach * OVERSAMPLING * extent.max(1.0)).clamp(16.0, MOST_POINTS) as usize;
+        let points =
+            (2.0 * reach * OVERSAMPLING * extent.max(1.0)).clamp(16.0, MOST_POINTS) as usize;
         let at = |k: usize| {
             let mut u = peak;
             u[axis] = -reach + 2.0 * reach * k as f64 / points as f64;

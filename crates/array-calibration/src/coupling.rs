@@ -62,7 +62,8 @@ pub(crate) fn matrix(
         // found = cross power^-1, both from the left of their adjoints.
         let adjoint = |m: &Array2<Complex64>| m.t().mapv(|z| z.conj());
         let right = adjoint(&cross);
-        let Some(solved) = boresight_core::linalg::solve(adjoint(&power).view(), right.view())? else {
+        let Some(solved) = boresight_core::linalg::solve(adjoint(&power).view(), right.view())?
+        else {
             return Ok(None);
         };
         found = adjoint(&solved);

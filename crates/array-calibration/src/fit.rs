@@ -85,9 +85,8 @@ impl Fit {
         order.sort_by(|&a, &b| weights[b].total_cmp(&weights[a]));
         let own = order.iter().take(STARTS).map(|&index| self.own(index));
         let fits = std::iter::once(ones).chain(own).map(|start| self.settle(start, weights));
-        let cost = |fit: &Fitted| {
-            fit.residuals.iter().zip(weights).map(|(e, w)| w * e).sum::<f64>()
-        };
+        let cost =
+            |fit: &Fitted| fit.residuals.iter().zip(weights).map(|(e, w)| w * e).sum::<f64>();
         let better = |best: Option<(f64, Fitted)>, fit: Fitted| {
             let cost = cost(&fit);
             match best {

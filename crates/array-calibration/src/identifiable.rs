@@ -146,7 +146,10 @@ impl Information {
 impl Inverse {
     /// The Gauss-Newton step.
     pub fn step(&self, gradient: &[f64]) -> Vec<f64> {
-        self.matrix.outer_iter().map(|row| row.iter().zip(gradient).map(|(a, g)| a * g).sum()).collect()
+        self.matrix
+            .outer_iter()
+            .map(|row| row.iter().zip(gradient).map(|(a, g)| a * g).sum())
+            .collect()
     }
 
     pub fn variances(&self) -> Vec<f64> {
@@ -157,9 +160,8 @@ impl Inverse {
 /// `W - W N (N^T W N)^+ N^T W` for the diagonal `W` and the columns of `N`.
 fn project(share: &[f64], own: &[Vec<f64>]) -> Array2<f64> {
     let channels = share.len();
-    let mut matrix = Array2::from_shape_fn((channels, channels), |(i, k)| {
-        if i == k { share[i] } else { 0.0 }
-    });
+    let mut matrix =
+        Array2::from_shape_fn((channels, channels), |(i, k)| if i == k { share[i] } else { 0.0 });
     let mut basis: Vec<Vec<f64>> = vec![];
     let dot = |a: &[f64], b: &[f64]| -> f64 {
         a.iter().zip(b).zip(share).map(|((x, y), w)| x * y * w).sum()

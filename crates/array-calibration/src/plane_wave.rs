@@ -35,9 +35,8 @@ impl PlaneWaves {
         let positions = array.positions().to_vec();
         let extent = |axis: usize| {
             let along = positions.iter().map(|p| p[axis + 1]);
-            let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                (l.min(x), h.max(x))
-            });
+            let (low, high) =
+                along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
             high - low
         };
         let axes: Vec<usize> = (0..2).filter(|&axis| extent(axis) > 1e-9).collect();
@@ -86,7 +85,8 @@ impl PlaneWaves {
 
     /// Where a plane wave under the channels' factors is most like a signal.
     pub fn fitted(&self, signal: &[Complex64], factors: &[Complex64]) -> Cosines {
-        let turned: Vec<Complex64> = signal.iter().zip(factors).map(|(v, g)| v * g.conj()).collect();
+        let turned: Vec<Complex64> =
+            signal.iter().zip(factors).map(|(v, g)| v * g.conj()).collect();
         let power = |u: &Cosines| self.sum(&turned, *u).norm_sqr();
         let start = self.grid.iter().map(|u| (power(u), *u));
         let (_, mut best) =

@@ -13,8 +13,6 @@ pub(crate) struct Weighed {
     pub fit: Fitted,
     /// The inverse of the variance of each cell in one channel.
     pub weights: Vec<f64>,
-    /// Variance that cells have beyond noise, over their power: what a plane wave and common errors do not tell.
-    pub excess: f64,
 }
 
 /// Fits cells whose misfit is noise and an excess common to all, in which cells that fit far worse weigh little.
@@ -23,11 +21,11 @@ pub(crate) struct Weighed {
 /// not outweigh the others by its power.
 pub(crate) fn weighed(fit: &Fit) -> Weighed {
     let noise: Vec<f64> = fit.seen.iter().map(|cell| cell.variance).collect();
-    let mut excess = 0.0;
     let mut weights: Vec<f64> = noise.iter().map(|variance| 1.0 / (variance + 0.01)).collect();
     let mut found = fit.from_starts(&weights);
     for round in 0..ROUNDS {
-        excess = excess_of(&found.residuals, &noise);
+        // What cells have beyond noise, over their power: reflections, and what a plane wave does not tell.
+        let excess = excess_of(&found.residuals, &noise);
         weights = found
             .residuals
             .iter()
@@ -45,7 +43,7 @@ pub(crate) fn weighed(fit: &Fit) -> Weighed {
             fit.settle(found.factors, &weights)
         };
     }
-    Weighed { fit: found, weights, excess }
+    Weighed { fit: found, weights }
 }
 
 /// The median of what residuals have beyond noise.

@@ -113,7 +113,6 @@ fn without_misfits(
 /// A fit with what is known of it.
 struct Calibrated {
     found: Fitted,
-    excess: f64,
     coupling: Option<Array2<Complex64>>,
     gain_std: Vec<f64>,
     phase_std: Vec<f64>,
@@ -129,7 +128,7 @@ impl Calibrated {
         weighed: Weighed,
         options: &CalibrationOptions,
     ) -> Result<Self, ArrayCalibrationError> {
-        let Weighed { fit: mut found, weights, excess } = weighed;
+        let Weighed { fit: mut found, weights } = weighed;
         let mut undetermined = vec![NotIdentifiable::CommonGain, NotIdentifiable::CommonPhase];
         let mut remarks = vec![];
         if !fit.any_known() {
@@ -149,16 +148,18 @@ impl Calibrated {
         let mut matrix = None;
         match options.model {
             CalibrationModel::Channels => {}
-            CalibrationModel::Positions => match positions::with_positions(fit, &found, &weights)? {
-                Some(better) => (found, moved) = (better, true),
-                None => {
-                    undetermined.push(NotIdentifiable::Displacement);
-                    remarks.push(Remark::new(
+            CalibrationModel::Positions => {
+                match positions::with_positions(fit, &found, &weights)? {
+                    Some(better) => (found, moved) = (better, true),
+                    None => {
+                        undetermined.push(NotIdentifiable::Displacement);
+                        remarks.push(Remark::new(
                         "displacement-not-identifiable",
                         "displacements need targets at more angles, further apart; they are left at nought",
                     ));
+                    }
                 }
-            },
+            }
             CalibrationModel::Coupling => match coupling::matrix(fit, &found, &weights)? {
                 Some((coupling, residuals)) => {
                     found.residuals = residuals;
@@ -176,26 +177,30 @@ impl Calibrated {
         let channels = found.factors.len();
         // Noise alone, for the bound; the weights of the fit, for the scatter.
         let noise: Vec<f64> = fit.seen.iter().map(|cell| 1.0 / cell.variance.max(1e-12)).collect();
-        let larger = |of: &dyn Fn(&[f64]) -> Information| -> Result<Vec<f64>, ArrayCalibrationError> {
-            let bound = of(&noise).inverse()?.variances();
-            let information = of(&weights);
-            let scattered = information.scattered(&information.inverse()?);
-            Ok(match scattered {
-                Some(scattered) => bound.iter().zip(scattered).map(|(b, s)| b.max(s).sqrt()).collect(),
-                None => bound.iter().map(|variance| variance.sqrt()).collect(),
-            })
-        };
+        let larger =
+            |of: &dyn Fn(&[f64]) -> Information| -> Result<Vec<f64>, ArrayCalibrationError> {
+                let bound = of(&noise).inverse()?.variances();
+                let information = of(&weights);
+                let scattered = information.scattered(&information.inverse()?);
+                Ok(match scattered {
+                    Some(scattered) => {
+                        bound.iter().zip(scattered).map(|(b, s)| b.max(s).sqrt()).collect()
+                    }
+                    None => bound.iter().map(|variance| variance.sqrt()).collect(),
+                })
+            };
         let gain_std = larger(&|weights| Information::of_gains(fit, &found, weights))?;
         let phases = larger(&|weights| Information::of_phases(fit, &found, weights, moved))?;
         let moved_std = moved.then(|| {
             let of = |channel: usize, axis: usize| {
                 let block = fit.waves.axes.iter().position(|&known| known == axis);
-                block.map_or(0.0, |block| half_wavelengths(phases[(block + 1) * channels + channel]))
+                block
+                    .map_or(0.0, |block| half_wavelengths(phases[(block + 1) * channels + channel]))
             };
             (0..channels).map(|channel| [of(channel, 0), of(channel, 1)]).collect()
         });
         let phase_std = phases[..channels].to_vec();
-        Ok(Self { found, excess, coupling: matrix, gain_std, phase_std, moved_std, undetermined, remarks })
+        Ok(Self { found, coupling: matrix, gain_std, phase_std, moved_std, undetermined, remarks })
     }
 
     fn result(
@@ -226,7 +231,9 @@ impl Calibrated {
         let channels = self.channels();
         let coupling = self.coupling.as_ref().map(|matrix| {
             let size = matrix.nrows();
-            (0..size).map(|i| (0..size).map(|k| matrix[[i, k]] / matrix[[k, k]]).collect()).collect()
+            (0..size)
+                .map(|i| (0..size).map(|k| matrix[[i, k]] / matrix[[k, k]]).collect())
+                .collect()
         });
         let (phase, gain) = deviations(fit, &self.found);
         let power = self.found.residuals.iter().sum::<f64>() / used.len().max(1) as f64;
@@ -246,7 +253,7 @@ impl Calibrated {
             cells: used.len(),
             cells_left_out: left,
             frames: 0,
-            residual_db: Some(decibels(power.max(self.excess))),
+            residual_db: Some(decibels(power)),
             residual_phase_rad: Some(phase),
             residual_gain_db: Some(gain),
         };

@@ -62,18 +62,30 @@ impl SteeringTable {
             ArrayCalibrationError::from(CoreError::Shape { what: what.into(), expected, given })
         };
         if count.saturating_mul(channels) > MOST_NUMBERS {
-            return Err(wrong("responses", format!("at most {MOST_NUMBERS} numbers"), vec![count, channels]));
+            return Err(wrong(
+                "responses",
+                format!("at most {MOST_NUMBERS} numbers"),
+                vec![count, channels],
+            ));
         }
         if self.azimuth_rad.len() != count {
             return Err(wrong("azimuth_rad", format!("[{count}]"), vec![self.azimuth_rad.len()]));
         }
         if ![0, count].contains(&self.elevation_rad.len()) {
-            return Err(wrong("elevation_rad", format!("[{count}]"), vec![self.elevation_rad.len()]));
+            return Err(wrong(
+                "elevation_rad",
+                format!("[{count}]"),
+                vec![self.elevation_rad.len()],
+            ));
         }
         let cell = |index: usize| {
             let response = &self.responses[index];
             if response.len() != channels {
-                return Err(wrong("responses", format!("[{count}, {channels}]"), vec![count, response.len()]));
+                return Err(wrong(
+                    "responses",
+                    format!("[{count}, {channels}]"),
+                    vec![count, response.len()],
+                ));
             }
             let column = Array2::from_shape_fn((channels, 1), |(k, _)| response[k]);
             let power = response.iter().map(Complex64::norm_sqr).sum::<f64>() / channels as f64;

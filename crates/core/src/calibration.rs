@@ -153,10 +153,18 @@ impl ArrayCalibration {
         }
         if let Some(coupling) = &self.coupling {
             if let Some(row) = coupling.iter().find(|row| row.len() != count) {
-                return wrong("coupling", format!("[{count}, {count}]"), vec![coupling.len(), row.len()]);
+                return wrong(
+                    "coupling",
+                    format!("[{count}, {count}]"),
+                    vec![coupling.len(), row.len()],
+                );
             }
             if coupling.len() != count {
-                return wrong("coupling", format!("[{count}, {count}]"), vec![coupling.len(), count]);
+                return wrong(
+                    "coupling",
+                    format!("[{count}, {count}]"),
+                    vec![coupling.len(), count],
+                );
             }
             check_finite("coupling", coupling.iter().flatten().flat_map(|z| [z.re, z.im]))?;
         }

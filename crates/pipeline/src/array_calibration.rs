@@ -60,8 +60,7 @@ pub fn calibrate_array<S: FrameSource>(
     let mut chain = Chain::new(waveform, receivers, &plan, &chain_options)?;
     let CalibrationFrames { made_from, checked_on } = frames;
     let total = 2 * (made_from.len() + checked_on.len());
-    let mut first =
-        |at: Progress| report(Progress { done: at.done, total });
+    let mut first = |at: Progress| report(Progress { done: at.done, total });
     let found = chain.combined_cells(source, made_from.clone(), &mut first)?;
     let mut cells = cells(&chain, &found)?;
     if named {

@@ -9,7 +9,9 @@ use crate::error::Fallible;
 use crate::estimate::shape_error;
 use crate::read::{Fields, Read};
 use crate::report::reporter;
-use boresight_array_calibration::{CalibrationOptions, CalibrationResult, Cell, SteeringTable, calibrate};
+use boresight_array_calibration::{
+    CalibrationOptions, CalibrationResult, Cell, SteeringTable, calibrate,
+};
 use boresight_core::error::check_range;
 use boresight_core::{Array, CoreError, Direction, Waveform};
 use boresight_pipeline::FrameSource;
@@ -105,9 +107,8 @@ pub fn configured_calibration(config: &JsValue, array: &JsValue) -> Fallible<JsV
 /// `firstFrame` and `frameCount`, by default the first half of the frames; `checkFirstFrame` and
 /// `checkFrameCount`, by default all frames after these.
 fn read_frames(fields: &mut Fields, count: usize) -> Fallible<CalibrationFrames> {
-    let within = |what: &str, given: usize, most: usize| {
-        check_range(what, given as f64, 0.0, most as f64)
-    };
+    let within =
+        |what: &str, given: usize, most: usize| check_range(what, given as f64, 0.0, most as f64);
     let halves = CalibrationFrames::halves(count);
     let first = fields.optional::<usize>("firstFrame")?;
     let frames = fields.optional::<usize>("frameCount")?;
@@ -157,8 +158,7 @@ fn read_cells(input: &JsValue) -> Fallible<Vec<Cell>> {
         cells.push(match &azimuth {
             Some(azimuth) => {
                 let elevation = elevation.as_ref().map_or(0.0, |elevation| elevation[index]);
-                let direction =
-                    Direction::new(azimuth[index].to_radians(), elevation.to_radians());
+                let direction = Direction::new(azimuth[index].to_radians(), elevation.to_radians());
                 direction.check()?;
                 cell.at(direction)
             }

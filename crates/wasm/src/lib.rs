@@ -24,10 +24,10 @@ pub mod bounds;
 pub mod bytes;
 #[cfg(feature = "drives")]
 pub mod calibrate;
-#[cfg(feature = "core")]
-pub mod calibration_methods;
 #[cfg(feature = "chain")]
 pub mod calibrated;
+#[cfg(feature = "core")]
+pub mod calibration_methods;
 #[cfg(feature = "chain")]
 pub mod capture;
 pub mod carry;

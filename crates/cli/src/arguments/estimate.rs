@@ -62,6 +62,9 @@ pub struct RadarArguments {
     /// or `tx` and `rx` in half wavelengths. A capture's is taken from --config where it says.
     #[arg(long, value_name = "NAME|JSON")]
     pub array: Option<String>,
+    /// Calibration of the array, a JSON file of `boresight array calibrate`; `none` leaves out that of --config.
+    #[arg(long, value_name = "JSON|none")]
+    pub calibration: Option<String>,
 }
 
 /// Names of all methods, networks too.

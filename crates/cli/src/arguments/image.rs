@@ -90,4 +90,7 @@ pub struct ImageCaptureArguments {
     /// Array, where the configuration names no board with a known one.
     #[arg(long, value_name = "NAME|JSON")]
     pub array: Option<String>,
+    /// Calibration of the array, a JSON file of `boresight array calibrate`; `none` leaves out that of --config.
+    #[arg(long, value_name = "JSON|none")]
+    pub calibration: Option<String>,
 }

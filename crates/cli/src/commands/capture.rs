@@ -54,6 +54,7 @@ pub fn open<'a>(
 ) -> Result<(CaptureFrames<'a>, Radar), CliError> {
     let (frames, config) = read(arguments.config.as_deref(), bytes, files)?;
     let array = board_array(arguments.array.as_deref(), &config, files)?;
+    let array = array::calibrated_board(array, arguments.calibration.as_deref(), &config, files)?;
     let (waveform, receivers) = (config.waveform, config.receivers.len());
     Ok((frames, Radar { waveform, receivers, array }))
 }

@@ -34,7 +34,9 @@ pub fn open(
     let (waveform, array) = match &arguments.config {
         Some(path) => {
             let config = RadarConfig::parse(&files.read(path)?)?;
-            (config.waveform, board_array(arguments.array.as_deref(), &config, files)?)
+            let array = board_array(arguments.array.as_deref(), &config, files)?;
+            let calibration = arguments.calibration.as_deref();
+            (config.waveform, array::calibrated_board(array, calibration, &config, files)?)
         }
         None => {
             let waveform = named_waveform(arguments.waveform.as_deref(), files)?;
@@ -43,7 +45,8 @@ pub fn open(
                 expected: "the array of the cube".into(),
                 given: "nothing".into(),
             })?;
-            (waveform, array::array(array, files)?)
+            let array = array::array(array, files)?;
+            (waveform, array::calibrated(array, arguments.calibration.as_deref(), files)?)
         }
     };
     let receivers = cube.len_of(Axis(3));

@@ -40,7 +40,8 @@ impl Compensation {
         if !whole || range_bias_m.abs() > 1000.0 {
             return None;
         }
-        let coefficients = rest.chunks_exact(2).map(|pair| Complex64::new(pair[0], pair[1])).collect();
+        let coefficients =
+            rest.chunks_exact(2).map(|pair| Complex64::new(pair[0], pair[1])).collect();
         Some(Self { range_bias_m, coefficients })
     }
 
@@ -138,22 +139,22 @@ impl RadarConfig {
         }
         let last = channels.iter().max().copied().unwrap_or_default();
         let transmitters = self.chip_transmitters().max(last / CHIP_RECEIVERS + 1);
-        let least =
-            calibration.channels.iter().map(|c| c.gain_db).fold(f64::INFINITY, f64::min);
+        let least = calibration.channels.iter().map(|c| c.gain_db).fold(f64::INFINITY, f64::min);
         let mut coefficients = vec![Complex64::ONE; transmitters * CHIP_RECEIVERS];
         for (&at, channel) in channels.iter().zip(&calibration.channels) {
-            coefficients[at] =
-                cis(-channel.phase_rad) * db_to_amplitude(least - channel.gain_db);
+            coefficients[at] = cis(-channel.phase_rad) * db_to_amplitude(least - channel.gain_db);
         }
         Ok(Compensation { range_bias_m: calibration.range_bias_m, coefficients })
     }
 
     /// Place of each channel in use among those of the chip.
     fn chip_channels(&self) -> impl Iterator<Item = usize> + '_ {
-        let of = |tx: &usize| self.receivers.iter().map({
-            let first = tx * CHIP_RECEIVERS;
-            move |rx| first + rx
-        });
+        let of = |tx: &usize| {
+            self.receivers.iter().map({
+                let first = tx * CHIP_RECEIVERS;
+                move |rx| first + rx
+            })
+        };
         self.transmitters.iter().flat_map(of)
     }
 
