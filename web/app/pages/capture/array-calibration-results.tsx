@@ -1,5 +1,5 @@
 /** A calibration with its uncertainty, how it does on other data, and the chosen cell before and after. */
-import type { ArrayCalibration, CheckFigures } from 'boresight';
+import type { ArrayCalibration, CheckFigures, Estimate } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import type { NamedEstimate } from '../../../elements/spectrum.ts';
 import { count, fixed, signed } from '../../../plots/format.ts';
@@ -22,10 +22,10 @@ type FileParts = readonly (string | number)[];
 
 const METHODS: Readonly<Record<ArrayCalibration['method'], string>> = {
   given: 'given by hand',
-  reflector: 'reflectors at known angles',
-  'self-calibration': 'cells at unknown angles',
-  'steering-table': 'measured steering vectors',
-  'board-configuration': 'the board’s configuration',
+  reflector: 'known angles',
+  'self-calibration': 'unknown angles',
+  'steering-table': 'measured steering',
+  'board-configuration': 'configuration',
 };
 
 const UNKNOWN: Readonly<Record<ArrayCalibration['notIdentifiable'][number], string>> = {
@@ -240,7 +240,8 @@ function ChannelPlot({
           ),
         ),
       ],
-      extent: { x: [0.5, points.length + 0.5] as const, y: [-reach, reach] as const },
+      // The name of the line stands behind the last.
+      extent: { x: [0.5, points.length + 1.1] as const, y: [-reach, reach] as const },
     };
   }, [points]);
   const text = ([value, deviation]: readonly [number, number | undefined]): string =>
@@ -477,6 +478,9 @@ function CellBeforeAfter({ fileParts }: { fileParts: FileParts }) {
   );
 }
 
+/** Of a beam every sidelobe is a source. */
+const peakAlone = (beam: Estimate): Estimate => ({ ...beam, sources: beam.sources.slice(0, 1) });
+
 function Spectra({
   set,
   cell,
@@ -492,10 +496,10 @@ function Spectra({
       {
         id: 'planned',
         label: 'As planned',
-        estimate: set.before.beam,
+        estimate: peakAlone(set.before.beam),
         style: { ...methodStyle('bartlett'), dash: [5, 3] },
       },
-      { id: 'calibrated', label: 'Calibrated', estimate: set.after.beam, style: ACCENT_STYLE, line: true },
+      { id: 'calibrated', label: 'Calibrated', estimate: peakAlone(set.after.beam), style: ACCENT_STYLE, line: true },
     ],
     [set],
   );

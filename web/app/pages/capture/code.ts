@@ -99,8 +99,8 @@ function javascript(made: Made): Part {
     script.add('// What is taken off gain and phase of each channel.');
     script.constant('calibration', calibration);
   }
-  const chain = { ...made.chain, ...(calibrated ? { calibration: expression('calibration') } : {}) };
-  script.constant('chain', withoutDefaults('DetectionOptions', chain));
+  const named = calibrated ? { calibration: expression('calibration') } : {};
+  script.constant('chain', withoutDefaults('DetectionOptions', { ...made.chain, ...named }));
   if (model) {
     const network = networks.open(model);
     script.add(
@@ -131,7 +131,7 @@ function javascript(made: Made): Part {
     const { networks: three, frame: at } = made.trio;
     script.add('', '// Regions of the range spectrum, and the targets in each.');
     const [counting, one, two] = [three.counting, three.one, three.two].map((network) => networks.open(network));
-    script.constant('regionOptions', withoutDefaults('RegionChainOptions', regionOptions(state)));
+    script.constant('regionOptions', withoutDefaults('RegionChainOptions', { ...regionOptions(state), ...named }));
     script.add(
       `const [{ regions }] = ${counting}.captureRegions(`,
       `  { one: ${one}, two: ${two} },`,
@@ -210,7 +210,7 @@ function commandLine(made: Made): Part {
   ];
   if (made.trio) {
     const { networks, frame: at } = made.trio;
-    const { array: _, ...options } = regionOptions(state);
+    const { array: _, calibration: __, ...options } = regionOptions(state);
     lines.push(
       command([
         ...['boresight', 'regions', ...words, ...arrays, '--frame', String(at)],

@@ -227,6 +227,7 @@ export function regionOptions(state: CaptureState): CaptureRegionOptions {
   const { array, nearest, farthest } = state;
   return {
     ...(array === 'auto' ? {} : { array }),
+    ...calibrationOption(state),
     regionWindow: state.regionWindow,
     reachBins: state.regionReach,
     countLoading: state.countLoading,
