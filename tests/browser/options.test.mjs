@@ -40,7 +40,7 @@ const DIFFERENCES = {
 /** Pages in states that show all their options. */
 const STATES = {
   angle: '',
-  capture: '?axes=both&cfar=ordered-statistic&methods=bartlett',
+  capture: '?axes=both&cfar=ordered-statistic&methods=bartlett&reflectors=1:0:0',
   mounting: '?source=simulated&methods=weighted-mean',
   birdseye: '?methods=bartlett',
   networks: '',
@@ -102,6 +102,7 @@ for (const page of Object.keys(DIFFERENCES)) {
     { path: `#/${page}${STATES[page]}` },
     async ({ page: tab }) => {
       await tab.locator(`[data-option="${fields[0].option}"]`).waitFor();
+      if (page === 'capture') await tab.waitForSelector('input[name="exactRanges"]');
       if (page === 'mounting') await tab.waitForSelector('input[name="xM"]');
       const controls = await tab.locator('[data-option]').evaluateAll((list) =>
         list.map((one) => {

@@ -528,6 +528,8 @@ export interface FrameResult {
   frame: number;
   /** Frames that went in. */
   frames: number;
+  /** Whether an array's calibration was applied. */
+  calibrated: boolean;
   /** Range of each range bin. */
   rangeM: Float64Array;
   /** Range rate of each Doppler bin, ascending. */
