@@ -2,6 +2,7 @@
 import type {
   CalibrationOptions,
   DetectionOptions,
+  ReadingOptions,
   RegionChainOptions,
   SharedEstimatorOptions,
   SimulateDriveOptions,
@@ -13,6 +14,7 @@ import { type ChoiceField, choice, type Field, flag, type NumberField, numberIn,
 interface Records {
   CalibrationOptions: CalibrationOptions;
   DetectionOptions: DetectionOptions;
+  ReadingOptions: ReadingOptions;
   RegionChainOptions: RegionChainOptions;
   SharedEstimatorOptions: SharedEstimatorOptions;
   SimulateDriveOptions: SimulateDriveOptions;

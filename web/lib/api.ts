@@ -1,7 +1,7 @@
 // What every runtime's entry offers beside its own init().
 
 export { Calibration, calibrationMethods, mergeCalibrations } from './calibrate/calibrate.js';
-export { Capture, frameCells, processCube } from './capture/capture.js';
+export { Capture, frameCells, joinCascade, processCube } from './capture/capture.js';
 export { strongestRegion } from './capture/region.js';
 export { calibrateDrive, calibrationReport, frameVerdicts, jointCalibration } from './drive/calibration.js';
 export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive/drive.js';

@@ -26,14 +26,14 @@ export class PoolCapture implements Functions {
   readonly #pool: Pool;
   readonly #id: string;
   readonly #bytes: Uint8Array;
-  readonly #config: lib.TextInput;
+  readonly #config: lib.ConfigInput;
   readonly #run: OnKept;
   readonly #forget: () => void;
 
   /** @internal */
   constructor(
     pool: Pool,
-    kept: { id: string; bytes: Uint8Array; config: lib.TextInput; info: lib.CaptureInfo },
+    kept: { id: string; bytes: Uint8Array; config: lib.ConfigInput; info: lib.CaptureInfo },
     work: { run: OnKept; forget: () => void },
   ) {
     this.#pool = pool;

@@ -13,6 +13,7 @@ import type {
   ChainOptions,
   CombineOptions,
   ComplexData,
+  ConfigInput,
   CubeChainOptions,
   CubeRegionOptions,
   DriveCalibration,
@@ -31,7 +32,6 @@ import type {
   SimulatedDrive,
   SourceProbabilities,
   Tensor,
-  TextInput,
 } from '../lib/api.js';
 import * as api from '../lib/api.js';
 import type { Network } from '../lib/neural/network.js';
@@ -118,7 +118,7 @@ function estimateBatch(input: BatchInput, options: EstimatorOptions & BatchOptio
   return kept.estimator.estimateBatch(input, kind);
 }
 
-function captureInfo(source: CaptureSource, config: TextInput): CaptureInfo {
+function captureInfo(source: CaptureSource, config: ConfigInput): CaptureInfo {
   return withCapture(source, config, ({ info }) => info);
 }
 
@@ -131,7 +131,7 @@ function frameCells(cube: ComplexData, options: CubeChainOptions): FrameCells {
   return api.frameCells(cube, withoutNetwork(options));
 }
 
-function processFrame(source: CaptureSource, config: TextInput, frame: number, options?: ChainOptions): FrameResult {
+function processFrame(source: CaptureSource, config: ConfigInput, frame: number, options?: ChainOptions): FrameResult {
   const id = networkOf(options?.angle);
   if (id === undefined) return withCapture(source, config, (capture) => capture.processFrame(frame, options));
   return networkWith(id).processFrames(bytesOf(source), config, options, frame)[0] as FrameResult;
@@ -146,7 +146,7 @@ function cubeRegions(networks: RegionNetworkIds, cube: ComplexData, options: Cub
 function regionStretch(
   networks: RegionNetworkIds,
   bytes: BytesInput,
-  config: TextInput,
+  config: ConfigInput,
   first: number,
   options?: CaptureRegionOptions,
 ): RegionFrame[] {
@@ -162,7 +162,7 @@ function networksOf(ids: RegionNetworkIds): { counting: Network; one: Network; t
 }
 
 /** Every frame of a stretch of a capture that begins with frame `first`. */
-function processStretch(bytes: BytesInput, config: TextInput, first: number, options?: ChainOptions): FrameResult[] {
+function processStretch(bytes: BytesInput, config: ConfigInput, first: number, options?: ChainOptions): FrameResult[] {
   const id = networkOf(options?.angle);
   const results =
     id !== undefined
@@ -174,24 +174,29 @@ function processStretch(bytes: BytesInput, config: TextInput, first: number, opt
   return results;
 }
 
-function combineFrames(this: Context, source: CaptureSource, config: TextInput, options?: CombineOptions): FrameResult {
+function combineFrames(
+  this: Context,
+  source: CaptureSource,
+  config: ConfigInput,
+  options?: CombineOptions,
+): FrameResult {
   const report = (done: number, total: number): boolean => this.report(done, total);
   const id = networkOf(options?.angle);
   if (id !== undefined) return networkWith(id).combineFrames(bytesOf(source), config, options, report);
   return withCapture(source, config, (capture) => capture.combineFrames(options, report));
 }
 
-function cellSnapshots(source: CaptureSource, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
+function cellSnapshots(source: CaptureSource, config: ConfigInput, cell: Cell, options?: ChainOptions): ComplexData {
   return withCapture(source, config, (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
 
-function captureCells(source: CaptureSource, config: TextInput, frame: number, options?: ChainOptions): FrameCells {
+function captureCells(source: CaptureSource, config: ConfigInput, frame: number, options?: ChainOptions): FrameCells {
   return withCapture(source, config, (capture) => capture.frameCells(frame, withoutNetwork(options)));
 }
 
 function cellSpectrum(
   source: CaptureSource,
-  config: TextInput,
+  config: ConfigInput,
   cell: Cell,
   angle?: AngleOptions,
   options?: ChainOptions,
@@ -262,6 +267,7 @@ export const operations = {
   waveformPreset: api.waveformPreset,
   waveformSummary: api.waveformSummary,
   parseConfig: api.parseConfig,
+  joinCascade: api.joinCascade,
   captureInfo,
   processFrame,
   processStretch,

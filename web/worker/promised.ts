@@ -17,7 +17,7 @@ import type * as waveform from '../lib/radar/waveform.js';
 import type * as version from '../lib/runtime/version.js';
 import type * as simulate from '../lib/simulate/simulate.js';
 import type * as street from '../lib/simulate/street.js';
-import type { BytesInput, TextInput } from '../lib/types.js';
+import type { BytesInput, ConfigInput } from '../lib/types.js';
 import type { JobOptions } from './job.js';
 
 // biome-ignore lint/suspicious/noExplicitAny: functions of any arguments
@@ -33,7 +33,7 @@ export type AllPromised<T> = { [K in keyof T]: Promised<T[K]> };
 
 /** A method of a capture as a function of the capture's bytes and configuration. */
 type OfCapture<F> = F extends AnyFunction
-  ? (bytes: BytesInput, config: TextInput, ...args: Parameters<F>) => ReturnType<F>
+  ? (bytes: BytesInput, config: ConfigInput, ...args: Parameters<F>) => ReturnType<F>
   : never;
 
 type OfCaptures<T> = { [K in keyof T]: OfCapture<T[K]> };
@@ -89,6 +89,7 @@ export const argumentCounts = {
   waveformPresets: 0,
   waveformPreset: 1,
   waveformSummary: 1,
+  joinCascade: 2,
   parseConfig: 1,
   parseBoardLog: 2,
   readArray: 2,

@@ -54,4 +54,4 @@ pub use lattice::Lattice;
 pub use limits::Limits;
 pub use num_complex::{Complex32, Complex64};
 pub use random::Random;
-pub use waveform::{Waveform, WaveformSummary};
+pub use waveform::{Sampling, Waveform, WaveformSummary};

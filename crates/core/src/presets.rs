@@ -1,7 +1,7 @@
 //! Arrays of known radars.
 
 use crate::array::{Array, Position};
-use crate::error::CoreError;
+use crate::error::{CoreError, check_range};
 use crate::order::descending;
 
 /// Names [`preset`] knows, beside `ula<N>`.
@@ -46,10 +46,52 @@ fn awr1843() -> Result<Array, CoreError> {
 /// Azimuth array of Texas Instruments' four-chip cascade board: 9 transmitters and 16 receivers in
 /// one row, 86 distinct virtual elements without a gap.
 fn cascade86() -> Result<Array, CoreError> {
-    let tx: Vec<f64> = (0..9).map(|k| -4.0 * f64::from(k)).collect();
-    let rx = [0, 1, 2, 3, 11, 12, 13, 14, 46, 47, 48, 49, 50, 51, 52, 53];
-    let array =
-        Array::mimo(&along_y(&tx), &along_y(&rx.map(|k| -f64::from(k))))?.without_duplicates();
+    cascade_row(
+        &[11, 10, 9, 8, 7, 6, 5, 4, 3],
+        &[12, 13, 14, 15, 0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7],
+    )
+}
+
+/// Azimuths and elevations of the transmitters of Texas Instruments' four-chip cascade board by their numbers, three a
+/// chip: master, slave 1, slave 2, slave 3.
+const CASCADE_TX: [[f64; 2]; 12] = [
+    [11.0, 6.0],
+    [10.0, 4.0],
+    [9.0, 1.0],
+    [32.0, 0.0],
+    [28.0, 0.0],
+    [24.0, 0.0],
+    [20.0, 0.0],
+    [16.0, 0.0],
+    [12.0, 0.0],
+    [8.0, 0.0],
+    [4.0, 0.0],
+    [0.0, 0.0],
+];
+
+/// Azimuths of its receivers by their numbers, four a chip.
+const CASCADE_RX: [f64; 16] =
+    [11.0, 12.0, 13.0, 14.0, 50.0, 51.0, 52.0, 53.0, 46.0, 47.0, 48.0, 49.0, 0.0, 1.0, 2.0, 3.0];
+
+/// The elements of Texas Instruments' four-chip cascade board in its row, for transmitters in their order of
+/// transmission and receivers in theirs: channels of elevated transmitters are left out, and those at a place that an
+/// earlier one has. Of all of the row's transmitters it is `cascade86`.
+///
+/// # Errors
+/// [`CoreError::OutOfRange`] for a transmitter above 11 or a receiver above 15; [`CoreError::Empty`] where no transmitter
+/// is in the row.
+pub fn cascade_row(transmitters: &[usize], receivers: &[usize]) -> Result<Array, CoreError> {
+    let within = |what, numbers: &[usize], most: usize| {
+        numbers.iter().try_for_each(|&n| check_range(what, n as f64, 0.0, most as f64))
+    };
+    within("transmitter", transmitters, CASCADE_TX.len() - 1)?;
+    within("receiver", receivers, CASCADE_RX.len() - 1)?;
+    let tx: Vec<Position> =
+        transmitters.iter().map(|&n| [0.0, -CASCADE_TX[n][0], CASCADE_TX[n][1]]).collect();
+    let rx: Vec<Position> = receivers.iter().map(|&n| [0.0, -CASCADE_RX[n], 0.0]).collect();
+    let all = Array::mimo(&tx, &rx)?;
+    let in_row: Vec<usize> = (0..all.len()).filter(|&k| all.positions()[k][2] == 0.0).collect();
+    let array = all.select(&in_row)?.without_duplicates();
     array.select(&descending(array.positions().iter().map(|position| position[1])))
 }
 

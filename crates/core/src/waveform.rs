@@ -5,8 +5,20 @@ use crate::error::{CoreError, check_positive, check_range};
 use crate::units::SPEED_OF_LIGHT_MPS;
 use serde::{Deserialize, Serialize};
 
+/// What the receivers' converters give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sampling {
+    /// I and Q: beat frequencies from zero to the sample rate are told apart.
+    #[default]
+    Complex,
+    /// I alone: beat frequencies from zero to half the sample rate. The spectrum is the same, mirrored, at negative
+    /// ones, so that a target has half the signal-to-noise ratio in its bin that complex samples give.
+    Real,
+}
+
 /// Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each,
-/// `samples` complex samples a chirp.
+/// `samples` samples a chirp.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Waveform {
@@ -14,9 +26,12 @@ pub struct Waveform {
     pub start_frequency_hz: f64,
     /// Slope of the ramp, Hz per second.
     pub slope_hz_per_s: f64,
-    /// Complex sample rate, Hz.
+    /// Sample rate, Hz.
     pub sample_rate_hz: f64,
-    /// Samples a chirp.
+    /// Whether samples are complex or real.
+    #[serde(default)]
+    pub sampling: Sampling,
+    /// Samples a chirp; an even number of real ones.
     pub samples: usize,
     /// Time from the start of the ramp to the first sample, s.
     pub adc_start_s: f64,
@@ -61,12 +76,34 @@ impl Waveform {
         check_positive("slope_hz_per_s", self.slope_hz_per_s)?;
         check_positive("sample_rate_hz", self.sample_rate_hz)?;
         check_range("samples", self.samples as f64, 2.0, 65_536.0)?;
+        if self.sampling == Sampling::Real && !self.samples.is_multiple_of(2) {
+            return Err(CoreError::OutOfRange {
+                what: "samples".into(),
+                expected: "an even number of real samples".into(),
+                given: self.samples as f64,
+            });
+        }
         check_range("adc_start_s", self.adc_start_s, 0.0, 1.0)?;
         check_range("transmitters", self.transmitters as f64, 1.0, 64.0)?;
         check_range("loops", self.loops as f64, 1.0, 65_536.0)?;
         check_range("chirp_interval_s", self.chirp_interval_s, self.sweep_s(), 1.0)?;
         let active = self.chirp_interval_s * (self.loops * self.transmitters) as f64;
         check_range("frame_interval_s", self.frame_interval_s, active * (1.0 - 1e-9), 1e3)
+    }
+
+    /// Checks that samples are complex, for what has no other form.
+    ///
+    /// # Errors
+    /// [`CoreError::Unknown`] for real samples.
+    pub fn check_complex(&self) -> Result<(), CoreError> {
+        match self.sampling {
+            Sampling::Complex => Ok(()),
+            Sampling::Real => Err(CoreError::Unknown {
+                what: "sampling".into(),
+                expected: "complex samples here".into(),
+                given: "real".into(),
+            }),
+        }
     }
 
     /// Time over which samples are taken, s.
@@ -94,9 +131,26 @@ impl Waveform {
         SPEED_OF_LIGHT_MPS / (2.0 * self.bandwidth_hz())
     }
 
-    /// Largest unambiguous range with complex samples: `c fs / 2 slope`, m.
+    /// Width of the band of beat frequencies that are told apart, from zero: the sample rate, or half of it with real
+    /// samples, Hz.
+    pub fn beat_band_hz(&self) -> f64 {
+        match self.sampling {
+            Sampling::Complex => self.sample_rate_hz,
+            Sampling::Real => self.sample_rate_hz / 2.0,
+        }
+    }
+
+    /// Bins of a range transform without padding, over the band of [`Waveform::beat_band_hz`].
+    pub fn range_bins(&self) -> usize {
+        match self.sampling {
+            Sampling::Complex => self.samples,
+            Sampling::Real => self.samples / 2,
+        }
+    }
+
+    /// Largest unambiguous range: `c / 2 slope` times the band of beat frequencies, m.
     pub fn max_range_m(&self) -> f64 {
-        SPEED_OF_LIGHT_MPS * self.sample_rate_hz / (2.0 * self.slope_hz_per_s)
+        SPEED_OF_LIGHT_MPS * self.beat_band_hz() / (2.0 * self.slope_hz_per_s)
     }
 
     /// Time from one chirp of a transmitter to its next, s.
@@ -143,6 +197,7 @@ mod tests {
             start_frequency_hz: 77e9,
             slope_hz_per_s: 60e12,
             sample_rate_hz: 5.209e6,
+            sampling: Sampling::Complex,
             samples: 256,
             adc_start_s: 7e-6,
             chirp_interval_s: 97.14e-6,
@@ -160,6 +215,18 @@ mod tests {
         assert!((waveform.max_range_m() - 13.013).abs() < 0.01);
         assert!((waveform.max_rate_mps() - 4.88).abs() < 0.1);
         assert!((waveform.rate_resolution_mps() - 0.61).abs() < 0.02);
+    }
+
+    #[test]
+    fn real_samples_reach_half_as_far_at_the_same_resolution() {
+        let complex = awr1642();
+        let real = Waveform { sampling: Sampling::Real, ..complex };
+        real.check().unwrap();
+        assert_eq!(real.max_range_m(), complex.max_range_m() / 2.0);
+        assert_eq!(real.range_resolution_m(), complex.range_resolution_m());
+        assert_eq!((complex.range_bins(), real.range_bins()), (256, 128));
+        let odd = Waveform { samples: 255, ..real };
+        assert!(odd.check().unwrap_err().to_string().contains("even"), "{:?}", odd.check());
     }
 
     #[test]

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 /// usual windows and as much again.
 const COUPLING_BINS: f64 = 4.0;
 
-/// Share of the sample rate within which the receivers' filters are flat; beat frequencies above
-/// it, which include negative ones, are attenuated or folded.
+/// Share of the band of beat frequencies within which the receivers' filters are flat; those above
+/// it, which of complex samples include negative ones, are attenuated or folded.
 const USABLE_BAND: f64 = 0.9;
 
 /// The range from beyond antenna coupling to the end of the receivers' band, m: 4 range resolutions

@@ -2,7 +2,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Random, Waveform};
+use boresight_core::{Complex32, Random, Sampling, Waveform};
 use boresight_signal::{Cfar, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions};
 use criterion::{Criterion, criterion_group, criterion_main};
 use ndarray::Array4;
@@ -13,6 +13,7 @@ fn chain(criterion: &mut Criterion) {
         start_frequency_hz: 77e9,
         slope_hz_per_s: 60e12,
         sample_rate_hz: 5.209e6,
+        sampling: Sampling::Complex,
         samples: 256,
         adc_start_s: 7e-6,
         chirp_interval_s: 97.14e-6,

@@ -7,7 +7,7 @@
 //! # Example
 //!
 //! ```
-//! use boresight_core::{Complex32, Waveform};
+//! use boresight_core::{Complex32, Sampling, Waveform};
 //! use boresight_signal::{RangeDoppler, RangeDopplerOptions};
 //! use ndarray::Array4;
 //! use std::f32::consts::TAU;
@@ -16,6 +16,7 @@
 //!     start_frequency_hz: 77e9,
 //!     slope_hz_per_s: 60e12,
 //!     sample_rate_hz: 5e6,
+//!     sampling: Sampling::Complex,
 //!     samples: 64,
 //!     adc_start_s: 2e-6,
 //!     chirp_interval_s: 60e-6,
@@ -46,6 +47,7 @@ pub mod power;
 pub mod range;
 pub mod range_doppler;
 pub mod range_shift;
+mod real_range;
 pub mod region;
 pub mod tdm;
 pub mod window;

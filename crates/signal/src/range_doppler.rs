@@ -4,12 +4,13 @@ use crate::clutter::subtract_mean;
 use crate::error::SignalError;
 use crate::power::accumulate_power;
 use crate::range::{RowTransform, range_axis_m};
+use crate::real_range::RealRangeTransform;
 use crate::window::Window;
 use boresight_core::describe::Described;
 use boresight_core::error::check_range;
 use boresight_core::limits::check_bytes;
-use boresight_core::{Complex32, Complex64, CoreError, Waveform};
-use ndarray::{Array1, Array2, Array3, ArrayView4, Axis};
+use boresight_core::{Complex32, Complex64, CoreError, Sampling, Waveform};
+use ndarray::{Array1, Array2, Array3, ArrayView2, ArrayView4, Axis};
 use serde::{Deserialize, Serialize};
 
 /// Memory of a value: itself, and what it was made of.
@@ -75,13 +76,77 @@ impl RangeDopplerMap {
     }
 }
 
+/// The range transform of either kind of samples.
+enum RangeTransform {
+    Complex(RowTransform),
+    Real(RealRangeTransform),
+}
+
+impl RangeTransform {
+    fn new(waveform: &Waveform, options: &RangeDopplerOptions) -> Result<Self, SignalError> {
+        let (window, padding) = (options.range_window, options.range_padding);
+        Ok(match waveform.sampling {
+            Sampling::Complex => {
+                Self::Complex(RowTransform::new(window, waveform.samples, padding)?)
+            }
+            Sampling::Real => {
+                Self::Real(RealRangeTransform::new(window, waveform.samples, padding)?)
+            }
+        })
+    }
+
+    fn bins(&self) -> usize {
+        match self {
+            Self::Complex(transform) => transform.bins(),
+            Self::Real(transform) => transform.bins(),
+        }
+    }
+
+    fn noise_bandwidth_bins(&self) -> f64 {
+        match self {
+            Self::Complex(transform) => transform.noise_bandwidth_bins,
+            Self::Real(transform) => transform.noise_bandwidth_bins,
+        }
+    }
+
+    fn correlation(&self) -> f64 {
+        match self {
+            Self::Complex(transform) => transform.correlation,
+            Self::Real(transform) => transform.correlation,
+        }
+    }
+
+    /// Range bins of the chirps, into rows of [`RangeTransform::bins`].
+    fn transform(
+        &mut self,
+        chirps: ArrayView2<Complex32>,
+        rows: &mut [Complex32],
+    ) -> Result<(), SignalError> {
+        let each = self.bins();
+        match self {
+            Self::Complex(transform) => {
+                for (chirp, row) in chirps.outer_iter().zip(rows.chunks_exact_mut(each)) {
+                    weigh(chirp, &transform.weights, row);
+                }
+                transform.transform(rows);
+            }
+            Self::Real(transform) => {
+                for (chirp, row) in chirps.outer_iter().zip(rows.chunks_exact_mut(each)) {
+                    transform.transform(chirp, row)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
 /// A plan for the range and Doppler transform of frames of one shape. It keeps its windows, FFTs
 /// and scratch space, so that [`RangeDoppler::process`] allocates nothing.
 pub struct RangeDoppler {
     waveform: Waveform,
     receivers: usize,
     static_clutter_removal: bool,
-    range: RowTransform,
+    range: RangeTransform,
     doppler: RowTransform,
     /// Range bins of all loops of one channel.
     chirps: Vec<Complex32>,
@@ -112,8 +177,7 @@ impl RangeDoppler {
             receivers,
         ];
         check_bytes("the range-Doppler cube", &sizes, VALUE_BYTES)?;
-        let range =
-            RowTransform::new(options.range_window, waveform.samples, options.range_padding)?;
+        let range = RangeTransform::new(waveform, options)?;
         let mut doppler =
             RowTransform::new(options.doppler_window, waveform.loops, options.doppler_padding)?;
         let bins = doppler.bins();
@@ -155,9 +219,13 @@ impl RangeDoppler {
     }
 
     /// Noise power of one raw sample over that of one cell: the gain in SNR of a target in the
-    /// middle of a cell.
+    /// middle of a cell. With real samples it is half of what as many complex ones give.
     pub fn processing_gain(&self) -> f64 {
-        let samples = self.waveform.samples as f64 / self.range.noise_bandwidth_bins;
+        let bandwidth = match self.waveform.sampling {
+            Sampling::Complex => self.range.noise_bandwidth_bins(),
+            Sampling::Real => 2.0 * self.range.noise_bandwidth_bins(),
+        };
+        let samples = self.waveform.samples as f64 / bandwidth;
         samples * self.waveform.loops as f64 / self.doppler.noise_bandwidth_bins
     }
 
@@ -165,7 +233,7 @@ impl RangeDoppler {
     /// sum over all lags of the squared magnitude of the correlation window and padding cause. 1
     /// without either, 1.94 for the Hann window.
     pub fn cell_correlation(&self) -> [f64; 2] {
-        [self.range.correlation, self.doppler.correlation]
+        [self.range.correlation(), self.doppler.correlation]
     }
 
     /// Space for a result of [`RangeDoppler::process`], to be used again and again.
@@ -180,7 +248,8 @@ impl RangeDoppler {
     /// Transforms a frame of loops x transmitters x receivers x samples.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] if the frame or the output has another shape than planned.
+    /// [`CoreError::Shape`] if the frame or the output has another shape than planned;
+    /// [`CoreError::OutOfRange`] for real samples with an imaginary part.
     pub fn process(
         &mut self,
         frame: ArrayView4<Complex32>,
@@ -196,10 +265,7 @@ impl RangeDoppler {
             for rx in 0..self.receivers {
                 let channel = frame.index_axis(Axis(1), tx);
                 let channel = channel.index_axis(Axis(1), rx);
-                for (chirp, row) in channel.outer_iter().zip(self.chirps.chunks_exact_mut(ranges)) {
-                    weigh(chirp, &self.range.weights, row);
-                }
-                self.range.transform(&mut self.chirps);
+                self.range.transform(channel, &mut self.chirps)?;
                 let mut plane = output.cube.index_axis_mut(Axis(0), tx * self.receivers + rx);
                 let Some(plane) = plane.as_slice_mut() else {
                     return Err(not_contiguous("output cube"));

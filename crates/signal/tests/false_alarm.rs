@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Random, Waveform};
+use boresight_core::{Complex32, Random, Sampling, Waveform};
 use boresight_signal::{
     Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,
 };
@@ -153,6 +153,7 @@ fn windowed_noise_keeps_the_rate() {
         start_frequency_hz: 77e9,
         slope_hz_per_s: 60e12,
         sample_rate_hz: 5e6,
+        sampling: Sampling::Complex,
         samples: 32,
         adc_start_s: 0.0,
         chirp_interval_s: 20e-6,

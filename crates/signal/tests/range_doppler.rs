@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Complex64, CoreError, Diagnose, Random, Waveform};
+use boresight_core::{Complex32, Complex64, CoreError, Diagnose, Random, Sampling, Waveform};
 use boresight_signal::{
     RangeDoppler, RangeDopplerOptions, SignalError, Window, power_map, remove_static_clutter,
 };
@@ -14,6 +14,7 @@ fn waveform(samples: usize, transmitters: usize, loops: usize) -> Waveform {
         start_frequency_hz: 77e9,
         slope_hz_per_s: 60e12,
         sample_rate_hz: 5e6,
+        sampling: Sampling::Complex,
         samples,
         adc_start_s: 2e-6,
         chirp_interval_s: 60e-6,

@@ -6,6 +6,8 @@
 //! `R` at that very moment. So the beat frequency is positive and grows with range, and the phase
 //! `4 pi R / lambda` rises from chirp to chirp for a receding target, whose Doppler is positive.
 //!
+//! Real samples are the real part of all that, of the noise too: both have half the power.
+//!
 //! Phases in the far and in the near field are those of `crate::paths`.
 
 use crate::cost::sum_operations;
@@ -19,7 +21,7 @@ use boresight_core::limits::{check_bytes, check_operations};
 use boresight_core::steering::cis;
 use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_amplitude, db_to_power};
 use boresight_core::{
-    Array, Complex32, Complex64, CoreError, Direction, Imperfections, Random, Waveform,
+    Array, Complex32, Complex64, CoreError, Direction, Imperfections, Random, Sampling, Waveform,
 };
 use ndarray::{Array1, Array5};
 use serde::{Deserialize, Serialize};
@@ -144,7 +146,11 @@ pub fn simulate_cube(
                 }
                 for ((out, &re), &im) in chirp.iter_mut().zip(&block.re).zip(&block.im) {
                     let noisy = Complex64::new(re, im) + random.complex_normal(noise_power);
-                    *out = Complex32::new(noisy.re as f32, noisy.im as f32);
+                    let im = match waveform.sampling {
+                        Sampling::Complex => noisy.im as f32,
+                        Sampling::Real => 0.0,
+                    };
+                    *out = Complex32::new(noisy.re as f32, im);
                 }
             }
         }

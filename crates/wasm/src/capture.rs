@@ -13,7 +13,8 @@ use boresight_core::describe::Described;
 use boresight_core::describe::shaped::ComplexArray;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64, Geometry, Remark, Waveform};
-use boresight_formats::{self as formats, RadarConfig};
+use boresight_formats::dca1000::Evidence;
+use boresight_formats::{self as formats, RadarConfig, Settled};
 use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameCells, FrameSource};
 use js_sys::Function;
 use ndarray::{Array2, ArrayView5, Axis};
@@ -40,6 +41,8 @@ fn classical(
 pub struct Capture {
     bytes: Vec<u8>,
     config: RadarConfig,
+    evidence: Evidence,
+    remarks: Vec<Remark>,
     array: Option<Array>,
     frames: usize,
     chain: Option<Chain>,
@@ -56,7 +59,12 @@ pub struct CaptureInfo<'a> {
     pub trailing_bytes: usize,
     /// Virtual array of the configured channels; null for a platform that is not known.
     pub array: Option<Geometry>,
-    /// What is odd about its size.
+    /// Power above the noise at positive beat frequencies over that at negative ones, as samples are read; null for real
+    /// samples, and for chirps that are too short or silent.
+    pub beat_asymmetry_db: Option<f64>,
+    /// Whether the samples tell that I and Q are the other way round than they are read; null where they tell nothing.
+    pub iq_swapped: Option<bool>,
+    /// What is odd about its size, its lanes, and the order of I and Q.
     pub warnings: &'a [Remark],
 }
 
@@ -81,11 +89,12 @@ impl Capture {
     /// Lays the configuration over the bytes.
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: &JsValue, config: &JsValue) -> Fallible<Self> {
-        let config = read_config(config, "configuration")?;
+        let (config, reading) = read_config(config, "configuration")?;
         let bytes = Bytes::read(bytes, "capture")?.0;
+        let Settled { config, evidence, remarks } = Settled::new(&bytes, &config, &reading)?;
         let frames = formats::Capture::new(&bytes, &config)?.frames();
         let array = config.array();
-        Ok(Self { bytes, config, array, frames, chain: None })
+        Ok(Self { bytes, config, evidence, remarks, array, frames, chain: None })
     }
 
     /// What is known before any processing.
@@ -96,7 +105,9 @@ impl Capture {
             frames: layout.frames(),
             trailing_bytes: layout.trailing_bytes(),
             array: self.array.as_ref().map(Geometry::from),
-            warnings: layout.remarks(),
+            beat_asymmetry_db: self.evidence.sides.map(|sides| sides.asymmetry_db),
+            iq_swapped: self.evidence.sides.and_then(|sides| sides.swapped),
+            warnings: &self.remarks,
         }))
     }
 

@@ -3,10 +3,11 @@
 use crate::bytes::Text;
 use crate::carry;
 use crate::error::Fallible;
-use crate::read::Read;
+use crate::given;
+use crate::read::{Fields, Read};
 use boresight_core::describe::Described;
 use boresight_core::{Remark, Waveform, WaveformSummary};
-use boresight_formats::RadarConfig;
+use boresight_formats::{Layout, RadarConfig, ReadingOptions};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -14,12 +15,26 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// Reads the text of a `.cfg` file.
 #[wasm_bindgen(js_name = parseConfig)]
 pub fn parse_config(text: &JsValue) -> Fallible<JsValue> {
-    Ok(carry::write(&ConfigRecord::from(&read_config(text, "configuration")?)))
+    Ok(carry::write(&ConfigRecord::from(&read_config(text, "configuration")?.0)))
 }
 
-/// A configuration from its text.
-pub fn read_config(text: &JsValue, path: &str) -> Fallible<RadarConfig> {
-    Ok(RadarConfig::parse(&Text::read(text, path)?.0)?)
+/// A configuration from its text, or from an object of the text with what overrides it in how samples are read; that
+/// is put into it, and given beside it.
+pub fn read_config(value: &JsValue, path: &str) -> Fallible<(RadarConfig, ReadingOptions)> {
+    let (text, reading) = match Text::read(value, path) {
+        Err(_) if given::is_plain(value) && !value.has_type::<js_sys::Uint8Array>() => {
+            let mut fields = Fields::new(value, path)?;
+            let text = fields.required("text")?;
+            let reading = fields.spread()?;
+            fields.finish()?;
+            (text, reading)
+        }
+        text => (text?, ReadingOptions::default()),
+    };
+    let Text(text) = text;
+    let mut config = RadarConfig::parse(&text)?;
+    reading.apply(&mut config)?;
+    Ok((config, reading))
 }
 
 /// What a configuration says of the radar and its samples.
@@ -46,6 +61,11 @@ pub struct ConfigRecord<'a> {
     sdk_version: Option<&'a str>,
     /// Bits of a sample.
     sample_bits: u32,
+    /// Order of I and Q that samples are read with.
+    #[option(typescript = "'iq' | 'qi'")]
+    iq_order: &'static str,
+    /// Where samples stand in the bytes.
+    layout: Layout,
     /// Bytes of one frame of raw samples.
     frame_bytes: u64,
     /// Frames to record; null until stopped.
@@ -67,6 +87,8 @@ impl<'a> From<&'a RadarConfig> for ConfigRecord<'a> {
             platform: config.platform.as_deref(),
             sdk_version: config.sdk_version.as_deref(),
             sample_bits: config.adc.bits,
+            iq_order: if config.adc.q_first { "qi" } else { "iq" },
+            layout: config.adc.layout,
             frame_bytes: config.frame_bytes(),
             frames: config.frames,
             warnings: &config.remarks,

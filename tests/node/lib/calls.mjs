@@ -49,6 +49,15 @@ export function goodCalls() {
     yawRateDegps: 1,
     speedMps: 10,
   };
+  // Two transmitters, one loop of two samples, four receivers a chip.
+  const cascadeCfg = cfg
+    .replace('channelCfg 15 3 0', 'channelCfg 65535 4095 1')
+    .replace('60 1 256 5209', '60 1 2 5209')
+    .replace('frameCfg 0 1 16', 'frameCfg 0 1 1');
+  const cascadeFiles = ['master', 'slave1', 'slave2', 'slave3'].map((chip) => ({
+    name: `${chip}_0000_data.bin`,
+    bytes: new Uint8Array(2 * 2 * 4 * 4),
+  }));
   const detections = boresight.processCube(cube, chain)[0].detections;
   const numbers = Uint8Array.from(readFileSync(new URL('../../golden/hdf5/one.h5', import.meta.url)));
   const plain = {
@@ -78,7 +87,8 @@ export function goodCalls() {
     processCube: [cube, chain],
     frameCells: [cube, chain],
     strongestRegion: [cube, { bins: 5, chirps: 4 }],
-    parseConfig: [cfg],
+    parseConfig: [{ text: cfg, iqOrder: 'qi' }],
+    joinCascade: [cascadeFiles, cascadeCfg],
     parseBoardLog: [Uint8Array.from(dat.subarray(0, 2000)), cfg],
     readNpy: [boresight.writeNpy({ kind: 'real', data: Float64Array.of(1, 2), shape: [2] })],
     writeNpy: [{ kind: 'real', data: Float64Array.of(1, 2), shape: [2] }],

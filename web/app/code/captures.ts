@@ -33,29 +33,44 @@ export function captureNeeds(capture: Loaded): string {
 export function openCapture(script: Script, capture: Loaded): void {
   const { bin, cfg } = namesOf(capture);
   script.use('node:fs/promises', 'readFile').use('boresight', 'Capture');
-  if (bin.length > 1) {
+  const { cascade, reading } = capture;
+  if (cascade) {
+    script.add('// A file of each chip of the cascade.');
+    script.constant('parts', bin);
+    script.add('const files = await Promise.all(parts.map(async (name) => ({ name, bytes: await readFile(name) })));');
+  } else if (bin.length > 1) {
     script.add('// The recording is in several files.');
     script.constant('parts', bin);
     script.add('const bin = Buffer.concat(await Promise.all(parts.map((name) => readFile(name))));');
   } else script.add(`const bin = await readFile(${quoted(bin[0] ?? '')});`);
+  const own = Object.keys(reading).length > 0;
   if (cfg === null) {
     script.add('// What mmWave Studio wrote, as a .cfg.');
     script.constant('lines', capture.cfg.trimEnd().split('\n'));
-    script.add("const cfg = lines.join('\\n');");
-  } else script.add(`const cfg = await readFile(${quoted(cfg)}, 'utf8');`);
+  }
+  const text = cfg === null ? "lines.join('\\n')" : `await readFile(${quoted(cfg)}, 'utf8')`;
+  if (own) {
+    script.constant('reading', reading);
+    script.add(`const cfg = { text: ${text}, ...reading };`);
+  } else script.add(`const cfg = ${text};`);
+  if (cascade) {
+    script.use('boresight', 'joinCascade');
+    script.add('const { bytes: bin } = joinCascade(files, cfg);');
+  }
   script.add('const capture = new Capture(bin, cfg);');
 }
 
 /** What stands before the commands on a capture, and how they name it. */
 export function captureWords(capture: Loaded): { before: string[]; words: string[] } {
   const { bin, cfg } = namesOf(capture);
-  const [whole, config] = [bin.length > 1 ? 'capture.bin' : (bin[0] ?? ''), cfg ?? 'capture.cfg'];
+  const joined = bin.length > 1 && !capture.cascade;
+  const [whole, config] = [joined ? 'capture.bin' : (bin[0] ?? ''), cfg ?? 'capture.cfg'];
   return {
     before: [
-      ...(bin.length > 1 ? [command(['cat', ...bin.map(fileWord)], ` > ${shellWord(whole)}`)] : []),
+      ...(joined ? [command(['cat', ...bin.map(fileWord)], ` > ${shellWord(whole)}`)] : []),
       ...(cfg === null ? [heredoc(config, capture.cfg)] : []),
     ],
-    words: [fileWord(whole), '--config', fileWord(config)],
+    words: [fileWord(whole), '--config', fileWord(config), ...flags('ReadingOptions', capture.reading)],
   };
 }
 

@@ -10,11 +10,11 @@ import type {
   ChainOptions,
   CombineOptions,
   ComplexData,
+  ConfigInput,
   CubeChainOptions,
   Estimate,
   FrameCells,
   FrameResult,
-  TextInput,
 } from '../types.js';
 
 /** A raw capture (`.bin` of a DCA1000) with the board's configuration (`.cfg`). */
@@ -22,7 +22,7 @@ export class Capture extends Handle<glue.Capture> {
   /** What is known before any processing. */
   readonly info: CaptureInfo;
 
-  constructor(bytes: BytesInput, config: TextInput) {
+  constructor(bytes: BytesInput, config: ConfigInput) {
     super(core, () => new glue.Capture(bytes, config));
     this.info = this.use((raw) => raw.info() as CaptureInfo);
   }
@@ -54,6 +54,15 @@ export class Capture extends Handle<glue.Capture> {
   cellSpectrum(cell: Cell, angle?: AngleOptions, options?: ChainOptions): Estimate {
     return this.use((raw) => raw.cellSpectrum(cell, angle, options) as Estimate);
   }
+}
+
+/**
+ * Puts the files of a cascade of four chips (`master_0000_data.bin`, `slave1_0000_data.bin` and so on, and `..._idx.bin`
+ * where they are there) together to the bytes of a {@link Capture} of the same configuration, whose `channelCfg` says
+ * that chips are cascaded.
+ */
+export function joinCascade(files: readonly DriveFile[], config: ConfigInput): CascadeCapture {
+  return call(() => glue.joinCascade(files, config) as CascadeCapture);
 }
 
 /** Detections of each frame of a cube (frames x loops x transmitters x receivers x samples). */

@@ -3,6 +3,7 @@
 use super::OutputFormat;
 use crate::flags::{Flags, OnCommandLine};
 use boresight_aoa::Method;
+use boresight_formats::ReadingOptions;
 use boresight_pipeline::{AngleOptions, ChainOptions};
 use clap::Args;
 use std::path::PathBuf;
@@ -11,7 +12,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 FILE is, by its ending:
-  .bin  raw samples of a DCA1000 capture card, with --config
+  .bin  raw samples of a DCA1000 capture card, with --config; of a cascade of chips one of its files, or their folder
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or
         --waveform; or snapshots (elements, elements x snapshots or scenes x elements x snapshots),
         with --array
@@ -62,6 +63,13 @@ pub struct RadarArguments {
     /// or `tx` and `rx` in half wavelengths. A capture's is taken from --config where it says.
     #[arg(long, value_name = "NAME|JSON")]
     pub array: Option<String>,
+    /// How the samples of a capture are read.
+    #[command(flatten)]
+    pub reading: Flags<ReadingOptions>,
+}
+
+impl OnCommandLine for ReadingOptions {
+    const HEADING: &'static str = "Samples of captures";
 }
 
 /// Names of all methods, networks too.

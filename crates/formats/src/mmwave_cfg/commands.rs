@@ -2,10 +2,11 @@
 
 use super::line::{Line, clipped};
 use super::sequence::{Chirps, transmitters};
-use super::{AdcFormat, RadarConfig, board_preset};
+use super::{AdcFormat, RadarConfig, board_preset, platform_layout};
+use crate::dca1000::{Layout, cascade};
 use crate::error::FormatError;
 use boresight_core::Remark;
-use boresight_core::{CoreError, Waveform, presets};
+use boresight_core::{CoreError, Sampling, Waveform, presets};
 
 /// Settings of the board and its own processing: they leave the raw samples as they are.
 const WITHOUT_EFFECT: [&str; 30] = [
@@ -56,6 +57,15 @@ struct Profile {
     sample_rate_hz: f64,
 }
 
+/// What `adcbufCfg` says, with the line it stood on.
+#[derive(Clone, Copy)]
+struct Buffer {
+    line: usize,
+    real: bool,
+    q_first: bool,
+    receiver_major: bool,
+}
+
 /// What `frameCfg` says, with the line it stood on.
 struct Frame {
     line: usize,
@@ -72,8 +82,9 @@ pub(super) struct Commands {
     platform: Option<String>,
     sdk_version: Option<String>,
     masks: Option<(u32, u32)>,
+    cascaded: bool,
     adc: Option<(u32, usize)>,
-    buffer: Option<(bool, bool)>,
+    buffer: Option<Buffer>,
     profiles: Vec<(usize, Profile)>,
     chirps: Vec<Chirps>,
     frame: Option<Frame>,
@@ -108,9 +119,6 @@ impl Commands {
             "adcCfg" => {
                 let bits = [12, 14, 16][line.index(0, "number of bits", 2)?];
                 let format = line.index(1, "output format", 2)?;
-                if format == 0 {
-                    return Err(line.error("output format", "1 or 2 (complex)", "0 (real)"));
-                }
                 self.adc = Some((bits, format));
             }
             "adcbufCfg" | "adcbufcfg" => self.buffer(line)?,
@@ -155,8 +163,23 @@ impl Commands {
         let mask =
             |index, what| line.integer(index, what, 1, 0xffff).map(|m| m.unsigned_abs() as u32);
         self.masks = Some((mask(0, "receiver mask")?, mask(1, "transmitter mask")?));
-        if line.integer(2, "cascading", 0, 2)? != 0 {
-            return Err(line.error("cascading", "0 (one chip)", line.arguments[2]));
+        self.cascaded = match line.integer(2, "cascading", 0, 2)? {
+            0 => false,
+            1 => true,
+            _ => {
+                let expected =
+                    "0 (one chip), or 1 with the receivers and transmitters of all chips";
+                return Err(line.error("cascading", expected, "2 (a slave by itself)"));
+            }
+        };
+        let (rx, tx) = self.masks.unwrap_or_default();
+        if self.cascaded && rx != 0xffff {
+            let expected = "65535 (all 16 of the cascade, 4 a chip)";
+            return Err(line.error("receiver mask", expected, rx.to_string()));
+        }
+        if self.cascaded && tx > 0xfff {
+            let expected = "at most 4095 (12 of the cascade, 3 a chip)";
+            return Err(line.error("transmitter mask", expected, tx.to_string()));
         }
         Ok(())
     }
@@ -165,12 +188,10 @@ impl Commands {
         line.count(4, 5)?;
         // SDK 1 has no sub-frame number in front.
         let at = line.arguments.len() - 4;
-        if line.index(at, "output format", 1)? == 1 {
-            return Err(line.error("output format", "0 (complex)", "1 (real)"));
-        }
+        let real = line.index(at, "output format", 1)? == 1;
         let q_first = line.index(at + 1, "sample swap", 1)? == 1;
         let receiver_major = line.index(at + 2, "channel interleave", 1)? == 1;
-        self.buffer = Some((q_first, receiver_major));
+        self.buffer = Some(Buffer { line: line.number, real, q_first, receiver_major });
         Ok(())
     }
 
@@ -277,10 +298,12 @@ impl Commands {
             ));
         }
         let profile = self.used_profile(&frame, &frame_line)?;
+        let sampling = self.sampling()?;
         let waveform = Waveform {
             start_frequency_hz: profile.start_frequency_hz,
             slope_hz_per_s: profile.slope_hz_per_s,
             sample_rate_hz: profile.sample_rate_hz,
+            sampling,
             samples: profile.samples,
             adc_start_s: profile.adc_start_s,
             chirp_interval_s: profile.idle_s + profile.ramp_s,
@@ -302,16 +325,15 @@ impl Commands {
             let text = "complex 2x sampling: negative beat frequencies hold the image band";
             self.remark("complex-2x", text.into());
         }
-        let (q_first, receiver_major) = self.buffer.unwrap_or_else(|| {
-            let text = "no adcbufCfg line: I before Q and receivers one after another assumed";
-            self.remark("assumed", text.into());
-            (false, true)
-        });
+        let (q_first, layout) = (self.buffer.is_some_and(|b| b.q_first), self.layout());
         if self.further_remarks > 0 {
             let text = format!("{} further remarks left out", self.further_remarks);
             self.remarks.push(Remark::new("remarks-left-out", text));
         }
-        let receivers = (0..16).filter(|rx| rx_mask >> rx & 1 == 1).collect();
+        let receivers = match self.cascaded {
+            true => cascade::RECEIVERS.to_vec(),
+            false => (0..16).filter(|rx| rx_mask >> rx & 1 == 1).collect(),
+        };
         let mut config = RadarConfig {
             waveform,
             receivers,
@@ -319,16 +341,69 @@ impl Commands {
             array_preset: None,
             platform: self.platform,
             sdk_version: self.sdk_version,
-            adc: AdcFormat { bits, q_first, receiver_major },
+            adc: AdcFormat { bits, q_first, layout },
             frames: (frame.frames > 0).then_some(frame.frames),
             remarks: self.remarks,
         };
-        let board = config.platform.as_deref().and_then(board_preset);
+        let board = match layout {
+            Layout::Cascade => Some("cascade86"),
+            _ => config.platform.as_deref().and_then(board_preset),
+        };
         config.array_preset = board.filter(|name| {
             let board = presets::preset(name).ok();
             board.is_some() && board == config.array()
         });
         Ok(config)
+    }
+
+    /// Whether samples are complex or real, on which `adcCfg` and `adcbufCfg` agree.
+    fn sampling(&self) -> Result<Sampling, FormatError> {
+        let of = |real| if real { Sampling::Real } else { Sampling::Complex };
+        let told = self.adc.map(|(_, format)| of(format == 0));
+        let Some(buffer) = self.buffer else { return Ok(told.unwrap_or_default()) };
+        let given = of(buffer.real);
+        if let Some(told) = told.filter(|&told| told != given) {
+            let line = Line { number: buffer.line, command: "adcbufCfg", arguments: vec![] };
+            let name = |sampling| match sampling {
+                Sampling::Complex => "0 (complex)",
+                Sampling::Real => "1 (real)",
+            };
+            let expected = format!("{}, as adcCfg says", name(told));
+            return Err(line.error("output format", expected, name(given)));
+        }
+        Ok(given)
+    }
+
+    /// Where samples stand: as the buffer's interleave says, which alone is of the board's own making; where nothing
+    /// says it, as the platform has it.
+    fn layout(&mut self) -> Layout {
+        if self.cascaded {
+            return Layout::Cascade;
+        }
+        let platform = self.platform.clone().unwrap_or_default();
+        let of_platform = platform_layout(&platform);
+        let Some(buffer) = self.buffer else {
+            let layout = of_platform.unwrap_or(Layout::TwoLane);
+            let receivers = match layout {
+                Layout::FourLane => "receivers sample by sample",
+                _ => "receivers one after another",
+            };
+            let text = format!("no adcbufCfg line: I before Q and {receivers} assumed");
+            self.remark("assumed", text);
+            return layout;
+        };
+        let layout = if buffer.receiver_major { Layout::TwoLane } else { Layout::FourLane };
+        if let Some(other) = of_platform.filter(|&other| other != layout) {
+            let lanes = if other == Layout::FourLane { "four" } else { "two" };
+            let text = format!(
+                "line {}: channel interleave {} is not what {platform} has, whose samples come over {lanes} lanes; \
+                 it is taken at its word",
+                buffer.line,
+                u8::from(buffer.receiver_major)
+            );
+            self.remark("lanes", text);
+        }
+        layout
     }
 
     /// The one profile all chirps of the frame follow.

@@ -8,9 +8,11 @@ mod commands;
 mod line;
 mod sequence;
 
+#[cfg(doc)]
+use crate::dca1000::cascade;
+use crate::dca1000::{Layout, Plan};
 use crate::error::FormatError;
-use boresight_core::Remark;
-use boresight_core::{Array, Waveform, presets};
+use boresight_core::{Array, Remark, Sampling, Waveform, presets};
 use commands::Commands;
 use line::Line;
 
@@ -21,8 +23,8 @@ pub struct AdcFormat {
     pub bits: u32,
     /// Whether Q comes before I.
     pub q_first: bool,
-    /// Whether the samples of one receiver follow each other (else receivers alternate).
-    pub receiver_major: bool,
+    /// Where samples stand.
+    pub layout: Layout,
 }
 
 impl AdcFormat {
@@ -37,9 +39,10 @@ impl AdcFormat {
 pub struct RadarConfig {
     /// Timing and frequency plan of a frame.
     pub waveform: Waveform,
-    /// Receivers in use, as their numbers on the chip (from 0), ascending.
+    /// Receivers in use, as their numbers on the chip (from 0), ascending; of a cascade, 4 to a chip, from left to
+    /// right on the board ([`cascade::RECEIVERS`]).
     pub receivers: Vec<usize>,
-    /// Transmitters in use, as their numbers on the chip (from 0), in order of transmission.
+    /// Transmitters in use, as their numbers on the chip (from 0; of a cascade 3 to a chip), in order of transmission.
     pub transmitters: Vec<usize>,
     /// Name of the preset whose virtual elements are exactly the configured channels in their
     /// order of transmission, if there is one.
@@ -81,15 +84,46 @@ impl RadarConfig {
 
     /// Bytes of one frame of raw samples.
     pub fn frame_bytes(&self) -> u64 {
-        let waveform = &self.waveform;
-        [waveform.loops, waveform.transmitters, self.receivers.len(), waveform.samples, 4]
-            .iter()
-            .fold(1_u64, |product, &factor| product.saturating_mul(factor as u64))
+        self.plan().words().saturating_mul(2)
+    }
+
+    /// Where the samples of a frame stand.
+    pub(crate) fn plan(&self) -> Plan {
+        Plan {
+            layout: self.adc.layout,
+            sampling: self.waveform.sampling,
+            chirps: self.waveform.loops.saturating_mul(self.waveform.transmitters),
+            samples: self.waveform.samples,
+            receivers: self.receivers.clone(),
+        }
+    }
+
+    /// Checks that samples can be laid out so.
+    pub(crate) fn check_layout(&self) -> Result<(), FormatError> {
+        let wrong = |what, expected: &str, given: String| {
+            Err(FormatError::Layout { what, expected: expected.into(), given })
+        };
+        let (samples, layout) = (self.waveform.samples, self.adc.layout);
+        let pairs = layout == Layout::TwoLane && self.waveform.sampling == Sampling::Complex;
+        if pairs && samples % 2 == 1 {
+            let even = "an even number, since they are stored in pairs";
+            return wrong("samples a chirp", even, samples.to_string());
+        }
+        let most = if layout == Layout::Cascade { 16 } else { 4 };
+        if layout != Layout::TwoLane && self.receivers.iter().any(|&number| number >= most) {
+            let given = format!("{:?}", self.receivers);
+            return wrong("receivers", "numbers below 4, one a lane", given);
+        }
+        Ok(())
     }
 
     /// The virtual array of the configured channels in their order of transmission, for platforms
-    /// whose antennas are known.
+    /// whose antennas are known. A cascade's is its row: elevated elements, and those at places that another has, are
+    /// left out.
     pub fn array(&self) -> Option<Array> {
+        if self.adc.layout == Layout::Cascade {
+            return presets::cascade_row(&self.transmitters, &self.receivers).ok();
+        }
         let board = presets::preset(board_preset(self.platform.as_deref()?)?).ok()?;
         let pick = |positions: &[[f64; 3]], which: &[usize]| -> Option<Vec<[f64; 3]>> {
             which.iter().map(|&k| positions.get(k).copied()).collect()
@@ -104,6 +138,16 @@ fn board_preset(platform: &str) -> Option<&'static str> {
     match platform.to_ascii_lowercase().as_str() {
         "xwr16xx" | "awr1642" | "iwr1642" => Some("awr1642"),
         "xwr18xx" | "awr1843" | "iwr1843" => Some("awr1843"),
+        _ => None,
+    }
+}
+
+/// The lanes of a platform, or a board, by the number in its name.
+fn platform_layout(platform: &str) -> Option<Layout> {
+    let name = platform.to_ascii_lowercase();
+    match name.get(3..5)? {
+        "12" | "14" | "22" => Some(Layout::FourLane),
+        "16" | "18" | "64" | "68" => Some(Layout::TwoLane),
         _ => None,
     }
 }

@@ -21,7 +21,7 @@ fn reads_the_recorded_configuration() {
     assert_eq!(config.array_preset, Some("awr1642"));
     assert_eq!(config.platform.as_deref(), Some("xWR16xx"));
     assert_eq!(config.sdk_version.as_deref(), Some("02.00"));
-    assert_eq!(config.adc, AdcFormat { bits: 16, q_first: false, receiver_major: true });
+    assert_eq!(config.adc, AdcFormat { bits: 16, q_first: false, layout: Layout::TwoLane });
     assert_eq!(config.frames, None);
     assert_eq!(config.frame_bytes(), 131_072);
     assert_eq!(config.remarks, []);
@@ -63,8 +63,11 @@ fn impossible_lines_are_refused() {
         ("256 5209 0 0 30", "256 5209", "number of arguments"),
         ("channelCfg 15 3 0", "channelCfg 15 1 0", "mask 1"),
         ("channelCfg 15 3 0", "channelCfg 0 3 0", "receiver mask"),
-        ("channelCfg 15 3 0", "channelCfg 15 3 1", "cascading"),
-        ("adcCfg 2 1", "adcCfg 2 0", "complex"),
+        ("channelCfg 15 3 0", "channelCfg 15 3 1", "all 16 of the cascade"),
+        ("channelCfg 15 3 0", "channelCfg 65535 8191 1", "12 of the cascade"),
+        ("channelCfg 15 3 0", "channelCfg 15 3 2", "a slave by itself"),
+        ("adcCfg 2 1", "adcCfg 2 0", "as adcCfg says"),
+        ("adcCfg 2 1", "adcCfg 2 0\nadcbufCfg 1 0 0 1", "as adcCfg says"),
         ("adcCfg 2 1", "adcCfg 7 1", "number of bits"),
         ("chirpCfg 1 1 0 0 0 0 0 2", "chirpCfg 1 1 0 0 0 0 0 3", "one transmitter"),
         ("chirpCfg 1 1 0 0 0 0 0 2", "chirpCfg 1 1 0 5 0 0 0 2", "variation"),
@@ -122,4 +125,89 @@ fn the_array_follows_the_order_of_transmission() {
     let config = RadarConfig::parse(text.as_bytes()).unwrap();
     assert_eq!(config.array_preset, None);
     assert_eq!(config.array().unwrap().positions()[0], [0.0, -4.0, 0.0]);
+}
+
+#[test]
+fn real_samples_are_said_by_both_commands() {
+    let text = given("adcCfg 2 1", "adcCfg 2 0").replace("adcbufCfg 0", "adcbufCfg 1");
+    let text = text.replace("adcbufCfg -1 0", "adcbufCfg -1 1");
+    let config = RadarConfig::parse(text.as_bytes()).unwrap();
+    assert_eq!(config.waveform.sampling, Sampling::Real);
+    assert_eq!(config.frame_bytes(), 65_536);
+    let odd = text.replace("60 1 256", "60 1 255");
+    let error = RadarConfig::parse(odd.as_bytes()).unwrap_err();
+    assert!(error.to_string().contains("even number"), "{error}");
+}
+
+#[test]
+fn waveforms_without_a_sampling_are_of_complex_samples() {
+    let waveform = RadarConfig::parse(RECORDING.as_bytes()).unwrap().waveform;
+    let mut old = serde_json::to_value(waveform).unwrap();
+    let fields = old.as_object_mut().unwrap();
+    assert_eq!(fields.remove("sampling"), Some("complex".into()));
+    assert_eq!(serde_json::from_value::<Waveform>(old).unwrap(), waveform);
+}
+
+/// The recorded configuration with other lines for platform and buffer.
+fn lanes_of(platform: &str, buffer: &str) -> RadarConfig {
+    let kept = |line: &&str| !line.starts_with("adcbufCfg") && !line.contains("Platform:");
+    let lines: Vec<&str> = RECORDING.lines().filter(kept).collect();
+    let text = format!("% Platform:{platform}\n{buffer}\n{}", lines.join("\n"));
+    RadarConfig::parse(text.as_bytes()).unwrap()
+}
+
+#[test]
+fn lanes_are_the_buffers_or_else_the_platforms() {
+    for (platform, buffer, layout, remark) in [
+        ("xWR16xx", "adcbufCfg -1 0 0 1 0", Layout::TwoLane, None),
+        ("xWR14xx", "adcbufCfg 0 0 0 1", Layout::FourLane, None),
+        ("AWR1243", "adcbufCfg -1 0 0 0 0", Layout::FourLane, None),
+        ("xWR14xx", "", Layout::FourLane, Some("assumed")),
+        ("awr2243", "", Layout::FourLane, Some("assumed")),
+        ("xWR68xx", "", Layout::TwoLane, Some("assumed")),
+        ("", "", Layout::TwoLane, Some("assumed")),
+        ("µµµ", "", Layout::TwoLane, Some("assumed")),
+        ("xWR16xx", "adcbufCfg -1 0 0 0 0", Layout::FourLane, Some("lanes")),
+        ("xWR14xx", "adcbufCfg -1 0 0 1 0", Layout::TwoLane, Some("lanes")),
+    ] {
+        let config = lanes_of(platform, buffer);
+        let codes: Vec<&str> = config.remarks.iter().map(|remark| remark.code).collect();
+        let expected: Vec<&str> = remark.into_iter().collect();
+        assert_eq!((config.adc.layout, codes), (layout, expected), "{platform} {buffer}");
+    }
+}
+
+#[test]
+fn a_cascade_has_the_array_of_its_row() {
+    let chirps = |transmitters: &[usize]| -> String {
+        let line = |(k, tx): (usize, &usize)| format!("chirpCfg {k} {k} 0 0 0 0 0 {}\n", 1 << tx);
+        transmitters.iter().enumerate().map(line).collect()
+    };
+    let of = |transmitters: &[usize]| {
+        let kept = |line: &&str| !line.starts_with("chirpCfg") && !line.contains("Platform:");
+        let text: Vec<&str> = RECORDING.lines().filter(kept).collect();
+        let text = text.join("\n").replace("channelCfg 15 3 0", "channelCfg 65535 4095 1");
+        let last = transmitters.len() - 1;
+        let text = text.replace("frameCfg 0 1 ", &format!("frameCfg 0 {last} "));
+        RadarConfig::parse(format!("{}{text}", chirps(transmitters)).as_bytes()).unwrap()
+    };
+    let row: Vec<usize> = (3..12).rev().collect();
+    let config = of(&row);
+    assert_eq!((config.adc.layout, config.array_preset), (Layout::Cascade, Some("cascade86")));
+    assert_eq!(config.array(), presets::preset("cascade86").ok());
+    assert_eq!(config.receivers.len(), 16);
+    assert_eq!(config.frame_bytes(), 16 * 9 * 16 * 256 * 4);
+
+    // With the elevated transmitters between them, and in another order: the same row out of other channels.
+    let all: Vec<usize> = (0..12).collect();
+    let config = of(&all);
+    let array = config.array().unwrap();
+    assert_eq!((config.array_preset, array.len(), array.tx().len()), (None, 86, 12));
+    assert_eq!(array.positions(), presets::preset("cascade86").unwrap().positions());
+    for (channel, position) in array.channels().iter().zip(array.positions()) {
+        let sum = array.tx()[channel.tx][1] + array.rx()[channel.rx][1];
+        assert_eq!(sum, position[1]);
+    }
+    // Elevated transmitters alone are no row.
+    assert_eq!(of(&[0, 1]).array(), None);
 }

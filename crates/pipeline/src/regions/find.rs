@@ -92,7 +92,8 @@ impl RegionFinder {
     /// `waveform.samples`, whose channels are elements of the array as in [`crate::Chain::new`].
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for options out of range, and where frames have fewer range bins or loops than a
+    /// [`CoreError::Unknown`] for real samples, which no network of regions was trained on; [`CoreError::OutOfRange`]
+    /// for options out of range, and where frames have fewer range bins or loops than a
     /// region; [`PipelineError::Channels`] for an array of other channels; what detection says of its window.
     pub fn new(
         waveform: &Waveform,
@@ -102,6 +103,7 @@ impl RegionFinder {
     ) -> Result<Self, PipelineError> {
         options.check()?;
         waveform.check()?;
+        waveform.check_complex()?;
         let Waveform { loops, transmitters, samples, .. } = *waveform;
         check_range("region bins", options.size.bins as f64, 1.0, samples as f64)?;
         check_range("region chirps", options.size.chirps as f64, 1.0, loops as f64)?;

@@ -46,6 +46,18 @@ export function Controls() {
       />
       <Group title="Files">
         <Files />
+        <Control
+          label="Order of I and Q"
+          name="iqOrder"
+          labels={{ configured: 'as configured', auto: 'as the samples tell', iq: 'I first', qi: 'Q first' }}
+          note="The wrong one mirrors ranges, rates and angles."
+        />
+        <Control
+          label="Lanes of the board"
+          name="lanes"
+          labels={{ configured: 'as configured', two: 'two', four: 'four' }}
+          note="xWR12xx, xWR14xx and xWR22xx have four."
+        />
       </Group>
       <Group title="Angle methods for the cell">
         <MethodList
@@ -204,7 +216,9 @@ function Files() {
       </ul>
       {parts > 1 && (
         <p class="small" role="status" data-parts={parts}>
-          The {parts} .bin files are one recording, in the order of their numbers, as listed.
+          {loaded.value?.cascade
+            ? `The ${parts} .bin files are one recording of a cascade’s four chips.`
+            : `The ${parts} .bin files are one recording, in the order of their numbers, as listed.`}
         </p>
       )}
       {loaded.value?.bundled && (
@@ -219,7 +233,7 @@ function Files() {
           label="Capture files"
           accept=".bin,.cfg,.dat,.json"
           multiple
-          title="A raw capture (.bin, or all the numbered .bin of one recording) with its configuration (.cfg, or mmWave Studio’s .mmwave.json with .setup.json), and the board’s log (.dat) if there is one"
+          title="A raw capture (.bin, or all the .bin of one recording, numbered or of a cascade’s chips) with its configuration (.cfg, or mmWave Studio’s .mmwave.json with .setup.json), and the board’s log (.dat) if there is one"
           onFiles={(files) => void openFiles(files.map(({ file }) => file))}
         >
           Open files
@@ -234,7 +248,7 @@ function Files() {
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>
         Or drop a .bin with its .cfg (or .mmwave.json and .setup.json), and a .dat, anywhere on the page; all .bin of
-        one recording together. Nothing is uploaded.
+        one recording together, those of a cascade’s four chips too. Nothing is uploaded.
       </p>
     </div>
   );

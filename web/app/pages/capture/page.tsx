@@ -274,6 +274,7 @@ function Remarks({ capture, view }: Pick<Shown, 'capture' | 'view'>) {
   ];
   const warnings = [
     ...capture.info.config.warnings,
+    ...(capture.cascade ?? []),
     ...capture.info.warnings,
     ...view.warnings,
     ...(log?.warnings ?? []),

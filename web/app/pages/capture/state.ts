@@ -1,6 +1,6 @@
 /** State of the capture page: all of it in the address but the files themselves. */
 import { signal } from '@preact/signals';
-import type { AngleOptions, CaptureRegionOptions, Cell, ChainOptions, Method } from 'boresight';
+import type { AngleOptions, CaptureRegionOptions, Cell, ChainOptions, Method, ReadingOptions } from 'boresight';
 import { COLOR_MAPS } from '../../../plots/colormap.ts';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
@@ -29,6 +29,7 @@ const cell: Field<Cell | null> = {
 };
 
 const detection = optionsOf('DetectionOptions');
+const reading = optionsOf('ReadingOptions');
 const region = optionsOf('RegionChainOptions');
 
 export const captureCodec = codec(
@@ -36,6 +37,8 @@ export const captureCodec = codec(
     source: choice('bundled', ['bundled', 'files']),
     frame,
     cell,
+    iqOrder: reading.field('iqOrder'),
+    lanes: reading.field('lanes'),
     array: choice('auto', ['auto', ...PRESETS]),
     window: detection.field('rangeWindow'),
     dopplerWindow: detection.field('dopplerWindow'),
@@ -88,6 +91,9 @@ export const captureState = signal<CaptureState>(captureCodec.defaults);
 export function update(patch: Partial<CaptureState>): void {
   captureState.value = { ...captureState.value, ...patch };
 }
+
+/** How the samples are read. */
+export const readingOptions = ({ iqOrder, lanes }: CaptureState): ReadingOptions => ({ iqOrder, lanes });
 
 /** For those who see a plot alone. */
 export function settingsOf(state: CaptureState): string {

@@ -124,7 +124,7 @@ function linesOf(file: Part): Line[] {
   return [
     channels(rf.at('rlChanCfg_t')),
     samples(rf.at('rlAdcOutCfg_t', 'fmt')),
-    layout(device.at('rawDataCaptureConfig')),
+    layout(device.at('rawDataCaptureConfig'), rf.at('rlAdcOutCfg_t', 'fmt', 'b2AdcOutFmt').number() === 0),
     ...rf
       .at('rlProfiles')
       .list('a profile')
@@ -159,19 +159,26 @@ function channels(of: Part): Line {
 
 function samples(of: Part): Line {
   of.at('b2AdcBits').only([0, 1, 2], '0, 1 or 2 (12, 14 or 16 bits)');
-  of.at('b2AdcOutFmt').only([1, 2], '1 or 2: complex samples');
+  of.at('b2AdcOutFmt').only([0, 1, 2], '0 (real), 1 or 2 (complex samples)');
   return line('adcCfg', of, [of.at('b2AdcBits').number(), of.at('b2AdcOutFmt').number()]);
 }
 
-function layout(of: Part): Line {
+const TWO_LANES = '1: receivers one after another, over two lanes';
+
+function layout(of: Part, real: boolean): Line {
   of.at('rlDevDataPathCfg_t', 'intfSel').only([1], '1: LVDS, as the DCA1000 records');
   of.at('rlDevDataPathCfg_t', 'transferFmtPkt0').only([1], '0x1: samples alone');
   of.at('rlDevDataPathCfg_t', 'transferFmtPkt1').only([0], '0x0: no second packet');
-  of.at('rlDevLaneEnable_t', 'laneEn').only([3], '0x3: two lanes (xWR16xx, xWR18xx, xWR68xx)');
+  const lanes = of.at('rlDevLaneEnable_t', 'laneEn');
+  lanes.only([3, 15], '0x3: two lanes (xWR16xx, xWR18xx, xWR68xx), or 0xF: four (xWR12xx, xWR14xx, xWR22xx)');
   const format = of.at('rlDevDataFmtCfg_t');
-  format.at('chInterleave').only([1], '1: receivers one after another (two-lane boards)');
+  const interleave = format.at('chInterleave');
+  if (lanes.there) {
+    const four = lanes.number() === 15;
+    interleave.only([four ? 0 : 1], four ? '0: receivers sample by sample, over four lanes' : TWO_LANES);
+  } else interleave.only([0, 1], TWO_LANES);
   format.at('iqSwapSel').only([0, 1], '0 (I first) or 1 (Q first)');
-  return line('adcbufCfg', format, [-1, 0, format.at('iqSwapSel').number(), format.at('chInterleave').number(), 0]);
+  return line('adcbufCfg', format, [-1, Number(real), format.at('iqSwapSel').number(), interleave.number(), 0]);
 }
 
 function profile(of: Part): Line {

@@ -3,6 +3,9 @@ import type { ArrayGeometry, CaptureInfo } from 'boresight';
 import { engineering, fixed, significant } from '../../../plots/format.ts';
 import { captureState } from './state.ts';
 
+const SAMPLES = { complex: { iq: 'I before Q', qi: 'Q before I' }, real: { iq: 'real', qi: 'real' } };
+const LAYOUTS = { 'two-lane': 'two lanes', 'four-lane': 'four lanes', cascade: 'a cascade of four chips' };
+
 export function Summary({ info, geometry }: { info: CaptureInfo; geometry: ArrayGeometry | null }) {
   const { waveform, summary, platform, array } = info.config;
   const { array: chosen } = captureState.value;
@@ -16,7 +19,9 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
     [
       'Maximum range',
       `${significant(summary.maxRangeM, 4)}\u00a0m`,
-      'Where the beat frequency reaches the sample rate (complex sampling)',
+      waveform.sampling === 'real'
+        ? 'Where the beat frequency reaches half the sample rate (real sampling)'
+        : 'Where the beat frequency reaches the sample rate (complex sampling)',
       'maxRange',
     ],
     [
@@ -53,7 +58,7 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
     [
       'Samples a chirp',
       `${waveform.samples} at ${engineering(waveform.sampleRateHz, 'S/s', 4)}`,
-      `Slope ${significant(waveform.slopeHzPerS / 1e12, 4)} MHz/µs`,
+      `Slope ${significant(waveform.slopeHzPerS / 1e12, 4)} MHz/µs; ${SAMPLES[waveform.sampling ?? 'complex'][info.config.iqOrder]}, ${LAYOUTS[info.config.layout]}`,
       'samples',
     ],
     [
