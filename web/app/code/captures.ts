@@ -3,6 +3,7 @@ import type { Loaded } from '../pages/capture/files.ts';
 import { isStudio } from '../pages/capture/studio.ts';
 import { inRepository, NEEDS } from './code.ts';
 import { quoted } from './literal.ts';
+import { flags } from './options.ts';
 import type { Script } from './script.ts';
 import { command, fileWord, heredoc, shellWord } from './shell.ts';
 

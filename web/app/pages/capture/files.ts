@@ -102,7 +102,8 @@ async function attempt(work: () => Promise<Opened | null>, sameFiles = false): P
       boardLog.value = next.log;
       const other = before?.kept !== next.loaded?.kept;
       update({ source: next.loaded?.bundled ? 'bundled' : 'files' });
-      if (other && !sameFiles && next.loaded && !next.loaded.bundled && !linked) update({ frame: 'all', cell: null, board: 'last' });
+      if (other && !sameFiles && next.loaded && !next.loaded.bundled && !linked)
+        update({ frame: 'all', cell: null, board: 'last' });
       if (other) before?.kept.free();
     });
   } catch (error) {
