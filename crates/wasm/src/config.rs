@@ -8,8 +8,9 @@ use crate::read::{Fields, Read};
 use boresight_core::describe::Described;
 use boresight_core::{Remark, Waveform, WaveformSummary};
 use boresight_formats::{Layout, RadarConfig, ReadingOptions};
+use js_sys::ArrayBuffer;
 use serde::Serialize;
-use wasm_bindgen::JsValue;
+use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Reads the text of a `.cfg` file.
@@ -22,7 +23,7 @@ pub fn parse_config(text: &JsValue) -> Fallible<JsValue> {
 /// is put into it, and given beside it.
 pub fn read_config(value: &JsValue, path: &str) -> Fallible<(RadarConfig, ReadingOptions)> {
     let (text, reading) = match Text::read(value, path) {
-        Err(_) if given::is_plain(value) && !value.has_type::<js_sys::Uint8Array>() => {
+        Err(_) if given::is_plain(value) && !is_bytes(value) => {
             let mut fields = Fields::new(value, path)?;
             let text = fields.required("text")?;
             let reading = fields.spread()?;
@@ -35,6 +36,11 @@ pub fn read_config(value: &JsValue, path: &str) -> Fallible<(RadarConfig, Readin
     let mut config = RadarConfig::parse(&text)?;
     reading.apply(&mut config)?;
     Ok((config, reading))
+}
+
+/// Whether a value is meant as the bytes of a text, though they cannot be had.
+fn is_bytes(value: &JsValue) -> bool {
+    ArrayBuffer::is_view(value) || value.has_type::<ArrayBuffer>()
 }
 
 /// What a configuration says of the radar and its samples.

@@ -3,7 +3,7 @@
 use crate::bytes::{Bytes, File};
 use crate::carry;
 use crate::error::Fallible;
-use crate::read::{Fields, Read};
+use crate::read::Read;
 use crate::report::reporter;
 use boresight_calibrate::{CalibrationOptions, SignOptions, signs};
 use boresight_core::Remark;

@@ -97,8 +97,8 @@ fn lanes_remark(layout: Layout, gain_db: f64) -> Remark {
     Remark::new(
         "other-lanes",
         format!(
-            "read as of {read}, the spectrum stands out {gain_db:.1} dB less than as of {other}: the samples seem to be \
-             laid out for {other} lanes; ask for {option} lanes"
+            "the spectrum of echoes has one side, and read as of {other} lanes it has {gain_db:.1} dB more of it than as \
+             of {read}: the samples seem to be laid out for {other} lanes; ask for {option} lanes"
         ),
     )
 }
