@@ -9,7 +9,10 @@ import { browserTest } from './harness.mjs';
 const path = '#/capture';
 const bin = { name: 'mine.bin', bytes: recording('xwr16xx_crw_dca_module_2018_1015v2.bin') };
 const text = recording('profile.cfg').toString('utf8');
-const cfg = (name, buffer) => ({ name, bytes: Buffer.from(text.replace('adcbufCfg -1 0 0 1 0', `adcbufCfg ${buffer}`)) });
+const cfg = (name, buffer) => ({
+  name,
+  bytes: Buffer.from(text.replace('adcbufCfg -1 0 0 1 0', `adcbufCfg ${buffer}`)),
+});
 
 before(() => init());
 
@@ -21,8 +24,7 @@ const detections = (page) =>
   page
     .locator('[data-table="detections"] tbody tr[data-detection] [data-field][data-value]:not([data-field^="board"])')
     .evaluateAll((cells) => cells.map(({ dataset }) => `${dataset.field} ${dataset.value}`));
-const doubts = (page) =>
-  page.locator('[data-doubt]').evaluateAll((items) => items.map(({ dataset }) => dataset.doubt));
+const doubts = (page) => page.locator('[data-doubt]').evaluateAll((items) => items.map(({ dataset }) => dataset.doubt));
 
 browserTest('boards: a wrong order of I and Q, or of lanes, is told and mended', { path }, async ({ page }) => {
   await ready(page);

@@ -4,11 +4,7 @@
  */
 import { simulateCube } from 'boresight';
 
-const LINES = [
-  'dfeDataOutputMode 1',
-  'profileCfg 0 77 40 7 57.14 0 0 60 1 128 5209 0 0 30',
-  'lowPower 0 1',
-];
+const LINES = ['dfeDataOutputMode 1', 'profileCfg 0 77 40 7 57.14 0 0 60 1 128 5209 0 0 30', 'lowPower 0 1'];
 
 /** A configuration: what is real, which lanes, and which chips. */
 export function configOf({ real = false, lanes = 2, iqSwap = 0, transmitters = [0, 1], cascade = false, loops = 16 }) {
@@ -61,7 +57,8 @@ export function twoLane(cube, real = false) {
   for (const { receivers, samples, i, q } of chirpsOf(cube)) {
     for (const rx of upTo(receivers)) {
       if (real) words.push(...upTo(samples).map((n) => i(rx, n)));
-      else for (const n of upTo(samples / 2)) words.push(i(rx, 2 * n), i(rx, 2 * n + 1), q(rx, 2 * n), q(rx, 2 * n + 1));
+      else
+        for (const n of upTo(samples / 2)) words.push(i(rx, 2 * n), i(rx, 2 * n + 1), q(rx, 2 * n), q(rx, 2 * n + 1));
     }
   }
   return bytesOf(words);

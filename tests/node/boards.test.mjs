@@ -65,7 +65,11 @@ describe('simulated bytes', () => {
     const short = [{ ...files[0], bytes: files[0].bytes.subarray(2) }, ...files.slice(1)];
     throwsTyped(() => joinCascade(short, text), 'cascade-files', "bytes of the chips' files");
     const cut = [...files, { ...indices[0], bytes: indices[0].bytes.subarray(0, 100) }];
-    throwsTyped(() => joinCascade(cut, text), 'malformed-file', 'cascade index at byte 12: number of frames of master_0000_idx.bin');
+    throwsTyped(
+      () => joinCascade(cut, text),
+      'malformed-file',
+      'cascade index at byte 12: number of frames of master_0000_idx.bin',
+    );
     const lost = [...files, ...indices.slice(1), indexOf({ ...files[0], bytes: files[0].bytes.subarray(64) }, 2)];
     assert.deepEqual(
       joinCascade(lost, text).warnings.map(({ code }) => code),

@@ -557,6 +557,33 @@ export interface SimulateDriveOptions {
   slipGradientDeg?: number;
 }
 
+/**
+ * Order of I and Q in a capture.
+ *
+ * - `configured`: As the configuration says; a remark tells where the data contradict.
+ * - `auto`: As the data tell; as the configuration says where they do not.
+ * - `iq`: I first.
+ * - `qi`: Q first.
+ */
+export type IqOrder = 'configured' | 'auto' | 'iq' | 'qi';
+
+/**
+ * Lanes over which a board of one chip hands its samples to the capture card.
+ *
+ * - `configured`: As the configuration says.
+ * - `two`: Two: receivers one after another.
+ * - `four`: Four: receivers sample by sample.
+ */
+export type Lanes = 'configured' | 'two' | 'four';
+
+/** How the samples of a capture are read, where its configuration does not say so or says it wrong. */
+export interface ReadingOptions {
+  /** Order of I and Q (default 'configured'). */
+  iqOrder?: IqOrder;
+  /** Lanes of the board (default 'configured'). */
+  lanes?: Lanes;
+}
+
 /** How much a region of interest holds; what the 3D-CNN paper (Sang et al. 2021) takes unless said otherwise. */
 export interface RegionOptions {
   /** Range bins, the strongest in their middle (at least 1; default 65). */

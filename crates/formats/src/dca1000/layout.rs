@@ -24,7 +24,7 @@ pub enum Layout {
     /// that are off hold zeros.
     FourLane,
     /// Four chips (MMWCAS-RF-EVM with MMWCAS-DSP-EVM), a file each: of each sample the four receivers, `I Q` of each;
-    /// the chips' frames in turn, as [`super::cascade::join`] puts them.
+    /// the chips' frames in turn, as the reader of cascades puts them.
     Cascade,
 }
 

@@ -1,6 +1,6 @@
 /** Files that are open: the bundled capture, or what the user chose or dropped. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { BoardLog, CaptureInfo, ConfigInput, ReadingOptions, Remark } from 'boresight';
+import type { BoardLog, CaptureInfo, ConfigInput, ReadingOptions, Warning } from 'boresight';
 import type { PoolCapture } from 'boresight/worker';
 import licenceAddress from '../../../../recordings/awr1642/LICENSE?url';
 import cfgAddress from '../../../../recordings/awr1642/profile.cfg?url';
@@ -37,7 +37,7 @@ export interface Loaded {
   /** Of files missing between those of the recording, the names. */
   missingParts: Parts['missing'];
   /** What putting the files of a cascade together had to say; null of one chip. */
-  cascade: readonly Remark[] | null;
+  cascade: readonly Warning[] | null;
 }
 
 /** Files of the user's own that are not enough for a capture yet. */
@@ -287,7 +287,7 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
 async function samplesOf(
   { files, cascade }: Parts,
   text: string,
-): Promise<{ bytes: Uint8Array; warnings: readonly Remark[] | null }> {
+): Promise<{ bytes: Uint8Array; warnings: readonly Warning[] | null }> {
   if (!cascade) return { bytes: new Uint8Array(await new Blob([...files]).arrayBuffer()), warnings: null };
   const read = async (file: File) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
   return pool().joinCascade(await Promise.all(files.map(read)), text);
