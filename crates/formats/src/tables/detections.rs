@@ -2,6 +2,7 @@
 
 use super::{Columns, field, finite, from_csv};
 use crate::error::FormatError;
+use boresight_core::Direction;
 use boresight_core::describe::Described;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +29,7 @@ pub struct DetectionRow {
     pub doppler_bin: usize,
 }
 
+/// Columns that are read; those of the place follow from range and angles.
 const COLUMNS: [&str; 9] = [
     "frame",
     "range_m",
@@ -41,10 +43,10 @@ const COLUMNS: [&str; 9] = [
 ];
 
 /// The table as text: the columns `frame`, `range_m`, `rate_mps`, `azimuth_deg`, `elevation_deg`,
-/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`.
+/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`, and the place `x_m` (forward), `y_m` (left), `z_m` (up).
 pub fn write_detections(rows: &[DetectionRow]) -> String {
     let mut text = COLUMNS.join(",");
-    text.push('\n');
+    text.push_str(",x_m,y_m,z_m\n");
     for row in rows {
         let numbers = [
             row.range_m,
@@ -58,13 +60,15 @@ pub fn write_detections(rows: &[DetectionRow]) -> String {
         for number in numbers {
             text.push_str(&format!(",{number}"));
         }
-        text.push_str(&format!(",{},{}\n", row.range_bin, row.doppler_bin));
+        let direction = Direction::new(row.azimuth_rad, row.elevation_rad);
+        let [x_m, y_m, z_m] = direction.place_m(row.range_m);
+        text.push_str(&format!(",{},{},{x_m},{y_m},{z_m}\n", row.range_bin, row.doppler_bin));
     }
     text
 }
 
 /// Reads a table as [`write_detections`] makes it. Columns may come in any order, and others
-/// beside them; `range_m` and `azimuth_deg` must be there, missing ones are zero.
+/// beside them, such as those of the place; `range_m` and `azimuth_deg` must be there, missing ones are zero.
 ///
 /// # Errors
 /// [`FormatError::Table`] naming line and column.

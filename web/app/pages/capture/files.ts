@@ -10,6 +10,7 @@ import { api, describeError, FileProblem, type Problem, pool } from '../../data.
 import { CAPTURE_KINDS } from '../../kinds.ts';
 import type { NamedFile } from '../../ui/entries.ts';
 import { type Parts, partsOf } from './parts.ts';
+import { SIMULATED, simulateCapture } from './simulated.ts';
 import { captureState, update } from './state.ts';
 import { configOfStudio, isSetup, isStudio } from './studio.ts';
 
@@ -32,6 +33,8 @@ export interface Loaded {
   /** The same on the workers. */
   kept: PoolCapture;
   bundled: { licence: string } | null;
+  /** Whether it was simulated in the page. */
+  simulated: boolean;
   /** Of files missing between those of the recording, the names. */
   missingParts: Parts['missing'];
 }
@@ -97,8 +100,9 @@ async function attempt(work: () => Promise<Opened | null>): Promise<void> {
       loaded.value = next.loaded;
       boardLog.value = next.log;
       const other = before?.kept !== next.loaded?.kept;
-      update({ source: next.loaded?.bundled ? 'bundled' : 'files' });
-      if (other && next.loaded && !next.loaded.bundled && !linked) update({ frame: 'all', cell: null, board: 'last' });
+      update({ source: sourceOf(next.loaded) });
+      if (other && sourceOf(next.loaded) === 'files' && next.loaded && !linked)
+        update({ frame: 'all', cell: null, board: 'last' });
       if (other) before?.kept.free();
     });
   } catch (error) {
@@ -148,8 +152,9 @@ export function startFiles(): () => void {
   return effect(() => {
     const wanted = source.value;
     const open = loaded.peek();
-    if (wanted === 'bundled' ? open?.bundled : !open?.bundled) return;
+    if (sourceOf(open) === wanted) return;
     if (wanted === 'bundled') void openBundled();
+    else if (wanted === 'simulated') void openSimulated();
     else {
       opening += 1;
       loaded.value = null;
@@ -178,9 +183,35 @@ export function openBundled(): Promise<void> {
       info: kept.info,
       kept,
       bundled: { licence: licenceAddress },
+      simulated: false,
       missingParts: [],
     };
     return { own: {}, loaded: next, waiting: null, log };
+  });
+}
+
+/** Where a capture comes from, as the state names it. */
+const sourceOf = (capture: Loaded | null) =>
+  capture?.bundled ? 'bundled' : capture?.simulated ? 'simulated' : 'files';
+
+export function openSimulated(): Promise<void> {
+  return attempt(async () => {
+    const { bin, cfg } = await simulateCapture();
+    const kept = await pool().loadCapture(bin, cfg);
+    const next: Loaded = {
+      files: [
+        { kind: 'bin', name: SIMULATED.bin, bytes: bin.length },
+        { kind: 'cfg', name: SIMULATED.cfg, bytes: cfg.length },
+      ],
+      bin,
+      cfg,
+      info: kept.info,
+      kept,
+      bundled: null,
+      simulated: true,
+      missingParts: [],
+    };
+    return { own: {}, loaded: next, waiting: null, log: null };
   });
 }
 
@@ -223,7 +254,16 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
       const kept = same ? before.kept : await pool().loadCapture(samples, text);
       const { info } = kept;
       const missingParts = bin.missing;
-      const complete = { files: opened, bin: samples, cfg: text, info, kept, bundled: null, missingParts };
+      const complete = {
+        files: opened,
+        bin: samples,
+        cfg: text,
+        info,
+        kept,
+        bundled: null,
+        simulated: false,
+        missingParts,
+      };
       return { own: next, loaded: complete, waiting: null, log };
     } catch (error) {
       if (error instanceof FileProblem) throw error;
