@@ -161,7 +161,10 @@ browserTest('space: frames play in it', { path: SIMULATED }, async ({ page }) =>
   await page.locator('[data-action="play"]').click();
   await parametersWith(page, (params) => Number(params.get('frame')) > 1);
   await page.locator('[data-action="play"]').click();
-  await page.waitForTimeout(200);
+  await page.waitForFunction(
+    () => !document.querySelector('[data-space="points"] .panel-head').textContent.includes('Frame 1 of'),
+  );
+  await page.waitForTimeout(100);
   assert.ok(!(await picture(page)).equals(first), 'points move');
   assert.equal(await page.locator('[data-space="points"]').getAttribute('data-state'), 'ready');
 });

@@ -9,7 +9,7 @@ const CFG = `% Simulated in the page, recorded by no board
 % Platform:xWR18xx
 channelCfg 15 7 0
 adcCfg 2 1
-adcbufCfg -1 0 1 1 1
+adcbufCfg -1 0 0 1 1
 profileCfg 0 77 40 6 60 0 0 33 1 256 5000 0 0 30
 chirpCfg 0 0 0 0 0 0 0 1
 chirpCfg 1 1 0 0 0 0 0 2
@@ -22,32 +22,31 @@ const FULL_SCALE = 32_768;
 /** Something of the street: where from the radar, m, and how it moves forward, m/s. */
 type Thing = readonly [xM: number, yM: number, zM: number, forwardMps: number, powerDb: number];
 
-/** The radar is at a height of 1.5 m. */
+/** The radar is 1.5 m over the road. What stands is at ranges half a metre apart, so that cells hold one thing each. */
 const THINGS: readonly Thing[] = [
-  // A sign over the road, on two posts.
-  ...[-3.2, -1.6, 0, 1.6, 3.2].map((y): Thing => [17, y, 4.2, 0, -16]),
-  ...[-1, 0.6, 2.2].flatMap((z): Thing[] => [
-    [17, -5.4, z, 0, -22],
-    [17.4, 5.4, z, 0, -22],
-  ]),
-  // A car in front, driving on; one parked at the left.
-  [9.2, 0.4, -0.9, 1.4, -12],
-  [9.6, -0.5, -0.3, 1.4, -14],
-  [11.4, 0.2, 0.1, 1.4, -18],
-  [6.1, 4.1, -0.9, 0, -14],
-  [7.7, 4.3, -0.2, 0, -16],
-  [9.6, 4.2, -0.8, 0, -17],
+  // A sign over the road, askew, with its posts.
+  ...[-3.6, -1.8, 0, 1.8, 3.6].map((y): Thing => [17 + 0.32 * y, y, 4.2, 0, -10]),
+  ...[-1, 0.9, 2.8].map((z, i): Thing => [14.2 - 0.5 * i, -5.2, z, 0, -16]),
+  ...[-1, 0.9, 2.8].map((z, i): Thing => [18.6 + 0.35 * i, 5, z, 0, -14]),
+  // A car in front, driving on.
+  [9.4, 0.9, -0.9, 1.4, -9],
+  [9.9, -0.7, -0.4, 1.4, -9],
+  [11.6, 0.2, 0.1, 1.4, -14],
+  // One parked at the left.
+  [6, 3.9, -1, 0, -10],
+  [7.4, 4.2, -0.2, 0, -12],
+  [9, 4, -0.9, 0, -13],
   // Somebody who comes closer: head, body, and a leg each way.
-  [6.4, -2.6, 0.2, -1.1, -20],
-  [6.6, -2.6, -0.4, -1.3, -16],
-  [6.5, -2.5, -1.2, -2.1, -22],
-  [6.7, -2.7, -1.2, -0.4, -22],
-  // A lamp that hangs over the pavement.
-  [12.5, -6.2, 3.4, 0, -18],
-  [12.9, -6.6, 1.2, 0, -22],
-  // Kerb.
-  [4.2, -3.4, -1.5, 0, -22],
-  [4.4, 3.2, -1.5, 0, -22],
+  [6.4, -2.6, 0.25, -1.1, -18],
+  [6.4, -2.6, -0.4, -1.45, -14],
+  [6.3, -2.5, -1.2, -2.2, -18],
+  [6.5, -2.7, -1.2, -0.4, -18],
+  // A lamp over the pavement, and a bollard.
+  [11.2, -5.8, 3.6, 0, -14],
+  [4.4, -2.4, -1.2, 0, -14],
+  // Kerbs.
+  [3.4, 2.9, -1.5, 0, -16],
+  [3.2, -2.2, -1.5, 0, -16],
 ];
 
 /** The samples as a capture card records them, and the configuration. */
@@ -68,7 +67,7 @@ export async function simulateCapture(): Promise<{ bin: Uint8Array; cfg: string 
     array: 'awr1843',
     targets,
     frames: FRAMES,
-    snrDb: 14,
+    snrDb: 24,
     seed: 1843,
   });
   return { bin: recorded(data), cfg: CFG };

@@ -195,10 +195,10 @@ export class SpaceScene {
     const centre = new Vector3((x[0] + x[1]) / 2, (y[0] + y[1]) / 2, (Math.max(z[0], -2) + Math.min(z[1], 4)) / 2);
     const radius = Math.hypot(x[1] - x[0], y[1] - y[0], z[1] - z[0]) / 2;
     const narrow = Math.min(this.#camera.aspect, 1.25) / 1.25;
-    const away = (1.05 * radius) / Math.sin((this.#camera.fov / 2) * (Math.PI / 180)) / narrow;
+    const away = (0.86 * radius) / Math.sin((this.#camera.fov / 2) * (Math.PI / 180)) / narrow;
     const look = new Vector3(-0.75, -0.42, 0.5).normalize();
     this.#controls.target.copy(centre);
-    this.#camera.position.copy(centre).addScaledVector(look, away * 0.86);
+    this.#camera.position.copy(centre).addScaledVector(look, away);
     this.#controls.maxDistance = 6 * away;
     this.#controls.minDistance = 0.05;
     this.#controls.update();
