@@ -1,10 +1,10 @@
 /** Points in space as the demo's 3-D view has them: colours, axes, words, and which comes next. */
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { appModule } from './lib/app-module.mjs';
+import { appBundle } from './lib/app-module.mjs';
 
 const { cloudWords, colourAt, colourScale, gridStep, pointColour, stepped, ticks, widened } =
-  await appModule('app/ui/space/points.ts');
+  await appBundle('app/ui/space/points.ts');
 
 const point = (key, xM, yM = 0, zM = 0, rateMps = 0, powerDb = -20) => ({ key, xM, yM, zM, rateMps, powerDb });
 

@@ -309,7 +309,8 @@ export class SpaceScene {
     for (const at of ticks(z, gridStep(z[1] - z[0]))) poles?.push(0, -tick, at, 0, tick, at);
     fill(this.#grid.geometry, ground ?? []);
     fill(this.#axes.geometry, poles ?? []);
-    this.#renderer.setClearColor(new Color(palette.background));
+    // The renderer forgets its own with a context that is lost.
+    this.#scene.background = new Color(palette.background);
     this.#grid.material.color.set(palette.grid);
     this.#axes.material.color.set(palette.muted);
     this.#stems.material.color.set(palette.muted);
