@@ -27,6 +27,22 @@ pub struct DetectionRow {
     pub range_bin: usize,
     /// Doppler bin.
     pub doppler_bin: usize,
+    /// Place forward of the sensor. Tables have the places that follow from range and angles.
+    pub x_m: f64,
+    /// Place to its left.
+    pub y_m: f64,
+    /// Place above it.
+    pub z_m: f64,
+}
+
+impl DetectionRow {
+    /// The row with the place that follows from its range and angles.
+    #[must_use]
+    pub fn placed(self) -> Self {
+        let direction = Direction::new(self.azimuth_rad, self.elevation_rad);
+        let [x_m, y_m, z_m] = direction.place_m(self.range_m);
+        Self { x_m, y_m, z_m, ..self }
+    }
 }
 
 /// Columns that are read; those of the place follow from range and angles.
@@ -60,8 +76,7 @@ pub fn write_detections(rows: &[DetectionRow]) -> String {
         for number in numbers {
             text.push_str(&format!(",{number}"));
         }
-        let direction = Direction::new(row.azimuth_rad, row.elevation_rad);
-        let [x_m, y_m, z_m] = direction.place_m(row.range_m);
+        let DetectionRow { x_m, y_m, z_m, .. } = row.placed();
         text.push_str(&format!(",{},{},{x_m},{y_m},{z_m}\n", row.range_bin, row.doppler_bin));
     }
     text
@@ -85,7 +100,7 @@ pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
         let index = |k: usize| {
             places[k].map_or(Ok(0), |at| field(&record, at, COLUMNS[k], "an integer of at least 0"))
         };
-        rows.push(DetectionRow {
+        let row = DetectionRow {
             frame: index(0)?,
             range_m: number(1)?,
             rate_mps: number(2)?,
@@ -95,7 +110,9 @@ pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
             snr_db: number(6)?,
             range_bin: index(7)?,
             doppler_bin: index(8)?,
-        });
+            ..DetectionRow::default()
+        };
+        rows.push(row.placed());
     }
     Ok(rows)
 }

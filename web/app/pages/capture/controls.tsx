@@ -131,13 +131,12 @@ export function Controls() {
           help="Detections farther than this are dropped, and counted; 0 for no limit."
         />
         <Control label="Sector ±" name="sector" help="Detections outside this azimuth are dropped, and counted." />
-        {seesElevation() && (
-          <Control
-            label="Elevation ±"
-            name="elevation"
-            help="Detections steeper than this, upwards or downwards, are dropped, and counted."
-          />
-        )}
+        <Control
+          label="Elevation ±"
+          name="elevation"
+          disabled={!seesElevation()}
+          help="Detections steeper than this, upwards or downwards, are dropped, and counted; for arrays that see elevation."
+        />
       </Group>
       <Group title="Transforms">
         <Control label="Range window" name="window" labels={WINDOW_NAMES} note="Low sidelobes cost a wide main lobe." />
