@@ -28,10 +28,13 @@ pub struct DetectionRow {
     /// Doppler bin.
     pub doppler_bin: usize,
     /// Place forward of the sensor. Tables have the places that follow from range and angles.
+    #[serde(default)]
     pub x_m: f64,
     /// Place to its left.
+    #[serde(default)]
     pub y_m: f64,
     /// Place above it.
+    #[serde(default)]
     pub z_m: f64,
 }
 
