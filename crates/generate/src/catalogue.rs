@@ -57,8 +57,8 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
 /// What functions return, by subject.
 pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
     use boresight_wasm::{
-        calibration_methods, capture, cascade, config, count, drive, estimate, hdf5, image, npy, region,
-        street, trajectory,
+        calibration_methods, capture, cascade, config, count, drive, estimate, hdf5, image, npy,
+        region, street, trajectory,
     };
     vec![
         ("Arrays and waveforms", vec![Geometry::KIND, Waveform::KIND, WaveformSummary::KIND]),

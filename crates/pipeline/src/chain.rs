@@ -25,6 +25,8 @@ pub struct Chain {
     array: Array,
     /// Channel of the cube (`tx * receivers + rx`) of each element of the array.
     channels: Vec<usize>,
+    /// Sign that each of them is multiplied by ([`signs_of`]).
+    signs: Vec<f64>,
     region: Region,
     pub(crate) transform: RangeDoppler,
     pub(crate) map: RangeDopplerMap,
@@ -121,6 +123,7 @@ impl Chain {
             options: *options,
             array: array.clone(),
             channels,
+            signs: signs_of(array).collect(),
             region: Region {
                 range_m: options.region.range_m.or_else(|| Some(usable_range_m(waveform))),
                 ..options.region
@@ -277,7 +280,7 @@ impl Chain {
         let dopplers = self.map.power.ncols();
         let step = tdm::phase_step_rad(exact_doppler_bin, dopplers, transmitters, 0);
         tdm::compensate(&mut all, transmitters, step)?;
-        Ok(self.channels.iter().map(|&channel| all[channel]).collect())
+        Ok(self.channels.iter().zip(&self.signs).map(|(&k, &sign)| all[k] * sign).collect())
     }
 
     /// Angles in the cells found in the power map, of which `snapshots` has cells x elements x
@@ -295,8 +298,10 @@ impl Chain {
             counts.without_angle += usize::from(sources.is_empty());
             detections.extend(sources.iter().map(|s| detection(cell, s.direction, s.power)));
         }
-        counts.outside_region +=
-            Region::retain(&mut detections, |d| self.region.contains_azimuth(d.azimuth_rad));
+        counts.outside_region += Region::retain(&mut detections, |d| {
+            let direction = Direction::new(d.azimuth_rad, d.elevation_rad);
+            self.region.contains_direction(d.range_m, direction)
+        });
         sort_descending(&mut detections, |detection| detection.power);
         counts.beyond_limit += detections.len().saturating_sub(self.options.max_detections);
         detections.truncate(self.options.max_detections);
@@ -341,12 +346,16 @@ fn detection(cell: &Cell, direction: Direction, power: f64) -> Detection {
     let found = cell.peak.detection;
     // What windows and transforms lose between bins, the parabolas give back.
     let straddling = if found.power > 0.0 { cell.peak.power / found.power } else { 1.0 };
+    let [x_m, y_m, z_m] = direction.place_m(cell.range_m);
     Detection {
         frame: 0,
         range_m: cell.range_m,
         rate_mps: cell.rate_mps,
         azimuth_rad: direction.azimuth_rad,
         elevation_rad: direction.elevation_rad,
+        x_m,
+        y_m,
+        z_m,
         power: power * straddling,
         snr: power / found.noise_power.max(f64::MIN_POSITIVE),
         range_bin: found.range_bin,
@@ -389,4 +398,9 @@ pub(crate) fn channels_of(
         return Ok((0..array.len()).collect());
     }
     Err(given(format!("has {tx} transmitters x {rx} receivers, {} elements", array.len())))
+}
+
+/// What takes the sign of turned antennas off the samples of each element.
+pub(crate) fn signs_of(array: &Array) -> impl Iterator<Item = f64> {
+    array.channels().iter().map(|&channel| if array.is_inverted(channel) { -1.0 } else { 1.0 })
 }

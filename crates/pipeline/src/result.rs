@@ -19,6 +19,12 @@ pub struct Detection {
     pub azimuth_rad: f64,
     /// Elevation, positive upwards; 0 where the array does not see it.
     pub elevation_rad: f64,
+    /// Place forward of the sensor.
+    pub x_m: f64,
+    /// Place to its left.
+    pub y_m: f64,
+    /// Place above it; 0 where the array sees no elevation.
+    pub z_m: f64,
     /// Power of one raw sample at one element over full scale (1.0), interpolated between bins.
     #[serde(rename = "power_db", serialize_with = "decibels::serialize")]
     pub power: f64,

@@ -13,7 +13,7 @@
 use crate::cost::sum_operations;
 use crate::error::SimulateError;
 use crate::paths::{Paths, moved};
-use boresight_core::array::{MAX_ELEMENTS, Position};
+use boresight_core::array::{Channel, MAX_ELEMENTS, Position};
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
 use boresight_core::error::check_range;
@@ -109,7 +109,8 @@ pub struct CubeOptions {
 }
 
 /// Simulates frames x loops x transmitters x receivers x samples. Transmitters and receivers are
-/// those of the array ([`Array::tx`], [`Array::rx`]), whichever of their pairs it keeps.
+/// those of the array ([`Array::tx`], [`Array::rx`]), whichever of their pairs it keeps. Those that are mounted turned
+/// ([`Array::is_inverted`]) send and receive with the opposite sign.
 ///
 /// # Errors
 /// [`CoreError::OutOfRange`] for a number out of range, among them a target that is, at any time,
@@ -202,6 +203,8 @@ struct Model<'a> {
     paths: Paths,
     /// Virtual elements as they really are, half wavelengths.
     elements: Vec<Position>,
+    /// Sign of each virtual element's samples: that of antennas mounted turned.
+    signs: Vec<f64>,
 }
 
 /// A target as the cube sees it.
@@ -250,9 +253,11 @@ impl Block {
 impl<'a> Model<'a> {
     fn new(waveform: &'a Waveform, array: &Array, options: &'a CubeOptions) -> Self {
         let imperfections = options.imperfections.as_ref();
-        let (mut elements, mut ends) = (vec![], vec![]);
-        for tx in array.tx() {
-            for rx in array.rx() {
+        let (mut elements, mut ends, mut signs) = (vec![], vec![], vec![]);
+        for (t, tx) in array.tx().iter().enumerate() {
+            for (r, rx) in array.rx().iter().enumerate() {
+                let inverted = array.is_inverted(Channel { tx: t, rx: r });
+                signs.push(if inverted { -1.0 } else { 1.0 });
                 let error = imperfections.map_or([0.0; 3], |i| i.displacement[elements.len()]);
                 let rx = moved(*rx, error);
                 ends.push([*tx, rx]);
@@ -260,7 +265,7 @@ impl<'a> Model<'a> {
             }
         }
         let paths = Paths::new(waveform.wavelength_m(), ends);
-        Self { waveform, field: options.field, imperfections, paths, elements }
+        Self { waveform, field: options.field, imperfections, paths, elements, signs }
     }
 
     fn echo(&self, target: &CubeTarget, phases: &mut Random) -> Echo {
@@ -278,7 +283,7 @@ impl<'a> Model<'a> {
         if self.field == Field::Near {
             gains.zip_mut_with(&ideal, |gain, ideal| *gain *= ideal.conj());
         }
-        let gains = gains.iter().map(|gain| gain * amplitude).collect();
+        let gains = gains.iter().zip(&self.signs).map(|(g, sign)| g * amplitude * sign).collect();
         Echo { range_m: target.range_m, rate_mps: target.rate_mps, unit, gains }
     }
 

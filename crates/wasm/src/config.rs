@@ -10,8 +10,8 @@ use boresight_core::{Remark, Waveform, WaveformSummary};
 use boresight_formats::{Layout, RadarConfig, ReadingOptions};
 use js_sys::ArrayBuffer;
 use serde::Serialize;
-use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsCast, JsValue};
 
 /// Reads the text of a `.cfg` file.
 #[wasm_bindgen(js_name = parseConfig)]

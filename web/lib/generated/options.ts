@@ -184,6 +184,10 @@ export interface Region {
   rateMps?: readonly [number, number];
   /** Least and greatest azimuth (-90 to 90 deg). */
   azimuthDeg?: readonly [number, number];
+  /** Least and greatest elevation; arrays that see none have all at 0 (-90 to 90 deg). */
+  elevationDeg?: readonly [number, number];
+  /** Least and greatest height over the sensor (z). */
+  heightM?: readonly [number, number];
 }
 
 /**

@@ -538,6 +538,12 @@ export interface Detection {
   azimuthDeg: number;
   /** Elevation, positive upwards; 0 where the array does not see it. */
   elevationDeg: number;
+  /** Place forward of the sensor. */
+  xM: number;
+  /** Place to its left. */
+  yM: number;
+  /** Place above it; 0 where the array sees no elevation. */
+  zM: number;
   /** Power of one raw sample at one element over full scale (1.0), interpolated between bins. */
   powerDb: number;
   /** Its power in its cell over the noise around the cell. */

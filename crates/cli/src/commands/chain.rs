@@ -93,6 +93,9 @@ fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
             column("snrDb", "snr_db", 1),
             column("rangeBin", "range_bin", 0),
             column("dopplerBin", "doppler_bin", 0),
+            column("xM", "x_m", 3),
+            column("yM", "y_m", 3),
+            column("zM", "z_m", 3),
         ],
         rows: detections
             .map(|d| {
@@ -106,6 +109,9 @@ fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
                     power_to_db(d.snr),
                     d.range_bin as f64,
                     d.doppler_bin as f64,
+                    d.x_m,
+                    d.y_m,
+                    d.z_m,
                 ]
             })
             .collect(),

@@ -1,8 +1,9 @@
 //! Takes the commands one by one and makes a [`RadarConfig`] of them.
 
+use super::antennas::{AntennaLines, preset_of};
 use super::line::{Line, clipped};
 use super::sequence::{Chirps, transmitters};
-use super::{AdcFormat, RadarConfig, board_preset, platform_layout};
+use super::{AdcFormat, RadarConfig, platform_layout};
 use crate::dca1000::{Layout, cascade};
 use crate::error::FormatError;
 use boresight_core::Remark;
@@ -88,6 +89,7 @@ pub(super) struct Commands {
     profiles: Vec<(usize, Profile)>,
     chirps: Vec<Chirps>,
     frame: Option<Frame>,
+    antennas: AntennaLines,
     remarks: Vec<Remark>,
     further_remarks: usize,
 }
@@ -137,6 +139,7 @@ impl Commands {
                     }
                 }
             }
+            "antGeometry0" | "antGeometry1" | "antPhaseRot" => self.antennas.take(line)?,
             "compRangeBiasAndRxChanPhase" => self.compensation(line),
             "advFrameCfg" | "subFrameCfg" | "contModeCfg" => {
                 return Err(line.error("frame mode", "frameCfg", line.command));
@@ -339,20 +342,33 @@ impl Commands {
             receivers,
             transmitters: order,
             array_preset: None,
+            board: None,
             platform: self.platform,
             sdk_version: self.sdk_version,
             adc: AdcFormat { bits, q_first, layout },
             frames: (frame.frames > 0).then_some(frame.frames),
             remarks: self.remarks,
         };
-        let board = match layout {
-            Layout::Cascade => Some("cascade86"),
-            _ => config.platform.as_deref().and_then(board_preset),
+        if layout == Layout::Cascade {
+            let board = presets::preset("cascade86").ok();
+            config.array_preset =
+                (board.is_some() && board == config.array()).then_some("cascade86");
+            return Ok(config);
+        }
+        let own = self.antennas.board()?;
+        let names = if own.is_some() {
+            presets::PRESETS.to_vec()
+        } else if let Some((name, assumed)) = config.platform.as_deref().and_then(preset_of) {
+            config.remarks.extend(assumed);
+            vec![name]
+        } else {
+            vec![]
         };
-        config.array_preset = board.filter(|name| {
-            let board = presets::preset(name).ok();
-            board.is_some() && board == config.array()
-        });
+        let preset = |name: &&str| presets::preset(name).ok();
+        config.board = own.or_else(|| names.first().and_then(preset));
+        let array = config.array();
+        config.array_preset =
+            names.into_iter().find(|name| array.is_some() && preset(name) == array);
         Ok(config)
     }
 

@@ -4,6 +4,7 @@
 //! read strictly; settings of the board's own processing are passed over; everything else is
 //! reported as a [`Remark`].
 
+mod antennas;
 mod commands;
 mod line;
 mod sequence;
@@ -47,6 +48,9 @@ pub struct RadarConfig {
     /// Name of the preset whose virtual elements are exactly the configured channels in their
     /// order of transmission, if there is one.
     pub array_preset: Option<&'static str>,
+    /// The board's antennas, in the order of their numbers on the chip: those that the configuration's own
+    /// `antGeometry0`, `antGeometry1` and `antPhaseRot` tell, or those of the platform's evaluation board.
+    pub board: Option<Array>,
     /// Platform named in a comment, such as `xWR16xx`.
     pub platform: Option<String>,
     /// SDK version named in a comment, such as `02.00`.
@@ -117,29 +121,23 @@ impl RadarConfig {
         Ok(())
     }
 
-    /// The virtual array of the configured channels in their order of transmission, for platforms
-    /// whose antennas are known. A cascade's is its row: elevated elements, and those at places that another has, are
+    /// The virtual array of the configured channels in their order of transmission, where the
+    /// board's antennas are known. A cascade's is its row: elevated elements, and those at places that another has, are
     /// left out.
     pub fn array(&self) -> Option<Array> {
+        let (tx, rx) = (&self.transmitters, &self.receivers);
         if self.adc.layout == Layout::Cascade {
-            return presets::cascade_row(&self.transmitters, &self.receivers).ok();
+            return presets::cascade_row(tx, rx).ok();
         }
-        let board = presets::preset(board_preset(self.platform.as_deref()?)?).ok()?;
-        let pick = |positions: &[[f64; 3]], which: &[usize]| -> Option<Vec<[f64; 3]>> {
-            which.iter().map(|&k| positions.get(k).copied()).collect()
-        };
-        Array::mimo(&pick(board.tx(), &self.transmitters)?, &pick(board.rx(), &self.receivers)?)
-            .ok()
+        let board = self.board.as_ref()?;
+        let array = Array::mimo(&picked(board.tx(), tx)?, &picked(board.rx(), rx)?).ok()?;
+        let turned = (picked(board.inverted_tx(), tx)?, picked(board.inverted_rx(), rx)?);
+        array.with_inverted(&turned.0, &turned.1).ok()
     }
 }
 
-/// The preset of a platform's evaluation board.
-fn board_preset(platform: &str) -> Option<&'static str> {
-    match platform.to_ascii_lowercase().as_str() {
-        "xwr16xx" | "awr1642" | "iwr1642" => Some("awr1642"),
-        "xwr18xx" | "awr1843" | "iwr1843" => Some("awr1843"),
-        _ => None,
-    }
+fn picked<T: Copy>(all: &[T], which: &[usize]) -> Option<Vec<T>> {
+    which.iter().map(|&k| all.get(k).copied()).collect()
 }
 
 /// The lanes of a platform, or a board, by the number in its name.

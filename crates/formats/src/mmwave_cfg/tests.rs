@@ -1,5 +1,5 @@
 use super::*;
-use boresight_core::Diagnose;
+use boresight_core::{Diagnose, presets};
 
 const RECORDING: &str = include_str!("../../../../recordings/awr1642/profile.cfg");
 
@@ -210,4 +210,73 @@ fn a_cascade_has_the_array_of_its_row() {
     }
     // Elevated transmitters alone are no row.
     assert_eq!(of(&[0, 1]).array(), None);
+}
+
+/// Lines of three transmitters on a platform.
+fn of_three(platform: &str, lines: &str) -> String {
+    let three = "channelCfg 15 7 0\nchirpCfg 2 2 0 0 0 0 0 4\n".to_owned() + lines;
+    given("channelCfg 15 3 0", &three)
+        .replace("frameCfg 0 1 ", "frameCfg 0 2 ")
+        .replace("Platform:xWR16xx", &format!("Platform:{platform}"))
+}
+
+const AOP: &str = "antGeometry0 -1 -1 0 0 -3 -3 -2 -2 -1 -1 0 0
+antGeometry1 -1 0 -1 0 -3 -2 -3 -2 -3 -2 -3 -2
+antPhaseRot 1 -1 1 -1 1 -1 1 -1 1 -1 1 -1
+";
+
+#[test]
+fn platforms_name_their_boards() {
+    for (platform, preset, assumed) in [
+        ("xWR18xx", "awr1843", false),
+        ("xWR68xx", "iwr6843isk", true),
+        ("xWR68xx_AOP", "iwr6843aop", false),
+        ("iwr6843ods", "iwr6843ods", false),
+    ] {
+        let config = RadarConfig::parse(of_three(platform, "").as_bytes()).unwrap();
+        assert_eq!(config.array_preset, Some(preset), "{platform}");
+        assert_eq!(config.array(), presets::preset(preset).ok());
+        let remarked = config.remarks.iter().any(|remark| remark.code == "board-assumed");
+        assert_eq!(remarked, assumed, "{platform}: {:?}", config.remarks);
+    }
+}
+
+#[test]
+fn antenna_lines_tell_the_board_whatever_the_platform() {
+    for platform in ["xWR68xx", "unheard-of"] {
+        // The sign of all together is that of no antenna.
+        for turned in [
+            AOP.to_owned(),
+            AOP.replace("Rot 1 -1 1 -1 1 -1 1 -1 1 -1 1 -1", "Rot -1 1 -1 1 -1 1 -1 1 -1 1 -1 1"),
+        ] {
+            let config = RadarConfig::parse(of_three(platform, &turned).as_bytes()).unwrap();
+            assert_eq!(config.array_preset, Some("iwr6843aop"), "{platform}");
+            assert!(config.remarks.iter().all(|remark| remark.code != "board-assumed"));
+        }
+    }
+    let turn = of_three("x", AOP)
+        .replace("chirpCfg 0 0 0 0 0 0 0 1", "chirpCfg 0 0 0 0 0 0 0 2")
+        .replace("chirpCfg 1 1 0 0 0 0 0 2", "chirpCfg 1 1 0 0 0 0 0 1");
+    let array = RadarConfig::parse(turn.as_bytes()).unwrap().array().unwrap();
+    assert_eq!(array.positions()[1], [0.0, -2.0, -1.0]);
+    assert_eq!(array.inverted_rx(), [false, true, false, true]);
+}
+
+#[test]
+fn antenna_lines_that_are_no_array_are_refused() {
+    for (good, bad, what) in [
+        ("antPhaseRot 1 -1", "antPhaseRot 1 -2", "value"),
+        ("antPhaseRot 1 -1 1 -1", "antPhaseRot 1 1 1 -1", "element 6"),
+        ("antGeometry1 -1 0", "antGeometry1 -1 0.5", "element 6"),
+        ("antGeometry1 -1 0 -1 0 -3 -2 -3 -2 -3 -2 -3 -2\n", "", "lines"),
+        ("antPhaseRot 1 -1 1 -1", "antPhaseRot", "lines"),
+        ("antPhaseRot 1 -1 1 -1", "antPhaseRot 1", "the number of arguments"),
+    ] {
+        let error =
+            RadarConfig::parse(of_three("x", &AOP.replace(good, bad)).as_bytes()).unwrap_err();
+        assert!(
+            matches!(&error, FormatError::Config { what: named, .. } if named == what),
+            "{error}"
+        );
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::{Columns, field, finite, from_csv};
 use crate::error::FormatError;
+use boresight_core::Direction;
 use boresight_core::describe::Described;
 use serde::{Deserialize, Serialize};
 
@@ -26,8 +27,28 @@ pub struct DetectionRow {
     pub range_bin: usize,
     /// Doppler bin.
     pub doppler_bin: usize,
+    /// Place forward of the sensor. Tables have the places that follow from range and angles.
+    #[serde(default)]
+    pub x_m: f64,
+    /// Place to its left.
+    #[serde(default)]
+    pub y_m: f64,
+    /// Place above it.
+    #[serde(default)]
+    pub z_m: f64,
 }
 
+impl DetectionRow {
+    /// The row with the place that follows from its range and angles.
+    #[must_use]
+    pub fn placed(self) -> Self {
+        let direction = Direction::new(self.azimuth_rad, self.elevation_rad);
+        let [x_m, y_m, z_m] = direction.place_m(self.range_m);
+        Self { x_m, y_m, z_m, ..self }
+    }
+}
+
+/// Columns that are read; those of the place follow from range and angles.
 const COLUMNS: [&str; 9] = [
     "frame",
     "range_m",
@@ -41,10 +62,10 @@ const COLUMNS: [&str; 9] = [
 ];
 
 /// The table as text: the columns `frame`, `range_m`, `rate_mps`, `azimuth_deg`, `elevation_deg`,
-/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`.
+/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`, and the place `x_m` (forward), `y_m` (left), `z_m` (up).
 pub fn write_detections(rows: &[DetectionRow]) -> String {
     let mut text = COLUMNS.join(",");
-    text.push('\n');
+    text.push_str(",x_m,y_m,z_m\n");
     for row in rows {
         let numbers = [
             row.range_m,
@@ -58,13 +79,14 @@ pub fn write_detections(rows: &[DetectionRow]) -> String {
         for number in numbers {
             text.push_str(&format!(",{number}"));
         }
-        text.push_str(&format!(",{},{}\n", row.range_bin, row.doppler_bin));
+        let DetectionRow { x_m, y_m, z_m, .. } = row.placed();
+        text.push_str(&format!(",{},{},{x_m},{y_m},{z_m}\n", row.range_bin, row.doppler_bin));
     }
     text
 }
 
 /// Reads a table as [`write_detections`] makes it. Columns may come in any order, and others
-/// beside them; `range_m` and `azimuth_deg` must be there, missing ones are zero.
+/// beside them, such as those of the place; `range_m` and `azimuth_deg` must be there, missing ones are zero.
 ///
 /// # Errors
 /// [`FormatError::Table`] naming line and column.
@@ -81,7 +103,7 @@ pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
         let index = |k: usize| {
             places[k].map_or(Ok(0), |at| field(&record, at, COLUMNS[k], "an integer of at least 0"))
         };
-        rows.push(DetectionRow {
+        let row = DetectionRow {
             frame: index(0)?,
             range_m: number(1)?,
             rate_mps: number(2)?,
@@ -91,7 +113,9 @@ pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
             snr_db: number(6)?,
             range_bin: index(7)?,
             doppler_bin: index(8)?,
-        });
+            ..DetectionRow::default()
+        };
+        rows.push(row.placed());
     }
     Ok(rows)
 }

@@ -2,7 +2,7 @@
 
 use super::options::{RegionChainOptions, Rotation};
 use super::result::RegionCounts;
-use crate::chain::channels_of;
+use crate::chain::{channels_of, signs_of};
 use crate::error::PipelineError;
 use crate::options::usable_range_m;
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
@@ -199,7 +199,11 @@ impl RegionFinder {
             }
             .into());
         }
-        Ok(range_spectrum(frame, window)?.select(Axis(1), &self.channels))
+        let mut spectrum = range_spectrum(frame, window)?.select(Axis(1), &self.channels);
+        for (mut element, sign) in spectrum.axis_iter_mut(Axis(1)).zip(signs_of(&self.array)) {
+            element.mapv_inplace(|z| z * sign as f32);
+        }
+        Ok(spectrum)
     }
 
     /// Where a peak is and how its phase turns.

@@ -2,6 +2,7 @@
 
 import type { Method } from 'boresight';
 import { byteSize, power } from '../../../plots/format.ts';
+import { download } from '../../../plots/save.ts';
 import { api } from '../../data.ts';
 import { COUNTED } from '../../methods.ts';
 import { choosing, fitting } from '../../networks/choose.ts';
@@ -15,10 +16,20 @@ import { Licence } from '../../ui/licence.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { fileProblem, loaded, openBundled, openFiles, waiting } from './files.ts';
-import { cellUnavailable, networkFor, usedArray } from './process.ts';
+import { fileProblem, loaded, openBundled, openFiles, openSimulated, waiting } from './files.ts';
+import { cellUnavailable, networkFor, seesElevation, usedArray } from './process.ts';
+import { SIMULATED } from './simulated.ts';
 import { captureCodec, captureState, update } from './state.ts';
 import { isStudio } from './studio.ts';
+
+const ARRAY_NAMES = {
+  awr1642: 'AWR1642',
+  awr1843: 'AWR1843',
+  iwr6843isk: '6843 ISK',
+  iwr6843aop: '6843 AOP',
+  iwr6843ods: '6843 ODS',
+  cascade86: 'cascade',
+};
 
 const Control = controlOf(captureCodec, captureState, update);
 
@@ -86,7 +97,7 @@ export function Controls() {
         <Control
           label="Virtual array"
           name="array"
-          labels={{ auto: 'as configured', awr1642: 'AWR1642', awr1843: 'AWR1843', cascade86: 'cascade' }}
+          labels={{ auto: 'as configured', ...ARRAY_NAMES }}
           help="Where the elements are. Must have as many transmitters and receivers as the configuration names."
         />
         <Control
@@ -132,6 +143,12 @@ export function Controls() {
           help="Detections farther than this are dropped, and counted; 0 for no limit."
         />
         <Control label="Sector ±" name="sector" help="Detections outside this azimuth are dropped, and counted." />
+        <Control
+          label="Elevation ±"
+          name="elevation"
+          disabled={!seesElevation()}
+          help="Detections steeper than this, upwards or downwards, are dropped, and counted; for arrays that see elevation."
+        />
       </Group>
       <Group title="Transforms">
         <Control label="Range window" name="window" labels={WINDOW_NAMES} note="Low sidelobes cost a wide main lobe." />
@@ -193,6 +210,12 @@ function Network({ method }: { method: Method }) {
   );
 }
 
+function saveSimulated(kind: 'bin' | 'cfg'): void {
+  const capture = loaded.peek();
+  if (capture)
+    download(kind === 'bin' ? new Blob([capture.bin as BlobPart]) : new Blob([capture.cfg]), SIMULATED[kind]);
+}
+
 function Files() {
   const over = useFileDrop('capture', (files) => void openFiles(files.map(({ file }) => file)));
   const { files, missing } = waiting.value ?? { files: loaded.value?.files ?? [], missing: [] };
@@ -228,6 +251,27 @@ function Files() {
           remark="From cstahoviak/radar-velocity-estimation. The scene is not described; the board’s log names its objects."
         />
       )}
+      {loaded.value?.simulated && (
+        <>
+          <p class="small">
+            Simulated in this page, recorded by no board: a street before an AWR1843, whose second transmitter stands
+            higher.
+          </p>
+          <div class="row">
+            {(['bin', 'cfg'] as const).map((kind) => (
+              <button
+                key={kind}
+                type="button"
+                data-export={kind}
+                title={`Save what was simulated as ${SIMULATED[kind]}`}
+                onClick={() => saveSimulated(kind)}
+              >
+                Save .{kind}
+              </button>
+            ))}
+          </div>
+        </>
+      )}
       <div class="row">
         <FileButton
           label="Capture files"
@@ -244,6 +288,15 @@ function Files() {
           disabled={Boolean(loaded.value?.bundled) && !fileProblem.value}
         >
           Bundled capture
+        </button>
+        <button
+          type="button"
+          data-action="simulate"
+          title="A street before a board that sees elevation, simulated in this page"
+          onClick={() => void openSimulated()}
+          disabled={Boolean(loaded.value?.simulated) && !fileProblem.value}
+        >
+          Simulated, 3-D
         </button>
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>

@@ -66,6 +66,22 @@ function columns(elevated: boolean, withBoard: boolean): Column[] {
         (v) => signed(v, 1),
       ),
     );
+  if (elevated) {
+    const place = (key: 'xM' | 'yM' | 'zM', csv: string, title: string, help: string): Column =>
+      ours(
+        key,
+        title,
+        csv,
+        help,
+        (r) => r[key],
+        (v) => signed(v, 2),
+      );
+    list.push(
+      place('xM', 'x_m', 'x (m)', 'Forward of the radar'),
+      place('yM', 'y_m', 'y (m)', 'To the left of the radar'),
+      place('zM', 'z_m', 'z (m)', 'Above the radar'),
+    );
+  }
   list.push(
     ours(
       'powerDb',
@@ -118,6 +134,26 @@ function columns(elevated: boolean, withBoard: boolean): Column[] {
         (b) => b.azimuthDeg,
         (v) => signed(v, 1),
       ),
+      ...(elevated
+        ? [
+            board(
+              'boardElevationDeg',
+              'Elevation (°)',
+              'board_elevation_deg',
+              'From the place that the board reported, positive upwards',
+              (b) => b.elevationDeg,
+              (v) => signed(v, 1),
+            ),
+            board(
+              'boardZM',
+              'z (m)',
+              'board_z_m',
+              'As the board reported it',
+              (b) => b.zM,
+              (v) => signed(v, 2),
+            ),
+          ]
+        : []),
       {
         key: 'rangeDifferenceM',
         title: 'Range (m)',

@@ -10,6 +10,7 @@ import { api, describeError, FileProblem, type Problem, pool } from '../../data.
 import { CAPTURE_KINDS } from '../../kinds.ts';
 import type { NamedFile } from '../../ui/entries.ts';
 import { type Parts, partsOf } from './parts.ts';
+import { SIMULATED, simulateCapture } from './simulated.ts';
 import { captureState, readingOptions, update } from './state.ts';
 import { configOfStudio, isSetup, isStudio } from './studio.ts';
 
@@ -34,6 +35,8 @@ export interface Loaded {
   /** The same on the workers. */
   kept: PoolCapture;
   bundled: { licence: string } | null;
+  /** Whether it was simulated in the page. */
+  simulated: boolean;
   /** Of files missing between those of the recording, the names. */
   missingParts: Parts['missing'];
   /** What putting the files of a cascade together had to say; null of one chip. */
@@ -101,8 +104,8 @@ async function attempt(work: () => Promise<Opened | null>, sameFiles = false): P
       loaded.value = next.loaded;
       boardLog.value = next.log;
       const other = before?.kept !== next.loaded?.kept;
-      update({ source: next.loaded?.bundled ? 'bundled' : 'files' });
-      if (other && !sameFiles && next.loaded && !next.loaded.bundled && !linked)
+      update({ source: sourceOf(next.loaded) });
+      if (other && sourceOf(next.loaded) === 'files' && next.loaded && !linked)
         update({ frame: 'all', cell: null, board: 'last' });
       if (other) before?.kept.free();
     });
@@ -178,8 +181,9 @@ export function startFiles(): () => void {
   const stopOpening = effect(() => {
     const wanted = source.value;
     const open = loaded.peek();
-    if (wanted === 'bundled' ? open?.bundled : !open?.bundled) return;
+    if (sourceOf(open) === wanted) return;
     if (wanted === 'bundled') void openBundled();
+    else if (wanted === 'simulated') void openSimulated();
     else {
       opening += 1;
       loaded.value = null;
@@ -214,10 +218,36 @@ export function openBundled(): Promise<void> {
       info: kept.info,
       kept,
       bundled: { licence: licenceAddress },
+      simulated: false,
       missingParts: [],
       cascade: null,
     };
     return { own: {}, loaded: next, waiting: null, log };
+  });
+}
+
+/** Where a capture comes from, as the state names it. */
+const sourceOf = (capture: Loaded | null) =>
+  capture?.bundled ? 'bundled' : capture?.simulated ? 'simulated' : 'files';
+
+export function openSimulated(): Promise<void> {
+  return attempt(async () => {
+    const { bin, cfg } = await simulateCapture();
+    const kept = await pool().loadCapture(bin, cfg);
+    const next: Loaded = {
+      files: [
+        { kind: 'bin', name: SIMULATED.bin, bytes: bin.length },
+        { kind: 'cfg', name: SIMULATED.cfg, bytes: cfg.length },
+      ],
+      bin,
+      cfg,
+      info: kept.info,
+      kept,
+      bundled: null,
+      simulated: true,
+      missingParts: [],
+    };
+    return { own: {}, loaded: next, waiting: null, log: null };
   });
 }
 
@@ -267,12 +297,11 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
         files: opened,
         bin: samples,
         cfg: text,
-        reading,
         info,
         kept,
         bundled: null,
+        simulated: false,
         missingParts,
-        cascade,
       };
       return { own: next, loaded: complete, waiting: null, log };
     } catch (error) {

@@ -14,7 +14,18 @@ import { boardLog, fileProblem, filesWanted, loaded, openBundled, startFiles, ty
 import { FrameBar } from './frame-bar.tsx';
 import { compare } from './match.ts';
 import { startOverTime } from './over-time.ts';
-import { cellResults, processProblem, result, type Shown, start, usedArray, wasCancelled, working } from './process.ts';
+import { CapturePoints } from './point-cloud.tsx';
+import {
+  cellResults,
+  processProblem,
+  result,
+  type Shown,
+  seesElevation,
+  start,
+  usedArray,
+  wasCancelled,
+  working,
+} from './process.ts';
 import { startRangeAzimuth } from './range-azimuth.ts';
 import { RangeAzimuth } from './range-azimuth-plot.tsx';
 import { RangeDopplerMap, RangeProfile } from './range-plots.tsx';
@@ -118,6 +129,11 @@ export function CapturePage() {
             board’s log has x to the right; it is turned into this frame before it is shown.
           </p>
           <p>
+            <b>In space</b> x points forward, y to the left and z up, in metres from the radar. Elevation takes an array
+            with elements above each other, such as those of the AWR1843 and the 6843; “Simulated, 3-D” has one without
+            a board.
+          </p>
+          <p>
             <b>Levels</b> are the power of one raw sample at one element relative to full scale (dBFS). SNR is a cell’s
             power over the noise level estimated around it.
           </p>
@@ -170,7 +186,7 @@ function Plots({ capture, frame, view }: Shown) {
   ];
   const shared = { view, cell, board: objects, label, fileParts };
   const geometry = usedArray.value;
-  const elevated = geometry?.extent === 'area' || geometry?.extent === 'line';
+  const elevated = seesElevation();
   return (
     <>
       <div class="wide-narrow">
@@ -190,6 +206,7 @@ function Plots({ capture, frame, view }: Shown) {
         />
       </div>
       <ComparePanel view={view} />
+      <CapturePoints view={view} capture={capture} cell={cell} label={label} fileParts={fileParts} />
       <DetectionTable
         view={view}
         cell={cell}
@@ -260,7 +277,7 @@ function Remarks({ capture, view }: Pick<Shown, 'capture' | 'view'>) {
   const facts: [string, number, string][] = [
     ['Cells over threshold', counts.cellsOverThreshold, 'Before grouping'],
     ['Joined to a peak', counts.grouped, 'Cells over the threshold that are no local peak'],
-    ['Outside the region', counts.outsideRegion, 'Dropped by the limits of range and sector'],
+    ['Outside the region', counts.outsideRegion, 'Dropped by the limits of range, sector and elevation'],
     ['Without angle', counts.withoutAngle, 'Cells in which the method found no direction'],
     ['Beyond the limit', counts.beyondLimit, 'Dropped because there were more than the most that are kept'],
     ['Clipped samples', counts.clippedSamples, 'Samples at the converter’s limits'],

@@ -65,6 +65,12 @@ const arrayOf = ({ array }: CaptureState) => (array === 'auto' ? (loaded.value?.
 /** That of the present settings. */
 export const usedArray = computed(() => arrayOf(captureState.value));
 
+/** Whether detections have elevations. */
+export const seesElevation = (): boolean => {
+  const extent = usedArray.value?.extent;
+  return extent === 'area' || extent === 'line';
+};
+
 /** Methods that cannot work on a cell of this capture, with the reason. */
 export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
   const reasons = new Map<Method, string>();

@@ -6,6 +6,7 @@ import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
 import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
 import { keptField } from '../../state/comparison.ts';
+import { COLOURED_BY } from '../../ui/space/points.ts';
 import { PRESETS } from '../angle/state.ts';
 
 /** `all`, or a frame's number. */
@@ -34,7 +35,7 @@ const region = optionsOf('RegionChainOptions');
 
 export const captureCodec = codec(
   {
-    source: choice('bundled', ['bundled', 'files']),
+    source: choice('bundled', ['bundled', 'simulated', 'files']),
     frame,
     cell,
     iqOrder: reading.field('iqOrder'),
@@ -60,6 +61,8 @@ export const captureCodec = codec(
     farthest: detection.field('region.rangeM.1', { fallback: 0, min: 0, max: 10_000 }),
     /** Half of it, to both sides. */
     sector: detection.field('region.azimuthDeg.1', { fallback: 90, min: 1 }),
+    /** The same upwards and downwards. */
+    elevation: detection.field('region.elevationDeg.1', { fallback: 90, min: 1 }),
     angle: detection.field('angle.method'),
     methods: names<Method>(['bartlett', 'capon', 'iaa'], methodNames),
     sources: detection.picks('angle.sources', ['mdl', 'aic', '1', '2', '3', '4']),
@@ -79,6 +82,9 @@ export const captureCodec = codec(
     gate: number(0.25, [0, 1000]),
     span: choice('60', ['30', '40', '50', '60', '80']),
     colors: choice('viridis', COLOR_MAPS),
+    /** Detections from above, or in space. */
+    points: choice('above', ['above', 'space']),
+    pointColour: choice('rate', COLOURED_BY),
     board: text('last', (value) => value === 'last' || /^\d{1,7}$/.test(value)),
     a: keptField,
   },
@@ -109,7 +115,8 @@ export function settingsOf(state: CaptureState): string {
 
 /** The part of the state that detection depends on, as the package takes it. */
 export function chainOptions(state: CaptureState): ChainOptions {
-  const regionSet = state.nearest > 0 || state.farthest > 0 || state.sector < 90;
+  const { nearest, farthest, sector, elevation } = state;
+  const regionSet = nearest > 0 || farthest > 0 || sector < 90 || elevation < 90;
   return {
     ...(state.array === 'auto' ? {} : { array: state.array }),
     rangeWindow: state.window,
@@ -129,10 +136,9 @@ export function chainOptions(state: CaptureState): ChainOptions {
     ...(regionSet
       ? {
           region: {
-            ...(state.nearest > 0 || state.farthest > 0
-              ? { rangeM: [state.nearest, state.farthest || 1e6] as const }
-              : {}),
-            ...(state.sector < 90 ? { azimuthDeg: [-state.sector, state.sector] as const } : {}),
+            ...(nearest > 0 || farthest > 0 ? { rangeM: [nearest, farthest || 1e6] as const } : {}),
+            ...(sector < 90 ? { azimuthDeg: [-sector, sector] as const } : {}),
+            ...(elevation < 90 ? { elevationDeg: [-elevation, elevation] as const } : {}),
           },
         }
       : {}),
