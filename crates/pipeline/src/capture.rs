@@ -84,7 +84,7 @@ impl Chain {
 
     /// Cells in the mean of the frames' power maps, which is then the map, and their snapshots:
     /// cells x elements x frames.
-    fn find_in_mean<S: FrameSource>(
+    pub(crate) fn find_in_mean<S: FrameSource>(
         &mut self,
         source: &S,
         frames: Range<usize>,

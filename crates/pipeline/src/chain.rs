@@ -25,11 +25,11 @@ pub struct Chain {
     array: Array,
     /// Channel of the cube (`tx * receivers + rx`) of each element of the array.
     channels: Vec<usize>,
-    region: Region,
+    pub(crate) region: Region,
     pub(crate) transform: RangeDoppler,
     pub(crate) map: RangeDopplerMap,
-    cfar: Cfar,
-    estimators: Estimators,
+    pub(crate) cfar: Cfar,
+    pub(crate) estimators: Estimators,
 }
 
 /// A cell to estimate angles in.
@@ -180,7 +180,7 @@ impl Chain {
     }
 
     /// Cells of a frame, and a snapshot of each: cells x elements x 1.
-    fn find(
+    pub(crate) fn find(
         &mut self,
         frame: ArrayView4<'_, Complex32>,
     ) -> Result<(Found, Array3<Complex64>), PipelineError> {
@@ -246,7 +246,7 @@ impl Chain {
         Ok(Found { cells, counts })
     }
 
-    fn cell(&self, peak: Peak) -> Cell {
+    pub(crate) fn cell(&self, peak: Peak) -> Cell {
         let waveform = self.transform.waveform();
         let rates = self.transform.rate_mps();
         let step = match rates {

@@ -1,0 +1,158 @@
+//! Why a cell of the range-Doppler map is a detection, or is none.
+
+use crate::capture::Report;
+use crate::chain::{Chain, Found};
+use crate::error::PipelineError;
+use crate::source::FrameSource;
+use boresight_core::Complex64;
+use boresight_core::describe::{Described, decibels};
+use boresight_signal::peaks::{interpolate, peak_of};
+use boresight_signal::{CellThreshold, Detection};
+use ndarray::{Array3, s};
+use serde::Serialize;
+use std::ops::Range;
+
+/// What became of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
+#[option(name = "CellVerdict")]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// Its power is not above its threshold.
+    BelowThreshold,
+    /// It is over its threshold beside a stronger one, whose peak it belongs to.
+    Grouped,
+    /// Its range is outside the limits.
+    OutsideRange,
+    /// Its range rate is outside the limits.
+    OutsideRate,
+    /// More cells than are kept are stronger.
+    BeyondLimit,
+    /// The method found no angle in it.
+    WithoutAngle,
+    /// No angle found in it is within the limits.
+    OutsideAzimuth,
+    /// It is a detection.
+    Kept,
+}
+
+/// What a cell was held against, and what became of it.
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+pub struct CellExplanation {
+    /// Range bin.
+    pub range_bin: usize,
+    /// Doppler bin.
+    pub doppler_bin: usize,
+    /// What became of it.
+    pub verdict: Verdict,
+    /// Its power: mean over channels, as in the map.
+    #[serde(rename = "power_db", serialize_with = "decibels::serialize")]
+    pub power: f64,
+    /// Noise power estimated from its training cells.
+    #[serde(rename = "noise_db", serialize_with = "decibels::serialize")]
+    pub noise_power: f64,
+    /// Its threshold.
+    #[serde(rename = "threshold_db", serialize_with = "decibels::serialize")]
+    pub threshold: f64,
+    /// Training cells around it.
+    pub training_cells: usize,
+    /// Of these, cells left out of the noise as targets of their own.
+    pub excised_cells: usize,
+    /// Range bin of the peak that it belongs to: its own, or a stronger neighbour's.
+    pub peak_range_bin: usize,
+    /// Doppler bin of that peak.
+    pub peak_doppler_bin: usize,
+    /// Thresholds along range at its Doppler bin.
+    #[serde(rename = "profile_threshold_db", serialize_with = "decibels::serialize_each")]
+    pub profile_threshold: Vec<f64>,
+}
+
+impl Chain {
+    /// Why a cell of the frames in `frames` is a detection or none: of one frame as in [`Chain::process`], of several
+    /// together as in [`Chain::combine`]. The limit on detections is that on cells; several angles of a cell may exceed
+    /// it later.
+    ///
+    /// # Errors
+    /// As [`Chain::combine`]; a bin outside the map.
+    pub fn explain<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        [range_bin, doppler_bin]: [usize; 2],
+        report: Report<'_>,
+    ) -> Result<CellExplanation, S::Error> {
+        let (ranges, dopplers) = self.map.power.dim();
+        for (what, bin, bins) in
+            [("range bin", range_bin, ranges), ("Doppler bin", doppler_bin, dopplers)]
+        {
+            boresight_core::error::check_range(what, bin as f64, 0.0, bins as f64 - 1.0)
+                .map_err(PipelineError::from)?;
+        }
+        let (found, snapshots) = if frames.len() == 1 {
+            self.find(source.frame(frames.start)?.samples.view())?
+        } else {
+            self.find_in_mean(source, frames, report)?
+        };
+        Ok(self.explain_found([range_bin, doppler_bin], &found, &snapshots)?)
+    }
+
+    /// Of a bin within the map, which is that of the cells found.
+    fn explain_found(
+        &mut self,
+        [range_bin, doppler_bin]: [usize; 2],
+        found: &Found,
+        snapshots: &Array3<Complex64>,
+    ) -> Result<CellExplanation, PipelineError> {
+        let power = self.map.power.view();
+        let profile = self.cfar.thresholds(power, doppler_bin)?;
+        let own = profile[range_bin];
+        let peak = peak_of(power, [range_bin, doppler_bin]).unwrap_or([range_bin, doppler_bin]);
+        let CellThreshold { power, noise_power, threshold, .. } = own;
+        let detection = Detection { range_bin, doppler_bin, power, noise_power, threshold };
+        let cell = self.cell(interpolate(self.map.power.view(), detection));
+        let is_peak = peak == [range_bin, doppler_bin];
+        let place = found.cells.iter().position(|kept| kept.peak.detection == detection);
+        let verdict = if power <= threshold {
+            Verdict::BelowThreshold
+        } else if self.options().peak_grouping && !is_peak {
+            Verdict::Grouped
+        } else if !self.region.contains_range(cell.range_m) {
+            Verdict::OutsideRange
+        } else if !self.region.contains(cell.range_m, cell.rate_mps) {
+            Verdict::OutsideRate
+        } else if let Some(place) = place {
+            self.verdict_of_angles(snapshots, place)?
+        } else {
+            Verdict::BeyondLimit
+        };
+        Ok(CellExplanation {
+            range_bin,
+            doppler_bin,
+            verdict,
+            power,
+            noise_power,
+            threshold,
+            training_cells: own.training_cells,
+            excised_cells: own.excised_cells,
+            peak_range_bin: peak[0],
+            peak_doppler_bin: peak[1],
+            profile_threshold: profile.iter().map(|cell| cell.threshold).collect(),
+        })
+    }
+
+    fn verdict_of_angles(
+        &mut self,
+        snapshots: &Array3<Complex64>,
+        place: usize,
+    ) -> Result<Verdict, PipelineError> {
+        let own = snapshots.slice(s![place..=place, .., ..]);
+        let estimates = self.estimators.estimate_batch(own, false)?;
+        let sources = estimates.sources_of(0);
+        Ok(if sources.is_empty() {
+            Verdict::WithoutAngle
+        } else if sources.iter().any(|s| self.region.contains_azimuth(s.direction.azimuth_rad)) {
+            Verdict::Kept
+        } else {
+            Verdict::OutsideAzimuth
+        })
+    }
+}
