@@ -344,7 +344,7 @@ browserTest('capture: plots and tables are saved as PNG and CSV', { path }, asyn
   for (const plot of ['range-profile', 'range-doppler', 'cell-spectrum'])
     assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
   assert.equal(
-    assertCsv(await saved(page, '[data-plot="range-profile"] [data-export="csv"]'), 'range_m,power_dbfs').length,
+    assertCsv(await saved(page, '[data-plot="range-profile"] [data-export="csv"]'), 'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs').length,
     256,
   );
   assert.equal(

@@ -10,6 +10,7 @@ import type {
   CaptureInfo,
   CaptureRegionOptions,
   Cell,
+  CellExplanation,
   ChainOptions,
   CombineOptions,
   ComplexData,
@@ -185,6 +186,10 @@ function cellSnapshots(source: CaptureSource, config: TextInput, cell: Cell, opt
   return withCapture(source, config, (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
 
+function explainCell(source: CaptureSource, config: TextInput, cell: Cell, options?: ChainOptions): CellExplanation {
+  return withCapture(source, config, (capture) => capture.explainCell(cell, withoutNetwork(options)));
+}
+
 function captureCells(source: CaptureSource, config: TextInput, frame: number, options?: ChainOptions): FrameCells {
   return withCapture(source, config, (capture) => capture.frameCells(frame, withoutNetwork(options)));
 }
@@ -270,6 +275,7 @@ export const operations = {
   combineFrames,
   cellSnapshots,
   cellSpectrum,
+  explainCell,
   captureCells,
   streetScene: api.streetScene,
   simulateStreet: api.simulateStreet,

@@ -6,6 +6,7 @@ use crate::error::PipelineError;
 use crate::source::FrameSource;
 use boresight_core::Complex64;
 use boresight_core::describe::{Described, decibels};
+use boresight_core::units::power_to_db;
 use boresight_signal::peaks::{interpolate, peak_of};
 use boresight_signal::{CellThreshold, Detection};
 use ndarray::{Array3, s};
@@ -44,6 +45,8 @@ pub struct CellExplanation {
     pub doppler_bin: usize,
     /// What became of it.
     pub verdict: Verdict,
+    /// The same in a sentence, with figures.
+    pub message: String,
     /// Its power: mean over channels, as in the map.
     #[serde(rename = "power_db", serialize_with = "decibels::serialize")]
     pub power: f64,
@@ -124,10 +127,11 @@ impl Chain {
         } else {
             Verdict::BeyondLimit
         };
-        Ok(CellExplanation {
+        let mut explanation = CellExplanation {
             range_bin,
             doppler_bin,
             verdict,
+            message: String::new(),
             power,
             noise_power,
             threshold,
@@ -136,7 +140,47 @@ impl Chain {
             peak_range_bin: peak[0],
             peak_doppler_bin: peak[1],
             profile_threshold: profile.iter().map(|cell| cell.threshold).collect(),
-        })
+        };
+        explanation.message = self.sentence(&explanation);
+        Ok(explanation)
+    }
+
+    fn sentence(&self, told: &CellExplanation) -> String {
+        let over_db = power_to_db(told.power / told.threshold.max(f64::MIN_POSITIVE));
+        let used = told.training_cells - told.excised_cells;
+        let noise = format!(
+            "noise {:.1} dBFS by {used} training cells{}",
+            decibels::finite_db(told.noise_power),
+            match told.excised_cells {
+                0 => String::new(),
+                gone if used == 0 => format!(", all {gone} targets themselves"),
+                gone => format!(", {gone} more left out as targets themselves"),
+            }
+        );
+        let over = format!("{over_db:.1} dB over its threshold");
+        match told.verdict {
+            Verdict::BelowThreshold => {
+                format!("No detection: {:.1} dB below its threshold; {noise}.", -over_db)
+            }
+            Verdict::Grouped => {
+                let ranges = told.range_bin.abs_diff(told.peak_range_bin);
+                let dopplers = self.map.power.ncols();
+                let apart = told.doppler_bin.abs_diff(told.peak_doppler_bin);
+                let apart = apart.min(dopplers - apart);
+                format!(
+                    "Part of a stronger peak {ranges} range bins and {apart} Doppler bins away; {over}."
+                )
+            }
+            Verdict::OutsideRange => format!("Dropped for its range; {over}."),
+            Verdict::OutsideRate => format!("Dropped for its range rate; {over}."),
+            Verdict::BeyondLimit => format!(
+                "Dropped since {} cells are stronger, the most that are kept; {over}.",
+                self.options().max_detections
+            ),
+            Verdict::WithoutAngle => format!("The method found no angle in it; {over}."),
+            Verdict::OutsideAzimuth => format!("Dropped for its azimuth; {over}."),
+            Verdict::Kept => format!("A detection: {over}; {noise}."),
+        }
     }
 
     fn verdict_of_angles(

@@ -24,8 +24,8 @@ use boresight_core::CoreError;
 use boresight_core::describe::{self, Naming};
 use boresight_core::error::check_range;
 use boresight_core::limits::{check_bytes, check_operations};
-use ndarray::{Array2, ArrayView2};
 use excision::LeftFactors;
+use ndarray::{Array2, ArrayView2};
 pub use options::{CfarAxes, CfarKind, CfarOptions};
 use ranks::Ranks;
 use stencil::{Rectangle, Stencil};
@@ -123,7 +123,7 @@ impl Cfar {
         let excises = options.kind == CfarKind::Excision;
         let ordered = options.kind == CfarKind::OrderedStatistic;
         let bytes = if excises { SCREENED_CELL_BYTES } else { CELL_BYTES };
-        let map = check_bytes("the range-Doppler map", &[ranges, dopplers], bytes)? ;
+        let map = check_bytes("the range-Doppler map", &[ranges, dopplers], bytes)?;
         let stencil = Stencil::new(ranges, dopplers, options)?;
         let reach = stencil.doppler_reach();
         let correlation = correlation(options);
@@ -212,7 +212,9 @@ impl Cfar {
         if self.kind == CfarKind::OrderedStatistic {
             self.ranks.fill(power);
             let rows = power.outer_iter().enumerate();
-            return Ok(rows.map(|(r, row)| self.ranked(r, doppler_bin, row[doppler_bin])).collect());
+            return Ok(rows
+                .map(|(r, row)| self.ranked(r, doppler_bin, row[doppler_bin]))
+                .collect());
         }
         let mut cells = Vec::with_capacity(self.shape.0);
         self.by_mean(power, |_, at, cell| {
