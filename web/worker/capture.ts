@@ -7,7 +7,9 @@ import type { JobOptions } from './job.js';
 import type { AllPromised } from './promised.js';
 import type { OperationName, Operations } from './protocol.js';
 
-type Functions = AllPromised<Pick<Capture, 'processFrame' | 'frameCells' | 'cellSnapshots' | 'explainCell' | 'cellSpectrum'>>;
+type Functions = AllPromised<
+  Pick<Capture, 'processFrame' | 'frameCells' | 'cellSnapshots' | 'explainCell' | 'cellSpectrum'>
+>;
 
 /** Runs an operation whose first argument is the kept capture. */
 export type OnKept = <N extends OperationName>(

@@ -37,7 +37,9 @@ type OfCapture<F> = F extends AnyFunction
   : never;
 
 type OfCaptures<T> = { [K in keyof T]: OfCapture<T[K]> };
-type CaptureFunctions = OfCaptures<Pick<capture.Capture, 'processFrame' | 'cellSnapshots' | 'explainCell' | 'cellSpectrum'>> & {
+type CaptureFunctions = OfCaptures<
+  Pick<capture.Capture, 'processFrame' | 'cellSnapshots' | 'explainCell' | 'cellSpectrum'>
+> & {
   /** Detected cells of one frame of a capture. */
   captureCells: OfCapture<capture.Capture['frameCells']>;
 };

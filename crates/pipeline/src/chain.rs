@@ -180,7 +180,7 @@ impl Chain {
     }
 
     /// Cells of a frame, and a snapshot of each: cells x elements x 1.
-    pub(crate) fn find(
+    fn find(
         &mut self,
         frame: ArrayView4<'_, Complex32>,
     ) -> Result<(Found, Array3<Complex64>), PipelineError> {

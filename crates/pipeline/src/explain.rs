@@ -1,7 +1,7 @@
 //! Why a cell of the range-Doppler map is a detection, or is none.
 
 use crate::capture::Report;
-use crate::chain::{Chain, Found};
+use crate::chain::{Cell, Chain};
 use crate::error::PipelineError;
 use crate::source::FrameSource;
 use boresight_core::Complex64;
@@ -9,7 +9,7 @@ use boresight_core::describe::{Described, decibels};
 use boresight_core::units::power_to_db;
 use boresight_signal::peaks::{interpolate, peak_of};
 use boresight_signal::{CellThreshold, Detection};
-use ndarray::{Array3, s};
+use ndarray::ArrayView3;
 use serde::Serialize;
 use std::ops::Range;
 
@@ -90,20 +90,35 @@ impl Chain {
             boresight_core::error::check_range(what, bin as f64, 0.0, bins as f64 - 1.0)
                 .map_err(PipelineError::from)?;
         }
-        let (found, snapshots) = if frames.len() == 1 {
-            self.find(source.frame(frames.start)?.samples.view())?
-        } else {
-            self.find_in_mean(source, frames, report)?
-        };
-        Ok(self.explain_found([range_bin, doppler_bin], &found, &snapshots)?)
+        // The mean of one frame is its map.
+        self.average(source, frames.clone(), report)?;
+        let mut told = self.explain_in_map([range_bin, doppler_bin])?;
+        if told.verdict == Verdict::Kept {
+            let cells: Vec<Cell> = self.kept_at([range_bin, doppler_bin])?.into_iter().collect();
+            let snapshots = self.snapshots_of(&cells, source, frames, report)?;
+            told.verdict = self.verdict_of_angles(snapshots.view())?;
+            told.message = self.sentence(&told);
+        }
+        Ok(told)
     }
 
-    /// Of a bin within the map, which is that of the cells found.
-    fn explain_found(
+    /// The cell of a bin among those that are kept.
+    fn kept_at(
         &mut self,
         [range_bin, doppler_bin]: [usize; 2],
-        found: &Found,
-        snapshots: &Array3<Complex64>,
+    ) -> Result<Option<Cell>, PipelineError> {
+        let found = self.detect()?.cells;
+        let is_there = |cell: &Cell| {
+            let at = cell.peak.detection;
+            [at.range_bin, at.doppler_bin] == [range_bin, doppler_bin]
+        };
+        Ok(found.into_iter().find(is_there))
+    }
+
+    /// Of a bin within the map; kept, as far as angles are not known.
+    fn explain_in_map(
+        &mut self,
+        [range_bin, doppler_bin]: [usize; 2],
     ) -> Result<CellExplanation, PipelineError> {
         let power = self.map.power.view();
         let profile = self.cfar.thresholds(power, doppler_bin)?;
@@ -113,7 +128,6 @@ impl Chain {
         let detection = Detection { range_bin, doppler_bin, power, noise_power, threshold };
         let cell = self.cell(interpolate(self.map.power.view(), detection));
         let is_peak = peak == [range_bin, doppler_bin];
-        let place = found.cells.iter().position(|kept| kept.peak.detection == detection);
         let verdict = if power <= threshold {
             Verdict::BelowThreshold
         } else if self.options().peak_grouping && !is_peak {
@@ -122,8 +136,8 @@ impl Chain {
             Verdict::OutsideRange
         } else if !self.region.contains(cell.range_m, cell.rate_mps) {
             Verdict::OutsideRate
-        } else if let Some(place) = place {
-            self.verdict_of_angles(snapshots, place)?
+        } else if self.kept_at([range_bin, doppler_bin])?.is_some() {
+            Verdict::Kept
         } else {
             Verdict::BeyondLimit
         };
@@ -183,13 +197,12 @@ impl Chain {
         }
     }
 
+    /// Of the one cell that is kept, by its snapshots.
     fn verdict_of_angles(
         &mut self,
-        snapshots: &Array3<Complex64>,
-        place: usize,
+        snapshots: ArrayView3<'_, Complex64>,
     ) -> Result<Verdict, PipelineError> {
-        let own = snapshots.slice(s![place..=place, .., ..]);
-        let estimates = self.estimators.estimate_batch(own, false)?;
+        let estimates = self.estimators.estimate_batch(snapshots, false)?;
         let sources = estimates.sources_of(0);
         Ok(if sources.is_empty() {
             Verdict::WithoutAngle

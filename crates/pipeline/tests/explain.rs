@@ -57,14 +57,10 @@ fn verdicts_are_what_the_chain_counts() {
         for range_bin in 0..result.range_m.len() {
             for doppler_bin in 0..result.rate_mps.len() {
                 let bins = [range_bin, doppler_bin];
-                let told = chain
-                    .explain(&source, 0..1, bins, &mut |_| ControlFlow::Continue(()))
-                    .unwrap();
+                let told =
+                    chain.explain(&source, 0..1, bins, &mut |_| ControlFlow::Continue(())).unwrap();
                 *tally.entry(format!("{:?}", told.verdict)).or_insert(0) += 1;
-                let is_one = result
-                    .detections
-                    .iter()
-                    .any(|d| [d.range_bin, d.doppler_bin] == bins);
+                let is_one = result.detections.iter().any(|d| [d.range_bin, d.doppler_bin] == bins);
                 assert_eq!(is_one, told.verdict == Verdict::Kept, "{kind:?} {told:?}");
                 assert_eq!(told.power > told.threshold, told.verdict != Verdict::BelowThreshold);
                 assert_eq!(told.profile_threshold[range_bin], told.threshold);

@@ -258,7 +258,8 @@ fn excision_finds_both_and_keeps_the_rate() {
     for (share, (name, ..)) in shares[..3].iter().zip(&cases) {
         assert!(share[0] >= 0.99, "{name}: {}", share[0]);
     }
-    // What the other default lost.
+    assert_eq!(CfarOptions::default().kind, KINDS[0].1);
+    // What cell averaging loses.
     assert!(shares[1][1] < 0.5, "{}", shares[1][1]);
     for rate in &beside {
         keeps(rate[0], "beside a target");

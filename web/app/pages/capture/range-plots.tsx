@@ -120,16 +120,20 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
         )
       }
       fileParts={fileParts}
-      remarks={[`${label}. Triangles: detections; dotted lines: ranges the board reported; vertical line: the chosen cell.`]}
+      remarks={[
+        `${label}. Triangles: detections; dotted lines: ranges the board reported; vertical line: the chosen cell.`,
+      ]}
     />
   );
 }
 
 /** What would make it otherwise. */
 const CONTROLS: Readonly<Record<CellExplanation['verdict'], string>> = {
-  'below-threshold': 'A higher false-alarm rate lowers the threshold; the kind of threshold and its training cells move it.',
+  'below-threshold':
+    'A higher false-alarm rate lowers the threshold; the kind of threshold and its training cells move it.',
   grouped: 'Without “Keep local peaks only” it is a detection of its own.',
-  'outside-range': '“From range” and “To range” keep it out; without them, ranges next to the antennas and at the end of the band.',
+  'outside-range':
+    '“From range” and “To range” keep it out; without them, ranges next to the antennas and at the end of the band.',
   'outside-rate': '“Remove static clutter” and the Doppler window bear on rates.',
   'beyond-limit': 'A lower false-alarm rate leaves fewer.',
   'without-angle': '“Angle by” chooses the method.',
