@@ -94,7 +94,7 @@ describe('a recorded capture', () => {
     assert.equal(capture.processFrame(0, { maxDetections: 1 }).detections.length, 1);
     assert.deepEqual(capture.processFrame(0, { rangePadding: 2 }).shape, [2 * all.shape[0], all.shape[1]]);
     const over = (cfar) => capture.processFrame(0, { cfar }).counts.cellsOverThreshold;
-    for (const kind of ['cell-averaging', 'greatest-of', 'smallest-of', 'ordered-statistic']) {
+    for (const kind of ['excision', 'cell-averaging', 'greatest-of', 'smallest-of', 'ordered-statistic']) {
       assert.ok(over({ kind, falseAlarm: 1e-9 }) < over({ kind, falseAlarm: 1e-2 }), kind);
     }
     const ordered = { kind: 'ordered-statistic', axes: 'both' };
@@ -102,6 +102,24 @@ describe('a recorded capture', () => {
     const windowed = capture.processFrame(0, { rangeWindow: 'chebyshev', dopplerWindow: 'taylor' });
     assert.notDeepEqual(windowed.rangeDopplerDb, all.rangeDopplerDb);
     assert.ok(windowed.detections.some((d) => Math.abs(d.rangeM - 2.95) < 0.05));
+  });
+
+  test('says why a cell is a detection or none', () => {
+    const { detections } = capture.processFrame(0);
+    const [first] = detections;
+    const cell = { rangeBin: first.rangeBin, dopplerBin: first.dopplerBin, frame: 0 };
+    const told = capture.explainCell(cell);
+    assert.equal(told.verdict, 'kept');
+    assert.equal(told.thresholdDb, told.profileThresholdDb[cell.rangeBin]);
+    assert.ok(told.powerDb > told.thresholdDb && told.thresholdDb > told.noiseDb);
+    const beside = capture.explainCell({ ...cell, rangeBin: cell.rangeBin + 1 });
+    assert.equal(beside.verdict, 'grouped');
+    assert.deepEqual([beside.peakRangeBin, beside.peakDopplerBin], [cell.rangeBin, cell.dopplerBin]);
+    const limited = capture.explainCell(cell, { region: { rangeM: [first.rangeM + 1, 100] } });
+    assert.equal(limited.verdict, 'outside-range');
+    const { frame: _, ...together } = cell;
+    assert.equal(capture.explainCell(together).verdict, 'kept');
+    throwsTyped(() => capture.explainCell({ rangeBin: 256, dopplerBin: 0 }), 'out-of-range', 'range bin');
   });
 
   test('refuses bad options by name and goes on', () => {

@@ -10,6 +10,7 @@ import type {
   CaptureInfo,
   CaptureRegionOptions,
   Cell,
+  CellExplanation,
   ChainOptions,
   CombineOptions,
   ComplexData,
@@ -190,6 +191,10 @@ function cellSnapshots(source: CaptureSource, config: ConfigInput, cell: Cell, o
   return withCapture(source, config, (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
 
+function explainCell(source: CaptureSource, config: ConfigInput, cell: Cell, options?: ChainOptions): CellExplanation {
+  return withCapture(source, config, (capture) => capture.explainCell(cell, withoutNetwork(options)));
+}
+
 function captureCells(source: CaptureSource, config: ConfigInput, frame: number, options?: ChainOptions): FrameCells {
   return withCapture(source, config, (capture) => capture.frameCells(frame, withoutNetwork(options)));
 }
@@ -276,6 +281,7 @@ export const operations = {
   combineFrames,
   cellSnapshots,
   cellSpectrum,
+  explainCell,
   captureCells,
   streetScene: api.streetScene,
   simulateStreet: api.simulateStreet,

@@ -37,7 +37,9 @@ type OfCapture<F> = F extends AnyFunction
   : never;
 
 type OfCaptures<T> = { [K in keyof T]: OfCapture<T[K]> };
-type CaptureFunctions = OfCaptures<Pick<capture.Capture, 'processFrame' | 'cellSnapshots' | 'cellSpectrum'>> & {
+type CaptureFunctions = OfCaptures<
+  Pick<capture.Capture, 'processFrame' | 'cellSnapshots' | 'explainCell' | 'cellSpectrum'>
+> & {
   /** Detected cells of one frame of a capture. */
   captureCells: OfCapture<capture.Capture['frameCells']>;
 };
@@ -80,6 +82,7 @@ export const argumentCounts = {
   processCube: 2,
   processFrame: 4,
   cellSnapshots: 4,
+  explainCell: 4,
   cellSpectrum: 5,
   captureCells: 4,
   readDrive: 2,

@@ -92,6 +92,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
                 cascade::CascadeCapture::KIND,
                 boresight_pipeline::FrameResult::KIND,
                 boresight_pipeline::FrameCells::KIND,
+                boresight_pipeline::CellExplanation::KIND,
                 boresight_pipeline::regions::RegionFrame::KIND,
             ],
         ),

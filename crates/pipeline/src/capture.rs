@@ -1,6 +1,6 @@
 //! The chain over several frames.
 
-use crate::chain::{Chain, Found, frame_cells};
+use crate::chain::{Cell, Chain, Found, frame_cells};
 use crate::error::PipelineError;
 use crate::result::{Detection, FrameCells, FrameResult};
 use crate::source::{FrameSource, Progress};
@@ -90,6 +90,20 @@ impl Chain {
         frames: Range<usize>,
         report: Report<'_>,
     ) -> Result<(Found, Array3<Complex64>), S::Error> {
+        let clipped = self.average(source, frames.clone(), report)?;
+        let mut found = self.detect()?;
+        found.counts.clipped_samples = clipped;
+        let snapshots = self.snapshots_of(&found.cells, source, frames, report)?;
+        Ok((found, snapshots))
+    }
+
+    /// Makes the mean of the frames' power maps the map, and counts clipped samples: the first half of combining.
+    pub(crate) fn average<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        report: Report<'_>,
+    ) -> Result<usize, S::Error> {
         let count = frames.len();
         if count == 0 {
             let empty = CoreError::Empty { what: "frames".into(), expected: "at least one".into() };
@@ -105,19 +119,30 @@ impl Chain {
         }
         let mean = mean.mapv(|sum| (sum / count as f64) as f32);
         self.map.power.assign(&mean);
-        let mut found = self.detect()?;
-        found.counts.clipped_samples = clipped;
+        Ok(clipped)
+    }
+
+    /// Snapshots of cells, cells x elements x frames; the map stays the mean that it is. The second half of combining.
+    pub(crate) fn snapshots_of<S: FrameSource>(
+        &mut self,
+        cells: &[Cell],
+        source: &S,
+        frames: Range<usize>,
+        report: Report<'_>,
+    ) -> Result<Array3<Complex64>, S::Error> {
+        let mean = self.map.power.clone();
+        let count = frames.len();
         let used = count.min(MAX_SNAPSHOTS);
-        let mut snapshots = Array3::zeros((found.cells.len(), self.array().len(), used));
+        let mut snapshots = Array3::zeros((cells.len(), self.array().len(), used));
         for (done, index) in frames.take(used).enumerate() {
-            proceed(report, Progress { done: count + done, total })?;
+            proceed(report, Progress { done: count + done, total: 2 * count })?;
             self.load(source, index)?;
-            for (cell, mut rows) in found.cells.iter().zip(snapshots.outer_iter_mut()) {
+            for (cell, mut rows) in cells.iter().zip(snapshots.outer_iter_mut()) {
                 rows.index_axis_mut(Axis(1), done).assign(&self.snapshot(cell)?);
             }
         }
         self.map.power.assign(&mean);
-        Ok((found, snapshots))
+        Ok(snapshots)
     }
 
     /// A target that leaves its range cell makes several detections, one behind the other.

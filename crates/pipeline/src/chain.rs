@@ -27,11 +27,11 @@ pub struct Chain {
     channels: Vec<usize>,
     /// Sign that each of them is multiplied by ([`signs_of`]).
     signs: Vec<f64>,
-    region: Region,
+    pub(crate) region: Region,
     pub(crate) transform: RangeDoppler,
     pub(crate) map: RangeDopplerMap,
-    cfar: Cfar,
-    estimators: Estimators,
+    pub(crate) cfar: Cfar,
+    pub(crate) estimators: Estimators,
 }
 
 /// A cell to estimate angles in.
@@ -249,7 +249,7 @@ impl Chain {
         Ok(Found { cells, counts })
     }
 
-    fn cell(&self, peak: Peak) -> Cell {
+    pub(crate) fn cell(&self, peak: Peak) -> Cell {
         let waveform = self.transform.waveform();
         let rates = self.transform.rate_mps();
         let step = match rates {

@@ -36,6 +36,7 @@ fn chain(criterion: &mut Criterion) {
         b.iter(|| plan.process(black_box(frame.view()), &mut map).unwrap());
     });
     for (name, kind) in [
+        ("cfar excision", CfarKind::Excision),
         ("cfar cell-averaging", CfarKind::CellAveraging),
         ("cfar greatest-of", CfarKind::GreatestOf),
         ("cfar ordered-statistic", CfarKind::OrderedStatistic),

@@ -57,7 +57,12 @@ impl Region {
 
     /// Whether range and rate lie within the limits; for detections without an angle yet.
     pub fn contains(&self, range_m: f64, rate_mps: f64) -> bool {
-        within(range_m, self.range_m) && within(rate_mps, self.rate_mps)
+        self.contains_range(range_m) && within(rate_mps, self.rate_mps)
+    }
+
+    /// Whether a range lies within the limits.
+    pub fn contains_range(&self, range_m: f64) -> bool {
+        within(range_m, self.range_m)
     }
 
     /// Whether azimuth, elevation and the height of what is seen there at a range lie within the limits.

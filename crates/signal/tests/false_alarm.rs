@@ -12,7 +12,8 @@ const RANGES: usize = 36;
 const DOPPLERS: usize = 24;
 const FALSE_ALARM: f64 = 0.01;
 
-const KINDS: [CfarKind; 4] = [
+const KINDS: [CfarKind; 5] = [
+    CfarKind::Excision,
     CfarKind::CellAveraging,
     CfarKind::GreatestOf,
     CfarKind::SmallestOf,

@@ -139,6 +139,18 @@ impl Capture {
         Ok(carry::write(&ComplexArray::from(&snapshots)))
     }
 
+    /// Why one cell is a detection or none.
+    #[wasm_bindgen(js_name = explainCell)]
+    pub fn explain_cell(&mut self, cell: &JsValue, options: &JsValue) -> Fallible<JsValue> {
+        let mut fields = Fields::of_optional(options)?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let (bins, frames) = self.read_cell(cell)?;
+        let (chain, recording) = self.planned(&classical, array, &options)?;
+        let go_on = &mut |_| ControlFlow::Continue(());
+        Ok(carry::write(&chain.explain(&recording, frames, bins, go_on)?))
+    }
+
     /// Angles and spectrum of one cell by any method.
     #[wasm_bindgen(js_name = cellSpectrum)]
     pub fn cell_spectrum(
@@ -285,12 +297,8 @@ impl Capture {
         Ok((self.chain.insert(chain), recording))
     }
 
-    fn snapshots(
-        &mut self,
-        cell: &JsValue,
-        array: Option<Array>,
-        options: &ChainOptions,
-    ) -> Fallible<(&Chain, Array2<Complex64>)> {
+    /// Range bin and Doppler bin of a cell, and its frames.
+    fn read_cell(&self, cell: &JsValue) -> Fallible<([usize; 2], Range<usize>)> {
         let mut fields = Fields::new(cell, "cell")?;
         let range_bin = fields.required("rangeBin")?;
         let doppler_bin = fields.required("dopplerBin")?;
@@ -302,6 +310,16 @@ impl Capture {
             None => 0..self.frames,
         };
         fields.finish()?;
+        Ok(([range_bin, doppler_bin], frames))
+    }
+
+    fn snapshots(
+        &mut self,
+        cell: &JsValue,
+        array: Option<Array>,
+        options: &ChainOptions,
+    ) -> Fallible<(&Chain, Array2<Complex64>)> {
+        let ([range_bin, doppler_bin], frames) = self.read_cell(cell)?;
         let (chain, recording) = self.planned(&classical, array, options)?;
         let snapshots = chain.cell_snapshots(&recording, frames, range_bin, doppler_bin)?;
         Ok((chain, snapshots))

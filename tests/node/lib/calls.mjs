@@ -119,6 +119,7 @@ export function goodCalls() {
     'Capture.processFrame': [bytes, cfg, 0, { angle }],
     'Capture.frameCells': [bytes, cfg, 0, { peakGrouping: false }],
     'Capture.cellSnapshots': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, {}],
+    'Capture.explainCell': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, {}],
     'Capture.cellSpectrum': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, angle, {}],
     'Capture.combineFrames': [bytes, cfg, { frameCount: 1, angle }, () => true],
     'BoardLogStream.push': [cfg, Uint8Array.from(dat.subarray(0, 500))],

@@ -8,6 +8,7 @@ import type {
   CaptureInfo,
   CascadeCapture,
   Cell,
+  CellExplanation,
   ChainOptions,
   CombineOptions,
   ComplexData,
@@ -50,6 +51,11 @@ export class Capture extends Handle<glue.Capture> {
   /** Snapshots of a cell (elements x frames), compensated for the transmitters' turns. */
   cellSnapshots(cell: Cell, options?: ChainOptions): ComplexData {
     return this.use((raw) => raw.cellSnapshots(cell, options) as ComplexData);
+  }
+
+  /** Why a cell is a detection or none: its power, noise and threshold, and what became of it. */
+  explainCell(cell: Cell, options?: ChainOptions): CellExplanation {
+    return this.use((raw) => raw.explainCell(cell, options) as CellExplanation);
   }
 
   /** Angles and spectrum of a cell by any method. */

@@ -108,6 +108,12 @@ export interface SharedEstimatorOptions {
    * of `nomp` (default false).
    */
   refine?: boolean;
+  /**
+   * Power of the array's unknown error over that of each source, for methods that would take it for further sources:
+   * NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6; after a calibration it is what
+   * that leaves. None if absent (-100 to 0 dB).
+   */
+  mismatchDb?: number;
   /** A network that has been loaded under this name: the one that a method needs, or a counting network for `sources`. */
   network?: string;
   /** Least confidence of a network's sources; that of its card if absent (0 to 1). */
@@ -134,12 +140,13 @@ export type WindowName = 'rectangular' | 'hann' | 'hamming' | 'blackman' | 'blac
 /**
  * How noise is estimated from the training cells.
  *
- * - `cell-averaging`: The mean of all (Finn and Johnson 1968): the least loss in even noise.
+ * - `excision`: The mean of those that are no targets themselves (Goldman and Bar-David 1988): keeps targets apart, and the rate beside them.
+ * - `cell-averaging`: The mean of all (Finn and Johnson 1968): the least loss in even noise; a strong target hides a weaker one among whose training cells it is.
  * - `greatest-of`: The larger of the means of the halves (Hansen and Sawyers 1980): keeps the rate at clutter edges.
  * - `smallest-of`: The smaller of the means of the halves (Trunk 1978): keeps targets apart.
  * - `ordered-statistic`: The cell of a rank (Rohling 1983): keeps targets apart and most of the rate.
  */
-export type CfarKind = 'cell-averaging' | 'greatest-of' | 'smallest-of' | 'ordered-statistic';
+export type CfarKind = 'excision' | 'cell-averaging' | 'greatest-of' | 'smallest-of' | 'ordered-statistic';
 
 /**
  * Along which axes training cells lie.
@@ -155,7 +162,7 @@ export type CfarAxes = 'range' | 'doppler' | 'both';
 export interface CfarOptions {
   /**
    * The detector of constant false-alarm rate: how it takes the noise from the training cells (default
-   * 'cell-averaging').
+   * 'excision').
    */
   kind?: CfarKind;
   /** Axes along which training cells lie (default 'range'). */
@@ -275,6 +282,12 @@ export interface AngleOptions {
    * of `nomp` (default false).
    */
   refine?: boolean;
+  /**
+   * Power of the array's unknown error over that of each source, for methods that would take it for further sources:
+   * NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6; after a calibration it is what
+   * that leaves. None if absent (-100 to 0 dB).
+   */
+  mismatchDb?: number;
   /** A network that has been loaded under this name: the one that a method needs, or a counting network for `sources`. */
   network?: string;
   /** Least confidence of a network's sources; that of its card if absent (0 to 1). */
@@ -846,6 +859,11 @@ export interface CountOptions {
   criterion?: Criterion;
   /** Average the covariance with its reversal, for evenly spaced arrays (default false). */
   forwardBackward?: boolean;
+  /**
+   * Power of the array's unknown error over that of each source: further eigenvalues that it explains are no sources.
+   * None if absent (-100 to 0 dB).
+   */
+  mismatchDb?: number;
 }
 
 /**

@@ -614,6 +614,56 @@ export interface FrameCells {
   counts: FrameCounts;
 }
 
+/**
+ * What became of a cell.
+ *
+ * - `below-threshold`: Its power is not above its threshold.
+ * - `grouped`: It is over its threshold beside a stronger one, whose peak it belongs to.
+ * - `outside-range`: Its range is outside the limits.
+ * - `outside-rate`: Its range rate is outside the limits.
+ * - `beyond-limit`: More cells than are kept are stronger.
+ * - `without-angle`: The method found no angle in it.
+ * - `outside-azimuth`: No angle found in it is within the limits.
+ * - `kept`: It is a detection.
+ */
+export type CellVerdict =
+  | 'below-threshold'
+  | 'grouped'
+  | 'outside-range'
+  | 'outside-rate'
+  | 'beyond-limit'
+  | 'without-angle'
+  | 'outside-azimuth'
+  | 'kept';
+
+/** What a cell was held against, and what became of it. */
+export interface CellExplanation {
+  /** Range bin. */
+  rangeBin: number;
+  /** Doppler bin. */
+  dopplerBin: number;
+  /** What became of it. */
+  verdict: CellVerdict;
+  /** The same in a sentence, with figures. */
+  message: string;
+  /** Its power: mean over channels, as in the map. */
+  powerDb: number;
+  /** Noise power estimated from its training cells. */
+  noiseDb: number;
+  /** Its threshold. */
+  thresholdDb: number;
+  /** Training cells around it. */
+  trainingCells: number;
+  /** Of these, cells left out of the noise as targets of their own. */
+  excisedCells: number;
+  /** Range bin of the peak that it belongs to: its own, or a stronger neighbour's. */
+  peakRangeBin: number;
+  /** Doppler bin of that peak. */
+  peakDopplerBin: number;
+  /** Thresholds along range at its Doppler bin. */
+  profileThresholdDb: Float64Array;
+}
+
 /** A target in a region. */
 export interface RegionTarget {
   /** Range of the bin in which it is strongest, interpolated and corrected for the range rate. */

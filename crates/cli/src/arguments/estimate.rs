@@ -35,6 +35,10 @@ pub struct EstimateArguments {
     /// takes several snapshots.
     #[arg(long)]
     pub all: bool,
+    /// Why a cell of a capture or a data cube is a detection or none, in place of the detections: of one frame or of all
+    /// together.
+    #[arg(long, value_name = "RANGE_BIN,DOPPLER_BIN", value_delimiter = ',', num_args = 1, conflicts_with_all = ["each", "csv"])]
+    pub explain: Option<Vec<usize>>,
     /// Output.
     #[command(flatten)]
     pub output: OutputFormat,

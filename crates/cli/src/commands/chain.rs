@@ -1,6 +1,7 @@
 //! From arguments to the chain, and from its results to a table.
 
 use crate::arguments::EstimateArguments;
+use crate::commands::explain::explain;
 use crate::commands::frame::frame_within;
 use crate::error::CliError;
 use crate::output::{Column, Table, remark};
@@ -26,6 +27,9 @@ pub fn detections<S: FrameSource>(
 where
     CliError: From<S::Error>,
 {
+    if let Some(bins) = &arguments.explain {
+        return explain(arguments, bins, chain, source);
+    }
     let frames = source.frames();
     let single = chain.options().angle.method.requirements().max_snapshots == Some(1);
     let run = Run::start("frames")?;

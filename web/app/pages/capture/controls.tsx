@@ -92,6 +92,7 @@ export function Controls() {
           help="How many directions the subspace methods look for in one cell."
         />
         <Control label="Refine by Gauss-Newton" name="refine" />
+        <Control label="Array error" name="mismatch" />
       </Group>
       <Group title="Detection">
         <Control

@@ -28,7 +28,7 @@ import {
 } from './process.ts';
 import { startRangeAzimuth } from './range-azimuth.ts';
 import { RangeAzimuth } from './range-azimuth-plot.tsx';
-import { RangeDopplerMap, RangeProfile } from './range-plots.tsx';
+import { CellWhy, RangeDopplerMap, RangeProfile } from './range-plots.tsx';
 import { startRegions } from './regions.ts';
 import { RegionsPanel } from './regions-panel.tsx';
 import { captureCodec, captureState, update } from './state.ts';
@@ -192,6 +192,7 @@ function Plots({ capture, frame, view }: Shown) {
       <div class="wide-narrow">
         <div class="stack">
           <RangeProfile {...shared} />
+          <CellWhy view={view} cell={cell} />
           <RangeDopplerMap {...shared} />
         </div>
         <CellPanel

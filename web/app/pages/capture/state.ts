@@ -68,6 +68,7 @@ export const captureCodec = codec(
     sources: detection.picks('angle.sources', ['mdl', 'aic', '1', '2', '3', '4']),
     networks: networkNames,
     refine: detection.field('angle.refine'),
+    mismatch: detection.maybe('angle.mismatchDb'),
     /** Whether regions are found, and their networks loaded. */
     regions: flag(false),
     regionsBy: choice('cnn3d', ['cnn3d', 'dnn']),
@@ -142,7 +143,7 @@ export function chainOptions(state: CaptureState): ChainOptions {
           },
         }
       : {}),
-    angle: { method: state.angle },
+    angle: { method: state.angle, ...(state.mismatch === null ? {} : { mismatchDb: state.mismatch }) },
   };
 }
 
@@ -154,6 +155,7 @@ export function sourceOption(state: CaptureState): number | 'aic' | 'mdl' {
 export const cellAngle = (state: CaptureState): AngleOptions => ({
   sources: sourceOption(state),
   ...(state.refine ? { refine: state.refine } : {}),
+  ...(state.mismatch === null ? {} : { mismatchDb: state.mismatch }),
 });
 
 /** How regions are found and their targets told apart. */
