@@ -30,8 +30,8 @@ pub enum Verdict {
     BeyondLimit,
     /// The method found no angle in it.
     WithoutAngle,
-    /// No angle found in it is within the limits.
-    OutsideAzimuth,
+    /// No direction found in it is within the limits.
+    OutsideDirection,
     /// It is a detection.
     Kept,
 }
@@ -96,7 +96,8 @@ impl Chain {
         if told.verdict == Verdict::Kept {
             let cells: Vec<Cell> = self.kept_at([range_bin, doppler_bin])?.into_iter().collect();
             let snapshots = self.snapshots_of(&cells, source, frames, report)?;
-            told.verdict = self.verdict_of_angles(snapshots.view())?;
+            let range_m = cells.first().map_or(0.0, |cell| cell.range_m);
+            told.verdict = self.verdict_of_directions(range_m, snapshots.view())?;
             told.message = self.sentence(&told);
         }
         Ok(told)
@@ -192,24 +193,25 @@ impl Chain {
                 self.options().max_detections
             ),
             Verdict::WithoutAngle => format!("The method found no angle in it; {over}."),
-            Verdict::OutsideAzimuth => format!("Dropped for its azimuth; {over}."),
+            Verdict::OutsideDirection => format!("Dropped for its direction; {over}."),
             Verdict::Kept => format!("A detection: {over}; {noise}."),
         }
     }
 
     /// Of the one cell that is kept, by its snapshots.
-    fn verdict_of_angles(
+    fn verdict_of_directions(
         &mut self,
+        range_m: f64,
         snapshots: ArrayView3<'_, Complex64>,
     ) -> Result<Verdict, PipelineError> {
         let estimates = self.estimators.estimate_batch(snapshots, false)?;
         let sources = estimates.sources_of(0);
         Ok(if sources.is_empty() {
             Verdict::WithoutAngle
-        } else if sources.iter().any(|s| self.region.contains_azimuth(s.direction.azimuth_rad)) {
+        } else if sources.iter().any(|s| self.region.contains_direction(range_m, s.direction)) {
             Verdict::Kept
         } else {
-            Verdict::OutsideAzimuth
+            Verdict::OutsideDirection
         })
     }
 }

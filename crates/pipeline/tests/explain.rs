@@ -73,7 +73,7 @@ fn verdicts_are_what_the_chain_counts() {
         let cells = result.range_m.len() * result.rate_mps.len();
         assert_eq!(cells - count(&[Verdict::BelowThreshold]), counts.cells_over_threshold);
         assert_eq!(count(&[Verdict::Grouped]), counts.grouped);
-        let outside = [Verdict::OutsideRange, Verdict::OutsideRate, Verdict::OutsideAzimuth];
+        let outside = [Verdict::OutsideRange, Verdict::OutsideRate, Verdict::OutsideDirection];
         assert!(count(&outside) <= counts.outside_region && count(&outside) > 0);
         assert!(count(&[Verdict::BeyondLimit]) > 0, "{tally:?}");
     }

@@ -137,7 +137,7 @@ const CONTROLS: Readonly<Record<CellExplanation['verdict'], string>> = {
   'outside-rate': '“Remove static clutter” and the Doppler window bear on rates.',
   'beyond-limit': 'A lower false-alarm rate leaves fewer.',
   'without-angle': '“Angle by” chooses the method.',
-  'outside-azimuth': '“Sector ±” keeps it out.',
+  'outside-direction': '“Sector ±” or a limit of elevation or height keeps it out.',
   kept: '',
 };
 
