@@ -50,6 +50,7 @@ fn verdicts_are_what_the_chain_counts() {
             range_m: Some([1.0, 8.0]),
             rate_mps: Some([-2.0, 2.0]),
             azimuth_rad: Some([-0.5, 0.5]),
+            ..Region::default()
         };
         let mut chain = chain(&options);
         let result = chain.process(cube.index_axis(ndarray::Axis(0), 0)).unwrap();
