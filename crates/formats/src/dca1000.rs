@@ -8,6 +8,7 @@ use boresight_core::Complex32;
 use boresight_core::Remark;
 use boresight_core::error::check_range;
 use ndarray::Array4;
+use std::ops::Range;
 
 /// Two complex samples of two 16-bit numbers.
 const GROUP_BYTES: usize = 8;
@@ -20,13 +21,15 @@ pub struct Capture<'a> {
     full_scale: i32,
     q_first: bool,
     frame_bytes: usize,
+    /// Where the samples of the sub-frame stand in the bytes of a frame.
+    part: Range<usize>,
     remarks: Vec<Remark>,
 }
 
 /// One frame of samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RawFrame {
-    /// Loops x transmitters x receivers x samples; full scale is 1.
+    /// Loops x chirps of a loop x receivers x samples; full scale is 1.
     pub samples: Array4<Complex32>,
     /// Samples whose I or Q stands at either end of the converter's range.
     pub clipped: usize,
@@ -42,7 +45,7 @@ impl<'a> Capture<'a> {
     pub fn new(bytes: &'a [u8], config: &RadarConfig) -> Result<Self, FormatError> {
         let waveform = &config.waveform;
         let shape =
-            [waveform.loops, waveform.transmitters, config.receivers.len(), waveform.samples];
+            [waveform.loops, waveform.chirps_per_loop(), config.receivers.len(), waveform.samples];
         if !config.adc.receiver_major {
             return Err(FormatError::Layout {
                 what: "channel interleave",
@@ -63,18 +66,18 @@ impl<'a> Capture<'a> {
             return Err(FormatError::NoWholeFrame {
                 expected,
                 given: bytes.len() as u64,
-                layout: format!(
-                    "{} loops x {} transmitters x {} receivers x {} samples x 4 bytes",
-                    shape[0], shape[1], shape[2], shape[3]
-                ),
+                layout: layout_of(config, shape),
             });
         }
+        // Not beyond the bytes of a frame, which are there.
+        let part = config.sub_frame_bytes();
         let mut capture = Self {
             bytes,
             shape,
             full_scale: config.adc.full_scale(),
             q_first: config.adc.q_first,
             frame_bytes,
+            part: part.start as usize..part.end as usize,
             remarks: vec![],
         };
         capture.remark_on_size(config);
@@ -109,7 +112,7 @@ impl<'a> Capture<'a> {
         self.bytes.len() % self.frame_bytes
     }
 
-    /// Loops, transmitters, receivers and samples of a frame.
+    /// Loops, chirps of a loop, receivers and samples of a frame.
     pub fn shape(&self) -> [usize; 4] {
         self.shape
     }
@@ -126,11 +129,11 @@ impl<'a> Capture<'a> {
     pub fn frame(&self, index: usize) -> Result<RawFrame, FormatError> {
         check_range("frame", index as f64, 0.0, (self.frames() - 1) as f64)?;
         let start = index * self.frame_bytes;
-        let bytes = &self.bytes[start..start + self.frame_bytes];
+        let bytes = &self.bytes[start + self.part.start..start + self.part.end];
         let scale = 1.0 / self.full_scale as f32;
         let (low, high) = (-self.full_scale, self.full_scale - 1);
         let mut clipped = 0;
-        let mut samples = Vec::with_capacity(self.frame_bytes / 4);
+        let mut samples = Vec::with_capacity(bytes.len() / 4);
         for group in bytes.chunks_exact(GROUP_BYTES) {
             let word = |k: usize| i32::from(i16::from_le_bytes([group[2 * k], group[2 * k + 1]]));
             for k in 0..2 {
@@ -145,11 +148,20 @@ impl<'a> Capture<'a> {
             FormatError::Layout {
                 what: "samples of a frame",
                 expected: (loops * tx * rx * count).to_string(),
-                given: (self.frame_bytes / 4).to_string(),
+                given: (bytes.len() / 4).to_string(),
             }
         })?;
         Ok(RawFrame { samples, clipped })
     }
+}
+
+/// What a frame is made of, in words.
+fn layout_of(config: &RadarConfig, shape: [usize; 4]) -> String {
+    let [loops, chirps, receivers, samples] = shape;
+    if config.sub_frames.len() > 1 {
+        return format!("{} sub-frames", config.sub_frames.len());
+    }
+    format!("{loops} loops x {chirps} transmitters x {receivers} receivers x {samples} samples x 4 bytes")
 }
 
 #[cfg(test)]

@@ -108,15 +108,16 @@ impl Chain {
         let mut found = self.detect()?;
         found.counts.clipped_samples = clipped;
         let used = count.min(MAX_SNAPSHOTS);
-        let mut snapshots = Array3::zeros((found.cells.len(), self.array().len(), used));
+        let mut raw = Array3::zeros((found.cells.len(), self.transform.channels(), used));
         for (done, index) in frames.take(used).enumerate() {
             proceed(report, Progress { done: count + done, total })?;
             self.load(source, index)?;
-            for (cell, mut rows) in found.cells.iter().zip(snapshots.outer_iter_mut()) {
-                rows.index_axis_mut(Axis(1), done).assign(&self.snapshot(cell)?);
+            for (cell, mut rows) in found.cells.iter().zip(raw.outer_iter_mut()) {
+                rows.index_axis_mut(Axis(1), done).assign(&self.raw_snapshot(cell)?);
             }
         }
         self.map.power.assign(&mean);
+        let snapshots = self.decoded(&mut found, raw)?;
         Ok((found, snapshots))
     }
 
@@ -151,13 +152,14 @@ impl Chain {
         let most = MAX_SNAPSHOTS as f64;
         boresight_core::error::check_range("number of frames", frames.len() as f64, 1.0, most)
             .map_err(PipelineError::from)?;
-        let mut snapshots = Array2::zeros((self.array().len(), frames.len()));
+        let mut raw = Array2::zeros((self.transform.channels(), frames.len()));
         for (n, index) in frames.enumerate() {
             self.load(source, index)?;
-            let snapshot = self.cell_snapshot(range_bin, doppler_bin)?;
-            snapshots.index_axis_mut(Axis(1), n).assign(&snapshot);
+            let snapshot =
+                self.map.snapshot(range_bin, doppler_bin).map_err(PipelineError::from)?;
+            raw.column_mut(n).assign(&snapshot);
         }
-        Ok(snapshots)
+        Ok(self.cell_snapshots_of(raw, doppler_bin)?)
     }
 
     /// Transforms a frame and tells how many of its samples are clipped.

@@ -38,6 +38,7 @@ mod beam;
 mod capture;
 mod chain;
 mod error;
+mod folds;
 pub mod image;
 mod options;
 pub mod regions;

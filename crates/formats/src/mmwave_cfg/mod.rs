@@ -5,11 +5,13 @@
 //! reported as a [`Remark`].
 
 mod commands;
+mod frames;
 mod line;
 mod sequence;
 
 use crate::error::FormatError;
 use boresight_core::Remark;
+use boresight_core::error::check_range;
 use boresight_core::{Array, Waveform, presets};
 use commands::Commands;
 use line::Line;
@@ -32,15 +34,28 @@ impl AdcFormat {
     }
 }
 
+/// One of the sub-frames that follow each other in a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SubFrame {
+    /// Timing and frequency plan.
+    pub waveform: Waveform,
+    /// Transmitters, as their numbers on the chip (from 0), in order of transmission.
+    pub transmitters: Vec<usize>,
+}
+
 /// What a configuration says of the radar and its samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadarConfig {
-    /// Timing and frequency plan of a frame.
+    /// Timing and frequency plan of a frame, or of the chosen sub-frame of an advanced one.
     pub waveform: Waveform,
     /// Receivers in use, as their numbers on the chip (from 0), ascending.
     pub receivers: Vec<usize>,
     /// Transmitters in use, as their numbers on the chip (from 0), in order of transmission.
     pub transmitters: Vec<usize>,
+    /// The sub-frame that waveform and transmitters are of, from 0.
+    pub sub_frame: usize,
+    /// All sub-frames in order of transmission; one in a frame that has none.
+    pub sub_frames: Vec<SubFrame>,
     /// Name of the preset whose virtual elements are exactly the configured channels in their
     /// order of transmission, if there is one.
     pub array_preset: Option<&'static str>,
@@ -79,12 +94,49 @@ impl RadarConfig {
         commands.finish()
     }
 
-    /// Bytes of one frame of raw samples.
+    /// Bytes of one frame of raw samples, with all of its sub-frames.
     pub fn frame_bytes(&self) -> u64 {
-        let waveform = &self.waveform;
-        [waveform.loops, waveform.transmitters, self.receivers.len(), waveform.samples, 4]
-            .iter()
-            .fold(1_u64, |product, &factor| product.saturating_mul(factor as u64))
+        self.bytes_of(&self.sub_frames)
+    }
+
+    /// Where the samples of the chosen sub-frame stand in the bytes of a frame.
+    pub fn sub_frame_bytes(&self) -> std::ops::Range<u64> {
+        let end = |count| self.bytes_of(self.sub_frames.get(..count).unwrap_or_default());
+        end(self.sub_frame)..end(self.sub_frame + 1)
+    }
+
+    fn bytes_of(&self, sub_frames: &[SubFrame]) -> u64 {
+        let bytes = |waveform: &Waveform| {
+            let chirps = waveform.chirps_per_loop();
+            [waveform.loops, chirps, self.receivers.len(), waveform.samples, 4]
+                .iter()
+                .fold(1_u64, |product, &factor| product.saturating_mul(factor as u64))
+        };
+        let each = sub_frames.iter().map(|part| bytes(&part.waveform));
+        each.fold(0, u64::saturating_add)
+    }
+
+    /// The same with another sub-frame chosen.
+    ///
+    /// # Errors
+    /// [`boresight_core::CoreError::OutOfRange`] for one that is not there.
+    pub fn choose(mut self, sub_frame: usize) -> Result<Self, FormatError> {
+        let last = self.sub_frames.len().saturating_sub(1);
+        check_range("sub-frame", sub_frame as f64, 0.0, last as f64)?;
+        if let Some(part) = self.sub_frames.get(sub_frame).cloned() {
+            (self.waveform, self.transmitters) = (part.waveform, part.transmitters);
+            self.sub_frame = sub_frame;
+        }
+        self.find_preset();
+        Ok(self)
+    }
+
+    fn find_preset(&mut self) {
+        let board = self.platform.as_deref().and_then(board_preset);
+        self.array_preset = board.filter(|name| {
+            let board = presets::preset(name).ok();
+            board.is_some() && board == self.array()
+        });
     }
 
     /// The virtual array of the configured channels in their order of transmission, for platforms
