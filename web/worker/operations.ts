@@ -262,6 +262,7 @@ export const operations = {
   waveformPreset: api.waveformPreset,
   waveformSummary: api.waveformSummary,
   parseConfig: api.parseConfig,
+  subFrameConfig: api.subFrameConfig,
   captureInfo,
   processFrame,
   processStretch,

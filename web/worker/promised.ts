@@ -90,6 +90,7 @@ export const argumentCounts = {
   waveformPreset: 1,
   waveformSummary: 1,
   parseConfig: 1,
+  subFrameConfig: 2,
   parseBoardLog: 2,
   readArray: 2,
   listArrays: 1,

@@ -161,7 +161,9 @@ fn layout_of(config: &RadarConfig, shape: [usize; 4]) -> String {
     if config.sub_frames.len() > 1 {
         return format!("{} sub-frames", config.sub_frames.len());
     }
-    format!("{loops} loops x {chirps} transmitters x {receivers} receivers x {samples} samples x 4 bytes")
+    format!(
+        "{loops} loops x {chirps} transmitters x {receivers} receivers x {samples} samples x 4 bytes"
+    )
 }
 
 #[cfg(test)]

@@ -294,7 +294,8 @@ impl Chain {
     fn cell_range_m(&self, peak: &Peak, rate_mps: f64) -> f64 {
         let waveform = self.transform.waveform();
         let bins = self.transform.range_m().len();
-        range_of_bin_m(waveform, bins, peak.range_bin) - range_doppler_coupling_m(waveform, rate_mps)
+        range_of_bin_m(waveform, bins, peak.range_bin)
+            - range_doppler_coupling_m(waveform, rate_mps)
     }
 
     /// The channels of a cell of the frame transformed last, as measured.

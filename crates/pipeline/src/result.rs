@@ -151,6 +151,9 @@ struct CellColumns {
     /// Range rate of each, positive when receding, interpolated between bins.
     #[serde(serialize_with = "columns::serialize")]
     rate_mps: Vec<f64>,
+    /// Times twice the waveform's largest rate that each is beyond that of its bin.
+    #[serde(serialize_with = "columns::serialize")]
+    doppler_fold: Vec<i8>,
     /// Power of each: one raw sample at one element over full scale (1.0).
     #[serde(rename = "power_db", serialize_with = "decibels::serialize_each")]
     power: Vec<f64>,
@@ -171,6 +174,8 @@ fn as_columns<S: Serializer>(cells: &[DetectedCell], serializer: S) -> Result<S:
     let columns = CellColumns {
         range_m: column(|cell| cell.range_m),
         rate_mps: column(|cell| cell.rate_mps),
+        // At most 32.
+        doppler_fold: cells.iter().map(|cell| cell.doppler_fold as i8).collect(),
         power: column(|cell| cell.power),
         snr: column(|cell| cell.snr),
         range_bin: bins(|cell| cell.range_bin),

@@ -4,7 +4,6 @@
 
 use boresight_aoa::bounds::{Signals, deterministic_bound, single_snapshot};
 use boresight_core::presets::preset;
-use boresight_core::units::db_to_power;
 use boresight_core::{Array, Complex32, Complex64, Direction, Multiplexing, Random, Waveform};
 use boresight_formats::{Capture, RadarConfig};
 use boresight_pipeline::regions::RegionFinder;
@@ -78,7 +77,7 @@ fn rates_over_all_folds_are_told_in_99_percent_at_15_db() {
         let mut random = Random::new(9, 0);
         let (mut right, mut wrong, mut undecided, mut missed) = (0, 0, 0, 0);
         for seed in 0..cells {
-            let uniform = |random: &mut Random| random.phase() / std::f64::consts::TAU;
+            let uniform = |random: &mut Random| random.phase() / std::f64::consts::TAU + 0.5;
             let rate_mps = 0.98 * limit * (2.0 * uniform(&mut random) - 1.0);
             let range_m = 6.0 + uniform(&mut random);
             let azimuth_deg = 50.0 * (2.0 * uniform(&mut random) - 1.0);
@@ -161,8 +160,8 @@ fn an_array_that_cannot_tell_keeps_the_bin_and_says_so() {
     assert!(result.warnings.iter().any(|w| w.code == "undecided-folds"), "{:?}", result.warnings);
 }
 
-/// Root mean square error of the azimuth over the bound, and the cell's SNR, over seeds, with the target in the
-/// middle of a cell halfway through the frame.
+/// Root mean square error of the azimuth over the bound at the cell's SNR, and that, over seeds, with the target in a
+/// Doppler bin that need not be whole and in the middle of a range bin halfway through the frame.
 fn over_the_bound(waveform: &Waveform, array: &Array, bin: f64, azimuth_deg: f64) -> (f64, f64) {
     let cell_snr_db = 22.0;
     let snr_db = raw_snr_db(waveform, cell_snr_db);
@@ -182,7 +181,7 @@ fn over_the_bound(waveform: &Waveform, array: &Array, bin: f64, azimuth_deg: f64
         snr += found.snr / runs as f64;
     }
     let covariance = single_snapshot(&[Complex64::ONE]);
-    let noise_power = db_to_power(-cell_snr_db);
+    let noise_power = 1.0 / snr;
     let signals = Signals { covariance: covariance.view(), noise_power, snapshots: 1 };
     let bound = deterministic_bound(array, &[truth.direction], &signals).unwrap();
     ((squares / runs as f64).sqrt() / bound.azimuth_rad[0], 10.0 * snr.log10())
@@ -214,19 +213,19 @@ fn angles_of_each_multiplexing_are_within_1_1_of_the_bound() {
         let array = filled(waveform.transmitters);
         let (ratio, snr_db) = over_the_bound(&waveform, &array, bin, 15.0);
         let Waveform { multiplexing, transmitters, .. } = waveform;
-        println!("{multiplexing:?} {transmitters} tx, bin {bin}: {ratio:.3} of the bound, {snr_db:.1} dB");
-        // The square root of 600 squares has a standard error of 3 %; straddling costs what bins off the middle lose.
-        assert!((0.85..1.1).contains(&ratio) || bin.fract() != 0.0, "{ratio}");
-        assert!(ratio < 1.3, "{ratio}");
-        assert!((snr_db - 22.0).abs() < 1.0 || bin.fract() != 0.0, "{snr_db}");
+        println!(
+            "{multiplexing:?} {transmitters}, bin {bin}: {ratio:.3} of the bound, {snr_db:.1} dB"
+        );
+        // The root of the mean of 600 squares has a standard error of 3 %.
+        assert!((0.9..1.1).contains(&ratio), "{ratio}");
+        // What a bin loses that is not in the middle.
+        assert!((snr_db - 22.0).abs() < if bin.fract() == 0.0 { 0.3 } else { 1.2 }, "{snr_db}");
     }
 }
 
 #[test]
 fn sending_at_once_gathers_the_energy_of_all() {
-    let gain = |multiplexing, loops| {
-        processing_gain(&Waveform { multiplexing, loops, ..short() })
-    };
+    let gain = |multiplexing, loops| processing_gain(&Waveform { multiplexing, loops, ..short() });
     let alone = gain(Multiplexing::TimeDivision, 24);
     // In the same 48 chirps.
     assert!((gain(Multiplexing::BinaryPhase, 24) / alone - 2.0).abs() < 1e-9);
@@ -256,6 +255,7 @@ fn doppler_division_tells_rates_over_the_whole_chirp_rate() {
         assert!((found.azimuth_rad - truth.direction.azimuth_rad).abs() < 0.01, "{found:?}");
         assert!(result.counts.other_bands >= 5, "{:?}", result.counts);
     }
+    let waveform = Waveform { samples: 128, ..waveform };
     let refused = RegionFinder::new(&waveform, 4, &array, &Default::default()).err();
     assert_eq!(refused, Some(PipelineError::Multiplexing));
 }

@@ -115,7 +115,9 @@ mod tests {
         Array4::from_shape_fn((96, 1, 1, 8), |(l, ..)| {
             let sum: boresight_core::Complex64 = targets
                 .iter()
-                .flat_map(|&(turns, amplitude, step)| (0..4).map(move |t| (turns, amplitude, step, t)))
+                .flat_map(|&(turns, amplitude, step)| {
+                    (0..4).map(move |t| (turns, amplitude, step, t))
+                })
                 .map(|(turns, amplitude, step, t)| {
                     waveform.code(t, l, 0)
                         * cis(TAU * turns * l as f64 + step * t as f64)
@@ -130,7 +132,8 @@ mod tests {
     fn each_target_stands_at_its_rate_with_all_transmitters() {
         for (bin, step) in [(90, 0.3), (0, -1.0), (48, 2.0), (17, 0.0)] {
             let turns = (f64::from(bin) - 48.0) / 96.0;
-            let mut plan = RangeDoppler::new(&waveform(), 1, &RangeDopplerOptions::default()).unwrap();
+            let mut plan =
+                RangeDoppler::new(&waveform(), 1, &RangeDopplerOptions::default()).unwrap();
             let mut map = plan.output();
             plan.process(frame(&[(turns, 0.5, step)]).view(), &mut map).unwrap();
             let bin = bin as usize;

@@ -15,12 +15,15 @@
 //! on which the step between transmitters looks like an angle (one receiver, transmitters in a row)
 //! gives every fold the same fit: the probability then says that nothing is known.
 //!
-//! All targets of a cell are taken to be in one fold.
+//! All targets of a cell are taken to be in one fold. In binary phase the wrong of two folds swaps two
+//! transmitters, which looks the same from where their echoes are in phase or opposite, such as
+//! straight ahead.
 
 use crate::binary_phase::hadamard;
 use crate::error::SignalError;
 use crate::tdm::phase_step_rad;
 use boresight_core::error::check_range;
+use boresight_core::limits::check_bytes;
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::{Array, Complex64, CoreError, Direction, Multiplexing};
 use ndarray::{Array2, ArrayView2};
@@ -73,7 +76,7 @@ impl FoldTest {
     /// # Errors
     /// [`CoreError::Shape`] for another number of channels than elements or one that is no multiple
     /// of the transmitters; [`CoreError::OutOfRange`] for a channel beyond them or more than 32
-    /// folds.
+    /// folds; [`CoreError::TooLarge`] above the limits of the thread.
     pub fn new(
         array: &Array,
         channels: &[usize],
@@ -94,6 +97,8 @@ impl FoldTest {
             check_range("channel", channel as f64, 0.0, elements as f64 - 1.0)?;
         }
         let grid = SineGrid::of(array);
+        let sizes = [grid.len(), elements];
+        check_bytes("responses for folds", &sizes, size_of::<Complex64>())?;
         let mut test = Self {
             array: array.clone(),
             channels: channels.to_vec(),
@@ -250,9 +255,8 @@ impl FoldTest {
         let freedom = |waves: f64| {
             (snapshots.len() as f64) - waves * (count as f64 + 0.5 * self.grid.dimensions())
         };
-        let first = self.highest(|g| {
-            (0..count).map(|n| beams[n * points + g].norm_sqr()).sum::<f64>()
-        });
+        let first =
+            self.highest(|g| (0..count).map(|n| beams[n * points + g].norm_sqr()).sum::<f64>());
         let size = norm(&first);
         let amplitudes: Vec<Complex64> = (0..count).map(|n| product(&first, n)).collect();
         let gathered: f64 = amplitudes.iter().map(|z| z.norm_sqr()).sum::<f64>() / size;
@@ -308,7 +312,9 @@ impl SineGrid {
             (length * POINTS_A_BEAM / 2.0).min(MOST_POINTS).max(least) as usize
         });
         let excess = (points[0] as f64 * points[1] as f64 / MOST_POINTS).sqrt().max(1.0);
-        Self { points: points.map(|n| if n == 1 { 1 } else { ((n as f64 / excess) as usize).max(3) }) }
+        Self {
+            points: points.map(|n| if n == 1 { 1 } else { ((n as f64 / excess) as usize).max(3) }),
+        }
     }
 
     fn len(&self) -> usize {
@@ -332,8 +338,7 @@ impl SineGrid {
         }
         let elevation_rad = libm::asin(z);
         let level = libm::cos(elevation_rad);
-        let azimuth_rad =
-            if level > 1e-9 { libm::asin((y / level).clamp(-1.0, 1.0)) } else { 0.0 };
+        let azimuth_rad = if level > 1e-9 { libm::asin((y / level).clamp(-1.0, 1.0)) } else { 0.0 };
         Some(Direction::new(azimuth_rad, elevation_rad))
     }
 
@@ -345,8 +350,7 @@ impl SineGrid {
             if at[axis] == 0 || at[axis] + 1 >= self.points[axis] {
                 return 0.0;
             }
-            let [a, b, c] =
-                [index - stride[axis], index, index + stride[axis]].map(|g| values[g]);
+            let [a, b, c] = [index - stride[axis], index, index + stride[axis]].map(|g| values[g]);
             let curvature = a - 2.0 * b + c;
             // Beyond the horizon there are zeros.
             if curvature >= 0.0 || a <= 0.0 || c <= 0.0 {
@@ -406,7 +410,7 @@ mod tests {
         let mut random = Random::new(20, 0);
         let mut counts = [0; 3];
         for n in 0..cells {
-            let uniform = |random: &mut Random| random.phase() / TAU;
+            let uniform = |random: &mut Random| random.phase() / TAU + 0.5;
             let bin = 64.0 * uniform(&mut random);
             let folds = test.folds(bin, 64);
             let fold = folds[n % folds.len()];
@@ -450,7 +454,9 @@ mod tests {
         let (array, transmitters) = whole("awr1642");
         let test = test_of(&array, transmitters, Multiplexing::BinaryPhase);
         let found = shares(&test, 15.0, 400, false);
-        assert!(found[0] >= 0.99 && found[1] >= 0.98, "binary phase: {found:?}");
+        // The wrong fold swaps the two transmitters, which are alike where the path between them
+        // is whole quarters of a turn: there nothing is told, and it is said.
+        assert!(found[0] >= 0.95 && found[1] >= 0.8 && found[2] <= 0.005, "{found:?}");
     }
 
     #[test]

@@ -79,6 +79,7 @@ export function goodCalls() {
     frameCells: [cube, chain],
     strongestRegion: [cube, { bins: 5, chirps: 4 }],
     parseConfig: [cfg],
+    subFrameConfig: [cfg, 0],
     parseBoardLog: [Uint8Array.from(dat.subarray(0, 2000)), cfg],
     readNpy: [boresight.writeNpy({ kind: 'real', data: Float64Array.of(1, 2), shape: [2] })],
     writeNpy: [{ kind: 'real', data: Float64Array.of(1, 2), shape: [2] }],

@@ -32,6 +32,7 @@ export function captureNeeds(capture: Loaded): string {
 /** Opens a capture as `capture`, of samples `bin` and configuration `cfg`. */
 export function openCapture(script: Script, capture: Loaded): void {
   const { bin, cfg } = namesOf(capture);
+  const { config } = capture.info;
   script.use('node:fs/promises', 'readFile').use('boresight', 'Capture');
   if (bin.length > 1) {
     script.add('// The recording is in several files.');
@@ -42,6 +43,9 @@ export function openCapture(script: Script, capture: Loaded): void {
     script.add('// What mmWave Studio wrote, as a .cfg.');
     script.constant('lines', capture.cfg.trimEnd().split('\n'));
     script.add("const cfg = lines.join('\\n');");
+  } else if (config.subFrames > 1) {
+    script.use('boresight', 'subFrameConfig');
+    script.add(`const cfg = subFrameConfig(await readFile(${quoted(cfg)}), ${config.subFrame});`);
   } else script.add(`const cfg = await readFile(${quoted(cfg)}, 'utf8');`);
   script.add('const capture = new Capture(bin, cfg);');
 }
@@ -49,13 +53,17 @@ export function openCapture(script: Script, capture: Loaded): void {
 /** What stands before the commands on a capture, and how they name it. */
 export function captureWords(capture: Loaded): { before: string[]; words: string[] } {
   const { bin, cfg } = namesOf(capture);
+  const { info } = capture;
   const [whole, config] = [bin.length > 1 ? 'capture.bin' : (bin[0] ?? ''), cfg ?? 'capture.cfg'];
   return {
     before: [
       ...(bin.length > 1 ? [command(['cat', ...bin.map(fileWord)], ` > ${shellWord(whole)}`)] : []),
       ...(cfg === null ? [heredoc(config, capture.cfg)] : []),
     ],
-    words: [fileWord(whole), '--config', fileWord(config)],
+    words: [
+      ...[fileWord(whole), '--config', fileWord(config)],
+      ...(info.config.subFrames > 1 ? ['--subframe', String(info.config.subFrame)] : []),
+    ],
   };
 }
 

@@ -19,7 +19,7 @@ pub fn run(arguments: &AugmentArguments, files: &Files) -> Result<String, CliErr
     match files::ending(&arguments.file).as_str() {
         "bin" => {
             let bytes = files.read(&arguments.file)?;
-            let (source, config) = capture::read(config, &bytes, files)?;
+            let (source, config) = capture::read(config, None, &bytes, files)?;
             write(arguments, &config.waveform, &source, files)
         }
         ending if numbers::ENDINGS.contains(&ending) => {

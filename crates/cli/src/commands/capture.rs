@@ -52,15 +52,16 @@ pub fn open<'a>(
     bytes: &'a [u8],
     files: &Files,
 ) -> Result<(CaptureFrames<'a>, Radar), CliError> {
-    let (frames, config) = read(arguments.config.as_deref(), bytes, files)?;
+    let (frames, config) = read(arguments.config.as_deref(), arguments.subframe, bytes, files)?;
     let array = board_array(arguments.array.as_deref(), &config, files)?;
     let (waveform, receivers) = (config.waveform, config.receivers.len());
     Ok((frames, Radar { waveform, receivers, array }))
 }
 
-/// The frames of a capture, and its configuration.
+/// The frames of a capture, of one of its sub-frames where it has several, and its configuration.
 pub fn read<'a>(
     config: Option<&Path>,
+    sub_frame: Option<usize>,
     bytes: &'a [u8],
     files: &Files,
 ) -> Result<(CaptureFrames<'a>, RadarConfig), CliError> {
@@ -69,10 +70,22 @@ pub fn read<'a>(
         expected: "the board's .cfg file, which tells how to read a .bin file".into(),
         given: "nothing".into(),
     })?;
-    let config = RadarConfig::parse(&files.read(path)?)?;
+    let config = sub_frame_of(RadarConfig::parse(&files.read(path)?)?, sub_frame)?;
     let capture = Capture::new(bytes, &config)?;
     remark(config.remarks.iter().chain(capture.remarks()).map(|remark| remark.message.clone()));
     Ok((CaptureFrames(capture), config))
+}
+
+/// The configuration of one of its sub-frames; what others there are is said.
+pub fn sub_frame_of(
+    config: RadarConfig,
+    sub_frame: Option<usize>,
+) -> Result<RadarConfig, CliError> {
+    let (count, sub_frame) = (config.sub_frames.len(), sub_frame.unwrap_or(config.sub_frame));
+    if count > 1 {
+        remark([format!("sub-frame {sub_frame} of {count} is read; --subframe chooses another")]);
+    }
+    Ok(config.choose(sub_frame)?)
 }
 
 /// The array of a name, or the board's.

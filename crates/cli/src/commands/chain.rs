@@ -61,6 +61,7 @@ fn remarks(results: &[FrameResult]) -> Vec<String> {
         sum(|r| r.counts.grouped),
     )];
     for (count, what) in [
+        (sum(|r| r.counts.other_bands), "echoes in other Doppler bands"),
         (sum(|r| r.counts.outside_region), "outside the limits"),
         (sum(|r| r.counts.beyond_limit), "beyond the most to report"),
         (sum(|r| r.counts.clipped_samples), "samples clipped by the converter"),
@@ -93,6 +94,8 @@ fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
             column("snrDb", "snr_db", 1),
             column("rangeBin", "range_bin", 0),
             column("dopplerBin", "doppler_bin", 0),
+            column("dopplerFold", "doppler_fold", 0),
+            column("foldProbability", "fold_probability", 3),
         ],
         rows: detections
             .map(|d| {
@@ -106,6 +109,8 @@ fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
                     power_to_db(d.snr),
                     d.range_bin as f64,
                     d.doppler_bin as f64,
+                    d.doppler_fold.into(),
+                    d.fold_probability.unwrap_or(f64::NAN),
                 ]
             })
             .collect(),

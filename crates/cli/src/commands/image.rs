@@ -1,6 +1,6 @@
 //! `boresight image`.
 
-use super::capture::{CaptureFrames, board_array};
+use super::capture::{CaptureFrames, board_array, sub_frame_of};
 use super::frame::frame_within;
 use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 use crate::destination::Destination;
@@ -116,7 +116,7 @@ fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, Cli
 
 fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, CliError> {
     let shared = &arguments.shared;
-    let config = RadarConfig::parse(&files.read(&arguments.config)?)?;
+    let config = sub_frame_of(RadarConfig::parse(&files.read(&arguments.config)?)?, None)?;
     let bytes = files.read(&arguments.file)?;
     let source = CaptureFrames(Capture::new(&bytes, &config)?);
     let array = board_array(arguments.array.as_deref(), &config, files)?;

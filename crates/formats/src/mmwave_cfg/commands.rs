@@ -310,7 +310,8 @@ impl Commands {
                 self.advanced.ok_or(missing("advFrameCfg", "the number of sub-frames"))?;
             return Ok((advanced.parts(&self.sub_frames)?, advanced.frames));
         }
-        let (frame, count) = self.frame.ok_or(missing("frameCfg", "chirps and loops of a frame"))?;
+        let (frame, count) =
+            self.frame.ok_or(missing("frameCfg", "chirps and loops of a frame"))?;
         Ok((vec![frame], count))
     }
 

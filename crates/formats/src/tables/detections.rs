@@ -26,9 +26,15 @@ pub struct DetectionRow {
     pub range_bin: usize,
     /// Doppler bin.
     pub doppler_bin: usize,
+    /// Times twice the waveform's largest rate that the rate is beyond that of its bin.
+    #[serde(default)]
+    pub doppler_fold: i32,
+    /// Probability of the likeliest fold among those tried.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fold_probability: Option<f64>,
 }
 
-const COLUMNS: [&str; 9] = [
+const COLUMNS: [&str; 11] = [
     "frame",
     "range_m",
     "rate_mps",
@@ -38,10 +44,13 @@ const COLUMNS: [&str; 9] = [
     "snr_db",
     "range_bin",
     "doppler_bin",
+    "doppler_fold",
+    "fold_probability",
 ];
 
 /// The table as text: the columns `frame`, `range_m`, `rate_mps`, `azimuth_deg`, `elevation_deg`,
-/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`.
+/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`, `doppler_fold`, `fold_probability` (empty where
+/// no other fold was tried).
 pub fn write_detections(rows: &[DetectionRow]) -> String {
     let mut text = COLUMNS.join(",");
     text.push('\n');
@@ -58,7 +67,11 @@ pub fn write_detections(rows: &[DetectionRow]) -> String {
         for number in numbers {
             text.push_str(&format!(",{number}"));
         }
-        text.push_str(&format!(",{},{}\n", row.range_bin, row.doppler_bin));
+        let probability = row.fold_probability.map(|p| p.to_string()).unwrap_or_default();
+        text.push_str(&format!(
+            ",{},{},{},{probability}\n",
+            row.range_bin, row.doppler_bin, row.doppler_fold
+        ));
     }
     text
 }
@@ -81,6 +94,11 @@ pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
         let index = |k: usize| {
             places[k].map_or(Ok(0), |at| field(&record, at, COLUMNS[k], "an integer of at least 0"))
         };
+        let fold = match places[9] {
+            Some(at) => field(&record, at, COLUMNS[9], "an integer")?,
+            None => 0,
+        };
+        let told = places[10].filter(|&at| record.get(at).is_some_and(|text| !text.is_empty()));
         rows.push(DetectionRow {
             frame: index(0)?,
             range_m: number(1)?,
@@ -91,6 +109,8 @@ pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
             snr_db: number(6)?,
             range_bin: index(7)?,
             doppler_bin: index(8)?,
+            doppler_fold: fold,
+            fold_probability: told.map(|at| finite(&record, at, COLUMNS[10])).transpose()?,
         });
     }
     Ok(rows)

@@ -3,6 +3,13 @@ import type { ArrayGeometry, CaptureInfo } from 'boresight';
 import { engineering, fixed, significant } from '../../../plots/format.ts';
 import { captureState } from './state.ts';
 
+/** How transmitters share the chirps. */
+const SHARING = {
+  'time-division': 'in turn',
+  'binary-phase': 'at once in binary phase',
+  'doppler-division': 'at once in Doppler division',
+} as const;
+
 export function Summary({ info, geometry }: { info: CaptureInfo; geometry: ArrayGeometry | null }) {
   const { waveform, summary, platform, array } = info.config;
   const { array: chosen } = captureState.value;
@@ -46,7 +53,7 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
     ],
     [
       'Frame',
-      `${waveform.loops} × ${waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`,
+      `${waveform.loops} × ${waveform.multiplexing === 'doppler-division' ? 1 : waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`,
       `${significant(summary.frameTimeS * 1000)} ms of them transmitting`,
       'frame',
     ],
@@ -61,7 +68,7 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
       geometry
         ? `${chosen === 'auto' ? (array ?? platform ?? 'configured') : chosen}, ${geometry.positions.length} virtual`
         : 'not known',
-      `${info.config.transmitters} transmitters, ${info.config.receivers} receivers`,
+      `${info.config.transmitters} transmitters ${SHARING[waveform.multiplexing ?? 'time-division']}, ${info.config.receivers} receivers`,
       'array',
     ],
   ];
