@@ -253,4 +253,36 @@ describe('a simulated cube', () => {
     cube.data[5] = Number.NaN;
     throwsTyped(() => processCube(cube, options), 'not-finite');
   });
+
+  test('of transmitters that send at once gives its targets back, over the whole chirp rate in Doppler division', () => {
+    for (const [multiplexing, loops, shape] of [
+      ['binary-phase', 16, [1, 16, 2, 4, 256]],
+      ['doppler-division', 48, [1, 48, 1, 4, 256]],
+    ]) {
+      const options = { waveform: { ...waveform(), multiplexing, loops }, array: 'awr1642' };
+      const rateMps = multiplexing === 'binary-phase' ? 3.1 : 8.2;
+      const target = { rangeM: 6, rateMps, azimuthDeg: 20, powerDb: -10 };
+      const cube = simulateCube({ ...options, targets: [target], snrDb: 10, seed: 1 });
+      assert.deepEqual(cube.shape, shape);
+      const [{ detections, counts, unambiguousRateMps }] = processCube(cube, options);
+      assert.equal(detections.length, 1, multiplexing);
+      assert.ok(unambiguousRateMps > rateMps);
+      assert.ok(Math.abs(detections[0].rateMps - rateMps) < 0.1, `${detections[0].rateMps}`);
+      assert.ok(Math.abs(detections[0].azimuthDeg - 20) < 1, `${detections[0].azimuthDeg}`);
+      assert.equal(counts.otherBands > 0, multiplexing === 'doppler-division');
+    }
+  });
+
+  test('of a target beyond the unambiguous rate tells its fold where asked', () => {
+    const options = { waveform: waveform(), array: 'awr1642' };
+    const target = { rangeM: 6, rateMps: 7.5, azimuthDeg: 20, powerDb: -10 };
+    const cube = simulateCube({ ...options, targets: [target], snrDb: 10, seed: 1 });
+    const [{ detections: folded }] = processCube(cube, options);
+    assert.ok(folded[0].rateMps < 0 && folded[0].dopplerFold === 0 && !('foldProbability' in folded[0]));
+    const [{ detections, unambiguousRateMps }] = processCube(cube, { ...options, dopplerFolds: 1 });
+    assert.ok(Math.abs(detections[0].rateMps - 7.5) < 0.1 && unambiguousRateMps > 9);
+    assert.ok(detections[0].dopplerFold === 1 && detections[0].foldProbability > 0.99);
+    assert.ok(Math.abs(detections[0].azimuthDeg - 20) < 1, `${detections[0].azimuthDeg}`);
+    throwsTyped(() => processCube(cube, { ...options, dopplerFolds: 33 }), 'out-of-range', 'dopplerFolds');
+  });
 });

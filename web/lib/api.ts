@@ -11,7 +11,7 @@ export { relativeTrajectoryError, trajectory } from './drive/trajectory.js';
 export { Estimator, estimate, methods, unsuited } from './estimate/estimate.js';
 export { countSources, cramerRaoBound } from './estimate/theory.js';
 export { BoardLogStream, parseBoardLog } from './formats/board.js';
-export { parseConfig } from './formats/config.js';
+export { parseConfig, subFrameConfig } from './formats/config.js';
 export { readDetectionsCsv, readSnapshotsCsv, writeDetectionsCsv, writeSnapshotsCsv } from './formats/csv.js';
 export { listArrays, readArray } from './formats/hdf5.js';
 export { readNpy, writeNpy } from './formats/npy.js';

@@ -273,6 +273,7 @@ export const operations = {
   waveformSummary: api.waveformSummary,
   parseConfig: api.parseConfig,
   joinCascade: api.joinCascade,
+  subFrameConfig: api.subFrameConfig,
   captureInfo,
   processFrame,
   processStretch,

@@ -94,6 +94,7 @@ export const argumentCounts = {
   waveformSummary: 1,
   joinCascade: 2,
   parseConfig: 1,
+  subFrameConfig: 2,
   parseBoardLog: 2,
   readArray: 2,
   listArrays: 1,

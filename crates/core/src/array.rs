@@ -141,6 +141,14 @@ impl Array {
         Self::new(&positions)
     }
 
+    /// All pairs of its transmitters and receivers, whichever of them it keeps.
+    ///
+    /// # Errors
+    /// As [`Array::new`].
+    pub fn whole(&self) -> Result<Self, CoreError> {
+        Self::mimo(&self.tx, &self.rx)?.with_inverted(&self.inverted_tx, &self.inverted_rx)
+    }
+
     /// Keeps the first of the elements that share a position.
     #[must_use]
     pub fn without_duplicates(&self) -> Self {

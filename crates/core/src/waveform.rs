@@ -1,8 +1,10 @@
-//! The FMCW waveform of a time-division MIMO radar and the numbers that follow from it.
+//! The FMCW waveform of a MIMO radar and the numbers that follow from it.
 
 use crate::describe::Described;
 use crate::error::{CoreError, check_positive, check_range};
+use crate::multiplexing::Multiplexing;
 use crate::units::SPEED_OF_LIGHT_MPS;
+use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 /// What the receivers' converters give.
@@ -17,8 +19,8 @@ pub enum Sampling {
     Real,
 }
 
-/// Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each,
-/// `samples` samples a chirp.
+/// Timing and frequency plan of one frame: `loops` times through the chirps of a loop, which the
+/// transmitters share as `multiplexing` says, `samples` samples a chirp.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Waveform {
@@ -37,12 +39,19 @@ pub struct Waveform {
     pub adc_start_s: f64,
     /// Time from the start of one chirp to the start of the next, s.
     pub chirp_interval_s: f64,
-    /// Number of transmitters, which take turns.
+    /// Number of transmitters.
     pub transmitters: usize,
-    /// Chirps of each transmitter in a frame.
+    /// Loops in a frame: how often each transmitter's turn comes, or, in Doppler division, chirps.
     pub loops: usize,
     /// Time from the start of one frame to the start of the next, s.
     pub frame_interval_s: f64,
+    /// How the transmitters share the chirps.
+    #[serde(default, skip_serializing_if = "Multiplexing::is_time_division")]
+    pub multiplexing: Multiplexing,
+    /// Doppler bands of Doppler division, more than transmitters, so that some are empty and tell
+    /// which band is whose; half as many more as transmitters if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doppler_bands: Option<usize>,
 }
 
 /// What follows from a waveform: the numbers engineers look for first.
@@ -87,7 +96,12 @@ impl Waveform {
         check_range("transmitters", self.transmitters as f64, 1.0, 64.0)?;
         check_range("loops", self.loops as f64, 1.0, 65_536.0)?;
         check_range("chirp_interval_s", self.chirp_interval_s, self.sweep_s(), 1.0)?;
-        let active = self.chirp_interval_s * (self.loops * self.transmitters) as f64;
+        match self.multiplexing {
+            Multiplexing::TimeDivision => {}
+            Multiplexing::BinaryPhase => self.check_binary_phase()?,
+            Multiplexing::DopplerDivision => self.check_doppler_division()?,
+        }
+        let active = self.chirp_interval_s * (self.loops * self.chirps_per_loop()) as f64;
         check_range("frame_interval_s", self.frame_interval_s, active * (1.0 - 1e-9), 1e3)
     }
 
@@ -103,6 +117,57 @@ impl Waveform {
                 expected: "complex samples here".into(),
                 given: "real".into(),
             }),
+        }
+    }
+
+    fn check_binary_phase(&self) -> Result<(), CoreError> {
+        if self.transmitters.is_power_of_two() {
+            return Ok(());
+        }
+        Err(CoreError::OutOfRange {
+            what: "transmitters".into(),
+            expected: "a power of two in binary-phase multiplexing".into(),
+            given: self.transmitters as f64,
+        })
+    }
+
+    fn check_doppler_division(&self) -> Result<(), CoreError> {
+        let (fewest, bands) = (self.transmitters + 1, self.bands());
+        check_range("doppler_bands", bands as f64, fewest as f64, 128.0)?;
+        if self.loops.is_multiple_of(bands) {
+            return Ok(());
+        }
+        Err(CoreError::OutOfRange {
+            what: "loops".into(),
+            expected: format!("a multiple of the {bands} Doppler bands"),
+            given: self.loops as f64,
+        })
+    }
+
+    /// Chirps of a loop: as many as transmitters, or 1 in Doppler division.
+    pub fn chirps_per_loop(&self) -> usize {
+        self.multiplexing.chirps_per_loop(self.transmitters)
+    }
+
+    /// Doppler bands into which the transmitters are put in Doppler division; 1 otherwise.
+    pub fn bands(&self) -> usize {
+        if self.multiplexing != Multiplexing::DopplerDivision {
+            return 1;
+        }
+        self.doppler_bands.unwrap_or(self.transmitters + (self.transmitters / 2).max(1))
+    }
+
+    /// The factor by which `transmitter` sends chirp `chirp` of loop `turn`.
+    pub fn code(&self, transmitter: usize, turn: usize, chirp: usize) -> Complex64 {
+        self.multiplexing.code(transmitter, turn, chirp, self.bands())
+    }
+
+    /// Chirps of a loop in which a transmitter sends: what a loop adds up in energy over one chirp
+    /// of one transmitter.
+    pub fn sent_per_loop(&self) -> usize {
+        match self.multiplexing {
+            Multiplexing::BinaryPhase => self.transmitters,
+            Multiplexing::TimeDivision | Multiplexing::DopplerDivision => 1,
         }
     }
 
@@ -153,9 +218,9 @@ impl Waveform {
         SPEED_OF_LIGHT_MPS * self.beat_band_hz() / (2.0 * self.slope_hz_per_s)
     }
 
-    /// Time from one chirp of a transmitter to its next, s.
+    /// Time from one loop to the next, s.
     pub fn loop_interval_s(&self) -> f64 {
-        self.chirp_interval_s * self.transmitters as f64
+        self.chirp_interval_s * self.chirps_per_loop() as f64
     }
 
     /// Range-rate resolution `lambda / 2 T`, m/s, T being the time the loops take.
@@ -204,6 +269,8 @@ mod tests {
             transmitters: 2,
             loops: 16,
             frame_interval_s: 40e-3,
+            multiplexing: Multiplexing::TimeDivision,
+            doppler_bands: None,
         }
     }
 
@@ -237,5 +304,26 @@ mod tests {
         assert!(broken.check().unwrap_err().to_string().contains("slope_hz_per_s"));
         let broken = Waveform { frame_interval_s: 1e-3, ..awr1642() };
         assert!(broken.check().unwrap_err().to_string().contains("frame_interval_s"));
+        let multiplexing = Multiplexing::BinaryPhase;
+        let broken = Waveform { transmitters: 3, multiplexing, ..awr1642() };
+        assert!(broken.check().unwrap_err().to_string().contains("power of two"));
+        let ddm = Waveform { multiplexing: Multiplexing::DopplerDivision, ..awr1642() };
+        assert!(ddm.check().unwrap_err().to_string().contains("multiple of the 3"));
+        for doppler_bands in [Some(0), Some(2), Some(usize::MAX)] {
+            let broken = Waveform { doppler_bands, ..ddm };
+            assert!(broken.check().unwrap_err().to_string().contains("doppler_bands"));
+        }
+    }
+
+    #[test]
+    fn sending_at_once_changes_what_a_loop_is() {
+        let bpm = Waveform { multiplexing: Multiplexing::BinaryPhase, ..awr1642() };
+        bpm.check().unwrap();
+        assert_eq!((bpm.summary(), bpm.sent_per_loop()), (awr1642().summary(), 2));
+        let multiplexing = Multiplexing::DopplerDivision;
+        let ddm = Waveform { multiplexing, transmitters: 4, loops: 48, ..awr1642() };
+        ddm.check().unwrap();
+        assert_eq!((ddm.bands(), ddm.chirps_per_loop()), (6, 1));
+        assert!((ddm.max_rate_mps() / awr1642().max_rate_mps() - 2.0).abs() < 1e-12);
     }
 }

@@ -1,8 +1,9 @@
 //! Why a cell of the range-Doppler map is a detection, or is none.
 
 use crate::capture::Report;
-use crate::chain::{Cell, Chain};
+use crate::chain::{Cell, Chain, Found};
 use crate::error::PipelineError;
+use crate::result::Counts;
 use crate::source::FrameSource;
 use boresight_core::Complex64;
 use boresight_core::describe::{Described, decibels};
@@ -95,9 +96,13 @@ impl Chain {
         let mut told = self.explain_in_map([range_bin, doppler_bin])?;
         if told.verdict == Verdict::Kept {
             let cells: Vec<Cell> = self.kept_at([range_bin, doppler_bin])?.into_iter().collect();
-            let snapshots = self.snapshots_of(&cells, source, frames, report)?;
-            let range_m = cells.first().map_or(0.0, |cell| cell.range_m);
-            told.verdict = self.verdict_of_directions(range_m, snapshots.view())?;
+            let mut found = Found { cells, counts: Counts::default() };
+            let snapshots = self.snapshots_of(&mut found, source, frames, report)?;
+            told.verdict = match found.cells.first() {
+                Some(cell) => self.verdict_of_directions(cell.range_m, snapshots.view())?,
+                // The rate of its fold is.
+                None => Verdict::OutsideRate,
+            };
             told.message = self.sentence(&told);
         }
         Ok(told)
@@ -135,7 +140,7 @@ impl Chain {
             Verdict::Grouped
         } else if !self.region.contains_range(cell.range_m) {
             Verdict::OutsideRange
-        } else if !self.region.contains(cell.range_m, cell.rate_mps) {
+        } else if self.folds.is_none() && !self.region.contains(cell.range_m, cell.rate_mps) {
             Verdict::OutsideRate
         } else if self.kept_at([range_bin, doppler_bin])?.is_some() {
             Verdict::Kept

@@ -39,6 +39,7 @@ mod capture;
 mod chain;
 mod error;
 mod explain;
+mod folds;
 pub mod image;
 mod options;
 pub mod regions;

@@ -50,6 +50,11 @@ pub struct ChainOptions {
     /// Limits outside which detections are dropped, and counted. Where it names no range, that is
     /// from 4 range resolutions to 0.9 of the unambiguous range.
     pub region: Region,
+    /// Most folds of the range rate to each side that are tried where transmitters take turns:
+    /// rates beyond the unambiguous one, told by the transmitters' phases. 0 takes every rate for
+    /// that of its bin.
+    #[option(default = 0, range = 0..=32)]
+    pub doppler_folds: usize,
     /// Angle estimation.
     pub angle: AngleOptions,
     /// Most detections a frame; the strongest are kept.

@@ -232,3 +232,22 @@ fn what_does_not_fit_is_refused() {
     let frame = recording.frame(0).unwrap().samples;
     assert_targets(&chain.process(frame.view()).unwrap());
 }
+
+#[test]
+fn folds_leave_what_stands_where_it_is() {
+    let plain = each(&ChainOptions::default());
+    let told = each(&ChainOptions { doppler_folds: 1, ..ChainOptions::default() });
+    let mut sure = 0;
+    for (plain, told) in plain.iter().zip(&told) {
+        assert_eq!(plain.detections.len(), told.detections.len());
+        assert!(told.detections.iter().all(|d| d.doppler_fold == 0));
+        for (one, other) in plain.detections.iter().zip(&told.detections) {
+            assert_eq!(one, &Detection { fold_probability: None, ..*other });
+            sure += usize::from(other.fold_probability.unwrap() >= 0.99);
+        }
+        assert!(told.unambiguous_rate_mps > 1.99 * plain.unambiguous_rate_mps);
+        assert_eq!(plain.counts.undecided_folds, 0);
+    }
+    // The rest, mostly weak, keep the rate of their bin as well, and are counted.
+    assert!(sure >= 40, "{sure} of 84");
+}

@@ -2,7 +2,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Random, Sampling, Waveform};
+use boresight_core::{Complex32, Multiplexing, Random, Sampling, Waveform};
 use boresight_signal::{Cfar, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions};
 use criterion::{Criterion, criterion_group, criterion_main};
 use ndarray::Array4;
@@ -20,6 +20,8 @@ fn chain(criterion: &mut Criterion) {
         transmitters: 2,
         loops: 128,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     };
     let mut random = Random::new(1, 0);
     let frame = Array4::from_shape_fn((128, 2, 4, 256), |_| {

@@ -7,7 +7,7 @@
 //! # Example
 //!
 //! ```
-//! use boresight_core::{Complex32, Sampling, Waveform};
+//! use boresight_core::{Complex32, Multiplexing, Sampling, Waveform};
 //! use boresight_signal::{RangeDoppler, RangeDopplerOptions};
 //! use ndarray::Array4;
 //! use std::f32::consts::TAU;
@@ -23,6 +23,8 @@
 //!     transmitters: 1,
 //!     loops: 16,
 //!     frame_interval_s: 40e-3,
+//!     multiplexing: Multiplexing::TimeDivision,
+//!     doppler_bands: None,
 //! };
 //! let mut transform = RangeDoppler::new(&waveform, 1, &RangeDopplerOptions::default())?;
 //! let mut map = transform.output();
@@ -38,10 +40,13 @@
 //! # Ok::<(), boresight_signal::SignalError>(())
 //! ```
 
+pub mod binary_phase;
 pub mod cfar;
 pub mod clutter;
 pub mod covariance;
+pub mod doppler_division;
 pub mod error;
+pub mod folds;
 pub mod peaks;
 pub mod power;
 pub mod range;
@@ -56,6 +61,7 @@ pub use cfar::{CellThreshold, Cfar, CfarAxes, CfarKind, CfarOptions, Detection};
 pub use clutter::remove_static_clutter;
 pub use covariance::{forward_backward, load_diagonal, sample_covariance, spatial_smoothing};
 pub use error::SignalError;
+pub use folds::{Fold, FoldTest};
 pub use peaks::{Peak, Peaks, group_peaks};
 pub use power::power_map;
 pub use range_doppler::{RangeDoppler, RangeDopplerMap, RangeDopplerOptions};

@@ -1,6 +1,7 @@
 //! Range and Doppler transform of a frame.
 
 use crate::clutter::subtract_mean;
+use crate::doppler_division::Bands;
 use crate::error::SignalError;
 use crate::power::accumulate_power;
 use crate::range::{RowTransform, range_axis_m};
@@ -42,7 +43,8 @@ pub struct RangeDopplerOptions {
 pub struct RangeDopplerMap {
     /// Channels x range x Doppler, in memory in this order, channel `tx * receivers + rx`. Rates
     /// ascend with the Doppler bin. The phase between transmitters is as measured; see
-    /// [`crate::tdm`].
+    /// [`crate::tdm`]. In binary-phase multiplexing the first number is that of the chirp in the
+    /// loop, from which [`crate::binary_phase`] makes transmitters.
     pub cube: Array3<Complex32>,
     /// Mean power over the channels, range x Doppler. A cell that holds a target has the power of
     /// one raw sample of it.
@@ -148,6 +150,8 @@ pub struct RangeDoppler {
     static_clutter_removal: bool,
     range: RangeTransform,
     doppler: RowTransform,
+    /// What tells transmitters apart in Doppler division.
+    bands: Option<Bands>,
     /// Range bins of all loops of one channel.
     chirps: Vec<Complex32>,
     range_m: Vec<f64>,
@@ -155,7 +159,7 @@ pub struct RangeDoppler {
 }
 
 impl RangeDoppler {
-    /// Plans for frames of `waveform.loops` x `waveform.transmitters` x `receivers` x
+    /// Plans for frames of `waveform.loops` x [`Waveform::chirps_per_loop`] x `receivers` x
     /// `waveform.samples`.
     ///
     /// # Errors
@@ -193,6 +197,7 @@ impl RangeDoppler {
             chirps: vec![Complex32::default(); waveform.loops * range.bins()],
             range_m: range_axis_m(waveform, range.bins()),
             rate_mps,
+            bands: Bands::of(waveform, &doppler.weights),
             range,
             doppler,
         })
@@ -219,14 +224,17 @@ impl RangeDoppler {
     }
 
     /// Noise power of one raw sample over that of one cell: the gain in SNR of a target in the
-    /// middle of a cell. With real samples it is half of what as many complex ones give.
+    /// middle of a cell, over that of one transmitter in one raw sample. With real samples it is half of what as many
+    /// complex ones give. In binary phase it is larger by the number of transmitters, which all send in each chirp; in
+    /// Doppler division so are the loops in the same time.
     pub fn processing_gain(&self) -> f64 {
         let bandwidth = match self.waveform.sampling {
             Sampling::Complex => self.range.noise_bandwidth_bins(),
             Sampling::Real => 2.0 * self.range.noise_bandwidth_bins(),
         };
         let samples = self.waveform.samples as f64 / bandwidth;
-        samples * self.waveform.loops as f64 / self.doppler.noise_bandwidth_bins
+        let chirps = (self.waveform.loops * self.waveform.sent_per_loop()) as f64;
+        samples * chirps / self.doppler.noise_bandwidth_bins
     }
 
     /// Neighbouring cells of noise that count as one independent cell, along range and Doppler: the
@@ -245,7 +253,7 @@ impl RangeDoppler {
         }
     }
 
-    /// Transforms a frame of loops x transmitters x receivers x samples.
+    /// Transforms a frame of loops x chirps of a loop x receivers x samples.
     ///
     /// # Errors
     /// [`CoreError::Shape`] if the frame or the output has another shape than planned;
@@ -256,45 +264,73 @@ impl RangeDoppler {
         output: &mut RangeDopplerMap,
     ) -> Result<(), SignalError> {
         let Waveform { loops, transmitters, samples, .. } = self.waveform;
-        check_shape("frame", frame.shape(), &[loops, transmitters, self.receivers, samples])?;
+        let chirps = self.waveform.chirps_per_loop();
+        check_shape("frame", frame.shape(), &[loops, chirps, self.receivers, samples])?;
         let (ranges, dopplers) = (self.range.bins(), self.doppler.bins());
         check_shape("output cube", output.cube.shape(), &[self.channels(), ranges, dopplers])?;
         check_shape("output power map", output.power.shape(), &[ranges, dopplers])?;
         output.power.fill(0.0);
-        for tx in 0..transmitters {
+        for chirp in 0..chirps {
             for rx in 0..self.receivers {
-                let channel = frame.index_axis(Axis(1), tx);
+                let channel = frame.index_axis(Axis(1), chirp);
                 let channel = channel.index_axis(Axis(1), rx);
                 self.range.transform(channel, &mut self.chirps)?;
-                let mut plane = output.cube.index_axis_mut(Axis(0), tx * self.receivers + rx);
-                let Some(plane) = plane.as_slice_mut() else {
-                    return Err(not_contiguous("output cube"));
-                };
-                let Some(power) = output.power.as_slice_mut() else {
-                    return Err(not_contiguous("output power map"));
-                };
-                transpose(&self.chirps, loops, plane, ranges);
-                for row in plane.chunks_exact_mut(dopplers) {
-                    let (pulses, padding) = row.split_at_mut(loops);
+                // Chirps that all transmitters share are those of each.
+                let planes = if self.bands.is_some() { 0..transmitters } else { chirp..chirp + 1 };
+                for plane in planes {
+                    self.pulses(plane, plane * self.receivers + rx, output)?;
+                }
+            }
+        }
+        let share = 1.0 / (self.channels() * self.waveform.sent_per_loop()) as f32;
+        output.power.mapv_inplace(|p| p * share);
+        Ok(())
+    }
+
+    /// The Doppler transform of the range bins at hand into one channel of the output.
+    fn pulses(
+        &mut self,
+        transmitter: usize,
+        channel: usize,
+        output: &mut RangeDopplerMap,
+    ) -> Result<(), SignalError> {
+        let loops = self.waveform.loops;
+        let (ranges, dopplers) = (self.range.bins(), self.doppler.bins());
+        let mut plane = output.cube.index_axis_mut(Axis(0), channel);
+        let Some(plane) = plane.as_slice_mut() else {
+            return Err(not_contiguous("output cube"));
+        };
+        let Some(power) = output.power.as_slice_mut() else {
+            return Err(not_contiguous("output power map"));
+        };
+        transpose(&self.chirps, loops, plane, ranges);
+        for row in plane.chunks_exact_mut(dopplers) {
+            let (pulses, padding) = row.split_at_mut(loops);
+            match &self.bands {
+                Some(bands) => {
+                    if self.static_clutter_removal {
+                        bands.subtract_static(pulses);
+                    }
+                    bands.weigh(transmitter, pulses);
+                }
+                None => {
                     if self.static_clutter_removal {
                         subtract_mean(pulses);
                     }
                     for (pulse, &weight) in pulses.iter_mut().zip(&self.doppler.weights) {
                         *pulse *= weight;
                     }
-                    padding.fill(Complex32::default());
                 }
-                self.doppler.transform(plane);
-                if !dopplers.is_multiple_of(2) {
-                    for row in plane.chunks_exact_mut(dopplers) {
-                        row.rotate_right(dopplers / 2);
-                    }
-                }
-                accumulate_power(plane, power);
+            }
+            padding.fill(Complex32::default());
+        }
+        self.doppler.transform(plane);
+        if !dopplers.is_multiple_of(2) {
+            for row in plane.chunks_exact_mut(dopplers) {
+                row.rotate_right(dopplers / 2);
             }
         }
-        let share = 1.0 / self.channels() as f32;
-        output.power.mapv_inplace(|p| p * share);
+        accumulate_power(plane, power);
         Ok(())
     }
 
@@ -307,7 +343,9 @@ impl RangeDoppler {
         let (ranges, dopplers) = (self.range.bins(), self.doppler.bins());
         check_shape("power map", map.power.shape(), &[ranges, dopplers])?;
         let padding = (dopplers / self.waveform.loops) as f64;
-        let share = 1.0 / (padding * self.doppler.noise_bandwidth_bins);
+        // In Doppler division a target is in the row of each transmitter once for each.
+        let times = if self.bands.is_some() { self.waveform.transmitters } else { 1 };
+        let share = 1.0 / (padding * self.doppler.noise_bandwidth_bins * times as f64);
         let total = |row: ndarray::ArrayView1<f32>| row.iter().map(|&p| f64::from(p)).sum::<f64>();
         Ok(map.power.outer_iter().map(|row| share * total(row)).collect())
     }

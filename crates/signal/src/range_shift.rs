@@ -107,7 +107,7 @@ impl RangeAugmentation {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use boresight_core::Sampling;
+    use boresight_core::{Multiplexing, Sampling};
     use ndarray::Array4;
 
     fn waveform() -> Waveform {
@@ -122,6 +122,8 @@ mod tests {
             transmitters: 1,
             loops: 2,
             frame_interval_s: 40e-3,
+            multiplexing: Multiplexing::TimeDivision,
+            doppler_bands: None,
         }
     }
 

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Random, Sampling, Waveform};
+use boresight_core::{Complex32, Multiplexing, Random, Sampling, Waveform};
 use boresight_signal::{
     Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,
 };
@@ -161,6 +161,8 @@ fn windowed_noise_keeps_the_rate() {
         transmitters: 1,
         loops: 32,
         frame_interval_s: 1e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     };
     let windows = RangeDopplerOptions {
         range_window: Window::Hann,

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Complex64, Random, Waveform};
+use boresight_core::{Complex32, Complex64, Multiplexing, Random, Sampling, Waveform};
 use boresight_signal::peaks::group_peaks;
 use boresight_signal::{
     Cfar, CfarKind, CfarOptions, RangeDoppler, RangeDopplerMap, RangeDopplerOptions, Window,
@@ -41,12 +41,15 @@ impl Scene {
             start_frequency_hz: 77e9,
             slope_hz_per_s: 60e12,
             sample_rate_hz: 5e6,
+            sampling: Sampling::Complex,
             samples: SAMPLES,
             adc_start_s: 0.0,
             chirp_interval_s: 20e-6,
             transmitters: 1,
             loops: LOOPS,
             frame_interval_s: 1e-3,
+            multiplexing: Multiplexing::TimeDivision,
+            doppler_bands: None,
         };
         let options = RangeDopplerOptions {
             range_window: window,

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::describe::Named;
-use boresight_core::{Complex32, Complex64, Diagnose, Sampling, Waveform};
+use boresight_core::{Complex32, Complex64, Diagnose, Multiplexing, Sampling, Waveform};
 use boresight_signal::region::{crop_region, range_spectrum, region_covariance};
 use boresight_signal::{
     Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,
@@ -97,6 +97,8 @@ proptest! {
             transmitters: 2,
             loops,
             frame_interval_s: 40e-3,
+            multiplexing: Multiplexing::TimeDivision,
+            doppler_bands: None,
         };
         let options = RangeDopplerOptions {
             range_window,

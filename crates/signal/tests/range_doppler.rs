@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Complex64, CoreError, Diagnose, Random, Sampling, Waveform};
+use boresight_core::{
+    Complex32, Complex64, CoreError, Diagnose, Multiplexing, Random, Sampling, Waveform,
+};
 use boresight_signal::{
     RangeDoppler, RangeDopplerOptions, SignalError, Window, power_map, remove_static_clutter,
 };
@@ -21,6 +23,8 @@ fn waveform(samples: usize, transmitters: usize, loops: usize) -> Waveform {
         transmitters,
         loops,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Waveforms of the literature and of boards.
 
-use boresight_core::{CoreError, Sampling, Waveform};
+use boresight_core::{CoreError, Multiplexing, Sampling, Waveform};
 
 /// A waveform's name, and the function that makes it.
 type Preset = (&'static str, fn() -> Waveform);
@@ -47,6 +47,8 @@ pub fn waveform_3dcnn_simulated() -> Waveform {
         transmitters: 1,
         loops: 4,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 
@@ -66,6 +68,8 @@ pub fn waveform_3dcnn_experiment() -> Waveform {
         transmitters: 2,
         loops: 4,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 
@@ -83,6 +87,8 @@ pub fn waveform_awr1642() -> Waveform {
         transmitters: 2,
         loops: 16,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 
@@ -100,6 +106,8 @@ pub fn waveform_corner() -> Waveform {
         transmitters: 6,
         loops: 128,
         frame_interval_s: 50e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 

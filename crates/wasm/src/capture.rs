@@ -326,7 +326,7 @@ impl Capture {
     }
 }
 
-/// Detections of each frame of a cube: frames x loops x transmitters x receivers x samples.
+/// Detections of each frame of a cube: frames x loops x chirps of a loop x receivers x samples.
 #[wasm_bindgen(js_name = processCube)]
 pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array> {
     process_cube_by(&classical, cube, options)
@@ -338,13 +338,13 @@ pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array
 /// For a cube of other than five axes.
 pub fn cube_frames(cube: &Cube) -> Fallible<CubeFrames<'_>> {
     let wrong = || {
-        let expected = "[frames, loops, transmitters, receivers, samples]";
+        let expected = "[frames, loops, chirps of a loop, receivers, samples]";
         shape_error("cube", expected, &cube.shape)
     };
-    let [frames, loops, transmitters, receivers, samples] = cube.shape[..] else {
+    let [frames, loops, chirps, receivers, samples] = cube.shape[..] else {
         return Err(wrong());
     };
-    let shape = (frames, loops, transmitters, receivers, samples);
+    let shape = (frames, loops, chirps, receivers, samples);
     Ok(CubeFrames(ArrayView5::from_shape(shape, &cube.data).map_err(|_| wrong())?))
 }
 

@@ -19,6 +19,15 @@ pub fn parse_config(text: &JsValue) -> Fallible<JsValue> {
     Ok(carry::write(&ConfigRecord::from(&read_config(text, "configuration")?.0)))
 }
 
+/// The text of a `.cfg` file with a comment that chooses one of its sub-frames.
+#[wasm_bindgen(js_name = subFrameConfig)]
+pub fn sub_frame_config(text: &JsValue, sub_frame: &JsValue) -> Fallible<String> {
+    let bytes = Text::read(text, "configuration")?.0;
+    let sub_frame = usize::read(sub_frame, "sub_frame")?;
+    RadarConfig::parse(&bytes)?.choose(sub_frame)?;
+    Ok(format!("{}\n% Sub-frame: {sub_frame}\n", String::from_utf8_lossy(&bytes).trim_end()))
+}
+
 /// A configuration from its text, or from an object of the text with what overrides it in how samples are read; that
 /// is put into it, and given beside it.
 pub fn read_config(value: &JsValue, path: &str) -> Fallible<(RadarConfig, ReadingOptions)> {
@@ -72,7 +81,11 @@ pub struct ConfigRecord<'a> {
     iq_order: &'static str,
     /// Where samples stand in the bytes.
     layout: Layout,
-    /// Bytes of one frame of raw samples.
+    /// Sub-frames of a frame; 1 for frames without.
+    sub_frames: usize,
+    /// The one that waveform and transmitters are of, from 0.
+    sub_frame: usize,
+    /// Bytes of one frame of raw samples, with all of its sub-frames.
     frame_bytes: u64,
     /// Frames to record; null until stopped.
     frames: Option<usize>,
@@ -95,6 +108,8 @@ impl<'a> From<&'a RadarConfig> for ConfigRecord<'a> {
             sample_bits: config.adc.bits,
             iq_order: if config.adc.q_first { "qi" } else { "iq" },
             layout: config.adc.layout,
+            sub_frames: config.sub_frames.len(),
+            sub_frame: config.sub_frame,
             frame_bytes: config.frame_bytes(),
             frames: config.frames,
             warnings: &config.remarks,

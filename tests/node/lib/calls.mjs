@@ -89,6 +89,7 @@ export function goodCalls() {
     strongestRegion: [cube, { bins: 5, chirps: 4 }],
     parseConfig: [{ text: cfg, iqOrder: 'qi' }],
     joinCascade: [cascadeFiles, cascadeCfg],
+    subFrameConfig: [cfg, 0],
     parseBoardLog: [Uint8Array.from(dat.subarray(0, 2000)), cfg],
     readNpy: [boresight.writeNpy({ kind: 'real', data: Float64Array.of(1, 2), shape: [2] })],
     writeNpy: [{ kind: 'real', data: Float64Array.of(1, 2), shape: [2] }],

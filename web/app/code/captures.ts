@@ -33,6 +33,7 @@ export function captureNeeds(capture: Loaded): string {
 /** Opens a capture as `capture`, of samples `bin` and configuration `cfg`. */
 export function openCapture(script: Script, capture: Loaded): void {
   const { bin, cfg } = namesOf(capture);
+  const { config } = capture.info;
   script.use('node:fs/promises', 'readFile').use('boresight', 'Capture');
   const { cascade, reading } = capture;
   if (cascade) {
@@ -49,7 +50,12 @@ export function openCapture(script: Script, capture: Loaded): void {
     script.add('// What mmWave Studio wrote, as a .cfg.');
     script.constant('lines', capture.cfg.trimEnd().split('\n'));
   }
-  const text = cfg === null ? "lines.join('\\n')" : `await readFile(${quoted(cfg)}, 'utf8')`;
+  const file = `await readFile(${quoted(cfg ?? '')}, 'utf8')`;
+  let text = cfg === null ? "lines.join('\\n')" : file;
+  if (config.subFrames > 1) {
+    script.use('boresight', 'subFrameConfig');
+    text = `subFrameConfig(${text}, ${config.subFrame})`;
+  }
   if (own) {
     script.constant('reading', reading);
     script.add(`const cfg = { text: ${text}, ...reading };`);
@@ -64,6 +70,7 @@ export function openCapture(script: Script, capture: Loaded): void {
 /** What stands before the commands on a capture, and how they name it. */
 export function captureWords(capture: Loaded): { before: string[]; words: string[] } {
   const { bin, cfg } = namesOf(capture);
+  const { info } = capture;
   const joined = bin.length > 1 && !capture.cascade;
   const [whole, config] = [joined ? 'capture.bin' : (bin[0] ?? ''), cfg ?? 'capture.cfg'];
   return {
@@ -71,7 +78,10 @@ export function captureWords(capture: Loaded): { before: string[]; words: string
       ...(joined ? [command(['cat', ...bin.map(fileWord)], ` > ${shellWord(whole)}`)] : []),
       ...(cfg === null ? [heredoc(config, capture.cfg)] : []),
     ],
-    words: [fileWord(whole), '--config', fileWord(config), ...flags('ReadingOptions', capture.reading)],
+    words: [
+      ...[fileWord(whole), '--config', fileWord(config), ...flags('ReadingOptions', capture.reading)],
+      ...(info.config.subFrames > 1 ? ['--subframe', String(info.config.subFrame)] : []),
+    ],
   };
 }
 

@@ -6,3 +6,13 @@ import type { ConfigInput, RadarConfig } from '../types.js';
 export function parseConfig(config: ConfigInput): RadarConfig {
   return call(() => glue.parseConfig(config) as RadarConfig);
 }
+
+/**
+ * The configuration with one of the sub-frames of its advanced frame chosen, from 0, for whatever takes a
+ * configuration: a comment at its end says which.
+ *
+ * @throws BoresightError if there is no such sub-frame.
+ */
+export function subFrameConfig(text: TextInput, subFrame: number): string {
+  return call(() => glue.subFrameConfig(text, subFrame));
+}

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 FILE is, by its ending:
   .bin  raw samples of a DCA1000 capture card, with --config; of a cascade of chips one of its files, or their folder
-  .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or
+  .npy  a data cube (frames x loops x chirps of a loop x receivers x samples), with --config or
         --waveform; or snapshots (elements, elements x snapshots or scenes x elements x snapshots),
         with --array
   .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
@@ -59,6 +59,9 @@ pub struct RadarArguments {
     /// The board's configuration (.cfg).
     #[arg(long, value_name = "CFG")]
     pub config: Option<PathBuf>,
+    /// Which sub-frame of an advanced frame is read, from 0.
+    #[arg(long, value_name = "I", requires = "config")]
+    pub subframe: Option<usize>,
     /// Waveform of a data cube: awr1642, corner, 3dcnn-simulated, 3dcnn-experiment, or a JSON file, such as
     /// the truth that `simulate cube` writes.
     #[arg(long, value_name = "NAME|JSON", conflicts_with = "config")]

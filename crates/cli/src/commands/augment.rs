@@ -19,7 +19,7 @@ pub fn run(arguments: &AugmentArguments, files: &Files) -> Result<String, CliErr
     match files::ending(&arguments.file).as_str() {
         ending if ending == "bin" || arguments.file.is_dir() => {
             let reading = &arguments.reading.options;
-            let samples = capture::Samples::read(&arguments.file, config, reading, files)?;
+            let samples = capture::Samples::read(&arguments.file, config, None, reading, files)?;
             write(arguments, &samples.config.waveform, &samples.frames()?, files)
         }
         ending if numbers::ENDINGS.contains(&ending) => {

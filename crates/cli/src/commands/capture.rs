@@ -55,10 +55,11 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Reads the capture in `file`; of a cascade of chips the files beside it that belong to it, or those of a folder.
+    /// Reads the capture in `file`, one of its sub-frames where it has several; of a cascade of chips the files beside it that belong to it, or those of a folder.
     pub fn read(
         file: &Path,
         config: Option<&Path>,
+        sub_frame: Option<usize>,
         reading: &ReadingOptions,
         files: &Files,
     ) -> Result<Self, CliError> {
@@ -67,7 +68,7 @@ impl Samples {
             expected: "the board's .cfg file, which tells how to read a .bin file".into(),
             given: "nothing".into(),
         })?;
-        let config = RadarConfig::parse(&files.read(path)?)?;
+        let config = sub_frame_of(RadarConfig::parse(&files.read(path)?)?, sub_frame)?;
         let mut remarks = config.remarks.clone();
         let bytes = match cascade_files(file)? {
             Some(parts) => {
@@ -121,11 +122,23 @@ pub fn open(
     file: &Path,
     files: &Files,
 ) -> Result<(Samples, Radar), CliError> {
-    let samples =
-        Samples::read(file, arguments.config.as_deref(), &arguments.reading.options, files)?;
+    let (config, reading) = (arguments.config.as_deref(), &arguments.reading.options);
+    let samples = Samples::read(file, config, arguments.subframe, reading, files)?;
     let array = board_array(arguments.array.as_deref(), &samples.config, files)?;
     let (waveform, receivers) = (samples.config.waveform, samples.config.receivers.len());
     Ok((samples, Radar { waveform, receivers, array }))
+}
+
+/// The configuration of one of its sub-frames; what others there are is said.
+pub fn sub_frame_of(
+    config: RadarConfig,
+    sub_frame: Option<usize>,
+) -> Result<RadarConfig, CliError> {
+    let (count, sub_frame) = (config.sub_frames.len(), sub_frame.unwrap_or(config.sub_frame));
+    if count > 1 {
+        remark([format!("sub-frame {sub_frame} of {count} is read; --subframe chooses another")]);
+    }
+    Ok(config.choose(sub_frame)?)
 }
 
 /// The array of a name, or the board's.

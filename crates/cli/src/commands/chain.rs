@@ -65,6 +65,7 @@ fn remarks(results: &[FrameResult]) -> Vec<String> {
         sum(|r| r.counts.grouped),
     )];
     for (count, what) in [
+        (sum(|r| r.counts.other_bands), "echoes in other Doppler bands"),
         (sum(|r| r.counts.outside_region), "outside the limits"),
         (sum(|r| r.counts.beyond_limit), "beyond the most to report"),
         (sum(|r| r.counts.clipped_samples), "samples clipped by the converter"),
@@ -100,6 +101,8 @@ fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
             column("xM", "x_m", 3),
             column("yM", "y_m", 3),
             column("zM", "z_m", 3),
+            column("dopplerFold", "doppler_fold", 0),
+            column("foldProbability", "fold_probability", 3),
         ],
         rows: detections
             .map(|d| {
@@ -116,6 +119,8 @@ fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
                     d.x_m,
                     d.y_m,
                     d.z_m,
+                    d.doppler_fold.into(),
+                    d.fold_probability.unwrap_or(f64::NAN),
                 ]
             })
             .collect(),

@@ -116,7 +116,7 @@ fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, Cli
 fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, CliError> {
     let shared = &arguments.shared;
     let config = Some(&*arguments.config);
-    let samples = Samples::read(&arguments.file, config, &arguments.reading.options, files)?;
+    let samples = Samples::read(&arguments.file, config, None, &arguments.reading.options, files)?;
     let (source, config) = (samples.frames()?, &samples.config);
     let array = board_array(arguments.array.as_deref(), config, files)?;
     let waveform = config.waveform;

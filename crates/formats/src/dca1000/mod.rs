@@ -22,6 +22,7 @@ use crate::mmwave_cfg::RadarConfig;
 use boresight_core::error::check_range;
 use boresight_core::{Complex32, Remark, Sampling};
 use ndarray::Array4;
+use std::ops::Range;
 
 /// A capture laid over its bytes; frames are decoded one at a time.
 #[derive(Debug, Clone)]
@@ -32,13 +33,15 @@ pub struct Capture<'a> {
     full_scale: i32,
     q_first: bool,
     frame_bytes: usize,
+    /// Where the samples of the sub-frame stand in the bytes of a frame.
+    part: Range<usize>,
     remarks: Vec<Remark>,
 }
 
 /// One frame of samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RawFrame {
-    /// Loops x transmitters x receivers x samples; full scale is 1. The imaginary parts of real samples are 0.
+    /// Loops x chirps of a loop x receivers x samples; full scale is 1. The imaginary parts of real samples are 0.
     pub samples: Array4<Complex32>,
     /// Samples whose I or Q stands at either end of the converter's range.
     pub clipped: usize,
@@ -54,7 +57,7 @@ impl<'a> Capture<'a> {
     pub fn new(bytes: &'a [u8], config: &RadarConfig) -> Result<Self, FormatError> {
         let waveform = &config.waveform;
         let shape =
-            [waveform.loops, waveform.transmitters, config.receivers.len(), waveform.samples];
+            [waveform.loops, waveform.chirps_per_loop(), config.receivers.len(), waveform.samples];
         config.check_layout()?;
         let expected = config.frame_bytes();
         let frame_bytes = usize::try_from(expected).unwrap_or(usize::MAX);
@@ -62,22 +65,11 @@ impl<'a> Capture<'a> {
             return Err(FormatError::NoWholeFrame {
                 expected,
                 given: bytes.len() as u64,
-                layout: format!(
-                    "{} loops x {} transmitters x {} receivers x {} samples x {} bytes",
-                    shape[0],
-                    shape[1],
-                    match config.adc.layout {
-                        Layout::FourLane => 4,
-                        _ => shape[2],
-                    },
-                    shape[3],
-                    match waveform.sampling {
-                        Sampling::Complex => 4,
-                        Sampling::Real => 2,
-                    }
-                ),
+                layout: layout_of(config, shape),
             });
         }
+        // Not beyond the bytes of a frame, which are there.
+        let part = config.sub_frame_bytes();
         let mut capture = Self {
             bytes,
             shape,
@@ -85,6 +77,7 @@ impl<'a> Capture<'a> {
             full_scale: config.adc.full_scale(),
             q_first: config.adc.q_first,
             frame_bytes,
+            part: part.start as usize..part.end as usize,
             remarks: vec![],
         };
         capture.remark_on_size(config);
@@ -119,7 +112,7 @@ impl<'a> Capture<'a> {
         self.bytes.len() % self.frame_bytes
     }
 
-    /// Loops, transmitters, receivers and samples of a frame.
+    /// Loops, chirps of a loop, receivers and samples of a frame.
     pub fn shape(&self) -> [usize; 4] {
         self.shape
     }
@@ -136,7 +129,7 @@ impl<'a> Capture<'a> {
     pub fn frame(&self, index: usize) -> Result<RawFrame, FormatError> {
         check_range("frame", index as f64, 0.0, (self.frames() - 1) as f64)?;
         let start = index * self.frame_bytes;
-        let bytes = &self.bytes[start..start + self.frame_bytes];
+        let bytes = &self.bytes[start + self.part.start..start + self.part.end];
         let words = bytes.as_chunks::<2>().0;
         let word = |k: usize| i32::from(i16::from_le_bytes(words[k]));
         let scale = 1.0 / self.full_scale as f32;
@@ -162,6 +155,21 @@ impl<'a> Capture<'a> {
         })?;
         Ok(RawFrame { samples, clipped })
     }
+}
+
+/// What a frame is made of, in words.
+fn layout_of(config: &RadarConfig, [loops, chirps, receivers, samples]: [usize; 4]) -> String {
+    if config.sub_frames.len() > 1 {
+        return format!("{} sub-frames", config.sub_frames.len());
+    }
+    let receivers = if config.adc.layout == Layout::FourLane { 4 } else { receivers };
+    let bytes = match config.waveform.sampling {
+        Sampling::Complex => 4,
+        Sampling::Real => 2,
+    };
+    format!(
+        "{loops} loops x {chirps} chirps x {receivers} receivers x {samples} samples x {bytes} bytes"
+    )
 }
 
 #[cfg(test)]

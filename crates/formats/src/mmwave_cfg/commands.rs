@@ -1,9 +1,10 @@
 //! Takes the commands one by one and makes a [`RadarConfig`] of them.
 
 use super::antennas::{AntennaLines, preset_of};
+use super::frames::{Advanced, BinaryPhase, Frame};
 use super::line::{Line, clipped};
-use super::sequence::{Chirps, transmitters};
-use super::{AdcFormat, RadarConfig, platform_layout};
+use super::sequence::{Chirps, sequence};
+use super::{AdcFormat, RadarConfig, SubFrame, platform_layout};
 use crate::dca1000::{Layout, cascade};
 use crate::error::FormatError;
 use boresight_core::Remark;
@@ -67,16 +68,6 @@ struct Buffer {
     receiver_major: bool,
 }
 
-/// What `frameCfg` says, with the line it stood on.
-struct Frame {
-    line: usize,
-    first: usize,
-    last: usize,
-    loops: usize,
-    frames: usize,
-    interval_s: f64,
-}
-
 /// State while reading.
 #[derive(Default)]
 pub(super) struct Commands {
@@ -88,8 +79,15 @@ pub(super) struct Commands {
     buffer: Option<Buffer>,
     profiles: Vec<(usize, Profile)>,
     chirps: Vec<Chirps>,
-    frame: Option<Frame>,
+    frame: Option<(Frame, usize)>,
     antennas: AntennaLines,
+    advanced: Option<Advanced>,
+    sub_frames: Vec<(usize, Frame)>,
+    /// Whether `dfeDataOutputMode` asks for an advanced frame.
+    mode: Option<bool>,
+    coding: Vec<BinaryPhase>,
+    /// The sub-frame a comment chooses.
+    chosen: Option<usize>,
     remarks: Vec<Remark>,
     further_remarks: usize,
 }
@@ -105,6 +103,8 @@ impl Commands {
             self.platform = Some(platform);
         } else if let Some(version) = value("Created for SDK ver:") {
             self.sdk_version = Some(version);
+        } else if let Some(number) = value("Sub-frame:") {
+            self.chosen = number.parse().ok();
         }
     }
 
@@ -113,9 +113,11 @@ impl Commands {
         match line.command {
             "dfeDataOutputMode" => {
                 let mode = line.integer(0, "mode", 1, 3)?;
-                if mode != 1 {
-                    return Err(line.error("mode", "1 (frames of chirps)", mode.to_string()));
+                if mode == 2 {
+                    let expected = "1 (frames of chirps) or 3 (advanced frames)";
+                    return Err(line.error("mode", expected, mode.to_string()));
                 }
+                self.mode = Some(mode == 3);
             }
             "channelCfg" => self.channels(line)?,
             "adcCfg" => {
@@ -126,11 +128,17 @@ impl Commands {
             "adcbufCfg" | "adcbufcfg" => self.buffer(line)?,
             "profileCfg" => self.profile(line)?,
             "chirpCfg" => self.chirp(line)?,
-            "frameCfg" => self.frame(line)?,
+            "frameCfg" => self.frame = Some(Frame::plain(line)?),
+            "advFrameCfg" => self.advanced = Some(Advanced::of(line)?),
+            "subFrameCfg" => {
+                let (number, part) = Frame::part(line)?;
+                self.sub_frames.retain(|(known, _)| *known != number);
+                self.sub_frames.push((number, part));
+            }
             "bpmCfg" => {
-                if line.index(1, "enabled", 1)? == 1 {
-                    return Err(line.error("enabled", "0 (time division)", "1 (phase coding)"));
-                }
+                let coding = BinaryPhase::of(line)?;
+                self.coding.retain(|known| known.sub_frame != coding.sub_frame);
+                self.coding.push(coding);
             }
             "lvdsStreamCfg" => {
                 for (index, what) in [(1, "header"), (3, "software session")] {
@@ -141,8 +149,8 @@ impl Commands {
             }
             "antGeometry0" | "antGeometry1" | "antPhaseRot" => self.antennas.take(line)?,
             "compRangeBiasAndRxChanPhase" => self.compensation(line),
-            "advFrameCfg" | "subFrameCfg" | "contModeCfg" => {
-                return Err(line.error("frame mode", "frameCfg", line.command));
+            "contModeCfg" => {
+                return Err(line.error("frame mode", "frameCfg or advFrameCfg", line.command));
             }
             name if WITHOUT_EFFECT.contains(&name) => {}
             name => {
@@ -240,27 +248,7 @@ impl Commands {
             }
         }
         let tx_mask = line.integer(7, "transmitter mask", 1, 0xffff)?.unsigned_abs() as u32;
-        if tx_mask.count_ones() != 1 {
-            return Err(line.error(
-                "transmitter mask",
-                "one transmitter a chirp (time division)",
-                format!("{tx_mask} ({} transmitters)", tx_mask.count_ones()),
-            ));
-        }
-        self.chirps.push(Chirps { first, last, profile, tx_mask });
-        Ok(())
-    }
-
-    fn frame(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
-        line.count(7, 8)?;
-        let first = line.index(0, "first chirp", 511)?;
-        let last = line.integer(1, "last chirp", first as i64, 511)?.unsigned_abs() as usize;
-        let loops = line.integer(2, "loops", 1, 65_535)?.unsigned_abs() as usize;
-        let frames = line.index(3, "frames", 65_535)?;
-        // SDK 4 puts the number of ADC samples before the period.
-        let at = line.arguments.len() - 3;
-        let interval_s = line.number(at, "frame period (ms)", 1e-3, 1e6)? * 1e-3;
-        self.frame = Some(Frame { line: line.number, first, last, loops, frames, interval_s });
+        self.chirps.push(Chirps { line: line.number, first, last, profile, tx_mask });
         Ok(())
     }
 
@@ -290,36 +278,18 @@ impl Commands {
         if self.chirps.is_empty() {
             return Err(missing("chirpCfg", "the transmitter of each chirp"));
         }
-        let frame = self.frame.take().ok_or(missing("frameCfg", "chirps and loops of a frame"))?;
-        let frame_line = Line { number: frame.line, command: "frameCfg", arguments: vec![] };
-        let (order, repeats) = transmitters(&frame_line, &self.chirps, frame.first, frame.last)?;
-        if let Some(&tx) = order.iter().find(|&&tx| tx_mask >> tx & 1 == 0) {
-            return Err(frame_line.error(
-                "transmitters of its chirps",
-                format!("those channelCfg enables (mask {tx_mask})"),
-                format!("transmitter {tx} (mask {})", 1 << tx),
-            ));
-        }
-        let profile = self.used_profile(&frame, &frame_line)?;
-        let sampling = self.sampling()?;
-        let waveform = Waveform {
-            start_frequency_hz: profile.start_frequency_hz,
-            slope_hz_per_s: profile.slope_hz_per_s,
-            sample_rate_hz: profile.sample_rate_hz,
-            sampling,
-            samples: profile.samples,
-            adc_start_s: profile.adc_start_s,
-            chirp_interval_s: profile.idle_s + profile.ramp_s,
-            transmitters: order.len(),
-            loops: frame.loops * repeats,
-            frame_interval_s: frame.interval_s,
+        let (frames, count) = self.frames()?;
+        let sub_frames = frames
+            .iter()
+            .enumerate()
+            .map(|(number, frame)| self.sub_frame(number, frame, tx_mask))
+            .collect::<Result<Vec<SubFrame>, FormatError>>()?;
+        let chosen = self.chosen.unwrap_or(0);
+        let Some(SubFrame { waveform, transmitters }) = sub_frames.get(chosen).cloned() else {
+            let (what, last) = ("sub-frame", sub_frames.len() - 1);
+            let (expected, given) = (format!("from 0 to {last}"), chosen as f64);
+            return Err(CoreError::OutOfRange { what: what.into(), expected, given }.into());
         };
-        waveform.check().map_err(|error| match error {
-            CoreError::OutOfRange { what, expected, given } => {
-                frame_line.error(what, expected, given.to_string())
-            }
-            other => other.into(),
-        })?;
         let (bits, format) = self.adc.unwrap_or_else(|| {
             self.remark("assumed", "no adcCfg line: 16 bits, complex assumed".into());
             (16, 1)
@@ -340,36 +310,83 @@ impl Commands {
         let mut config = RadarConfig {
             waveform,
             receivers,
-            transmitters: order,
+            transmitters,
+            sub_frame: chosen,
+            sub_frames,
             array_preset: None,
             board: None,
             platform: self.platform,
             sdk_version: self.sdk_version,
             adc: AdcFormat { bits, q_first, layout },
-            frames: (frame.frames > 0).then_some(frame.frames),
+            frames: (count > 0).then_some(count),
             remarks: self.remarks,
         };
-        if layout == Layout::Cascade {
-            let board = presets::preset("cascade86").ok();
-            config.array_preset =
-                (board.is_some() && board == config.array()).then_some("cascade86");
-            return Ok(config);
-        }
-        let own = self.antennas.board()?;
-        let names = if own.is_some() {
-            presets::PRESETS.to_vec()
-        } else if let Some((name, assumed)) = config.platform.as_deref().and_then(preset_of) {
+        config.board = self.antennas.board()?;
+        if layout != Layout::Cascade
+            && config.board.is_none()
+            && let Some((name, assumed)) = config.platform.as_deref().and_then(preset_of)
+        {
+            config.board = presets::preset(name).ok();
             config.remarks.extend(assumed);
-            vec![name]
-        } else {
-            vec![]
-        };
-        let preset = |name: &&str| presets::preset(name).ok();
-        config.board = own.or_else(|| names.first().and_then(preset));
-        let array = config.array();
-        config.array_preset =
-            names.into_iter().find(|name| array.is_some() && preset(name) == array);
+        }
+        config.find_preset();
         Ok(config)
+    }
+
+    /// The frame, or its sub-frames, and the number of frames.
+    fn frames(&self) -> Result<(Vec<Frame>, usize), FormatError> {
+        let missing = |command, purpose| FormatError::MissingCommand { command, purpose };
+        let advanced = self.mode.unwrap_or(self.frame.is_none() && self.advanced.is_some());
+        if advanced {
+            let advanced =
+                self.advanced.ok_or(missing("advFrameCfg", "the number of sub-frames"))?;
+            return Ok((advanced.parts(&self.sub_frames)?, advanced.frames));
+        }
+        let (frame, count) =
+            self.frame.ok_or(missing("frameCfg", "chirps and loops of a frame"))?;
+        Ok((vec![frame], count))
+    }
+
+    /// Waveform and transmitters of a frame or sub-frame.
+    fn sub_frame(
+        &mut self,
+        number: usize,
+        frame: &Frame,
+        tx_mask: u32,
+    ) -> Result<SubFrame, FormatError> {
+        let at = frame.at();
+        let of = |wanted| self.coding.iter().find(|coding| coding.sub_frame == wanted);
+        let sequence = sequence(frame, &self.chirps, of(Some(number)).or_else(|| of(None)))?;
+        let transmitters = sequence.order;
+        if let Some(&tx) = transmitters.iter().find(|&&tx| tx_mask >> tx & 1 == 0) {
+            return Err(at.error(
+                "transmitters of its chirps",
+                format!("those channelCfg enables (mask {tx_mask})"),
+                format!("transmitter {tx} (mask {})", 1_u64 << tx),
+            ));
+        }
+        let profile = self.used_profile(frame, &at)?;
+        let waveform = Waveform {
+            start_frequency_hz: profile.start_frequency_hz,
+            slope_hz_per_s: profile.slope_hz_per_s,
+            sample_rate_hz: profile.sample_rate_hz,
+            sampling: self.sampling()?,
+            samples: profile.samples,
+            adc_start_s: profile.adc_start_s,
+            chirp_interval_s: profile.idle_s + profile.ramp_s,
+            transmitters: transmitters.len(),
+            loops: frame.loops * sequence.repeats,
+            frame_interval_s: frame.interval_s,
+            multiplexing: sequence.multiplexing,
+            doppler_bands: None,
+        };
+        waveform.check().map_err(|error| match error {
+            CoreError::OutOfRange { what, expected, given } => {
+                at.error(what, expected, given.to_string())
+            }
+            other => other.into(),
+        })?;
+        Ok(SubFrame { waveform, transmitters })
     }
 
     /// Whether samples are complex or real, on which `adcCfg` and `adcbufCfg` agree.
@@ -430,6 +447,9 @@ impl Commands {
             .filter(|c| c.first <= frame.last && c.last >= frame.first)
             .map(|c| c.profile)
             .collect();
+        if let Some(forced) = frame.forced_profile {
+            used = vec![forced];
+        }
         used.sort_unstable();
         used.dedup();
         if used.len() > 1 {
@@ -437,7 +457,7 @@ impl Commands {
         }
         let id = used.first().copied().unwrap_or_default();
         let found = self.profiles.iter().find(|(known, _)| *known == id).map(|(_, p)| *p);
-        if self.profiles.len() > 1 {
+        if self.profiles.len() > 1 && frame.command == "frameCfg" {
             let text = format!("several profiles; the frame uses profile {id}");
             self.remark("several-profiles", text);
         }

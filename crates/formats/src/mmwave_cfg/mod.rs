@@ -6,6 +6,7 @@
 
 mod antennas;
 mod commands;
+mod frames;
 mod line;
 mod sequence;
 
@@ -13,6 +14,8 @@ mod sequence;
 use crate::dca1000::cascade;
 use crate::dca1000::{Layout, Plan};
 use crate::error::FormatError;
+use antennas::preset_of;
+use boresight_core::error::check_range;
 use boresight_core::{Array, Remark, Sampling, Waveform, presets};
 use commands::Commands;
 use line::Line;
@@ -35,16 +38,29 @@ impl AdcFormat {
     }
 }
 
+/// One of the sub-frames that follow each other in a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SubFrame {
+    /// Timing and frequency plan.
+    pub waveform: Waveform,
+    /// Transmitters, as their numbers on the chip (from 0), in order of transmission.
+    pub transmitters: Vec<usize>,
+}
+
 /// What a configuration says of the radar and its samples.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RadarConfig {
-    /// Timing and frequency plan of a frame.
+    /// Timing and frequency plan of a frame, or of the chosen sub-frame of an advanced one.
     pub waveform: Waveform,
     /// Receivers in use, as their numbers on the chip (from 0), ascending; of a cascade, 4 to a chip, from left to
     /// right on the board ([`cascade::RECEIVERS`]).
     pub receivers: Vec<usize>,
     /// Transmitters in use, as their numbers on the chip (from 0; of a cascade 3 to a chip), in order of transmission.
     pub transmitters: Vec<usize>,
+    /// The sub-frame that waveform and transmitters are of, from 0.
+    pub sub_frame: usize,
+    /// All sub-frames in order of transmission; one in a frame that has none.
+    pub sub_frames: Vec<SubFrame>,
     /// Name of the preset whose virtual elements are exactly the configured channels in their
     /// order of transmission, if there is one.
     pub array_preset: Option<&'static str>,
@@ -86,18 +102,64 @@ impl RadarConfig {
         commands.finish()
     }
 
-    /// Bytes of one frame of raw samples.
+    /// Bytes of one frame of raw samples, with all of its sub-frames.
     pub fn frame_bytes(&self) -> u64 {
-        self.plan().words().saturating_mul(2)
+        self.bytes_before(self.sub_frames.len())
     }
 
-    /// Where the samples of a frame stand.
+    /// Where the samples of the chosen sub-frame stand in the bytes of a frame.
+    pub fn sub_frame_bytes(&self) -> std::ops::Range<u64> {
+        self.bytes_before(self.sub_frame)..self.bytes_before(self.sub_frame + 1)
+    }
+
+    fn bytes_before(&self, count: usize) -> u64 {
+        let of = |(index, part): (usize, &SubFrame)| {
+            let waveform = if index == self.sub_frame { &self.waveform } else { &part.waveform };
+            self.plan_of(waveform).words().saturating_mul(2)
+        };
+        self.sub_frames.iter().take(count).enumerate().map(of).fold(0, u64::saturating_add)
+    }
+
+    /// The same with another sub-frame chosen.
+    ///
+    /// # Errors
+    /// [`boresight_core::CoreError::OutOfRange`] for one that is not there.
+    pub fn choose(mut self, sub_frame: usize) -> Result<Self, FormatError> {
+        let last = self.sub_frames.len().saturating_sub(1);
+        check_range("sub-frame", sub_frame as f64, 0.0, last as f64)?;
+        if let Some(part) = self.sub_frames.get(sub_frame).cloned() {
+            (self.waveform, self.transmitters) = (part.waveform, part.transmitters);
+            self.sub_frame = sub_frame;
+        }
+        self.find_preset();
+        Ok(self)
+    }
+
+    /// Names the preset that the array is: that of the platform, or of any board where the configuration's own lines
+    /// tell another.
+    fn find_preset(&mut self) {
+        let of = |name: &str| presets::preset(name).ok();
+        let platform = self.platform.as_deref().and_then(preset_of).map(|(name, _)| name);
+        let names = match platform {
+            _ if self.adc.layout == Layout::Cascade => vec!["cascade86"],
+            Some(name) if of(name) == self.board => vec![name],
+            _ => presets::PRESETS.to_vec(),
+        };
+        let array = self.array();
+        self.array_preset = names.into_iter().find(|name| array.is_some() && of(name) == array);
+    }
+
+    /// Where the samples of the chosen sub-frame stand.
     pub(crate) fn plan(&self) -> Plan {
+        self.plan_of(&self.waveform)
+    }
+
+    fn plan_of(&self, waveform: &Waveform) -> Plan {
         Plan {
             layout: self.adc.layout,
-            sampling: self.waveform.sampling,
-            chirps: self.waveform.loops.saturating_mul(self.waveform.transmitters),
-            samples: self.waveform.samples,
+            sampling: waveform.sampling,
+            chirps: waveform.loops.saturating_mul(waveform.chirps_per_loop()),
+            samples: waveform.samples,
             receivers: self.receivers.clone(),
         }
     }

@@ -1,5 +1,5 @@
 use super::*;
-use boresight_core::{Diagnose, presets};
+use boresight_core::{Diagnose, Multiplexing, presets};
 
 const RECORDING: &str = include_str!("../../../../recordings/awr1642/profile.cfg");
 
@@ -76,9 +76,13 @@ fn impossible_lines_are_refused() {
         ("frameCfg 0 1 16 0 40", "frameCfg 0 1 0 0 40", "loops"),
         ("frameCfg 0 1 16 0 40", "frameCfg 0 1 16 0 2", "frame_interval_s"),
         ("frameCfg 0 1 16 0 40", "frameCfg 1 0 16 0 40", "last chirp"),
-        ("bpmCfg -1 0 0 1", "bpmCfg -1 1 0 1", "time division"),
+        ("bpmCfg -1 0 0 1", "bpmCfg -1 1 0 1", "the same two transmitters"),
+        ("bpmCfg -1 0 0 1", "bpmCfg -1 1 1 0", "first the one in phase"),
+        ("bpmCfg -1 0 0 1", "bpmCfg -1 1 0", "number of arguments"),
+        ("bpmCfg -1 0 0 1", "bpmCfg 9 1 0 1", "sub-frame"),
         ("lvdsStreamCfg -1 0 0 0", "lvdsStreamCfg -1 1 1 0", "header"),
-        ("dfeDataOutputMode 1", "dfeDataOutputMode 3", "frames of chirps"),
+        ("dfeDataOutputMode 1", "dfeDataOutputMode 2", "frames of chirps"),
+        ("dfeDataOutputMode 1", "dfeDataOutputMode 3", "advFrameCfg"),
     ] {
         let error = RadarConfig::parse(given(from, to).as_bytes()).unwrap_err();
         assert!(error.to_string().contains(word), "{to}: {error}");
@@ -279,4 +283,94 @@ fn antenna_lines_that_are_no_array_are_refused() {
             "{error}"
         );
     }
+}
+
+const ADVANCED: &str = "dfeDataOutputMode 3
+channelCfg 15 3 0
+adcCfg 2 1
+adcbufCfg -1 0 0 1 1
+profileCfg 0 77 40 7 57.14 0 0 60 1 256 5209 0 0 30
+profileCfg 1 76 10 6 30 0 0 20 1 128 6250 0 0 30
+chirpCfg 0 0 0 0 0 0 0 1
+chirpCfg 1 1 0 0 0 0 0 2
+chirpCfg 2 3 1 0 0 0 0 3
+advFrameCfg 2 0 10 1 0
+subFrameCfg 0 0 0 2 16 20 0 1 1 20
+subFrameCfg 1 0 2 2 8 10 0 1 1 15
+bpmCfg 0 0 0 0
+bpmCfg 1 1 2 3
+% Platform:xWR16xx
+";
+
+#[test]
+fn sub_frames_have_waveforms_of_their_own() {
+    let config = RadarConfig::parse(ADVANCED.as_bytes()).unwrap();
+    assert_eq!((config.sub_frame, config.sub_frames.len(), config.frames), (0, 2, Some(10)));
+    assert_eq!((config.waveform.samples, config.waveform.loops), (256, 16));
+    assert_eq!(config.waveform.multiplexing, Multiplexing::TimeDivision);
+    assert!((config.waveform.frame_interval_s - 0.035).abs() < 1e-12);
+    let first = 16 * 2 * 4 * 256 * 4;
+    let second = 8 * 2 * 4 * 128 * 4;
+    assert_eq!((config.frame_bytes(), config.sub_frame_bytes()), (first + second, 0..first));
+    let other = config.clone().choose(1).unwrap();
+    assert_eq!((other.waveform.samples, other.waveform.loops), (128, 8));
+    assert_eq!(other.waveform.multiplexing, Multiplexing::BinaryPhase);
+    assert!((other.waveform.start_frequency_hz - 76e9).abs() < 1.0);
+    assert_eq!((other.transmitters.as_slice(), other.array_preset), (&[0, 1][..], Some("awr1642")));
+    assert_eq!(other.sub_frame_bytes(), first..first + second);
+    assert_eq!(other.remarks, []);
+    assert!(config.choose(2).unwrap_err().to_string().contains("sub-frame"));
+    // Sub-frames follow the profile that is forced on them.
+    let forced = ADVANCED.replace("advFrameCfg 2 0 10 1 0", "advFrameCfg 2 1 10 1 0");
+    let forced = RadarConfig::parse(forced.as_bytes()).unwrap();
+    assert!(forced.sub_frames.iter().all(|part| part.waveform.samples == 256));
+    // A comment chooses too.
+    let text = format!("{ADVANCED}% Sub-frame: 1\n");
+    assert_eq!(RadarConfig::parse(text.as_bytes()).unwrap(), other);
+    let text = format!("{ADVANCED}% Sub-frame: 2\n");
+    assert!(RadarConfig::parse(text.as_bytes()).is_err());
+}
+
+#[test]
+fn impossible_sub_frames_are_refused() {
+    for (from, to, word) in [
+        ("advFrameCfg 2 0 10 1 0", "advFrameCfg 5 0 10 1 0", "sub-frames"),
+        ("advFrameCfg 2 0 10 1 0", "advFrameCfg 3 0 10 1 0", "sub-frame 2"),
+        ("advFrameCfg 2 0 10 1 0", "advFrameCfg 1 0 10 1 0", "below 1"),
+        ("advFrameCfg 2 0 10 1 0", "", "advFrameCfg"),
+        ("subFrameCfg 1 0 2 2 8 10 0 1 1 15", "subFrameCfg 1 0 2 2 8 10 0 2 1 15", "bursts"),
+        ("subFrameCfg 1 0 2 2 8 10 0 1 1 15", "subFrameCfg 1 0 2 2 8 10 0 1 1", "arguments"),
+        ("subFrameCfg 1 0 2 2 8 10 0 1 1 15", "subFrameCfg 1 0 511 2 8 10 0 1 1 15", "chirps"),
+        ("subFrameCfg 1 0 2 2 8 10 0 1 1 15", "subFrameCfg 1 0 2 2 8 10 0 1 1 nan", "period"),
+        ("bpmCfg 1 1 2 3", "bpmCfg 1 0 2 3", "one transmitter a chirp"),
+        ("bpmCfg 1 1 2 3", "bpmCfg -1 1 2 3\nbpmCfg 1 0 0 0", "one transmitter a chirp"),
+    ] {
+        assert!(ADVANCED.contains(from), "{from}");
+        let outcome = RadarConfig::parse(ADVANCED.replace(from, to).as_bytes());
+        let error = outcome.unwrap_err();
+        assert!(error.to_string().contains(word), "{to}: {error}");
+    }
+}
+
+#[test]
+fn binary_phase_of_two_transmitters_is_read() {
+    let text = given("bpmCfg -1 0 0 1", "bpmCfg -1 1 0 1")
+        .replace("chirpCfg 0 0 0 0 0 0 0 1", "chirpCfg 0 0 0 0 0 0 0 3")
+        .replace("chirpCfg 1 1 0 0 0 0 0 2", "chirpCfg 1 1 0 0 0 0 0 3");
+    let config = RadarConfig::parse(text.as_bytes()).unwrap();
+    assert_eq!(config.waveform.multiplexing, Multiplexing::BinaryPhase);
+    assert_eq!(config.transmitters, [0, 1]);
+    assert_eq!((config.array_preset, config.frame_bytes()), (Some("awr1642"), 131_072));
+}
+
+#[test]
+fn waveforms_that_older_versions_wrote_are_time_division() {
+    let config = RadarConfig::parse(RECORDING.as_bytes()).unwrap();
+    let written = serde_json::to_value(config.waveform).unwrap();
+    assert!(written.get("multiplexing").is_none() && written.get("dopplerBands").is_none());
+    assert_eq!(serde_json::from_value::<Waveform>(written).unwrap(), config.waveform);
+    let coded = Waveform { multiplexing: Multiplexing::BinaryPhase, ..config.waveform };
+    let written = serde_json::to_value(coded).unwrap();
+    assert_eq!(written["multiplexing"], "binary-phase");
+    assert_eq!(serde_json::from_value::<Waveform>(written).unwrap(), coded);
 }

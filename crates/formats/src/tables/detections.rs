@@ -27,6 +27,12 @@ pub struct DetectionRow {
     pub range_bin: usize,
     /// Doppler bin.
     pub doppler_bin: usize,
+    /// Times twice the waveform's largest rate that the rate is beyond that of its bin.
+    #[serde(default)]
+    pub doppler_fold: i32,
+    /// Probability of the likeliest fold among those tried.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fold_probability: Option<f64>,
     /// Place forward of the sensor. Tables have the places that follow from range and angles.
     #[serde(default)]
     pub x_m: f64,
@@ -49,7 +55,7 @@ impl DetectionRow {
 }
 
 /// Columns that are read; those of the place follow from range and angles.
-const COLUMNS: [&str; 9] = [
+const COLUMNS: [&str; 11] = [
     "frame",
     "range_m",
     "rate_mps",
@@ -59,10 +65,13 @@ const COLUMNS: [&str; 9] = [
     "snr_db",
     "range_bin",
     "doppler_bin",
+    "doppler_fold",
+    "fold_probability",
 ];
 
 /// The table as text: the columns `frame`, `range_m`, `rate_mps`, `azimuth_deg`, `elevation_deg`,
-/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`, and the place `x_m` (forward), `y_m` (left), `z_m` (up).
+/// `power_db`, `snr_db`, `range_bin`, `doppler_bin`, `doppler_fold`, `fold_probability` (empty where
+/// no other fold was tried), and the place `x_m` (forward), `y_m` (left), `z_m` (up).
 pub fn write_detections(rows: &[DetectionRow]) -> String {
     let mut text = COLUMNS.join(",");
     text.push_str(",x_m,y_m,z_m\n");
@@ -80,7 +89,11 @@ pub fn write_detections(rows: &[DetectionRow]) -> String {
             text.push_str(&format!(",{number}"));
         }
         let DetectionRow { x_m, y_m, z_m, .. } = row.placed();
-        text.push_str(&format!(",{},{},{x_m},{y_m},{z_m}\n", row.range_bin, row.doppler_bin));
+        let probability = row.fold_probability.map(|p| p.to_string()).unwrap_or_default();
+        text.push_str(&format!(
+            ",{},{},{},{probability},{x_m},{y_m},{z_m}\n",
+            row.range_bin, row.doppler_bin, row.doppler_fold
+        ));
     }
     text
 }
@@ -103,6 +116,11 @@ pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
         let index = |k: usize| {
             places[k].map_or(Ok(0), |at| field(&record, at, COLUMNS[k], "an integer of at least 0"))
         };
+        let fold = match places[9] {
+            Some(at) => field(&record, at, COLUMNS[9], "an integer")?,
+            None => 0,
+        };
+        let told = places[10].filter(|&at| record.get(at).is_some_and(|text| !text.is_empty()));
         let row = DetectionRow {
             frame: index(0)?,
             range_m: number(1)?,
@@ -113,6 +131,8 @@ pub fn read_detections(bytes: &[u8]) -> Result<Vec<DetectionRow>, FormatError> {
             snr_db: number(6)?,
             range_bin: index(7)?,
             doppler_bin: index(8)?,
+            doppler_fold: fold,
+            fold_probability: told.map(|at| finite(&record, at, COLUMNS[10])).transpose()?,
             ..DetectionRow::default()
         };
         rows.push(row.placed());

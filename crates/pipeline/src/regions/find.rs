@@ -94,7 +94,8 @@ impl RegionFinder {
     /// # Errors
     /// [`CoreError::Unknown`] for real samples, which no network of regions was trained on; [`CoreError::OutOfRange`]
     /// for options out of range, and where frames have fewer range bins or loops than a
-    /// region; [`PipelineError::Channels`] for an array of other channels; what detection says of its window.
+    /// region; [`PipelineError::Channels`] for an array of other channels; [`PipelineError::Multiplexing`] for transmitters
+    /// that send at once; what detection says of its window.
     pub fn new(
         waveform: &Waveform,
         receivers: usize,
@@ -107,6 +108,9 @@ impl RegionFinder {
         let Waveform { loops, transmitters, samples, .. } = *waveform;
         check_range("region bins", options.size.bins as f64, 1.0, samples as f64)?;
         check_range("region chirps", options.size.chirps as f64, 1.0, loops as f64)?;
+        if !waveform.multiplexing.is_time_division() {
+            return Err(PipelineError::Multiplexing);
+        }
         let channels = channels_of(array, transmitters, receivers)?;
         let cfar = CfarOptions {
             axes: CfarAxes::Range,

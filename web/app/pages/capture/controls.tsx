@@ -16,7 +16,7 @@ import { Licence } from '../../ui/licence.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { fileProblem, loaded, openBundled, openFiles, openSimulated, waiting } from './files.ts';
+import { fileProblem, loaded, openBundled, openFiles, openSimulated, reopenFiles, waiting } from './files.ts';
 import { cellUnavailable, networkFor, seesElevation, usedArray } from './process.ts';
 import { SIMULATED } from './simulated.ts';
 import { captureCodec, captureState, update } from './state.ts';
@@ -69,6 +69,7 @@ export function Controls() {
           labels={{ configured: 'as configured', two: 'two', four: 'four' }}
           note="xWR12xx, xWR14xx and xWR22xx have four."
         />
+        <SubFrame />
       </Group>
       <Group title="Angle methods for the cell">
         <MethodList
@@ -129,6 +130,7 @@ export function Controls() {
           />
         )}
         <Control label="Keep local peaks only" name="grouping" />
+        <Control label="Folds of the rate to try" name="folds" />
         <Control label="Remove static clutter" name="clutter" note="Targets at rest vanish too." />
         <Control
           label="Angle by"
@@ -193,6 +195,27 @@ export function Controls() {
         />
       </Group>
     </Sidebar>
+  );
+}
+
+/** Where frames are made of several. */
+function SubFrame() {
+  const config = loaded.value?.info.config;
+  if (!config || config.subFrames < 2) return null;
+  const numbers = ['0', '1', '2', '3'] as const;
+  return (
+    <Control
+      label="Sub-frame"
+      name="subFrame"
+      value={numbers[config.subFrame] ?? '0'}
+      only={numbers.slice(0, config.subFrames)}
+      labels={(number) => `${Number(number) + 1} of ${config.subFrames}`}
+      onChange={(subFrame) => {
+        update({ subFrame });
+        void reopenFiles();
+      }}
+      help="Each sub-frame of an advanced frame has its own profile and chirps, and is processed by itself."
+    />
   );
 }
 

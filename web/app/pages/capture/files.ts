@@ -276,7 +276,7 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
       const { bin, cfg, dat, setup } = next;
       const before = own.bin ? loaded.peek() : null;
       const known = before && cfg === own.cfg && setup === own.setup;
-      const text = known ? before.cfg : await configText(cfg, setup);
+      const text = ofSubFrame(known ? before.cfg : await configText(cfg, setup));
       const opened = listed(next).map(({ kind, file }): OpenFile => ({ kind, name: file.name, bytes: file.size }));
       if (!bin || text === undefined) {
         if (text !== undefined) api.parseConfig(text);
@@ -320,6 +320,15 @@ async function samplesOf(
   if (!cascade) return { bytes: new Uint8Array(await new Blob([...files]).arrayBuffer()), warnings: null };
   const read = async (file: File) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
   return pool().joinCascade(await Promise.all(files.map(read)), text);
+/** The same files again, for another sub-frame of theirs. */
+export const reopenFiles = (): Promise<void> => openFiles(ownFiles().map(({ file }) => file));
+
+/** The configuration with the sub-frame that the state names, where it has several. */
+function ofSubFrame(text: string | undefined): string | undefined {
+  if (text === undefined) return undefined;
+  const { subFrame, subFrames } = api.parseConfig(text);
+  const wanted = Math.min(Number(captureState.peek().subFrame), subFrames - 1);
+  return subFrame === wanted ? text : api.subFrameConfig(text, wanted);
 }
 
 /** The configuration as the text of a .cfg. */

@@ -278,6 +278,8 @@ function Remarks({ capture, view }: Pick<Shown, 'capture' | 'view'>) {
   const facts: [string, number, string][] = [
     ['Cells over threshold', counts.cellsOverThreshold, 'Before grouping'],
     ['Joined to a peak', counts.grouped, 'Cells over the threshold that are no local peak'],
+    ['Other Doppler bands', counts.otherBands, 'Echoes of stronger targets, in Doppler-division multiplexing'],
+    ['Undecided rates', counts.undecidedFolds, 'Cells whose fold of the range rate is not certain'],
     ['Outside the region', counts.outsideRegion, 'Dropped by the limits of range, sector and elevation'],
     ['Without angle', counts.withoutAngle, 'Cells in which the method found no direction'],
     ['Beyond the limit', counts.beyondLimit, 'Dropped because there were more than the most that are kept'],

@@ -40,6 +40,8 @@ export const captureCodec = codec(
     cell,
     iqOrder: reading.field('iqOrder'),
     lanes: reading.field('lanes'),
+    /** Of an advanced frame. */
+    subFrame: choice('0', ['0', '1', '2', '3']),
     array: choice('auto', ['auto', ...PRESETS]),
     window: detection.field('rangeWindow'),
     dopplerWindow: detection.field('dopplerWindow'),
@@ -56,6 +58,7 @@ export const captureCodec = codec(
     trainDoppler: detection.field('cfar.trainingCells.1', { min: 1, max: 64 }),
     rank: detection.field('cfar.rank'),
     grouping: detection.field('peakGrouping'),
+    folds: detection.field('dopplerFolds', { max: 8 }),
     // 0 for no limit: the package then has its own, or none where only the other is given.
     nearest: detection.field('region.rangeM.0', { fallback: 0, min: 0, max: 10_000 }),
     farthest: detection.field('region.rangeM.1', { fallback: 0, min: 0, max: 10_000 }),
@@ -134,6 +137,7 @@ export function chainOptions(state: CaptureState): ChainOptions {
       ...(state.cfar === 'ordered-statistic' ? { rank: state.rank } : {}),
     },
     peakGrouping: state.grouping,
+    dopplerFolds: state.folds,
     ...(regionSet
       ? {
           region: {

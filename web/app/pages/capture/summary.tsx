@@ -5,6 +5,12 @@ import { captureState } from './state.ts';
 
 const SAMPLES = { complex: { iq: 'I before Q', qi: 'Q before I' }, real: { iq: 'real', qi: 'real' } };
 const LAYOUTS = { 'two-lane': 'two lanes', 'four-lane': 'four lanes', cascade: 'a cascade of four chips' };
+/** How transmitters share the chirps. */
+const SHARING = {
+  'time-division': 'in turn',
+  'binary-phase': 'at once in binary phase',
+  'doppler-division': 'at once in Doppler division',
+} as const;
 
 export function Summary({ info, geometry }: { info: CaptureInfo; geometry: ArrayGeometry | null }) {
   const { waveform, summary, platform, array } = info.config;
@@ -51,7 +57,7 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
     ],
     [
       'Frame',
-      `${waveform.loops} × ${waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`,
+      `${waveform.loops} × ${waveform.multiplexing === 'doppler-division' ? 1 : waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`,
       `${significant(summary.frameTimeS * 1000)} ms of them transmitting`,
       'frame',
     ],
@@ -66,7 +72,7 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
       geometry
         ? `${chosen === 'auto' ? (array ?? platform ?? 'configured') : chosen}, ${geometry.positions.length} virtual`
         : 'not known',
-      `${info.config.transmitters} transmitters, ${info.config.receivers} receivers`,
+      `${info.config.transmitters} transmitters ${SHARING[waveform.multiplexing ?? 'time-division']}, ${info.config.receivers} receivers`,
       'array',
     ],
   ];
