@@ -152,6 +152,8 @@ describe('tables', () => {
     snrDb: 25,
     rangeBin: 58,
     dopplerBin: 8,
+    dopplerFold: -1,
+    foldProbability: 0.995,
   };
 
   test('of detections keep every number', () => {

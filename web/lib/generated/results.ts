@@ -45,8 +45,19 @@ export interface ArrayGeometry {
 }
 
 /**
- * Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each, `samples` complex
- * samples a chirp.
+ * How transmitters share the chirps.
+ *
+ * - `time-division`: One transmitter a chirp, in turn.
+ * - `binary-phase`: All transmitters in each chirp, with the signs of a Hadamard matrix over the chirps of a loop;
+ *   transmitters are a power of two.
+ * - `doppler-division`: All transmitters in each chirp, each with its own phase step from chirp to chirp, which moves it
+ *   to its own band of Doppler frequencies; a loop is one chirp.
+ */
+export type Multiplexing = 'time-division' | 'binary-phase' | 'doppler-division';
+
+/**
+ * Timing and frequency plan of one frame: `loops` times through the chirps of a loop, which the transmitters share as
+ * `multiplexing` says, `samples` complex samples a chirp.
  */
 export interface Waveform {
   /** Frequency at the start of the ramp, Hz. */
@@ -61,12 +72,19 @@ export interface Waveform {
   adcStartS: number;
   /** Time from the start of one chirp to the start of the next, s. */
   chirpIntervalS: number;
-  /** Number of transmitters, which take turns. */
+  /** Number of transmitters. */
   transmitters: number;
-  /** Chirps of each transmitter in a frame. */
+  /** Loops in a frame: how often each transmitter's turn comes, or, in Doppler division, chirps. */
   loops: number;
   /** Time from the start of one frame to the start of the next, s. */
   frameIntervalS: number;
+  /** How the transmitters share the chirps. */
+  multiplexing?: Multiplexing;
+  /**
+   * Doppler bands of Doppler division, more than transmitters, so that some are empty and tell which band is whose;
+   * half as many more as transmitters if absent.
+   */
+  dopplerBands?: number;
 }
 
 /** What follows from a waveform: the numbers engineers look for first. */
@@ -285,7 +303,7 @@ export interface CubeResult {
   /** Real and imaginary parts, one after the other. */
   data: Float32Array;
   /** Lengths of the axes. */
-  shape: [frames: number, loops: number, transmitters: number, receivers: number, samples: number];
+  shape: [frames: number, loops: number, chirps: number, receivers: number, samples: number];
 }
 
 /** Something that reflects. */
@@ -446,7 +464,11 @@ export interface RadarConfig {
   sdkVersion: string | null;
   /** Bits of a sample. */
   sampleBits: number;
-  /** Bytes of one frame of raw samples. */
+  /** Sub-frames of a frame; 1 for frames without. */
+  subFrames: number;
+  /** The one that waveform and transmitters are of, from 0. */
+  subFrame: number;
+  /** Bytes of one frame of raw samples, with all of its sub-frames. */
   frameBytes: number;
   /** Frames to record; null until stopped. */
   frames: number | null;
@@ -504,6 +526,16 @@ export interface Detection {
   rangeBin: number;
   /** Doppler bin. */
   dopplerBin: number;
+  /**
+   * Times twice the waveform's largest rate that the rate is beyond that of its bin: 0 where no other was tried, or none
+   * is certain enough.
+   */
+  dopplerFold: number;
+  /**
+   * Probability of the likeliest fold among those tried; below 0.99 the rate keeps that of its bin. Absent where no other
+   * was tried.
+   */
+  foldProbability?: number;
 }
 
 /** What became of cells and samples. */
@@ -512,6 +544,10 @@ export interface FrameCounts {
   cellsOverThreshold: number;
   /** Of these, cells grouped under a stronger neighbour. */
   grouped: number;
+  /** Of these, echoes of stronger targets in other bands of Doppler division. */
+  otherBands: number;
+  /** Cells whose fold of the range rate is not certain; they keep that of their bin. */
+  undecidedFolds: number;
   /** Cells and detections outside the region. */
   outsideRegion: number;
   /** Cells and detections beyond the most to report. */
@@ -532,6 +568,8 @@ export interface FrameResult {
   rangeM: Float64Array;
   /** Range rate of each Doppler bin, ascending. */
   rateMps: Float64Array;
+  /** Largest range rate of either sign that detections tell from others: that of the Doppler bins, or more where folds are told. */
+  unambiguousRateMps: number;
   /** Power over range: mean over channels, sum over Doppler. */
   rangeProfileDb: Float64Array;
   /** Power over range and Doppler (Doppler fastest): mean over channels. */
