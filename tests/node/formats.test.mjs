@@ -152,6 +152,8 @@ describe('tables', () => {
     snrDb: 25,
     rangeBin: 58,
     dopplerBin: 8,
+    dopplerFold: -1,
+    foldProbability: 0.995,
     // Where range and angles put it.
     xM: 2.95 * Math.cos((10.8 * Math.PI) / 180),
     yM: -2.95 * Math.sin((10.8 * Math.PI) / 180),

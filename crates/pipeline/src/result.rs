@@ -15,13 +15,6 @@ pub struct Detection {
     pub range_m: f64,
     /// Range rate, positive when receding, interpolated between bins, in its fold.
     pub rate_mps: f64,
-    /// Times twice the waveform's largest rate that the rate is beyond that of its bin: 0 where no
-    /// other was tried, or none is certain enough.
-    pub doppler_fold: i32,
-    /// Probability of the likeliest fold among those tried; below 0.99 the rate keeps that of its
-    /// bin. Absent where no other was tried.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fold_probability: Option<f64>,
     /// Azimuth, positive to the left.
     pub azimuth_rad: f64,
     /// Elevation, positive upwards; 0 where the array does not see it.
@@ -42,6 +35,13 @@ pub struct Detection {
     pub range_bin: usize,
     /// Doppler bin.
     pub doppler_bin: usize,
+    /// Times twice the waveform's largest rate that the rate is beyond that of its bin: 0 where no
+    /// other was tried, or none is certain enough.
+    pub doppler_fold: i32,
+    /// Probability of the likeliest fold among those tried; below 0.99 the rate keeps that of its
+    /// bin. Absent where no other was tried.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fold_probability: Option<f64>,
 }
 
 /// A cell of the range-Doppler map that stands out of the noise.

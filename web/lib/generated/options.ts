@@ -319,6 +319,11 @@ export interface DetectionOptions {
    * resolutions to 0.9 of the unambiguous range.
    */
   region?: Region;
+  /**
+   * Most folds of the range rate to each side that are tried where transmitters take turns: rates beyond the unambiguous
+   * one, told by the transmitters' phases. 0 takes every rate for that of its bin (0 to 32; default 0).
+   */
+  dopplerFolds?: number;
   /** Angle estimation. */
   angle?: AngleOptions;
   /** Most detections a frame; the strongest are kept (1 to 65536; default 256). */

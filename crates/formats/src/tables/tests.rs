@@ -15,6 +15,8 @@ fn detections_come_back_as_they_were() {
             snr_db: 33.0,
             range_bin: 58,
             doppler_bin: 8,
+            doppler_fold: -2,
+            fold_probability: Some(0.995),
             ..DetectionRow::default()
         }
         .placed(),
