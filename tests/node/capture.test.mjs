@@ -125,6 +125,8 @@ describe('a recorded capture', () => {
   test('refuses bad options by name and goes on', () => {
     const bad = (options, code, what) => throwsTyped(() => capture.processFrame(0, options), code, what);
     bad({ rangeWindow: 'hanning' }, 'unknown-name', 'rangeWindow');
+    // Before a grid is made of so many points.
+    bad({ angle: { gridPoints: 1e8 } }, 'out-of-range', 'angle.gridPoints');
     bad({ rangePadding: 0 }, 'out-of-range');
     bad({ rangePadding: 1e6 }, 'out-of-range', 'rangePadding');
     bad({ cfar: { kind: 'median' } }, 'unknown-name', 'cfar.kind');
