@@ -5,7 +5,7 @@
 use boresight_aoa::{Estimator, EstimatorOptions, Method};
 use boresight_core::array::Position;
 use boresight_core::describe::{self, Described, Named, Naming};
-use boresight_core::{Array, Waveform, presets};
+use boresight_core::{Array, Multiplexing, Sampling, Waveform, presets};
 use boresight_pipeline::{Chain, ChainOptions};
 use libfuzzer_sys::fuzz_target;
 use serde::Serialize;
