@@ -1,5 +1,11 @@
 // What every runtime's entry offers beside its own init().
 
+export {
+  calibrateArray,
+  calibrateBySteeringTable,
+  calibrateCubeArray,
+  tiCompensation,
+} from './array-calibration/array-calibration.js';
 export { Calibration, calibrationMethods, mergeCalibrations } from './calibrate/calibrate.js';
 export { Capture, frameCells, joinCascade, processCube } from './capture/capture.js';
 export { strongestRegion } from './capture/region.js';

@@ -4,6 +4,7 @@
  * Each subject's are in its folder, what all share is here.
  */
 
+export type * from './array-calibration/types.js';
 export type * from './calibrate/types.js';
 export type * from './capture/types.js';
 export type * from './drive/types.js';

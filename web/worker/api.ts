@@ -202,6 +202,25 @@ export class Pool {
     return this.#one('combineFrames', [bytes, config, options], job);
   }
 
+  /** What calibrates the array of a cube; progress counts frames read. */
+  calibrateCubeArray(
+    cube: lib.ComplexData,
+    options: lib.CubeCalibrationOptions,
+    job?: JobOptions,
+  ): Promise<lib.ArrayCalibrationResult> {
+    return this.#one('calibrateCubeArray', [cube, options], job);
+  }
+
+  /** What calibrates the array of a capture: its own strong cells, or reflectors. */
+  captureCalibration(
+    bytes: lib.BytesInput,
+    config: lib.TextInput,
+    options?: lib.CaptureCalibrationOptions,
+    job?: JobOptions,
+  ): Promise<lib.ArrayCalibrationResult> {
+    return this.#one('captureCalibration', [bytes, config, options], job);
+  }
+
   /**
    * Reads a drive from an MCAP file (a ROS 2 bag), or from the parts of one in their order, of which no more than a piece
    * is held at a time: a `File` or other `Blob`, or anything that gives bytes, such as a stream. Progress counts bytes;

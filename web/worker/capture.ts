@@ -96,6 +96,11 @@ export class PoolCapture implements Functions {
     return this.#run('combineFrames', [this.#kept, this.#config, options], kept(job));
   }
 
+  /** Gain and phase of each channel of the array, from reflectors or from strong cells with one target. */
+  calibrateArray(options?: lib.CaptureCalibrationOptions, job?: JobOptions): Promise<lib.ArrayCalibrationResult> {
+    return this.#run('captureCalibration', [this.#kept, this.#config, options], kept(job));
+  }
+
   /** Snapshots of a cell (elements x frames), compensated for the transmitters' turns. */
   cellSnapshots(cell: lib.Cell, options?: lib.ChainOptions, job?: JobOptions): Promise<lib.ComplexData> {
     const part = this.#frame(cell?.frame);

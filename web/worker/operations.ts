@@ -2,11 +2,13 @@
 
 import type {
   AngleOptions,
+  ArrayCalibrationResult,
   BatchEstimate,
   BatchInput,
   BatchOptions,
   BytesInput,
   CalibrateDriveOptions,
+  CaptureCalibrationOptions,
   CaptureInfo,
   CaptureRegionOptions,
   Cell,
@@ -15,6 +17,7 @@ import type {
   CombineOptions,
   ComplexData,
   ConfigInput,
+  CubeCalibrationOptions,
   CubeChainOptions,
   CubeRegionOptions,
   DriveCalibration,
@@ -187,6 +190,20 @@ function combineFrames(
   return withCapture(source, config, (capture) => capture.combineFrames(options, report));
 }
 
+function captureCalibration(
+  this: Context,
+  source: CaptureSource,
+  config: ConfigInput,
+  options?: CaptureCalibrationOptions,
+): ArrayCalibrationResult {
+  const report = (done: number, total: number): boolean => this.report(done, total);
+  return withCapture(source, config, (capture) => capture.calibrateArray(options, report));
+}
+
+function calibrateCubeArray(this: Context, cube: ComplexData, options: CubeCalibrationOptions): ArrayCalibrationResult {
+  return api.calibrateCubeArray(cube, options, (done, total) => this.report(done, total));
+}
+
 function cellSnapshots(source: CaptureSource, config: ConfigInput, cell: Cell, options?: ChainOptions): ComplexData {
   return withCapture(source, config, (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
@@ -280,6 +297,11 @@ export const operations = {
   cubeRegions,
   regionStretch,
   combineFrames,
+  captureCalibration,
+  calibrateArray: api.calibrateArray,
+  calibrateCubeArray,
+  calibrateBySteeringTable: api.calibrateBySteeringTable,
+  tiCompensation: api.tiCompensation,
   cellSnapshots,
   cellSpectrum,
   explainCell,

@@ -1,4 +1,5 @@
 // The functions of the package as promises.
+import type * as arrayCalibration from '../lib/array-calibration/array-calibration.js';
 import type * as calibrate from '../lib/calibrate/calibrate.js';
 import type * as capture from '../lib/capture/capture.js';
 import type * as region from '../lib/capture/region.js';
@@ -46,6 +47,7 @@ type CaptureFunctions = OfCaptures<
 
 /** Functions of the package by the modules that document them, which what api.ts exports again does not. */
 type Functions = typeof array &
+  typeof arrayCalibration &
   typeof board &
   typeof calibrate &
   typeof capture &
@@ -74,6 +76,9 @@ export const argumentCounts = {
   mergeCalibrations: 1,
   arrayPresets: 0,
   array: 1,
+  calibrateArray: 2,
+  calibrateBySteeringTable: 2,
+  tiCompensation: 2,
   unsuited: 2,
   estimate: 2,
   countSources: 2,

@@ -1,6 +1,7 @@
 //! Errors of the command line, and the one place that prints them.
 
 use boresight_aoa::AoaError;
+use boresight_array_calibration::ArrayCalibrationError;
 use boresight_calibrate::CalibrateError;
 use boresight_calibrate::network::NetworkError;
 use boresight_core::{CoreError, Details, Diagnose};
@@ -35,6 +36,9 @@ pub enum CliError {
     /// Angle estimation refused.
     #[error(transparent)]
     Angle(#[from] AoaError),
+    /// An array cannot be calibrated.
+    #[error(transparent)]
+    ArrayCalibration(#[from] ArrayCalibrationError),
     /// Calibration refused.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
@@ -155,6 +159,7 @@ impl CliError {
             Self::Format(error) => error,
             Self::Signal(error) => error,
             Self::Angle(error) => error,
+            Self::ArrayCalibration(error) => error,
             Self::Calibrate(error) => error,
             Self::Live(error) => error,
             Self::Image(error) => error,

@@ -390,6 +390,7 @@ mod tests {
     fn every_flag_sets_its_own_field() {
         every_flag::<boresight_pipeline::AngleOptions>(28);
         every_flag::<boresight_pipeline::ChainOptions>(16);
+        every_flag::<boresight_array_calibration::CalibrationOptions>(5);
         every_flag::<boresight_pipeline::regions::RegionChainOptions>(19);
         every_flag::<boresight_calibrate::CalibrationOptions>(19);
         every_flag::<boresight_calibrate::SignOptions>(2);

@@ -48,6 +48,7 @@ fn main() -> ExitCode {
         Command::Methods(format) => commands::lists::methods(format.json),
         Command::Network(arguments) => commands::network::run(&arguments, &files),
         Command::Regions(arguments) => commands::regions::run(&arguments, &files),
+        Command::Array { what } => commands::array::run(&what, &files),
         Command::Arrays(format) => commands::lists::arrays(format.json),
     };
     match result.and_then(|text| print(&text, &files)) {

@@ -3,8 +3,10 @@
 use crate::describe::Described;
 use crate::error::{CoreError, check_finite};
 use crate::lattice::Lattice;
+use crate::response::Correction;
 use crate::steering::unambiguous_sine;
 use serde::Serialize;
+use std::sync::Arc;
 
 /// Position in the sensor frame, half wavelengths: x forward, y left, z up.
 pub type Position = [f64; 3];
@@ -48,6 +50,8 @@ pub struct Array {
     rx: Vec<Position>,
     inverted_tx: Vec<bool>,
     inverted_rx: Vec<bool>,
+    /// What is known of its errors.
+    correction: Option<Arc<Correction>>,
 }
 
 impl Array {
@@ -91,6 +95,7 @@ impl Array {
             rx: rx.to_vec(),
             inverted_tx: vec![false; tx.len()],
             inverted_rx: vec![false; rx.len()],
+            correction: None,
         })
     }
 
@@ -141,7 +146,8 @@ impl Array {
         Self::new(&positions)
     }
 
-    /// All pairs of its transmitters and receivers, whichever of them it keeps.
+    /// All pairs of its transmitters and receivers, whichever of them it keeps, as planned: without what is known of
+    /// their errors.
     ///
     /// # Errors
     /// As [`Array::new`].
@@ -212,6 +218,21 @@ impl Array {
     /// Receiver positions, half wavelengths.
     pub fn rx(&self) -> &[Position] {
         &self.rx
+    }
+
+    /// What turns measured snapshots into those of the elements at [`Array::positions`]; nothing
+    /// where the array is taken as planned. Estimators take corrected snapshots.
+    pub fn correction(&self) -> Option<&Correction> {
+        self.correction.as_deref()
+    }
+
+    /// The same channels elsewhere, with what corrects them.
+    pub(crate) fn with(
+        &self,
+        positions: Vec<Position>,
+        correction: Option<Arc<Correction>>,
+    ) -> Self {
+        Self { positions, correction, ..self.clone() }
     }
 
     /// Length of the array along y, half wavelengths.

@@ -98,6 +98,14 @@ pub enum CoreError {
         /// The name given.
         given: String,
     },
+    /// A calibration of another array.
+    #[error("the calibration is of {expected}; the array has {given}")]
+    OtherArray {
+        /// Transmitters and receivers of the calibration, in words.
+        expected: String,
+        /// Those of the array.
+        given: String,
+    },
     /// A matrix that has to be positive definite is not.
     #[error("{what} is not positive definite: pivot {index} is {given}")]
     NotPositiveDefinite {
@@ -119,6 +127,7 @@ impl Diagnose for CoreError {
             Self::OutOfRange { .. } => "out-of-range",
             Self::TooLarge { .. } => "too-large",
             Self::Unknown { .. } => "unknown-name",
+            Self::OtherArray { .. } => "other-array",
             Self::NotPositiveDefinite { .. } => "not-positive-definite",
         }
     }
@@ -139,6 +148,7 @@ impl Diagnose for CoreError {
                 Details::new(what, limits::most(measure, *most), format!("{given:.3e} {measure}"))
             }
             Self::Unknown { what, expected, given } => Details::new(what, expected, given),
+            Self::OtherArray { expected, given } => Details::new("calibration", given, expected),
             Self::NotPositiveDefinite { what, index, given } => Details::new(
                 what,
                 "a positive definite matrix",

@@ -24,6 +24,7 @@
 extern crate self as boresight_core;
 
 pub mod array;
+pub mod calibration;
 pub mod describe;
 pub mod direction;
 pub mod drive;
@@ -40,11 +41,13 @@ pub mod order;
 pub mod presets;
 pub mod random;
 pub mod resolution;
+pub mod response;
 pub mod steering;
 pub mod units;
 pub mod waveform;
 
 pub use array::{Array, Channel, Extent};
+pub use calibration::{ArrayCalibration, CalibrationMethod, ChannelCalibration, NotIdentifiable};
 pub use describe::Remark;
 pub use direction::Direction;
 pub use drive::{Detection, DriveLog, MotionSample, Mounting, Pose, Scan, Sensor};

@@ -1,7 +1,9 @@
-//! Results as JSON, in the names and units that JavaScript has them in.
+//! Results as JSON, in the names and units that JavaScript has them in, and the way back.
 
 use boresight_core::describe::naming::{is_angle, javascript};
+use boresight_core::describe::{Described, Kind, Record};
 use serde::Serialize;
+use serde::de::{DeserializeOwned, Error};
 use serde_json::{Map, Value};
 
 /// A result in the names and units of users; what is not finite becomes null.
@@ -43,10 +45,62 @@ fn outside(value: Value, in_radians: bool) -> Value {
     }
 }
 
+/// Reads what [`result`] writes: fields by their names in JavaScript, angles in degrees. Fields that are not known are
+/// refused.
+///
+/// # Errors
+/// Those of the text, and of what it holds.
+pub fn read<T: DeserializeOwned + Described>(text: &[u8]) -> Result<T, serde_json::Error> {
+    let value: Value = serde_json::from_slice(text)?;
+    serde_json::from_value(inside(value, &T::KIND, false)?)
+}
+
+/// The value in the names and units of Rust.
+fn inside(value: Value, kind: &Kind, is_angle: bool) -> Result<Value, serde_json::Error> {
+    Ok(match (value, kind) {
+        (Value::Number(number), _) if is_angle => {
+            number.as_f64().map_or(Value::Null, |degrees| degrees.to_radians().into())
+        }
+        (value, Kind::Optional(kind)) => inside(value, kind, is_angle)?,
+        (Value::Array(items), Kind::List(kind) | Kind::Tuple(kind, _)) => {
+            items.into_iter().map(|item| inside(item, kind, is_angle)).collect::<Result<_, _>>()?
+        }
+        (Value::Array(items), Kind::Numbers(_)) => items
+            .into_iter()
+            .map(|item| inside(item, &Kind::Number, is_angle))
+            .collect::<Result<_, _>>()?,
+        (Value::Object(mut fields), Kind::Record(record)) => {
+            let known = taken(&mut fields, record)?;
+            if let Some(other) = fields.keys().next() {
+                let other: String = other.chars().take(40).collect();
+                return Err(serde_json::Error::custom(format!("unknown field `{other}`")));
+            }
+            Value::Object(known)
+        }
+        (value, _) => value,
+    })
+}
+
+/// Takes a record's fields out of an object.
+fn taken(
+    from: &mut Map<String, Value>,
+    record: &Record,
+) -> Result<Map<String, Value>, serde_json::Error> {
+    let mut known = Map::new();
+    for field in record.fields {
+        if let (true, Kind::Record(inner)) = (field.name.starts_with(".."), field.kind) {
+            known.insert(field.name.into(), Value::Object(taken(from, inner)?));
+        } else if let Some(value) = from.remove(&javascript(field.name)) {
+            known.insert(field.name.into(), inside(value, &field.kind, is_angle(field.name))?);
+        }
+    }
+    Ok(known)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use boresight_core::{Direction, Mounting};
+    use boresight_core::{ArrayCalibration, Direction, Mounting, NotIdentifiable};
     use serde_json::json;
 
     #[derive(Serialize)]
@@ -71,5 +125,49 @@ mod tests {
             "more": 1
         });
         assert_eq!(beside(&seen, json!({ "more": 1 })), written);
+    }
+
+    #[test]
+    fn a_calibration_is_read_as_it_was_written() {
+        let array = boresight_core::Array::ula(3).unwrap();
+        let mut calibration = ArrayCalibration::neutral(&array);
+        calibration.channels[1].phase_rad = 0.5;
+        calibration.channels[1].displacement = Some([0.0, 0.25, 0.0]);
+        calibration.not_identifiable = vec![NotIdentifiable::Direction];
+        calibration.coupling = Some(vec![vec![boresight_core::Complex64::ONE; 3]; 3]);
+        let text = result(&calibration).to_string();
+        assert!(text.contains("phaseDeg") && text.contains("not"), "{text}");
+        let back: ArrayCalibration = read(text.as_bytes()).unwrap();
+        assert!((back.channels[1].phase_rad - 0.5).abs() < 1e-15);
+        let exact = ArrayCalibration { channels: calibration.channels.clone(), ..back };
+        assert_eq!(exact, calibration);
+    }
+
+    #[test]
+    fn hostile_text_is_refused_and_nothing_else_happens() {
+        for text in [
+            "",
+            "[]",
+            "{\"tx\":",
+            "{\"made\": 1}",
+            "{\"channels\": [{\"phase\": 1}]}",
+            "{\"tx\": [[0, 0]], \"rx\": [], \"channels\": []}",
+            "{\"cells\": -1}",
+            "{\"channels\": [{\"gainDb\": \"1\"}]}",
+        ] {
+            assert!(read::<ArrayCalibration>(text.as_bytes()).is_err(), "{text}");
+        }
+        let nested = "[".repeat(100_000);
+        assert!(read::<ArrayCalibration>(nested.as_bytes()).is_err());
+        for text in [
+            "{\"tx\": [[0, 0, 0]], \"rx\": [[0, 0, 0]], \"channels\": []}",
+            "{\"tx\": [[0, 0, 1e300]], \"rx\": [[0, 0, 0]], \"channels\": [{}]}",
+            "{\"tx\": [[0, 0, 0]], \"rx\": [[0, 0, 0]], \"channels\": [{\"gainDb\": 1e300}]}",
+            "{\"tx\": [[0, 0, 0]], \"rx\": [[0, 0, 0]], \"channels\": [{}], \"coupling\": [[]]}",
+            "{}",
+        ] {
+            let calibration: ArrayCalibration = read(text.as_bytes()).unwrap();
+            assert!(calibration.check().is_err(), "{text}");
+        }
     }
 }

@@ -55,7 +55,7 @@ pub use drive_log::{
     TopicOptions,
 };
 pub use error::FormatError;
-pub use mmwave_cfg::{RadarConfig, SubFrame};
+pub use mmwave_cfg::{Compensation, RadarConfig, SubFrame};
 pub use npy::{NpyArray, NpyData};
 pub use pcd::PointCloud;
 pub use ti_uart::{BoardFrame, BoardLog, BoardLogCounts, BoardObject, UartStream};

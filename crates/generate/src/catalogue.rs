@@ -26,6 +26,15 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
             "DetectionOptions",
             "The chain from frames to detections",
         )?,
+        entry::<boresight_array_calibration::CalibrationOptions>(
+            "ArrayCalibrationOptions",
+            "Calibrating arrays",
+        )?,
+        plain(
+            "SteeringTable",
+            "Tables of measured steering vectors",
+            boresight_array_calibration::SteeringTable::KIND,
+        ),
         entry::<boresight_calibrate::CalibrationOptions>("CalibrationOptions", "Mounting angles")?,
         entry::<boresight_simulate::DriveOptions>("SimulateDriveOptions", "Simulated drives")?,
         entry::<boresight_formats::ReadingOptions>("ReadingOptions", "Reading captures")?,
@@ -94,6 +103,13 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
                 boresight_pipeline::FrameCells::KIND,
                 boresight_pipeline::CellExplanation::KIND,
                 boresight_pipeline::regions::RegionFrame::KIND,
+            ],
+        ),
+        (
+            "Array calibration",
+            vec![
+                boresight_core::ArrayCalibration::KIND,
+                boresight_array_calibration::CalibrationResult::KIND,
             ],
         ),
         (

@@ -10,6 +10,7 @@ use boresight_aoa::{
 };
 use boresight_core::describe::remark::Coded;
 use boresight_core::order::sort_descending;
+use boresight_core::response::Correction;
 use boresight_core::{Array, Complex32, Complex64, Direction, Multiplexing, Remark, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
@@ -58,7 +59,8 @@ pub(crate) struct Found {
 impl Chain {
     /// Plans for frames of `waveform.loops` x chirps of a loop x receivers x `waveform.samples`, whose channels are the elements of `array`: those of a MIMO array by
     /// their transmitter and receiver; of an array of plain positions, element `k` is channel
-    /// `tx * receivers + rx`.
+    /// `tx * receivers + rx`. What a calibrated array ([`Array::calibrated`]) knows of its errors is
+    /// taken off snapshots and ranges.
     ///
     /// # Errors
     /// [`PipelineError::Channels`] if the array has other channels than the frames; what the steps
@@ -303,6 +305,7 @@ impl Chain {
         let bins = self.transform.range_m().len();
         range_of_bin_m(waveform, bins, peak.range_bin)
             - range_doppler_coupling_m(waveform, rate_mps)
+            - self.array.correction().map_or(0.0, Correction::range_bias_m)
     }
 
     /// The channels of a cell of the frame transformed last, as measured.
@@ -369,6 +372,9 @@ impl Chain {
                 Multiplexing::BinaryPhase => binary_phase::decode(&mut values, transmitters, step)?,
                 Multiplexing::DopplerDivision => {}
             }
+            if let Some(correction) = self.array.correction() {
+                correction.apply(&mut values);
+            }
             snapshot.assign(&ndarray::aview1(&values));
         }
         Ok(())
@@ -414,6 +420,7 @@ impl Chain {
         Ok(FrameResult {
             frame: 0,
             frames: 1,
+            calibrated: self.array.correction().is_some(),
             range_m: self.transform.range_m().to_vec(),
             rate_mps: self.transform.rate_mps().to_vec(),
             unambiguous_rate_mps: self.transform.waveform().max_rate_mps() * told as f64,

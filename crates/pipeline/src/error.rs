@@ -1,6 +1,7 @@
 //! Errors of the chain.
 
 use boresight_aoa::AoaError;
+use boresight_array_calibration::ArrayCalibrationError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_image::ImageError;
 use boresight_signal::SignalError;
@@ -22,6 +23,9 @@ pub enum PipelineError {
     /// An image cannot be made.
     #[error(transparent)]
     Image(#[from] ImageError),
+    /// An array cannot be calibrated.
+    #[error(transparent)]
+    ArrayCalibration(#[from] ArrayCalibrationError),
     /// The array has other channels than the frames.
     #[error("the array {given}; the frames have {expected}")]
     Channels {
@@ -50,6 +54,7 @@ impl Diagnose for PipelineError {
             Self::Signal(error) => error.code(),
             Self::Angle(error) => error.code(),
             Self::Image(error) => error.code(),
+            Self::ArrayCalibration(error) => error.code(),
             Self::Channels { .. } => "channels",
             Self::Multiplexing => "multiplexing",
             Self::Cancelled { .. } => "cancelled",
@@ -62,6 +67,7 @@ impl Diagnose for PipelineError {
             Self::Signal(error) => error.details(),
             Self::Angle(error) => error.details(),
             Self::Image(error) => error.details(),
+            Self::ArrayCalibration(error) => error.details(),
             Self::Channels { expected, given } => Details::new("array", expected, given),
             Self::Multiplexing => {
                 Details::new("multiplexing", "time-division", "transmitters that send at once")

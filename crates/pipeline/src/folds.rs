@@ -26,8 +26,9 @@ impl Folds {
     ) -> Result<Option<Self>, PipelineError> {
         let Waveform { transmitters, multiplexing, .. } = *waveform;
         let all = array.tx().len() * array.rx().len();
+        let correction = array.correction();
         let test = |array: &Array, channels: &[usize]| {
-            FoldTest::new(array, channels, transmitters, multiplexing, most_folds)
+            FoldTest::new(array, channels, transmitters, multiplexing, most_folds, correction)
         };
         if most_folds == 0 || multiplexing.chirps_per_loop(transmitters) < 2 {
             return Ok(None);

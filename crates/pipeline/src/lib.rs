@@ -5,7 +5,8 @@
 //! [`Chain::new`] plans for one waveform, array and set of options; [`Chain::process`] takes one
 //! frame, [`Chain::each`] all frames of a [`FrameSource`] one by one, and [`Chain::combine`] all of
 //! them together, which suits scenes that do not move. [`image::frame_map`] makes a range-azimuth
-//! map of a frame's cells.
+//! map of a frame's cells, and [`array_calibration::calibrate_array`] finds what the array's channels have that
+//! its plan has not.
 //!
 //! # Example
 //!
@@ -34,6 +35,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod array_calibration;
 mod beam;
 mod capture;
 mod chain;

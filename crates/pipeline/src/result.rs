@@ -108,6 +108,8 @@ pub struct FrameResult {
     pub frame: usize,
     /// Frames that went in.
     pub frames: usize,
+    /// Whether an array's calibration was applied.
+    pub calibrated: bool,
     /// Range of each range bin.
     #[serde(serialize_with = "columns::serialize")]
     pub range_m: Vec<f64>,

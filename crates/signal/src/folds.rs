@@ -24,6 +24,7 @@ use crate::error::SignalError;
 use crate::tdm::phase_step_rad;
 use boresight_core::error::check_range;
 use boresight_core::limits::check_bytes;
+use boresight_core::response::Correction;
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::{Array, Complex64, CoreError, Direction, Multiplexing};
 use ndarray::{Array2, ArrayView2};
@@ -52,6 +53,8 @@ pub struct FoldTest {
     array: Array,
     /// Channel of each element.
     channels: Vec<usize>,
+    /// What is known of the errors of all channels.
+    correction: Option<Correction>,
     /// Chirps of a loop.
     chirps: usize,
     multiplexing: Multiplexing,
@@ -71,7 +74,7 @@ struct Fit {
 
 impl FoldTest {
     /// Plans for cells of `transmitters` that take turns in loops, seen by elements that are the
-    /// channels `channels` of the cube, with up to `most_folds` to each side.
+    /// channels `channels` of the cube and have errors that `correction` takes off, with up to `most_folds` to each side.
     ///
     /// # Errors
     /// [`CoreError::Shape`] for another number of channels than elements or one that is no multiple
@@ -83,6 +86,7 @@ impl FoldTest {
         transmitters: usize,
         multiplexing: Multiplexing,
         most_folds: usize,
+        correction: Option<&Correction>,
     ) -> Result<Self, SignalError> {
         check_range("doppler_folds", most_folds as f64, 0.0, 32.0)?;
         let elements = array.len();
@@ -102,6 +106,7 @@ impl FoldTest {
         let mut test = Self {
             array: array.clone(),
             channels: channels.to_vec(),
+            correction: correction.cloned(),
             chirps: multiplexing.chirps_per_loop(transmitters),
             multiplexing,
             most_folds: most_folds as i32,
@@ -200,6 +205,9 @@ impl FoldTest {
         let elements = self.array.channels().iter().zip(steering);
         for (&channel, (&element, z)) in self.channels.iter().zip(elements) {
             response[channel] = if self.array.is_inverted(element) { -z } else { z };
+        }
+        if let Some(correction) = &self.correction {
+            correction.undo(&mut response);
         }
         if self.multiplexing == Multiplexing::BinaryPhase {
             hadamard(&mut response, self.chirps);
@@ -382,7 +390,7 @@ mod tests {
 
     fn test_of(array: &Array, transmitters: usize, kind: Multiplexing) -> FoldTest {
         let channels: Vec<usize> = (0..array.len()).collect();
-        FoldTest::new(array, &channels, transmitters, kind, transmitters / 2).unwrap()
+        FoldTest::new(array, &channels, transmitters, kind, transmitters / 2, None).unwrap()
     }
 
     /// A cell at its SNR a channel, of waves of some amplitude, bin and fold.
@@ -506,11 +514,11 @@ mod tests {
         let (array, transmitters) = whole("awr1642");
         let channels: Vec<usize> = (0..8).collect();
         let kind = Multiplexing::TimeDivision;
-        let test = FoldTest::new(&array, &channels, transmitters, kind, 3).unwrap();
+        let test = FoldTest::new(&array, &channels, transmitters, kind, 3, None).unwrap();
         assert_eq!(test.hypotheses(), 2);
         assert_eq!((test.folds(40.0, 64), test.folds(20.0, 64)), (vec![0, -1], vec![0, 1]));
         for (channels, folds) in [(&channels[..7], 1), (&[9; 8], 1), (&channels, 33)] {
-            assert!(FoldTest::new(&array, channels, transmitters, kind, folds).is_err());
+            assert!(FoldTest::new(&array, channels, transmitters, kind, folds, None).is_err());
         }
         let wrong = Array2::zeros((7, 1));
         assert!(test.decide(wrong.view(), 0.0, 64, 0.0).is_err());

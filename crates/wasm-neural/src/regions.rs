@@ -5,6 +5,7 @@ use boresight_core::{Array, Waveform};
 use boresight_neural::RegionNetworks;
 use boresight_pipeline::regions::RegionChainOptions;
 use boresight_pipeline::{FrameSource, RegionChain};
+use boresight_wasm::calibrated::ArrayChoice;
 use boresight_wasm::capture::{Capture, cube_frames};
 use boresight_wasm::carry;
 use boresight_wasm::complex::Cube;
@@ -27,7 +28,7 @@ pub fn cube_regions(
     let source = cube_frames(&cube)?;
     let mut fields = Fields::new(options, "")?;
     let waveform: Waveform = fields.required("waveform")?;
-    let array: Array = fields.required("array")?;
+    let array = ArrayChoice::read(&mut fields)?.required()?;
     let options = fields.spread()?;
     fields.finish()?;
     let networks = [counting, one, two];
@@ -50,7 +51,7 @@ pub fn capture_regions(
     let capture = Capture::new(bytes, config)?;
     let frames = capture.read_frames(frame)?;
     let mut fields = Fields::of_optional(options)?;
-    let array = capture.array_or(fields.optional("array")?)?;
+    let array = capture.array_or(ArrayChoice::read(&mut fields)?)?;
     let options = fields.spread()?;
     fields.finish()?;
     let (waveform, receivers, source) = capture.recording()?;

@@ -1,6 +1,7 @@
 //! Recorded and simulated frames through the chain.
 
 use crate::bytes::Bytes;
+use crate::calibrated::ArrayChoice;
 use crate::carry;
 use crate::chain::{read_angle, read_chain, read_cube_chain};
 use crate::complex::Cube;
@@ -257,15 +258,13 @@ impl Capture {
         Ok(first..first + count)
     }
 
-    /// An array that was asked for, or else that of the platform.
+    /// An array that was asked for, or else that of the platform, calibrated as was asked for, or else by
+    /// the configuration.
     ///
     /// # Errors
-    /// Where neither is known.
-    pub fn array_or(&self, array: Option<Array>) -> Fallible<Array> {
-        array.or_else(|| self.array.clone()).ok_or_else(|| BindingError::Missing {
-            what: "array".into(),
-            expected: "an array, since that of the platform is not known".into(),
-        })
+    /// Where neither array is known; a calibration of another array.
+    pub fn array_or(&self, choice: ArrayChoice) -> Fallible<Array> {
+        choice.or_board(self.array.as_ref(), &self.config)
     }
 
     /// Its waveform, its number of receivers, and its frames.
@@ -281,7 +280,7 @@ impl Capture {
     fn planned(
         &mut self,
         planner: Planner,
-        array: Option<Array>,
+        array: ArrayChoice,
         options: &ChainOptions,
     ) -> Fallible<(&mut Chain, Recording<'_>)> {
         let array = self.array_or(array)?;
@@ -316,7 +315,7 @@ impl Capture {
     fn snapshots(
         &mut self,
         cell: &JsValue,
-        array: Option<Array>,
+        array: ArrayChoice,
         options: &ChainOptions,
     ) -> Fallible<(&Chain, Array2<Complex64>)> {
         let ([range_bin, doppler_bin], frames) = self.read_cell(cell)?;

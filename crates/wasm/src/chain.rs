@@ -1,7 +1,8 @@
 //! Options of the chain from frames to detections.
 
-use crate::error::{BindingError, Fallible};
-use crate::read::{Fields, Read};
+use crate::calibrated::ArrayChoice;
+use crate::error::Fallible;
+use crate::read::Fields;
 use boresight_core::{Array, Waveform};
 use boresight_pipeline::{AngleOptions, ChainOptions};
 use wasm_bindgen::JsValue;
@@ -12,16 +13,12 @@ pub fn read_cube_chain(options: &JsValue) -> Fallible<(Waveform, Array, ChainOpt
     let waveform = fields.required("waveform")?;
     let (array, options) = read_chain(&mut fields)?;
     fields.finish()?;
-    let array = array.ok_or_else(|| BindingError::Missing {
-        what: "array".into(),
-        expected: Array::EXPECTED.into(),
-    })?;
-    Ok((waveform, array, options))
+    Ok((waveform, array.required()?, options))
 }
 
 /// Reads the options of the chain, and the array where one is named.
-pub fn read_chain(fields: &mut Fields) -> Fallible<(Option<Array>, ChainOptions)> {
-    Ok((fields.optional("array")?, fields.spread()?))
+pub fn read_chain(fields: &mut Fields) -> Fallible<(ArrayChoice, ChainOptions)> {
+    Ok((ArrayChoice::read(fields)?, fields.spread()?))
 }
 
 /// Reads a method with its options; the conventional beamformer where none is named.

@@ -2,6 +2,7 @@
 
 use crate::carry;
 use boresight_aoa::AoaError;
+use boresight_array_calibration::ArrayCalibrationError;
 #[cfg(feature = "drives")]
 use boresight_calibrate::CalibrateError;
 use boresight_core::describe::At;
@@ -29,6 +30,9 @@ pub enum BindingError {
     /// The estimators refused.
     #[error(transparent)]
     Aoa(#[from] AoaError),
+    /// An array cannot be calibrated.
+    #[error(transparent)]
+    ArrayCalibration(#[from] ArrayCalibrationError),
     /// The calibration refused.
     #[cfg(feature = "drives")]
     #[error(transparent)]
@@ -93,6 +97,7 @@ impl Diagnose for BindingError {
         match self {
             Self::Argument(error) => error.code(),
             Self::Aoa(error) => error.code(),
+            Self::ArrayCalibration(error) => error.code(),
             #[cfg(feature = "drives")]
             Self::Calibrate(error) => error.code(),
             Self::Format(error) => error.code(),
@@ -113,6 +118,7 @@ impl Diagnose for BindingError {
         match self {
             Self::Argument(error) => error.details(),
             Self::Aoa(error) => error.details(),
+            Self::ArrayCalibration(error) => error.details(),
             #[cfg(feature = "drives")]
             Self::Calibrate(error) => error.details(),
             Self::Format(error) => error.details(),

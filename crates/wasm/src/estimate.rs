@@ -8,8 +8,8 @@ use crate::read::{Fields, Read};
 use boresight_aoa::method::Requirements;
 use boresight_aoa::{self as aoa, Data, Method};
 use boresight_core::describe::Described;
-use boresight_core::{Complex64, CoreError};
-use ndarray::{ArrayView2, ArrayView3};
+use boresight_core::{Array, Complex64, CoreError};
+use ndarray::{ArrayView2, ArrayView3, ArrayViewMut2};
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -41,6 +41,8 @@ pub fn estimate(input: &JsValue, options: &JsValue) -> Fallible<JsValue> {
 #[wasm_bindgen]
 pub struct Estimator {
     inner: aoa::Estimator,
+    /// The array where snapshots have to be corrected for its errors.
+    calibrated: Option<Array>,
     batch: aoa::BatchEstimate,
 }
 
@@ -50,12 +52,17 @@ impl Estimator {
     #[wasm_bindgen(constructor)]
     pub fn new(options: &JsValue) -> Fallible<Self> {
         let (method, array, options) = read_estimator(options)?;
-        Ok(aoa::Estimator::new(method, &array, &options)?.into())
+        let inner = aoa::Estimator::new(method, &array, &options)?;
+        let calibrated = array.correction().is_some().then_some(array);
+        Ok(Self { calibrated, ..inner.into() })
     }
 
     /// Estimates the angles in `{ snapshots }` or `{ covariance, snapshotCount }`.
     pub fn estimate(&mut self, input: &JsValue) -> Fallible<JsValue> {
-        let input = Input::read(input, "input")?;
+        let mut input = Input::read(input, "input")?;
+        if let Some(array) = &self.calibrated {
+            input.correct(array)?;
+        }
         Ok(carry::write(&self.inner.estimate(input.data()?)?))
     }
 
@@ -64,7 +71,10 @@ impl Estimator {
     #[wasm_bindgen(js_name = estimateBatch)]
     pub fn estimate_batch(&mut self, input: &JsValue, options: &JsValue) -> Fallible<JsValue> {
         let mut fields = Fields::new(input, "input")?;
-        let cells: Cells = fields.required("snapshots")?;
+        let mut cells: Cells = fields.required("snapshots")?;
+        if let Some(array) = &self.calibrated {
+            cells.correct(array)?;
+        }
         fields.finish()?;
         let mut fields = Fields::of_optional(options)?;
         let spectra = fields.optional("spectra")?.unwrap_or(false);
@@ -77,7 +87,7 @@ impl Estimator {
 impl From<aoa::Estimator> for Estimator {
     fn from(inner: aoa::Estimator) -> Self {
         let batch = aoa::BatchEstimate::new(inner.method());
-        Self { inner, batch }
+        Self { inner, calibrated: None, batch }
     }
 }
 
@@ -93,6 +103,17 @@ impl Read for Cells {
 }
 
 impl Cells {
+    /// Takes an array's known errors off.
+    fn correct(&mut self, array: &Array) -> Fallible<()> {
+        let (cells, elements, snapshots) = self.view()?.dim();
+        for cell in self.0.data.chunks_mut((elements * snapshots).max(1)).take(cells) {
+            let cell = ArrayViewMut2::from_shape((elements, snapshots), cell)
+                .map_err(|_| shape_error("snapshots", "a matrix a cell", &self.0.shape))?;
+            array.correct(cell)?;
+        }
+        Ok(())
+    }
+
     fn view(&self) -> Fallible<ArrayView3<'_, Complex64>> {
         let ComplexData { data, shape, .. } = &self.0;
         let axes = match shape[..] {
@@ -140,6 +161,33 @@ impl Read for Input {
 }
 
 impl Input {
+    /// Takes an array's known errors off: `K Y`, or `K R K^H`.
+    ///
+    /// # Errors
+    /// For a shape that is neither a vector nor a matrix, or other elements than the array has.
+    pub fn correct(&mut self, array: &Array) -> Fallible<()> {
+        let (data, sides) = match self {
+            Self::Snapshots(data) => (data, 1),
+            Self::Covariance(data, _) => (data, 2),
+        };
+        let (rows, columns) = match data.shape[..] {
+            [rows] => (rows, 1),
+            [rows, columns] => (rows, columns),
+            _ => return Err(shape_error("input", "a matrix", &data.shape)),
+        };
+        let shape = data.shape.clone();
+        let wrong = || shape_error("input", "a matrix", &shape);
+        for side in 0..sides {
+            if side == 1 {
+                let adjoint = boresight_core::linalg::adjoint(as_matrix(data, "covariance")?);
+                data.data = adjoint.into_iter().collect();
+            }
+            let view = ArrayViewMut2::from_shape((rows, columns), &mut data.data);
+            array.correct(view.map_err(|_| wrong())?)?;
+        }
+        Ok(())
+    }
+
     /// The data as the estimators take it.
     ///
     /// # Errors

@@ -16,12 +16,16 @@
 #[cfg(feature = "chain")]
 pub mod array;
 #[cfg(feature = "core")]
+pub mod array_calibration;
+#[cfg(feature = "core")]
 pub mod board;
 #[cfg(feature = "core")]
 pub mod bounds;
 pub mod bytes;
 #[cfg(feature = "drives")]
 pub mod calibrate;
+#[cfg(feature = "chain")]
+pub mod calibrated;
 #[cfg(feature = "core")]
 pub mod calibration_methods;
 #[cfg(feature = "chain")]

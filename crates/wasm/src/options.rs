@@ -1,5 +1,6 @@
 //! Options of the estimators out of JavaScript.
 
+use crate::calibrated::ArrayChoice;
 use crate::error::Fallible;
 use crate::read::{Fields, Read, choice};
 use boresight_aoa::{EstimatorOptions, Method};
@@ -16,10 +17,11 @@ impl Read for Method {
     }
 }
 
-/// Reads an estimator: its method, the array it works on, and its options.
+/// Reads an estimator: its method, the array it works on, calibrated where that is asked for, and its options.
 pub fn read_estimator(options: &JsValue) -> Fallible<(Method, Array, EstimatorOptions)> {
     let mut fields = Fields::new(options, "")?;
-    let estimator = (fields.required("method")?, fields.required("array")?, fields.spread()?);
+    let (method, array) = (fields.required("method")?, ArrayChoice::read(&mut fields)?);
+    let options = fields.spread()?;
     fields.finish()?;
-    Ok(estimator)
+    Ok((method, array.required()?, options))
 }

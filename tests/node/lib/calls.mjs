@@ -58,6 +58,7 @@ export function goodCalls() {
     name: `${chip}_0000_data.bin`,
     bytes: new Uint8Array(2 * 2 * 4 * 4),
   }));
+  const seen8 = (deg) => planeWaves(8, 1, [deg]);
   const detections = boresight.processCube(cube, chain)[0].detections;
   const numbers = Uint8Array.from(readFileSync(new URL('../../golden/hdf5/one.h5', import.meta.url)));
   const plain = {
@@ -86,6 +87,13 @@ export function goodCalls() {
     sidelobeMeasure: [view, [{ xM: 4, yM: 0 }], { gateM: 1 }],
     processCube: [cube, chain],
     frameCells: [cube, chain],
+    calibrateArray: [{ snapshots: batchOf([seen8(10), seen8(-20)]), noisePower: 1e-4 }, { array: 'awr1642' }],
+    calibrateCubeArray: [boresight.simulateCube({ ...simulated, frames: 2 }), chain, () => true],
+    calibrateBySteeringTable: [{ azimuthDeg: [0], responses: [Array.from({ length: 4 }, () => [1, 0])] }, array],
+    tiCompensation: [
+      boresight.calibrateArray({ snapshots: batchOf([seen8(10)]), noisePower: 1e-4 }, { array: 'awr1642' }).calibration,
+      cfg,
+    ],
     strongestRegion: [cube, { bins: 5, chirps: 4 }],
     parseConfig: [{ text: cfg, iqOrder: 'qi' }],
     joinCascade: [cascadeFiles, cascadeCfg],
@@ -122,6 +130,7 @@ export function goodCalls() {
     'Capture.cellSnapshots': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, {}],
     'Capture.explainCell': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, {}],
     'Capture.cellSpectrum': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, angle, {}],
+    'Capture.calibrateArray': [bytes, cfg, { maxCells: 4 }, () => true],
     'Capture.combineFrames': [bytes, cfg, { frameCount: 1, angle }, () => true],
     'BoardLogStream.push': [cfg, Uint8Array.from(dat.subarray(0, 500))],
     'DriveStream.push': [{}, Uint8Array.of(0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a)],

@@ -4,7 +4,9 @@ import { call, core } from '../runtime/instance.js';
 import type { Report } from '../runtime/report.js';
 import type {
   AngleOptions,
+  ArrayCalibrationResult,
   BytesInput,
+  CaptureCalibrationOptions,
   CaptureInfo,
   CascadeCapture,
   Cell,
@@ -56,6 +58,15 @@ export class Capture extends Handle<glue.Capture> {
   /** Why a cell is a detection or none: its power, noise and threshold, and what became of it. */
   explainCell(cell: Cell, options?: ChainOptions): CellExplanation {
     return this.use((raw) => raw.explainCell(cell, options) as CellExplanation);
+  }
+
+  /**
+   * Gain and phase of each channel of the array, from the reflectors that the options name or else from all strong cells
+   * with one target, of the first half of the frames; the other half checks it. Throws the code `cancelled` if `report`
+   * stops it.
+   */
+  calibrateArray(options?: CaptureCalibrationOptions, report?: Report): ArrayCalibrationResult {
+    return this.use((raw) => raw.calibrateArray(options, report) as ArrayCalibrationResult);
   }
 
   /** Angles and spectrum of a cell by any method. */

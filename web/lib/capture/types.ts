@@ -1,5 +1,5 @@
 /** From frames to detections: captures and the chain. */
-import type { ArrayInput, DetectionOptions, ReadingOptions, TextInput, Waveform } from '../types.js';
+import type { ArrayCalibrationInput, ArrayInput, DetectionOptions, ReadingOptions, TextInput, Waveform } from '../types.js';
 
 /** A board's configuration with what overrides it in how samples are read. */
 export interface ReadingConfig extends ReadingOptions {
@@ -14,6 +14,8 @@ export type ConfigInput = TextInput | ReadingConfig;
 export interface ChainOptions extends DetectionOptions {
   /** Default: the preset whose virtual elements match the capture. */
   array?: ArrayInput;
+  /** What is known of the array's errors. Default what the board's configuration says. */
+  calibration?: ArrayCalibrationInput;
 }
 
 export interface CombineOptions extends ChainOptions {

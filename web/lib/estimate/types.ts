@@ -1,6 +1,6 @@
 /** Estimators, alone and over batches; source counting and bounds. */
 import type { BoundRequest, BoundTarget, Method, SharedEstimatorOptions } from '../generated/options.js';
-import type { ArrayInput, ComplexData } from '../types.js';
+import type { ArrayCalibrationInput, ArrayInput, ComplexData } from '../types.js';
 
 /** An estimator: its method, the array it works on, and its options. */
 export interface EstimatorOptions extends SharedEstimatorOptions {
@@ -8,6 +8,8 @@ export interface EstimatorOptions extends SharedEstimatorOptions {
   method: Method;
   /** A preset by name, or positions of elements in half wavelengths. */
   array: ArrayInput;
+  /** What is known of the array's errors, which is taken off the snapshots. */
+  calibration?: ArrayCalibrationInput;
 }
 
 /** Snapshots (elements x snapshots, or a vector of elements) or a covariance. */

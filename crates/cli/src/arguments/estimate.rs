@@ -73,6 +73,9 @@ pub struct RadarArguments {
     /// How the samples of a capture are read.
     #[command(flatten)]
     pub reading: Flags<ReadingOptions>,
+    /// Calibration of the array, a JSON file of `boresight array calibrate`; `none` leaves out that of --config.
+    #[arg(long, value_name = "JSON|none")]
+    pub calibration: Option<String>,
 }
 
 impl OnCommandLine for ReadingOptions {

@@ -94,4 +94,7 @@ pub struct ImageCaptureArguments {
     /// How the samples are read.
     #[command(flatten)]
     pub reading: Flags<ReadingOptions>,
+    /// Calibration of the array, a JSON file of `boresight array calibrate`; `none` leaves out that of --config.
+    #[arg(long, value_name = "JSON|none")]
+    pub calibration: Option<String>,
 }

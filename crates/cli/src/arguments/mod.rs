@@ -1,5 +1,6 @@
 //! What the command line takes: a file a command, and what several share.
 
+mod array;
 mod augment;
 mod bridge;
 mod drives;
@@ -10,6 +11,7 @@ mod regions;
 mod serve;
 mod simulate;
 
+pub use array::{ArrayCommand, CalibrateArrayArguments, ShowCalibrationArguments};
 pub use augment::AugmentArguments;
 pub use bridge::BridgeArguments;
 pub use drives::{CalibrateArguments, LogArguments, LogPaths, OdometryArguments};
@@ -100,6 +102,12 @@ pub enum Command {
     Network(TellArguments),
     /// List the arrays known by name.
     Arrays(ListFormat),
+    /// Calibrate the channels of an array, and tell what a calibration holds.
+    Array {
+        /// What to do.
+        #[command(subcommand)]
+        what: ArrayCommand,
+    },
 }
 
 /// Arguments of `network`.

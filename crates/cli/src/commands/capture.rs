@@ -125,6 +125,8 @@ pub fn open(
     let (config, reading) = (arguments.config.as_deref(), &arguments.reading.options);
     let samples = Samples::read(file, config, arguments.subframe, reading, files)?;
     let array = board_array(arguments.array.as_deref(), &samples.config, files)?;
+    let calibration = arguments.calibration.as_deref();
+    let array = array::calibrated_board(array, calibration, &samples.config, files)?;
     let (waveform, receivers) = (samples.config.waveform, samples.config.receivers.len());
     Ok((samples, Radar { waveform, receivers, array }))
 }

@@ -35,7 +35,9 @@ pub fn open(
         Some(path) => {
             let config = RadarConfig::parse(&files.read(path)?)?;
             let config = sub_frame_of(config, arguments.subframe)?;
-            (config.waveform, board_array(arguments.array.as_deref(), &config, files)?)
+            let array = board_array(arguments.array.as_deref(), &config, files)?;
+            let calibration = arguments.calibration.as_deref();
+            (config.waveform, array::calibrated_board(array, calibration, &config, files)?)
         }
         None => {
             let waveform = named_waveform(arguments.waveform.as_deref(), files)?;
@@ -44,7 +46,8 @@ pub fn open(
                 expected: "the array of the cube".into(),
                 given: "nothing".into(),
             })?;
-            (waveform, array::array(array, files)?)
+            let array = array::array(array, files)?;
+            (waveform, array::calibrated(array, arguments.calibration.as_deref(), files)?)
         }
     };
     let receivers = cube.len_of(Axis(3));

@@ -3,6 +3,7 @@
 use super::capture::{Samples, board_array};
 use super::frame::frame_within;
 use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
+use crate::array;
 use crate::destination::Destination;
 use crate::error::CliError;
 use crate::files::{self, Files};
@@ -119,6 +120,7 @@ fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, C
     let samples = Samples::read(&arguments.file, config, None, &arguments.reading.options, files)?;
     let (source, config) = (samples.frames()?, &samples.config);
     let array = board_array(arguments.array.as_deref(), config, files)?;
+    let array = array::calibrated_board(array, arguments.calibration.as_deref(), config, files)?;
     let waveform = config.waveform;
     let names: Vec<&str> = shared.method.iter().map(String::as_str).collect();
     let pictures = pictures(shared, &names, files)?;

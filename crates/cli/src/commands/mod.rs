@@ -1,5 +1,6 @@
 //! The commands.
 
+pub mod array;
 pub mod augment;
 mod board;
 pub mod bridge;

@@ -44,8 +44,9 @@ pub fn run(
     })?;
     let AngleOptions { method, options } = arguments.angle.flags.options;
     let model = &arguments.angle.model;
-    let mut estimator =
-        network::estimator(method, &array::array(name, files)?, &options, model, files)?;
+    let array = array::array(name, files)?;
+    let array = array::calibrated(array, arguments.radar.calibration.as_deref(), files)?;
+    let mut estimator = network::estimator(method, &array, &options, model, files)?;
     let count = scenes.len_of(Axis(0));
     let chosen = match arguments.frame {
         Some(frame) => {
@@ -57,7 +58,9 @@ pub fn run(
     let mut rows = vec![];
     let mut notes: Vec<String> = vec![];
     for scene in chosen {
-        let estimate = estimator.estimate(Data::Snapshots(scenes.index_axis(Axis(0), scene)))?;
+        let mut snapshots = scenes.index_axis(Axis(0), scene).to_owned();
+        array.correct(snapshots.view_mut())?;
+        let estimate = estimator.estimate(Data::Snapshots(snapshots.view()))?;
         for warning in &estimate.warnings {
             let note = warning.to_string();
             if !notes.contains(&note) && notes.len() < 20 {

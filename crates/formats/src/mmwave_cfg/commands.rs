@@ -1,6 +1,7 @@
 //! Takes the commands one by one and makes a [`RadarConfig`] of them.
 
 use super::antennas::{AntennaLines, preset_of};
+use super::compensation::Compensation;
 use super::frames::{Advanced, BinaryPhase, Frame};
 use super::line::{Line, clipped};
 use super::sequence::{Chirps, sequence};
@@ -88,6 +89,8 @@ pub(super) struct Commands {
     coding: Vec<BinaryPhase>,
     /// The sub-frame a comment chooses.
     chosen: Option<usize>,
+    compensation: Option<Compensation>,
+    compensation_line: usize,
     remarks: Vec<Remark>,
     further_remarks: usize,
 }
@@ -252,19 +255,20 @@ impl Commands {
         Ok(())
     }
 
-    /// Coefficients other than unity bear on angles and are not applied.
+    /// Coefficients other than unity are applied where the channels of a capture are.
     fn compensation(&mut self, line: &Line<'_>) {
-        let numbers: Vec<f64> =
-            line.arguments.iter().filter_map(|word| word.parse().ok()).collect();
-        let neutral = numbers.first().is_none_or(|&bias| bias == 0.0)
-            && numbers.iter().skip(1).enumerate().all(|(k, &c)| c == f64::from(k % 2 == 0));
-        if !neutral || numbers.len() != line.arguments.len() {
-            let text = format!(
-                "line {}: range bias and channel phases are not applied to raw samples",
-                line.number
-            );
-            self.remark("compensation-not-applied", text);
+        let found = Compensation::of(line);
+        match &found {
+            None => self.remark(
+                "compensation-not-applied",
+                format!(
+                    "line {}: range bias and channel phases cannot be read; not applied",
+                    line.number
+                ),
+            ),
+            Some(_) => self.compensation_line = line.number,
         }
+        self.compensation = found;
     }
 
     /// Puts the parts together and checks them against each other.
@@ -319,9 +323,12 @@ impl Commands {
             sdk_version: self.sdk_version,
             adc: AdcFormat { bits, q_first, layout },
             frames: (count > 0).then_some(count),
+            compensation: self.compensation,
+            antenna_lines: false,
             remarks: self.remarks,
         };
         config.board = self.antennas.board()?;
+        config.antenna_lines = config.board.is_some();
         if layout != Layout::Cascade
             && config.board.is_none()
             && let Some((name, assumed)) = config.platform.as_deref().and_then(preset_of)
@@ -330,6 +337,16 @@ impl Commands {
             config.remarks.extend(assumed);
         }
         config.find_preset();
+        if let Some(applied) = config.has_coefficients() {
+            let (code, text) = if applied {
+                ("compensation-applied", "are applied, unless another calibration is given")
+            } else {
+                ("compensation-not-applied", "are not of all channels in use; not applied")
+            };
+            let text =
+                format!("line {}: range bias and channel phases {text}", self.compensation_line);
+            config.remarks.push(Remark::new(code, text));
+        }
         Ok(config)
     }
 

@@ -6,6 +6,7 @@
 
 mod antennas;
 mod commands;
+mod compensation;
 mod frames;
 mod line;
 mod sequence;
@@ -18,6 +19,7 @@ use antennas::preset_of;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Remark, Sampling, Waveform, presets};
 use commands::Commands;
+pub use compensation::Compensation;
 use line::Line;
 
 /// Sample format of a capture.
@@ -67,6 +69,8 @@ pub struct RadarConfig {
     /// The board's antennas, in the order of their numbers on the chip: those that the configuration's own
     /// `antGeometry0`, `antGeometry1` and `antPhaseRot` tell, or those of the platform's evaluation board.
     pub board: Option<Array>,
+    /// Whether lines of the antennas' own tell the board.
+    pub antenna_lines: bool,
     /// Platform named in a comment, such as `xWR16xx`.
     pub platform: Option<String>,
     /// SDK version named in a comment, such as `02.00`.
@@ -75,6 +79,8 @@ pub struct RadarConfig {
     pub adc: AdcFormat,
     /// Frames to record; `None` until stopped.
     pub frames: Option<usize>,
+    /// Range bias and coefficients of the channels, where the line is there and can be read.
+    pub compensation: Option<Compensation>,
     /// Lines not understood, and settings that bear on the samples but are not applied.
     pub remarks: Vec<Remark>,
 }

@@ -1,5 +1,5 @@
 use super::*;
-use boresight_core::{Diagnose, Multiplexing, presets};
+use boresight_core::{ArrayCalibration, Diagnose, Multiplexing, presets};
 
 const RECORDING: &str = include_str!("../../../../recordings/awr1642/profile.cfg");
 
@@ -110,7 +110,76 @@ fn remarks_tell_what_was_not_understood() {
 
     let text = given("compRangeBiasAndRxChanPhase 0.0 1 0", "compRangeBiasAndRxChanPhase 0.1 1 0");
     let config = RadarConfig::parse(text.as_bytes()).unwrap();
-    assert_eq!(config.remarks[0].code, "compensation-not-applied");
+    assert_eq!(config.remarks[0].code, "compensation-applied");
+    for line in [
+        "compRangeBiasAndRxChanPhase",
+        "compRangeBiasAndRxChanPhase 0.1 1",
+        "compRangeBiasAndRxChanPhase 0.1 1 nan",
+        "compRangeBiasAndRxChanPhase 0.1 1 0 1 0 1 0 1 0",
+        "compRangeBiasAndRxChanPhase 0 0 0 1 0 1 0 1 0 1 0 1 0 1 0 1 0",
+    ] {
+        let config = with_compensation(line);
+        assert_eq!(config.remarks[0].code, "compensation-not-applied", "{line}");
+        let array = config.array().unwrap();
+        assert_eq!(config.compensated(&array).unwrap(), array, "{line}");
+    }
+}
+
+/// The recorded configuration with another line of compensation.
+fn with_compensation(line: &str) -> RadarConfig {
+    let has = |text: &str| text.starts_with("compRangeBiasAndRxChanPhase");
+    let lines = RECORDING.lines().map(|text| if has(text) { line } else { text });
+    RadarConfig::parse(lines.collect::<Vec<_>>().join("\n").as_bytes()).unwrap()
+}
+
+#[test]
+fn coefficients_are_what_a_board_multiplies_its_channels_by() {
+    // Transmitter 1, receiver 2 of the chip: the seventh pair. It lags by 90 deg at half the gain.
+    let config = with_compensation(
+        "compRangeBiasAndRxChanPhase 0.25 0.5 0 0.5 0 0.5 0 0.5 0 0.5 0 0.5 0 0 1 0.5 0",
+    );
+    let array = config.compensated(&config.array().unwrap()).unwrap();
+    let mut channels = [boresight_core::Complex64::ONE; 8];
+    channels[6] = boresight_core::Complex64::new(0.0, -0.5);
+    let correction = array.correction().unwrap();
+    correction.apply(&mut channels);
+    // Alike but for the power they have in common.
+    for value in channels {
+        assert!((value - channels[0]).norm() < 1e-12, "{channels:?}");
+    }
+    assert!((correction.range_bias_m() - 0.25).abs() < 1e-12);
+}
+
+#[test]
+fn a_line_of_compensation_is_written_as_it_was_read() {
+    let line = "compRangeBiasAndRxChanPhase 0.0697 0.9 0.1 0.8 -0.3 -0.7 0.2 0 -1 0.6 0.6 0.5 0 0.25 0.5 -0.4 0.1";
+    let config = with_compensation(line);
+    let calibration = config.calibration(&config.array().unwrap()).unwrap();
+    let written = config.compensation_of(&calibration).unwrap();
+    let read = config.compensation.clone().unwrap();
+    assert!((written.range_bias_m - 0.0697).abs() < 1e-12);
+    // The greatest has magnitude 1 once written, so that they differ by one real factor.
+    let factor = written.coefficients[0] / read.coefficients[0];
+    assert!(factor.im.abs() < 1e-9, "{factor}");
+    for (w, r) in written.coefficients.iter().zip(&read.coefficients) {
+        assert!((w - r * factor).norm() < 1e-9, "{written}");
+    }
+    assert_eq!(with_compensation(&written.to_string()).remarks[0].code, "compensation-applied");
+}
+
+#[test]
+fn channels_that_are_not_in_use_keep_their_place() {
+    // The second transmitter first: the chip's order stays that of its transmitters.
+    let text = given("chirpCfg 0 0 0 0 0 0 0 1", "chirpCfg 0 0 0 0 0 0 0 2")
+        .replace("chirpCfg 1 1 0 0 0 0 0 2", "chirpCfg 1 1 0 0 0 0 0 1");
+    let config = RadarConfig::parse(text.as_bytes()).unwrap();
+    let mut calibration = ArrayCalibration::neutral(&config.array().unwrap());
+    calibration.channels[1].phase_rad = std::f64::consts::PI;
+    let written = config.compensation_of(&calibration).unwrap();
+    let expected = "compRangeBiasAndRxChanPhase 0 1 0 1 0 1 0 1 0 1 0 -1 0 1 0 1 0";
+    assert_eq!(written.to_string(), expected);
+    let other = ArrayCalibration::neutral(&Array::ula(3).unwrap());
+    assert_eq!(config.compensation_of(&other).unwrap_err().code(), "other-array");
 }
 
 #[test]

@@ -8,6 +8,7 @@ use crate::options::usable_range_m;
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
 use boresight_core::error::check_range;
 use boresight_core::order::{descending, sort_descending};
+use boresight_core::response::Correction;
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks};
@@ -187,7 +188,7 @@ impl RegionFinder {
         Ok(FoundRegions { regions: regions.collect::<Result<_, _>>()?, profile, counts })
     }
 
-    /// Loops x elements x range bins.
+    /// Loops x elements x range bins, without the known errors of the array.
     fn spectrum(
         &self,
         frame: ArrayView4<'_, Complex32>,
@@ -203,7 +204,19 @@ impl RegionFinder {
             }
             .into());
         }
-        let mut spectrum = range_spectrum(frame, window)?.select(Axis(1), &self.channels);
+        let mut spectrum = range_spectrum(frame, window)?;
+        if let Some(correction) = self.array.correction() {
+            for mut loop_of in spectrum.outer_iter_mut() {
+                for mut bin in loop_of.columns_mut() {
+                    let wide = |z: &Complex32| Complex64::new(z.re.into(), z.im.into());
+                    let mut channels: Vec<Complex64> = bin.iter().map(wide).collect();
+                    correction.apply(&mut channels);
+                    let narrow = |z: &Complex64| Complex32::new(z.re as f32, z.im as f32);
+                    bin.iter_mut().zip(&channels).for_each(|(to, from)| *to = narrow(from));
+                }
+            }
+        }
+        let mut spectrum = spectrum.select(Axis(1), &self.channels);
         for (mut element, sign) in spectrum.axis_iter_mut(Axis(1)).zip(signs_of(&self.array)) {
             element.mapv_inplace(|z| z * sign as f32);
         }
@@ -347,6 +360,7 @@ impl RegionFinder {
     pub(super) fn range_m(&self, bin: f64, rate_mps: f64) -> f64 {
         range_of_bin_m(&self.waveform, self.waveform.samples, bin)
             - range_doppler_coupling_m(&self.waveform, rate_mps)
+            - self.array.correction().map_or(0.0, Correction::range_bias_m)
     }
 }
 

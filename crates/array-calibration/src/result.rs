@@ -1,0 +1,63 @@
+//! What calibration gives.
+
+use crate::check::{CalibrationCheck, CheckFigures};
+use boresight_core::describe::{Described, decibels};
+use boresight_core::{ArrayCalibration, Direction, Remark};
+use serde::Serialize;
+
+/// A calibration, and what it was made of.
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+#[option(name = "ArrayCalibrationResult")]
+pub struct CalibrationResult {
+    /// The calibration.
+    pub calibration: ArrayCalibration,
+    /// The cells, in the order they were given in.
+    pub cells: Vec<UsedCell>,
+    /// How it does on data that it was not made from; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub check: Option<CalibrationCheck>,
+    /// Each cell under a calibration from the others; absent for fewer than three.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<CheckFigures>,
+    /// What a reader should know.
+    pub warnings: Vec<Remark>,
+}
+
+/// A cell that was looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
+#[option(name = "CalibrationCell")]
+pub struct UsedCell {
+    /// Its range.
+    pub range_m: f64,
+    /// Its range rate, positive when receding.
+    pub rate_mps: f64,
+    /// Range bin.
+    pub range_bin: usize,
+    /// Doppler bin.
+    pub doppler_bin: usize,
+    /// Power of its target in all snapshots over the noise of one.
+    #[serde(rename = "snr_db", serialize_with = "decibels::serialize")]
+    pub snr: f64,
+    /// Where its target is: as given, or as found with the calibration.
+    #[serde(rename = "..direction")]
+    pub direction: Direction,
+    /// Power left once one plane wave is fitted, over that of the cell.
+    #[serde(rename = "residual_db", serialize_with = "decibels::serialize")]
+    pub residual: f64,
+    /// Whether it was used.
+    pub state: CellUse,
+}
+
+/// What became of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CellUse {
+    /// It was used.
+    Used,
+    /// Its target is too weak.
+    Weak,
+    /// Its snapshots do not lie on one line: several targets with phases of their own.
+    SeveralTargets,
+    /// One plane wave does not fit it under the errors that all cells share.
+    DoesNotFit,
+}
