@@ -1,10 +1,12 @@
 //! Counting sources by information criteria on the eigenvalues of the covariance (Wax and Kailath
 //! 1985).
 
+use crate::cost;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::options::SourceCount;
 use boresight_core::describe::Described;
+use boresight_core::limits::check_operations;
 use boresight_core::linalg::hermitian_eigen;
 use boresight_signal::{forward_backward, sample_covariance};
 use serde::{Deserialize, Serialize};
@@ -94,12 +96,17 @@ pub fn count_sources(eigenvalues: &[f64], sizes: CountSizes, criterion: Criterio
 /// Averaging with the reversal is for arrays that are evenly spaced.
 ///
 /// # Errors
-/// As [`Data::check`].
+/// As [`Data::check`], and for what takes more than the limits of this thread.
 pub fn count_sources_in(
     data: Data<'_>,
     average_reversed: bool,
     criterion: Criterion,
 ) -> Result<(Vec<f64>, Count), AoaError> {
+    let elements = match data {
+        Data::Snapshots(y) => y.nrows(),
+        Data::Covariance { matrix, .. } => matrix.nrows(),
+    };
+    check_operations("the count of sources", cost::eigenvalues(elements, data.snapshots()))?;
     let mut covariance = match data {
         Data::Snapshots(y) => {
             data.check(y.nrows())?;
