@@ -1,10 +1,12 @@
 //! Counting sources by information criteria on the eigenvalues of the covariance (Wax and Kailath
 //! 1985).
 
+use crate::cost;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::options::{EstimatorOptions, SourceCount, mismatch_of};
 use boresight_core::describe::{self, Described, Naming};
+use boresight_core::limits::check_operations;
 use boresight_core::linalg::hermitian_eigen;
 use boresight_signal::{forward_backward, sample_covariance};
 use serde::{Deserialize, Serialize};
@@ -119,13 +121,19 @@ pub fn most_by_mismatch(eigenvalues: &[f64], mismatch: f64) -> usize {
 /// Averaging with the reversal is for arrays that are evenly spaced.
 ///
 /// # Errors
-/// As [`Data::check`]; [`boresight_core::CoreError::OutOfRange`] for an option out of range.
+/// As [`Data::check`]; [`boresight_core::CoreError::OutOfRange`] for an option out of range;
+/// [`boresight_core::CoreError::TooLarge`] for what takes more than the limits of this thread.
 pub fn count_sources_in(
     data: Data<'_>,
     options: &CountOptions,
 ) -> Result<(Vec<f64>, Count), AoaError> {
     describe::check(options, Naming::Rust)?;
     let CountOptions { criterion, forward_backward: average_reversed, mismatch_db } = *options;
+    let elements = match data {
+        Data::Snapshots(y) => y.nrows(),
+        Data::Covariance { matrix, .. } => matrix.nrows(),
+    };
+    check_operations("the count of sources", cost::eigenvalues(elements, data.snapshots()))?;
     let mut covariance = match data {
         Data::Snapshots(y) => {
             data.check(y.nrows())?;
