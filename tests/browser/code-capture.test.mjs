@@ -138,3 +138,16 @@ browserTest(
     assert.ok(!code.javascript.needs.includes('json'), code.javascript.needs);
   },
 );
+
+browserTest(
+  'code: a capture under an array calibration that was made here',
+  { path: '#/capture?methods=bartlett,nomp' },
+  async ({ page }) => {
+    await page.waitForSelector('[data-action="self-calibrate"]', patient);
+    await page.locator('[data-action="self-calibrate"]').click();
+    await page.waitForSelector('[aria-busy="false"] [data-before-after] [data-row="others-after"]', patient);
+    const { code } = await checkCapture(page, ['bartlett', 'nomp'], 1e-4);
+    assert.match(code.javascript.text, /const calibration = \{/);
+    assert.match(code.commandLine.text, /cat > array\.calibration\.json <<'EOF'/);
+  },
+);

@@ -4,6 +4,8 @@
 export const CAPTURE_KINDS = ['bin', 'cfg', 'dat'] as const;
 /** mmWave Studio writes JSON in place of the .cfg; other JSON belongs to networks. */
 export const CAPTURES = new RegExp(`\\.(${CAPTURE_KINDS.join('|')}|mmwave\\.json|setup\\.json)$`, 'i');
+/** Calibrations of arrays, as the capture page saves them. */
+export const ARRAY_CALIBRATIONS = /\.calibration\.json$/i;
 /** What the live page replays; elsewhere they go with a capture. */
 export const BOARDS = /\.(dat|cfg)$/i;
 export const TABLES = /\.csv(\.gz)?$/i;

@@ -1,5 +1,6 @@
 /** The options of the package as fields of a page's state: what the schema says of them is said nowhere else. */
 import type {
+  ArrayCalibrationOptions,
   CalibrationOptions,
   DetectionOptions,
   ReadingOptions,
@@ -12,6 +13,7 @@ import { $defs } from 'boresight/schema.json';
 import { type ChoiceField, choice, type Field, flag, type NumberField, numberIn, optional } from './state/codec.ts';
 
 interface Records {
+  ArrayCalibrationOptions: ArrayCalibrationOptions;
   CalibrationOptions: CalibrationOptions;
   DetectionOptions: DetectionOptions;
   ReadingOptions: ReadingOptions;

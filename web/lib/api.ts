@@ -4,6 +4,7 @@ export {
   calibrateArray,
   calibrateBySteeringTable,
   calibrateCubeArray,
+  configuredCalibration,
   tiCompensation,
 } from './array-calibration/array-calibration.js';
 export { Calibration, calibrationMethods, mergeCalibrations } from './calibrate/calibrate.js';

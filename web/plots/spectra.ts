@@ -93,6 +93,18 @@ export function sourceMarkers(sources: readonly Source[], style: SeriesStyle): M
 export const withBars = (title: string, sources: readonly Source[]): string =>
   sources.some(({ deviation }) => deviation) ? `${title}, bars ±σ it states` : title;
 
+/** The highest level beyond the first minima beside the peak of a spectrum at zero elevation, over the peak; null where nothing is. */
+export function peakSidelobeDb(estimate: Estimate): number | null {
+  const values = curve(estimate, '')?.valuesDb;
+  if (!values) return null;
+  const peak = values.indexOf(highest(values));
+  let [left, right] = [peak, peak];
+  while (left > 0 && (values[left - 1] as number) <= (values[left] as number)) left -= 1;
+  while (right < values.length - 1 && (values[right + 1] as number) <= (values[right] as number)) right += 1;
+  const beyond = Math.max(highest(values.subarray(0, left)), highest(values.subarray(right + 1)));
+  return Number.isFinite(beyond) ? beyond - (values[peak] as number) : null;
+}
+
 export function highest(values: ArrayLike<number>): number {
   let best = Number.NEGATIVE_INFINITY;
   for (let i = 0; i < values.length; i++) best = Math.max(best, values[i] as number);

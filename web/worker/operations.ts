@@ -301,6 +301,7 @@ export const operations = {
   calibrateArray: api.calibrateArray,
   calibrateCubeArray,
   calibrateBySteeringTable: api.calibrateBySteeringTable,
+  configuredCalibration: api.configuredCalibration,
   tiCompensation: api.tiCompensation,
   cellSnapshots,
   cellSpectrum,

@@ -78,6 +78,7 @@ export const argumentCounts = {
   array: 1,
   calibrateArray: 2,
   calibrateBySteeringTable: 2,
+  configuredCalibration: 2,
   tiCompensation: 2,
   unsuited: 2,
   estimate: 2,

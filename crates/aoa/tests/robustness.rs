@@ -5,7 +5,7 @@
 
 mod support;
 
-use boresight_aoa::counting::{Criterion, count_sources_in};
+use boresight_aoa::counting::{CountOptions, count_sources_in};
 use boresight_aoa::options::{EspritForm, IaaForm, Thresholding};
 use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::presets::preset;
@@ -22,7 +22,7 @@ fn error(method: Method, array: &Array, options: &EstimatorOptions) -> AoaError 
 fn a_count_of_sources_knows_what_it_takes_before_it_starts() {
     let count = |elements: usize| {
         let noise = Array2::from_elem((elements, 3), Complex64::new(1.0, 0.0));
-        count_sources_in(Data::Snapshots(noise.view()), false, Criterion::Mdl)
+        count_sources_in(Data::Snapshots(noise.view()), &CountOptions::default())
     };
     // Tests of this file have threads of their own.
     Limits { operations: 1e4, ..Limits::default() }.set().unwrap();

@@ -1,10 +1,10 @@
 //! Calibration of arrays from captures, cubes, snapshots and tables.
 
-use crate::bytes::Text;
 use crate::calibrated::{ArrayChoice, array_calibration};
 use crate::capture::{Capture, cube_frames};
 use crate::carry;
 use crate::complex::{ComplexData, Cube};
+use crate::config::read_config;
 use crate::error::Fallible;
 use crate::estimate::shape_error;
 use crate::read::{Fields, Read};
@@ -14,7 +14,6 @@ use boresight_array_calibration::{
 };
 use boresight_core::error::check_range;
 use boresight_core::{Array, CoreError, Direction, Waveform};
-use boresight_formats::RadarConfig;
 use boresight_pipeline::FrameSource;
 use boresight_pipeline::array_calibration::{CalibrationFrames, calibrate_array};
 use js_sys::Function;
@@ -88,8 +87,21 @@ pub fn calibrate_by_steering_table(table: &JsValue, array: &JsValue) -> Fallible
 #[wasm_bindgen(js_name = tiCompensation)]
 pub fn ti_compensation(calibration: &JsValue, config: &JsValue) -> Fallible<String> {
     let calibration = array_calibration(calibration, "calibration")?;
-    let config = RadarConfig::parse(&Text::read(config, "configuration")?.0)?;
+    let config = read_config(config, "configuration")?;
     Ok(config.compensation_of(&calibration)?.to_string())
+}
+
+/// The calibration that the coefficients in a board's configuration are, which captures with it are processed by unless told
+/// otherwise; null where there are none to apply. Of the platform's array unless another is named.
+#[wasm_bindgen(js_name = configuredCalibration)]
+pub fn configured_calibration(config: &JsValue, array: &JsValue) -> Fallible<JsValue> {
+    let config = read_config(config, "configuration")?;
+    let array = match array.is_undefined() {
+        true => config.array(),
+        false => Some(Array::read(array, "array")?),
+    };
+    let found = array.and_then(|array| config.calibration(&array));
+    Ok(found.map_or(JsValue::NULL, |calibration| carry::write(&calibration)))
 }
 
 /// `firstFrame` and `frameCount`, by default the first half of the frames; `checkFirstFrame` and

@@ -90,6 +90,7 @@ export function goodCalls() {
     calibrateArray: [{ snapshots: batchOf([seen8(10), seen8(-20)]), noisePower: 1e-4 }, { array: 'awr1642' }],
     calibrateCubeArray: [boresight.simulateCube({ ...simulated, frames: 2 }), chain, () => true],
     calibrateBySteeringTable: [{ azimuthDeg: [0], responses: [Array.from({ length: 4 }, () => [1, 0])] }, array],
+    configuredCalibration: [cfg],
     tiCompensation: [
       boresight.calibrateArray({ snapshots: batchOf([seen8(10)]), noisePower: 1e-4 }, { array: 'awr1642' }).calibration,
       cfg,

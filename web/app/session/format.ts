@@ -5,6 +5,7 @@
 import { unzipSync, Zip, ZipPassThrough } from 'fflate';
 import { FileProblem } from '../data.ts';
 import { PAGES, type Page } from '../state/route.ts';
+import { digest } from './digest.ts';
 
 /** Raised when a reader of the version before would misread a session. */
 export const VERSION = 1;
@@ -40,12 +41,6 @@ interface Entry {
 }
 
 const pathOf = ({ page, name }: Pick<Entry, 'page' | 'name'>): string => `${page}/${name}`;
-
-async function digest(bytes: Uint8Array): Promise<string | undefined> {
-  if (!globalThis.crypto?.subtle) return undefined;
-  const hash = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes as Uint8Array<ArrayBuffer>));
-  return Array.from(hash, (byte) => byte.toString(16).padStart(2, '0')).join('');
-}
 
 /** Files are stored as they are: captures hardly shrink, and the others are packed by themselves. */
 export async function packSession(session: Session, version: string): Promise<Blob> {

@@ -3,7 +3,7 @@ import { signal } from '@preact/signals';
 import { download, fileName } from '../../plots/save.ts';
 import { api, describeError, FileProblem } from '../data.ts';
 import * as networks from '../networks/load.ts';
-import * as capture from '../pages/capture/files.ts';
+import * as capture from '../pages/capture/open.ts';
 import * as mounting from '../pages/mounting/drive.ts';
 import { openFiles as openDriveFiles } from '../pages/mounting/own-files.ts';
 import { goTo } from '../state/address.ts';
@@ -31,7 +31,7 @@ const OWN: readonly (readonly [Page, Own])[] = [
     'capture',
     {
       files: capture.ownFiles,
-      close: capture.closeOwn,
+      close: capture.closeOwnFiles,
       open: (files) =>
         capture.openFiles(
           files.map(({ file }) => file),

@@ -2,7 +2,7 @@
 import { type ReadonlySignal, signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { describeError } from '../data.ts';
-import { BOARDS, CAPTURES, DRIVES, NETWORKS, SESSIONS } from '../kinds.ts';
+import { ARRAY_CALIBRATIONS, BOARDS, CAPTURES, DRIVES, NETWORKS, SESSIONS } from '../kinds.ts';
 import { openDropped } from '../session/session.ts';
 import { type Page, pageAddress, route } from '../state/route.ts';
 import { droppedFiles, type NamedFile } from './entries.ts';
@@ -17,6 +17,7 @@ const KINDS: readonly { page: Page; names: RegExp; what: string; address?: Recor
     what: 'captures (.bin with .cfg or .mmwave.json, and .dat)',
     address: { source: 'files' },
   },
+  { page: 'capture', names: ARRAY_CALIBRATIONS, what: 'calibrations of arrays (.calibration.json)' },
   {
     page: 'mounting',
     names: DRIVES,
@@ -41,17 +42,17 @@ function hand(files: readonly NamedFile[]): void {
     openDropped(files);
     return;
   }
-  const pages = KINDS.filter(({ names }) => files.some(({ name }) => names.test(name))).map(({ page }) => page);
+  const kinds = KINDS.filter(({ names }) => files.some(({ name }) => names.test(name)));
   const here = route.peek().page;
-  const page = pages.includes(here) ? here : (pages[0] ?? taker?.page);
+  const kind = kinds.find(({ page }) => page === here) ?? kinds[0];
+  const page = kind?.page ?? taker?.page;
   if (!page) {
     const kinds = [...KINDS.map(({ what }) => what), 'sessions (.boresight)'].join(', ');
     dropProblem.value = `${files[0]?.name ?? 'The folder'}: no page opens this. What can be opened: ${kinds}.`;
   } else if (taker?.page === page) taker.take(files);
   else {
     waiting = { page, files };
-    const { address } = KINDS.find((kind) => kind.page === page) ?? {};
-    location.hash = pageAddress(page, new URLSearchParams(address));
+    location.hash = pageAddress(page, new URLSearchParams(kind?.address));
   }
 }
 

@@ -36,6 +36,14 @@ export function calibrateBySteeringTable(table: SteeringTable, array: ArrayInput
 }
 
 /**
+ * The calibration that the coefficients in a board's configuration are (`compRangeBiasAndRxChanPhase`), by which its captures
+ * are processed unless told otherwise; null where there are none to apply. `array` is the platform's by default.
+ */
+export function configuredCalibration(config: TextInput, array?: ArrayInput): ArrayCalibration | null {
+  return call(() => glue.configuredCalibration(config, array) as ArrayCalibration | null);
+}
+
+/**
  * The line `compRangeBiasAndRxChanPhase` that makes a TI board apply a calibration, for the board whose configuration
  * (`.cfg`) this is.
  */

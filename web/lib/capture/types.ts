@@ -1,5 +1,12 @@
 /** From frames to detections: captures and the chain. */
-import type { ArrayCalibrationInput, ArrayInput, DetectionOptions, ReadingOptions, TextInput, Waveform } from '../types.js';
+import type {
+  ArrayCalibrationInput,
+  ArrayInput,
+  DetectionOptions,
+  ReadingOptions,
+  TextInput,
+  Waveform,
+} from '../types.js';
 
 /** A board's configuration with what overrides it in how samples are read. */
 export interface ReadingConfig extends ReadingOptions {

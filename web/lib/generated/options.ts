@@ -939,3 +939,26 @@ export interface Limits {
   /** Memory of what a call makes, in bytes (a gibibyte) (at least 1; default 1073741824). */
   bytes?: number;
 }
+
+export type CalibrationModel = 'channels' | 'positions' | 'coupling';
+
+export interface Reflector {
+  rangeM: number;
+  azimuthDeg?: number;
+  elevationDeg?: number;
+}
+
+export interface ArrayCalibrationOptions {
+  model?: CalibrationModel;
+  reflectors?: readonly Reflector[];
+  rangeBias?: boolean;
+  minSnrDb?: number;
+  maxCells?: number;
+  maxResidualDb?: number;
+}
+
+export interface SteeringTable {
+  azimuthDeg: readonly number[];
+  elevationDeg?: readonly number[];
+  responses: readonly (readonly (readonly [number, number])[])[];
+}

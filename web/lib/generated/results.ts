@@ -1452,3 +1452,63 @@ export interface BoardLog {
   /** Remarks on both. */
   warnings: Warning[];
 }
+
+export interface ChannelCalibration {
+  gainDb: number;
+  phaseDeg: number;
+  gainStdDb?: number;
+  phaseStdDeg?: number;
+  displacement?: [number, number, number];
+  displacementStd?: [number, number, number];
+}
+
+export interface ArrayCalibration {
+  tx: [number, number, number][];
+  rx: [number, number, number][];
+  channels: ChannelCalibration[];
+  coupling?: [number, number][][];
+  rangeBiasM: number;
+  rangeBiasStdM?: number;
+  method: 'given' | 'reflector' | 'self-calibration' | 'steering-table' | 'board-configuration';
+  notIdentifiable: ('common-gain' | 'common-phase' | 'direction' | 'displacement' | 'coupling' | 'range-bias')[];
+  cells: number;
+  cellsLeftOut: number;
+  frames: number;
+  residualDb?: number;
+  residualPhaseDeg?: number;
+  residualGainDb?: number;
+}
+
+export interface CheckFigures {
+  residualPhaseDeg: number;
+  residualGainDb: number;
+  residualDb: number;
+  sidelobeDb: number;
+}
+
+export interface CalibrationCell {
+  rangeM: number;
+  rateMps: number;
+  rangeBin: number;
+  dopplerBin: number;
+  snrDb: number;
+  azimuthDeg: number;
+  elevationDeg: number;
+  residualDb: number;
+  state: 'used' | 'weak' | 'several-targets' | 'does-not-fit';
+}
+
+export interface CalibrationCheck {
+  frames: number;
+  before: CheckFigures;
+  after: CheckFigures;
+  cells: { rangeM: number; rangeBin: number; dopplerBin: number; azimuthDeg: number }[];
+}
+
+export interface ArrayCalibrationResult {
+  calibration: ArrayCalibration;
+  cells: CalibrationCell[];
+  check?: CalibrationCheck;
+  leftOut?: CheckFigures;
+  warnings: Warning[];
+}

@@ -1,5 +1,6 @@
 /** Neural networks: what `boresight/neural` and the pool take and give. */
 import type {
+  ArrayCalibrationInput,
   ArrayInput,
   EstimatorOptions,
   NetworkDescription,
@@ -72,12 +73,16 @@ export interface RegionNetworkIds extends AngleNetworks<string> {
 export interface CaptureRegionOptions extends RegionChainOptions {
   /** By default that of the capture's platform. */
   array?: ArrayInput;
+  /** What is known of the array's errors. Default what the board's configuration says. */
+  calibration?: ArrayCalibrationInput;
 }
 
 /** Options of regions in cubes, of which nothing else is known. */
 export interface CubeRegionOptions extends RegionChainOptions {
   waveform: Waveform;
   array: ArrayInput;
+  /** What is known of the array's errors. */
+  calibration?: ArrayCalibrationInput;
 }
 
 /** A network as a pool is given it. */

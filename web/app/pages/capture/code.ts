@@ -6,7 +6,7 @@ import { expression, quoted } from '../../code/literal.ts';
 import { modelNeeds, modelWords, NetworkCode } from '../../code/networks.ts';
 import { flags, withoutDefaults } from '../../code/options.ts';
 import { Script } from '../../code/script.ts';
-import { command, fileWord } from '../../code/shell.ts';
+import { command, fileWord, heredoc } from '../../code/shell.ts';
 import { api } from '../../data.ts';
 import type { Model } from '../../networks/models.ts';
 import { compared } from './compare.ts';
@@ -34,6 +34,8 @@ interface Made {
   trio: { networks: Trio; frame: number } | null;
   lacks: string[];
 }
+
+const CALIBRATION = 'array.calibration.json';
 
 const ROW = ['rangeM', 'rateMps', 'azimuthDeg', 'elevationDeg', 'xM', 'yM', 'zM', 'powerDb', 'snrDb'] as const;
 
@@ -87,6 +89,7 @@ const modelsOf = ({ model, methods, trio }: Made): Model[] => [
 
 function javascript(made: Made): Part {
   const { shown, state, model, methods, lacks } = made;
+  const { calibration } = made.chain;
   const { capture, frame } = shown;
   const script = new Script().use('boresight', 'init').add('await init();');
   const models = modelsOf(made);
@@ -94,7 +97,13 @@ function javascript(made: Made): Part {
   script.add('');
   openCapture(script, capture);
   script.add('');
-  script.constant('chain', withoutDefaults('DetectionOptions', made.chain));
+  const calibrated = typeof calibration === 'object';
+  if (calibrated) {
+    script.add('// What is taken off gain and phase of each channel.');
+    script.constant('calibration', calibration);
+  }
+  const named = calibrated ? { calibration: expression('calibration') } : {};
+  script.constant('chain', withoutDefaults('DetectionOptions', { ...made.chain, ...named }));
   if (model) {
     const network = networks.open(model);
     script.add(
@@ -125,7 +134,7 @@ function javascript(made: Made): Part {
     const { networks: three, frame: at } = made.trio;
     script.add('', '// Regions of the range spectrum, and the targets in each.');
     const [counting, one, two] = [three.counting, three.one, three.two].map((network) => networks.open(network));
-    script.constant('regionOptions', withoutDefaults('RegionChainOptions', regionOptions(state)));
+    script.constant('regionOptions', withoutDefaults('RegionChainOptions', { ...regionOptions(state), ...named }));
     script.add(
       `const [{ regions }] = ${counting}.captureRegions(`,
       `  { one: ${one}, two: ${two} },`,
@@ -183,11 +192,15 @@ function commandLine(made: Made): Part {
   const { shown, state, model, methods, lacks } = made;
   const { capture, frame } = shown;
   const { before, words } = captureWords(capture);
-  const { array, angle = {}, ...detection } = made.chain;
-  const arrays = array === undefined ? [] : ['--array', String(array)];
+  const { array, angle = {}, calibration, ...detection } = made.chain;
+  const arrays = [
+    ...(array === undefined ? [] : ['--array', String(array)]),
+    ...(calibration === undefined ? [] : ['--calibration', calibration === 'none' ? 'none' : CALIBRATION]),
+  ];
   const log = boardLogName(capture);
   const lines = [
     ...before,
+    ...(typeof calibration === 'object' ? [heredoc(CALIBRATION, JSON.stringify(calibration, null, 1))] : []),
     command([
       ...['boresight', 'estimate', ...words, ...arrays],
       ...(frame === 'all' ? ['--all'] : ['--frame', String(frame)]),
@@ -200,7 +213,7 @@ function commandLine(made: Made): Part {
   ];
   if (made.trio) {
     const { networks, frame: at } = made.trio;
-    const { array: _, ...options } = regionOptions(state);
+    const { array: _, calibration: __, ...options } = regionOptions(state);
     lines.push(
       command([
         ...['boresight', 'regions', ...words, ...arrays, '--frame', String(at)],

@@ -11,8 +11,17 @@ import { captureCodec, captureState, chainOptions, settingsOf } from './state.ts
 
 /** Both are of the same files, and looked at in the same way. */
 export const compared = comparison(captureCodec, captureState, {
-  names: { frame: 'Frame', methods: 'Angle methods for the cell', networks: 'Networks' },
-  but: ['source', 'cell', 'board', 'span', 'colors', 'methods', 'networks', 'regions'],
+  names: {
+    frame: 'Frame',
+    methods: 'Angle methods for the cell',
+    networks: 'Networks',
+    calibration: 'Array calibration',
+  },
+  but: [
+    ...(['source', 'cell', 'board', 'span', 'colors', 'methods', 'networks', 'regions'] as const),
+    ...(['calibrationFrames', 'calibrationModel', 'calibrationSnr', 'calibrationResidual'] as const),
+    ...(['reflectors', 'exactRanges'] as const),
+  ],
 });
 
 export const keptView = signal<FrameResult | null>(null);

@@ -10,13 +10,16 @@ import { showHelp } from '../../state/settings.ts';
 import { controlOf } from '../../ui/control.tsx';
 import { ControlsHead } from '../../ui/controls-head.tsx';
 import { useFileDrop } from '../../ui/drop.ts';
-import { Group } from '../../ui/field.tsx';
+import { Group, SelectField } from '../../ui/field.tsx';
 import { FileButton } from '../../ui/file-button.tsx';
 import { Licence } from '../../ui/licence.tsx';
 import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { fileProblem, loaded, openBundled, openFiles, openSimulated, reopenFiles, waiting } from './files.ts';
+import { configured } from './array-calibration.ts';
+import { fileProblem, loaded, openBundled, openSimulated, reopenFiles, waiting } from './files.ts';
+import { openFiles } from './open.ts';
+import { ownCalibrations } from './own-calibrations.ts';
 import { cellUnavailable, networkFor, seesElevation, usedArray } from './process.ts';
 import { SIMULATED } from './simulated.ts';
 import { captureCodec, captureState, update } from './state.ts';
@@ -102,6 +105,7 @@ export function Controls() {
           labels={{ auto: 'as configured', ...ARRAY_NAMES }}
           help="Where the elements are. Must have as many transmitters and receivers as the configuration names."
         />
+        <CalibrationChoice />
         <Control
           label="Threshold"
           name="cfar"
@@ -219,6 +223,28 @@ function SubFrame() {
   );
 }
 
+function CalibrationChoice() {
+  const { calibration } = captureState.value;
+  const own = ownCalibrations.value.map(({ id, name }) => [`own:${id}`, name] as const);
+  const known = ['configured', 'none', ...own.map(([value]) => value)].includes(calibration);
+  return (
+    <SelectField
+      label="Array calibration"
+      name="calibration"
+      wide={own.length > 0 || !known}
+      value={calibration}
+      options={[
+        ['configured', configured.value ? 'as configured' : 'as configured: none'],
+        ['none', 'none'],
+        ...own,
+        ...(known ? [] : [[calibration, 'not here'] as const]),
+      ]}
+      help="What is taken off gain and phase of each channel: the coefficients of the configuration (compRangeBiasAndRxChanPhase), or a calibration that was opened, dropped, or made under Array calibration."
+      onChange={(next) => update({ calibration: next })}
+    />
+  );
+}
+
 function Network({ method }: { method: Method }) {
   const geometry = usedArray.value;
   const model = networkFor(method);
@@ -325,7 +351,8 @@ function Files() {
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>
         Or drop a .bin with its .cfg (or .mmwave.json and .setup.json), and a .dat, anywhere on the page; all .bin of
-        one recording together, those of a cascade’s four chips too. Nothing is uploaded.
+        one recording together, those of a cascade’s four chips too; calibrations of the array (.json), too. Nothing is
+        uploaded.
       </p>
     </div>
   );

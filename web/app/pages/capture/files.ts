@@ -233,7 +233,8 @@ const sourceOf = (capture: Loaded | null) =>
 export function openSimulated(): Promise<void> {
   return attempt(async () => {
     const { bin, cfg } = await simulateCapture();
-    const kept = await pool().loadCapture(bin, cfg);
+    const reading = readingNow();
+    const kept = await pool().loadCapture(bin, configured(cfg, reading));
     const next: Loaded = {
       files: [
         { kind: 'bin', name: SIMULATED.bin, bytes: bin.length },
@@ -241,11 +242,13 @@ export function openSimulated(): Promise<void> {
       ],
       bin,
       cfg,
+      reading,
       info: kept.info,
       kept,
       bundled: null,
       simulated: true,
       missingParts: [],
+      cascade: null,
     };
     return { own: {}, loaded: next, waiting: null, log: null };
   });
@@ -297,11 +300,13 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
         files: opened,
         bin: samples,
         cfg: text,
+        reading,
         info,
         kept,
         bundled: null,
         simulated: false,
         missingParts,
+        cascade,
       };
       return { own: next, loaded: complete, waiting: null, log };
     } catch (error) {
@@ -320,6 +325,8 @@ async function samplesOf(
   if (!cascade) return { bytes: new Uint8Array(await new Blob([...files]).arrayBuffer()), warnings: null };
   const read = async (file: File) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
   return pool().joinCascade(await Promise.all(files.map(read)), text);
+}
+
 /** The same files again, for another sub-frame of theirs. */
 export const reopenFiles = (): Promise<void> => openFiles(ownFiles().map(({ file }) => file));
 

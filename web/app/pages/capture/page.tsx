@@ -4,6 +4,10 @@ import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { About } from '../../ui/about.tsx';
 import { MainColumn } from '../../ui/main-column.tsx';
+import { calibrationProblem, calibrationWanted, mending } from './array-calibration.ts';
+import { ArrayCalibrationPanel } from './array-calibration-panel.tsx';
+import { startBeforeAfter } from './before-after.ts';
+import { startCalibration } from './calibrate.ts';
 import { CellPanel } from './cell-panel.tsx';
 import { caption, start as startCompare } from './compare.ts';
 import { ComparePanel } from './compare-panel.tsx';
@@ -44,7 +48,10 @@ export function CapturePage() {
       captureState.value = captureCodec.read(params);
     },
     start: () => {
-      const stops = [startFiles(), start(), startOverTime(), startRangeAzimuth(), startRegions(), startCompare()];
+      const stops = [
+        ...[startFiles(), start(), startOverTime(), startRangeAzimuth(), startRegions(), startCompare()],
+        ...[startCalibration(), startBeforeAfter()],
+      ];
       return () => {
         for (const stop of stops) stop();
       };
@@ -77,6 +84,12 @@ export function CapturePage() {
             {capture && ' The capture opened before is still shown.'}
           </p>
         )}
+        {calibrationProblem.value && (
+          <p class="alert" role="alert" data-error={calibrationProblem.value.code}>
+            <strong>No array calibration.</strong> {calibrationProblem.value.message}{' '}
+            <code>{calibrationProblem.value.code}</code>
+          </p>
+        )}
         {waiting.value && <WaitingFor {...waiting.value} />}
         {filesWanted.value && (
           <p class="notice" role="status" data-notice="files">
@@ -86,10 +99,20 @@ export function CapturePage() {
             </button>
           </p>
         )}
+        {calibrationWanted.value && (
+          <p class="notice" role="status" data-notice="calibration">
+            This link is of an array calibration that is not here ({captureState.value.calibration}). Open or drop its
+            .calibration.json; until then that of the configuration is used, if there is one.{' '}
+            <button type="button" onClick={() => update({ calibration: 'configured' })}>
+              Leave it at that
+            </button>
+          </p>
+        )}
         {result.value && <Doubts shown={result.value} />}
         {processProblem.value && (
           <p class="alert" role="alert" data-error={processProblem.value.code}>
-            <strong>Cannot process with these settings.</strong> {processProblem.value.message}{' '}
+            <strong>Cannot process with these settings.</strong> {processProblem.value.message}
+            {processProblem.value.code === 'other-array' && mending('other-array')}{' '}
             <code>{processProblem.value.code}</code>
             {capture && !usedArray.value && (
               <>
@@ -140,6 +163,12 @@ export function CapturePage() {
           <p>
             <b>All frames</b> averages the power maps, detects in the mean, and estimates each angle from one snapshot a
             frame, which methods that need a covariance call for. It is meant for scenes that stay in their cells.
+          </p>
+          <p>
+            <b>Array calibration</b> takes gain and phase of each channel off the snapshots before angles are estimated.
+            One that is made here is used at once, and checked on frames that were left out of it. Files of calibrations
+            are JSON as this page, the package and the command line write it, tables of measured steering vectors, or
+            TI’s line compRangeBiasAndRxChanPhase; that of the capture’s own configuration is used by default.
           </p>
           <p>
             <b>Over time</b> each frame is a column. The range-time plot has the frame’s range profile, the
@@ -248,6 +277,7 @@ function Plots({ capture, frame, view }: Shown) {
           )
         }
       />
+      <ArrayCalibrationPanel view={view} cell={cell} fileParts={fileParts} />
       <TimePlots view={view} fileParts={fileParts} />
       <RangeAzimuth fileParts={fileParts} />
       <RegionsPanel fileParts={fileParts} />

@@ -1,6 +1,6 @@
 /** Range-azimuth map of the shown frame; of all frames together, of the first. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { ImageFrom, RangeAzimuthMap } from 'boresight';
+import type { ChainOptions, ImageFrom, RangeAzimuthMap } from 'boresight';
 import { aborted, describeError, type Problem, pool } from '../../data.ts';
 import { readyNetworks } from '../../networks/load.ts';
 import { type Loaded, loaded } from './files.ts';
@@ -160,7 +160,9 @@ async function mapOf(capture: Loaded, frame: number, wanted: string, controller:
   const cells = await capture.kept.frameCells(frame, chain, { signal });
   const { waveform } = capture.info.config;
   const angle = { ...(await withNetwork(chain.angle)), fieldOfViewDeg: FIELD_DEG };
-  const options = { ...chain, waveform, array, angle, grid: { fieldOfViewDeg: FIELD_DEG } };
+  // The cells are calibrated already.
+  const { calibration: _, ...settings } = chain as ChainOptions;
+  const options = { ...settings, waveform, array, angle, grid: { fieldOfViewDeg: FIELD_DEG } };
   const { map } = await pool().imageCells(cells, options, { signal, onProgress });
   const { from } = await pool().imagePlan(options, { signal });
   return {

@@ -1,6 +1,14 @@
 /** State of the capture page: all of it in the address but the files themselves. */
 import { signal } from '@preact/signals';
-import type { AngleOptions, CaptureRegionOptions, Cell, ChainOptions, Method, ReadingOptions } from 'boresight';
+import type {
+  AngleOptions,
+  ArrayCalibrationOptions,
+  CaptureRegionOptions,
+  Cell,
+  ChainOptions,
+  Method,
+  ReadingOptions,
+} from 'boresight';
 import { COLOR_MAPS } from '../../../plots/colormap.ts';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
@@ -8,6 +16,7 @@ import { choice, codec, type Field, flag, names, number, text } from '../../stat
 import { keptField } from '../../state/comparison.ts';
 import { COLOURED_BY } from '../../ui/space/points.ts';
 import { PRESETS } from '../angle/state.ts';
+import { idOf, ownOf } from './own-calibrations.ts';
 
 /** `all`, or a frame's number. */
 const frame: Field<number | 'all'> = {
@@ -29,9 +38,43 @@ const cell: Field<Cell | null> = {
   write: (value) => (value ? `${value.rangeBin}:${value.dopplerBin}` : ''),
 };
 
+/** A reflector to calibrate by; without an azimuth its direction is not known. */
+export interface KnownReflector {
+  rangeM: number;
+  azimuthDeg: number | null;
+  elevationDeg: number;
+}
+
+const NUMBER = String.raw`-?\d{1,7}(?:\.\d{1,12})?`;
+const REFLECTOR = new RegExp(`^(${NUMBER}):(${NUMBER})?:(${NUMBER})$`);
+export const MOST_REFLECTORS = 64;
+
+/** `range:azimuth:elevation` of each. */
+const reflectors: Field<readonly KnownReflector[]> = {
+  fallback: [],
+  read: (value) => {
+    if (value === '') return [];
+    const all = value.split(',').map((one): KnownReflector | null => {
+      const [, range, azimuth, elevation] = REFLECTOR.exec(one) ?? [];
+      if (range === undefined) return null;
+      const made = {
+        rangeM: Number(range),
+        azimuthDeg: azimuth === undefined ? null : Number(azimuth),
+        elevationDeg: Number(elevation),
+      };
+      return made.rangeM >= 0 && Math.abs(made.azimuthDeg ?? 0) <= 90 && Math.abs(made.elevationDeg) <= 90
+        ? made
+        : null;
+    });
+    return all.length <= MOST_REFLECTORS && all.every((one) => one !== null) ? all : undefined;
+  },
+  write: (all) => all.map((one) => [one.rangeM, one.azimuthDeg ?? '', one.elevationDeg].join(':')).join(','),
+};
+
 const detection = optionsOf('DetectionOptions');
 const reading = optionsOf('ReadingOptions');
 const region = optionsOf('RegionChainOptions');
+const arrayCalibration = optionsOf('ArrayCalibrationOptions');
 
 export const captureCodec = codec(
   {
@@ -43,6 +86,8 @@ export const captureCodec = codec(
     /** Of an advanced frame. */
     subFrame: choice('0', ['0', '1', '2', '3']),
     array: choice('auto', ['auto', ...PRESETS]),
+    /** Of one's own calibrations the id. */
+    calibration: text('configured', (value) => ['configured', 'none'].includes(value) || idOf(value) !== null),
     window: detection.field('rangeWindow'),
     dopplerWindow: detection.field('dopplerWindow'),
     rangePadding: detection.picks('rangePadding', ['1', '2', '4']),
@@ -84,6 +129,13 @@ export const captureCodec = codec(
     regionRefine: region.field('refine'),
     /** To both sides of the chosen cell's range, m. */
     gate: number(0.25, [0, 1000]),
+    /** Which frames a calibration is made from; the others check it. */
+    calibrationFrames: choice('even', ['even', 'half', 'all']),
+    calibrationModel: arrayCalibration.field('model'),
+    calibrationSnr: arrayCalibration.field('minSnrDb'),
+    calibrationResidual: arrayCalibration.field('maxResidualDb'),
+    reflectors,
+    exactRanges: arrayCalibration.field('rangeBias'),
     span: choice('60', ['30', '40', '50', '60', '80']),
     colors: choice('viridis', COLOR_MAPS),
     /** Detections from above, or in space. */
@@ -107,13 +159,14 @@ export const readingOptions = ({ iqOrder, lanes }: CaptureState): ReadingOptions
 
 /** For those who see a plot alone. */
 export function settingsOf(state: CaptureState): string {
-  const { frame, window, dopplerWindow, cfar, falseAlarm, clutter, angle } = state;
+  const { frame, window, dopplerWindow, cfar, falseAlarm, clutter, angle, calibration } = state;
   return [
     frame === 'all' ? 'all frames' : `frame ${frame + 1}`,
     `windows ${window} and ${dopplerWindow}`,
     `CFAR ${cfar}, false alarms ${falseAlarm}`,
     ...(clutter ? ['static clutter removed'] : []),
     `angles by ${angle}`,
+    ...(calibration === 'configured' ? [] : [`array calibration ${ownOf(calibration)?.name ?? calibration}`]),
   ].join(', ');
 }
 
@@ -148,6 +201,32 @@ export function chainOptions(state: CaptureState): ChainOptions {
         }
       : {}),
     angle: { method: state.angle, ...(state.mismatch === null ? {} : { mismatchDb: state.mismatch }) },
+    ...calibrationOption(state),
+  };
+}
+
+/** One's own calibration that is not here is left to the configuration. */
+function calibrationOption({ calibration }: CaptureState): Pick<ChainOptions, 'calibration'> {
+  if (calibration === 'none') return { calibration };
+  const own = ownOf(calibration);
+  return own ? { calibration: own.value } : {};
+}
+
+/** How the array is calibrated, the frames apart. */
+export function calibrationOptions(state: CaptureState, by: 'reflectors' | 'cells'): ArrayCalibrationOptions {
+  return {
+    model: state.calibrationModel,
+    minSnrDb: state.calibrationSnr,
+    maxResidualDb: state.calibrationResidual,
+    ...(by === 'reflectors'
+      ? {
+          reflectors: state.reflectors.map(({ azimuthDeg, ...rest }) => ({
+            ...rest,
+            ...(azimuthDeg === null ? {} : { azimuthDeg }),
+          })),
+          rangeBias: state.exactRanges,
+        }
+      : {}),
   };
 }
 
@@ -167,6 +246,7 @@ export function regionOptions(state: CaptureState): CaptureRegionOptions {
   const { array, nearest, farthest } = state;
   return {
     ...(array === 'auto' ? {} : { array }),
+    ...calibrationOption(state),
     regionWindow: state.regionWindow,
     reachBins: state.regionReach,
     countLoading: state.countLoading,
