@@ -94,7 +94,7 @@ fn sentences_have_figures_and_bins_outside_are_refused() {
     let told = explain(first.range_bin + 1, first.doppler_bin).unwrap();
     assert_eq!(told.verdict, Verdict::Grouped);
     assert_eq!([told.peak_range_bin, told.peak_doppler_bin], [first.range_bin, first.doppler_bin]);
-    assert!(told.message.contains("1 range bins and 0 Doppler bins away"), "{}", told.message);
+    assert!(told.message.contains("1 range bin and 0 Doppler bins away"), "{}", told.message);
     // A neighbour 8 bins before has the target among its training cells, and does without it.
     let told = explain(first.range_bin - 8, first.doppler_bin).unwrap();
     assert!(told.excised_cells >= 3, "{told:?}");
