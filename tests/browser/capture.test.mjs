@@ -117,7 +117,7 @@ browserTest(
     await page.locator('[data-plot="range-doppler"] .plot').focus();
     await page.keyboard.press('n');
     await page.keyboard.press('ArrowRight');
-    assert.match(await text('grouped'), /stronger peak 1 range bins.*Keep local peaks only/s);
+    assert.match(await text('grouped'), /stronger peak 1 range bins?.*Keep local peaks only/s);
     await page.locator('input[name="grouping"]').press(' ');
     await why('kept');
     await page.locator('[data-plot="range-doppler"] .plot').focus();

@@ -187,9 +187,9 @@ impl Chain {
                 let dopplers = self.map.power.ncols();
                 let apart = told.doppler_bin.abs_diff(told.peak_doppler_bin);
                 let apart = apart.min(dopplers - apart);
-                format!(
-                    "Part of a stronger peak {ranges} range bins and {apart} Doppler bins away; {over}."
-                )
+                let [ranges, apart] = [(ranges, "range"), (apart, "Doppler")]
+                    .map(|(n, axis)| format!("{n} {axis} bin{}", if n == 1 { "" } else { "s" }));
+                format!("Part of a stronger peak {ranges} and {apart} away; {over}.")
             }
             Verdict::OutsideRange => format!("Dropped for its range; {over}."),
             Verdict::OutsideRate => format!("Dropped for its range rate; {over}."),

@@ -45,7 +45,7 @@ fn verdicts_are_what_the_chain_counts() {
         options.cfar.kind = kind;
         options.cfar.false_alarm = 0.02;
         options.angle.options.max_peaks = 1;
-        options.max_detections = 4;
+        options.max_detections = 2;
         options.region = Region {
             range_m: Some([1.0, 8.0]),
             rate_mps: Some([-2.0, 2.0]),
@@ -95,9 +95,9 @@ fn sentences_have_figures_and_bins_outside_are_refused() {
     let told = explain(first.range_bin + 1, first.doppler_bin).unwrap();
     assert_eq!(told.verdict, Verdict::Grouped);
     assert_eq!([told.peak_range_bin, told.peak_doppler_bin], [first.range_bin, first.doppler_bin]);
-    assert!(told.message.contains("1 range bins and 0 Doppler bins away"), "{}", told.message);
-    // A neighbour 8 bins on has the target among its training cells, and does without it.
-    let told = explain(first.range_bin + 8, first.doppler_bin).unwrap();
+    assert!(told.message.contains("1 range bin and 0 Doppler bins away"), "{}", told.message);
+    // A neighbour 8 bins before has the target among its training cells, and does without it.
+    let told = explain(first.range_bin - 8, first.doppler_bin).unwrap();
     assert!(told.excised_cells >= 3, "{told:?}");
     assert!(told.message.contains("left out as targets themselves"), "{}", told.message);
     let refused = explain(100_000, 0).unwrap_err();
