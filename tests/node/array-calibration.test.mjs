@@ -74,7 +74,7 @@ describe('the array of a recorded capture', () => {
 
   test('is stopped by its report, and refuses what is of another array', () => {
     throwsTyped(() => capture.calibrateArray({}, () => false), 'cancelled', 'steps');
-    throwsTyped(() => capture.calibrateArray({ frameCount: 9 }), 'out-of-range', 'frame_count');
+    throwsTyped(() => capture.calibrateArray({ frameCount: 9 }), 'out-of-range', 'frameCount');
     const { calibration } = result;
     throwsTyped(() => capture.combineFrames({ array: 'ula8', calibration }), 'other-array', 'calibration');
     throwsTyped(() => capture.combineFrames({ calibration: 'some' }), 'wrong-type', 'calibration');
@@ -106,7 +106,7 @@ describe('cells and tables', () => {
     assert.ok(Math.abs(gain - other - 20 * Math.log10(0.5)) < 1e-3, `${gain - other}`);
     const known = { snapshots: batchOf(cells), noisePower: 1e-4, azimuthDeg: [10, -20, 35] };
     assert.equal(calibrateArray(known, options).calibration.method, 'reflector');
-    throwsTyped(() => calibrateArray({ ...known, azimuthDeg: [1] }, options), 'shape', 'azimuth_deg');
+    throwsTyped(() => calibrateArray({ ...known, azimuthDeg: [1] }, options), 'shape', 'azimuthDeg');
     throwsTyped(() => calibrateArray(known, { ...options, minSnrDb: 200 }), 'no-calibration-cells', 'cells');
     const table = { azimuthDeg: [0, 30], responses: [0, 30].map((deg) => pairs(planeWaves(4, 1, [deg]).data)) };
     assert.equal(calibrateBySteeringTable(table, 'ula4').calibration.method, 'steering-table');
