@@ -16,10 +16,10 @@ const BOARDS: [(&str, &str); 3] =
     [("xWR18xx", "77 "), ("xWR68xx_AOP", "60.5 "), ("iwr6843ods", "60.5 ")];
 /// Far enough apart for no sidelobe of a Hann window to reach from one to the next.
 const RANGES_M: [f64; 5] = [3.0, 4.5, 6.0, 8.0, 10.0];
-const POWER_DB: f64 = -12.0;
-/// 25 dB in a cell: 36 dB of 256 samples and 16 loops, less 3.5 dB of two windows and 7.5 dB here.
-const SNR_DB: f64 = 4.5;
-const FRAMES: u64 = 80;
+const POWER_DB: f64 = -30.0;
+/// Of a 0 dB target. 25 dB in a cell: 36 dB of 256 samples and 16 loops, less 3.5 dB of two windows and 7.5 dB here.
+const SNR_DB: f64 = 22.5;
+const FRAMES: u64 = 60;
 
 fn config(platform: &str, start_ghz: &str) -> RadarConfig {
     let text = CFG
@@ -75,6 +75,11 @@ fn options(method: Method) -> ChainOptions {
     let mut options = ChainOptions::default();
     options.angle.method = method;
     options.angle.options.sources = SourceCount::Known(1);
+    if method == Method::Iaa {
+        // Its peaks alone are 1.5 and 1.3 times the bound off. Refined, they may come from a coarse grid.
+        (options.angle.options.refine, options.angle.options.grid_points) = (true, 41);
+        options.angle.options.elevation_points = 13;
+    }
     options
 }
 
@@ -84,7 +89,8 @@ fn scores(platform: &str, start_ghz: &str, methods: &[Method]) -> Vec<[f64; 2]> 
     let array = config.array().unwrap();
     let waveform = config.waveform;
     // Of the Hann windows over samples and loops.
-    let noise_power = 10_f64.powf(-SNR_DB / 10.0) * (1.5 / waveform.samples as f64)
+    let noise_power = 10_f64.powf(-SNR_DB / 10.0)
+        * (1.5 / waveform.samples as f64)
         * (1.5 / waveform.loops as f64);
     let mut chains: Vec<Chain> = methods
         .iter()
@@ -120,8 +126,8 @@ fn scores(platform: &str, start_ghz: &str, methods: &[Method]) -> Vec<[f64; 2]> 
                 for k in 0..2 {
                     squares[k] += (off[k] / bound[k]).powi(2);
                 }
-                let place = Direction::new(found.azimuth_rad, found.elevation_rad)
-                    .place_m(found.range_m);
+                let place =
+                    Direction::new(found.azimuth_rad, found.elevation_rad).place_m(found.range_m);
                 assert_eq!([found.x_m, found.y_m, found.z_m], place);
             }
         }
@@ -130,7 +136,7 @@ fn scores(platform: &str, start_ghz: &str, methods: &[Method]) -> Vec<[f64; 2]> 
     squares.iter().map(|both| both.map(|sum| (sum / count).sqrt())).collect()
 }
 
-/// 400 errors of a normal distribution give a ratio of 1 +- 0.035.
+/// 300 errors of a normal distribution give a ratio of 1 +- 0.041.
 #[test]
 fn azimuth_and_elevation_reach_their_bound_through_bytes_and_chain() {
     let methods = [
@@ -145,9 +151,15 @@ fn azimuth_and_elevation_reach_their_bound_through_bytes_and_chain() {
         for (method, [azimuth, elevation]) in
             methods.iter().zip(scores(platform, start_ghz, &methods))
         {
-            println!("{platform}, {}: azimuth {azimuth:.3}, elevation {elevation:.3} of the bound", method.name());
+            println!(
+                "{platform}, {}: azimuth {azimuth:.3}, elevation {elevation:.3} of the bound",
+                method.name()
+            );
             assert!((0.9..1.1).contains(&azimuth), "{platform}, {method:?}: azimuth {azimuth}");
-            assert!((0.9..1.1).contains(&elevation), "{platform}, {method:?}: elevation {elevation}");
+            assert!(
+                (0.9..1.1).contains(&elevation),
+                "{platform}, {method:?}: elevation {elevation}"
+            );
         }
     }
 }
@@ -205,7 +217,7 @@ fn detections_outside_elevation_and_height_are_dropped_and_counted() {
         ..CubeTarget::default()
     };
     let all = [target(3.0, 0.0), target(5.0, 0.3), target(8.0, 0.2), target(10.0, -0.1)];
-    let frame = sample(&config, &array, &all, 20.0, 3);
+    let frame = sample(&config, &array, &all, 40.0, 3);
     let kept = |elevation_rad, height_m| {
         let mut options = options(Method::Bartlett);
         (options.region.elevation_rad, options.region.height_m) = (elevation_rad, height_m);
