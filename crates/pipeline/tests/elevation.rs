@@ -76,7 +76,9 @@ fn options(method: Method) -> ChainOptions {
     options.angle.method = method;
     options.angle.options.sources = SourceCount::Known(1);
     if method == Method::Iaa {
-        // Its peaks alone are 1.5 and 1.3 times the bound off. Refined, they may come from a coarse grid.
+        // Its peaks alone, some of which are of noise, are 1.5 and 1.3 times the bound off; the strongest, refined, may
+        // come from a coarse grid.
+        options.angle.options.max_peaks = 1;
         (options.angle.options.refine, options.angle.options.grid_points) = (true, 41);
         options.angle.options.elevation_points = 13;
     }
