@@ -5,6 +5,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { brotliCompressSync } from 'node:zlib';
 import { root } from '../../scripts/lib/paths.mjs';
+import { findings } from './axe.mjs';
 import { assertCsv, assertPng, parameters, parametersWith, saved, values } from './demo.mjs';
 import { browserTest, skipWithoutBrowser } from './harness.mjs';
 
@@ -142,6 +143,7 @@ browserTest(
 for (const scheme of ['light', 'dark']) {
   browserTest(`space: it is drawn in colour and saved, ${scheme}`, { path: SIMULATED, scheme }, async ({ page }) => {
     await ready(page);
+    assert.deepEqual(await findings(page), []);
     const image = await saved(page, '[data-space="points"] [data-export="png"]');
     assertPng(image);
     const { saturated, corner, width } = await colours({ page, bytes: image.bytes });
