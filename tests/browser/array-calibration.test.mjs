@@ -182,6 +182,64 @@ browserTest(
   },
 );
 
+browserTest(
+  'array calibration: a table of measured steering vectors, and the line of a configuration, give the errors they hold',
+  { path },
+  async ({ page }) => {
+    await ready(page);
+    const [gainsDb, phasesDeg] = [
+      [0.5, -0.5, 1, -1, 0.2, -0.2, 0.7, -0.7],
+      [0, 20, -15, 40, -60, 5, 90, -35],
+    ];
+    const factor = (k) => [10 ** (gainsDb[k] / 20), (phasesDeg[k] * Math.PI) / 180];
+    // The elements lie at y = 0, -1 ... -7 half wavelengths.
+    const response = (deg) =>
+      gainsDb.map((_, k) => {
+        const [gain, phase] = factor(k);
+        const angle = phase - Math.PI * k * Math.sin((deg * Math.PI) / 180);
+        return [gain * Math.cos(angle), gain * Math.sin(angle)];
+      });
+    const azimuthDeg = [-40, 0, 25];
+    const table = { azimuthDeg, responses: azimuthDeg.map(response) };
+    await drop(page, [{ name: 'table.json', bytes: Buffer.from(JSON.stringify(table)) }]);
+    await effected(page, 'table.calibration.json');
+    const told = async () => {
+      const all = await values(page, '[data-channel] [data-field][data-value]');
+      return [
+        all.filter((_, i) => i % 2 === 0),
+        all.filter((_, i) => i % 2 === 1).map((one, _, [first]) => one - first),
+      ];
+    };
+    const close = ([gains, phases], within) => {
+      gains.forEach((one, k) => assert.ok(Math.abs(one - gainsDb[k]) < within, `gain ${k}: ${one} dB`));
+      phases.forEach((one, k) => {
+        const apart = ((((one - phasesDeg[k]) % 360) + 540) % 360) - 180;
+        assert.ok(Math.abs(apart) < within, `phase ${k}: ${one} degrees`);
+      });
+    };
+    close(await told(), 0.02);
+    // Coefficients are what the channels are multiplied by.
+    const line = gainsDb.map((_, k) => {
+      const [gain, phase] = factor(k);
+      return `${(Math.cos(phase) / gain).toFixed(5)} ${(-Math.sin(phase) / gain).toFixed(5)}`;
+    });
+    const cfg = recording('profile.cfg')
+      .toString()
+      .replace(/^compRangeBiasAndRxChanPhase.*$/gm, '');
+    await drop(page, [
+      { name: 'mine.bin', bytes: recording('xwr16xx_crw_dca_module_2018_1015v2.bin') },
+      { name: 'mine.cfg', bytes: Buffer.from(`${cfg}\ncompRangeBiasAndRxChanPhase 0.05 ${line.join(' ')}\n`) },
+    ]);
+    await page.waitForFunction(() => document.querySelector('.files')?.textContent.includes('mine.cfg'));
+    await page.locator('select[name="calibration"]').selectOption('configured');
+    await effected(page, 'of the configuration');
+    await page.waitForFunction(() =>
+      /Range bias\s*0\.050 m/.test(document.querySelector('[data-facts="array-calibration"]')?.innerText),
+    );
+    close(await told(), 0.02);
+  },
+);
+
 browserTest('array calibration: what cannot be used is refused, and says what helps', { path }, async ({ page }) => {
   await ready(page);
   const neutral = (tx, rx) => ({ tx, rx, channels: tx.flatMap(() => rx.map(() => ({ gainDb: 0, phaseDeg: 0 }))) });
