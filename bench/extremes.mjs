@@ -76,7 +76,7 @@ function* rest() {
     ];
   let cube;
   const windows = { guardCells: [4, 1], trainingCells: [64, 5], axes: 'both' };
-  for (const kind of ['cell-averaging', 'ordered-statistic'])
+  for (const kind of ['excision', 'cell-averaging', 'ordered-statistic'])
     yield [
       `CFAR, ${kind}, a window of 137 x 13`,
       () => {

@@ -1,6 +1,7 @@
 // Lighthouse over the built, compressed demo: a table of performance, which is the machine's too and only printed, and of
-// accessibility, which has to be 100. `-- angle,capture` takes some pages.
+// accessibility, which has to be 100. `-- angle,capture` takes some pages, `-- --accessibility` leaves performance out.
 import { pathToFileURL } from 'node:url';
+import { parseArgs } from 'node:util';
 import { buildDemo, buildPackage } from './build.mjs';
 import { browserArguments, browserMissing, findBrowser } from './lib/browser.mjs';
 import { npmTools } from './lib/npm-tools.mjs';
@@ -26,7 +27,12 @@ await main(async () => {
   const { lighthouse, desktopConfig, launch } = await lighthouseModules();
   const { serve } = await import('../tests/browser/session.mjs');
   const { pages } = await import('../tests/browser/pages.mjs');
-  const wanted = process.argv[2]?.split(',');
+  const { values, positionals } = parseArgs({
+    options: { accessibility: { type: 'boolean' } },
+    allowPositionals: true,
+  });
+  const wanted = positionals[0]?.split(',');
+  const onlyCategories = [...(values.accessibility ? [] : ['performance']), 'accessibility'];
   const server = await serve();
   const rows = [];
   const problems = [];
@@ -38,18 +44,20 @@ await main(async () => {
       ]) {
         const chrome = await launch({ chromePath, chromeFlags: ['--headless=new', ...browserArguments] });
         try {
-          const flags = { port: chrome.port, logLevel: 'error', onlyCategories: ['performance', 'accessibility'] };
+          const flags = { port: chrome.port, logLevel: 'error', onlyCategories };
           const { lhr } = await lighthouse(`${server.url}${path}`, flags, config);
           const score = (category) => Math.round(100 * (lhr.categories[category].score ?? Number.NaN));
           const seconds = (audit) => ((lhr.audits[audit].numericValue ?? Number.NaN) / 1000).toFixed(1);
           rows.push({
             page: name,
             form,
-            performance: score('performance'),
             accessibility: score('accessibility'),
-            'first paint, s': seconds('first-contentful-paint'),
-            'largest paint, s': seconds('largest-contentful-paint'),
-            'blocked, s': seconds('total-blocking-time'),
+            ...(!values.accessibility && {
+              performance: score('performance'),
+              'first paint, s': seconds('first-contentful-paint'),
+              'largest paint, s': seconds('largest-contentful-paint'),
+              'blocked, s': seconds('total-blocking-time'),
+            }),
           });
           if (score('accessibility') !== 100) {
             const found = lhr.categories.accessibility.auditRefs

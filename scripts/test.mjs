@@ -36,6 +36,16 @@ function nodeTests(folder, ...options) {
   return [node, '--test', '--test-reporter=spec', ...options, ...files];
 }
 
+/** Tests of pages, by two processes that each keep one browser. */
+const browserTests = [
+  node,
+  '--test',
+  '--test-reporter=spec',
+  '--test-concurrency=2',
+  'tests/browser/first-half.mjs',
+  'tests/browser/second-half.mjs',
+];
+
 const steps = [
   { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
   { name: 'lint', command: ['biome', 'check', '--error-on-warnings'], counts: checkCounts },
@@ -75,7 +85,7 @@ const steps = [
   { name: 'types', command: ['tsc', '-p', 'tsconfig.json'], counts: checkCounts },
   { name: 'node', command: () => nodeTests('tests/node'), counts: nodeCounts },
   { name: 'packaging', command: () => nodeTests('tests/packaging', '--test-concurrency=1'), counts: nodeCounts },
-  { name: 'browser', command: () => nodeTests('tests/browser', '--test-concurrency=1'), counts: nodeCounts },
+  { name: 'browser', command: browserTests, counts: nodeCounts },
 ];
 
 async function runStep({ command, work, variables, counts }) {

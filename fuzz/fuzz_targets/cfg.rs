@@ -11,7 +11,9 @@ fuzz_target!(|bytes: &[u8]| {
         assert_eq!(config.transmitters.len(), config.waveform.transmitters);
         assert!(!config.receivers.is_empty() && config.frame_bytes() > 0);
         if let Some(array) = config.array() {
-            assert_eq!(array.len(), config.transmitters.len() * config.receivers.len());
+            let channels = config.transmitters.len() * config.receivers.len();
+            assert_eq!(array.tx().len() * array.rx().len(), channels);
+            assert!(array.len() <= channels);
         }
     }
 });

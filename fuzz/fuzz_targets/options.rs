@@ -5,7 +5,7 @@
 use boresight_aoa::{Estimator, EstimatorOptions, Method};
 use boresight_core::array::Position;
 use boresight_core::describe::{self, Described, Named, Naming};
-use boresight_core::{Array, Waveform, presets};
+use boresight_core::{Array, Multiplexing, Sampling, Waveform, presets};
 use boresight_pipeline::{Chain, ChainOptions};
 use libfuzzer_sys::fuzz_target;
 use serde::Serialize;
@@ -17,12 +17,15 @@ const WAVEFORM: Waveform = Waveform {
     start_frequency_hz: 77e9,
     slope_hz_per_s: 60e12,
     sample_rate_hz: 5e6,
+    sampling: Sampling::Complex,
     samples: 32,
     adc_start_s: 0.0,
     chirp_interval_s: 1e-4,
     transmitters: 2,
     loops: 8,
     frame_interval_s: 0.04,
+    multiplexing: Multiplexing::TimeDivision,
+    doppler_bands: None,
 };
 
 fn read<T: DeserializeOwned + Serialize + Described + PartialEq + std::fmt::Debug>(

@@ -98,6 +98,34 @@ browserTest(
   },
 );
 
+browserTest(
+  'capture: why the chosen cell is a detection or none, from the keyboard, with what changes it',
+  { path },
+  async ({ page }) => {
+    await ready(page);
+    const why = (verdict) => page.waitForSelector(`[data-cell-verdict="${verdict}"]`);
+    const text = async (verdict) => (await why(verdict)).innerText();
+    assert.match(await text('kept'), /2\.95 m.*A detection: [\d.]+ dB over its threshold; noise -[\d.]+ dBFS by \d+/s);
+    const plot = '[data-plot="range-profile"]';
+    const figures = assertCsv(
+      await saved(page, `${plot} [data-export="csv"]`),
+      'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs',
+    );
+    const row = figures.find(([range]) => Math.abs(Number(range) - 2.95) < 0.03);
+    assert.ok(Number(row[2]) > Number(row[3]), `power over threshold in ${row}`);
+    assert.equal(await page.locator(`${plot} [data-series="threshold"]`).count(), 1);
+    await page.locator('[data-plot="range-doppler"] .plot').focus();
+    await page.keyboard.press('n');
+    await page.keyboard.press('ArrowRight');
+    assert.match(await text('grouped'), /stronger peak 1 range bins?.*Keep local peaks only/s);
+    await page.locator('input[name="grouping"]').press(' ');
+    await why('kept');
+    await page.locator('[data-plot="range-doppler"] .plot').focus();
+    for (let i = 0; i < 4; i++) await page.keyboard.press('ArrowUp');
+    assert.match(await text('below-threshold'), /No detection: [\d.]+ dB below its threshold.*false-alarm rate/s);
+  },
+);
+
 browserTest('capture: the address reproduces cell, frame and options', { path }, async ({ page, context }) => {
   await ready(page);
   await page.locator('select[name="cfar"]').selectOption('ordered-statistic');
@@ -344,7 +372,10 @@ browserTest('capture: plots and tables are saved as PNG and CSV', { path }, asyn
   for (const plot of ['range-profile', 'range-doppler', 'cell-spectrum'])
     assertPng(await saved(page, `[data-plot="${plot}"] [data-export="png"]`));
   assert.equal(
-    assertCsv(await saved(page, '[data-plot="range-profile"] [data-export="csv"]'), 'range_m,power_dbfs').length,
+    assertCsv(
+      await saved(page, '[data-plot="range-profile"] [data-export="csv"]'),
+      'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs',
+    ).length,
     256,
   );
   assert.equal(

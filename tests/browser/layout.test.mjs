@@ -57,23 +57,8 @@ browserTest(
 );
 
 for (const { name, path, ready } of pages) {
-  browserTest(`layout: at 200 % ${name} has its heading and its buttons in view`, { path }, async ({ page }) => {
-    // What a window of 1280 x 800 px shows at twice the size.
-    await page.setViewportSize({ width: 640, height: 400 });
-    await page.waitForSelector(ready, patient);
-    const out = await page.locator('.site-head :is(a, button, select):visible').evaluateAll((all) =>
-      all
-        .filter((one) => {
-          const { left, right, width } = one.getBoundingClientRect();
-          return left < 0 || right > innerWidth || width < 20;
-        })
-        .map((one) => one.textContent),
-    );
-    assert.deepEqual(out, []);
-  });
-
   browserTest(
-    `layout: boxes of ${name} are large enough, and each plot says what is in it`,
+    `layout: ${name} has large boxes, plots in words and near the keyboard, paper without buttons, and fits at 200 %`,
     { path },
     async ({ page }) => {
       await page.waitForSelector(ready, patient);
@@ -90,6 +75,34 @@ for (const { name, path, ready } of pages) {
           .map((host) => host.getRootNode().host.dataset.plot),
       );
       assert.deepEqual(silent, []);
+
+      // The first key of the keyboard passes over the controls.
+      await page.keyboard.press('Tab');
+      assert.equal(await page.evaluate(() => document.activeElement.textContent.trim()), 'Skip to the plots');
+      await page.keyboard.press('Enter');
+      await page.keyboard.press('Tab');
+      assert.ok(
+        await page.evaluate(() => document.activeElement.closest('#plots') !== null),
+        'the next is of the plots',
+      );
+
+      // Names of cells and links stand in their text.
+      await page.emulateMedia({ media: 'print' });
+      const idle = page.locator('button:not(.cell-button, .link, .plot-handle), details:not([open])');
+      assert.deepEqual(await idle.filter({ visible: true }).allInnerTexts(), []);
+      await page.emulateMedia({ media: 'screen' });
+
+      // What a window of 1280 x 800 px shows at twice the size.
+      await page.setViewportSize({ width: 640, height: 400 });
+      const out = await page.locator('.site-head :is(a, button, select):visible').evaluateAll((all) =>
+        all
+          .filter((one) => {
+            const { left, right, width } = one.getBoundingClientRect();
+            return left < 0 || right > innerWidth || width < 20;
+          })
+          .map((one) => one.textContent),
+      );
+      assert.deepEqual(out, []);
     },
   );
 }

@@ -15,6 +15,7 @@ const DIFFERENCES = {
     // Of an array that is not calibrated; networks were trained on exact ones.
     'countLoading: default, range',
     'regionWindow: default',
+    'elevation: default, range',
     'guardDoppler: range',
     'guardRange: range',
     'sector: default, range',

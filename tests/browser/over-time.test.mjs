@@ -59,7 +59,7 @@ browserTest('over time: columns are the frames’ own profiles and maps', { path
       (shown) => within('[data-plot="range-profile"]', 'figcaption')?.textContent.includes(`Frame ${shown} of`),
       frame,
     );
-    const profile = await csv(page, 'range-profile', 'range_m,power_dbfs');
+    const profile = await csv(page, 'range-profile', 'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs');
     const map = await csv(page, 'range-doppler', 'range_m,rate_mps,power_dbfs');
     const column = overRange.filter(([of]) => of === frame);
     profile.forEach(([range, power], i) => {
@@ -127,7 +127,7 @@ browserTest('over time: the gate is where the cell is, and as wide as typed', { 
   await typeNumber(width, '0');
   await leave(width);
   await page.waitForFunction(() => /^[\d.]+ m$/.test(within('[data-plot="micro-doppler"]', '.detail').textContent));
-  const profile = await csv(page, 'range-profile', 'range_m,power_dbfs');
+  const profile = await csv(page, 'range-profile', 'range_m,power_dbfs,bin_power_dbfs,bin_threshold_dbfs');
   close(Number.parseFloat(await gate()), profile[bin][0], 0.006, 'the gate is the bin of the cell');
   await parametersWith(page, (params) => params.get('gate') === '0');
   await reload(page);

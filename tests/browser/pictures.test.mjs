@@ -117,7 +117,7 @@ browserTest(
     assert.ok(drawing.dashed >= 1, 'the chosen cell’s crosshair');
     assertCaption(drawing.texts, {
       page: 'Capture',
-      settings: 'CFAR cell-averaging',
+      settings: 'CFAR excision',
       data: 'xwr16xx_crw_dca_module_2018_1015v2.bin, profile.cfg',
       path: '#/capture?frame=all',
     });

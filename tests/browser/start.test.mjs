@@ -31,6 +31,7 @@ test('npm start says what it does and serves the demo', { timeout: 120_000 }, as
     const script = mainScript(await response.text());
     assert.ok(script, 'the page names its script');
     assert.equal((await fetch(new URL(script, response.url))).status, 200);
+    assert.equal((await fetch(new URL('no/such/page', response.url))).status, 404, 'what is not there is not the page');
   } finally {
     if (started.exitCode === null) {
       // The server is a child of the script, so the whole group is ended.

@@ -120,9 +120,9 @@ browserTest(
       ],
       [
         ({ rf }) => {
-          rf.rlAdcOutCfg_t.fmt.b2AdcOutFmt = 0;
+          rf.rlAdcOutCfg_t.fmt.b2AdcOutFmt = 3;
         },
-        `${rf}.rlAdcOutCfg_t.fmt.b2AdcOutFmt is 0; expected 1 or 2: complex`,
+        `${rf}.rlAdcOutCfg_t.fmt.b2AdcOutFmt is 3; expected 0 (real), 1 or 2`,
       ],
       [
         ({ rf }) => {
@@ -140,7 +140,13 @@ browserTest(
         ({ raw }) => {
           raw.rlDevLaneEnable_t.laneEn = '0xF';
         },
-        'rawDataCaptureConfig.rlDevLaneEnable_t.laneEn is "0xF"; expected 0x3',
+        'rawDataCaptureConfig.rlDevDataFmtCfg_t.chInterleave is 1; expected 0: receivers sample by sample, over four lanes',
+      ],
+      [
+        ({ raw }) => {
+          raw.rlDevLaneEnable_t.laneEn = '0x1';
+        },
+        'rawDataCaptureConfig.rlDevLaneEnable_t.laneEn is "0x1"; expected 0x3: two lanes',
       ],
       [
         ({ raw }) => {

@@ -94,7 +94,7 @@ describe('a recorded capture', () => {
     assert.equal(capture.processFrame(0, { maxDetections: 1 }).detections.length, 1);
     assert.deepEqual(capture.processFrame(0, { rangePadding: 2 }).shape, [2 * all.shape[0], all.shape[1]]);
     const over = (cfar) => capture.processFrame(0, { cfar }).counts.cellsOverThreshold;
-    for (const kind of ['cell-averaging', 'greatest-of', 'smallest-of', 'ordered-statistic']) {
+    for (const kind of ['excision', 'cell-averaging', 'greatest-of', 'smallest-of', 'ordered-statistic']) {
       assert.ok(over({ kind, falseAlarm: 1e-9 }) < over({ kind, falseAlarm: 1e-2 }), kind);
     }
     const ordered = { kind: 'ordered-statistic', axes: 'both' };
@@ -104,9 +104,29 @@ describe('a recorded capture', () => {
     assert.ok(windowed.detections.some((d) => Math.abs(d.rangeM - 2.95) < 0.05));
   });
 
+  test('says why a cell is a detection or none', () => {
+    const { detections } = capture.processFrame(0);
+    const [first] = detections;
+    const cell = { rangeBin: first.rangeBin, dopplerBin: first.dopplerBin, frame: 0 };
+    const told = capture.explainCell(cell);
+    assert.equal(told.verdict, 'kept');
+    assert.equal(told.thresholdDb, told.profileThresholdDb[cell.rangeBin]);
+    assert.ok(told.powerDb > told.thresholdDb && told.thresholdDb > told.noiseDb);
+    const beside = capture.explainCell({ ...cell, rangeBin: cell.rangeBin + 1 });
+    assert.equal(beside.verdict, 'grouped');
+    assert.deepEqual([beside.peakRangeBin, beside.peakDopplerBin], [cell.rangeBin, cell.dopplerBin]);
+    const limited = capture.explainCell(cell, { region: { rangeM: [first.rangeM + 1, 100] } });
+    assert.equal(limited.verdict, 'outside-range');
+    const { frame: _, ...together } = cell;
+    assert.equal(capture.explainCell(together).verdict, 'kept');
+    throwsTyped(() => capture.explainCell({ rangeBin: 256, dopplerBin: 0 }), 'out-of-range', 'range bin');
+  });
+
   test('refuses bad options by name and goes on', () => {
     const bad = (options, code, what) => throwsTyped(() => capture.processFrame(0, options), code, what);
     bad({ rangeWindow: 'hanning' }, 'unknown-name', 'rangeWindow');
+    // Before a grid is made of so many points.
+    bad({ angle: { gridPoints: 1e8 } }, 'out-of-range', 'angle.gridPoints');
     bad({ rangePadding: 0 }, 'out-of-range');
     bad({ rangePadding: 1e6 }, 'out-of-range', 'rangePadding');
     bad({ cfar: { kind: 'median' } }, 'unknown-name', 'cfar.kind');
@@ -234,5 +254,37 @@ describe('a simulated cube', () => {
     throwsTyped(() => processCube({ data: cube.data, shape: [cube.data.length / 2] }, options), 'shape', 'cube');
     cube.data[5] = Number.NaN;
     throwsTyped(() => processCube(cube, options), 'not-finite');
+  });
+
+  test('of transmitters that send at once gives its targets back, over the whole chirp rate in Doppler division', () => {
+    for (const [multiplexing, loops, shape] of [
+      ['binary-phase', 16, [1, 16, 2, 4, 256]],
+      ['doppler-division', 48, [1, 48, 1, 4, 256]],
+    ]) {
+      const options = { waveform: { ...waveform(), multiplexing, loops }, array: 'awr1642' };
+      const rateMps = multiplexing === 'binary-phase' ? 3.1 : 8.2;
+      const target = { rangeM: 6, rateMps, azimuthDeg: 20, powerDb: -10 };
+      const cube = simulateCube({ ...options, targets: [target], snrDb: 10, seed: 1 });
+      assert.deepEqual(cube.shape, shape);
+      const [{ detections, counts, unambiguousRateMps }] = processCube(cube, options);
+      assert.equal(detections.length, 1, multiplexing);
+      assert.ok(unambiguousRateMps > rateMps);
+      assert.ok(Math.abs(detections[0].rateMps - rateMps) < 0.1, `${detections[0].rateMps}`);
+      assert.ok(Math.abs(detections[0].azimuthDeg - 20) < 1, `${detections[0].azimuthDeg}`);
+      assert.equal(counts.otherBands > 0, multiplexing === 'doppler-division');
+    }
+  });
+
+  test('of a target beyond the unambiguous rate tells its fold where asked', () => {
+    const options = { waveform: waveform(), array: 'awr1642' };
+    const target = { rangeM: 6, rateMps: 7.5, azimuthDeg: 20, powerDb: -10 };
+    const cube = simulateCube({ ...options, targets: [target], snrDb: 10, seed: 1 });
+    const [{ detections: folded }] = processCube(cube, options);
+    assert.ok(folded[0].rateMps < 0 && folded[0].dopplerFold === 0 && !('foldProbability' in folded[0]));
+    const [{ detections, unambiguousRateMps }] = processCube(cube, { ...options, dopplerFolds: 1 });
+    assert.ok(Math.abs(detections[0].rateMps - 7.5) < 0.1 && unambiguousRateMps > 9);
+    assert.ok(detections[0].dopplerFold === 1 && detections[0].foldProbability > 0.99);
+    assert.ok(Math.abs(detections[0].azimuthDeg - 20) < 1, `${detections[0].azimuthDeg}`);
+    throwsTyped(() => processCube(cube, { ...options, dopplerFolds: 33 }), 'out-of-range', 'dopplerFolds');
   });
 });

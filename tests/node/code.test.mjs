@@ -136,7 +136,7 @@ test('code: no file is taken for a flag, and no value either', () => {
 test('code: what is so by default is left out, but what means something else', () => {
   const chain = {
     rangeWindow: 'hann',
-    cfar: { kind: 'cell-averaging', falseAlarm: 1e-6, guardCells: [4, 2] },
+    cfar: { kind: 'excision', falseAlarm: 1e-6, guardCells: [4, 2] },
     peakGrouping: true,
     angle: { method: 'bartlett', nomp: { oversampling: 4 } },
   };

@@ -104,6 +104,7 @@ test('captures', () => {
     frame.detections.map(Object.keys),
   );
   assertShape(capture.cellSnapshots({ rangeBin: 58, dopplerBin: 8 }), 'ComplexData');
+  assertShape(capture.explainCell({ rangeBin: 58, dopplerBin: 8 }), 'CellExplanation');
   capture.free();
 });
 

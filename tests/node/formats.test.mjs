@@ -9,6 +9,7 @@ import {
   readDetectionsCsv,
   readNpy,
   readSnapshotsCsv,
+  subFrameConfig,
   waveformSummary,
   writeDetectionsCsv,
   writeNpy,
@@ -34,6 +35,27 @@ describe('configurations', () => {
     // c / 2B with B = 60 MHz/us * 256 / 5.209 Msps.
     assert.ok(Math.abs(config.summary.rangeResolutionM - 0.05083) < 1e-4);
     assert.deepEqual(waveformSummary(config.waveform), config.summary);
+  });
+
+  test('of advanced frames have sub-frames, one of which is chosen', () => {
+    assert.deepEqual([parseConfig(cfg).subFrames, parseConfig(cfg).subFrame], [1, 0]);
+    const advanced = cfg
+      .toString()
+      .replace('dfeDataOutputMode 1', 'dfeDataOutputMode 3')
+      .replace(
+        /frameCfg .*/,
+        'advFrameCfg 2 0 0 1 0\nsubFrameCfg 0 0 0 2 16 0 0 1 1 40\nsubFrameCfg 1 0 2 2 8 0 0 1 1 20',
+      )
+      .concat('\nchirpCfg 2 3 0 0 0 0 0 3\nbpmCfg 1 1 2 3\n');
+    const first = parseConfig(advanced);
+    const second = parseConfig(subFrameConfig(advanced, 1));
+    assert.deepEqual([first.subFrames, first.subFrame, first.waveform.loops], [2, 0, 16]);
+    assert.deepEqual([second.subFrames, second.subFrame, second.waveform.loops], [2, 1, 8]);
+    assert.deepEqual([first.waveform.multiplexing, second.waveform.multiplexing], [undefined, 'binary-phase']);
+    assert.equal(first.frameBytes, (16 + 8) * 2 * 4 * 256 * 4);
+    assert.equal(second.frameBytes, first.frameBytes);
+    throwsTyped(() => subFrameConfig(advanced, 2), 'out-of-range', 'sub-frame');
+    throwsTyped(() => subFrameConfig(advanced, 0.5), 'wrong-type', 'subFrame');
   });
 
   test('that cannot be say where', () => {
@@ -130,6 +152,12 @@ describe('tables', () => {
     snrDb: 25,
     rangeBin: 58,
     dopplerBin: 8,
+    dopplerFold: -1,
+    foldProbability: 0.995,
+    // Where range and angles put it.
+    xM: 2.95 * Math.cos((10.8 * Math.PI) / 180),
+    yM: -2.95 * Math.sin((10.8 * Math.PI) / 180),
+    zM: 0,
   };
 
   test('of detections keep every number', () => {

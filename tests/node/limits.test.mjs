@@ -1,7 +1,7 @@
 // What one call may take: known before it starts, refused above a limit that can be raised.
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
-import { Estimator, estimate, init, setLimits, simulateSnapshots, version } from 'boresight';
+import { countSources, Estimator, estimate, init, setLimits, simulateSnapshots, version } from 'boresight';
 import { createPool } from 'boresight/worker';
 import { operationsOf, requests } from '../../bench/extremes.mjs';
 import glue from '../../dist/wasm/boresight.js';
@@ -45,7 +45,10 @@ describe('limits of a call', () => {
       'too-large',
       'the estimates',
     );
+    const wide = { data: new Float64Array(2 * 40).fill(1), shape: [40, 1] };
+    throwsTyped(() => countSources({ snapshots: wide }), 'too-large', 'the count of sources');
     setLimits({ operations: 1e7 });
+    assert.equal(countSources({ snapshots: wide }).eigenvalues.length, 40);
     assert.equal(estimate(input, options).method, 'iaa');
     const many = { array: 'ula10', targets: [{ azimuthDeg: 1 }], scenes: 10, snapshots: 1000, seed: 1 };
     setLimits({ bytes: 1e5 });

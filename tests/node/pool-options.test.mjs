@@ -116,6 +116,16 @@ describe('modules and workers that are given', () => {
       assert.throws(() => createPool(given), BoresightError);
   });
 
+  test('slips are told: names that are no options, numbers for objects', async () => {
+    throwsTyped(() => createPool({ worker_s: 1 }), 'unknown-option', 'options.worker_s');
+    throwsTyped(() => createPool({ limits: 5 }), 'wrong-type', 'limits');
+    const pool = createPool({ workers: 1 });
+    await rejectsTyped(pool.estimate(inputs[0], options, { onprogress: () => {} }), 'unknown-option', 'job.onprogress');
+    await rejectsTyped(pool.estimateMany(inputs, options, { abort: 1 }), 'unknown-option', 'job.abort');
+    pool.terminate();
+    throwsTyped(() => createPool({ limits: { seconds: 1 } }), 'unknown-option', 'limits.seconds');
+  });
+
   test('the module of networks is there once boresight/neural is imported, or where it is given', () => {
     const program = fileURLToPath(new URL('lib/register-networks.mjs', import.meta.url));
     const said = execFileSync(process.execPath, [program], { encoding: 'utf8' });

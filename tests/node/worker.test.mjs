@@ -176,6 +176,7 @@ describe('a pool of worker threads', () => {
     assert.deepEqual(await kept.frameCells(2), here.frameCells(2));
     for (const one of [cell, { ...cell, frame: 5 }]) {
       assert.deepEqual(await kept.cellSnapshots(one), here.cellSnapshots(one));
+      assert.deepEqual(await kept.explainCell(one), here.explainCell(one));
       assert.deepEqual(await kept.cellSpectrum(one, angle), here.cellSpectrum(one, angle));
     }
     for (const frame of [8, -1, 0.5]) {

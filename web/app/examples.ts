@@ -70,6 +70,11 @@ export const INTRODUCTIONS: Readonly<Record<Page, { about: string; examples: rea
         params: 'frame=all&methods=bartlett,capon,iaa&clutter=1',
       },
       {
+        title: 'Azimuth and elevation',
+        about: 'A street simulated before an AWR1843, whose elements span an area: detections as points in space.',
+        params: 'source=simulated&frame=0&methods=bartlett,iaa&points=space&pointColour=height',
+      },
+      {
         title: 'Regions by networks',
         about: 'A network counts the targets of each region along range, and another tells their angles.',
         params: 'frame=0&methods=bartlett,iaa&regions=1&regionsBy=dnn',

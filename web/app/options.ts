@@ -3,6 +3,7 @@ import type {
   ArrayCalibrationOptions,
   CalibrationOptions,
   DetectionOptions,
+  ReadingOptions,
   RegionChainOptions,
   SharedEstimatorOptions,
   SimulateDriveOptions,
@@ -15,6 +16,7 @@ interface Records {
   ArrayCalibrationOptions: ArrayCalibrationOptions;
   CalibrationOptions: CalibrationOptions;
   DetectionOptions: DetectionOptions;
+  ReadingOptions: ReadingOptions;
   RegionChainOptions: RegionChainOptions;
   SharedEstimatorOptions: SharedEstimatorOptions;
   SimulateDriveOptions: SimulateDriveOptions;

@@ -17,6 +17,8 @@ export function pointsOf({ objects }: BoardFrame): PointCloud {
   return {
     rangeM: objects.map(({ rangeM }) => rangeM),
     azimuthDeg: objects.map(({ azimuthDeg }) => azimuthDeg),
+    // Boards that see no elevation send zeros.
+    elevationDeg: objects.some(({ zM }) => zM !== 0) ? objects.map(({ elevationDeg }) => elevationDeg) : null,
     rangeRateMps: objects.some(({ rateMps }) => rateMps === null) ? null : objects.map(({ rateMps }) => rateMps ?? 0),
   };
 }

@@ -16,6 +16,8 @@ export interface PointCloud {
   rangeM?: ArrayLike<number> | null;
   /** In the radar's frame, positive to the left. */
   azimuthDeg: ArrayLike<number>;
+  /** Positive upwards; all at 0 where it is not given. */
+  elevationDeg?: ArrayLike<number> | null;
   rangeRateMps?: ArrayLike<number> | null;
   rcsDbsm?: ArrayLike<number> | null;
   /** From 0, moving, to 1, static. */
@@ -85,11 +87,15 @@ export class PointCloudElement extends PlotElement {
   protected override draw(): Drawing | null {
     const cloud = this.#points;
     if (!cloud) return null;
-    const { rangeM, azimuthDeg, rangeRateMps, rcsDbsm, weights = null, moving = null } = cloud;
+    const { rangeM, azimuthDeg, elevationDeg, rangeRateMps, rcsDbsm, weights = null, moving = null } = cloud;
     const count = azimuthDeg.length;
-    const [left, ahead] = [new Float64Array(count), new Float64Array(count)];
+    const [left, ahead, up] = [new Float64Array(count), new Float64Array(count), new Float64Array(count)];
     for (let i = 0; i < count; i++) {
-      const [x, y] = inCar(this.#mounting, rangeM?.[i] ?? Number.NaN, azimuthDeg[i] as number);
+      const steep = ((elevationDeg?.[i] ?? 0) * Math.PI) / 180;
+      const range = rangeM?.[i] ?? Number.NaN;
+      // From above a detection is as far as its shadow.
+      const [x, y] = inCar(this.#mounting, range * Math.cos(steep), azimuthDeg[i] as number);
+      up[i] = range * Math.sin(steep);
       [ahead[i], left[i]] = [x, y];
       widen(this.#seen.left, y);
       widen(this.#seen.ahead, x);
@@ -115,6 +121,7 @@ export class PointCloudElement extends PlotElement {
         return [
           `Detection ${i + 1}: ahead ${signed(ahead[i] as number, 1)} m`,
           `left ${signed(left[i] as number, 1)} m`,
+          ...(elevationDeg ? [`up ${signed(up[i] as number, 2)} m`] : []),
           `range ${fixed(rangeM?.[i] ?? Number.NaN, 1)} m`,
           ...(rate === undefined ? [] : [`rate ${signed(rate, 2)} m/s`]),
           ...(rcs !== undefined && Number.isFinite(rcs) ? [`RCS ${signed(rcs, 1)} dBsm`] : []),
@@ -122,8 +129,19 @@ export class PointCloudElement extends PlotElement {
       },
       csv: () =>
         toCsv(
-          ['x_m', 'y_m', 'range_m', 'azimuth_deg', 'rcs_dbsm', 'weight'],
-          Array.from(azimuthDeg, (azimuth, i) => [ahead[i], left[i], rangeM?.[i], azimuth, rcsDbsm?.[i], weights?.[i]]),
+          [
+            'x_m',
+            'y_m',
+            'range_m',
+            'azimuth_deg',
+            'rcs_dbsm',
+            'weight',
+            ...(elevationDeg ? ['z_m', 'elevation_deg'] : []),
+          ],
+          Array.from(azimuthDeg, (azimuth, i) => [
+            ...[ahead[i], left[i], rangeM?.[i], azimuth, rcsDbsm?.[i], weights?.[i]],
+            ...(elevationDeg ? [up[i], elevationDeg[i]] : []),
+          ]),
         ),
     };
   }

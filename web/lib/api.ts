@@ -8,7 +8,7 @@ export {
   tiCompensation,
 } from './array-calibration/array-calibration.js';
 export { Calibration, calibrationMethods, mergeCalibrations } from './calibrate/calibrate.js';
-export { Capture, frameCells, processCube } from './capture/capture.js';
+export { Capture, frameCells, joinCascade, processCube } from './capture/capture.js';
 export { strongestRegion } from './capture/region.js';
 export { calibrateDrive, calibrationReport, frameVerdicts, jointCalibration } from './drive/calibration.js';
 export { driveScenarios, initDrivesSync, readDrive, simulateDrive } from './drive/drive.js';
@@ -18,7 +18,7 @@ export { relativeTrajectoryError, trajectory } from './drive/trajectory.js';
 export { Estimator, estimate, methods, unsuited } from './estimate/estimate.js';
 export { countSources, cramerRaoBound } from './estimate/theory.js';
 export { BoardLogStream, parseBoardLog } from './formats/board.js';
-export { parseConfig } from './formats/config.js';
+export { parseConfig, subFrameConfig } from './formats/config.js';
 export { readDetectionsCsv, readSnapshotsCsv, writeDetectionsCsv, writeSnapshotsCsv } from './formats/csv.js';
 export { listArrays, readArray } from './formats/hdf5.js';
 export { readNpy, writeNpy } from './formats/npy.js';

@@ -6,6 +6,11 @@ import type { LegendEntry } from './types.ts';
 /** Of what is on the screen: pictures are printed and projected. */
 const SCALE = 2;
 
+/** What of a plot a picture takes; the 3-D view has it too. */
+export type Pictured = Pick<Plot, 'ratio' | 'theme' | 'palette' | 'sizeAt'> & {
+  drawAgain(scale: number): HTMLCanvasElement;
+};
+
 export interface Picture {
   heading: string;
   legend: readonly LegendEntry[];
@@ -72,7 +77,7 @@ interface Layout {
   top: number;
 }
 
-function layout(plot: Plot, { heading, legend, caption }: Picture): Layout {
+function layout(plot: Pictured, { heading, legend, caption }: Picture): Layout {
   const ratio = plot.ratio * SCALE;
   const { width, height: plotHeight } = plot.sizeAt(SCALE);
   const { theme: themeName, palette: theme } = plot;
@@ -122,13 +127,13 @@ function layout(plot: Plot, { heading, legend, caption }: Picture): Layout {
   };
 }
 
-function background(ctx: CanvasRenderingContext2D, plot: Plot, { width, height }: Layout): void {
+function background(ctx: CanvasRenderingContext2D, plot: Pictured, { width, height }: Layout): void {
   ctx.fillStyle = plot.palette.background;
   ctx.fillRect(0, 0, width, height);
 }
 
 /** At twice the screen's resolution. */
-export function png(plot: Plot, what: Picture): Promise<Blob> {
+export function png(plot: Pictured, what: Picture): Promise<Blob> {
   const placed = layout(plot, what);
   const ctx = context(placed.width, placed.height);
   background(ctx, plot, placed);

@@ -118,11 +118,12 @@ export class Pool {
   async captureRegions(
     networks: lib.RegionNetworkIds,
     bytes: lib.BytesInput,
-    config: lib.TextInput,
+    given: lib.ConfigInput,
     options?: lib.CaptureRegionOptions,
     job: JobOptions = {},
   ): Promise<lib.RegionFrame[]> {
     const network = idsOf(networks);
+    const config = await this.#settled(bytes, given, job);
     const pieces = (await this.#stretches(bytes, config, job)).map(
       ({ part, first, count }): Piece<'regionStretch'> => ({
         name: 'regionStretch',
@@ -152,7 +153,7 @@ export class Pool {
    * Keeps a capture, so that jobs on it need not bring its bytes. They are not copied here: they must stay as they are
    * until the capture is freed.
    */
-  async loadCapture(bytes: lib.BytesInput, config: lib.TextInput, job?: JobOptions): Promise<PoolCapture> {
+  async loadCapture(bytes: lib.BytesInput, config: lib.ConfigInput, job?: JobOptions): Promise<PoolCapture> {
     const own = bytes instanceof ArrayBuffer ? new Uint8Array(bytes) : bytes;
     if (!(own instanceof Uint8Array)) throw wrong('capture', 'a Uint8Array or an ArrayBuffer', own);
     const id = this.#crew.addCapture({ bytes: own });
@@ -160,7 +161,7 @@ export class Pool {
     try {
       const run: OnKept = (name, args, options) => this.#one(name, args, options, { capture: id });
       const info = await run('captureInfo', [{ capture: id }, config], { ...job, transfer: false });
-      return new PoolCapture(this, { id, bytes: own, config, info }, { run, forget });
+      return new PoolCapture(this, { id, bytes: own, config: settled(config, info), info }, { run, forget });
     } catch (thrown) {
       forget();
       throw thrown;
@@ -168,17 +169,18 @@ export class Pool {
   }
 
   /** What is known of a capture before any processing. */
-  captureInfo(bytes: lib.BytesInput, config: lib.TextInput, job?: JobOptions): Promise<lib.CaptureInfo> {
+  captureInfo(bytes: lib.BytesInput, config: lib.ConfigInput, job?: JobOptions): Promise<lib.CaptureInfo> {
     return this.#one('captureInfo', [bytes, config], job);
   }
 
   /** Detections of every frame, each by itself, split over the workers; progress counts frames. */
   async processFrames(
     bytes: lib.BytesInput,
-    config: lib.TextInput,
+    given: lib.ConfigInput,
     options?: lib.ChainOptions,
     job: JobOptions = {},
   ): Promise<lib.FrameResult[]> {
+    const config = await this.#settled(bytes, given, job);
     const pieces = (await this.#stretches(bytes, config, job)).map(
       ({ part, first, count }): Piece<'processStretch'> => ({
         name: 'processStretch',
@@ -193,7 +195,7 @@ export class Pool {
   /** Detections of all frames, or of some, together. */
   combineFrames(
     bytes: lib.BytesInput,
-    config: lib.TextInput,
+    config: lib.ConfigInput,
     options?: lib.CombineOptions,
     job?: JobOptions,
   ): Promise<lib.FrameResult> {
@@ -375,10 +377,17 @@ export class Pool {
     this.#crew.terminate();
   }
 
+  /** What a part of a capture is read by: what the whole of it tells. */
+  async #settled(bytes: lib.BytesInput, config: lib.ConfigInput, job: JobOptions): Promise<lib.ConfigInput> {
+    if (!asksData(config)) return config;
+    const { signal } = checkedJob(job);
+    return settled(config, await this.captureInfo(bytes, config, { transfer: false, ...(signal && { signal }) }));
+  }
+
   /** The frames of a capture in stretches, one a worker. */
   async #stretches(
     bytes: lib.BytesInput,
-    config: lib.TextInput,
+    config: lib.ConfigInput,
     job: JobOptions,
   ): Promise<{ part: Uint8Array; first: number; count: number }[]> {
     const { signal } = checkedJob(job);
@@ -403,6 +412,15 @@ export class Pool {
     const [result] = await this.#crew.run([{ name, args, units: 1, network, ...kept }], job);
     return result as ReturnType<Operations[N]>;
   }
+}
+
+/** Whether the order of I and Q is to be found in the samples. */
+const asksData = (config: lib.ConfigInput): config is lib.ReadingConfig =>
+  typeof config === 'object' && config !== null && 'iqOrder' in config && config.iqOrder === 'auto';
+
+/** A configuration with the order of I and Q that was found. */
+function settled(config: lib.ConfigInput, info: lib.CaptureInfo): lib.ConfigInput {
+  return asksData(config) ? { ...config, iqOrder: info.config.iqOrder } : config;
 }
 
 /** Says how far a job is. */

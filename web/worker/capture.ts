@@ -7,7 +7,9 @@ import type { JobOptions } from './job.js';
 import type { AllPromised } from './promised.js';
 import type { OperationName, Operations } from './protocol.js';
 
-type Functions = AllPromised<Pick<Capture, 'processFrame' | 'frameCells' | 'cellSnapshots' | 'cellSpectrum'>>;
+type Functions = AllPromised<
+  Pick<Capture, 'processFrame' | 'frameCells' | 'cellSnapshots' | 'explainCell' | 'cellSpectrum'>
+>;
 
 /** Runs an operation whose first argument is the kept capture. */
 export type OnKept = <N extends OperationName>(
@@ -26,14 +28,14 @@ export class PoolCapture implements Functions {
   readonly #pool: Pool;
   readonly #id: string;
   readonly #bytes: Uint8Array;
-  readonly #config: lib.TextInput;
+  readonly #config: lib.ConfigInput;
   readonly #run: OnKept;
   readonly #forget: () => void;
 
   /** @internal */
   constructor(
     pool: Pool,
-    kept: { id: string; bytes: Uint8Array; config: lib.TextInput; info: lib.CaptureInfo },
+    kept: { id: string; bytes: Uint8Array; config: lib.ConfigInput; info: lib.CaptureInfo },
     work: { run: OnKept; forget: () => void },
   ) {
     this.#pool = pool;
@@ -105,6 +107,14 @@ export class PoolCapture implements Functions {
     return part
       ? this.#pool.cellSnapshots(part, this.#config, { ...cell, frame: 0 }, options, kept(job))
       : this.#run('cellSnapshots', [this.#kept, this.#config, cell, options], kept(job));
+  }
+
+  /** Why a cell is a detection or none: its power, noise and threshold, and what became of it. */
+  explainCell(cell: lib.Cell, options?: lib.ChainOptions, job?: JobOptions): Promise<lib.CellExplanation> {
+    const part = this.#frame(cell?.frame);
+    return part
+      ? this.#pool.explainCell(part, this.#config, { ...cell, frame: 0 }, options, kept(job))
+      : this.#run('explainCell', [this.#kept, this.#config, cell, options], kept(job));
   }
 
   /** Angles and spectrum of a cell by any method. */

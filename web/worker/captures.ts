@@ -2,7 +2,7 @@
 import { Capture } from '../lib/capture/capture.js';
 import { failure } from '../lib/runtime/errors.js';
 import { core } from '../lib/runtime/instance.js';
-import type { BytesInput, CaptureFile, TextInput } from '../lib/types.js';
+import type { BytesInput, CaptureFile, ConfigInput } from '../lib/types.js';
 
 /** Bytes that come with a job, or the id of a capture that the pool keeps. */
 export type CaptureSource = BytesInput | { capture: string };
@@ -42,7 +42,7 @@ export function bytesOf(source: CaptureSource): BytesInput {
 }
 
 /** Runs `work` with a capture: a kept one is opened once, and once more after a trap; any other is freed. */
-export function withCapture<T>(source: CaptureSource, config: TextInput, work: (capture: Capture) => T): T {
+export function withCapture<T>(source: CaptureSource, config: ConfigInput, work: (capture: Capture) => T): T {
   const id = keptId(source);
   if (id !== undefined) {
     let one = opened.get(id);

@@ -13,7 +13,11 @@ export interface JobOptions {
 
 /** A copy of a job's options, checked; none of them where there are no options. */
 export function checkedJob(job: unknown): JobOptions {
-  const { signal, onProgress, transfer } = own<JobOptions>(job ?? undefined, 'job');
+  const { signal, onProgress, transfer } = own<JobOptions>(job ?? undefined, 'job', [
+    'signal',
+    'onProgress',
+    'transfer',
+  ]);
   if (signal != null && !(signal instanceof AbortSignal)) throw wrong('job.signal', 'an AbortSignal', signal);
   if (onProgress != null && typeof onProgress !== 'function') throw wrong('job.onProgress', 'a function', onProgress);
   if (transfer != null && typeof transfer !== 'boolean') throw wrong('job.transfer', 'true or false', transfer);

@@ -60,10 +60,7 @@ export function loadersOf(
   packaged: () => PoolModules,
   fetched: (address: URL) => Promise<WebAssembly.Module>,
 ): Loaders {
-  const sources = own(given, 'modules') as PoolModules;
-  for (const name of Object.keys(sources))
-    if (!NAMES.includes(name as ModuleName))
-      throw failure('unknown-option', { what: `modules.${name}`, expected: NAMES.join(', '), given: 'another name' });
+  const sources = own(given, 'modules', NAMES) as PoolModules;
   const loaders = NAMES.map((name) => {
     const source = sources[name];
     const compile = async (): Promise<WebAssembly.Module> => {

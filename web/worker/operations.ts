@@ -12,9 +12,11 @@ import type {
   CaptureInfo,
   CaptureRegionOptions,
   Cell,
+  CellExplanation,
   ChainOptions,
   CombineOptions,
   ComplexData,
+  ConfigInput,
   CubeCalibrationOptions,
   CubeChainOptions,
   CubeRegionOptions,
@@ -34,7 +36,6 @@ import type {
   SimulatedDrive,
   SourceProbabilities,
   Tensor,
-  TextInput,
 } from '../lib/api.js';
 import * as api from '../lib/api.js';
 import type { Network } from '../lib/neural/network.js';
@@ -121,7 +122,7 @@ function estimateBatch(input: BatchInput, options: EstimatorOptions & BatchOptio
   return kept.estimator.estimateBatch(input, kind);
 }
 
-function captureInfo(source: CaptureSource, config: TextInput): CaptureInfo {
+function captureInfo(source: CaptureSource, config: ConfigInput): CaptureInfo {
   return withCapture(source, config, ({ info }) => info);
 }
 
@@ -134,7 +135,7 @@ function frameCells(cube: ComplexData, options: CubeChainOptions): FrameCells {
   return api.frameCells(cube, withoutNetwork(options));
 }
 
-function processFrame(source: CaptureSource, config: TextInput, frame: number, options?: ChainOptions): FrameResult {
+function processFrame(source: CaptureSource, config: ConfigInput, frame: number, options?: ChainOptions): FrameResult {
   const id = networkOf(options?.angle);
   if (id === undefined) return withCapture(source, config, (capture) => capture.processFrame(frame, options));
   return networkWith(id).processFrames(bytesOf(source), config, options, frame)[0] as FrameResult;
@@ -149,7 +150,7 @@ function cubeRegions(networks: RegionNetworkIds, cube: ComplexData, options: Cub
 function regionStretch(
   networks: RegionNetworkIds,
   bytes: BytesInput,
-  config: TextInput,
+  config: ConfigInput,
   first: number,
   options?: CaptureRegionOptions,
 ): RegionFrame[] {
@@ -165,7 +166,7 @@ function networksOf(ids: RegionNetworkIds): { counting: Network; one: Network; t
 }
 
 /** Every frame of a stretch of a capture that begins with frame `first`. */
-function processStretch(bytes: BytesInput, config: TextInput, first: number, options?: ChainOptions): FrameResult[] {
+function processStretch(bytes: BytesInput, config: ConfigInput, first: number, options?: ChainOptions): FrameResult[] {
   const id = networkOf(options?.angle);
   const results =
     id !== undefined
@@ -177,7 +178,12 @@ function processStretch(bytes: BytesInput, config: TextInput, first: number, opt
   return results;
 }
 
-function combineFrames(this: Context, source: CaptureSource, config: TextInput, options?: CombineOptions): FrameResult {
+function combineFrames(
+  this: Context,
+  source: CaptureSource,
+  config: ConfigInput,
+  options?: CombineOptions,
+): FrameResult {
   const report = (done: number, total: number): boolean => this.report(done, total);
   const id = networkOf(options?.angle);
   if (id !== undefined) return networkWith(id).combineFrames(bytesOf(source), config, options, report);
@@ -187,7 +193,7 @@ function combineFrames(this: Context, source: CaptureSource, config: TextInput, 
 function captureCalibration(
   this: Context,
   source: CaptureSource,
-  config: TextInput,
+  config: ConfigInput,
   options?: CaptureCalibrationOptions,
 ): ArrayCalibrationResult {
   const report = (done: number, total: number): boolean => this.report(done, total);
@@ -198,17 +204,21 @@ function calibrateCubeArray(this: Context, cube: ComplexData, options: CubeCalib
   return api.calibrateCubeArray(cube, options, (done, total) => this.report(done, total));
 }
 
-function cellSnapshots(source: CaptureSource, config: TextInput, cell: Cell, options?: ChainOptions): ComplexData {
+function cellSnapshots(source: CaptureSource, config: ConfigInput, cell: Cell, options?: ChainOptions): ComplexData {
   return withCapture(source, config, (capture) => capture.cellSnapshots(cell, withoutNetwork(options)));
 }
 
-function captureCells(source: CaptureSource, config: TextInput, frame: number, options?: ChainOptions): FrameCells {
+function explainCell(source: CaptureSource, config: ConfigInput, cell: Cell, options?: ChainOptions): CellExplanation {
+  return withCapture(source, config, (capture) => capture.explainCell(cell, withoutNetwork(options)));
+}
+
+function captureCells(source: CaptureSource, config: ConfigInput, frame: number, options?: ChainOptions): FrameCells {
   return withCapture(source, config, (capture) => capture.frameCells(frame, withoutNetwork(options)));
 }
 
 function cellSpectrum(
   source: CaptureSource,
-  config: TextInput,
+  config: ConfigInput,
   cell: Cell,
   angle?: AngleOptions,
   options?: ChainOptions,
@@ -279,6 +289,8 @@ export const operations = {
   waveformPreset: api.waveformPreset,
   waveformSummary: api.waveformSummary,
   parseConfig: api.parseConfig,
+  joinCascade: api.joinCascade,
+  subFrameConfig: api.subFrameConfig,
   captureInfo,
   processFrame,
   processStretch,
@@ -293,6 +305,7 @@ export const operations = {
   tiCompensation: api.tiCompensation,
   cellSnapshots,
   cellSpectrum,
+  explainCell,
   captureCells,
   streetScene: api.streetScene,
   simulateStreet: api.simulateStreet,

@@ -34,13 +34,18 @@ export interface PoolOptions {
 
 /** A copy of options, checked as far as they are read before a job. */
 export function checkedOptions(options: PoolOptions | undefined): PoolOptions {
-  const { workers, worker, modules, limits } = own(options, 'options') as PoolOptions;
+  const { workers, worker, modules, limits } = own(options, 'options', [
+    'workers',
+    'worker',
+    'modules',
+    'limits',
+  ]) as PoolOptions;
   const isSource = typeof worker === 'string' || typeof worker === 'function' || worker instanceof URL;
   if (worker != null && !isSource) throw wrong('worker', 'an address, or a function that starts a worker', worker);
   return reading('options', () => ({
     ...(workers !== undefined && { workers }),
     ...(worker != null && { worker }),
     ...(modules != null && { modules }),
-    ...(limits != null && { limits: { ...limits } }),
+    ...(limits != null && { limits: own(limits, 'limits', ['operations', 'bytes']) as Limits }),
   }));
 }

@@ -18,7 +18,7 @@ import type * as waveform from '../lib/radar/waveform.js';
 import type * as version from '../lib/runtime/version.js';
 import type * as simulate from '../lib/simulate/simulate.js';
 import type * as street from '../lib/simulate/street.js';
-import type { BytesInput, TextInput } from '../lib/types.js';
+import type { BytesInput, ConfigInput } from '../lib/types.js';
 import type { JobOptions } from './job.js';
 
 // biome-ignore lint/suspicious/noExplicitAny: functions of any arguments
@@ -34,11 +34,13 @@ export type AllPromised<T> = { [K in keyof T]: Promised<T[K]> };
 
 /** A method of a capture as a function of the capture's bytes and configuration. */
 type OfCapture<F> = F extends AnyFunction
-  ? (bytes: BytesInput, config: TextInput, ...args: Parameters<F>) => ReturnType<F>
+  ? (bytes: BytesInput, config: ConfigInput, ...args: Parameters<F>) => ReturnType<F>
   : never;
 
 type OfCaptures<T> = { [K in keyof T]: OfCapture<T[K]> };
-type CaptureFunctions = OfCaptures<Pick<capture.Capture, 'processFrame' | 'cellSnapshots' | 'cellSpectrum'>> & {
+type CaptureFunctions = OfCaptures<
+  Pick<capture.Capture, 'processFrame' | 'cellSnapshots' | 'explainCell' | 'cellSpectrum'>
+> & {
   /** Detected cells of one frame of a capture. */
   captureCells: OfCapture<capture.Capture['frameCells']>;
 };
@@ -86,6 +88,7 @@ export const argumentCounts = {
   processCube: 2,
   processFrame: 4,
   cellSnapshots: 4,
+  explainCell: 4,
   cellSpectrum: 5,
   captureCells: 4,
   readDrive: 2,
@@ -95,7 +98,9 @@ export const argumentCounts = {
   waveformPresets: 0,
   waveformPreset: 1,
   waveformSummary: 1,
+  joinCascade: 2,
   parseConfig: 1,
+  subFrameConfig: 2,
   parseBoardLog: 2,
   readArray: 2,
   listArrays: 1,

@@ -52,6 +52,10 @@ pub(crate) fn check_sources(
 
 /// A warning where the field of view is wider than the sector without grating lobes.
 pub(crate) fn ambiguity(array: &Array, options: &EstimatorOptions) -> Option<Warning> {
+    if let Some(sine) = array.unambiguous_elevation_sine() {
+        return (sine < options.elevation_field_of_view_rad.sin() - 1e-9)
+            .then(|| Warning::AmbiguousElevation { unambiguous_rad: sine.asin() });
+    }
     let sine = unambiguous_sine(&array.lattice()?);
     (sine < options.field_of_view_rad.sin() - 1e-9)
         .then(|| Warning::Ambiguous { unambiguous_rad: sine.asin() })

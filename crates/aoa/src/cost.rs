@@ -82,6 +82,12 @@ impl Cost {
     }
 }
 
+/// Operations of the eigenvalues of a covariance of so many elements and snapshots.
+pub(crate) fn eigenvalues(elements: usize, snapshots: usize) -> f64 {
+    let k = elements as f64;
+    EIGEN * k.powi(3) + k * k * snapshots as f64
+}
+
 /// How large a problem is.
 struct Size {
     elements: f64,

@@ -1,10 +1,12 @@
 //! Counting sources by information criteria on the eigenvalues of the covariance (Wax and Kailath
 //! 1985).
 
+use crate::cost;
 use crate::data::Data;
 use crate::error::AoaError;
-use crate::options::SourceCount;
-use boresight_core::describe::Described;
+use crate::options::{EstimatorOptions, SourceCount, mismatch_of};
+use boresight_core::describe::{self, Described, Naming};
+use boresight_core::limits::check_operations;
 use boresight_core::linalg::hermitian_eigen;
 use boresight_signal::{forward_backward, sample_covariance};
 use serde::{Deserialize, Serialize};
@@ -21,13 +23,17 @@ pub enum Criterion {
 }
 
 /// How sources are counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CountOptions {
     /// The penalty on the number of sources.
     pub criterion: Criterion,
     /// Average the covariance with its reversal, for evenly spaced arrays.
     pub forward_backward: bool,
+    /// Power of the array's unknown error over that of each source: further eigenvalues that it explains are no
+    /// sources. None if absent.
+    #[option(range = -100..=0)]
+    pub mismatch_db: Option<f64>,
 }
 
 /// What the eigenvalues come from.
@@ -46,7 +52,7 @@ pub struct CountSizes {
 /// Outcome of a count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Count {
-    /// Number of sources: where `values` is smallest.
+    /// Number of sources: where `values` is smallest, or fewer where an array error explains the rest.
     pub sources: usize,
     /// The criterion for 0, 1, 2, ... sources.
     pub values: Vec<f64>,
@@ -90,16 +96,44 @@ pub fn count_sources(eigenvalues: &[f64], sizes: CountSizes, criterion: Criterio
     Count { sources, values }
 }
 
-/// Eigenvalues of the covariance of `data`, largest first, and what `criterion` makes of them.
+/// Most sources that an array error of power `mismatch` over that of each source leaves: no eigenvalue (largest first)
+/// counts as a source that is no more over the smallest one than the error of those before it.
+///
+/// The error of one source alone keeps the covariance of rank one. What averages copies of it that the error changes
+/// differently gives it further eigenvalues: averaging with the reversal, smoothing, channels that drift. Their sum is at
+/// most `mismatch` times the source's own eigenvalue.
+pub fn most_by_mismatch(eigenvalues: &[f64], mismatch: f64) -> usize {
+    let Some(smallest) = eigenvalues.last().map(|last| last.max(0.0)) else { return 0 };
+    let mut before = 0.0;
+    let explained = |&eigenvalue: &f64| {
+        let is_explained = before > 0.0 && eigenvalue - smallest <= mismatch * before;
+        before += eigenvalue.max(0.0);
+        is_explained
+    };
+    if mismatch > 0.0 {
+        eigenvalues.iter().position(explained).unwrap_or(eigenvalues.len())
+    } else {
+        eigenvalues.len()
+    }
+}
+
+/// Eigenvalues of the covariance of `data`, largest first, and what the criterion makes of them.
 /// Averaging with the reversal is for arrays that are evenly spaced.
 ///
 /// # Errors
-/// As [`Data::check`].
+/// As [`Data::check`]; [`boresight_core::CoreError::OutOfRange`] for an option out of range;
+/// [`boresight_core::CoreError::TooLarge`] for what takes more than the limits of this thread.
 pub fn count_sources_in(
     data: Data<'_>,
-    average_reversed: bool,
-    criterion: Criterion,
+    options: &CountOptions,
 ) -> Result<(Vec<f64>, Count), AoaError> {
+    describe::check(options, Naming::Rust)?;
+    let CountOptions { criterion, forward_backward: average_reversed, mismatch_db } = *options;
+    let elements = match data {
+        Data::Snapshots(y) => y.nrows(),
+        Data::Covariance { matrix, .. } => matrix.nrows(),
+    };
+    check_operations("the count of sources", cost::eigenvalues(elements, data.snapshots()))?;
     let mut covariance = match data {
         Data::Snapshots(y) => {
             data.check(y.nrows())?;
@@ -115,24 +149,44 @@ pub fn count_sources_in(
     }
     let eigenvalues = hermitian_eigen(covariance.view())?.values.to_vec();
     let sizes = CountSizes { vectors: data.snapshots(), forward_backward: average_reversed };
-    let count = count_sources(&eigenvalues, sizes, criterion);
+    let mut count = count_sources(&eigenvalues, sizes, criterion);
+    count.sources = count.sources.min(most_by_mismatch(&eigenvalues, mismatch_of(mismatch_db)));
     Ok((eigenvalues, count))
 }
 
-/// The number of sources `wanted` means for these eigenvalues (largest first), at most `most`.
-pub(crate) fn resolve_count(
+/// How a plan comes to its number of sources.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Counting {
     wanted: SourceCount,
-    eigenvalues: &[f64],
-    sizes: CountSizes,
-    most: usize,
-) -> usize {
-    let count = |criterion| count_sources(eigenvalues, sizes, criterion).sources;
-    match wanted {
-        SourceCount::Known(sources) => sources.min(most),
-        SourceCount::Aic => count(Criterion::Aic).min(most),
-        SourceCount::Mdl => count(Criterion::Mdl).min(most),
-        // No plan is made with it.
-        SourceCount::Network => 0,
+    mismatch: f64,
+}
+
+impl Counting {
+    pub fn new(options: &EstimatorOptions) -> Self {
+        Self { wanted: options.sources, mismatch: options.mismatch() }
+    }
+
+    /// The number that is known.
+    pub fn known(self) -> Option<usize> {
+        match self.wanted {
+            SourceCount::Known(sources) => Some(sources),
+            _ => None,
+        }
+    }
+
+    /// The number for these eigenvalues (largest first), at most `most`.
+    pub fn resolve(self, eigenvalues: &[f64], sizes: CountSizes, most: usize) -> usize {
+        let count = |criterion| {
+            let count = count_sources(eigenvalues, sizes, criterion).sources;
+            count.min(most_by_mismatch(eigenvalues, self.mismatch)).min(most)
+        };
+        match self.wanted {
+            SourceCount::Known(sources) => sources.min(most),
+            SourceCount::Aic => count(Criterion::Aic),
+            SourceCount::Mdl => count(Criterion::Mdl),
+            // No plan is made with it.
+            SourceCount::Network => 0,
+        }
     }
 }
 
@@ -168,5 +222,18 @@ mod tests {
         }
         let single = CountSizes { vectors: 1, forward_backward: false };
         assert_eq!(count_sources(&[3.0, 0.0], single, Criterion::Mdl).sources, 0);
+    }
+
+    #[test]
+    fn an_array_error_explains_what_is_below_it() {
+        let most = |values: &[f64]| most_by_mismatch(values, 0.01);
+        assert_eq!(most(&[100.0, 0.9, 0.1, 0.1]), 1);
+        assert_eq!(most(&[100.0, 2.0, 0.1, 0.1]), 2);
+        assert_eq!(most(&[100.0, 90.0, 1.9, 0.1]), 2);
+        // Two of equal power, and noise: neither hides the other.
+        assert_eq!(most(&[5.0, 5.0, 1.0]), 2);
+        assert_eq!(most(&[0.0, 0.0]), 2);
+        assert_eq!(most(&[]), 0);
+        assert_eq!(most_by_mismatch(&[100.0, 0.0], 0.0), 2);
     }
 }

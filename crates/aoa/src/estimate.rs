@@ -99,6 +99,11 @@ pub enum Warning {
         /// Half width of the unambiguous sector, rad.
         unambiguous_rad: f64,
     },
+    /// Elevations beyond that the rows of the array tell apart cannot be told from ones within.
+    AmbiguousElevation {
+        /// Half width of the unambiguous sector, rad.
+        unambiguous_rad: f64,
+    },
     /// The array was cut down to the part the method can use.
     ElementsUnused {
         /// Elements left out.
@@ -119,6 +124,7 @@ impl Coded for Warning {
             Self::Loaded { .. } => "loaded",
             Self::NoSources => "no-sources",
             Self::Ambiguous { .. } => "ambiguous",
+            Self::AmbiguousElevation { .. } => "ambiguous-elevation",
             Self::ElementsUnused { .. } => "elements-unused",
             Self::OutsideTraining { .. } => "outside-training",
         }
@@ -141,6 +147,11 @@ impl std::fmt::Display for Warning {
             Self::Ambiguous { unambiguous_rad } => write!(
                 f,
                 "the array is unambiguous only within {:.1} deg of boresight",
+                unambiguous_rad.to_degrees()
+            ),
+            Self::AmbiguousElevation { unambiguous_rad } => write!(
+                f,
+                "the rows of the array tell elevations apart only within {:.1} deg of the horizon",
                 unambiguous_rad.to_degrees()
             ),
             Self::ElementsUnused { unused } => write!(f, "{unused} elements were not used"),

@@ -7,7 +7,7 @@
 
 use crate::checks::{ambiguity, check_array, check_sources, conclude};
 use crate::cosines::{Geometry, Point};
-use crate::counting::resolve_count;
+use crate::counting::Counting;
 use crate::covariance::CovariancePlan;
 use crate::data::Data;
 use crate::error::AoaError;
@@ -15,7 +15,7 @@ use crate::estimate::{Estimate, Warning};
 use crate::gauss_newton::{Limits, refine_points};
 use crate::grid::Grid;
 use crate::method::Method;
-use crate::options::{EstimatorOptions, SourceCount};
+use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::quadratic::QuadraticSpectrum;
@@ -41,7 +41,7 @@ pub(crate) struct MaximumLikelihood {
     geometry: Geometry,
     covariance: CovariancePlan,
     spectrum: QuadraticSpectrum,
-    wanted: SourceCount,
+    wanted: Counting,
     most: usize,
     limits: Limits,
     /// Largest `|sin(azimuth)|` reported: the field of view and a step of the grid.
@@ -62,7 +62,7 @@ impl MaximumLikelihood {
             geometry: Geometry::new(covariance.array()),
             spectrum: QuadraticSpectrum::new(covariance.array(), &grid),
             covariance,
-            wanted: options.sources,
+            wanted: Counting::new(options),
             most,
             limits: Limits { iterations: options.max_iterations, tolerance: options.tolerance },
             widest: options.field_of_view_rad.sin() + 2.0 / options.grid_points as f64,
@@ -188,11 +188,11 @@ fn project(
 impl Plan for MaximumLikelihood {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
         let mut prepared = self.covariance.prepare(data)?;
-        let count = match self.wanted {
-            SourceCount::Known(count) => count,
-            counted => {
+        let count = match self.wanted.known() {
+            Some(count) => count,
+            None => {
                 let values = hermitian_eigen(prepared.matrix.view())?.values;
-                resolve_count(counted, &values.to_vec(), prepared.sizes, self.most)
+                self.wanted.resolve(&values.to_vec(), prepared.sizes, self.most)
             }
         };
         let mut warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
@@ -230,6 +230,7 @@ impl Plan for MaximumLikelihood {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::options::SourceCount;
     use boresight_core::presets::preset;
     use boresight_core::steering::steering_matrix;
     use boresight_core::{Direction, Random};

@@ -2,13 +2,14 @@
 
 use crate::checks::{ambiguity, check_array, check_sources, conclude};
 use crate::counting::CountSizes;
+use crate::counting::Counting;
 use crate::covariance::Prepared;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Warning};
 use crate::method::Method;
 use crate::null_spectrum::NullSpectrum;
-use crate::options::{EstimatorOptions, SourceCount};
+use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::subspace::{noise_projector, signal_basis};
@@ -24,7 +25,7 @@ use ndarray::{Array2, ArrayView1};
 pub(crate) struct SingleSnapshotMusic {
     array: Array,
     nulls: NullSpectrum,
-    sources: SourceCount,
+    sources: Counting,
     length: usize,
     most: usize,
     forward_backward: bool,
@@ -45,7 +46,7 @@ impl SingleSnapshotMusic {
         Ok(Self {
             array: array.clone(),
             nulls: NullSpectrum::new(&array.select(&part)?, options),
-            sources: options.sources,
+            sources: Counting::new(options),
             length,
             most,
             forward_backward: options.forward_backward,

@@ -1,12 +1,12 @@
 //! The signal subspace of a covariance: what MUSIC, root-MUSIC, ESPRIT and min-norm share.
 
 use crate::checks::check_sources;
-use crate::counting::resolve_count;
+use crate::counting::Counting;
 use crate::covariance::{CovariancePlan, Prepared};
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::method::Method;
-use crate::options::{EstimatorOptions, SourceCount};
+use crate::options::EstimatorOptions;
 use boresight_core::linalg::{adjoint, leading_hermitian_eigen_by};
 use boresight_core::{Array, Complex64};
 use ndarray::Array2;
@@ -16,7 +16,7 @@ use ndarray::Array2;
 pub(crate) struct SubspacePlan {
     method: Method,
     covariance: CovariancePlan,
-    sources: SourceCount,
+    sources: Counting,
     most: usize,
 }
 
@@ -34,7 +34,7 @@ impl SubspacePlan {
         let covariance = CovariancePlan::new(method, array, options)?;
         let most = covariance.array().len() - 1;
         check_sources(method, options.sources, most)?;
-        Ok(Self { method, covariance, sources: options.sources, most })
+        Ok(Self { method, covariance, sources: Counting::new(options), most })
     }
 
     /// The elements the subspace belongs to.
@@ -58,14 +58,14 @@ impl SubspacePlan {
 pub(crate) fn signal_basis(
     method: Method,
     prepared: &Prepared,
-    sources: SourceCount,
+    sources: Counting,
     most: usize,
 ) -> Result<Array2<Complex64>, AoaError> {
     let elements = prepared.matrix.nrows();
     if prepared.power <= 0.0 {
         return Ok(Array2::zeros((elements, 0)));
     }
-    if let SourceCount::Known(given) = sources {
+    if let Some(given) = sources.known() {
         let rank = prepared.rank();
         if given > rank {
             return Err(AoaError::Snapshots {
@@ -79,7 +79,7 @@ pub(crate) fn signal_basis(
         }
     }
     let eigen = leading_hermitian_eigen_by(prepared.matrix.view(), |values| {
-        resolve_count(sources, values, prepared.sizes, most)
+        sources.resolve(values, prepared.sizes, most)
     })?;
     Ok(eigen.vectors)
 }

@@ -5,16 +5,29 @@
 
 mod support;
 
+use boresight_aoa::counting::{CountOptions, count_sources_in};
 use boresight_aoa::options::{EspritForm, IaaForm, Thresholding};
 use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::presets::preset;
-use boresight_core::{Array, Complex64, CoreError, Diagnose, Random};
+use boresight_core::{Array, Complex64, CoreError, Diagnose, Limits, Random};
 use ndarray::Array2;
 use proptest::prelude::*;
 use support::{azimuths, known, scene};
 
 fn error(method: Method, array: &Array, options: &EstimatorOptions) -> AoaError {
     Estimator::new(method, array, options).err().unwrap()
+}
+
+#[test]
+fn a_count_of_sources_knows_what_it_takes_before_it_starts() {
+    let count = |elements: usize| {
+        let noise = Array2::from_elem((elements, 3), Complex64::new(1.0, 0.0));
+        count_sources_in(Data::Snapshots(noise.view()), &CountOptions::default())
+    };
+    // Tests of this file have threads of their own.
+    Limits { operations: 1e4, ..Limits::default() }.set().unwrap();
+    assert!(count(12).is_ok());
+    assert!(matches!(count(40), Err(AoaError::Argument(CoreError::TooLarge { .. }))));
 }
 
 #[test]

@@ -83,7 +83,7 @@ pub fn check(
             given: 0,
         });
     }
-    let plan = Array::mimo(array.tx(), array.rx())?;
+    let plan = array.whole()?;
     let calibrated = plan.calibrated(calibration)?;
     let corrected =
         cells.iter().map(|cell| corrected(&calibrated, cell)).collect::<Result<Vec<_>, _>>()?;
@@ -121,7 +121,7 @@ pub fn leave_one_out(
     if cells.len() < 3 {
         return Ok(None);
     }
-    let plan = Array::mimo(array.tx(), array.rx())?;
+    let plan = array.whole()?;
     let mut all = vec![];
     for index in 0..cells.len().min(MOST_FOLDS) {
         let others: Vec<Cell> = cells

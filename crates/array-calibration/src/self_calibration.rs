@@ -23,7 +23,7 @@ const MOST_CHANNELS: usize = 256;
 /// Decibels of gain a unit of its logarithm.
 const DB_PER_LOG: f64 = 20.0 / std::f64::consts::LN_10;
 
-/// Calibrates an array from cells seen by all of its channels: `Array::mimo(array.tx(), array.rx())`.
+/// Calibrates an array from cells seen by all of its channels: `array.whole()`.
 ///
 /// Cells that are weak, that hold several targets, or that no plane wave fits under the errors all share are left out, and
 /// said. Standard deviations are the larger of the Cramer-Rao bound of noise and of what the scatter of the cells says.
@@ -38,7 +38,7 @@ pub fn calibrate(
     options: &CalibrationOptions,
 ) -> Result<CalibrationResult, ArrayCalibrationError> {
     check(options, Naming::Rust)?;
-    let plan = Array::mimo(array.tx(), array.rx())?;
+    let plan = array.whole()?;
     boresight_core::error::check_range(
         "number of channels",
         plan.len() as f64,

@@ -3,7 +3,10 @@
 
 mod common;
 
-use boresight_calibrate::{AngleEstimate, CalibrationOptions, Calibrator, FrameInput, Remark};
+use boresight_calibrate::{
+    AngleEstimate, CalibrationOptions, Calibrator, FrameInput, Method, Remark,
+};
+use boresight_core::describe::Named;
 use boresight_core::{Detection, Random};
 use common::{Drive, detection};
 use std::f64::consts::PI;
@@ -16,9 +19,20 @@ struct Changed {
 }
 
 /// The estimate from a drive whose frames were changed.
-fn estimate(drive: &Drive, mut change: impl FnMut(&mut Changed)) -> AngleEstimate {
+fn estimate(drive: &Drive, change: impl FnMut(&mut Changed)) -> AngleEstimate {
+    estimate_by(Method::default(), drive.angle_rad, drive, change)
+}
+
+/// The same by a method, from an angle that is taken for nominal.
+fn estimate_by(
+    method: Method,
+    nominal_rad: f64,
+    drive: &Drive,
+    mut change: impl FnMut(&mut Changed),
+) -> AngleEstimate {
     let options = CalibrationOptions {
-        nominal_rad: Some(drive.angle_rad),
+        method,
+        nominal_rad: Some(nominal_rad),
         x_m: drive.x_m,
         y_m: drive.y_m,
         ..CalibrationOptions::default()
@@ -136,6 +150,21 @@ fn a_speed_in_other_units_is_found_out() {
         frame.speed_mps = frame.speed_mps.map(|speed| 3.6 * speed);
     });
     assert_doubted("speed in km/h", &e, Remark::OffSpeed);
+}
+
+#[test]
+fn a_nominal_angle_that_is_turned_round_makes_no_method_sure_of_a_wrong_one() {
+    let drive = Drive::default();
+    for &method in Method::VARIANTS {
+        let e = estimate_by(method, drive.angle_rad - PI, &drive, |_| {});
+        let off = (e.angle_rad - drive.angle_rad + PI).rem_euclid(2.0 * PI) - PI;
+        println!("{method:?}: {:.2} deg off, {:?}", off.to_degrees(), e.remarks);
+        assert!(!e.converged || off.abs() < 1.0_f64.to_radians(), "{method:?}: {e:?}");
+        let told = [Remark::NotConverged, Remark::Misaligned]
+            .iter()
+            .any(|remark| e.remarks.contains(remark));
+        assert!(told, "{method:?}: {e:?}");
+    }
 }
 
 /// A convoy on a straight road: one detection in seven stands, the others drive with the car.

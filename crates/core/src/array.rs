@@ -4,6 +4,7 @@ use crate::describe::Described;
 use crate::error::{CoreError, check_finite};
 use crate::lattice::Lattice;
 use crate::response::Correction;
+use crate::steering::unambiguous_sine;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -47,6 +48,8 @@ pub struct Array {
     channels: Vec<Channel>,
     tx: Vec<Position>,
     rx: Vec<Position>,
+    inverted_tx: Vec<bool>,
+    inverted_rx: Vec<bool>,
     /// What is known of its errors.
     correction: Option<Arc<Correction>>,
 }
@@ -85,7 +88,52 @@ impl Array {
                 channels.push(Channel { tx: t, rx: r });
             }
         }
-        Ok(Self { positions, channels, tx: tx.to_vec(), rx: rx.to_vec(), correction: None })
+        Ok(Self {
+            positions,
+            channels,
+            tx: tx.to_vec(),
+            rx: rx.to_vec(),
+            inverted_tx: vec![false; tx.len()],
+            inverted_rx: vec![false; rx.len()],
+            correction: None,
+        })
+    }
+
+    /// The array with antennas that are mounted turned by half a turn, as on boards that feed some from the other
+    /// side: their raw samples have the opposite sign. Positions and steering vectors stay as they are, since whoever
+    /// reads raw samples takes the sign off ([`Array::is_inverted`]).
+    ///
+    /// # Errors
+    /// [`CoreError::Shape`] for another number of transmitters or receivers.
+    pub fn with_inverted(mut self, tx: &[bool], rx: &[bool]) -> Result<Self, CoreError> {
+        for (what, given, antennas) in [("transmitters", tx, &self.tx), ("receivers", rx, &self.rx)]
+        {
+            if given.len() != antennas.len() {
+                return Err(CoreError::Shape {
+                    what: format!("inverted {what}"),
+                    expected: format!("[{}]", antennas.len()),
+                    given: vec![given.len()],
+                });
+            }
+        }
+        (self.inverted_tx, self.inverted_rx) = (tx.to_vec(), rx.to_vec());
+        Ok(self)
+    }
+
+    /// Whether raw samples of a transmitter and a receiver have the opposite sign.
+    pub fn is_inverted(&self, channel: Channel) -> bool {
+        let of = |inverted: &[bool], index| inverted.get(index).copied().unwrap_or_default();
+        of(&self.inverted_tx, channel.tx) != of(&self.inverted_rx, channel.rx)
+    }
+
+    /// Which transmitters are mounted turned by half a turn.
+    pub fn inverted_tx(&self) -> &[bool] {
+        &self.inverted_tx
+    }
+
+    /// Which receivers are mounted turned by half a turn.
+    pub fn inverted_rx(&self) -> &[bool] {
+        &self.inverted_rx
     }
 
     /// A uniform linear array along y with half-wavelength spacing, from y = 0 upwards.
@@ -96,6 +144,15 @@ impl Array {
         let positions: Vec<Position> =
             (0..elements.min(MAX_ELEMENTS + 1)).map(|k| [0.0, k as f64, 0.0]).collect();
         Self::new(&positions)
+    }
+
+    /// All pairs of its transmitters and receivers, whichever of them it keeps, as planned: without what is known of
+    /// their errors.
+    ///
+    /// # Errors
+    /// As [`Array::new`].
+    pub fn whole(&self) -> Result<Self, CoreError> {
+        Self::mimo(&self.tx, &self.rx)?.with_inverted(&self.inverted_tx, &self.inverted_rx)
     }
 
     /// Keeps the first of the elements that share a position.
@@ -218,6 +275,16 @@ impl Array {
         }
     }
 
+    /// Largest `|sin(elevation)|` an array that spans an area sees without ambiguity, where its rows are evenly spaced:
+    /// rows a wavelength apart cannot tell a wave from 30 deg above from one 30 deg below. Nothing for other arrays.
+    pub fn unambiguous_elevation_sine(&self) -> Option<f64> {
+        if self.extent() != Extent::Area {
+            return None;
+        }
+        let heights: Vec<Position> = self.positions.iter().map(|p| [0.0, p[2], 0.0]).collect();
+        Some(unambiguous_sine(&Lattice::of(&heights)?))
+    }
+
     /// The integer grid the elements stand on, if they all lie on one line along y.
     pub fn lattice(&self) -> Option<Lattice> {
         Lattice::of(&self.positions)
@@ -278,6 +345,21 @@ mod tests {
         assert!(matches!(nan, Err(CoreError::NotFinite { index: 4, .. })));
         assert!(matches!(Array::ula(0), Err(CoreError::Empty { .. })));
         assert!(matches!(Array::ula(5000), Err(CoreError::OutOfRange { .. })));
+    }
+
+    #[test]
+    fn two_turned_antennas_cancel() {
+        let two = [[0.0; 3], [0.0, 1.0, 0.0]];
+        let array = Array::mimo(&two, &two).unwrap();
+        let turned = array.clone().with_inverted(&[false, true], &[true, false]).unwrap();
+        let signs: Vec<bool> = turned.channels().iter().map(|c| turned.is_inverted(*c)).collect();
+        assert_eq!(signs, [true, false, false, true]);
+        let distinct = turned.without_duplicates();
+        assert!(!distinct.is_inverted(distinct.channels()[1]));
+        assert_eq!(turned.positions(), array.positions());
+        assert!(turned != array);
+        let refused = array.with_inverted(&[false], &[false, false]).unwrap_err();
+        assert!(matches!(refused, CoreError::Shape { .. }), "{refused}");
     }
 
     #[test]

@@ -35,6 +35,11 @@ impl Direction {
         [cos_e * cos_a, cos_e * sin_a, sin_e]
     }
 
+    /// The place at that range, m: x forward, y left, z up.
+    pub fn place_m(self, range_m: f64) -> [f64; 3] {
+        self.unit().map(|share| range_m * share)
+    }
+
     /// Derivatives of [`Direction::unit`] by azimuth and by elevation.
     pub fn unit_derivatives(self) -> ([f64; 3], [f64; 3]) {
         let (sin_a, cos_a) = libm::sincos(self.azimuth_rad);

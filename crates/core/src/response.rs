@@ -12,28 +12,34 @@ use std::sync::Arc;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Correction {
     each: Vec<Complex64>,
-    /// The inverse of the coupling.
-    uncoupling: Option<Array2<Complex64>>,
+    /// The inverse of the coupling, and the coupling.
+    uncoupling: Option<[Array2<Complex64>; 2]>,
     range_bias_m: f64,
 }
 
 impl Correction {
     fn new(calibration: &ArrayCalibration) -> Result<Self, CoreError> {
         let each = calibration.factors().into_iter().map(|factor| factor.inv()).collect();
-        let uncoupling = calibration.coupling.as_deref().map(inverse).transpose()?;
+        let both = |rows: &[Vec<Complex64>]| Ok::<_, CoreError>([inverse(rows)?, matrix(rows)]);
+        let uncoupling = calibration.coupling.as_deref().map(both).transpose()?;
         Ok(Self { each, uncoupling, range_bias_m: calibration.range_bias_m })
     }
 
     /// Corrects the measured values of all channels, all receivers of a transmitter after each other.
     /// Values beyond the channels are left alone.
     pub fn apply(&self, channels: &mut [Complex64]) {
-        if let Some(uncoupling) = &self.uncoupling
-            && uncoupling.ncols() == channels.len()
-        {
-            let uncoupled = uncoupling.dot(&Array1::from(channels.to_vec()));
-            channels.iter_mut().zip(uncoupled).for_each(|(to, from)| *to = from);
+        if let Some([uncoupling, _]) = &self.uncoupling {
+            multiply(uncoupling, channels);
         }
         channels.iter_mut().zip(&self.each).for_each(|(value, factor)| *value *= factor);
+    }
+
+    /// What is measured of channels of the plan: the inverse of [`Correction::apply`].
+    pub fn undo(&self, channels: &mut [Complex64]) {
+        channels.iter_mut().zip(&self.each).for_each(|(value, factor)| *value /= factor);
+        if let Some([_, coupling]) = &self.uncoupling {
+            multiply(coupling, channels);
+        }
     }
 
     /// What measured ranges are too long by, m.
@@ -94,9 +100,21 @@ impl Array {
     }
 }
 
+/// Multiplies the channels by a matrix, where it is of as many.
+fn multiply(by: &Array2<Complex64>, channels: &mut [Complex64]) {
+    if by.ncols() == channels.len() {
+        let product = by.dot(&Array1::from(channels.to_vec()));
+        channels.iter_mut().zip(product).for_each(|(to, from)| *to = from);
+    }
+}
+
+fn matrix(rows: &[Vec<Complex64>]) -> Array2<Complex64> {
+    Array2::from_shape_fn((rows.len(), rows.len()), |(i, k)| rows[i][k])
+}
+
 /// The inverse of a coupling matrix.
 fn inverse(rows: &[Vec<Complex64>]) -> Result<Array2<Complex64>, CoreError> {
-    let matrix = Array2::from_shape_fn((rows.len(), rows.len()), |(i, k)| rows[i][k]);
+    let matrix = matrix(rows);
     let unit = Array2::from_diag(&Array1::from_elem(rows.len(), Complex64::ONE));
     let norm = |m: &Array2<Complex64>| m.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
     let found = solve(matrix.view(), unit.view())?;

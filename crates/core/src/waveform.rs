@@ -1,12 +1,26 @@
-//! The FMCW waveform of a time-division MIMO radar and the numbers that follow from it.
+//! The FMCW waveform of a MIMO radar and the numbers that follow from it.
 
 use crate::describe::Described;
 use crate::error::{CoreError, check_positive, check_range};
+use crate::multiplexing::Multiplexing;
 use crate::units::SPEED_OF_LIGHT_MPS;
+use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-/// Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each,
-/// `samples` complex samples a chirp.
+/// What the receivers' converters give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sampling {
+    /// I and Q: beat frequencies from zero to the sample rate are told apart.
+    #[default]
+    Complex,
+    /// I alone: beat frequencies from zero to half the sample rate. The spectrum is the same, mirrored, at negative
+    /// ones, so that a target has half the signal-to-noise ratio in its bin that complex samples give.
+    Real,
+}
+
+/// Timing and frequency plan of one frame: `loops` times through the chirps of a loop, which the
+/// transmitters share as `multiplexing` says, `samples` samples a chirp.
 #[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Waveform {
@@ -14,20 +28,30 @@ pub struct Waveform {
     pub start_frequency_hz: f64,
     /// Slope of the ramp, Hz per second.
     pub slope_hz_per_s: f64,
-    /// Complex sample rate, Hz.
+    /// Sample rate, Hz.
     pub sample_rate_hz: f64,
-    /// Samples a chirp.
+    /// Whether samples are complex or real.
+    #[serde(default)]
+    pub sampling: Sampling,
+    /// Samples a chirp; an even number of real ones.
     pub samples: usize,
     /// Time from the start of the ramp to the first sample, s.
     pub adc_start_s: f64,
     /// Time from the start of one chirp to the start of the next, s.
     pub chirp_interval_s: f64,
-    /// Number of transmitters, which take turns.
+    /// Number of transmitters.
     pub transmitters: usize,
-    /// Chirps of each transmitter in a frame.
+    /// Loops in a frame: how often each transmitter's turn comes, or, in Doppler division, chirps.
     pub loops: usize,
     /// Time from the start of one frame to the start of the next, s.
     pub frame_interval_s: f64,
+    /// How the transmitters share the chirps.
+    #[serde(default, skip_serializing_if = "Multiplexing::is_time_division")]
+    pub multiplexing: Multiplexing,
+    /// Doppler bands of Doppler division, more than transmitters, so that some are empty and tell
+    /// which band is whose; half as many more as transmitters if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doppler_bands: Option<usize>,
 }
 
 /// What follows from a waveform: the numbers engineers look for first.
@@ -61,12 +85,90 @@ impl Waveform {
         check_positive("slope_hz_per_s", self.slope_hz_per_s)?;
         check_positive("sample_rate_hz", self.sample_rate_hz)?;
         check_range("samples", self.samples as f64, 2.0, 65_536.0)?;
+        if self.sampling == Sampling::Real && !self.samples.is_multiple_of(2) {
+            return Err(CoreError::OutOfRange {
+                what: "samples".into(),
+                expected: "an even number of real samples".into(),
+                given: self.samples as f64,
+            });
+        }
         check_range("adc_start_s", self.adc_start_s, 0.0, 1.0)?;
         check_range("transmitters", self.transmitters as f64, 1.0, 64.0)?;
         check_range("loops", self.loops as f64, 1.0, 65_536.0)?;
         check_range("chirp_interval_s", self.chirp_interval_s, self.sweep_s(), 1.0)?;
-        let active = self.chirp_interval_s * (self.loops * self.transmitters) as f64;
+        match self.multiplexing {
+            Multiplexing::TimeDivision => {}
+            Multiplexing::BinaryPhase => self.check_binary_phase()?,
+            Multiplexing::DopplerDivision => self.check_doppler_division()?,
+        }
+        let active = self.chirp_interval_s * (self.loops * self.chirps_per_loop()) as f64;
         check_range("frame_interval_s", self.frame_interval_s, active * (1.0 - 1e-9), 1e3)
+    }
+
+    /// Checks that samples are complex, for what has no other form.
+    ///
+    /// # Errors
+    /// [`CoreError::Unknown`] for real samples.
+    pub fn check_complex(&self) -> Result<(), CoreError> {
+        match self.sampling {
+            Sampling::Complex => Ok(()),
+            Sampling::Real => Err(CoreError::Unknown {
+                what: "sampling".into(),
+                expected: "complex samples here".into(),
+                given: "real".into(),
+            }),
+        }
+    }
+
+    fn check_binary_phase(&self) -> Result<(), CoreError> {
+        if self.transmitters.is_power_of_two() {
+            return Ok(());
+        }
+        Err(CoreError::OutOfRange {
+            what: "transmitters".into(),
+            expected: "a power of two in binary-phase multiplexing".into(),
+            given: self.transmitters as f64,
+        })
+    }
+
+    fn check_doppler_division(&self) -> Result<(), CoreError> {
+        let (fewest, bands) = (self.transmitters + 1, self.bands());
+        check_range("doppler_bands", bands as f64, fewest as f64, 128.0)?;
+        if self.loops.is_multiple_of(bands) {
+            return Ok(());
+        }
+        Err(CoreError::OutOfRange {
+            what: "loops".into(),
+            expected: format!("a multiple of the {bands} Doppler bands"),
+            given: self.loops as f64,
+        })
+    }
+
+    /// Chirps of a loop: as many as transmitters, or 1 in Doppler division.
+    pub fn chirps_per_loop(&self) -> usize {
+        self.multiplexing.chirps_per_loop(self.transmitters)
+    }
+
+    /// Doppler bands into which the transmitters are put in Doppler division; 1 otherwise.
+    pub fn bands(&self) -> usize {
+        if self.multiplexing != Multiplexing::DopplerDivision {
+            return 1;
+        }
+        self.doppler_bands.unwrap_or(self.transmitters + (self.transmitters / 2).max(1))
+    }
+
+    /// The factor by which `transmitter` sends chirp `chirp` of loop `turn`.
+    pub fn code(&self, transmitter: usize, turn: usize, chirp: usize) -> Complex64 {
+        self.multiplexing.code(transmitter, turn, chirp, self.bands())
+    }
+
+    /// Chirps of a loop in which a transmitter sends: what a loop adds up in energy over one chirp
+    /// of one transmitter.
+    pub fn sent_per_loop(&self) -> usize {
+        match self.multiplexing {
+            Multiplexing::BinaryPhase => self.transmitters,
+            Multiplexing::TimeDivision | Multiplexing::DopplerDivision => 1,
+        }
     }
 
     /// Time over which samples are taken, s.
@@ -94,14 +196,31 @@ impl Waveform {
         SPEED_OF_LIGHT_MPS / (2.0 * self.bandwidth_hz())
     }
 
-    /// Largest unambiguous range with complex samples: `c fs / 2 slope`, m.
-    pub fn max_range_m(&self) -> f64 {
-        SPEED_OF_LIGHT_MPS * self.sample_rate_hz / (2.0 * self.slope_hz_per_s)
+    /// Width of the band of beat frequencies that are told apart, from zero: the sample rate, or half of it with real
+    /// samples, Hz.
+    pub fn beat_band_hz(&self) -> f64 {
+        match self.sampling {
+            Sampling::Complex => self.sample_rate_hz,
+            Sampling::Real => self.sample_rate_hz / 2.0,
+        }
     }
 
-    /// Time from one chirp of a transmitter to its next, s.
+    /// Bins of a range transform without padding, over the band of [`Waveform::beat_band_hz`].
+    pub fn range_bins(&self) -> usize {
+        match self.sampling {
+            Sampling::Complex => self.samples,
+            Sampling::Real => self.samples / 2,
+        }
+    }
+
+    /// Largest unambiguous range: `c / 2 slope` times the band of beat frequencies, m.
+    pub fn max_range_m(&self) -> f64 {
+        SPEED_OF_LIGHT_MPS * self.beat_band_hz() / (2.0 * self.slope_hz_per_s)
+    }
+
+    /// Time from one loop to the next, s.
     pub fn loop_interval_s(&self) -> f64 {
-        self.chirp_interval_s * self.transmitters as f64
+        self.chirp_interval_s * self.chirps_per_loop() as f64
     }
 
     /// Range-rate resolution `lambda / 2 T`, m/s, T being the time the loops take.
@@ -143,12 +262,15 @@ mod tests {
             start_frequency_hz: 77e9,
             slope_hz_per_s: 60e12,
             sample_rate_hz: 5.209e6,
+            sampling: Sampling::Complex,
             samples: 256,
             adc_start_s: 7e-6,
             chirp_interval_s: 97.14e-6,
             transmitters: 2,
             loops: 16,
             frame_interval_s: 40e-3,
+            multiplexing: Multiplexing::TimeDivision,
+            doppler_bands: None,
         }
     }
 
@@ -163,6 +285,18 @@ mod tests {
     }
 
     #[test]
+    fn real_samples_reach_half_as_far_at_the_same_resolution() {
+        let complex = awr1642();
+        let real = Waveform { sampling: Sampling::Real, ..complex };
+        real.check().unwrap();
+        assert_eq!(real.max_range_m(), complex.max_range_m() / 2.0);
+        assert_eq!(real.range_resolution_m(), complex.range_resolution_m());
+        assert_eq!((complex.range_bins(), real.range_bins()), (256, 128));
+        let odd = Waveform { samples: 255, ..real };
+        assert!(odd.check().unwrap_err().to_string().contains("even"), "{:?}", odd.check());
+    }
+
+    #[test]
     fn impossible_waveforms_name_the_quantity() {
         let broken = Waveform { chirp_interval_s: 1e-6, ..awr1642() };
         assert!(broken.check().unwrap_err().to_string().contains("chirp_interval_s"));
@@ -170,5 +304,26 @@ mod tests {
         assert!(broken.check().unwrap_err().to_string().contains("slope_hz_per_s"));
         let broken = Waveform { frame_interval_s: 1e-3, ..awr1642() };
         assert!(broken.check().unwrap_err().to_string().contains("frame_interval_s"));
+        let multiplexing = Multiplexing::BinaryPhase;
+        let broken = Waveform { transmitters: 3, multiplexing, ..awr1642() };
+        assert!(broken.check().unwrap_err().to_string().contains("power of two"));
+        let ddm = Waveform { multiplexing: Multiplexing::DopplerDivision, ..awr1642() };
+        assert!(ddm.check().unwrap_err().to_string().contains("multiple of the 3"));
+        for doppler_bands in [Some(0), Some(2), Some(usize::MAX)] {
+            let broken = Waveform { doppler_bands, ..ddm };
+            assert!(broken.check().unwrap_err().to_string().contains("doppler_bands"));
+        }
+    }
+
+    #[test]
+    fn sending_at_once_changes_what_a_loop_is() {
+        let bpm = Waveform { multiplexing: Multiplexing::BinaryPhase, ..awr1642() };
+        bpm.check().unwrap();
+        assert_eq!((bpm.summary(), bpm.sent_per_loop()), (awr1642().summary(), 2));
+        let multiplexing = Multiplexing::DopplerDivision;
+        let ddm = Waveform { multiplexing, transmitters: 4, loops: 48, ..awr1642() };
+        ddm.check().unwrap();
+        assert_eq!((ddm.bands(), ddm.chirps_per_loop()), (6, 1));
+        assert!((ddm.max_rate_mps() / awr1642().max_rate_mps() - 2.0).abs() < 1e-12);
     }
 }

@@ -55,6 +55,16 @@ pub enum FormatError {
         /// What was given.
         given: String,
     },
+    /// The files of a cascade of chips are not those of one recording.
+    #[error("{what}: {given}; expected {expected}")]
+    Cascade {
+        /// What is wrong.
+        what: String,
+        /// What would have been accepted.
+        expected: String,
+        /// What was given.
+        given: String,
+    },
     /// Binary data breaks the rules of its format.
     #[error("{format} at byte {offset}: {what} is {given}; expected {expected}")]
     Binary {
@@ -153,6 +163,7 @@ impl Diagnose for FormatError {
             Self::MissingCommand { .. } => "config-incomplete",
             Self::NoWholeFrame { .. } => "capture-too-short",
             Self::Layout { .. } => "capture-layout",
+            Self::Cascade { .. } => "cascade-files",
             Self::Binary { .. } => "malformed-file",
             Self::Table { .. } => "malformed-table",
             Self::Hdf5 { .. } => "malformed-hdf5",
@@ -180,6 +191,7 @@ impl Diagnose for FormatError {
                 format!("{given} bytes"),
             ),
             Self::Layout { what, expected, given } => Details::new(*what, expected, given),
+            Self::Cascade { what, expected, given } => Details::new(what, expected, given),
             Self::Binary { format, offset, what, expected, given } => {
                 Details::new(format!("{format} at byte {offset}: {what}"), expected, given)
             }

@@ -1,7 +1,8 @@
 //! Readers and writers of the files radar engineers have.
 //!
 //! - [`mmwave_cfg`]: the text configuration of Texas Instruments' mmWave boards.
-//! - [`dca1000`]: raw samples recorded by the DCA1000 capture card, read with such a configuration.
+//! - [`dca1000`]: raw samples recorded by the DCA1000 capture card, or of a cascade of chips, read with such a
+//!   configuration.
 //! - [`ti_uart`]: the packets a board's demo firmware sends over its serial port.
 //! - [`npy`]: NumPy arrays.
 //! - [`hdf5`]: arrays of HDF5 files, MATLAB's 7.3 among them.
@@ -48,13 +49,13 @@ pub mod tables;
 pub mod ti_uart;
 
 pub use boresight_core::Remark;
-pub use dca1000::{Capture, RawFrame};
+pub use dca1000::{Capture, Layout, RawFrame, ReadingOptions, Settled};
 pub use drive_log::{
     DriveFormat, DriveRead, DriveTopic, DropReason, McapDriveReader, MountingSource, ReadReport,
     TopicOptions,
 };
 pub use error::FormatError;
-pub use mmwave_cfg::{Compensation, RadarConfig};
+pub use mmwave_cfg::{Compensation, RadarConfig, SubFrame};
 pub use npy::{NpyArray, NpyData};
 pub use pcd::PointCloud;
 pub use ti_uart::{BoardFrame, BoardLog, BoardLogCounts, BoardObject, UartStream};

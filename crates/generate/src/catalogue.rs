@@ -37,6 +37,7 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
         ),
         entry::<boresight_calibrate::CalibrationOptions>("CalibrationOptions", "Mounting angles")?,
         entry::<boresight_simulate::DriveOptions>("SimulateDriveOptions", "Simulated drives")?,
+        entry::<boresight_formats::ReadingOptions>("ReadingOptions", "Reading captures")?,
         entry::<boresight_wasm::region::RegionOptions>("RegionOptions", "Regions of interest")?,
         entry::<boresight_pipeline::regions::RegionChainOptions>(
             "RegionChainOptions",
@@ -65,8 +66,8 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
 /// What functions return, by subject.
 pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
     use boresight_wasm::{
-        calibration_methods, capture, config, count, drive, estimate, hdf5, image, npy, region,
-        street, trajectory,
+        calibration_methods, capture, cascade, config, count, drive, estimate, hdf5, image, npy,
+        region, street, trajectory,
     };
     vec![
         ("Arrays and waveforms", vec![Geometry::KIND, Waveform::KIND, WaveformSummary::KIND]),
@@ -97,8 +98,10 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
                 config::ConfigRecord::KIND,
                 region::RegionOfInterest::KIND,
                 capture::CaptureInfo::KIND,
+                cascade::CascadeCapture::KIND,
                 boresight_pipeline::FrameResult::KIND,
                 boresight_pipeline::FrameCells::KIND,
+                boresight_pipeline::CellExplanation::KIND,
                 boresight_pipeline::regions::RegionFrame::KIND,
             ],
         ),

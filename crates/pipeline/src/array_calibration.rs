@@ -51,7 +51,7 @@ pub fn calibrate_array<S: FrameSource>(
     report: Report<'_>,
 ) -> Result<CalibrationResult, S::Error> {
     check_ranges(options, Naming::Rust).map_err(PipelineError::from)?;
-    let plan = Array::mimo(array.tx(), array.rx()).map_err(PipelineError::from)?;
+    let plan = array.whole().map_err(PipelineError::from)?;
     let named = !options.reflectors.is_empty();
     let chain_options = ChainOptions {
         max_detections: if named { MOST_CELLS } else { options.max_cells },

@@ -90,6 +90,20 @@ impl Chain {
         frames: Range<usize>,
         report: Report<'_>,
     ) -> Result<(Found, Array3<Complex64>), S::Error> {
+        let clipped = self.average(source, frames.clone(), report)?;
+        let mut found = self.detect()?;
+        found.counts.clipped_samples = clipped;
+        let snapshots = self.snapshots_of(&mut found, source, frames, report)?;
+        Ok((found, snapshots))
+    }
+
+    /// Makes the mean of the frames' power maps the map, and counts clipped samples: the first half of combining.
+    pub(crate) fn average<S: FrameSource>(
+        &mut self,
+        source: &S,
+        frames: Range<usize>,
+        report: Report<'_>,
+    ) -> Result<usize, S::Error> {
         let count = frames.len();
         if count == 0 {
             let empty = CoreError::Empty { what: "frames".into(), expected: "at least one".into() };
@@ -105,19 +119,31 @@ impl Chain {
         }
         let mean = mean.mapv(|sum| (sum / count as f64) as f32);
         self.map.power.assign(&mean);
-        let mut found = self.detect()?;
-        found.counts.clipped_samples = clipped;
+        Ok(clipped)
+    }
+
+    /// Snapshots of cells, cells x elements x frames, whose folds it tells; the map stays the mean that it is. The second
+    /// half of combining.
+    pub(crate) fn snapshots_of<S: FrameSource>(
+        &mut self,
+        found: &mut Found,
+        source: &S,
+        frames: Range<usize>,
+        report: Report<'_>,
+    ) -> Result<Array3<Complex64>, S::Error> {
+        let mean = self.map.power.clone();
+        let count = frames.len();
         let used = count.min(MAX_SNAPSHOTS);
-        let mut snapshots = Array3::zeros((found.cells.len(), self.array().len(), used));
+        let mut raw = Array3::zeros((found.cells.len(), self.transform.channels(), used));
         for (done, index) in frames.take(used).enumerate() {
-            proceed(report, Progress { done: count + done, total })?;
+            proceed(report, Progress { done: count + done, total: 2 * count })?;
             self.load(source, index)?;
-            for (cell, mut rows) in found.cells.iter().zip(snapshots.outer_iter_mut()) {
-                rows.index_axis_mut(Axis(1), done).assign(&self.snapshot(cell)?);
+            for (cell, mut rows) in found.cells.iter().zip(raw.outer_iter_mut()) {
+                rows.index_axis_mut(Axis(1), done).assign(&self.raw_snapshot(cell)?);
             }
         }
         self.map.power.assign(&mean);
-        Ok((found, snapshots))
+        Ok(self.decoded(found, raw)?)
     }
 
     /// A target that leaves its range cell makes several detections, one behind the other.
@@ -151,13 +177,14 @@ impl Chain {
         let most = MAX_SNAPSHOTS as f64;
         boresight_core::error::check_range("number of frames", frames.len() as f64, 1.0, most)
             .map_err(PipelineError::from)?;
-        let mut snapshots = Array2::zeros((self.array().len(), frames.len()));
+        let mut raw = Array2::zeros((self.transform.channels(), frames.len()));
         for (n, index) in frames.enumerate() {
             self.load(source, index)?;
-            let snapshot = self.cell_snapshot(range_bin, doppler_bin)?;
-            snapshots.index_axis_mut(Axis(1), n).assign(&snapshot);
+            let snapshot =
+                self.map.snapshot(range_bin, doppler_bin).map_err(PipelineError::from)?;
+            raw.column_mut(n).assign(&snapshot);
         }
-        Ok(snapshots)
+        Ok(self.cell_snapshots_of(raw, doppler_bin)?)
     }
 
     /// Transforms a frame and tells how many of its samples are clipped.

@@ -2,6 +2,7 @@
 
 use crate::beam::suited;
 use crate::error::PipelineError;
+use crate::folds::Folds;
 use crate::options::{ChainOptions, usable_range_m};
 use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult};
 use boresight_aoa::{
@@ -10,11 +11,13 @@ use boresight_aoa::{
 use boresight_core::describe::remark::Coded;
 use boresight_core::order::sort_descending;
 use boresight_core::response::Correction;
-use boresight_core::{Array, Complex32, Complex64, Direction, Remark, Waveform};
+use boresight_core::{Array, Complex32, Complex64, Direction, Multiplexing, Remark, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
-use boresight_signal::{Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, Region, tdm};
-use ndarray::{Array1, Array3, ArrayView2, ArrayView3, ArrayView4, Axis};
+use boresight_signal::{
+    Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, Region, binary_phase, doppler_division, tdm,
+};
+use ndarray::{Array1, Array2, Array3, ArrayView2, ArrayView3, ArrayView4, ArrayViewMut2, Axis};
 use std::sync::Arc;
 
 /// Least power in decibels of an empty cell, so that plots and tables need no infinities.
@@ -26,11 +29,14 @@ pub struct Chain {
     array: Array,
     /// Channel of the cube (`tx * receivers + rx`) of each element of the array.
     channels: Vec<usize>,
-    region: Region,
+    /// Sign that each of them is multiplied by ([`signs_of`]).
+    signs: Array1<f64>,
+    pub(crate) region: Region,
     pub(crate) transform: RangeDoppler,
     pub(crate) map: RangeDopplerMap,
-    cfar: Cfar,
-    estimators: Estimators,
+    pub(crate) cfar: Cfar,
+    pub(crate) folds: Option<Folds>,
+    pub(crate) estimators: Estimators,
 }
 
 /// A cell to estimate angles in.
@@ -39,6 +45,9 @@ pub(crate) struct Cell {
     pub peak: Peak,
     pub range_m: f64,
     pub rate_mps: f64,
+    /// Fold of the rate and its probability, if others were tried.
+    pub fold: i32,
+    pub fold_probability: Option<f64>,
 }
 
 /// Cells found in a power map.
@@ -48,8 +57,7 @@ pub(crate) struct Found {
 }
 
 impl Chain {
-    /// Plans for frames of `waveform.loops` x `waveform.transmitters` x receivers x
-    /// `waveform.samples`, whose channels are the elements of `array`: those of a MIMO array by
+    /// Plans for frames of `waveform.loops` x chirps of a loop x receivers x `waveform.samples`, whose channels are the elements of `array`: those of a MIMO array by
     /// their transmitter and receiver; of an array of plain positions, element `k` is channel
     /// `tx * receivers + rx`. What a calibrated array ([`Array::calibrated`]) knows of its errors is
     /// taken off snapshots and ranges.
@@ -122,7 +130,6 @@ impl Chain {
         Ok(Self {
             options: *options,
             array: array.clone(),
-            channels,
             region: Region {
                 range_m: options.region.range_m.or_else(|| Some(usable_range_m(waveform))),
                 ..options.region
@@ -130,6 +137,9 @@ impl Chain {
             transform,
             map,
             cfar,
+            folds: Folds::new(waveform, array, &channels, options.doppler_folds)?,
+            channels,
+            signs: signs_of(array).collect(),
             estimators: estimators()?,
         })
     }
@@ -159,7 +169,7 @@ impl Chain {
         self.transform.rate_mps()
     }
 
-    /// Detections in one frame of loops x transmitters x receivers x samples.
+    /// Detections in one frame of loops x chirps of a loop x receivers x samples.
     ///
     /// # Errors
     /// Another shape than planned; samples that are not finite; a method that needs more than one
@@ -172,7 +182,7 @@ impl Chain {
         self.conclude(found, snapshots.view())
     }
 
-    /// Detected cells of one frame of loops x transmitters x receivers x samples, without angles.
+    /// Detected cells of one frame of loops x chirps of a loop x receivers x samples, without angles.
     ///
     /// # Errors
     /// Another shape than planned; samples that are not finite.
@@ -187,16 +197,17 @@ impl Chain {
         frame: ArrayView4<'_, Complex32>,
     ) -> Result<(Found, Array3<Complex64>), PipelineError> {
         self.transform.process(frame, &mut self.map)?;
-        let found = self.detect()?;
-        let mut snapshots = Array3::zeros((found.cells.len(), self.array.len(), 1));
-        for (cell, mut rows) in found.cells.iter().zip(snapshots.outer_iter_mut()) {
-            rows.index_axis_mut(Axis(1), 0).assign(&self.snapshot(cell)?);
+        let mut found = self.detect()?;
+        let mut raw = Array3::zeros((found.cells.len(), self.transform.channels(), 1));
+        for (cell, mut rows) in found.cells.iter().zip(raw.outer_iter_mut()) {
+            rows.index_axis_mut(Axis(1), 0).assign(&self.raw_snapshot(cell)?);
         }
+        let snapshots = self.decoded(&mut found, raw)?;
         Ok((found, snapshots))
     }
 
-    /// The array's snapshot of a cell of the frame processed last, the transmitters' Doppler phase
-    /// taken off.
+    /// The array's snapshot of a cell of the frame processed last, told apart by transmitters,
+    /// their Doppler phase taken off.
     ///
     /// # Errors
     /// A bin outside the map.
@@ -205,7 +216,27 @@ impl Chain {
         range_bin: usize,
         doppler_bin: usize,
     ) -> Result<Array1<Complex64>, PipelineError> {
-        self.compensated(range_bin, doppler_bin, doppler_bin as f64)
+        let raw = self.map.snapshot(range_bin, doppler_bin)?.insert_axis(Axis(1));
+        Ok(self.cell_snapshots_of(raw, doppler_bin)?.column(0).to_owned())
+    }
+
+    /// As [`Chain::cell_snapshot`] of the channels of one cell in several frames.
+    pub(crate) fn cell_snapshots_of(
+        &self,
+        mut raw: Array2<Complex64>,
+        doppler_bin: usize,
+    ) -> Result<Array2<Complex64>, PipelineError> {
+        let bin = doppler_bin as f64;
+        let fold = match &self.folds {
+            Some(folds) => folds.decide(raw.view(), bin, self.map.power.ncols(), 0.0)?.0,
+            None => 0,
+        };
+        self.decode(raw.view_mut(), bin, fold)?;
+        let mut snapshots = raw.select(Axis(0), &self.channels);
+        for (mut row, sign) in snapshots.outer_iter_mut().zip(&self.signs) {
+            row.mapv_inplace(|z| z * sign);
+        }
+        Ok(snapshots)
     }
 
     /// Angles and spectrum of snapshots (elements x snapshots) of one cell, by any method, under the
@@ -239,7 +270,17 @@ impl Chain {
             over.iter().map(|detection| interpolate(power, *detection)).collect()
         };
         let mut cells: Vec<Cell> = peaks.into_iter().map(|peak| self.cell(peak)).collect();
-        let region = &self.region;
+        let waveform = self.transform.waveform();
+        if waveform.multiplexing == Multiplexing::DopplerDivision {
+            let is_own = |cell: &Cell| {
+                let at = cell.peak.detection;
+                !doppler_division::is_ghost(power, at.range_bin, at.doppler_bin, waveform)
+            };
+            counts.other_bands = Region::retain(&mut cells, is_own);
+        }
+        // The rate is not known before its fold.
+        let rate_mps = if self.folds.is_some() { None } else { self.region.rate_mps };
+        let region = Region { rate_mps, ..self.region };
         counts.outside_region =
             Region::retain(&mut cells, |cell| region.contains(cell.range_m, cell.rate_mps));
         sort_descending(&mut cells, |cell| cell.peak.power);
@@ -248,42 +289,95 @@ impl Chain {
         Ok(Found { cells, counts })
     }
 
-    fn cell(&self, peak: Peak) -> Cell {
-        let waveform = self.transform.waveform();
+    pub(crate) fn cell(&self, peak: Peak) -> Cell {
         let rates = self.transform.rate_mps();
         let step = match rates {
             [first, second, ..] => second - first,
             _ => 0.0,
         };
         let rate_mps = rates.first().copied().unwrap_or_default() + step * peak.doppler_bin;
+        let range_m = self.cell_range_m(&peak, rate_mps);
+        Cell { peak, range_m, rate_mps, fold: 0, fold_probability: None }
+    }
+
+    fn cell_range_m(&self, peak: &Peak, rate_mps: f64) -> f64 {
+        let waveform = self.transform.waveform();
         let bins = self.transform.range_m().len();
-        let range_m = range_of_bin_m(waveform, bins, peak.range_bin)
+        range_of_bin_m(waveform, bins, peak.range_bin)
             - range_doppler_coupling_m(waveform, rate_mps)
-            - self.array.correction().map_or(0.0, Correction::range_bias_m);
-        Cell { peak, range_m, rate_mps }
+            - self.array.correction().map_or(0.0, Correction::range_bias_m)
     }
 
-    /// The snapshot of a cell of the frame transformed last.
-    pub(crate) fn snapshot(&self, cell: &Cell) -> Result<Array1<Complex64>, PipelineError> {
+    /// The channels of a cell of the frame transformed last, as measured.
+    pub(crate) fn raw_snapshot(&self, cell: &Cell) -> Result<Array1<Complex64>, PipelineError> {
         let detection = cell.peak.detection;
-        self.compensated(detection.range_bin, detection.doppler_bin, cell.peak.doppler_bin)
+        Ok(self.map.snapshot(detection.range_bin, detection.doppler_bin)?)
     }
 
-    fn compensated(
+    /// Tells the folds of the cells found, and makes the array's snapshots, cells x elements x
+    /// snapshots, of the channels as measured. Cells whose rate so is outside the region are
+    /// dropped and counted.
+    pub(crate) fn decoded(
         &self,
-        range_bin: usize,
-        doppler_bin: usize,
-        exact_doppler_bin: f64,
-    ) -> Result<Array1<Complex64>, PipelineError> {
-        let mut all = self.map.snapshot(range_bin, doppler_bin)?.to_vec();
-        let transmitters = self.transform.waveform().transmitters;
+        found: &mut Found,
+        mut raw: Array3<Complex64>,
+    ) -> Result<Array3<Complex64>, PipelineError> {
         let dopplers = self.map.power.ncols();
-        let step = tdm::phase_step_rad(exact_doppler_bin, dopplers, transmitters, 0);
-        tdm::compensate(&mut all, transmitters, step)?;
-        if let Some(correction) = self.array.correction() {
-            correction.apply(&mut all);
+        let waveform = self.transform.waveform();
+        let mut kept = vec![];
+        for (index, cell) in found.cells.iter_mut().enumerate() {
+            let bin = cell.peak.doppler_bin;
+            let channels = raw.index_axis_mut(Axis(0), index);
+            if let Some(folds) = &self.folds {
+                let noise_power = cell.peak.detection.noise_power;
+                let (fold, probability) =
+                    folds.decide(channels.view(), bin, dopplers, noise_power)?;
+                found.counts.undecided_folds += usize::from(!folds.is_certain(probability));
+                cell.fold = fold;
+                cell.fold_probability = Some(probability);
+                cell.rate_mps += 2.0 * f64::from(fold) * waveform.max_rate_mps();
+                cell.range_m = self.cell_range_m(&cell.peak, cell.rate_mps);
+            }
+            if !self.region.contains(cell.range_m, cell.rate_mps) {
+                continue;
+            }
+            self.decode(channels, bin, cell.fold)?;
+            kept.push(index);
         }
-        Ok(self.channels.iter().map(|&channel| all[channel]).collect())
+        if kept.len() < found.cells.len() {
+            found.counts.outside_region += found.cells.len() - kept.len();
+            found.cells = kept.iter().map(|&index| found.cells[index]).collect();
+            raw = raw.select(Axis(0), &kept);
+        }
+        let mut snapshots = raw.select(Axis(1), &self.channels);
+        for (mut elements, sign) in snapshots.axis_iter_mut(Axis(1)).zip(&self.signs) {
+            elements.mapv_inplace(|z| z * sign);
+        }
+        Ok(snapshots)
+    }
+
+    /// Makes channels of transmitters of those of the cube, channels x snapshots of one cell.
+    fn decode(
+        &self,
+        mut raw: ArrayViewMut2<'_, Complex64>,
+        doppler_bin: f64,
+        fold: i32,
+    ) -> Result<(), PipelineError> {
+        let Waveform { transmitters, multiplexing, .. } = *self.transform.waveform();
+        let step = tdm::phase_step_rad(doppler_bin, self.map.power.ncols(), transmitters, fold);
+        for mut snapshot in raw.columns_mut() {
+            let mut values = snapshot.to_vec();
+            match multiplexing {
+                Multiplexing::TimeDivision => tdm::compensate(&mut values, transmitters, step)?,
+                Multiplexing::BinaryPhase => binary_phase::decode(&mut values, transmitters, step)?,
+                Multiplexing::DopplerDivision => {}
+            }
+            if let Some(correction) = self.array.correction() {
+                correction.apply(&mut values);
+            }
+            snapshot.assign(&ndarray::aview1(&values));
+        }
+        Ok(())
     }
 
     /// Angles in the cells found in the power map, of which `snapshots` has cells x elements x
@@ -301,8 +395,10 @@ impl Chain {
             counts.without_angle += usize::from(sources.is_empty());
             detections.extend(sources.iter().map(|s| detection(cell, s.direction, s.power)));
         }
-        counts.outside_region +=
-            Region::retain(&mut detections, |d| self.region.contains_azimuth(d.azimuth_rad));
+        counts.outside_region += Region::retain(&mut detections, |d| {
+            let direction = Direction::new(d.azimuth_rad, d.elevation_rad);
+            self.region.contains_direction(d.range_m, direction)
+        });
         sort_descending(&mut detections, |detection| detection.power);
         counts.beyond_limit += detections.len().saturating_sub(self.options.max_detections);
         detections.truncate(self.options.max_detections);
@@ -312,6 +408,14 @@ impl Chain {
             let message = format!("{} cells have no angle", counts.without_angle);
             warnings.push(Remark::new("cells-without-angle", message));
         }
+        if counts.undecided_folds > 0 {
+            let message = format!(
+                "{} cells do not tell the fold of their range rate and keep that of their bin",
+                counts.undecided_folds
+            );
+            warnings.push(Remark::new("undecided-folds", message));
+        }
+        let told = self.folds.as_ref().map_or(1, Folds::told);
         let profile = self.transform.range_profile(&self.map)?;
         Ok(FrameResult {
             frame: 0,
@@ -319,6 +423,7 @@ impl Chain {
             calibrated: self.array.correction().is_some(),
             range_m: self.transform.range_m().to_vec(),
             rate_mps: self.transform.rate_mps().to_vec(),
+            unambiguous_rate_mps: self.transform.waveform().max_rate_mps() * told as f64,
             range_profile_db: profile.into_iter().map(decibels).collect(),
             range_doppler_db: self.map.power.mapv(|p| decibels(f64::from(p)) as f32),
             detections,
@@ -335,6 +440,7 @@ pub(crate) fn frame_cells(found: Found, snapshots: Array3<Complex64>) -> FrameCe
         DetectedCell {
             range_m: cell.range_m,
             rate_mps: cell.rate_mps,
+            doppler_fold: cell.fold,
             power: cell.peak.power,
             snr: found.power / found.noise_power.max(f64::MIN_POSITIVE),
             range_bin: found.range_bin,
@@ -348,12 +454,18 @@ fn detection(cell: &Cell, direction: Direction, power: f64) -> Detection {
     let found = cell.peak.detection;
     // What windows and transforms lose between bins, the parabolas give back.
     let straddling = if found.power > 0.0 { cell.peak.power / found.power } else { 1.0 };
+    let [x_m, y_m, z_m] = direction.place_m(cell.range_m);
     Detection {
         frame: 0,
         range_m: cell.range_m,
         rate_mps: cell.rate_mps,
+        doppler_fold: cell.fold,
+        fold_probability: cell.fold_probability,
         azimuth_rad: direction.azimuth_rad,
         elevation_rad: direction.elevation_rad,
+        x_m,
+        y_m,
+        z_m,
         power: power * straddling,
         snr: power / found.noise_power.max(f64::MIN_POSITIVE),
         range_bin: found.range_bin,
@@ -396,4 +508,9 @@ pub(crate) fn channels_of(
         return Ok((0..array.len()).collect());
     }
     Err(given(format!("has {tx} transmitters x {rx} receivers, {} elements", array.len())))
+}
+
+/// What takes the sign of turned antennas off the samples of each element.
+pub(crate) fn signs_of(array: &Array) -> impl Iterator<Item = f64> {
+    array.channels().iter().map(|&channel| if array.is_inverted(channel) { -1.0 } else { 1.0 })
 }

@@ -34,6 +34,9 @@ pub enum PipelineError {
         /// What the array has instead.
         given: String,
     },
+    /// Regions are those of transmitters that take turns.
+    #[error("regions are found in time-division multiplexing alone; the transmitters send at once")]
+    Multiplexing,
     /// The caller asked to stop.
     #[error("stopped after {done} of {total} steps")]
     Cancelled {
@@ -53,6 +56,7 @@ impl Diagnose for PipelineError {
             Self::Image(error) => error.code(),
             Self::ArrayCalibration(error) => error.code(),
             Self::Channels { .. } => "channels",
+            Self::Multiplexing => "multiplexing",
             Self::Cancelled { .. } => "cancelled",
         }
     }
@@ -65,6 +69,9 @@ impl Diagnose for PipelineError {
             Self::Image(error) => error.details(),
             Self::ArrayCalibration(error) => error.details(),
             Self::Channels { expected, given } => Details::new("array", expected, given),
+            Self::Multiplexing => {
+                Details::new("multiplexing", "time-division", "transmitters that send at once")
+            }
             Self::Cancelled { done, total } => {
                 Details::new("steps", total.to_string(), format!("{done}, then a request to stop"))
             }

@@ -83,8 +83,8 @@ pub fn chain_options() -> ChainOptions {
 /// over 60 deg to each side.
 pub fn map_grid(waveform: &Waveform) -> GridOptions {
     GridOptions {
-        range_m: [0.0, (waveform.samples - 1) as f64 * waveform.range_resolution_m()],
-        ranges: waveform.samples,
+        range_m: [0.0, (waveform.range_bins() - 1) as f64 * waveform.range_resolution_m()],
+        ranges: waveform.range_bins(),
         field_of_view_rad: FIELD_OF_VIEW_RAD,
         azimuths: AZIMUTHS,
     }

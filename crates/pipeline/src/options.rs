@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 /// usual windows and as much again.
 const COUPLING_BINS: f64 = 4.0;
 
-/// Share of the sample rate within which the receivers' filters are flat; beat frequencies above
-/// it, which include negative ones, are attenuated or folded.
+/// Share of the band of beat frequencies within which the receivers' filters are flat; those above
+/// it, which of complex samples include negative ones, are attenuated or folded.
 const USABLE_BAND: f64 = 0.9;
 
 /// The range from beyond antenna coupling to the end of the receivers' band, m: 4 range resolutions
@@ -50,6 +50,11 @@ pub struct ChainOptions {
     /// Limits outside which detections are dropped, and counted. Where it names no range, that is
     /// from 4 range resolutions to 0.9 of the unambiguous range.
     pub region: Region,
+    /// Most folds of the range rate to each side that are tried where transmitters take turns:
+    /// rates beyond the unambiguous one, told by the transmitters' phases. 0 takes every rate for
+    /// that of its bin.
+    #[option(default = 0, range = 0..=32)]
+    pub doppler_folds: usize,
     /// Angle estimation.
     pub angle: AngleOptions,
     /// Most detections a frame; the strongest are kept.

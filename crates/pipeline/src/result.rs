@@ -13,12 +13,18 @@ pub struct Detection {
     pub frame: usize,
     /// Range, interpolated between bins and corrected for the range rate.
     pub range_m: f64,
-    /// Range rate, positive when receding, interpolated between bins.
+    /// Range rate, positive when receding, interpolated between bins, in its fold.
     pub rate_mps: f64,
     /// Azimuth, positive to the left.
     pub azimuth_rad: f64,
     /// Elevation, positive upwards; 0 where the array does not see it.
     pub elevation_rad: f64,
+    /// Place forward of the sensor.
+    pub x_m: f64,
+    /// Place to its left.
+    pub y_m: f64,
+    /// Place above it; 0 where the array sees no elevation.
+    pub z_m: f64,
     /// Power of one raw sample at one element over full scale (1.0), interpolated between bins.
     #[serde(rename = "power_db", serialize_with = "decibels::serialize")]
     pub power: f64,
@@ -29,6 +35,13 @@ pub struct Detection {
     pub range_bin: usize,
     /// Doppler bin.
     pub doppler_bin: usize,
+    /// Times twice the waveform's largest rate that the rate is beyond that of its bin: 0 where no
+    /// other was tried, or none is certain enough.
+    pub doppler_fold: i32,
+    /// Probability of the likeliest fold among those tried; below 0.99 the rate keeps that of its
+    /// bin. Absent where no other was tried.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fold_probability: Option<f64>,
 }
 
 /// A cell of the range-Doppler map that stands out of the noise.
@@ -36,8 +49,10 @@ pub struct Detection {
 pub struct DetectedCell {
     /// Range, m, interpolated between bins and corrected for the range rate.
     pub range_m: f64,
-    /// Range rate, m/s, positive when receding, interpolated between bins.
+    /// Range rate, m/s, positive when receding, interpolated between bins, in its fold.
     pub rate_mps: f64,
+    /// Fold of the rate, as in [`Detection::doppler_fold`].
+    pub doppler_fold: i32,
     /// Power of one raw sample at one element (mean over channels), interpolated between bins; 1
     /// is full scale.
     pub power: f64,
@@ -72,6 +87,10 @@ pub struct Counts {
     pub cells_over_threshold: usize,
     /// Of these, cells grouped under a stronger neighbour.
     pub grouped: usize,
+    /// Of these, echoes of stronger targets in other bands of Doppler division.
+    pub other_bands: usize,
+    /// Cells whose fold of the range rate is not certain; they keep that of their bin.
+    pub undecided_folds: usize,
     /// Cells and detections outside the region.
     pub outside_region: usize,
     /// Cells and detections beyond the most to report.
@@ -97,6 +116,9 @@ pub struct FrameResult {
     /// Range rate of each Doppler bin, ascending.
     #[serde(serialize_with = "columns::serialize")]
     pub rate_mps: Vec<f64>,
+    /// Largest range rate of either sign that detections tell from others: that of the Doppler
+    /// bins, or more where folds are told.
+    pub unambiguous_rate_mps: f64,
     /// Power over range: mean over channels, sum over Doppler.
     #[serde(serialize_with = "columns::serialize")]
     pub range_profile_db: Vec<f64>,
@@ -137,6 +159,9 @@ struct CellColumns {
     /// Range rate of each, positive when receding, interpolated between bins.
     #[serde(serialize_with = "columns::serialize")]
     rate_mps: Vec<f64>,
+    /// Times twice the waveform's largest rate that each is beyond that of its bin.
+    #[serde(serialize_with = "columns::serialize")]
+    doppler_fold: Vec<i8>,
     /// Power of each: one raw sample at one element over full scale (1.0).
     #[serde(rename = "power_db", serialize_with = "decibels::serialize_each")]
     power: Vec<f64>,
@@ -157,6 +182,8 @@ fn as_columns<S: Serializer>(cells: &[DetectedCell], serializer: S) -> Result<S:
     let columns = CellColumns {
         range_m: column(|cell| cell.range_m),
         rate_mps: column(|cell| cell.rate_mps),
+        // At most 32.
+        doppler_fold: cells.iter().map(|cell| cell.doppler_fold as i8).collect(),
         power: column(|cell| cell.power),
         snr: column(|cell| cell.snr),
         range_bin: bins(|cell| cell.range_bin),

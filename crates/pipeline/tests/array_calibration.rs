@@ -4,7 +4,7 @@
 
 mod recorded;
 
-use boresight_aoa::counting::{Criterion, count_sources_in};
+use boresight_aoa::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{Data, Method};
 use boresight_array_calibration::{CalibrationOptions, CalibrationResult, CellUse, Reflector};
 use boresight_core::{Array, ArrayCalibration, Diagnose};
@@ -14,6 +14,10 @@ use recorded::{board, recording};
 
 /// What the board itself says of its strongest target, in our frame.
 const BOARD_DEG: f64 = -10.8;
+
+fn counted(forward_backward: bool) -> CountOptions {
+    CountOptions { forward_backward, ..CountOptions::default() }
+}
 
 fn calibrated(options: &CalibrationOptions) -> CalibrationResult {
     let (waveform, receivers, array) = board();
@@ -62,10 +66,8 @@ fn half_of_the_frames_calibrate_the_board_for_the_others() {
         let first: Vec<_> = seen.detections.iter().filter(|d| d.range_bin == 58).collect();
         println!("{:?}", first.iter().map(|d| d.azimuth_rad.to_degrees()).collect::<Vec<_>>());
         let snapshots = chain.cell_snapshots(&recording(), 4..8, 58, 8).unwrap();
-        let count =
-            count_sources_in(Data::Snapshots(snapshots.view()), false, Criterion::Mdl).unwrap();
-        let both =
-            count_sources_in(Data::Snapshots(snapshots.view()), true, Criterion::Mdl).unwrap();
+        let count = count_sources_in(Data::Snapshots(snapshots.view()), &counted(false)).unwrap();
+        let both = count_sources_in(Data::Snapshots(snapshots.view()), &counted(true)).unwrap();
         println!("MDL {} forward-backward {}", count.1.sources, both.1.sources);
         assert_eq!(seen.calibrated, array.correction().is_some());
         if seen.calibrated {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_aoa::counting::{Criterion, count_sources_in};
+use boresight_aoa::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{
     AoaError, CountSources, Counted, Data, Estimator, EstimatorOptions, Method, SourceCount,
     SourceProbabilities,
@@ -28,7 +28,7 @@ impl CountSources for Mdl {
     }
 
     fn count(&self, data: Data<'_>) -> Result<SourceProbabilities, AoaError> {
-        let sources = count_sources_in(data, false, Criterion::Mdl)?.1.sources.min(2);
+        let sources = count_sources_in(data, &CountOptions::default())?.1.sources.min(2);
         let mut probability = [0.0; 3];
         probability[sources] = 1.0;
         Ok(SourceProbabilities { sources, probability })

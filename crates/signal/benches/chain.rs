@@ -2,7 +2,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Random, Waveform};
+use boresight_core::{Complex32, Multiplexing, Random, Sampling, Waveform};
 use boresight_signal::{Cfar, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions};
 use criterion::{Criterion, criterion_group, criterion_main};
 use ndarray::Array4;
@@ -13,12 +13,15 @@ fn chain(criterion: &mut Criterion) {
         start_frequency_hz: 77e9,
         slope_hz_per_s: 60e12,
         sample_rate_hz: 5.209e6,
+        sampling: Sampling::Complex,
         samples: 256,
         adc_start_s: 7e-6,
         chirp_interval_s: 97.14e-6,
         transmitters: 2,
         loops: 128,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     };
     let mut random = Random::new(1, 0);
     let frame = Array4::from_shape_fn((128, 2, 4, 256), |_| {
@@ -35,6 +38,7 @@ fn chain(criterion: &mut Criterion) {
         b.iter(|| plan.process(black_box(frame.view()), &mut map).unwrap());
     });
     for (name, kind) in [
+        ("cfar excision", CfarKind::Excision),
         ("cfar cell-averaging", CfarKind::CellAveraging),
         ("cfar greatest-of", CfarKind::GreatestOf),
         ("cfar ordered-statistic", CfarKind::OrderedStatistic),

@@ -7,7 +7,7 @@
 //! # Example
 //!
 //! ```
-//! use boresight_core::{Complex32, Waveform};
+//! use boresight_core::{Complex32, Multiplexing, Sampling, Waveform};
 //! use boresight_signal::{RangeDoppler, RangeDopplerOptions};
 //! use ndarray::Array4;
 //! use std::f32::consts::TAU;
@@ -16,12 +16,15 @@
 //!     start_frequency_hz: 77e9,
 //!     slope_hz_per_s: 60e12,
 //!     sample_rate_hz: 5e6,
+//!     sampling: Sampling::Complex,
 //!     samples: 64,
 //!     adc_start_s: 2e-6,
 //!     chirp_interval_s: 60e-6,
 //!     transmitters: 1,
 //!     loops: 16,
 //!     frame_interval_s: 40e-3,
+//!     multiplexing: Multiplexing::TimeDivision,
+//!     doppler_bands: None,
 //! };
 //! let mut transform = RangeDoppler::new(&waveform, 1, &RangeDopplerOptions::default())?;
 //! let mut map = transform.output();
@@ -37,23 +40,28 @@
 //! # Ok::<(), boresight_signal::SignalError>(())
 //! ```
 
+pub mod binary_phase;
 pub mod cfar;
 pub mod clutter;
 pub mod covariance;
+pub mod doppler_division;
 pub mod error;
+pub mod folds;
 pub mod peaks;
 pub mod power;
 pub mod range;
 pub mod range_doppler;
 pub mod range_shift;
+mod real_range;
 pub mod region;
 pub mod tdm;
 pub mod window;
 
-pub use cfar::{Cfar, CfarAxes, CfarKind, CfarOptions, Detection};
+pub use cfar::{CellThreshold, Cfar, CfarAxes, CfarKind, CfarOptions, Detection};
 pub use clutter::remove_static_clutter;
 pub use covariance::{forward_backward, load_diagonal, sample_covariance, spatial_smoothing};
 pub use error::SignalError;
+pub use folds::{Fold, FoldTest};
 pub use peaks::{Peak, Peaks, group_peaks};
 pub use power::power_map;
 pub use range_doppler::{RangeDoppler, RangeDopplerMap, RangeDopplerOptions};

@@ -79,17 +79,48 @@ fn vertex(powers: [f64; 3]) -> (f64, f64) {
     (offset, -0.25 * (a - c) * offset)
 }
 
+/// The peak that a cell belongs to: where going on to the strongest of eight neighbours ends, Doppler wrapping. It is the
+/// cell itself where [`group_peaks`] keeps it; nothing for a cell outside the map.
+pub fn peak_of(
+    power: ArrayView2<f32>,
+    [mut range_bin, mut doppler_bin]: [usize; 2],
+) -> Option<[usize; 2]> {
+    let (ranges, dopplers) = power.dim();
+    if range_bin >= ranges || doppler_bin >= dopplers {
+        return None;
+    }
+    loop {
+        let here = (range_bin, doppler_bin);
+        let best = neighbours(power.dim(), here)
+            .fold(here, |best, cell| if outranks(power, cell, best) { cell } else { best });
+        if best == here {
+            return Some([range_bin, doppler_bin]);
+        }
+        (range_bin, doppler_bin) = best;
+    }
+}
+
 fn is_peak(power: ArrayView2<f32>, detection: &Detection) -> bool {
     let (ranges, dopplers) = power.dim();
-    let (r, d) = (detection.range_bin, detection.doppler_bin);
-    if r >= ranges || d >= dopplers {
-        return false;
-    }
-    let own = power[[r, d]];
+    let here = (detection.range_bin, detection.doppler_bin);
+    here.0 < ranges
+        && here.1 < dopplers
+        && neighbours(power.dim(), here).all(|cell| !outranks(power, cell, here))
+}
+
+/// The cells around a cell, Doppler wrapping.
+fn neighbours(
+    (ranges, dopplers): (usize, usize),
+    (r, d): (usize, usize),
+) -> impl Iterator<Item = (usize, usize)> {
     let rows = r.saturating_sub(1)..(r + 2).min(ranges);
-    rows.flat_map(|row| [dopplers - 1, 0, 1].map(|step| (row, (d + step) % dopplers)))
-        .filter(|cell| *cell != (r, d))
-        .all(|cell| own > power[cell] || (own == power[cell] && (r, d) < cell))
+    rows.flat_map(move |row| [dopplers - 1, 0, 1].map(|step| (row, (d + step) % dopplers)))
+        .filter(move |cell| *cell != (r, d))
+}
+
+/// Whether a cell is the stronger of two, of equal ones the first.
+fn outranks(power: ArrayView2<f32>, cell: (usize, usize), other: (usize, usize)) -> bool {
+    power[cell] > power[other] || (power[cell] == power[other] && cell < other)
 }
 
 #[cfg(test)]

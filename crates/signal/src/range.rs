@@ -1,7 +1,7 @@
 //! Range transform: samples of each chirp to range bins.
 
 use crate::error::SignalError;
-use crate::window::{Window, noise_bandwidth_bins};
+use crate::window::{Window, noise_bandwidth_bins, power_correlation};
 use boresight_core::error::check_range;
 use boresight_core::fft::Transforms;
 use boresight_core::units::SPEED_OF_LIGHT_MPS;
@@ -31,13 +31,10 @@ impl RowTransform {
         let coefficients = window.coefficients(length)?;
         let scale = 1.0 / coefficients.iter().sum::<f64>();
         let fft = f32::plan_forward(length * padding);
-        // Sum of the squared correlation of powers over all lags, by Parseval's theorem.
-        let squares: f64 = coefficients.iter().map(|w| w.powi(2)).sum();
-        let fourths: f64 = coefficients.iter().map(|w| w.powi(4)).sum();
         Ok(Self {
             weights: coefficients.iter().map(|w| (w * scale) as f32).collect(),
             noise_bandwidth_bins: noise_bandwidth_bins(&coefficients),
-            correlation: (length * padding) as f64 * fourths / (squares * squares),
+            correlation: power_correlation(&coefficients, length * padding),
             scratch: vec![Complex32::default(); fft.get_inplace_scratch_len()],
             fft,
         })
@@ -62,15 +59,15 @@ pub fn bin_correlation(window: Window, samples: usize) -> Result<f64, SignalErro
     Ok(RowTransform::new(window, samples, 1)?.correlation)
 }
 
-/// Range of each bin of a range transform of `bins` bins, m: bin `k` holds beat frequency
-/// `k fs / bins`. All bins count, since samples are complex.
+/// Range of each bin of a range transform of `bins` bins, m, over the band of beat frequencies
+/// ([`Waveform::beat_band_hz`]): all bins of complex samples, the half of real ones.
 pub fn range_axis_m(waveform: &Waveform, bins: usize) -> Vec<f64> {
     (0..bins).map(|k| range_of_bin_m(waveform, bins, k as f64)).collect()
 }
 
 /// Range of a bin that need not be whole, m.
 pub fn range_of_bin_m(waveform: &Waveform, bins: usize, bin: f64) -> f64 {
-    let beat_hz = bin * waveform.sample_rate_hz / bins as f64;
+    let beat_hz = bin * waveform.beat_band_hz() / bins as f64;
     beat_hz * SPEED_OF_LIGHT_MPS / (2.0 * waveform.slope_hz_per_s)
 }
 

@@ -1,15 +1,17 @@
 //! Range and Doppler transform of a frame.
 
 use crate::clutter::subtract_mean;
+use crate::doppler_division::Bands;
 use crate::error::SignalError;
 use crate::power::accumulate_power;
 use crate::range::{RowTransform, range_axis_m};
+use crate::real_range::RealRangeTransform;
 use crate::window::Window;
 use boresight_core::describe::Described;
 use boresight_core::error::check_range;
 use boresight_core::limits::check_bytes;
-use boresight_core::{Complex32, Complex64, CoreError, Waveform};
-use ndarray::{Array1, Array2, Array3, ArrayView4, Axis};
+use boresight_core::{Complex32, Complex64, CoreError, Sampling, Waveform};
+use ndarray::{Array1, Array2, Array3, ArrayView2, ArrayView4, Axis};
 use serde::{Deserialize, Serialize};
 
 /// Memory of a value: itself, and what it was made of.
@@ -41,7 +43,8 @@ pub struct RangeDopplerOptions {
 pub struct RangeDopplerMap {
     /// Channels x range x Doppler, in memory in this order, channel `tx * receivers + rx`. Rates
     /// ascend with the Doppler bin. The phase between transmitters is as measured; see
-    /// [`crate::tdm`].
+    /// [`crate::tdm`]. In binary-phase multiplexing the first number is that of the chirp in the
+    /// loop, from which [`crate::binary_phase`] makes transmitters.
     pub cube: Array3<Complex32>,
     /// Mean power over the channels, range x Doppler. A cell that holds a target has the power of
     /// one raw sample of it.
@@ -75,14 +78,80 @@ impl RangeDopplerMap {
     }
 }
 
+/// The range transform of either kind of samples.
+enum RangeTransform {
+    Complex(RowTransform),
+    Real(RealRangeTransform),
+}
+
+impl RangeTransform {
+    fn new(waveform: &Waveform, options: &RangeDopplerOptions) -> Result<Self, SignalError> {
+        let (window, padding) = (options.range_window, options.range_padding);
+        Ok(match waveform.sampling {
+            Sampling::Complex => {
+                Self::Complex(RowTransform::new(window, waveform.samples, padding)?)
+            }
+            Sampling::Real => {
+                Self::Real(RealRangeTransform::new(window, waveform.samples, padding)?)
+            }
+        })
+    }
+
+    fn bins(&self) -> usize {
+        match self {
+            Self::Complex(transform) => transform.bins(),
+            Self::Real(transform) => transform.bins(),
+        }
+    }
+
+    fn noise_bandwidth_bins(&self) -> f64 {
+        match self {
+            Self::Complex(transform) => transform.noise_bandwidth_bins,
+            Self::Real(transform) => transform.noise_bandwidth_bins,
+        }
+    }
+
+    fn correlation(&self) -> f64 {
+        match self {
+            Self::Complex(transform) => transform.correlation,
+            Self::Real(transform) => transform.correlation,
+        }
+    }
+
+    /// Range bins of the chirps, into rows of [`RangeTransform::bins`].
+    fn transform(
+        &mut self,
+        chirps: ArrayView2<Complex32>,
+        rows: &mut [Complex32],
+    ) -> Result<(), SignalError> {
+        let each = self.bins();
+        match self {
+            Self::Complex(transform) => {
+                for (chirp, row) in chirps.outer_iter().zip(rows.chunks_exact_mut(each)) {
+                    weigh(chirp, &transform.weights, row);
+                }
+                transform.transform(rows);
+            }
+            Self::Real(transform) => {
+                for (chirp, row) in chirps.outer_iter().zip(rows.chunks_exact_mut(each)) {
+                    transform.transform(chirp, row)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
 /// A plan for the range and Doppler transform of frames of one shape. It keeps its windows, FFTs
 /// and scratch space, so that [`RangeDoppler::process`] allocates nothing.
 pub struct RangeDoppler {
     waveform: Waveform,
     receivers: usize,
     static_clutter_removal: bool,
-    range: RowTransform,
+    range: RangeTransform,
     doppler: RowTransform,
+    /// What tells transmitters apart in Doppler division.
+    bands: Option<Bands>,
     /// Range bins of all loops of one channel.
     chirps: Vec<Complex32>,
     range_m: Vec<f64>,
@@ -90,7 +159,7 @@ pub struct RangeDoppler {
 }
 
 impl RangeDoppler {
-    /// Plans for frames of `waveform.loops` x `waveform.transmitters` x `receivers` x
+    /// Plans for frames of `waveform.loops` x [`Waveform::chirps_per_loop`] x `receivers` x
     /// `waveform.samples`.
     ///
     /// # Errors
@@ -112,8 +181,7 @@ impl RangeDoppler {
             receivers,
         ];
         check_bytes("the range-Doppler cube", &sizes, VALUE_BYTES)?;
-        let range =
-            RowTransform::new(options.range_window, waveform.samples, options.range_padding)?;
+        let range = RangeTransform::new(waveform, options)?;
         let mut doppler =
             RowTransform::new(options.doppler_window, waveform.loops, options.doppler_padding)?;
         let bins = doppler.bins();
@@ -129,6 +197,7 @@ impl RangeDoppler {
             chirps: vec![Complex32::default(); waveform.loops * range.bins()],
             range_m: range_axis_m(waveform, range.bins()),
             rate_mps,
+            bands: Bands::of(waveform, &doppler.weights),
             range,
             doppler,
         })
@@ -155,17 +224,24 @@ impl RangeDoppler {
     }
 
     /// Noise power of one raw sample over that of one cell: the gain in SNR of a target in the
-    /// middle of a cell.
+    /// middle of a cell, over that of one transmitter in one raw sample. With real samples it is half of what as many
+    /// complex ones give. In binary phase it is larger by the number of transmitters, which all send in each chirp; in
+    /// Doppler division so are the loops in the same time.
     pub fn processing_gain(&self) -> f64 {
-        let samples = self.waveform.samples as f64 / self.range.noise_bandwidth_bins;
-        samples * self.waveform.loops as f64 / self.doppler.noise_bandwidth_bins
+        let bandwidth = match self.waveform.sampling {
+            Sampling::Complex => self.range.noise_bandwidth_bins(),
+            Sampling::Real => 2.0 * self.range.noise_bandwidth_bins(),
+        };
+        let samples = self.waveform.samples as f64 / bandwidth;
+        let chirps = (self.waveform.loops * self.waveform.sent_per_loop()) as f64;
+        samples * chirps / self.doppler.noise_bandwidth_bins
     }
 
     /// Neighbouring cells of noise that count as one independent cell, along range and Doppler: the
     /// sum over all lags of the squared magnitude of the correlation window and padding cause. 1
     /// without either, 1.94 for the Hann window.
     pub fn cell_correlation(&self) -> [f64; 2] {
-        [self.range.correlation, self.doppler.correlation]
+        [self.range.correlation(), self.doppler.correlation]
     }
 
     /// Space for a result of [`RangeDoppler::process`], to be used again and again.
@@ -177,58 +253,84 @@ impl RangeDoppler {
         }
     }
 
-    /// Transforms a frame of loops x transmitters x receivers x samples.
+    /// Transforms a frame of loops x chirps of a loop x receivers x samples.
     ///
     /// # Errors
-    /// [`CoreError::Shape`] if the frame or the output has another shape than planned.
+    /// [`CoreError::Shape`] if the frame or the output has another shape than planned;
+    /// [`CoreError::OutOfRange`] for real samples with an imaginary part.
     pub fn process(
         &mut self,
         frame: ArrayView4<Complex32>,
         output: &mut RangeDopplerMap,
     ) -> Result<(), SignalError> {
         let Waveform { loops, transmitters, samples, .. } = self.waveform;
-        check_shape("frame", frame.shape(), &[loops, transmitters, self.receivers, samples])?;
+        let chirps = self.waveform.chirps_per_loop();
+        check_shape("frame", frame.shape(), &[loops, chirps, self.receivers, samples])?;
         let (ranges, dopplers) = (self.range.bins(), self.doppler.bins());
         check_shape("output cube", output.cube.shape(), &[self.channels(), ranges, dopplers])?;
         check_shape("output power map", output.power.shape(), &[ranges, dopplers])?;
         output.power.fill(0.0);
-        for tx in 0..transmitters {
+        for chirp in 0..chirps {
             for rx in 0..self.receivers {
-                let channel = frame.index_axis(Axis(1), tx);
+                let channel = frame.index_axis(Axis(1), chirp);
                 let channel = channel.index_axis(Axis(1), rx);
-                for (chirp, row) in channel.outer_iter().zip(self.chirps.chunks_exact_mut(ranges)) {
-                    weigh(chirp, &self.range.weights, row);
+                self.range.transform(channel, &mut self.chirps)?;
+                // Chirps that all transmitters share are those of each.
+                let planes = if self.bands.is_some() { 0..transmitters } else { chirp..chirp + 1 };
+                for plane in planes {
+                    self.pulses(plane, plane * self.receivers + rx, output)?;
                 }
-                self.range.transform(&mut self.chirps);
-                let mut plane = output.cube.index_axis_mut(Axis(0), tx * self.receivers + rx);
-                let Some(plane) = plane.as_slice_mut() else {
-                    return Err(not_contiguous("output cube"));
-                };
-                let Some(power) = output.power.as_slice_mut() else {
-                    return Err(not_contiguous("output power map"));
-                };
-                transpose(&self.chirps, loops, plane, ranges);
-                for row in plane.chunks_exact_mut(dopplers) {
-                    let (pulses, padding) = row.split_at_mut(loops);
+            }
+        }
+        let share = 1.0 / (self.channels() * self.waveform.sent_per_loop()) as f32;
+        output.power.mapv_inplace(|p| p * share);
+        Ok(())
+    }
+
+    /// The Doppler transform of the range bins at hand into one channel of the output.
+    fn pulses(
+        &mut self,
+        transmitter: usize,
+        channel: usize,
+        output: &mut RangeDopplerMap,
+    ) -> Result<(), SignalError> {
+        let loops = self.waveform.loops;
+        let (ranges, dopplers) = (self.range.bins(), self.doppler.bins());
+        let mut plane = output.cube.index_axis_mut(Axis(0), channel);
+        let Some(plane) = plane.as_slice_mut() else {
+            return Err(not_contiguous("output cube"));
+        };
+        let Some(power) = output.power.as_slice_mut() else {
+            return Err(not_contiguous("output power map"));
+        };
+        transpose(&self.chirps, loops, plane, ranges);
+        for row in plane.chunks_exact_mut(dopplers) {
+            let (pulses, padding) = row.split_at_mut(loops);
+            match &self.bands {
+                Some(bands) => {
+                    if self.static_clutter_removal {
+                        bands.subtract_static(pulses);
+                    }
+                    bands.weigh(transmitter, pulses);
+                }
+                None => {
                     if self.static_clutter_removal {
                         subtract_mean(pulses);
                     }
                     for (pulse, &weight) in pulses.iter_mut().zip(&self.doppler.weights) {
                         *pulse *= weight;
                     }
-                    padding.fill(Complex32::default());
                 }
-                self.doppler.transform(plane);
-                if !dopplers.is_multiple_of(2) {
-                    for row in plane.chunks_exact_mut(dopplers) {
-                        row.rotate_right(dopplers / 2);
-                    }
-                }
-                accumulate_power(plane, power);
+            }
+            padding.fill(Complex32::default());
+        }
+        self.doppler.transform(plane);
+        if !dopplers.is_multiple_of(2) {
+            for row in plane.chunks_exact_mut(dopplers) {
+                row.rotate_right(dopplers / 2);
             }
         }
-        let share = 1.0 / self.channels() as f32;
-        output.power.mapv_inplace(|p| p * share);
+        accumulate_power(plane, power);
         Ok(())
     }
 
@@ -241,7 +343,9 @@ impl RangeDoppler {
         let (ranges, dopplers) = (self.range.bins(), self.doppler.bins());
         check_shape("power map", map.power.shape(), &[ranges, dopplers])?;
         let padding = (dopplers / self.waveform.loops) as f64;
-        let share = 1.0 / (padding * self.doppler.noise_bandwidth_bins);
+        // In Doppler division a target is in the row of each transmitter once for each.
+        let times = if self.bands.is_some() { self.waveform.transmitters } else { 1 };
+        let share = 1.0 / (padding * self.doppler.noise_bandwidth_bins * times as f64);
         let total = |row: ndarray::ArrayView1<f32>| row.iter().map(|&p| f64::from(p)).sum::<f64>();
         Ok(map.power.outer_iter().map(|row| share * total(row)).collect())
     }

@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 /// plainer wavefront, and so does noise. What leaves `0..max_range_m` comes back at the other end.
 ///
 /// # Errors
-/// [`CoreError::OutOfRange`] for a shift beyond the largest range either way, [`CoreError::Shape`] for chirps of another length than
+/// [`CoreError::Unknown`] for real samples, which a phase cannot be put on; [`CoreError::OutOfRange`] for a shift beyond the largest range either way, [`CoreError::Shape`] for chirps of another length than
 /// the waveform's; what is wrong with the waveform.
 pub fn shift_range(
     mut frame: ArrayViewMut4<'_, Complex32>,
@@ -27,6 +27,7 @@ pub fn shift_range(
     shift_m: f64,
 ) -> Result<(), SignalError> {
     waveform.check()?;
+    waveform.check_complex()?;
     let most = waveform.max_range_m();
     check_range("shift_m", shift_m, -most, most)?;
     let samples = frame.len_of(Axis(3));
@@ -106,6 +107,7 @@ impl RangeAugmentation {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use boresight_core::{Multiplexing, Sampling};
     use ndarray::Array4;
 
     fn waveform() -> Waveform {
@@ -113,12 +115,15 @@ mod tests {
             start_frequency_hz: 77e9,
             slope_hz_per_s: 60e12,
             sample_rate_hz: 5e6,
+            sampling: Sampling::Complex,
             samples: 64,
             adc_start_s: 2e-6,
             chirp_interval_s: 60e-6,
             transmitters: 1,
             loops: 2,
             frame_interval_s: 40e-3,
+            multiplexing: Multiplexing::TimeDivision,
+            doppler_bands: None,
         }
     }
 
@@ -131,6 +136,13 @@ mod tests {
             let z = cis(TAU * turns.fract());
             Complex32::new(z.re as f32, z.im as f32)
         })
+    }
+
+    #[test]
+    fn real_samples_are_refused() {
+        let real = Waveform { sampling: Sampling::Real, ..waveform() };
+        let error = shift_range(Array4::zeros((2, 1, 1, 64)).view_mut(), &real, 0.1).unwrap_err();
+        assert!(error.to_string().contains("complex"), "{error}");
     }
 
     #[test]

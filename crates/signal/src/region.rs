@@ -6,7 +6,7 @@ use crate::window::Window;
 use boresight_core::describe::Described;
 use boresight_core::error::check_range;
 use boresight_core::order::descending;
-use boresight_core::{Complex32, Complex64, CoreError};
+use boresight_core::{Complex32, Complex64, CoreError, Direction};
 use ndarray::{Array2, Array3, Array4, ArrayView2, ArrayView3, ArrayView4};
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,11 @@ pub struct Region {
     /// Least and greatest azimuth.
     #[option(range = -90..=90)]
     pub azimuth_rad: Option<[f64; 2]>,
+    /// Least and greatest elevation; arrays that see none have all at 0.
+    #[option(range = -90..=90)]
+    pub elevation_rad: Option<[f64; 2]>,
+    /// Least and greatest height over the sensor (z).
+    pub height_m: Option<[f64; 2]>,
 }
 
 impl Region {
@@ -34,6 +39,8 @@ impl Region {
             ("range_m", self.range_m),
             ("rate_mps", self.rate_mps),
             ("azimuth_rad", self.azimuth_rad),
+            ("elevation_rad", self.elevation_rad),
+            ("height_m", self.height_m),
         ] {
             if let Some([least, greatest]) = limits
                 && (least.is_nan() || greatest.is_nan() || least > greatest)
@@ -50,12 +57,20 @@ impl Region {
 
     /// Whether range and rate lie within the limits; for detections without an angle yet.
     pub fn contains(&self, range_m: f64, rate_mps: f64) -> bool {
-        within(range_m, self.range_m) && within(rate_mps, self.rate_mps)
+        self.contains_range(range_m) && within(rate_mps, self.rate_mps)
     }
 
-    /// Whether an azimuth lies within the limits.
-    pub fn contains_azimuth(&self, azimuth_rad: f64) -> bool {
-        within(azimuth_rad, self.azimuth_rad)
+    /// Whether a range lies within the limits.
+    pub fn contains_range(&self, range_m: f64) -> bool {
+        within(range_m, self.range_m)
+    }
+
+    /// Whether azimuth, elevation and the height of what is seen there at a range lie within the limits.
+    pub fn contains_direction(&self, range_m: f64, direction: Direction) -> bool {
+        let [_, _, height_m] = direction.place_m(range_m);
+        within(direction.azimuth_rad, self.azimuth_rad)
+            && within(direction.elevation_rad, self.elevation_rad)
+            && within(height_m, self.height_m)
     }
 
     /// Keeps the items for which `contains` holds and counts the others.
@@ -225,7 +240,17 @@ mod tests {
         let mut cells = vec![(0.5, 0.0), (1.0, 99.0), (5.0, -3.0), (f64::NAN, 0.0)];
         let dropped = Region::retain(&mut cells, |&(range, rate)| region.contains(range, rate));
         assert_eq!((cells.len(), dropped), (2, 2));
-        assert!(region.contains_azimuth(-0.5) && !region.contains_azimuth(-0.6));
+        let azimuth = |rad| region.contains_direction(3.0, Direction::azimuth(rad));
+        assert!(azimuth(-0.5) && !azimuth(-0.6));
+        let space = Region {
+            elevation_rad: Some([-0.2, 0.4]),
+            height_m: Some([-0.5, 2.0]),
+            ..Region::default()
+        };
+        space.check().unwrap();
+        // Half a radian up is too steep; 0.3 rad up is 2.1 m high at 7 m and 1.5 m at 5.
+        let up = |range_m, rad| space.contains_direction(range_m, Direction::new(0.7, rad));
+        assert!(up(5.0, 0.3) && !up(7.0, 0.3) && !up(1.0, 0.5) && !up(3.0, -0.19));
         for limits in [[2.0, 1.0], [f64::NAN, 1.0], [0.0, f64::NAN]] {
             let refused = Region { rate_mps: Some(limits), ..region }.check().unwrap_err();
             assert_eq!(

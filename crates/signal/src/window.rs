@@ -152,6 +152,14 @@ pub fn noise_bandwidth_bins(coefficients: &[f64]) -> f64 {
     coefficients.len() as f64 * squares / (sum * sum)
 }
 
+/// Neighbouring bins of noise that count as one independent bin, in a transform to `bins` bins: the
+/// sum of the squared correlation of powers over all lags, by Parseval's theorem.
+pub(crate) fn power_correlation(coefficients: &[f64], bins: usize) -> f64 {
+    let squares: f64 = coefficients.iter().map(|w| w.powi(2)).sum();
+    let fourths: f64 = coefficients.iter().map(|w| w.powi(4)).sum();
+    bins as f64 * fourths / (squares * squares)
+}
+
 /// `a_0 - a_1 cos x + a_2 cos 2x - ...` over one period, both ends included; ones where there is
 /// nothing between the ends, which would be zeros.
 fn cosine_sum(length: usize, terms: &[f64]) -> Vec<f64> {

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Random, Waveform};
+use boresight_core::{Complex32, Multiplexing, Random, Sampling, Waveform};
 use boresight_signal::{
     Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,
 };
@@ -12,7 +12,8 @@ const RANGES: usize = 36;
 const DOPPLERS: usize = 24;
 const FALSE_ALARM: f64 = 0.01;
 
-const KINDS: [CfarKind; 4] = [
+const KINDS: [CfarKind; 5] = [
+    CfarKind::Excision,
     CfarKind::CellAveraging,
     CfarKind::GreatestOf,
     CfarKind::SmallestOf,
@@ -153,12 +154,15 @@ fn windowed_noise_keeps_the_rate() {
         start_frequency_hz: 77e9,
         slope_hz_per_s: 60e12,
         sample_rate_hz: 5e6,
+        sampling: Sampling::Complex,
         samples: 32,
         adc_start_s: 0.0,
         chirp_interval_s: 20e-6,
         transmitters: 1,
         loops: 32,
         frame_interval_s: 1e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     };
     let windows = RangeDopplerOptions {
         range_window: Window::Hann,

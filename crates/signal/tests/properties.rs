@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::describe::Named;
-use boresight_core::{Complex32, Complex64, Diagnose, Waveform};
+use boresight_core::{Complex32, Complex64, Diagnose, Multiplexing, Sampling, Waveform};
 use boresight_signal::region::{crop_region, range_spectrum, region_covariance};
 use boresight_signal::{
     Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,
@@ -90,12 +90,15 @@ proptest! {
             start_frequency_hz: 77e9,
             slope_hz_per_s: 60e12,
             sample_rate_hz: 5e6,
+            sampling: Sampling::Complex,
             samples,
             adc_start_s: 2e-6,
             chirp_interval_s: 60e-6,
             transmitters: 2,
             loops,
             frame_interval_s: 40e-3,
+            multiplexing: Multiplexing::TimeDivision,
+            doppler_bands: None,
         };
         let options = RangeDopplerOptions {
             range_window,

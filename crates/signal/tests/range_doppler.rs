@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_core::{Complex32, Complex64, CoreError, Diagnose, Random, Waveform};
+use boresight_core::{
+    Complex32, Complex64, CoreError, Diagnose, Multiplexing, Random, Sampling, Waveform,
+};
 use boresight_signal::{
     RangeDoppler, RangeDopplerOptions, SignalError, Window, power_map, remove_static_clutter,
 };
@@ -14,12 +16,15 @@ fn waveform(samples: usize, transmitters: usize, loops: usize) -> Waveform {
         start_frequency_hz: 77e9,
         slope_hz_per_s: 60e12,
         sample_rate_hz: 5e6,
+        sampling: Sampling::Complex,
         samples,
         adc_start_s: 2e-6,
         chirp_interval_s: 60e-6,
         transmitters,
         loops,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 

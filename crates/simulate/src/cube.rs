@@ -1,4 +1,4 @@
-//! FMCW data cubes of a time-division MIMO radar, after equation 9 of the 3D-CNN paper (Sang et
+//! FMCW data cubes of a MIMO radar, after equation 9 of the 3D-CNN paper (Sang et
 //! al. 2021), bit for bit the same natively and in wasm.
 //!
 //! A sample at time `t` after the start of its ramp is
@@ -6,12 +6,14 @@
 //! `R` at that very moment. So the beat frequency is positive and grows with range, and the phase
 //! `4 pi R / lambda` rises from chirp to chirp for a receding target, whose Doppler is positive.
 //!
+//! Real samples are the real part of all that, of the noise too: both have half the power.
+//!
 //! Phases in the far and in the near field are those of `crate::paths`.
 
 use crate::cost::sum_operations;
 use crate::error::SimulateError;
 use crate::paths::{Paths, moved};
-use boresight_core::array::{MAX_ELEMENTS, Position};
+use boresight_core::array::{Channel, MAX_ELEMENTS, Position};
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
 use boresight_core::error::check_range;
@@ -19,7 +21,7 @@ use boresight_core::limits::{check_bytes, check_operations};
 use boresight_core::steering::cis;
 use boresight_core::units::{SPEED_OF_LIGHT_MPS, db_to_amplitude, db_to_power};
 use boresight_core::{
-    Array, Complex32, Complex64, CoreError, Direction, Imperfections, Random, Waveform,
+    Array, Complex32, Complex64, CoreError, Direction, Imperfections, Random, Sampling, Waveform,
 };
 use ndarray::{Array1, Array5};
 use serde::{Deserialize, Serialize};
@@ -62,7 +64,7 @@ pub struct CubeColumns {
     pub data: Vec<f32>,
     /// Lengths of the axes.
     #[option(
-        typescript = "[frames: number, loops: number, transmitters: number, receivers: number, samples: number]"
+        typescript = "[frames: number, loops: number, chirps: number, receivers: number, samples: number]"
     )]
     pub shape: [usize; 5],
 }
@@ -106,8 +108,11 @@ pub struct CubeOptions {
     pub seed: u64,
 }
 
-/// Simulates frames x loops x transmitters x receivers x samples. Transmitters and receivers are
-/// those of the array ([`Array::tx`], [`Array::rx`]), whichever of their pairs it keeps.
+/// Simulates frames x loops x chirps of a loop x receivers x samples, as the chirps are sent
+/// ([`Waveform::chirps_per_loop`]). Transmitters and receivers are those of the array
+/// ([`Array::tx`], [`Array::rx`]), whichever of their pairs it keeps. Those that are mounted turned
+/// ([`Array::is_inverted`]) send and receive with the opposite sign. Each transmitter sends with
+/// the same power whether it sends alone or not.
 ///
 /// # Errors
 /// [`CoreError::OutOfRange`] for a number out of range, among them a target that is, at any time,
@@ -122,9 +127,12 @@ pub fn simulate_cube(
 ) -> Result<Array5<Complex32>, SimulateError> {
     check(waveform, array, targets, options)?;
     let (tx, rx) = (array.tx().len(), array.rx().len());
-    let shape = [options.frames, waveform.loops, tx, rx, waveform.samples];
+    let chirps = waveform.chirps_per_loop();
+    let shape = [options.frames, waveform.loops, chirps, rx, waveform.samples];
     let values = check_bytes("the data cube", &shape, size_of::<Complex32>())?;
-    check_operations("the data cube", values as f64 * sum_operations(targets.len()))?;
+    let senders = if waveform.multiplexing.is_time_division() { 1 } else { tx };
+    let waves = targets.len().saturating_mul(senders);
+    check_operations("the data cube", values as f64 * sum_operations(waves))?;
     let model = Model::new(waveform, array, options);
     let mut phases = Random::new(options.seed, 0);
     let echoes: Vec<Echo> = targets.iter().map(|t| model.echo(t, &mut phases)).collect();
@@ -133,18 +141,28 @@ pub fn simulate_cube(
     let mut block = Block::new(rx, waveform.samples);
     for (frame_index, mut frame) in cube.outer_iter_mut().enumerate() {
         let mut random = Random::new(options.seed, frame_index as u64 + 1);
-        for (l, mut chirps) in frame.outer_iter_mut().enumerate() {
-            for (t, mut chirp) in chirps.outer_iter_mut().enumerate() {
+        for (l, mut loop_chirps) in frame.outer_iter_mut().enumerate() {
+            for (c, mut chirp) in loop_chirps.outer_iter_mut().enumerate() {
                 let start_s = frame_index as f64 * waveform.frame_interval_s
-                    + (l * tx + t) as f64 * waveform.chirp_interval_s;
+                    + (l * chirps + c) as f64 * waveform.chirp_interval_s;
                 block.re.fill(0.0);
                 block.im.fill(0.0);
-                for echo in &echoes {
-                    model.add(echo, t, start_s, &mut block);
+                for t in 0..tx {
+                    let code = waveform.code(t, l, c);
+                    if code == Complex64::ZERO {
+                        continue;
+                    }
+                    for echo in &echoes {
+                        model.add(echo, t, code, start_s, &mut block);
+                    }
                 }
                 for ((out, &re), &im) in chirp.iter_mut().zip(&block.re).zip(&block.im) {
                     let noisy = Complex64::new(re, im) + random.complex_normal(noise_power);
-                    *out = Complex32::new(noisy.re as f32, noisy.im as f32);
+                    let im = match waveform.sampling {
+                        Sampling::Complex => noisy.im as f32,
+                        Sampling::Real => 0.0,
+                    };
+                    *out = Complex32::new(noisy.re as f32, im);
                 }
             }
         }
@@ -196,6 +214,8 @@ struct Model<'a> {
     paths: Paths,
     /// Virtual elements as they really are, half wavelengths.
     elements: Vec<Position>,
+    /// Sign of each virtual element's samples: that of antennas mounted turned.
+    signs: Vec<f64>,
 }
 
 /// A target as the cube sees it.
@@ -244,9 +264,11 @@ impl Block {
 impl<'a> Model<'a> {
     fn new(waveform: &'a Waveform, array: &Array, options: &'a CubeOptions) -> Self {
         let imperfections = options.imperfections.as_ref();
-        let (mut elements, mut ends) = (vec![], vec![]);
-        for tx in array.tx() {
-            for rx in array.rx() {
+        let (mut elements, mut ends, mut signs) = (vec![], vec![], vec![]);
+        for (t, tx) in array.tx().iter().enumerate() {
+            for (r, rx) in array.rx().iter().enumerate() {
+                let inverted = array.is_inverted(Channel { tx: t, rx: r });
+                signs.push(if inverted { -1.0 } else { 1.0 });
                 let error = imperfections.map_or([0.0; 3], |i| i.displacement[elements.len()]);
                 let rx = moved(*rx, error);
                 ends.push([*tx, rx]);
@@ -254,7 +276,7 @@ impl<'a> Model<'a> {
             }
         }
         let paths = Paths::new(waveform.wavelength_m(), ends);
-        Self { waveform, field: options.field, imperfections, paths, elements }
+        Self { waveform, field: options.field, imperfections, paths, elements, signs }
     }
 
     fn echo(&self, target: &CubeTarget, phases: &mut Random) -> Echo {
@@ -272,13 +294,13 @@ impl<'a> Model<'a> {
         if self.field == Field::Near {
             gains.zip_mut_with(&ideal, |gain, ideal| *gain *= ideal.conj());
         }
-        let gains = gains.iter().map(|gain| gain * amplitude).collect();
+        let gains = gains.iter().zip(&self.signs).map(|(g, sign)| g * amplitude * sign).collect();
         Echo { range_m: target.range_m, rate_mps: target.rate_mps, unit, gains }
     }
 
-    /// Adds the echo in the chirp of transmitter `tx` that starts at `start_s` to receivers x
-    /// samples.
-    fn add(&self, echo: &Echo, tx: usize, start_s: f64, block: &mut Block) {
+    /// Adds the echo of what transmitter `tx` sends, times its code, in the chirp that starts at
+    /// `start_s` to receivers x samples.
+    fn add(&self, echo: &Echo, tx: usize, code: Complex64, start_s: f64, block: &mut Block) {
         let samples = self.waveform.samples;
         let receivers = block.re.len() / samples;
         let gains = &echo.gains[tx * receivers..(tx + 1) * receivers];
@@ -294,7 +316,7 @@ impl<'a> Model<'a> {
                 let path = |time_s| self.paths.length_m(element, range_m(time_s), &echo.unit);
                 block.set_wave(self.tone(path(first_s), path(last_s)));
             }
-            block.add_wave(r, *gain);
+            block.add_wave(r, gain * code);
         }
     }
 

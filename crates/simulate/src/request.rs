@@ -51,7 +51,7 @@ pub struct CubeRequest {
 }
 
 impl CubeRequest {
-    /// Simulates frames x loops x transmitters x receivers x samples.
+    /// Simulates frames x loops x chirps of a loop x receivers x samples.
     ///
     /// # Errors
     /// As [`simulate_cube`].

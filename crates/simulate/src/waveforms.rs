@@ -1,6 +1,6 @@
 //! Waveforms of the literature and of boards.
 
-use boresight_core::{CoreError, Waveform};
+use boresight_core::{CoreError, Multiplexing, Sampling, Waveform};
 
 /// A waveform's name, and the function that makes it.
 type Preset = (&'static str, fn() -> Waveform);
@@ -40,12 +40,15 @@ pub fn waveform_3dcnn_simulated() -> Waveform {
         start_frequency_hz: 77e9,
         slope_hz_per_s,
         sample_rate_hz: 256.0 * slope_hz_per_s / 0.15e9,
+        sampling: Sampling::Complex,
         samples: 256,
         adc_start_s: 0.0,
         chirp_interval_s: 50e-6,
         transmitters: 1,
         loops: 4,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 
@@ -58,12 +61,15 @@ pub fn waveform_3dcnn_experiment() -> Waveform {
         start_frequency_hz: 77e9,
         slope_hz_per_s,
         sample_rate_hz: 512.0 * slope_hz_per_s / 3.5e9,
+        sampling: Sampling::Complex,
         samples: 512,
         adc_start_s: 0.0,
         chirp_interval_s: 850e-6,
         transmitters: 2,
         loops: 4,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 
@@ -74,12 +80,15 @@ pub fn waveform_awr1642() -> Waveform {
         start_frequency_hz: 77e9,
         slope_hz_per_s: 60e12,
         sample_rate_hz: 5.209e6,
+        sampling: Sampling::Complex,
         samples: 256,
         adc_start_s: 7e-6,
         chirp_interval_s: 97.14e-6,
         transmitters: 2,
         loops: 16,
         frame_interval_s: 40e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 
@@ -90,12 +99,15 @@ pub fn waveform_corner() -> Waveform {
         start_frequency_hz: 76.5e9,
         slope_hz_per_s: 375e6 / 10.24e-6,
         sample_rate_hz: 25e6,
+        sampling: Sampling::Complex,
         samples: 256,
         adc_start_s: 1e-6,
         chirp_interval_s: 12.5e-6,
         transmitters: 6,
         loops: 128,
         frame_interval_s: 50e-3,
+        multiplexing: Multiplexing::TimeDivision,
+        doppler_bands: None,
     }
 }
 

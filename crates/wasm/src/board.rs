@@ -48,5 +48,9 @@ impl BoardLogStream {
 }
 
 fn optional_config(text: &JsValue) -> Fallible<Option<RadarConfig>> {
-    if text.is_undefined() { Ok(None) } else { read_config(text, "configuration").map(Some) }
+    if text.is_undefined() {
+        Ok(None)
+    } else {
+        read_config(text, "configuration").map(|(config, _)| Some(config))
+    }
 }

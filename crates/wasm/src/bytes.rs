@@ -2,7 +2,7 @@
 
 use crate::error::Fallible;
 use crate::given;
-use crate::read::{Read, wrong_type};
+use crate::read::{Fields, Read, wrong_type};
 use js_sys::Uint8Array;
 use wasm_bindgen::JsValue;
 
@@ -19,6 +19,26 @@ impl Read for Bytes {
             bytes => bytes,
         };
         bytes.map(Self).ok_or_else(|| wrong_type(path, Self::EXPECTED, value))
+    }
+}
+
+/// A file with its name.
+pub struct File {
+    /// Its name.
+    pub name: String,
+    /// Its contents.
+    pub bytes: Vec<u8>,
+}
+
+impl Read for File {
+    const EXPECTED: &'static str = "{ name, bytes }";
+
+    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
+        let mut fields = Fields::new(value, path)?;
+        let name = fields.required("name")?;
+        let Bytes(bytes) = fields.required("bytes")?;
+        fields.finish()?;
+        Ok(Self { name, bytes })
     }
 }
 

@@ -14,7 +14,8 @@ use boresight_core::describe::Described;
 use boresight_core::describe::shaped::ComplexArray;
 use boresight_core::error::check_range;
 use boresight_core::{Array, Complex64, Geometry, Remark, Waveform};
-use boresight_formats::{self as formats, RadarConfig};
+use boresight_formats::dca1000::Evidence;
+use boresight_formats::{self as formats, RadarConfig, Settled};
 use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Frame, FrameCells, FrameSource};
 use js_sys::Function;
 use ndarray::{Array2, ArrayView5, Axis};
@@ -41,6 +42,8 @@ fn classical(
 pub struct Capture {
     bytes: Vec<u8>,
     config: RadarConfig,
+    evidence: Evidence,
+    remarks: Vec<Remark>,
     array: Option<Array>,
     frames: usize,
     chain: Option<Chain>,
@@ -57,7 +60,12 @@ pub struct CaptureInfo<'a> {
     pub trailing_bytes: usize,
     /// Virtual array of the configured channels; null for a platform that is not known.
     pub array: Option<Geometry>,
-    /// What is odd about its size.
+    /// Power above the noise at positive beat frequencies over that at negative ones, as samples are read; null for real
+    /// samples, and for chirps that are too short or silent.
+    pub beat_asymmetry_db: Option<f64>,
+    /// Whether the samples tell that I and Q are the other way round than they are read; null where they tell nothing.
+    pub iq_swapped: Option<bool>,
+    /// What is odd about its size, its lanes, and the order of I and Q.
     pub warnings: &'a [Remark],
 }
 
@@ -82,11 +90,12 @@ impl Capture {
     /// Lays the configuration over the bytes.
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: &JsValue, config: &JsValue) -> Fallible<Self> {
-        let config = read_config(config, "configuration")?;
+        let (config, reading) = read_config(config, "configuration")?;
         let bytes = Bytes::read(bytes, "capture")?.0;
+        let Settled { config, evidence, remarks } = Settled::new(&bytes, &config, &reading)?;
         let frames = formats::Capture::new(&bytes, &config)?.frames();
         let array = config.array();
-        Ok(Self { bytes, config, array, frames, chain: None })
+        Ok(Self { bytes, config, evidence, remarks, array, frames, chain: None })
     }
 
     /// What is known before any processing.
@@ -97,7 +106,9 @@ impl Capture {
             frames: layout.frames(),
             trailing_bytes: layout.trailing_bytes(),
             array: self.array.as_ref().map(Geometry::from),
-            warnings: layout.remarks(),
+            beat_asymmetry_db: self.evidence.sides.map(|sides| sides.asymmetry_db),
+            iq_swapped: self.evidence.sides.and_then(|sides| sides.swapped),
+            warnings: &self.remarks,
         }))
     }
 
@@ -127,6 +138,18 @@ impl Capture {
         fields.finish()?;
         let (_, snapshots) = self.snapshots(cell, array, &options)?;
         Ok(carry::write(&ComplexArray::from(&snapshots)))
+    }
+
+    /// Why one cell is a detection or none.
+    #[wasm_bindgen(js_name = explainCell)]
+    pub fn explain_cell(&mut self, cell: &JsValue, options: &JsValue) -> Fallible<JsValue> {
+        let mut fields = Fields::of_optional(options)?;
+        let (array, options) = read_chain(&mut fields)?;
+        fields.finish()?;
+        let (bins, frames) = self.read_cell(cell)?;
+        let (chain, recording) = self.planned(&classical, array, &options)?;
+        let go_on = &mut |_| ControlFlow::Continue(());
+        Ok(carry::write(&chain.explain(&recording, frames, bins, go_on)?))
     }
 
     /// Angles and spectrum of one cell by any method.
@@ -273,12 +296,8 @@ impl Capture {
         Ok((self.chain.insert(chain), recording))
     }
 
-    fn snapshots(
-        &mut self,
-        cell: &JsValue,
-        array: ArrayChoice,
-        options: &ChainOptions,
-    ) -> Fallible<(&Chain, Array2<Complex64>)> {
+    /// Range bin and Doppler bin of a cell, and its frames.
+    fn read_cell(&self, cell: &JsValue) -> Fallible<([usize; 2], Range<usize>)> {
         let mut fields = Fields::new(cell, "cell")?;
         let range_bin = fields.required("rangeBin")?;
         let doppler_bin = fields.required("dopplerBin")?;
@@ -290,13 +309,23 @@ impl Capture {
             None => 0..self.frames,
         };
         fields.finish()?;
+        Ok(([range_bin, doppler_bin], frames))
+    }
+
+    fn snapshots(
+        &mut self,
+        cell: &JsValue,
+        array: ArrayChoice,
+        options: &ChainOptions,
+    ) -> Fallible<(&Chain, Array2<Complex64>)> {
+        let ([range_bin, doppler_bin], frames) = self.read_cell(cell)?;
         let (chain, recording) = self.planned(&classical, array, options)?;
         let snapshots = chain.cell_snapshots(&recording, frames, range_bin, doppler_bin)?;
         Ok((chain, snapshots))
     }
 }
 
-/// Detections of each frame of a cube: frames x loops x transmitters x receivers x samples.
+/// Detections of each frame of a cube: frames x loops x chirps of a loop x receivers x samples.
 #[wasm_bindgen(js_name = processCube)]
 pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array> {
     process_cube_by(&classical, cube, options)
@@ -308,13 +337,13 @@ pub fn process_cube(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array
 /// For a cube of other than five axes.
 pub fn cube_frames(cube: &Cube) -> Fallible<CubeFrames<'_>> {
     let wrong = || {
-        let expected = "[frames, loops, transmitters, receivers, samples]";
+        let expected = "[frames, loops, chirps of a loop, receivers, samples]";
         shape_error("cube", expected, &cube.shape)
     };
-    let [frames, loops, transmitters, receivers, samples] = cube.shape[..] else {
+    let [frames, loops, chirps, receivers, samples] = cube.shape[..] else {
         return Err(wrong());
     };
-    let shape = (frames, loops, transmitters, receivers, samples);
+    let shape = (frames, loops, chirps, receivers, samples);
     Ok(CubeFrames(ArrayView5::from_shape(shape, &cube.data).map_err(|_| wrong())?))
 }
 

@@ -27,7 +27,7 @@ pub struct CountResult {
 #[wasm_bindgen(js_name = countSources)]
 pub fn count_sources(input: &JsValue, options: &JsValue) -> Fallible<JsValue> {
     let input = Input::read(input, "input")?;
-    let CountOptions { criterion, forward_backward } = carry::read_optional(options)?;
-    let (eigenvalues, count) = count_sources_in(input.data()?, forward_backward, criterion)?;
+    let options: CountOptions = carry::read_optional(options)?;
+    let (eigenvalues, count) = count_sources_in(input.data()?, &options)?;
     Ok(carry::write(&CountResult { count: count.sources, eigenvalues, criterion: count.values }))
 }

@@ -1,9 +1,9 @@
 //! Drives, read from files and simulated, as flat typed arrays.
 
-use crate::bytes::Bytes;
+use crate::bytes::{Bytes, File};
 use crate::carry;
 use crate::error::Fallible;
-use crate::read::{Fields, Read};
+use crate::read::Read;
 use crate::report::reporter;
 use boresight_calibrate::{CalibrationOptions, SignOptions, signs};
 use boresight_core::Remark;
@@ -130,23 +130,6 @@ pub struct DriveScenarioInfo {
 #[wasm_bindgen(js_name = driveScenarios)]
 pub fn drive_scenarios() -> js_sys::Array {
     carry::write_all(Scenario::ALL.map(|name| DriveScenarioInfo { name, title: name.title() }))
-}
-
-struct File {
-    name: String,
-    bytes: Vec<u8>,
-}
-
-impl Read for File {
-    const EXPECTED: &'static str = "{ name, bytes }";
-
-    fn read(value: &JsValue, path: &str) -> Fallible<Self> {
-        let mut fields = Fields::new(value, path)?;
-        let name = fields.required("name")?;
-        let Bytes(bytes) = fields.required("bytes")?;
-        fields.finish()?;
-        Ok(Self { name, bytes })
-    }
 }
 
 /// A drive as read or simulated.

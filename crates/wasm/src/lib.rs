@@ -31,6 +31,8 @@ pub mod calibration_methods;
 #[cfg(feature = "chain")]
 pub mod capture;
 pub mod carry;
+#[cfg(feature = "core")]
+pub mod cascade;
 #[cfg(feature = "chain")]
 mod cells;
 #[cfg(feature = "chain")]

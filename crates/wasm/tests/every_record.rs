@@ -190,6 +190,8 @@ fn records_of_captures_and_images() {
         frames: 3,
         trailing_bytes: 5,
         array: Some(Geometry::from(&array)),
+        beat_asymmetry_db: Some(20.5),
+        iq_swapped: Some(false),
         warnings: &config.remarks,
     };
     whole(&info);

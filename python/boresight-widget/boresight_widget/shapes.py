@@ -266,7 +266,14 @@ SHAPES = {
         }
     ),
     "PointCloud": Fields(
-        {"rangeM": column(), "azimuthDeg": column(), "rangeRateMps?": column(), "rcsDbsm?": column(), **WEIGHED},
+        {
+            "rangeM": column(),
+            "azimuthDeg": column(),
+            "elevationDeg?": column(),
+            "rangeRateMps?": column(),
+            "rcsDbsm?": column(),
+            **WEIGHED,
+        },
     ),
     "Place": Fields({"xM": Number(), "yM": Number(), "yawDeg": Number()}),
     "BirdsEyeView": Fields(

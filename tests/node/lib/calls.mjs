@@ -49,6 +49,15 @@ export function goodCalls() {
     yawRateDegps: 1,
     speedMps: 10,
   };
+  // Two transmitters, one loop of two samples, four receivers a chip.
+  const cascadeCfg = cfg
+    .replace('channelCfg 15 3 0', 'channelCfg 65535 4095 1')
+    .replace('60 1 256 5209', '60 1 2 5209')
+    .replace('frameCfg 0 1 16', 'frameCfg 0 1 1');
+  const cascadeFiles = ['master', 'slave1', 'slave2', 'slave3'].map((chip) => ({
+    name: `${chip}_0000_data.bin`,
+    bytes: new Uint8Array(2 * 2 * 4 * 4),
+  }));
   const seen8 = (deg) => planeWaves(8, 1, [deg]);
   const detections = boresight.processCube(cube, chain)[0].detections;
   const numbers = Uint8Array.from(readFileSync(new URL('../../golden/hdf5/one.h5', import.meta.url)));
@@ -87,7 +96,9 @@ export function goodCalls() {
       cfg,
     ],
     strongestRegion: [cube, { bins: 5, chirps: 4 }],
-    parseConfig: [cfg],
+    parseConfig: [{ text: cfg, iqOrder: 'qi' }],
+    joinCascade: [cascadeFiles, cascadeCfg],
+    subFrameConfig: [cfg, 0],
     parseBoardLog: [Uint8Array.from(dat.subarray(0, 2000)), cfg],
     readNpy: [boresight.writeNpy({ kind: 'real', data: Float64Array.of(1, 2), shape: [2] })],
     writeNpy: [{ kind: 'real', data: Float64Array.of(1, 2), shape: [2] }],
@@ -118,6 +129,7 @@ export function goodCalls() {
     'Capture.processFrame': [bytes, cfg, 0, { angle }],
     'Capture.frameCells': [bytes, cfg, 0, { peakGrouping: false }],
     'Capture.cellSnapshots': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, {}],
+    'Capture.explainCell': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, {}],
     'Capture.cellSpectrum': [bytes, cfg, { rangeBin: 58, dopplerBin: 8 }, angle, {}],
     'Capture.calibrateArray': [bytes, cfg, { maxCells: 4 }, () => true],
     'Capture.combineFrames': [bytes, cfg, { frameCount: 1, angle }, () => true],

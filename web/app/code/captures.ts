@@ -3,6 +3,7 @@ import type { Loaded } from '../pages/capture/files.ts';
 import { isStudio } from '../pages/capture/studio.ts';
 import { inRepository, NEEDS } from './code.ts';
 import { quoted } from './literal.ts';
+import { flags } from './options.ts';
 import type { Script } from './script.ts';
 import { command, fileWord, heredoc, shellWord } from './shell.ts';
 
@@ -32,30 +33,55 @@ export function captureNeeds(capture: Loaded): string {
 /** Opens a capture as `capture`, of samples `bin` and configuration `cfg`. */
 export function openCapture(script: Script, capture: Loaded): void {
   const { bin, cfg } = namesOf(capture);
+  const { config } = capture.info;
   script.use('node:fs/promises', 'readFile').use('boresight', 'Capture');
-  if (bin.length > 1) {
+  const { cascade, reading } = capture;
+  if (cascade) {
+    script.add('// A file of each chip of the cascade.');
+    script.constant('parts', bin);
+    script.add('const files = await Promise.all(parts.map(async (name) => ({ name, bytes: await readFile(name) })));');
+  } else if (bin.length > 1) {
     script.add('// The recording is in several files.');
     script.constant('parts', bin);
     script.add('const bin = Buffer.concat(await Promise.all(parts.map((name) => readFile(name))));');
   } else script.add(`const bin = await readFile(${quoted(bin[0] ?? '')});`);
+  const own = Object.keys(reading).length > 0;
   if (cfg === null) {
     script.add('// What mmWave Studio wrote, as a .cfg.');
     script.constant('lines', capture.cfg.trimEnd().split('\n'));
-    script.add("const cfg = lines.join('\\n');");
-  } else script.add(`const cfg = await readFile(${quoted(cfg)}, 'utf8');`);
+  }
+  const file = `await readFile(${quoted(cfg ?? '')}, 'utf8')`;
+  let text = cfg === null ? "lines.join('\\n')" : file;
+  if (config.subFrames > 1) {
+    script.use('boresight', 'subFrameConfig');
+    text = `subFrameConfig(${text}, ${config.subFrame})`;
+  }
+  if (own) {
+    script.constant('reading', reading);
+    script.add(`const cfg = { text: ${text}, ...reading };`);
+  } else script.add(`const cfg = ${text};`);
+  if (cascade) {
+    script.use('boresight', 'joinCascade');
+    script.add('const { bytes: bin } = joinCascade(files, cfg);');
+  }
   script.add('const capture = new Capture(bin, cfg);');
 }
 
 /** What stands before the commands on a capture, and how they name it. */
 export function captureWords(capture: Loaded): { before: string[]; words: string[] } {
   const { bin, cfg } = namesOf(capture);
-  const [whole, config] = [bin.length > 1 ? 'capture.bin' : (bin[0] ?? ''), cfg ?? 'capture.cfg'];
+  const { info } = capture;
+  const joined = bin.length > 1 && !capture.cascade;
+  const [whole, config] = [joined ? 'capture.bin' : (bin[0] ?? ''), cfg ?? 'capture.cfg'];
   return {
     before: [
-      ...(bin.length > 1 ? [command(['cat', ...bin.map(fileWord)], ` > ${shellWord(whole)}`)] : []),
+      ...(joined ? [command(['cat', ...bin.map(fileWord)], ` > ${shellWord(whole)}`)] : []),
       ...(cfg === null ? [heredoc(config, capture.cfg)] : []),
     ],
-    words: [fileWord(whole), '--config', fileWord(config)],
+    words: [
+      ...[fileWord(whole), '--config', fileWord(config), ...flags('ReadingOptions', capture.reading)],
+      ...(info.config.subFrames > 1 ? ['--subframe', String(info.config.subFrame)] : []),
+    ],
   };
 }
 

@@ -8,15 +8,18 @@ import type {
   BytesInput,
   CaptureCalibrationOptions,
   CaptureInfo,
+  CascadeCapture,
   Cell,
+  CellExplanation,
   ChainOptions,
   CombineOptions,
   ComplexData,
+  ConfigInput,
   CubeChainOptions,
+  DriveFile,
   Estimate,
   FrameCells,
   FrameResult,
-  TextInput,
 } from '../types.js';
 
 /** A raw capture (`.bin` of a DCA1000) with the board's configuration (`.cfg`). */
@@ -24,7 +27,7 @@ export class Capture extends Handle<glue.Capture> {
   /** What is known before any processing. */
   readonly info: CaptureInfo;
 
-  constructor(bytes: BytesInput, config: TextInput) {
+  constructor(bytes: BytesInput, config: ConfigInput) {
     super(core, () => new glue.Capture(bytes, config));
     this.info = this.use((raw) => raw.info() as CaptureInfo);
   }
@@ -52,6 +55,11 @@ export class Capture extends Handle<glue.Capture> {
     return this.use((raw) => raw.cellSnapshots(cell, options) as ComplexData);
   }
 
+  /** Why a cell is a detection or none: its power, noise and threshold, and what became of it. */
+  explainCell(cell: Cell, options?: ChainOptions): CellExplanation {
+    return this.use((raw) => raw.explainCell(cell, options) as CellExplanation);
+  }
+
   /**
    * Gain and phase of each channel of the array, from the reflectors that the options name or else from all strong cells
    * with one target, of the first half of the frames; the other half checks it. Throws the code `cancelled` if `report`
@@ -65,6 +73,15 @@ export class Capture extends Handle<glue.Capture> {
   cellSpectrum(cell: Cell, angle?: AngleOptions, options?: ChainOptions): Estimate {
     return this.use((raw) => raw.cellSpectrum(cell, angle, options) as Estimate);
   }
+}
+
+/**
+ * Puts the files of a cascade of four chips (`master_0000_data.bin`, `slave1_0000_data.bin` and so on, and `..._idx.bin`
+ * where they are there) together to the bytes of a {@link Capture} of the same configuration, whose `channelCfg` says
+ * that chips are cascaded.
+ */
+export function joinCascade(files: readonly DriveFile[], config: ConfigInput): CascadeCapture {
+  return call(() => glue.joinCascade(files, config) as CascadeCapture);
 }
 
 /** Detections of each frame of a cube (frames x loops x transmitters x receivers x samples). */

@@ -1,5 +1,21 @@
 /** From frames to detections: captures and the chain. */
-import type { ArrayCalibrationInput, ArrayInput, DetectionOptions, Waveform } from '../types.js';
+import type {
+  ArrayCalibrationInput,
+  ArrayInput,
+  DetectionOptions,
+  ReadingOptions,
+  TextInput,
+  Waveform,
+} from '../types.js';
+
+/** A board's configuration with what overrides it in how samples are read. */
+export interface ReadingConfig extends ReadingOptions {
+  /** The `.cfg`. */
+  text: TextInput;
+}
+
+/** A board's configuration (`.cfg`). */
+export type ConfigInput = TextInput | ReadingConfig;
 
 /** Options of the chain from frames to detections. */
 export interface ChainOptions extends DetectionOptions {

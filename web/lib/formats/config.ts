@@ -1,8 +1,18 @@
 import * as glue from '../../wasm/boresight.js';
 import { call } from '../runtime/instance.js';
-import type { RadarConfig, TextInput } from '../types.js';
+import type { ConfigInput, RadarConfig } from '../types.js';
 
 /** Reads the configuration (`.cfg`) of a Texas Instruments mmWave board. */
-export function parseConfig(text: TextInput): RadarConfig {
-  return call(() => glue.parseConfig(text) as RadarConfig);
+export function parseConfig(config: ConfigInput): RadarConfig {
+  return call(() => glue.parseConfig(config) as RadarConfig);
+}
+
+/**
+ * The configuration with one of the sub-frames of its advanced frame chosen, from 0, for whatever takes a
+ * configuration: a comment at its end says which.
+ *
+ * @throws BoresightError if there is no such sub-frame.
+ */
+export function subFrameConfig(text: TextInput, subFrame: number): string {
+  return call(() => glue.subFrameConfig(text, subFrame));
 }

@@ -108,6 +108,12 @@ export interface SharedEstimatorOptions {
    * of `nomp` (default false).
    */
   refine?: boolean;
+  /**
+   * Power of the array's unknown error over that of each source, for methods that would take it for further sources:
+   * NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6; after a calibration it is what
+   * that leaves. None if absent (-100 to 0 dB).
+   */
+  mismatchDb?: number;
   /** A network that has been loaded under this name: the one that a method needs, or a counting network for `sources`. */
   network?: string;
   /** Least confidence of a network's sources; that of its card if absent (0 to 1). */
@@ -134,12 +140,13 @@ export type WindowName = 'rectangular' | 'hann' | 'hamming' | 'blackman' | 'blac
 /**
  * How noise is estimated from the training cells.
  *
- * - `cell-averaging`: The mean of all (Finn and Johnson 1968): the least loss in even noise.
+ * - `excision`: The mean of those that are no targets themselves (Goldman and Bar-David 1988): keeps targets apart, and the rate beside them.
+ * - `cell-averaging`: The mean of all (Finn and Johnson 1968): the least loss in even noise; a strong target hides a weaker one among whose training cells it is.
  * - `greatest-of`: The larger of the means of the halves (Hansen and Sawyers 1980): keeps the rate at clutter edges.
  * - `smallest-of`: The smaller of the means of the halves (Trunk 1978): keeps targets apart.
  * - `ordered-statistic`: The cell of a rank (Rohling 1983): keeps targets apart and most of the rate.
  */
-export type CfarKind = 'cell-averaging' | 'greatest-of' | 'smallest-of' | 'ordered-statistic';
+export type CfarKind = 'excision' | 'cell-averaging' | 'greatest-of' | 'smallest-of' | 'ordered-statistic';
 
 /**
  * Along which axes training cells lie.
@@ -155,7 +162,7 @@ export type CfarAxes = 'range' | 'doppler' | 'both';
 export interface CfarOptions {
   /**
    * The detector of constant false-alarm rate: how it takes the noise from the training cells (default
-   * 'cell-averaging').
+   * 'excision').
    */
   kind?: CfarKind;
   /** Axes along which training cells lie (default 'range'). */
@@ -184,6 +191,10 @@ export interface Region {
   rateMps?: readonly [number, number];
   /** Least and greatest azimuth (-90 to 90 deg). */
   azimuthDeg?: readonly [number, number];
+  /** Least and greatest elevation; arrays that see none have all at 0 (-90 to 90 deg). */
+  elevationDeg?: readonly [number, number];
+  /** Least and greatest height over the sensor (z). */
+  heightM?: readonly [number, number];
 }
 
 /**
@@ -271,6 +282,12 @@ export interface AngleOptions {
    * of `nomp` (default false).
    */
   refine?: boolean;
+  /**
+   * Power of the array's unknown error over that of each source, for methods that would take it for further sources:
+   * NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6; after a calibration it is what
+   * that leaves. None if absent (-100 to 0 dB).
+   */
+  mismatchDb?: number;
   /** A network that has been loaded under this name: the one that a method needs, or a counting network for `sources`. */
   network?: string;
   /** Least confidence of a network's sources; that of its card if absent (0 to 1). */
@@ -302,6 +319,11 @@ export interface DetectionOptions {
    * resolutions to 0.9 of the unambiguous range.
    */
   region?: Region;
+  /**
+   * Most folds of the range rate to each side that are tried where transmitters take turns: rates beyond the unambiguous
+   * one, told by the transmitters' phases. 0 takes every rate for that of its bin (0 to 32; default 0).
+   */
+  dopplerFolds?: number;
   /** Angle estimation. */
   angle?: AngleOptions;
   /** Most detections a frame; the strongest are kept (1 to 65536; default 256). */
@@ -555,6 +577,33 @@ export interface SimulateDriveOptions {
    * slip. If absent 0, and drawn in the profile "radarscenes" (-1 to 1 deg).
    */
   slipGradientDeg?: number;
+}
+
+/**
+ * Order of I and Q in a capture.
+ *
+ * - `configured`: As the configuration says; a remark tells where the data contradict.
+ * - `auto`: As the data tell; as the configuration says where they do not.
+ * - `iq`: I first.
+ * - `qi`: Q first.
+ */
+export type IqOrder = 'configured' | 'auto' | 'iq' | 'qi';
+
+/**
+ * Lanes over which a board of one chip hands its samples to the capture card.
+ *
+ * - `configured`: As the configuration says.
+ * - `two`: Two: receivers one after another.
+ * - `four`: Four: receivers sample by sample.
+ */
+export type Lanes = 'configured' | 'two' | 'four';
+
+/** How the samples of a capture are read, where its configuration does not say so or says it wrong. */
+export interface ReadingOptions {
+  /** Order of I and Q (default 'configured'). */
+  iqOrder?: IqOrder;
+  /** Lanes of the board (default 'configured'). */
+  lanes?: Lanes;
 }
 
 /** How much a region of interest holds; what the 3D-CNN paper (Sang et al. 2021) takes unless said otherwise. */
@@ -815,6 +864,11 @@ export interface CountOptions {
   criterion?: Criterion;
   /** Average the covariance with its reversal, for evenly spaced arrays (default false). */
   forwardBackward?: boolean;
+  /**
+   * Power of the array's unknown error over that of each source: further eigenvalues that it explains are no sources.
+   * None if absent (-100 to 0 dB).
+   */
+  mismatchDb?: number;
 }
 
 /**

@@ -45,6 +45,15 @@ export interface ArrayGeometry {
 }
 
 /**
+ * What the receivers' converters give.
+ *
+ * - `complex`: I and Q: beat frequencies from zero to the sample rate are told apart.
+ * - `real`: I alone: beat frequencies from zero to half the sample rate. The spectrum is the same, mirrored, at negative
+ * ones, so that a target has half the signal-to-noise ratio in its bin that complex samples give.
+ */
+export type Sampling = 'complex' | 'real';
+
+/**
  * Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each, `samples` complex
  * samples a chirp.
  */
@@ -53,9 +62,11 @@ export interface Waveform {
   startFrequencyHz: number;
   /** Slope of the ramp, Hz per second. */
   slopeHzPerS: number;
-  /** Complex sample rate, Hz. */
+  /** Sample rate, Hz. */
   sampleRateHz: number;
-  /** Samples a chirp. */
+  /** Whether samples are complex or real. */
+  sampling?: Sampling;
+  /** Samples a chirp; an even number of real ones. */
   samples: number;
   /** Time from the start of the ramp to the first sample, s. */
   adcStartS: number;
@@ -424,6 +435,18 @@ export interface SimulatedStreet {
   targets: VisibleTarget[];
 }
 
+/**
+ * How samples lie in the bytes of a capture, as little-endian 16-bit numbers.
+ *
+ * - `two-lane`: Two lanes (xWR16xx, xWR18xx, xWR64xx, xWR68xx): the receivers of a chirp one after another; complex samples
+ * in pairs `I0 I1 Q0 Q1`.
+ * - `four-lane`: Four lanes (xWR12xx, xWR14xx, xWR22xx): of each sample the four receivers, all I before all Q; lanes of
+ * receivers that are off hold zeros.
+ * - `cascade`: Four chips (MMWCAS-RF-EVM with MMWCAS-DSP-EVM), a file each: of each sample the four receivers, `I Q` of
+ * each; the chips' frames in turn, as the reader of cascades puts them.
+ */
+export type Layout = 'two-lane' | 'four-lane' | 'cascade';
+
 /** What a configuration says of the radar and its samples. */
 export interface RadarConfig {
   /** Timing and frequency plan of a frame. */
@@ -446,6 +469,10 @@ export interface RadarConfig {
   sdkVersion: string | null;
   /** Bits of a sample. */
   sampleBits: number;
+  /** Order of I and Q that samples are read with. */
+  iqOrder: 'iq' | 'qi';
+  /** Where samples stand in the bytes. */
+  layout: Layout;
   /** Bytes of one frame of raw samples. */
   frameBytes: number;
   /** Frames to record; null until stopped. */
@@ -480,7 +507,22 @@ export interface CaptureInfo {
   trailingBytes: number;
   /** Virtual array of the configured channels; null for a platform that is not known. */
   array: ArrayGeometry | null;
-  /** What is odd about its size. */
+  /**
+   * Power above the noise at positive beat frequencies over that at negative ones, as samples are read; null for real
+   * samples, and for chirps that are too short or silent.
+   */
+  beatAsymmetryDb: number | null;
+  /** Whether the samples tell that I and Q are the other way round than they are read; null where they tell nothing. */
+  iqSwapped: boolean | null;
+  /** What is odd about its size, its lanes, and the order of I and Q. */
+  warnings: Warning[];
+}
+
+/** The files of a cascade as one capture. */
+export interface CascadeCapture {
+  /** Bytes that a capture is made of, with the same configuration. */
+  bytes: Uint8Array;
+  /** What was left out, and what of the indices does not fit. */
   warnings: Warning[];
 }
 
@@ -496,6 +538,12 @@ export interface Detection {
   azimuthDeg: number;
   /** Elevation, positive upwards; 0 where the array does not see it. */
   elevationDeg: number;
+  /** Place forward of the sensor. */
+  xM: number;
+  /** Place to its left. */
+  yM: number;
+  /** Place above it; 0 where the array sees no elevation. */
+  zM: number;
   /** Power of one raw sample at one element over full scale (1.0), interpolated between bins. */
   powerDb: number;
   /** Its power in its cell over the noise around the cell. */
@@ -566,6 +614,56 @@ export interface FrameCells {
   snapshots: ComplexArray;
   /** What became of cells and samples. */
   counts: FrameCounts;
+}
+
+/**
+ * What became of a cell.
+ *
+ * - `below-threshold`: Its power is not above its threshold.
+ * - `grouped`: It is over its threshold beside a stronger one, whose peak it belongs to.
+ * - `outside-range`: Its range is outside the limits.
+ * - `outside-rate`: Its range rate is outside the limits.
+ * - `beyond-limit`: More cells than are kept are stronger.
+ * - `without-angle`: The method found no angle in it.
+ * - `outside-azimuth`: No angle found in it is within the limits.
+ * - `kept`: It is a detection.
+ */
+export type CellVerdict =
+  | 'below-threshold'
+  | 'grouped'
+  | 'outside-range'
+  | 'outside-rate'
+  | 'beyond-limit'
+  | 'without-angle'
+  | 'outside-azimuth'
+  | 'kept';
+
+/** What a cell was held against, and what became of it. */
+export interface CellExplanation {
+  /** Range bin. */
+  rangeBin: number;
+  /** Doppler bin. */
+  dopplerBin: number;
+  /** What became of it. */
+  verdict: CellVerdict;
+  /** The same in a sentence, with figures. */
+  message: string;
+  /** Its power: mean over channels, as in the map. */
+  powerDb: number;
+  /** Noise power estimated from its training cells. */
+  noiseDb: number;
+  /** Its threshold. */
+  thresholdDb: number;
+  /** Training cells around it. */
+  trainingCells: number;
+  /** Of these, cells left out of the noise as targets of their own. */
+  excisedCells: number;
+  /** Range bin of the peak that it belongs to: its own, or a stronger neighbour's. */
+  peakRangeBin: number;
+  /** Doppler bin of that peak. */
+  peakDopplerBin: number;
+  /** Thresholds along range at its Doppler bin. */
+  profileThresholdDb: Float64Array;
 }
 
 /** A target in a region. */

@@ -1,5 +1,5 @@
 import { BoardLogStream } from '../formats/board.js';
-import type { BoardFrame, BoardLogCounts, TextInput } from '../types.js';
+import type { BoardFrame, BoardLogCounts, ConfigInput } from '../types.js';
 import type { BoardCounts } from './types.js';
 
 const NONE: BoardLogCounts = { skippedBytes: 0, damagedPackets: 0, warnings: [] };
@@ -7,14 +7,14 @@ const NONE: BoardLogCounts = { skippedBytes: 0, damagedPackets: 0, warnings: [] 
 /** Frames of a board as its bytes come, and what was lost. */
 export class BoardFrames implements AsyncIterable<BoardFrame> {
   readonly #source: AsyncIterable<Uint8Array>;
-  readonly #config: TextInput | undefined;
+  readonly #config: ConfigInput | undefined;
   #stream: BoardLogStream | null = null;
   #log = NONE;
   #last: number | null = null;
   #own = { bytes: 0, frames: 0, missedFrames: 0, restarts: 0 };
 
   /** @internal */
-  constructor(source: AsyncIterable<Uint8Array>, config?: TextInput) {
+  constructor(source: AsyncIterable<Uint8Array>, config?: ConfigInput) {
     this.#source = source;
     this.#config = config;
   }
@@ -66,6 +66,6 @@ export class BoardFrames implements AsyncIterable<BoardFrame> {
  * console.log(frames.counts.frames, frames.counts.missedFrames); // → 250 0
  * ```
  */
-export function boardFrames(source: AsyncIterable<Uint8Array>, config?: TextInput): BoardFrames {
+export function boardFrames(source: AsyncIterable<Uint8Array>, config?: ConfigInput): BoardFrames {
   return new BoardFrames(source, config);
 }

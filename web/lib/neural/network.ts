@@ -14,6 +14,7 @@ import type {
   ChainOptions,
   CombineOptions,
   ComplexData,
+  ConfigInput,
   CubeChainOptions,
   CubeRegionOptions,
   Estimate,
@@ -28,7 +29,6 @@ import type {
   RegionFrame,
   SourceProbabilities,
   Tensor,
-  TextInput,
 } from '../types.js';
 
 /** The module of this file's functions, loaded by initNeural(). */
@@ -121,7 +121,7 @@ export class Network extends Handle<glue.Network> {
   }
 
   /** Detections of frames of a capture, each by itself, angles by this network; all frames, or one. */
-  processFrames(bytes: BytesInput, config: TextInput, options?: ChainOptions, frame?: number): FrameResult[] {
+  processFrames(bytes: BytesInput, config: ConfigInput, options?: ChainOptions, frame?: number): FrameResult[] {
     return this.use((raw) => raw.processFrames(bytes, config, options, frame) as FrameResult[]);
   }
 
@@ -137,7 +137,7 @@ export class Network extends Handle<glue.Network> {
   captureRegions(
     { one, two }: AngleNetworks<Network>,
     bytes: BytesInput,
-    config: TextInput,
+    config: ConfigInput,
     options?: CaptureRegionOptions,
     frame?: number,
   ): RegionFrame[] {
@@ -149,7 +149,7 @@ export class Network extends Handle<glue.Network> {
   }
 
   /** As `combineFrames` of a capture, angles by this network. */
-  combineFrames(bytes: BytesInput, config: TextInput, options?: CombineOptions, report?: Report): FrameResult {
+  combineFrames(bytes: BytesInput, config: ConfigInput, options?: CombineOptions, report?: Report): FrameResult {
     return this.use((raw) => raw.combineFrames(bytes, config, options, report) as FrameResult);
   }
 

@@ -3,7 +3,10 @@
 /** Antenna position in half wavelengths: x forward, y left, z up. */
 export type Position = readonly [x: number, y: number, z: number];
 
-/** A preset's name (`lrr48`, `awr1642`, `awr1843`, `cascade86`, `ula8` for any N) or positions. */
+/**
+ * A preset's name (`lrr48`, `awr1642`, `awr1843`, `iwr6843isk`, `iwr6843aop`, `iwr6843ods`, `cascade86`, `ula8` for any N) or
+ * positions.
+ */
 export type ArrayInput =
   | string
   | { positions: readonly Position[] }

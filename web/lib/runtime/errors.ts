@@ -70,9 +70,17 @@ export function reading<T>(what: string, read: () => T): T {
   }
 }
 
-/** A copy of options; none of them where there are no options. */
-export function own<T extends object>(options: T | undefined, what: string): { [K in keyof T]?: unknown } {
+/** A copy of options; none of them where there are no options. Others than those of `names` are refused where they are given. */
+export function own<T extends object>(
+  options: T | undefined,
+  what: string,
+  names?: readonly (keyof T & string)[],
+): { [K in keyof T]?: unknown } {
   if (options === undefined) return {};
   if (typeof options !== 'object' || options === null || isArray(options)) throw wrong(what, 'an object', options);
-  return reading(what, () => ({ ...options }));
+  const copy = reading(what, () => ({ ...options }));
+  const other = names && Object.keys(copy).find((name) => !names.includes(name as keyof T & string));
+  if (names && other !== undefined)
+    throw failure('unknown-option', { what: `${what}.${other}`, expected: names.join(', '), given: 'another name' });
+  return copy;
 }

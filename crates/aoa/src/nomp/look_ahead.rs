@@ -9,7 +9,7 @@ const DEPENDENT: f64 = 1e-6;
 impl Nomp {
     /// How many sources there are at least, going by a plain orthogonal matching pursuit from what was
     /// found: up to the last one that hides another which stands out. 0 if there is none.
-    pub(super) fn look_ahead(&mut self, fitted: &Fitted) -> usize {
+    pub(super) fn look_ahead(&mut self, fitted: &Fitted, total: f64) -> usize {
         let elements = self.geometry.elements();
         let mut basis: Vec<Vec<Complex64>> = Vec::new();
         for &point in &fitted.points {
@@ -23,7 +23,7 @@ impl Nomp {
                 break;
             }
             let (point, power) = self.strongest(&residual, 1.0);
-            match self.stands_out(power, &residual, found, None) {
+            match self.stands_out(power, &residual, total, found, None) {
                 Verdict::Source => return found + 1,
                 Verdict::Noise => break,
                 Verdict::Hidden => {}

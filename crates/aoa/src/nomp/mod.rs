@@ -14,6 +14,9 @@
 //! with elevation). Sources not yet found are in that residual, too, and may hide each other: ten of
 //! equal power hold a tenth of it each. So a beam that fails the test is still taken off as long as
 //! the beams after it could pass, and counts as a source once one of them has passed.
+//!
+//! An array that is off its plan leaves a part of every source in the residual, which would be taken for further sources.
+//! With [`EstimatorOptions::mismatch_db`] a beam has to exceed noise by what such an error seldom gains.
 
 mod look_ahead;
 mod newton;
@@ -54,6 +57,9 @@ pub(crate) struct Nomp {
     /// Number of snapshots and the threshold in noise powers that holds for it.
     level: Option<(usize, f64)>,
     shares: Shares,
+    /// What an error of the array adds to the strongest beam with the false-alarm probability, over the power that the
+    /// sources explain.
+    mismatch: f64,
     field_of_view: [f64; 2],
     ambiguity: Option<Warning>,
 }
@@ -108,6 +114,13 @@ impl Nomp {
         Ok(Self {
             array: array.clone(),
             shares: Shares::new(volumes, &geometry, options.nomp.false_alarm),
+            mismatch: match options.mismatch_db {
+                Some(_) => {
+                    let level = volumes.level(options.nomp.false_alarm, 1);
+                    options.mismatch() * level / geometry.elements() as f64
+                }
+                None => 0.0,
+            },
             volumes,
             level: None,
             geometry,
@@ -178,21 +191,22 @@ impl Nomp {
         strongest
     }
 
-    /// Whether a beam of this power is more than noise makes, after `found` sources.
+    /// Whether a beam of this power is more than noise makes, after `found` sources in data of energy `total`.
     fn stands_out(
         &mut self,
         power: f64,
         residual: &Array2<Complex64>,
+        total: f64,
         found: usize,
         noise_power: Option<f64>,
     ) -> Verdict {
         let (elements, snapshots) = residual.dim();
         let gain = power / elements as f64;
         let left = energy(residual);
-        if self.is_source(gain, left, found, snapshots, noise_power) {
+        if self.is_source(gain, left, total, found, snapshots, noise_power) {
             return Verdict::Source;
         }
-        if noise_power.is_some() {
+        if noise_power.is_some() || self.is_mismatch(gain, left, total) {
             return Verdict::Noise;
         }
         let share = gain / left;
@@ -207,20 +221,37 @@ impl Nomp {
         Verdict::Noise
     }
 
-    /// Whether noise seldom gains that much of an energy `left`, summed over elements and snapshots,
-    /// after `found` sources.
+    /// Whether noise and the array's error seldom gain that much of an energy `left` of `total`, summed over elements and
+    /// snapshots, after `found` sources.
     fn is_source(
         &mut self,
         gain: f64,
         left: f64,
+        total: f64,
         found: usize,
         snapshots: usize,
         noise_power: Option<f64>,
     ) -> bool {
         let Some(noise) = noise_power else {
-            return self.shares.after(found, snapshots).is_some_and(|least| gain > least * left);
+            let least = self.shares.after(found, snapshots);
+            return least.is_some_and(|least| gain > least * left)
+                && !self.is_mismatch(gain, left, total);
         };
-        gain > noise * self.level(snapshots)
+        gain > noise * self.level(snapshots) + self.by_mismatch(left, total)
+    }
+
+    /// Whether the array's error may gain that much beside noise of unknown power, which gains an element's share of what
+    /// the beam leaves.
+    fn is_mismatch(&self, gain: f64, left: f64, total: f64) -> bool {
+        let noise = (left - gain).max(0.0) / self.geometry.elements() as f64;
+        self.mismatch > 0.0 && gain <= self.by_mismatch(left, total) + noise
+    }
+
+    /// What the error of the array seldom exceeds in a beam, where `left` of the energy `total` is not explained. The error of
+    /// a source is one vector that all snapshots share, scaled by its amplitude in each: what noise in one snapshot
+    /// would be whose power is the share of the mismatch in what the sources explain.
+    fn by_mismatch(&self, left: f64, total: f64) -> f64 {
+        self.mismatch * (total - left).max(0.0)
     }
 
     /// What noise gains in the strongest beam with the false-alarm probability, in noise powers.
@@ -288,9 +319,9 @@ impl Nomp {
                 return (sure, true);
             }
             let (point, power) = self.strongest(&fitted.residual, 1.0);
-            let verdict = self.stands_out(power, &fitted.residual, found, noise_power);
+            let verdict = self.stands_out(power, &fitted.residual, total, found, noise_power);
             if verdict == Verdict::Hidden && found >= expected {
-                expected = self.look_ahead(&fitted);
+                expected = self.look_ahead(&fitted, total);
             }
             if verdict == Verdict::Noise || (verdict == Verdict::Hidden && found >= expected) {
                 return (sure, true);

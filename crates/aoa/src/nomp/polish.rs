@@ -134,6 +134,7 @@ impl Nomp {
                 && self.is_source(
                     energies[0],
                     energies[1],
+                    total * snapshots as f64,
                     points.len() - 1,
                     snapshots,
                     noise_power,
@@ -161,6 +162,7 @@ impl Nomp {
         noise_power: Option<f64>,
     ) -> Vec<Point> {
         let snapshots = data.snapshots();
+        let total = total_power(data) * snapshots as f64;
         let (mut points, mut outcome) = refine_points(&self.geometry, points, data, STEPS);
         let mut kept: Vec<(Point, Point)> = Vec::new();
         while let Some((i, k)) = self.closest(&points, self.geometry.half_beam(), &kept) {
@@ -170,7 +172,9 @@ impl Nomp {
             let (fewer, merged) = refine_points(&self.geometry, fewer, data, STEPS);
             let gain = merged.residual_power - outcome.residual_power;
             let energies = [gain, merged.residual_power].map(|power| power * snapshots as f64);
-            if self.is_source(energies[0], energies[1], fewer.len(), snapshots, noise_power) {
+            let fewer_count = fewer.len();
+            if self.is_source(energies[0], energies[1], total, fewer_count, snapshots, noise_power)
+            {
                 kept.push((points[i], points[k]));
             } else {
                 (points, outcome) = (fewer, merged);

@@ -1,6 +1,7 @@
 //! What `augment` takes.
 
 use crate::flags::{Flags, OnCommandLine};
+use boresight_formats::ReadingOptions;
 use boresight_signal::RangeAugmentation;
 use clap::Args;
 use std::path::PathBuf;
@@ -10,7 +11,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Each new frame is a recorded one with all that it holds moved in range (equation 10 of Sang et al. 2021), to train networks on more \
 ranges than were recorded. FILE is, by its ending:
-  .bin  raw samples of a DCA1000 capture card, with --config
+  .bin  raw samples of a DCA1000 capture card, with --config; of a cascade of chips one of its files, or their folder
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or --waveform
   .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
 The new frames are a data cube, for whose estimates the same --config or --waveform stands.")]
@@ -26,6 +27,9 @@ pub struct AugmentArguments {
     /// Waveform of a data cube: awr1642, corner, 3dcnn-simulated, 3dcnn-experiment, or a JSON file.
     #[arg(long, value_name = "NAME|JSON", conflicts_with = "config")]
     pub waveform: Option<String>,
+    /// How the samples of a capture are read.
+    #[command(flatten)]
+    pub reading: Flags<ReadingOptions>,
     /// File to write, .npy.
     #[arg(long, value_name = "F.npy")]
     pub out: PathBuf,

@@ -3,6 +3,7 @@
 use super::OutputFormat;
 use crate::flags::{Flags, OnCommandLine};
 use boresight_aoa::Method;
+use boresight_formats::ReadingOptions;
 use boresight_pipeline::{AngleOptions, ChainOptions};
 use clap::Args;
 use std::path::PathBuf;
@@ -11,8 +12,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 FILE is, by its ending:
-  .bin  raw samples of a DCA1000 capture card, with --config
-  .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or
+  .bin  raw samples of a DCA1000 capture card, with --config; of a cascade of chips one of its files, or their folder
+  .npy  a data cube (frames x loops x chirps of a loop x receivers x samples), with --config or
         --waveform; or snapshots (elements, elements x snapshots or scenes x elements x snapshots),
         with --array
   .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
@@ -34,6 +35,10 @@ pub struct EstimateArguments {
     /// takes several snapshots.
     #[arg(long)]
     pub all: bool,
+    /// Why a cell of a capture or a data cube is a detection or none, in place of the detections: of one frame or of all
+    /// together.
+    #[arg(long, value_name = "RANGE_BIN,DOPPLER_BIN", value_delimiter = ',', num_args = 1, conflicts_with_all = ["each", "csv"])]
+    pub explain: Option<Vec<usize>>,
     /// Output.
     #[command(flatten)]
     pub output: OutputFormat,
@@ -54,6 +59,9 @@ pub struct RadarArguments {
     /// The board's configuration (.cfg).
     #[arg(long, value_name = "CFG")]
     pub config: Option<PathBuf>,
+    /// Which sub-frame of an advanced frame is read, from 0.
+    #[arg(long, value_name = "I", requires = "config")]
+    pub subframe: Option<usize>,
     /// Waveform of a data cube: awr1642, corner, 3dcnn-simulated, 3dcnn-experiment, or a JSON file, such as
     /// the truth that `simulate cube` writes.
     #[arg(long, value_name = "NAME|JSON", conflicts_with = "config")]
@@ -62,9 +70,16 @@ pub struct RadarArguments {
     /// or `tx` and `rx` in half wavelengths. A capture's is taken from --config where it says.
     #[arg(long, value_name = "NAME|JSON")]
     pub array: Option<String>,
+    /// How the samples of a capture are read.
+    #[command(flatten)]
+    pub reading: Flags<ReadingOptions>,
     /// Calibration of the array, a JSON file of `boresight array calibrate`; `none` leaves out that of --config.
     #[arg(long, value_name = "JSON|none")]
     pub calibration: Option<String>,
+}
+
+impl OnCommandLine for ReadingOptions {
+    const HEADING: &'static str = "Samples of captures";
 }
 
 /// Names of all methods, networks too.

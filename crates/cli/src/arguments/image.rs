@@ -2,6 +2,7 @@
 
 use super::estimate::{ModelArguments, methods};
 use crate::flags::{Flags, OnCommandLine, names};
+use boresight_formats::ReadingOptions;
 use boresight_image::ViewGridOptions;
 use boresight_pipeline::image::Content;
 use boresight_simulate::StreetOptions;
@@ -76,7 +77,7 @@ impl OnCommandLine for ViewGridOptions {
 /// Arguments of `image capture`.
 #[derive(Debug, Args)]
 pub struct ImageCaptureArguments {
-    /// Raw samples of a DCA1000 capture card (.bin).
+    /// Raw samples of a DCA1000 capture card (.bin); of a cascade of chips one of its files, or their folder.
     pub file: PathBuf,
     /// The board's configuration (.cfg).
     #[arg(long, value_name = "CFG")]
@@ -90,6 +91,9 @@ pub struct ImageCaptureArguments {
     /// Array, where the configuration names no board with a known one.
     #[arg(long, value_name = "NAME|JSON")]
     pub array: Option<String>,
+    /// How the samples are read.
+    #[command(flatten)]
+    pub reading: Flags<ReadingOptions>,
     /// Calibration of the array, a JSON file of `boresight array calibrate`; `none` leaves out that of --config.
     #[arg(long, value_name = "JSON|none")]
     pub calibration: Option<String>,

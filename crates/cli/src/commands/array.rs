@@ -57,10 +57,9 @@ fn result(
 ) -> Result<CalibrationResult, CliError> {
     let path = &arguments.file;
     match files::ending(path).as_str() {
-        "bin" => {
-            let bytes = files.read(path)?;
-            let (source, radar) = capture::open(&arguments.radar, &bytes, files)?;
-            from_frames(arguments, &radar, &source)
+        ending if ending == "bin" || path.is_dir() => {
+            let (samples, radar) = capture::open(&arguments.radar, path, files)?;
+            from_frames(arguments, &radar, &samples.frames()?)
         }
         "json" => {
             let table: SteeringTable =

@@ -17,10 +17,10 @@ use serde_json::json;
 pub fn run(arguments: &AugmentArguments, files: &Files) -> Result<String, CliError> {
     let config = arguments.config.as_deref();
     match files::ending(&arguments.file).as_str() {
-        "bin" => {
-            let bytes = files.read(&arguments.file)?;
-            let (source, config) = capture::read(config, &bytes, files)?;
-            write(arguments, &config.waveform, &source, files)
+        ending if ending == "bin" || arguments.file.is_dir() => {
+            let reading = &arguments.reading.options;
+            let samples = capture::Samples::read(&arguments.file, config, None, reading, files)?;
+            write(arguments, &samples.config.waveform, &samples.frames()?, files)
         }
         ending if numbers::ENDINGS.contains(&ending) => {
             let waveform = match config {

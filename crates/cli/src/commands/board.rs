@@ -57,6 +57,9 @@ pub fn run(
                     object.elevation_rad.to_degrees(),
                     object.peak.unwrap_or(f64::NAN),
                     object.snr_db.unwrap_or(f64::NAN),
+                    object.x_m,
+                    object.y_m,
+                    object.z_m,
                 ]
             })
         })
@@ -71,6 +74,9 @@ pub fn run(
             column("elevationDeg", "elevation_deg", 2),
             column("peak", "peak", 0),
             column("snrDb", "snr_db", 1),
+            column("xM", "x_m", 3),
+            column("yM", "y_m", 3),
+            column("zM", "z_m", 3),
         ],
         rows,
         empty: "the board detected nothing",

@@ -1,6 +1,7 @@
 //! From arguments to the chain, and from its results to a table.
 
 use crate::arguments::EstimateArguments;
+use crate::commands::explain::explain;
 use crate::commands::frame::frame_within;
 use crate::error::CliError;
 use crate::output::{Column, Table, remark};
@@ -26,6 +27,9 @@ pub fn detections<S: FrameSource>(
 where
     CliError: From<S::Error>,
 {
+    if let Some(bins) = &arguments.explain {
+        return explain(arguments, bins, chain, source);
+    }
     let frames = source.frames();
     let single = chain.options().angle.method.requirements().max_snapshots == Some(1);
     let run = Run::start("frames")?;
@@ -61,6 +65,7 @@ fn remarks(results: &[FrameResult]) -> Vec<String> {
         sum(|r| r.counts.grouped),
     )];
     for (count, what) in [
+        (sum(|r| r.counts.other_bands), "echoes in other Doppler bands"),
         (sum(|r| r.counts.outside_region), "outside the limits"),
         (sum(|r| r.counts.beyond_limit), "beyond the most to report"),
         (sum(|r| r.counts.clipped_samples), "samples clipped by the converter"),
@@ -93,6 +98,11 @@ fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
             column("snrDb", "snr_db", 1),
             column("rangeBin", "range_bin", 0),
             column("dopplerBin", "doppler_bin", 0),
+            column("xM", "x_m", 3),
+            column("yM", "y_m", 3),
+            column("zM", "z_m", 3),
+            column("dopplerFold", "doppler_fold", 0),
+            column("foldProbability", "fold_probability", 3),
         ],
         rows: detections
             .map(|d| {
@@ -106,6 +116,11 @@ fn table<'a>(detections: impl Iterator<Item = &'a Detection>) -> Table {
                     power_to_db(d.snr),
                     d.range_bin as f64,
                     d.doppler_bin as f64,
+                    d.x_m,
+                    d.y_m,
+                    d.z_m,
+                    d.doppler_fold.into(),
+                    d.fold_probability.unwrap_or(f64::NAN),
                 ]
             })
             .collect(),

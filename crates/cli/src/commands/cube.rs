@@ -1,6 +1,6 @@
 //! Data cubes.
 
-use super::capture::{Radar, board_array};
+use super::capture::{Radar, board_array, sub_frame_of};
 use super::chain::{chain_options, detections};
 use crate::arguments::{EstimateArguments, RadarArguments};
 use crate::error::CliError;
@@ -34,6 +34,7 @@ pub fn open(
     let (waveform, array) = match &arguments.config {
         Some(path) => {
             let config = RadarConfig::parse(&files.read(path)?)?;
+            let config = sub_frame_of(config, arguments.subframe)?;
             let array = board_array(arguments.array.as_deref(), &config, files)?;
             let calibration = arguments.calibration.as_deref();
             (config.waveform, array::calibrated_board(array, calibration, &config, files)?)
@@ -53,7 +54,7 @@ pub fn open(
     Ok((cube, Radar { waveform, receivers, array }))
 }
 
-/// A data cube of frames x loops x transmitters x receivers x samples; a cube of one frame may lack the first axis.
+/// A data cube of frames x loops x chirps of a loop x receivers x samples; a cube of one frame may lack the first axis.
 pub fn read(file: &NpyArray) -> Result<Array5<Complex32>, CliError> {
     let mut shape = file.shape.clone();
     if shape.len() == 4 {

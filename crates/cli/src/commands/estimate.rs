@@ -12,7 +12,7 @@ use ndarray::Array3;
 pub fn run(arguments: &EstimateArguments, files: &Files) -> Result<String, CliError> {
     let path = &arguments.file;
     match files::ending(path).as_str() {
-        "bin" => capture::run(arguments, &files.read(path)?, files),
+        ending if ending == "bin" || path.is_dir() => capture::run(arguments, files),
         "dat" => {
             board::run(arguments, files, |config| Ok(BoardLog::parse(&files.read(path)?, config)))
         }

@@ -1,6 +1,6 @@
 //! `boresight image`.
 
-use super::capture::{CaptureFrames, board_array};
+use super::capture::{Samples, board_array};
 use super::frame::frame_within;
 use crate::arguments::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 use crate::array;
@@ -17,7 +17,6 @@ use boresight_core::drive::Mounting;
 use boresight_core::units::power_to_db;
 use boresight_evaluate::images::{CHAIN, ImageFigures, Maker, StreetFrames};
 use boresight_formats::json;
-use boresight_formats::{Capture, RadarConfig};
 use boresight_image::{BirdsEyeView, Grid, Outside, PointMeasure, ViewGrid, birds_eye_view};
 use boresight_pipeline::image::{Angles, Content, chain_options, frame_map, map_grid};
 use boresight_pipeline::{Chain, FrameSource};
@@ -117,11 +116,11 @@ fn street(arguments: &ImageStreetArguments, files: &Files) -> Result<String, Cli
 
 fn capture(arguments: &ImageCaptureArguments, files: &Files) -> Result<String, CliError> {
     let shared = &arguments.shared;
-    let config = RadarConfig::parse(&files.read(&arguments.config)?)?;
-    let bytes = files.read(&arguments.file)?;
-    let source = CaptureFrames(Capture::new(&bytes, &config)?);
-    let array = board_array(arguments.array.as_deref(), &config, files)?;
-    let array = array::calibrated_board(array, arguments.calibration.as_deref(), &config, files)?;
+    let config = Some(&*arguments.config);
+    let samples = Samples::read(&arguments.file, config, None, &arguments.reading.options, files)?;
+    let (source, config) = (samples.frames()?, &samples.config);
+    let array = board_array(arguments.array.as_deref(), config, files)?;
+    let array = array::calibrated_board(array, arguments.calibration.as_deref(), config, files)?;
     let waveform = config.waveform;
     let names: Vec<&str> = shared.method.iter().map(String::as_str).collect();
     let pictures = pictures(shared, &names, files)?;

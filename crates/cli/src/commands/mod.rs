@@ -10,6 +10,7 @@ mod chain;
 mod cube;
 pub mod estimate;
 pub mod evaluate;
+mod explain;
 mod frame;
 pub mod image;
 pub mod lists;

@@ -21,10 +21,9 @@ use serde_json::Value;
 pub fn run(arguments: &RegionsArguments, files: &Files) -> Result<String, CliError> {
     let path = &arguments.file;
     match files::ending(path).as_str() {
-        "bin" => {
-            let bytes = files.read(path)?;
-            let (source, radar) = capture::open(&arguments.radar, &bytes, files)?;
-            print(arguments, &radar, &source, files)
+        ending if ending == "bin" || path.is_dir() => {
+            let (samples, radar) = capture::open(&arguments.radar, path, files)?;
+            print(arguments, &radar, &samples.frames()?, files)
         }
         ending if numbers::ENDINGS.contains(&ending) => {
             let file = numbers::read(path, arguments.radar.dataset.as_deref(), files)?;

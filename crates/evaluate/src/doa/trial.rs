@@ -8,7 +8,7 @@ use crate::entrants::{Entrants, Network};
 use crate::experiment::Tell;
 use crate::told::{self, Candidate};
 use boresight_aoa::bounds::{Signals, deterministic_bound, stochastic_bound, uncorrelated};
-use boresight_aoa::counting::{Criterion, count_sources_in};
+use boresight_aoa::counting::{CountOptions, Criterion, count_sources_in};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, SourceCount};
 use boresight_core::describe::Named;
 use boresight_core::linalg::hermitian_eigen;
@@ -258,7 +258,12 @@ impl Plan {
             let data = Data::Covariance { matrix: covariance.view(), snapshots: vectors };
             let mut counts = record.counted.iter_mut();
             for ((_, criterion, reversed), counts) in self.counters.iter().zip(&mut counts) {
-                let (_, counted) = count_sources_in(data, *reversed, *criterion)?;
+                let options = CountOptions {
+                    criterion: *criterion,
+                    forward_backward: *reversed,
+                    ..CountOptions::default()
+                };
+                let (_, counted) = count_sources_in(data, &options)?;
                 counts[counted.sources.min(3)] += 1;
                 told.counted.push(counted.sources);
             }

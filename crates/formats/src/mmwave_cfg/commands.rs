@@ -1,12 +1,15 @@
 //! Takes the commands one by one and makes a [`RadarConfig`] of them.
 
+use super::antennas::{AntennaLines, preset_of};
 use super::compensation::Compensation;
+use super::frames::{Advanced, BinaryPhase, Frame};
 use super::line::{Line, clipped};
-use super::sequence::{Chirps, transmitters};
-use super::{AdcFormat, RadarConfig, board_preset};
+use super::sequence::{Chirps, sequence};
+use super::{AdcFormat, RadarConfig, SubFrame, platform_layout};
+use crate::dca1000::{Layout, cascade};
 use crate::error::FormatError;
 use boresight_core::Remark;
-use boresight_core::{CoreError, Waveform, presets};
+use boresight_core::{CoreError, Sampling, Waveform, presets};
 
 /// Settings of the board and its own processing: they leave the raw samples as they are.
 const WITHOUT_EFFECT: [&str; 30] = [
@@ -57,14 +60,13 @@ struct Profile {
     sample_rate_hz: f64,
 }
 
-/// What `frameCfg` says, with the line it stood on.
-struct Frame {
+/// What `adcbufCfg` says, with the line it stood on.
+#[derive(Clone, Copy)]
+struct Buffer {
     line: usize,
-    first: usize,
-    last: usize,
-    loops: usize,
-    frames: usize,
-    interval_s: f64,
+    real: bool,
+    q_first: bool,
+    receiver_major: bool,
 }
 
 /// State while reading.
@@ -73,11 +75,20 @@ pub(super) struct Commands {
     platform: Option<String>,
     sdk_version: Option<String>,
     masks: Option<(u32, u32)>,
+    cascaded: bool,
     adc: Option<(u32, usize)>,
-    buffer: Option<(bool, bool)>,
+    buffer: Option<Buffer>,
     profiles: Vec<(usize, Profile)>,
     chirps: Vec<Chirps>,
-    frame: Option<Frame>,
+    frame: Option<(Frame, usize)>,
+    antennas: AntennaLines,
+    advanced: Option<Advanced>,
+    sub_frames: Vec<(usize, Frame)>,
+    /// Whether `dfeDataOutputMode` asks for an advanced frame.
+    mode: Option<bool>,
+    coding: Vec<BinaryPhase>,
+    /// The sub-frame a comment chooses.
+    chosen: Option<usize>,
     compensation: Option<Compensation>,
     compensation_line: usize,
     remarks: Vec<Remark>,
@@ -95,6 +106,8 @@ impl Commands {
             self.platform = Some(platform);
         } else if let Some(version) = value("Created for SDK ver:") {
             self.sdk_version = Some(version);
+        } else if let Some(number) = value("Sub-frame:") {
+            self.chosen = number.parse().ok();
         }
     }
 
@@ -103,27 +116,32 @@ impl Commands {
         match line.command {
             "dfeDataOutputMode" => {
                 let mode = line.integer(0, "mode", 1, 3)?;
-                if mode != 1 {
-                    return Err(line.error("mode", "1 (frames of chirps)", mode.to_string()));
+                if mode == 2 {
+                    let expected = "1 (frames of chirps) or 3 (advanced frames)";
+                    return Err(line.error("mode", expected, mode.to_string()));
                 }
+                self.mode = Some(mode == 3);
             }
             "channelCfg" => self.channels(line)?,
             "adcCfg" => {
                 let bits = [12, 14, 16][line.index(0, "number of bits", 2)?];
                 let format = line.index(1, "output format", 2)?;
-                if format == 0 {
-                    return Err(line.error("output format", "1 or 2 (complex)", "0 (real)"));
-                }
                 self.adc = Some((bits, format));
             }
             "adcbufCfg" | "adcbufcfg" => self.buffer(line)?,
             "profileCfg" => self.profile(line)?,
             "chirpCfg" => self.chirp(line)?,
-            "frameCfg" => self.frame(line)?,
+            "frameCfg" => self.frame = Some(Frame::plain(line)?),
+            "advFrameCfg" => self.advanced = Some(Advanced::of(line)?),
+            "subFrameCfg" => {
+                let (number, part) = Frame::part(line)?;
+                self.sub_frames.retain(|(known, _)| *known != number);
+                self.sub_frames.push((number, part));
+            }
             "bpmCfg" => {
-                if line.index(1, "enabled", 1)? == 1 {
-                    return Err(line.error("enabled", "0 (time division)", "1 (phase coding)"));
-                }
+                let coding = BinaryPhase::of(line)?;
+                self.coding.retain(|known| known.sub_frame != coding.sub_frame);
+                self.coding.push(coding);
             }
             "lvdsStreamCfg" => {
                 for (index, what) in [(1, "header"), (3, "software session")] {
@@ -132,9 +150,10 @@ impl Commands {
                     }
                 }
             }
+            "antGeometry0" | "antGeometry1" | "antPhaseRot" => self.antennas.take(line)?,
             "compRangeBiasAndRxChanPhase" => self.compensation(line),
-            "advFrameCfg" | "subFrameCfg" | "contModeCfg" => {
-                return Err(line.error("frame mode", "frameCfg", line.command));
+            "contModeCfg" => {
+                return Err(line.error("frame mode", "frameCfg or advFrameCfg", line.command));
             }
             name if WITHOUT_EFFECT.contains(&name) => {}
             name => {
@@ -158,8 +177,23 @@ impl Commands {
         let mask =
             |index, what| line.integer(index, what, 1, 0xffff).map(|m| m.unsigned_abs() as u32);
         self.masks = Some((mask(0, "receiver mask")?, mask(1, "transmitter mask")?));
-        if line.integer(2, "cascading", 0, 2)? != 0 {
-            return Err(line.error("cascading", "0 (one chip)", line.arguments[2]));
+        self.cascaded = match line.integer(2, "cascading", 0, 2)? {
+            0 => false,
+            1 => true,
+            _ => {
+                let expected =
+                    "0 (one chip), or 1 with the receivers and transmitters of all chips";
+                return Err(line.error("cascading", expected, "2 (a slave by itself)"));
+            }
+        };
+        let (rx, tx) = self.masks.unwrap_or_default();
+        if self.cascaded && rx != 0xffff {
+            let expected = "65535 (all 16 of the cascade, 4 a chip)";
+            return Err(line.error("receiver mask", expected, rx.to_string()));
+        }
+        if self.cascaded && tx > 0xfff {
+            let expected = "at most 4095 (12 of the cascade, 3 a chip)";
+            return Err(line.error("transmitter mask", expected, tx.to_string()));
         }
         Ok(())
     }
@@ -168,12 +202,10 @@ impl Commands {
         line.count(4, 5)?;
         // SDK 1 has no sub-frame number in front.
         let at = line.arguments.len() - 4;
-        if line.index(at, "output format", 1)? == 1 {
-            return Err(line.error("output format", "0 (complex)", "1 (real)"));
-        }
+        let real = line.index(at, "output format", 1)? == 1;
         let q_first = line.index(at + 1, "sample swap", 1)? == 1;
         let receiver_major = line.index(at + 2, "channel interleave", 1)? == 1;
-        self.buffer = Some((q_first, receiver_major));
+        self.buffer = Some(Buffer { line: line.number, real, q_first, receiver_major });
         Ok(())
     }
 
@@ -219,27 +251,7 @@ impl Commands {
             }
         }
         let tx_mask = line.integer(7, "transmitter mask", 1, 0xffff)?.unsigned_abs() as u32;
-        if tx_mask.count_ones() != 1 {
-            return Err(line.error(
-                "transmitter mask",
-                "one transmitter a chirp (time division)",
-                format!("{tx_mask} ({} transmitters)", tx_mask.count_ones()),
-            ));
-        }
-        self.chirps.push(Chirps { first, last, profile, tx_mask });
-        Ok(())
-    }
-
-    fn frame(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
-        line.count(7, 8)?;
-        let first = line.index(0, "first chirp", 511)?;
-        let last = line.integer(1, "last chirp", first as i64, 511)?.unsigned_abs() as usize;
-        let loops = line.integer(2, "loops", 1, 65_535)?.unsigned_abs() as usize;
-        let frames = line.index(3, "frames", 65_535)?;
-        // SDK 4 puts the number of ADC samples before the period.
-        let at = line.arguments.len() - 3;
-        let interval_s = line.number(at, "frame period (ms)", 1e-3, 1e6)? * 1e-3;
-        self.frame = Some(Frame { line: line.number, first, last, loops, frames, interval_s });
+        self.chirps.push(Chirps { line: line.number, first, last, profile, tx_mask });
         Ok(())
     }
 
@@ -270,34 +282,18 @@ impl Commands {
         if self.chirps.is_empty() {
             return Err(missing("chirpCfg", "the transmitter of each chirp"));
         }
-        let frame = self.frame.take().ok_or(missing("frameCfg", "chirps and loops of a frame"))?;
-        let frame_line = Line { number: frame.line, command: "frameCfg", arguments: vec![] };
-        let (order, repeats) = transmitters(&frame_line, &self.chirps, frame.first, frame.last)?;
-        if let Some(&tx) = order.iter().find(|&&tx| tx_mask >> tx & 1 == 0) {
-            return Err(frame_line.error(
-                "transmitters of its chirps",
-                format!("those channelCfg enables (mask {tx_mask})"),
-                format!("transmitter {tx} (mask {})", 1 << tx),
-            ));
-        }
-        let profile = self.used_profile(&frame, &frame_line)?;
-        let waveform = Waveform {
-            start_frequency_hz: profile.start_frequency_hz,
-            slope_hz_per_s: profile.slope_hz_per_s,
-            sample_rate_hz: profile.sample_rate_hz,
-            samples: profile.samples,
-            adc_start_s: profile.adc_start_s,
-            chirp_interval_s: profile.idle_s + profile.ramp_s,
-            transmitters: order.len(),
-            loops: frame.loops * repeats,
-            frame_interval_s: frame.interval_s,
+        let (frames, count) = self.frames()?;
+        let sub_frames = frames
+            .iter()
+            .enumerate()
+            .map(|(number, frame)| self.sub_frame(number, frame, tx_mask))
+            .collect::<Result<Vec<SubFrame>, FormatError>>()?;
+        let chosen = self.chosen.unwrap_or(0);
+        let Some(SubFrame { waveform, transmitters }) = sub_frames.get(chosen).cloned() else {
+            let (what, last) = ("sub-frame", sub_frames.len() - 1);
+            let (expected, given) = (format!("from 0 to {last}"), chosen as f64);
+            return Err(CoreError::OutOfRange { what: what.into(), expected, given }.into());
         };
-        waveform.check().map_err(|error| match error {
-            CoreError::OutOfRange { what, expected, given } => {
-                frame_line.error(what, expected, given.to_string())
-            }
-            other => other.into(),
-        })?;
         let (bits, format) = self.adc.unwrap_or_else(|| {
             self.remark("assumed", "no adcCfg line: 16 bits, complex assumed".into());
             (16, 1)
@@ -306,28 +302,41 @@ impl Commands {
             let text = "complex 2x sampling: negative beat frequencies hold the image band";
             self.remark("complex-2x", text.into());
         }
-        let (q_first, receiver_major) = self.buffer.unwrap_or_else(|| {
-            let text = "no adcbufCfg line: I before Q and receivers one after another assumed";
-            self.remark("assumed", text.into());
-            (false, true)
-        });
+        let (q_first, layout) = (self.buffer.is_some_and(|b| b.q_first), self.layout());
         if self.further_remarks > 0 {
             let text = format!("{} further remarks left out", self.further_remarks);
             self.remarks.push(Remark::new("remarks-left-out", text));
         }
-        let receivers = (0..16).filter(|rx| rx_mask >> rx & 1 == 1).collect();
+        let receivers = match self.cascaded {
+            true => cascade::RECEIVERS.to_vec(),
+            false => (0..16).filter(|rx| rx_mask >> rx & 1 == 1).collect(),
+        };
         let mut config = RadarConfig {
             waveform,
             receivers,
-            transmitters: order,
+            transmitters,
+            sub_frame: chosen,
+            sub_frames,
             array_preset: None,
+            board: None,
             platform: self.platform,
             sdk_version: self.sdk_version,
-            adc: AdcFormat { bits, q_first, receiver_major },
-            frames: (frame.frames > 0).then_some(frame.frames),
+            adc: AdcFormat { bits, q_first, layout },
+            frames: (count > 0).then_some(count),
             compensation: self.compensation,
+            antenna_lines: false,
             remarks: self.remarks,
         };
+        config.board = self.antennas.board()?;
+        config.antenna_lines = config.board.is_some();
+        if layout != Layout::Cascade
+            && config.board.is_none()
+            && let Some((name, assumed)) = config.platform.as_deref().and_then(preset_of)
+        {
+            config.board = presets::preset(name).ok();
+            config.remarks.extend(assumed);
+        }
+        config.find_preset();
         if let Some(applied) = config.has_coefficients() {
             let (code, text) = if applied {
                 ("compensation-applied", "are applied, unless another calibration is given")
@@ -338,12 +347,113 @@ impl Commands {
                 format!("line {}: range bias and channel phases {text}", self.compensation_line);
             config.remarks.push(Remark::new(code, text));
         }
-        let board = config.platform.as_deref().and_then(board_preset);
-        config.array_preset = board.filter(|name| {
-            let board = presets::preset(name).ok();
-            board.is_some() && board == config.array()
-        });
         Ok(config)
+    }
+
+    /// The frame, or its sub-frames, and the number of frames.
+    fn frames(&self) -> Result<(Vec<Frame>, usize), FormatError> {
+        let missing = |command, purpose| FormatError::MissingCommand { command, purpose };
+        let advanced = self.mode.unwrap_or(self.frame.is_none() && self.advanced.is_some());
+        if advanced {
+            let advanced =
+                self.advanced.ok_or(missing("advFrameCfg", "the number of sub-frames"))?;
+            return Ok((advanced.parts(&self.sub_frames)?, advanced.frames));
+        }
+        let (frame, count) =
+            self.frame.ok_or(missing("frameCfg", "chirps and loops of a frame"))?;
+        Ok((vec![frame], count))
+    }
+
+    /// Waveform and transmitters of a frame or sub-frame.
+    fn sub_frame(
+        &mut self,
+        number: usize,
+        frame: &Frame,
+        tx_mask: u32,
+    ) -> Result<SubFrame, FormatError> {
+        let at = frame.at();
+        let of = |wanted| self.coding.iter().find(|coding| coding.sub_frame == wanted);
+        let sequence = sequence(frame, &self.chirps, of(Some(number)).or_else(|| of(None)))?;
+        let transmitters = sequence.order;
+        if let Some(&tx) = transmitters.iter().find(|&&tx| tx_mask >> tx & 1 == 0) {
+            return Err(at.error(
+                "transmitters of its chirps",
+                format!("those channelCfg enables (mask {tx_mask})"),
+                format!("transmitter {tx} (mask {})", 1_u64 << tx),
+            ));
+        }
+        let profile = self.used_profile(frame, &at)?;
+        let waveform = Waveform {
+            start_frequency_hz: profile.start_frequency_hz,
+            slope_hz_per_s: profile.slope_hz_per_s,
+            sample_rate_hz: profile.sample_rate_hz,
+            sampling: self.sampling()?,
+            samples: profile.samples,
+            adc_start_s: profile.adc_start_s,
+            chirp_interval_s: profile.idle_s + profile.ramp_s,
+            transmitters: transmitters.len(),
+            loops: frame.loops * sequence.repeats,
+            frame_interval_s: frame.interval_s,
+            multiplexing: sequence.multiplexing,
+            doppler_bands: None,
+        };
+        waveform.check().map_err(|error| match error {
+            CoreError::OutOfRange { what, expected, given } => {
+                at.error(what, expected, given.to_string())
+            }
+            other => other.into(),
+        })?;
+        Ok(SubFrame { waveform, transmitters })
+    }
+
+    /// Whether samples are complex or real, on which `adcCfg` and `adcbufCfg` agree.
+    fn sampling(&self) -> Result<Sampling, FormatError> {
+        let of = |real| if real { Sampling::Real } else { Sampling::Complex };
+        let told = self.adc.map(|(_, format)| of(format == 0));
+        let Some(buffer) = self.buffer else { return Ok(told.unwrap_or_default()) };
+        let given = of(buffer.real);
+        if let Some(told) = told.filter(|&told| told != given) {
+            let line = Line { number: buffer.line, command: "adcbufCfg", arguments: vec![] };
+            let name = |sampling| match sampling {
+                Sampling::Complex => "0 (complex)",
+                Sampling::Real => "1 (real)",
+            };
+            let expected = format!("{}, as adcCfg says", name(told));
+            return Err(line.error("output format", expected, name(given)));
+        }
+        Ok(given)
+    }
+
+    /// Where samples stand: as the buffer's interleave says, which alone is of the board's own making; where nothing
+    /// says it, as the platform has it.
+    fn layout(&mut self) -> Layout {
+        if self.cascaded {
+            return Layout::Cascade;
+        }
+        let platform = self.platform.clone().unwrap_or_default();
+        let of_platform = platform_layout(&platform);
+        let Some(buffer) = self.buffer else {
+            let layout = of_platform.unwrap_or(Layout::TwoLane);
+            let receivers = match layout {
+                Layout::FourLane => "receivers sample by sample",
+                _ => "receivers one after another",
+            };
+            let text = format!("no adcbufCfg line: I before Q and {receivers} assumed");
+            self.remark("assumed", text);
+            return layout;
+        };
+        let layout = if buffer.receiver_major { Layout::TwoLane } else { Layout::FourLane };
+        if let Some(other) = of_platform.filter(|&other| other != layout) {
+            let lanes = if other == Layout::FourLane { "four" } else { "two" };
+            let text = format!(
+                "line {}: channel interleave {} is not what {platform} has, whose samples come over {lanes} lanes; \
+                 it is taken at its word",
+                buffer.line,
+                u8::from(buffer.receiver_major)
+            );
+            self.remark("lanes", text);
+        }
+        layout
     }
 
     /// The one profile all chirps of the frame follow.
@@ -354,6 +464,9 @@ impl Commands {
             .filter(|c| c.first <= frame.last && c.last >= frame.first)
             .map(|c| c.profile)
             .collect();
+        if let Some(forced) = frame.forced_profile {
+            used = vec![forced];
+        }
         used.sort_unstable();
         used.dedup();
         if used.len() > 1 {
@@ -361,7 +474,7 @@ impl Commands {
         }
         let id = used.first().copied().unwrap_or_default();
         let found = self.profiles.iter().find(|(known, _)| *known == id).map(|(_, p)| *p);
-        if self.profiles.len() > 1 {
+        if self.profiles.len() > 1 && frame.command == "frameCfg" {
             let text = format!("several profiles; the frame uses profile {id}");
             self.remark("several-profiles", text);
         }

@@ -3,6 +3,7 @@
 use super::RadarConfig;
 use super::line::Line;
 use crate::error::FormatError;
+use boresight_core::array::Channel;
 use boresight_core::steering::cis;
 use boresight_core::units::db_to_amplitude;
 use boresight_core::{
@@ -44,11 +45,6 @@ impl Compensation {
             rest.chunks_exact(2).map(|pair| Complex64::new(pair[0], pair[1])).collect();
         Some(Self { range_bias_m, coefficients })
     }
-
-    /// Whether it changes nothing.
-    pub fn is_neutral(&self) -> bool {
-        self.range_bias_m == 0.0 && self.coefficients.iter().all(|&c| c == Complex64::ONE)
-    }
 }
 
 impl Display for Compensation {
@@ -70,7 +66,7 @@ impl RadarConfig {
     /// The calibration that the configuration's coefficients are, for an array of its channels; nothing for neutral ones,
     /// or where the line is absent or has not all channels in use.
     pub fn calibration(&self, array: &Array) -> Option<ArrayCalibration> {
-        let compensation = self.compensation.as_ref().filter(|found| !found.is_neutral())?;
+        let compensation = self.compensation.as_ref().filter(|found| !self.is_neutral(found))?;
         let coefficients = self.coefficients(compensation)?;
         if array.tx().len() * array.rx().len() != coefficients.len() {
             return None;
@@ -93,14 +89,39 @@ impl RadarConfig {
 
     /// Whether there are coefficients to apply, and whether they are of all channels in use; nothing for neutral ones.
     pub(super) fn has_coefficients(&self) -> Option<bool> {
-        let found = self.compensation.as_ref().filter(|found| !found.is_neutral())?;
+        let found = self.compensation.as_ref().filter(|found| !self.is_neutral(found))?;
         Some(self.coefficients(found).is_some())
     }
 
-    /// The coefficients of the channels in use; nothing where one is missing, nought or far from 1.
+    /// Whether a line changes nothing: all 1, or the signs of antennas that are mounted turned.
+    fn is_neutral(&self, of: &Compensation) -> bool {
+        let is_one = |c: &Complex64| *c == Complex64::ONE;
+        let turned = || self.coefficients(of).is_some_and(|left| left.iter().all(is_one));
+        of.range_bias_m == 0.0 && (of.coefficients.iter().all(is_one) || turned())
+    }
+
+    /// The coefficients of the channels in use but for the signs of turned antennas; nothing where one is missing, nought
+    /// or far from 1.
     fn coefficients(&self, of: &Compensation) -> Option<Vec<Complex64>> {
         let usable = |c: &Complex64| (1e-4..1e4).contains(&c.norm());
-        self.chip_channels().map(|at| of.coefficients.get(at).copied().filter(usable)).collect()
+        self.chip_channels()
+            .zip(self.signs())
+            .map(|(at, sign)| of.coefficients.get(at).copied().filter(usable).map(|c| c * sign))
+            .collect()
+    }
+
+    /// Signs that the line has for channels in use besides what it corrects: those of turned antennas, unless lines of
+    /// the antennas' own say them.
+    fn signs(&self) -> Vec<f64> {
+        let array = self.array().filter(|_| !self.antenna_lines);
+        let of = |tx: usize, rx: usize| match &array {
+            Some(array) if array.is_inverted(Channel { tx, rx }) => -1.0,
+            _ => 1.0,
+        };
+        let receivers = self.receivers.len();
+        let pairs =
+            (0..self.transmitters.len()).flat_map(|tx| (0..receivers).map(move |rx| (tx, rx)));
+        pairs.map(|(tx, rx)| of(tx, rx)).collect()
     }
 
     /// The array with the configuration's coefficients taken into account.
@@ -141,8 +162,9 @@ impl RadarConfig {
         let transmitters = self.chip_transmitters().max(last / CHIP_RECEIVERS + 1);
         let least = calibration.channels.iter().map(|c| c.gain_db).fold(f64::INFINITY, f64::min);
         let mut coefficients = vec![Complex64::ONE; transmitters * CHIP_RECEIVERS];
-        for (&at, channel) in channels.iter().zip(&calibration.channels) {
-            coefficients[at] = cis(-channel.phase_rad) * db_to_amplitude(least - channel.gain_db);
+        for ((&at, channel), sign) in channels.iter().zip(&calibration.channels).zip(self.signs()) {
+            let amplitude = sign * db_to_amplitude(least - channel.gain_db);
+            coefficients[at] = cis(-channel.phase_rad) * amplitude;
         }
         Ok(Compensation { range_bias_m: calibration.range_bias_m, coefficients })
     }
@@ -162,7 +184,7 @@ impl RadarConfig {
     fn chip_transmitters(&self) -> usize {
         match &self.compensation {
             Some(found) => found.coefficients.len() / CHIP_RECEIVERS,
-            None => self.board().map_or(0, |board| board.tx().len()),
+            None => self.board.as_ref().map_or(0, |board| board.tx().len()),
         }
     }
 }

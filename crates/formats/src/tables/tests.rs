@@ -15,7 +15,11 @@ fn detections_come_back_as_they_were() {
             snr_db: 33.0,
             range_bin: 58,
             doppler_bin: 8,
-        },
+            doppler_fold: -2,
+            fold_probability: Some(0.995),
+            ..DetectionRow::default()
+        }
+        .placed(),
         DetectionRow::default(),
     ];
     let text = write_detections(&rows);
@@ -24,8 +28,18 @@ fn detections_come_back_as_they_were() {
     assert_eq!(read.len(), 2);
     // Degrees and back cost at most the last bit or two.
     assert!((read[0].azimuth_rad - rows[0].azimuth_rad).abs() < 1e-15);
-    let back = |row: DetectionRow| DetectionRow { azimuth_rad: 0.0, elevation_rad: 0.0, ..row };
+    assert!((read[0].z_m - 2.9485 * 0.01_f64.sin()).abs() < 1e-12);
+    let x_m = 2.9485 * 0.01_f64.cos() * 0.1884_f64.cos();
+    assert!((read[0].x_m - x_m).abs() < 1e-12 && read[0].y_m < -0.5);
+    let back =
+        |row: DetectionRow| DetectionRow { azimuth_rad: 0.0, elevation_rad: 0.0, ..row }.placed();
     assert_eq!(back(read[0]), back(rows[0]));
+    let places: Vec<f64> = text
+        .lines()
+        .nth(1)
+        .and_then(|line| line.rsplitn(4, ',').take(3).map(|word| word.parse().ok()).collect())
+        .unwrap();
+    assert_eq!(places, [rows[0].z_m, rows[0].y_m, rows[0].x_m]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::options::{RegionChainOptions, Rotation};
 use super::result::RegionCounts;
-use crate::chain::channels_of;
+use crate::chain::{channels_of, signs_of};
 use crate::error::PipelineError;
 use crate::options::usable_range_m;
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
@@ -93,8 +93,10 @@ impl RegionFinder {
     /// `waveform.samples`, whose channels are elements of the array as in [`crate::Chain::new`].
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for options out of range, and where frames have fewer range bins or loops than a
-    /// region; [`PipelineError::Channels`] for an array of other channels; what detection says of its window.
+    /// [`CoreError::Unknown`] for real samples, which no network of regions was trained on; [`CoreError::OutOfRange`]
+    /// for options out of range, and where frames have fewer range bins or loops than a
+    /// region; [`PipelineError::Channels`] for an array of other channels; [`PipelineError::Multiplexing`] for transmitters
+    /// that send at once; what detection says of its window.
     pub fn new(
         waveform: &Waveform,
         receivers: usize,
@@ -103,9 +105,13 @@ impl RegionFinder {
     ) -> Result<Self, PipelineError> {
         options.check()?;
         waveform.check()?;
+        waveform.check_complex()?;
         let Waveform { loops, transmitters, samples, .. } = *waveform;
         check_range("region bins", options.size.bins as f64, 1.0, samples as f64)?;
         check_range("region chirps", options.size.chirps as f64, 1.0, loops as f64)?;
+        if !waveform.multiplexing.is_time_division() {
+            return Err(PipelineError::Multiplexing);
+        }
         let channels = channels_of(array, transmitters, receivers)?;
         let cfar = CfarOptions {
             axes: CfarAxes::Range,
@@ -210,7 +216,11 @@ impl RegionFinder {
                 }
             }
         }
-        Ok(spectrum.select(Axis(1), &self.channels))
+        let mut spectrum = spectrum.select(Axis(1), &self.channels);
+        for (mut element, sign) in spectrum.axis_iter_mut(Axis(1)).zip(signs_of(&self.array)) {
+            element.mapv_inplace(|z| z * sign as f32);
+        }
+        Ok(spectrum)
     }
 
     /// Where a peak is and how its phase turns.

@@ -100,7 +100,10 @@ impl RegionChain {
                 targets.push(RegionTarget { range_m, azimuth_rad, power, confidence });
             }
             let before = targets.len();
-            targets.retain(|target| self.finder.limits().contains_azimuth(target.azimuth_rad));
+            targets.retain(|target| {
+                let direction = Direction::azimuth(target.azimuth_rad);
+                self.finder.limits().contains_direction(target.range_m, direction)
+            });
             counts.outside_region += before - targets.len();
             sort_descending(&mut targets, |target| target.power);
             let noise = found.peak.detection.noise_power.max(f64::MIN_POSITIVE);

@@ -8,9 +8,12 @@
 //! range the factor follows from the training cells that are left.
 
 mod cell_averaging;
+mod excision;
 mod gamma;
 mod greatest_of;
+mod options;
 mod ordered_statistic;
+mod ranks;
 mod smallest_of;
 mod stencil;
 mod sums;
@@ -18,11 +21,13 @@ mod threshold;
 
 use crate::error::SignalError;
 use boresight_core::CoreError;
-use boresight_core::describe::{self, Described, Naming};
+use boresight_core::describe::{self, Naming};
 use boresight_core::error::check_range;
 use boresight_core::limits::{check_bytes, check_operations};
+use excision::LeftFactors;
 use ndarray::{Array2, ArrayView2};
-use serde::{Deserialize, Serialize};
+pub use options::{CfarAxes, CfarKind, CfarOptions};
+use ranks::Ranks;
 use stencil::{Rectangle, Stencil};
 use sums::CumulativeSums;
 use threshold::factors;
@@ -31,76 +36,15 @@ pub use threshold::{Factors, TrainingCells};
 /// Most bins along an axis.
 const MAX_BINS: f64 = 67_108_864.0;
 
-/// Memory of a cell: its power, and its place in the cumulative sums.
+/// Memory of a cell: its power, and its place in the cumulative sums; with excision also what is left of it, whether it is
+/// left, and the sums of that.
 const CELL_BYTES: usize = 12;
+const SCREENED_CELL_BYTES: usize = 32;
 
 /// Operations of a cell that is held against the mean of its training cells, and of one training cell where ranks are
 /// counted.
 const MEAN_OPERATIONS: f64 = 10.0;
 const RANK_OPERATIONS: f64 = 0.25;
-
-/// How noise is estimated from the training cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CfarKind {
-    /// The mean of all (Finn and Johnson 1968): the least loss in even noise.
-    #[default]
-    CellAveraging,
-    /// The larger of the means of the halves (Hansen and Sawyers 1980): keeps the rate at clutter
-    /// edges.
-    GreatestOf,
-    /// The smaller of the means of the halves (Trunk 1978): keeps targets apart.
-    SmallestOf,
-    /// The cell of a rank (Rohling 1983): keeps targets apart and most of the rate.
-    OrderedStatistic,
-}
-
-/// Along which axes training cells lie.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CfarAxes {
-    /// Range only: in a scene that stands still all power lies at zero Doppler, and a window across
-    /// it would see no noise like the cell's own.
-    #[default]
-    Range,
-    /// Doppler only.
-    Doppler,
-    /// A ring around the cell in both.
-    Both,
-}
-
-/// How detection works.
-#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize, Deserialize)]
-#[serde(default)]
-pub struct CfarOptions {
-    /// The detector of constant false-alarm rate: how it takes the noise from the training cells.
-    pub kind: CfarKind,
-    /// Axes along which training cells lie.
-    pub axes: CfarAxes,
-    /// Probability that a cell of noise becomes a detection.
-    #[option(default = 1e-6, range = 1e-15..=0.5)]
-    pub false_alarm: f64,
-    /// Cells left out on each side of the cell under test, along range and Doppler, so that they
-    /// cover the main lobe.
-    #[option(default = [4, 2])]
-    pub guard_cells: [usize; 2],
-    /// Cells on each side beyond the guard cells that the noise level is estimated from, along range
-    /// and Doppler.
-    #[option(default = [8, 4])]
-    pub training_cells: [usize; 2],
-    /// Which of the ordered training cells stands for the noise, as a share of them.
-    #[option(default = 0.75, range = 0..=1)]
-    pub rank: f64,
-    /// Channels averaged in each cell.
-    #[option(default = 1)]
-    #[serde(skip)]
-    pub looks: usize,
-    /// Neighbouring cells that count as one independent cell, along range and Doppler: 1 without
-    /// window and padding, else [`crate::RangeDoppler::cell_correlation`].
-    #[option(default = [1.0; 2])]
-    #[serde(skip)]
-    pub correlation: [f64; 2],
-}
 
 /// A cell above its threshold.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,6 +62,21 @@ pub struct Detection {
     pub threshold: f64,
 }
 
+/// What a cell is held against.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellThreshold {
+    /// Power of the cell.
+    pub power: f64,
+    /// Noise power around it, without the bias of the kind's statistic.
+    pub noise_power: f64,
+    /// The threshold: the cell is a detection above it.
+    pub threshold: f64,
+    /// Training cells around the cell.
+    pub training_cells: usize,
+    /// Of these, cells that were left out as targets.
+    pub excised_cells: usize,
+}
+
 /// A plan for maps of one shape. It keeps its thresholds and scratch space.
 pub struct Cfar {
     kind: CfarKind,
@@ -128,8 +87,20 @@ pub struct Cfar {
     /// Training cells and factors of each row.
     rows: Vec<(TrainingCells, Factors)>,
     sums: CumulativeSums,
-    /// The map with its Doppler bins repeated on both sides, for ordered statistics.
-    wrapped: Array2<f32>,
+    /// For ordered statistics, that of the screen among them.
+    ranks: Ranks,
+    screening: Option<Screening>,
+}
+
+/// What excision needs beside.
+struct Screening {
+    /// Thresholds of each row's cells over their statistic.
+    screens: Vec<f64>,
+    /// The map without the cells that were left out, and where those are.
+    left: Array2<f32>,
+    gone: Array2<f32>,
+    gone_sums: CumulativeSums,
+    factors: LeftFactors,
 }
 
 impl Cfar {
@@ -149,21 +120,46 @@ impl Cfar {
         }
         check_range("range bins", ranges as f64, 1.0, MAX_BINS)?;
         check_range("Doppler bins", dopplers as f64, 1.0, MAX_BINS)?;
-        let map = check_bytes("the range-Doppler map", &[ranges, dopplers], CELL_BYTES)?;
+        let excises = options.kind == CfarKind::Excision;
+        let ordered = options.kind == CfarKind::OrderedStatistic;
+        let bytes = if excises { SCREENED_CELL_BYTES } else { CELL_BYTES };
+        let map = check_bytes("the range-Doppler map", &[ranges, dopplers], bytes)?;
         let stencil = Stencil::new(ranges, dopplers, options)?;
         let reach = stencil.doppler_reach();
-        let ordered = matches!(options.kind, CfarKind::OrderedStatistic);
-        let rows = row_factors(ranges, &stencil, options);
+        let correlation = correlation(options);
+        let screens = if excises {
+            of_rows(ranges, &stencil, |cells| excision::screen(options, cells, correlation))
+        } else {
+            vec![]
+        };
+        let mut rows = of_rows(ranges, &stencil, |cells| factors(options, cells, correlation));
+        for ((_, factors), (_, screen)) in rows.iter_mut().zip(&screens) {
+            factors.bias = screen.bias;
+            factors.threshold /= screen.bias;
+        }
         let training = rows.iter().map(|(cells, _)| cells.total()).max().unwrap_or(0) as f64;
-        let each = if ordered { RANK_OPERATIONS * training } else { MEAN_OPERATIONS };
+        let ranks = RANK_OPERATIONS * training;
+        let each = match options.kind {
+            CfarKind::OrderedStatistic => ranks,
+            CfarKind::Excision => ranks + 2.0 * MEAN_OPERATIONS,
+            _ => MEAN_OPERATIONS,
+        };
         check_operations("the detection", map as f64 * each)?;
+        let screening = excises.then(|| Screening {
+            screens: screens.iter().map(|(_, screen)| screen.threshold).collect(),
+            left: Array2::zeros((ranges, dopplers)),
+            gone: Array2::zeros((ranges, dopplers)),
+            gone_sums: CumulativeSums::new(ranges, dopplers, reach),
+            factors: LeftFactors::new(options, correlation),
+        });
         Ok(Self {
             kind: options.kind,
             rank: options.rank,
             shape: (ranges, dopplers),
             rows,
             sums: CumulativeSums::new(if ordered { 0 } else { ranges }, dopplers, reach),
-            wrapped: Array2::zeros((if ordered { ranges } else { 0 }, dopplers + 2 * reach)),
+            ranks: Ranks::new(if ordered || excises { ranges } else { 0 }, dopplers, reach),
+            screening,
             stencil,
         })
     }
@@ -182,143 +178,215 @@ impl Cfar {
     pub fn detect(&mut self, power: ArrayView2<f32>) -> Result<Vec<Detection>, SignalError> {
         check_power(power, self.shape)?;
         let mut detections = Vec::new();
+        let keep = |range_bin, doppler_bin, cell: CellThreshold| {
+            let CellThreshold { power, noise_power, threshold, .. } = cell;
+            if power > threshold {
+                detections.push(Detection {
+                    range_bin,
+                    doppler_bin,
+                    power,
+                    noise_power,
+                    threshold,
+                });
+            }
+        };
         if self.kind == CfarKind::OrderedStatistic {
-            self.detect_by_rank(power, self.rank, &mut detections);
+            self.by_rank(power, keep);
         } else {
-            self.detect_by_mean(power, &mut detections);
+            self.by_mean(power, keep);
         }
         Ok(detections)
     }
 
-    fn detect_by_mean(&mut self, power: ArrayView2<f32>, detections: &mut Vec<Detection>) {
-        self.sums.fill(power);
-        let mut totals = [vec![0.0; self.shape.1], vec![0.0; self.shape.1]];
+    /// What each range bin is held against at one Doppler bin of `power`.
+    ///
+    /// # Errors
+    /// As [`Cfar::detect`]; [`CoreError::OutOfRange`] for a bin outside the map.
+    pub fn thresholds(
+        &mut self,
+        power: ArrayView2<f32>,
+        doppler_bin: usize,
+    ) -> Result<Vec<CellThreshold>, SignalError> {
+        check_power(power, self.shape)?;
+        check_range("Doppler bin", doppler_bin as f64, 0.0, self.shape.1 as f64 - 1.0)?;
+        if self.kind == CfarKind::OrderedStatistic {
+            self.ranks.fill(power);
+            let rows = power.outer_iter().enumerate();
+            return Ok(rows
+                .map(|(r, row)| self.ranked(r, doppler_bin, row[doppler_bin]))
+                .collect());
+        }
+        let mut cells = Vec::with_capacity(self.shape.0);
+        self.by_mean(power, |_, at, cell| {
+            if at == doppler_bin {
+                cells.push(cell);
+            }
+        });
+        Ok(cells)
+    }
+
+    /// Hands every cell with what it is held against to `each`.
+    fn by_mean(
+        &mut self,
+        power: ArrayView2<f32>,
+        mut each: impl FnMut(usize, usize, CellThreshold),
+    ) {
+        let excised = self.excise(power);
+        if !excised {
+            self.sums.fill(power);
+        }
+        let dopplers = self.shape.1;
+        let mut totals = [vec![0.0; dopplers], vec![0.0; dopplers]];
+        let mut gone = vec![0.0; dopplers];
         for (range_bin, row) in power.outer_iter().enumerate() {
             let (cells, factors) = self.rows[range_bin];
-            for (half, totals) in self.stencil.halves(range_bin).iter().zip(&mut totals) {
+            let halves = self.stencil.halves(range_bin);
+            gone.fill(0.0);
+            for (half, totals) in halves.iter().zip(&mut totals) {
                 totals.fill(0.0);
                 for rectangle in half {
                     self.sums.add(rectangle, totals);
+                    if let (true, Some(screening)) = (excised, &self.screening) {
+                        screening.gone_sums.add(rectangle, &mut gone);
+                    }
                 }
             }
             let [before, after] = [cells.before, cells.after].map(|n| 1.0 / n.max(1) as f64);
             let all = 1.0 / cells.total() as f64;
             let one_sided = cells.before == 0 || cells.after == 0;
-            let statistic = |b: f64, a: f64| match self.kind {
+            let kind = self.kind;
+            let statistic = |b: f64, a: f64| match kind {
                 CfarKind::GreatestOf if !one_sided => (b * before).max(a * after),
                 CfarKind::SmallestOf if !one_sided => (b * before).min(a * after),
                 _ => (b + a) * all,
             };
-            let halves = totals[0].iter().zip(&totals[1]);
-            for (doppler_bin, (&power, (&b, &a))) in row.iter().zip(halves).enumerate() {
+            for (doppler_bin, &power) in row.iter().enumerate() {
+                let (b, a) = (totals[0][doppler_bin], totals[1][doppler_bin]);
+                let excised_cells = gone[doppler_bin] as usize;
+                let (noise_power, threshold) = if excised_cells == 0 {
+                    let statistic = statistic(b, a).max(0.0);
+                    (statistic / factors.bias, factors.threshold * statistic)
+                } else {
+                    let sum = (b + a).max(0.0);
+                    self.without(&halves, [range_bin, doppler_bin], cells, excised_cells, sum)
+                };
                 let power = f64::from(power);
-                let statistic = statistic(b, a).max(0.0);
-                let threshold = factors.threshold * statistic;
-                if power > threshold {
-                    let noise_power = statistic / factors.bias;
-                    detections.push(Detection {
-                        range_bin,
-                        doppler_bin,
-                        power,
-                        noise_power,
-                        threshold,
-                    });
-                }
+                let training_cells = cells.total();
+                let cell =
+                    CellThreshold { power, noise_power, threshold, training_cells, excised_cells };
+                each(range_bin, doppler_bin, cell);
             }
         }
     }
 
-    /// A cell exceeds `factor` times the training cell of rank `k` exactly where at least `k`
-    /// training cells lie below the cell over `factor`; counting needs no sorting.
-    fn detect_by_rank(
+    /// Noise power and threshold of a cell some of whose training cells are gone; `sum` is the power of the others.
+    fn without(
+        &mut self,
+        halves: &[Vec<Rectangle>; 2],
+        [range_bin, doppler_bin]: [usize; 2],
+        cells: TrainingCells,
+        gone: usize,
+        sum: f64,
+    ) -> (f64, f64) {
+        let Some(screening) = &mut self.screening else { return (0.0, 0.0) };
+        let left = cells.total().saturating_sub(gone);
+        if left == 0 {
+            let factors = screening.factors.of_rank(cells);
+            let statistic = self.ranks.nth(halves, doppler_bin, excision::screen_rank(cells));
+            return (statistic / factors.bias, factors.threshold * statistic);
+        }
+        let noise_power = sum / left as f64 / self.rows[range_bin].1.bias;
+        (noise_power, screening.factors.of_mean(left) * noise_power)
+    }
+
+    /// Screens the map: cumulative sums of what is left, and of where something is gone. Whether anything is.
+    fn excise(&mut self, power: ArrayView2<f32>) -> bool {
+        let Some(screening) = &mut self.screening else { return false };
+        let Screening { screens, left, gone, gone_sums, .. } = screening;
+        self.ranks.fill(power);
+        left.assign(&power);
+        gone.fill(0.0);
+        let mut any = false;
+        for (range_bin, row) in power.outer_iter().enumerate() {
+            let rank = excision::screen_rank(self.rows[range_bin].0) as u32;
+            let halves = self.stencil.halves(range_bin);
+            let below = self.ranks.below(&halves, row, screens[range_bin]);
+            let places = left.row_mut(range_bin).into_iter().zip(gone.row_mut(range_bin));
+            for (&below, (left, gone)) in below.iter().zip(places) {
+                if below >= rank {
+                    (*left, *gone) = (0.0, 1.0);
+                    any = true;
+                }
+            }
+        }
+        if any {
+            self.sums.fill(left.view());
+            gone_sums.fill(gone.view());
+        }
+        any
+    }
+
+    /// Hands the cells over their threshold with it to `each`.
+    fn by_rank(
         &mut self,
         power: ArrayView2<f32>,
-        share: f64,
-        detections: &mut Vec<Detection>,
+        mut each: impl FnMut(usize, usize, CellThreshold),
     ) {
-        let reach = self.stencil.doppler_reach();
-        let dopplers = self.shape.1;
-        for (row, mut wrapped) in power.outer_iter().zip(self.wrapped.outer_iter_mut()) {
-            for (column, value) in wrapped.iter_mut().enumerate() {
-                *value = row[(column + dopplers - reach) % dopplers];
-            }
-        }
-        let mut limits = vec![0.0_f32; dopplers];
-        let mut counts = vec![0_u32; dopplers];
-        let mut training = Vec::new();
+        self.ranks.fill(power);
+        let mut over = Vec::new();
         for (range_bin, row) in power.outer_iter().enumerate() {
             let (cells, factors) = self.rows[range_bin];
-            let rank = ordered_statistic::rank_of(share, cells.total());
-            let inverse = (1.0 / factors.threshold) as f32;
-            limits.iter_mut().zip(row).for_each(|(limit, &p)| *limit = p * inverse);
-            counts.fill(0);
+            let rank = ordered_statistic::rank_of(self.rank, cells.total());
             let halves = self.stencil.halves(range_bin);
-            for (r, column) in training_columns(&halves, reach) {
-                let row = self.wrapped.row(r);
-                let row = row.as_slice().unwrap_or(&[]);
-                for ((count, limit), value) in
-                    counts.iter_mut().zip(&limits).zip(&row[column..column + dopplers])
-                {
-                    *count += u32::from(value < limit);
-                }
+            let below = self.ranks.below(&halves, row, factors.threshold);
+            over.clear();
+            over.extend((0..below.len()).filter(|&at| below[at] as usize >= rank));
+            for &doppler_bin in &over {
+                each(range_bin, doppler_bin, self.ranked(range_bin, doppler_bin, row[doppler_bin]));
             }
-            for (doppler_bin, &count) in counts.iter().enumerate() {
-                if (count as usize) < rank {
-                    continue;
-                }
-                training.clear();
-                training.extend(
-                    training_columns(&halves, reach)
-                        .map(|(r, c)| self.wrapped[[r, c + doppler_bin]]),
-                );
-                let (_, statistic, _) = training.select_nth_unstable_by(rank - 1, f32::total_cmp);
-                let statistic = f64::from(*statistic);
-                detections.push(Detection {
-                    range_bin,
-                    doppler_bin,
-                    power: f64::from(row[doppler_bin]),
-                    noise_power: statistic / factors.bias,
-                    threshold: factors.threshold * statistic,
-                });
-            }
+        }
+    }
+
+    /// What a cell is held against by rank.
+    fn ranked(&mut self, range_bin: usize, doppler_bin: usize, power: f32) -> CellThreshold {
+        let (cells, factors) = self.rows[range_bin];
+        let rank = ordered_statistic::rank_of(self.rank, cells.total());
+        let statistic = self.ranks.nth(&self.stencil.halves(range_bin), doppler_bin, rank);
+        CellThreshold {
+            power: f64::from(power),
+            noise_power: statistic / factors.bias,
+            threshold: factors.threshold * statistic,
+            training_cells: cells.total(),
+            excised_cells: 0,
         }
     }
 }
 
-/// Row and first column in the wrapped map of each training cell.
-fn training_columns(
-    halves: &[Vec<Rectangle>; 2],
-    reach: usize,
-) -> impl Iterator<Item = (usize, usize)> {
-    halves.iter().flatten().flat_map(move |rectangle| {
-        let offsets = rectangle.offsets.clone();
-        rectangle.rows.clone().flat_map(move |r| {
-            offsets.clone().map(move |offset| (r, (reach as isize + offset) as usize))
-        })
-    })
-}
-
-/// Rows with equal training cells share their factors.
-fn row_factors(
-    ranges: usize,
-    stencil: &Stencil,
-    options: &CfarOptions,
-) -> Vec<(TrainingCells, Factors)> {
-    let correlation = match options.axes {
+/// Training cells that count as one independent cell.
+fn correlation(options: &CfarOptions) -> f64 {
+    match options.axes {
         CfarAxes::Range => options.correlation[0],
         CfarAxes::Doppler => options.correlation[1],
         CfarAxes::Both => options.correlation[0] * options.correlation[1],
-    };
-    let mut known: Vec<(TrainingCells, Factors)> = Vec::new();
+    }
+}
+
+/// Training cells of each row with what follows from them. Rows with equal training cells share that.
+fn of_rows<T: Copy>(
+    ranges: usize,
+    stencil: &Stencil,
+    follows: impl Fn(TrainingCells) -> T,
+) -> Vec<(TrainingCells, T)> {
+    let mut known: Vec<(TrainingCells, T)> = Vec::new();
     (0..ranges)
         .map(|row| {
             let cells = stencil.training(row);
-            // The two halves are alike, so that an edge and its mirror share factors as well.
+            // The two halves are alike, so that an edge and its mirror share it as well.
             let mirrored = TrainingCells { before: cells.after, after: cells.before };
-            if let Some((_, factors)) = known.iter().find(|(c, _)| *c == cells || *c == mirrored) {
-                return (cells, *factors);
+            if let Some((_, same)) = known.iter().find(|(c, _)| *c == cells || *c == mirrored) {
+                return (cells, *same);
             }
-            let new = factors(options, cells, correlation);
+            let new = follows(cells);
             known.push((cells, new));
             (cells, new)
         })

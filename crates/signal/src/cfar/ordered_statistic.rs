@@ -24,7 +24,19 @@ pub fn rank_of(share: f64, cells: usize) -> usize {
     ((share * cells as f64).ceil() as usize).clamp(1, cells.max(1))
 }
 
-fn ln_density(t: f64, shape: f64, cells: f64, rank: f64) -> f64 {
+/// Independent cells that so many stand for. Whether a cell lies below a level is less correlated than powers, by the root.
+pub fn independent(cells: usize, correlation: f64) -> f64 {
+    (cells as f64 / correlation.sqrt()).max(1.0)
+}
+
+/// Rank of a share of the cells among the independent ones.
+pub fn effective_rank(share: f64, cells: usize, correlation: f64) -> f64 {
+    let share = rank_of(share, cells) as f64 / cells as f64;
+    (share * independent(cells, correlation)).max(1.0)
+}
+
+/// Logarithm of the density of the logarithm of the `rank`-th smallest.
+pub fn ln_density(t: f64, shape: f64, cells: f64, rank: f64) -> f64 {
     let (ln_p, ln_q) = ln_incomplete(shape, shape * t.exp());
     let (below, above) = (rank - 1.0, cells - rank);
     let ln_count =

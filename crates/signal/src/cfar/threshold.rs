@@ -28,26 +28,17 @@ pub struct Factors {
 }
 
 /// Factors that give `false_alarm` in independent noise whose cells are means of `looks`
-/// exponential powers, exact for each kind and any number of training cells of at least one;
-/// `correlation` is the number of training cells that count as one independent cell. Behind
-/// windows that is an approximation which keeps the rate a little low: by the variance of the mean,
-/// for an ordered statistic, whose `rank` is a share of the cells, by its root, since whether a cell lies below a level is less correlated than powers.
+/// exponential powers, exact for each kind and any number of training cells of at least one; of
+/// excision those where all are left. `correlation` is the number of training cells that count as
+/// one independent cell. Behind windows that is an approximation which keeps the rate a little low.
 pub fn factors(options: &CfarOptions, cells: TrainingCells, correlation: f64) -> Factors {
     let CfarOptions { kind, rank, looks, false_alarm, .. } = *options;
-    let correlation = match kind {
-        CfarKind::OrderedStatistic => correlation.sqrt(),
-        _ => correlation,
-    };
-    let independent = |n: usize| (n as f64 / correlation).max(1.0);
-    let shape = |n: usize| looks as f64 * independent(n);
-    let halves = [shape(cells.before), shape(cells.after)];
+    let halves = [cells.before, cells.after].map(|n| shape(looks, n, correlation));
     let one_sided = cells.before == 0 || cells.after == 0;
     match kind {
         CfarKind::OrderedStatistic => {
-            let total = independent(cells.total());
-            let share =
-                ordered_statistic::rank_of(rank, cells.total()) as f64 / cells.total() as f64;
-            let rank = (share * total).max(1.0);
+            let total = ordered_statistic::independent(cells.total(), correlation);
+            let rank = ordered_statistic::effective_rank(rank, cells.total(), correlation);
             Factors {
                 threshold: solve(false_alarm, |factor| {
                     ordered_statistic::false_alarm(factor, looks, total, rank)
@@ -63,13 +54,19 @@ pub fn factors(options: &CfarOptions, cells: TrainingCells, correlation: f64) ->
             threshold: solve(false_alarm, |f| smallest_of::false_alarm(f, looks, halves)),
             bias: smallest_of::expectation(halves),
         },
-        _ => Factors {
-            threshold: solve(false_alarm, |factor| {
-                cell_averaging::false_alarm(factor, looks, shape(cells.total()))
-            }),
-            bias: 1.0,
-        },
+        _ => Factors { threshold: mean_factor(options, cells.total(), correlation), bias: 1.0 },
     }
+}
+
+/// Threshold over the mean of so many training cells.
+pub fn mean_factor(options: &CfarOptions, cells: usize, correlation: f64) -> f64 {
+    let shape = shape(options.looks, cells, correlation);
+    solve(options.false_alarm, |factor| cell_averaging::false_alarm(factor, options.looks, shape))
+}
+
+/// Shape of the gamma distribution of a mean of cells.
+fn shape(looks: usize, cells: usize, correlation: f64) -> f64 {
+    looks as f64 * (cells as f64 / correlation).max(1.0)
 }
 
 /// The factor at which a falling probability reaches `false_alarm`: regula falsi with Illinois

@@ -24,7 +24,7 @@ export const LIMITS = {
 /** What a Monte-Carlo run may vary. */
 export const SWEPT = ['snr', 'separation', 'snapshots'] as const;
 
-export const PRESETS = ['awr1642', 'awr1843', 'cascade86', 'lrr48'] as const;
+export const PRESETS = ['awr1642', 'awr1843', 'iwr6843isk', 'iwr6843aop', 'iwr6843ods', 'cascade86', 'lrr48'] as const;
 
 const targets: Field<readonly Target[]> = {
   fallback: [

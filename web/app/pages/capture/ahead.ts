@@ -2,5 +2,6 @@ import { preload } from '../../preload.ts';
 import { bundledAddresses } from './files.ts';
 
 export function askAhead(params: URLSearchParams): void {
-  if (params.get('source') !== 'files') for (const address of bundledAddresses) preload(address);
+  const source = params.get('source') ?? 'bundled';
+  if (source === 'bundled') for (const address of bundledAddresses) preload(address);
 }

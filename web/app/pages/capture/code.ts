@@ -37,7 +37,7 @@ interface Made {
 
 const CALIBRATION = 'array.calibration.json';
 
-const ROW = ['rangeM', 'rateMps', 'azimuthDeg', 'elevationDeg', 'powerDb', 'snrDb'] as const;
+const ROW = ['rangeM', 'rateMps', 'azimuthDeg', 'elevationDeg', 'xM', 'yM', 'zM', 'powerDb', 'snrDb'] as const;
 
 export function captureCode(): Code {
   const shown = result.peek();
@@ -69,6 +69,9 @@ export function captureCode(): Code {
         problem ? [`${title} is left out of the cell, as it did not run: ${problem.message}`] : [],
       ),
       ...(compared.kept.peek() ? ['The settings kept as A are not in it, only the present ones, B.'] : []),
+      ...(shown.capture.simulated
+        ? ['The capture was simulated in the page: save its .bin and .cfg under Files.']
+        : []),
       'The profiles over time and the range-azimuth map are not in it.',
     ],
   };

@@ -2,6 +2,7 @@
 
 import type { Method } from 'boresight';
 import { byteSize, power } from '../../../plots/format.ts';
+import { download } from '../../../plots/save.ts';
 import { api } from '../../data.ts';
 import { COUNTED } from '../../methods.ts';
 import { choosing, fitting } from '../../networks/choose.ts';
@@ -16,12 +17,22 @@ import { MethodList } from '../../ui/method-list.tsx';
 import { NetworkNote } from '../../ui/network-note.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
 import { configured } from './array-calibration.ts';
-import { fileProblem, loaded, openBundled, waiting } from './files.ts';
+import { fileProblem, loaded, openBundled, openSimulated, reopenFiles, waiting } from './files.ts';
 import { openFiles } from './open.ts';
 import { ownCalibrations } from './own-calibrations.ts';
-import { cellUnavailable, networkFor, usedArray } from './process.ts';
+import { cellUnavailable, networkFor, seesElevation, usedArray } from './process.ts';
+import { SIMULATED } from './simulated.ts';
 import { captureCodec, captureState, update } from './state.ts';
 import { isStudio } from './studio.ts';
+
+const ARRAY_NAMES = {
+  awr1642: 'AWR1642',
+  awr1843: 'AWR1843',
+  iwr6843isk: '6843 ISK',
+  iwr6843aop: '6843 AOP',
+  iwr6843ods: '6843 ODS',
+  cascade86: 'cascade',
+};
 
 const Control = controlOf(captureCodec, captureState, update);
 
@@ -49,6 +60,19 @@ export function Controls() {
       />
       <Group title="Files">
         <Files />
+        <Control
+          label="Order of I and Q"
+          name="iqOrder"
+          labels={{ configured: 'as configured', auto: 'as the samples tell', iq: 'I first', qi: 'Q first' }}
+          note="The wrong one mirrors ranges, rates and angles."
+        />
+        <Control
+          label="Lanes of the board"
+          name="lanes"
+          labels={{ configured: 'as configured', two: 'two', four: 'four' }}
+          note="xWR12xx, xWR14xx and xWR22xx have four."
+        />
+        <SubFrame />
       </Group>
       <Group title="Angle methods for the cell">
         <MethodList
@@ -72,12 +96,13 @@ export function Controls() {
           help="How many directions the subspace methods look for in one cell."
         />
         <Control label="Refine by Gauss-Newton" name="refine" />
+        <Control label="Array error" name="mismatch" />
       </Group>
       <Group title="Detection">
         <Control
           label="Virtual array"
           name="array"
-          labels={{ auto: 'as configured', awr1642: 'AWR1642', awr1843: 'AWR1843', cascade86: 'cascade' }}
+          labels={{ auto: 'as configured', ...ARRAY_NAMES }}
           help="Where the elements are. Must have as many transmitters and receivers as the configuration names."
         />
         <CalibrationChoice />
@@ -109,6 +134,7 @@ export function Controls() {
           />
         )}
         <Control label="Keep local peaks only" name="grouping" />
+        <Control label="Folds of the rate to try" name="folds" />
         <Control label="Remove static clutter" name="clutter" note="Targets at rest vanish too." />
         <Control
           label="Angle by"
@@ -124,6 +150,12 @@ export function Controls() {
           help="Detections farther than this are dropped, and counted; 0 for no limit."
         />
         <Control label="Sector ±" name="sector" help="Detections outside this azimuth are dropped, and counted." />
+        <Control
+          label="Elevation ±"
+          name="elevation"
+          disabled={!seesElevation()}
+          help="Detections steeper than this, upwards or downwards, are dropped, and counted; for arrays that see elevation."
+        />
       </Group>
       <Group title="Transforms">
         <Control label="Range window" name="window" labels={WINDOW_NAMES} note="Low sidelobes cost a wide main lobe." />
@@ -170,6 +202,27 @@ export function Controls() {
   );
 }
 
+/** Where frames are made of several. */
+function SubFrame() {
+  const config = loaded.value?.info.config;
+  if (!config || config.subFrames < 2) return null;
+  const numbers = ['0', '1', '2', '3'] as const;
+  return (
+    <Control
+      label="Sub-frame"
+      name="subFrame"
+      value={numbers[config.subFrame] ?? '0'}
+      only={numbers.slice(0, config.subFrames)}
+      labels={(number) => `${Number(number) + 1} of ${config.subFrames}`}
+      onChange={(subFrame) => {
+        update({ subFrame });
+        void reopenFiles();
+      }}
+      help="Each sub-frame of an advanced frame has its own profile and chirps, and is processed by itself."
+    />
+  );
+}
+
 function CalibrationChoice() {
   const { calibration } = captureState.value;
   const own = ownCalibrations.value.map(({ id, name }) => [`own:${id}`, name] as const);
@@ -207,6 +260,12 @@ function Network({ method }: { method: Method }) {
   );
 }
 
+function saveSimulated(kind: 'bin' | 'cfg'): void {
+  const capture = loaded.peek();
+  if (capture)
+    download(kind === 'bin' ? new Blob([capture.bin as BlobPart]) : new Blob([capture.cfg]), SIMULATED[kind]);
+}
+
 function Files() {
   const over = useFileDrop('capture', (files) => void openFiles(files.map(({ file }) => file)));
   const { files, missing } = waiting.value ?? { files: loaded.value?.files ?? [], missing: [] };
@@ -230,7 +289,9 @@ function Files() {
       </ul>
       {parts > 1 && (
         <p class="small" role="status" data-parts={parts}>
-          The {parts} .bin files are one recording, in the order of their numbers, as listed.
+          {loaded.value?.cascade
+            ? `The ${parts} .bin files are one recording of a cascade’s four chips.`
+            : `The ${parts} .bin files are one recording, in the order of their numbers, as listed.`}
         </p>
       )}
       {loaded.value?.bundled && (
@@ -240,12 +301,33 @@ function Files() {
           remark="From cstahoviak/radar-velocity-estimation. The scene is not described; the board’s log names its objects."
         />
       )}
+      {loaded.value?.simulated && (
+        <>
+          <p class="small">
+            Simulated in this page, recorded by no board: a street before an AWR1843, whose second transmitter stands
+            higher.
+          </p>
+          <div class="row">
+            {(['bin', 'cfg'] as const).map((kind) => (
+              <button
+                key={kind}
+                type="button"
+                data-export={kind}
+                title={`Save what was simulated as ${SIMULATED[kind]}`}
+                onClick={() => saveSimulated(kind)}
+              >
+                Save .{kind}
+              </button>
+            ))}
+          </div>
+        </>
+      )}
       <div class="row">
         <FileButton
           label="Capture files"
           accept=".bin,.cfg,.dat,.json"
           multiple
-          title="A raw capture (.bin, or all the numbered .bin of one recording) with its configuration (.cfg, or mmWave Studio’s .mmwave.json with .setup.json), and the board’s log (.dat) if there is one"
+          title="A raw capture (.bin, or all the .bin of one recording, numbered or of a cascade’s chips) with its configuration (.cfg, or mmWave Studio’s .mmwave.json with .setup.json), and the board’s log (.dat) if there is one"
           onFiles={(files) => void openFiles(files.map(({ file }) => file))}
         >
           Open files
@@ -257,10 +339,20 @@ function Files() {
         >
           Bundled capture
         </button>
+        <button
+          type="button"
+          data-action="simulate"
+          title="A street before a board that sees elevation, simulated in this page"
+          onClick={() => void openSimulated()}
+          disabled={Boolean(loaded.value?.simulated) && !fileProblem.value}
+        >
+          Simulated, 3-D
+        </button>
       </div>
       <p class={showHelp.value ? 'help' : 'muted small'}>
         Or drop a .bin with its .cfg (or .mmwave.json and .setup.json), and a .dat, anywhere on the page; all .bin of
-        one recording together; calibrations of the array (.json), too. Nothing is uploaded.
+        one recording together, those of a cascade’s four chips too; calibrations of the array (.json), too. Nothing is
+        uploaded.
       </p>
     </div>
   );

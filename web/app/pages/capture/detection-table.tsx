@@ -20,13 +20,13 @@ interface Column {
 const azimuthDifference = ({ row, board }: Comparison): number | undefined =>
   row && board && row.azimuthDeg - board.azimuthDeg;
 
-function columns(elevated: boolean, withBoard: boolean): Column[] {
+function columns(elevated: boolean, folded: boolean, withBoard: boolean): Column[] {
   const ours = (
     key: string,
     title: string,
     csv: string,
     help: string,
-    value: (row: NonNullable<Comparison['row']>) => number,
+    value: (row: NonNullable<Comparison['row']>) => number | undefined,
     show: (value: number) => string,
   ): Column => ({ key, title, csv, help, group: 'ours', show, value: ({ row }) => row && value(row) });
   const list: Column[] = [
@@ -64,6 +64,41 @@ function columns(elevated: boolean, withBoard: boolean): Column[] {
         'Positive upwards',
         (r) => r.elevationDeg,
         (v) => signed(v, 1),
+      ),
+    );
+  if (elevated) {
+    const place = (key: 'xM' | 'yM' | 'zM', csv: string, title: string, help: string): Column =>
+      ours(
+        key,
+        title,
+        csv,
+        help,
+        (r) => r[key],
+        (v) => signed(v, 2),
+      );
+    list.push(
+      place('xM', 'x_m', 'x (m)', 'Forward of the radar'),
+      place('yM', 'y_m', 'y (m)', 'To the left of the radar'),
+      place('zM', 'z_m', 'z (m)', 'Above the radar'),
+    );
+  }
+  if (folded)
+    list.push(
+      ours(
+        'dopplerFold',
+        'Fold',
+        'doppler_fold',
+        'Times twice the rate limit that the rate is beyond that of its bin',
+        (r) => r.dopplerFold,
+        (v) => signed(v, 0),
+      ),
+      ours(
+        'foldProbability',
+        'Certain (%)',
+        'fold_probability',
+        'Probability of the likeliest fold; below 99 % the rate keeps that of its bin',
+        (r) => r.foldProbability,
+        (v) => fixed(100 * v, 1),
       ),
     );
   list.push(
@@ -118,6 +153,26 @@ function columns(elevated: boolean, withBoard: boolean): Column[] {
         (b) => b.azimuthDeg,
         (v) => signed(v, 1),
       ),
+      ...(elevated
+        ? [
+            board(
+              'boardElevationDeg',
+              'Elevation (°)',
+              'board_elevation_deg',
+              'From the place that the board reported, positive upwards',
+              (b) => b.elevationDeg,
+              (v) => signed(v, 1),
+            ),
+            board(
+              'boardZM',
+              'z (m)',
+              'board_z_m',
+              'As the board reported it',
+              (b) => b.zM,
+              (v) => signed(v, 2),
+            ),
+          ]
+        : []),
       {
         key: 'rangeDifferenceM',
         title: 'Range (m)',
@@ -163,7 +218,8 @@ export function DetectionTable({
   fileParts: readonly (string | number)[];
 }) {
   const sort = useSignal<{ key: string; down: boolean }>({ key: 'powerDb', down: true });
-  const shown = columns(elevated, board !== null);
+  const folded = view.detections.some(({ foldProbability }) => foldProbability !== undefined);
+  const shown = columns(elevated, folded, board !== null);
   const entries = compare(view.detections, board ?? [], gateM);
   const by = shown.find(({ key }) => key === sort.value.key) ?? shown[0]!;
   const sorted = [...entries].sort((a, b) => {
@@ -191,6 +247,7 @@ export function DetectionTable({
         <span class="muted" data-count>
           {view.detections.length} here{board ? `, ${board.length} reported by the board` : ''}
         </span>
+        {folded && <span class="muted">rates told to ±{fixed(view.unambiguousRateMps, 1)} m/s</span>}
         <div class="tools">
           <button
             type="button"

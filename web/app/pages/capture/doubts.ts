@@ -13,6 +13,14 @@ export interface Doubt {
 /** Remarks of the package that say the .bin and the .cfg do not belong to each other. */
 const OF_SIZE = ['trailing-bytes', 'frame-count'];
 
+/** Remarks of the package that say how samples are read wrong, with what mends it. */
+const OF_READING: Readonly<Record<string, string>> = {
+  'iq-swapped': 'Files, Order of I and Q has “as the samples tell”.',
+  'other-lanes': 'Files, Lanes of the board has the other.',
+  'cascade-index': 'Open the files of one recording together.',
+  'cascade-out-of-step': 'Angles of these frames are wrong; record again.',
+};
+
 /** How files begin that are something else. */
 const BEGINNINGS: readonly [bytes: string, what: string][] = [
   ['\x89PNG', 'a PNG picture'],
@@ -56,7 +64,9 @@ export function doubtsOf({ capture, frame, view }: Shown): Doubt[] {
       `${percentage(below)} of the samples are below zero, where echoes are as often below as above. The .bin may be something else than raw samples.`,
     );
   }
-  if (doubts.every(({ code }) => code === 'missing-part')) {
+  // What repeats is looked for in complex samples as two lanes lay them down.
+  const known = info.config.layout === 'two-lane' && info.config.waveform.sampling === 'complex';
+  if (known && doubts.every(({ code }) => code === 'missing-part')) {
     const other = knownLoopLength(capture);
     const { transmitters, samples } = info.config.waveform;
     if (other !== null) {
@@ -68,6 +78,10 @@ export function doubtsOf({ capture, frame, view }: Shown): Doubt[] {
   }
   for (const { code, message } of info.warnings) {
     if (OF_SIZE.includes(code)) doubt(code, `${sentence(message)} Open the .cfg that this .bin was recorded with.`);
+  }
+  for (const { code, message } of [...info.warnings, ...(capture.cascade ?? [])]) {
+    const mends = OF_READING[code];
+    if (mends) doubt(code, `${sentence(message)} ${mends}`);
   }
   const { waveform, receivers } = info.config;
   const frames = frame === 'all' ? view.frames : 1;

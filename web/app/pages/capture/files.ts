@@ -1,6 +1,6 @@
 /** Files that are open: the bundled capture, or what the user chose or dropped. */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { BoardLog, CaptureInfo } from 'boresight';
+import type { BoardLog, CaptureInfo, ConfigInput, ReadingOptions, Warning } from 'boresight';
 import type { PoolCapture } from 'boresight/worker';
 import licenceAddress from '../../../../recordings/awr1642/LICENSE?url';
 import cfgAddress from '../../../../recordings/awr1642/profile.cfg?url';
@@ -10,7 +10,8 @@ import { api, describeError, FileProblem, type Problem, pool } from '../../data.
 import { CAPTURE_KINDS } from '../../kinds.ts';
 import type { NamedFile } from '../../ui/entries.ts';
 import { type Parts, partsOf } from './parts.ts';
-import { captureState, update } from './state.ts';
+import { SIMULATED, simulateCapture } from './simulated.ts';
+import { captureState, readingOptions, update } from './state.ts';
 import { configOfStudio, isSetup, isStudio } from './studio.ts';
 
 /** The setup is what mmWave Studio says of the board, beside the configuration. */
@@ -28,12 +29,18 @@ export interface Loaded {
   /** Raw samples and the text of the configuration. */
   bin: Uint8Array;
   cfg: string;
+  /** What overrides it in how samples are read, where anything does. */
+  reading: Partial<ReadingOptions>;
   info: CaptureInfo;
   /** The same on the workers. */
   kept: PoolCapture;
   bundled: { licence: string } | null;
+  /** Whether it was simulated in the page. */
+  simulated: boolean;
   /** Of files missing between those of the recording, the names. */
   missingParts: Parts['missing'];
+  /** What putting the files of a cascade together had to say; null of one chip. */
+  cascade: readonly Warning[] | null;
 }
 
 /** Files of the user's own that are not enough for a capture yet. */
@@ -78,7 +85,7 @@ interface Opened {
   log: BoardLog | null;
 }
 
-async function attempt(work: () => Promise<Opened | null>): Promise<void> {
+async function attempt(work: () => Promise<Opened | null>, sameFiles = false): Promise<void> {
   opening += 1;
   const mine = opening;
   try {
@@ -97,8 +104,9 @@ async function attempt(work: () => Promise<Opened | null>): Promise<void> {
       loaded.value = next.loaded;
       boardLog.value = next.log;
       const other = before?.kept !== next.loaded?.kept;
-      update({ source: next.loaded?.bundled ? 'bundled' : 'files' });
-      if (other && next.loaded && !next.loaded.bundled && !linked) update({ frame: 'all', cell: null, board: 'last' });
+      update({ source: sourceOf(next.loaded) });
+      if (other && sourceOf(next.loaded) === 'files' && next.loaded && !linked)
+        update({ frame: 'all', cell: null, board: 'last' });
       if (other) before?.kept.free();
     });
   } catch (error) {
@@ -142,14 +150,40 @@ export function closeOwn(): void {
   before?.kept.free();
 }
 
+/** What differs from the configuration in how samples are read. */
+function readingNow(): Partial<ReadingOptions> {
+  const { iqOrder, lanes } = readingOptions(captureState.peek());
+  return { ...(iqOrder !== 'configured' && { iqOrder }), ...(lanes !== 'configured' && { lanes }) };
+}
+
+const configured = (text: string, reading: Partial<ReadingOptions>): ConfigInput =>
+  Object.keys(reading).length ? { text, ...reading } : text;
+
+/** Reads what is open once more, in another way. */
+function reread(): Promise<void> {
+  const open = loaded.peek();
+  if (!open || JSON.stringify(open.reading) === JSON.stringify(readingNow())) return Promise.resolve();
+  return attempt(async () => {
+    const reading = readingNow();
+    const kept = await pool().loadCapture(open.bin, configured(open.cfg, reading));
+    return { own, loaded: { ...open, reading, kept, info: kept.info }, waiting: null, log: boardLog.peek() };
+  }, true);
+}
+
 /** Opens what the state names when it names something else. */
 export function startFiles(): () => void {
   const source = computed(() => captureState.value.source);
-  return effect(() => {
+  const reading = computed(() => JSON.stringify(readingOptions(captureState.value)));
+  const stop = effect(() => {
+    void reading.value;
+    void reread();
+  });
+  const stopOpening = effect(() => {
     const wanted = source.value;
     const open = loaded.peek();
-    if (wanted === 'bundled' ? open?.bundled : !open?.bundled) return;
+    if (sourceOf(open) === wanted) return;
     if (wanted === 'bundled') void openBundled();
+    else if (wanted === 'simulated') void openSimulated();
     else {
       opening += 1;
       loaded.value = null;
@@ -157,6 +191,10 @@ export function startFiles(): () => void {
       open?.kept.free();
     }
   });
+  return () => {
+    stop();
+    stopOpening();
+  };
 }
 
 export function openBundled(): Promise<void> {
@@ -166,7 +204,8 @@ export function openBundled(): Promise<void> {
     const name = (address: string): string =>
       decodeURIComponent(address.split('/').pop() ?? '').replace(/-[\w-]{8}(?=\.\w+$)/, '');
     const log = api.parseBoardLog(dat, text);
-    const kept = await pool().loadCapture(bin, text);
+    const reading = readingNow();
+    const kept = await pool().loadCapture(bin, configured(text, reading));
     const next: Loaded = {
       files: [
         { kind: 'bin', name: name(binAddress), bytes: bin.length },
@@ -175,12 +214,43 @@ export function openBundled(): Promise<void> {
       ],
       bin,
       cfg: text,
+      reading,
       info: kept.info,
       kept,
       bundled: { licence: licenceAddress },
+      simulated: false,
       missingParts: [],
+      cascade: null,
     };
     return { own: {}, loaded: next, waiting: null, log };
+  });
+}
+
+/** Where a capture comes from, as the state names it. */
+const sourceOf = (capture: Loaded | null) =>
+  capture?.bundled ? 'bundled' : capture?.simulated ? 'simulated' : 'files';
+
+export function openSimulated(): Promise<void> {
+  return attempt(async () => {
+    const { bin, cfg } = await simulateCapture();
+    const reading = readingNow();
+    const kept = await pool().loadCapture(bin, configured(cfg, reading));
+    const next: Loaded = {
+      files: [
+        { kind: 'bin', name: SIMULATED.bin, bytes: bin.length },
+        { kind: 'cfg', name: SIMULATED.cfg, bytes: cfg.length },
+      ],
+      bin,
+      cfg,
+      reading,
+      info: kept.info,
+      kept,
+      bundled: null,
+      simulated: true,
+      missingParts: [],
+      cascade: null,
+    };
+    return { own: {}, loaded: next, waiting: null, log: null };
   });
 }
 
@@ -209,7 +279,7 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
       const { bin, cfg, dat, setup } = next;
       const before = own.bin ? loaded.peek() : null;
       const known = before && cfg === own.cfg && setup === own.setup;
-      const text = known ? before.cfg : await configText(cfg, setup);
+      const text = ofSubFrame(known ? before.cfg : await configText(cfg, setup));
       const opened = listed(next).map(({ kind, file }): OpenFile => ({ kind, name: file.name, bytes: file.size }));
       if (!bin || text === undefined) {
         if (text !== undefined) api.parseConfig(text);
@@ -217,13 +287,27 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
         return { own: next, loaded: null, waiting: { files: opened, missing }, log: null };
       }
       const log = dat ? api.parseBoardLog(new Uint8Array(await dat.arrayBuffer()), text) : null;
-      const samples =
-        before && bin === own.bin ? before.bin : new Uint8Array(await new Blob([...bin.files]).arrayBuffer());
-      const same = before?.bin === samples && before.cfg === text;
-      const kept = same ? before.kept : await pool().loadCapture(samples, text);
+      const still = before && bin === own.bin && (!bin.cascade || before.cfg === text) ? before : null;
+      const { bytes: samples, warnings: cascade } = still
+        ? { bytes: still.bin, warnings: still.cascade }
+        : await samplesOf(bin, text);
+      const reading = readingNow();
+      const same = still?.cfg === text && JSON.stringify(still.reading) === JSON.stringify(reading);
+      const kept = still && same ? still.kept : await pool().loadCapture(samples, configured(text, reading));
       const { info } = kept;
       const missingParts = bin.missing;
-      const complete = { files: opened, bin: samples, cfg: text, info, kept, bundled: null, missingParts };
+      const complete = {
+        files: opened,
+        bin: samples,
+        cfg: text,
+        reading,
+        info,
+        kept,
+        bundled: null,
+        simulated: false,
+        missingParts,
+        cascade,
+      };
       return { own: next, loaded: complete, waiting: null, log };
     } catch (error) {
       if (error instanceof FileProblem) throw error;
@@ -231,6 +315,27 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
       throw new FileProblem(code, blame?.name ?? '', message);
     }
   });
+}
+
+/** The samples of a recording, of one file or several. */
+async function samplesOf(
+  { files, cascade }: Parts,
+  text: string,
+): Promise<{ bytes: Uint8Array; warnings: readonly Warning[] | null }> {
+  if (!cascade) return { bytes: new Uint8Array(await new Blob([...files]).arrayBuffer()), warnings: null };
+  const read = async (file: File) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
+  return pool().joinCascade(await Promise.all(files.map(read)), text);
+}
+
+/** The same files again, for another sub-frame of theirs. */
+export const reopenFiles = (): Promise<void> => openFiles(ownFiles().map(({ file }) => file));
+
+/** The configuration with the sub-frame that the state names, where it has several. */
+function ofSubFrame(text: string | undefined): string | undefined {
+  if (text === undefined) return undefined;
+  const { subFrame, subFrames } = api.parseConfig(text);
+  const wanted = Math.min(Number(captureState.peek().subFrame), subFrames - 1);
+  return subFrame === wanted ? text : api.subFrameConfig(text, wanted);
 }
 
 /** The configuration as the text of a .cfg. */

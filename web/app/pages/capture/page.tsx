@@ -18,10 +18,21 @@ import { boardLog, fileProblem, filesWanted, loaded, openBundled, startFiles, ty
 import { FrameBar } from './frame-bar.tsx';
 import { compare } from './match.ts';
 import { startOverTime } from './over-time.ts';
-import { cellResults, processProblem, result, type Shown, start, usedArray, wasCancelled, working } from './process.ts';
+import { CapturePoints } from './point-cloud.tsx';
+import {
+  cellResults,
+  processProblem,
+  result,
+  type Shown,
+  seesElevation,
+  start,
+  usedArray,
+  wasCancelled,
+  working,
+} from './process.ts';
 import { startRangeAzimuth } from './range-azimuth.ts';
 import { RangeAzimuth } from './range-azimuth-plot.tsx';
-import { RangeDopplerMap, RangeProfile } from './range-plots.tsx';
+import { CellWhy, RangeDopplerMap, RangeProfile } from './range-plots.tsx';
 import { startRegions } from './regions.ts';
 import { RegionsPanel } from './regions-panel.tsx';
 import { captureCodec, captureState, update } from './state.ts';
@@ -141,6 +152,11 @@ export function CapturePage() {
             board’s log has x to the right; it is turned into this frame before it is shown.
           </p>
           <p>
+            <b>In space</b> x points forward, y to the left and z up, in metres from the radar. Elevation takes an array
+            with elements above each other, such as those of the AWR1843 and the 6843; “Simulated, 3-D” has one without
+            a board.
+          </p>
+          <p>
             <b>Levels</b> are the power of one raw sample at one element relative to full scale (dBFS). SNR is a cell’s
             power over the noise level estimated around it.
           </p>
@@ -199,12 +215,13 @@ function Plots({ capture, frame, view }: Shown) {
   ];
   const shared = { view, cell, board: objects, label, fileParts };
   const geometry = usedArray.value;
-  const elevated = geometry?.extent === 'area' || geometry?.extent === 'line';
+  const elevated = seesElevation();
   return (
     <>
       <div class="wide-narrow">
         <div class="stack">
           <RangeProfile {...shared} />
+          <CellWhy view={view} cell={cell} />
           <RangeDopplerMap {...shared} />
         </div>
         <CellPanel
@@ -219,6 +236,7 @@ function Plots({ capture, frame, view }: Shown) {
         />
       </div>
       <ComparePanel view={view} />
+      <CapturePoints view={view} capture={capture} cell={cell} label={label} fileParts={fileParts} />
       <DetectionTable
         view={view}
         cell={cell}
@@ -290,7 +308,9 @@ function Remarks({ capture, view }: Pick<Shown, 'capture' | 'view'>) {
   const facts: [string, number, string][] = [
     ['Cells over threshold', counts.cellsOverThreshold, 'Before grouping'],
     ['Joined to a peak', counts.grouped, 'Cells over the threshold that are no local peak'],
-    ['Outside the region', counts.outsideRegion, 'Dropped by the limits of range and sector'],
+    ['Other Doppler bands', counts.otherBands, 'Echoes of stronger targets, in Doppler-division multiplexing'],
+    ['Undecided rates', counts.undecidedFolds, 'Cells whose fold of the range rate is not certain'],
+    ['Outside the region', counts.outsideRegion, 'Dropped by the limits of range, sector and elevation'],
     ['Without angle', counts.withoutAngle, 'Cells in which the method found no direction'],
     ['Beyond the limit', counts.beyondLimit, 'Dropped because there were more than the most that are kept'],
     ['Clipped samples', counts.clippedSamples, 'Samples at the converter’s limits'],
@@ -304,6 +324,7 @@ function Remarks({ capture, view }: Pick<Shown, 'capture' | 'view'>) {
   ];
   const warnings = [
     ...capture.info.config.warnings,
+    ...(capture.cascade ?? []),
     ...capture.info.warnings,
     ...view.warnings,
     ...(log?.warnings ?? []),

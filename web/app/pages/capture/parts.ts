@@ -4,6 +4,8 @@ import { FileProblem } from '../../data.ts';
 /** Files of one recording in the order of their numbers. */
 export interface Parts {
   files: readonly File[];
+  /** Whether they are of a cascade's chips, with their indices. */
+  cascade: boolean;
   /** Names of those that the numbers tell to be missing, or from which to which. */
   missing: readonly string[];
 }
@@ -23,9 +25,24 @@ function numbered(file: File): Numbered | null {
   return digits ? { file, stem, digits, number: Number(digits) } : null;
 }
 
+/** As mmWave Studio names the files of a cascade of four chips. */
+const OF_CASCADE = /^(master|slave[123])_\d{1,9}_(data|idx)\.bin$/i;
+
 /** Puts files in order; throws where they are not of one recording. */
 export function partsOf(files: readonly File[]): Parts {
-  if (files.length < 2) return { files, missing: [] };
+  const chips = files.filter(({ name }) => OF_CASCADE.test(name));
+  if (chips.length) {
+    const other = files.find((file) => !chips.includes(file));
+    if (other)
+      throw new FileProblem(
+        'ambiguous',
+        other.name,
+        `beside “${chips[0]?.name}” the files of a cascade’s other chips are expected. Open one recording at a time`,
+      );
+    // Which are missing the package says.
+    return { files: chips.sort((a, b) => a.name.localeCompare(b.name)), cascade: true, missing: [] };
+  }
+  if (files.length < 2) return { files, cascade: false, missing: [] };
   const first = numbered(files[0] as File);
   const parts = files.map((file) => {
     const part = numbered(file);
@@ -57,5 +74,5 @@ export function partsOf(files: readonly File[]): Parts {
       `by their numbers ${lost} files would be missing, so they are hardly of one recording. Open one at a time`,
     );
   }
-  return { files: parts.map(({ file }) => file), missing };
+  return { files: parts.map(({ file }) => file), cascade: false, missing };
 }

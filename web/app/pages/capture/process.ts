@@ -2,14 +2,14 @@
  * Processing of the open capture on workers: all frames when files or options change, the chosen cell when it moves.
  */
 import { batch, computed, effect, signal } from '@preact/signals';
-import type { AngleOptions, Cell, ChainOptions, Estimate, FrameResult, Method } from 'boresight';
+import type { AngleOptions, Cell, CellExplanation, ChainOptions, Estimate, FrameResult, Method } from 'boresight';
 import { aborted, api, describeError, type Problem } from '../../data.ts';
 import { whyUnsuited } from '../../methods.ts';
 import { modelFor, whyNoNetwork } from '../../networks/choose.ts';
 import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
 import { type Loaded, loaded } from './files.ts';
-import { estimateCell, runChain } from './source.ts';
+import { estimateCell, explainCell, runChain } from './source.ts';
 import { type CaptureState, captureState, cellAngle, chainOptions, sourceOption } from './state.ts';
 import { shownCell } from './view.ts';
 
@@ -37,6 +37,8 @@ export const progress = signal<{ done: number; total: number } | null>(null);
 export const wasCancelled = signal<{ done: number; total: number } | null>(null);
 export const processProblem = signal<Problem | null>(null);
 export const cellResults = signal<ReadonlyMap<Method, CellResult>>(new Map());
+/** Why the chosen cell is a detection or none; null until that is known. */
+export const explanation = signal<CellExplanation | null>(null);
 
 /** Options as text: effects that depend on them run when they change, not with every cell. */
 const options = computed(() => JSON.stringify(chainOptions(captureState.value)));
@@ -64,6 +66,12 @@ const arrayOf = ({ array }: CaptureState) => (array === 'auto' ? (loaded.value?.
 
 /** That of the present settings. */
 export const usedArray = computed(() => arrayOf(captureState.value));
+
+/** Whether detections have elevations. */
+export const seesElevation = (): boolean => {
+  const extent = usedArray.value?.extent;
+  return extent === 'area' || extent === 'line';
+};
 
 /** Methods that cannot work on a cell of this capture, with the reason. */
 export const cellUnavailable = computed<ReadonlyMap<Method, string>>(() => {
@@ -226,7 +234,10 @@ function forgetCell(): void {
   clearTimeout(cellTimer);
   cellJob?.abort();
   cellJob = undefined;
-  cellResults.value = new Map();
+  batch(() => {
+    cellResults.value = new Map();
+    explanation.value = null;
+  });
 }
 
 /** Cells come quickly while arrows are held down; estimates follow when they settle. */
@@ -239,8 +250,19 @@ function scheduleCell(shown: Shown, cell: Cell, methods: readonly Method[]): voi
   const before = cellResults.peek();
   cellResults.value = new Map(wanted.map((method) => [method, { ...before.get(method), stale: true }]));
   cellTimer = setTimeout(() => {
+    void explainOne(shown, cell, controller);
     for (const method of wanted) void estimateOne(shown, cell, method, controller);
   }, 40);
+}
+
+async function explainOne({ capture, chain, frame }: Shown, cell: Cell, controller: AbortController): Promise<void> {
+  let told: CellExplanation | null = null;
+  try {
+    told = await explainCell(capture, JSON.parse(chain) as ChainOptions, frame, cell, { signal: controller.signal });
+  } catch {
+    // What is wrong with the chain's options is said above the plots.
+  }
+  if (cellJob === controller) explanation.value = told;
 }
 
 async function estimateOne(

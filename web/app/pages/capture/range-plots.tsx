@@ -1,18 +1,19 @@
 /** Range profile and range-Doppler map: one range axis for both. */
 import { signal } from '@preact/signals';
-import type { BoardObject, Cell, FrameResult } from 'boresight';
+import type { BoardObject, Cell, CellExplanation, FrameResult } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import { defineElement } from '../../../elements/define.ts';
 import { RangeDopplerElement } from '../../../elements/range-doppler.ts';
-import { fixed } from '../../../plots/format.ts';
+import { fixed, signed } from '../../../plots/format.ts';
 import { COLOR_BAR_WIDTH, cellExtent } from '../../../plots/heat.ts';
 import { type Layer, polyline, verticalLines } from '../../../plots/layers.ts';
 import type { View as Zoom } from '../../../plots/plot.ts';
 import { toCsv } from '../../../plots/save.ts';
-import { ACCENT_STYLE, faint, TRUTH_STYLE } from '../../../plots/theme.ts';
+import { ACCENT_STYLE, faint, type SeriesStyle, TRUTH_STYLE } from '../../../plots/theme.ts';
 import { KeepButton } from '../../ui/comparison.tsx';
 import { ElementFrame, PlotFrame } from '../../ui/plot-frame.tsx';
 import { compared, keptView } from './compare.ts';
+import { explanation } from './process.ts';
 import { captureState, update } from './state.ts';
 
 defineElement('boresight-range-doppler', RangeDopplerElement);
@@ -32,20 +33,38 @@ interface Props {
 /** A's profile. */
 const FAINT = faint({ color: TRUTH_STYLE.color });
 
+/** Power at the cell's Doppler bin, and its threshold. */
+const BIN_STYLE: SeriesStyle = { color: { light: '#00896a', dark: '#2fcf9f' } };
+const THRESHOLD_STYLE: SeriesStyle = { color: { light: '#b3261e', dark: '#ff8a80' }, dash: [6, 3] };
+
+/** The explanation of this cell, once it is known. */
+const toldOf = ({ rangeBin, dopplerBin }: Cell): CellExplanation | null => {
+  const told = explanation.value;
+  return told?.rangeBin === rangeBin && told.dopplerBin === dopplerBin ? told : null;
+};
+
 const RANGE_AXIS = { label: 'Range (m)' };
 
 export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
   const a = keptView.value;
+  const { dopplerBin } = cell;
+  const known = explanation.value;
+  const threshold = known?.dopplerBin === dopplerBin && known.profileThresholdDb.length === view.rangeM.length;
+  const thresholdDb = threshold ? known.profileThresholdDb : null;
+  const binDb = useMemo(
+    () => view.rangeM.map((_, range) => view.rangeDopplerDb[range * view.rateMps.length + dopplerBin] ?? Number.NaN),
+    [view, dopplerBin],
+  );
   const extentY = useMemo((): [number, number] => {
     let low = Number.POSITIVE_INFINITY;
     let high = Number.NEGATIVE_INFINITY;
-    for (const value of [...view.rangeProfileDb, ...(a?.rangeProfileDb ?? [])]) {
+    for (const value of [...view.rangeProfileDb, ...binDb, ...(thresholdDb ?? []), ...(a?.rangeProfileDb ?? [])]) {
       if (!Number.isFinite(value)) continue;
       low = Math.min(low, value);
       high = Math.max(high, value);
     }
     return Number.isFinite(low) ? [Math.floor(low / 10) * 10, Math.ceil((high + 4) / 10) * 10] : [-100, 0];
-  }, [view, a]);
+  }, [view, a, binDb, thresholdDb]);
   const extentX = useMemo(() => cellExtent(view.rangeM), [view]);
   const content = useMemo(
     () => ({
@@ -54,6 +73,9 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
       extent: { x: extentX, y: extentY },
       above: [
         ...(a ? [polyline(a.rangeM, a.rangeProfileDb, FAINT)] : []),
+        polyline(view.rangeM, binDb, BIN_STYLE),
+        ...(thresholdDb ? [polyline(view.rangeM, thresholdDb, THRESHOLD_STYLE)] : []),
+        verticalLines([{ x: view.rangeM[cell.rangeBin] ?? Number.NaN }]),
         verticalLines(
           board.map(({ rangeM }) => ({ x: rangeM })),
           { dash: [2, 4], color: (t) => t.muted },
@@ -61,8 +83,9 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
         detectionTicks(view),
       ],
     }),
-    [view, board, a],
+    [view, board, a, binDb, thresholdDb, cell.rangeBin],
   );
+  const rate = `${signed(view.rateMps[dopplerBin] ?? Number.NaN, 2)} m/s`;
   const zoom = rangeZoom.value;
   const shown: Zoom | null = zoom ? { x: zoom, y: extentY } : null;
   return (
@@ -73,14 +96,12 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
       content={content}
       view={shown}
       tools={<KeepButton of={compared} />}
-      {...(a
-        ? {
-            legend: [
-              { id: 'b', label: 'B', style: { color: ACCENT_STYLE.color }, line: true },
-              { id: 'a', label: 'A', style: FAINT, line: true },
-            ],
-          }
-        : {})}
+      legend={[
+        { id: 'b', label: a ? 'B' : 'All rates', style: { color: ACCENT_STYLE.color }, line: true },
+        ...(a ? [{ id: 'a', label: 'A', style: FAINT, line: true }] : []),
+        { id: 'bin', label: `At ${rate}`, style: BIN_STYLE, line: true },
+        ...(thresholdDb ? [{ id: 'threshold', label: 'Its threshold', style: THRESHOLD_STYLE, line: true }] : []),
+      ]}
       axes={{ x: RANGE_AXIS, y: { label: 'Power (dBFS)' }, right: COLOR_BAR_WIDTH }}
       cursorKey="range"
       onView={(next, zoomed) => {
@@ -90,17 +111,44 @@ export function RangeProfile({ view, cell, board, label, fileParts }: Props) {
         if (index !== null) update({ cell: { rangeBin: index, dopplerBin: cell.dopplerBin } });
       }}
       readout={({ x, index }) =>
-        `Range ${fixed(x, 3)} m   Power ${fixed(view.rangeProfileDb[index ?? -1] ?? Number.NaN, 1)} dBFS`
+        `Range ${fixed(x, 3)} m   Power ${fixed(view.rangeProfileDb[index ?? -1] ?? Number.NaN, 1)} dBFS   at ${rate} ${fixed(binDb[index ?? -1] ?? Number.NaN, 1)}${thresholdDb ? `, threshold ${fixed(thresholdDb[index ?? -1] ?? Number.NaN, 1)}` : ''} dBFS`
       }
       csv={() =>
         toCsv(
-          ['range_m', 'power_dbfs'],
-          Array.from(view.rangeM, (range, i) => [range, view.rangeProfileDb[i]]),
+          ['range_m', 'power_dbfs', 'bin_power_dbfs', 'bin_threshold_dbfs'],
+          Array.from(view.rangeM, (range, i) => [range, view.rangeProfileDb[i], binDb[i], thresholdDb?.[i]]),
         )
       }
       fileParts={fileParts}
-      remarks={[`${label}. Triangles: detections; dotted lines: ranges the board reported.`]}
+      remarks={[
+        `${label}. Triangles: detections; dotted lines: ranges the board reported; vertical line: the chosen cell.`,
+      ]}
     />
+  );
+}
+
+/** What would make it otherwise. */
+const CONTROLS: Readonly<Record<CellExplanation['verdict'], string>> = {
+  'below-threshold':
+    'A higher false-alarm rate lowers the threshold; the kind of threshold and its training cells move it.',
+  grouped: 'Without “Keep local peaks only” it is a detection of its own.',
+  'outside-range':
+    '“From range” and “To range” keep it out; without them, ranges next to the antennas and at the end of the band.',
+  'outside-rate': '“Remove static clutter” and the Doppler window bear on rates.',
+  'beyond-limit': 'A lower false-alarm rate leaves fewer.',
+  'without-angle': '“Angle by” chooses the method.',
+  'outside-direction': '“Sector ±” or a limit of elevation or height keeps it out.',
+  kept: '',
+};
+
+/** Why the chosen cell is a detection or none. */
+export function CellWhy({ view, cell }: Pick<Props, 'view' | 'cell'>) {
+  const told = toldOf(cell);
+  const place = `${fixed(view.rangeM[cell.rangeBin] ?? Number.NaN, 2)} m, ${signed(view.rateMps[cell.dopplerBin] ?? Number.NaN, 2)} m/s`;
+  return (
+    <p class="remark" role="status" data-cell-verdict={told?.verdict}>
+      <b>Cell at {place}.</b> {told ? `${told.message} ${CONTROLS[told.verdict]}` : ''}
+    </p>
   );
 }
 

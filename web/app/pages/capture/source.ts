@@ -1,5 +1,5 @@
 /** The open capture on the workers. */
-import type { AngleOptions, Cell, ChainOptions, Estimate, FrameResult } from 'boresight';
+import type { AngleOptions, Cell, CellExplanation, ChainOptions, Estimate, FrameResult } from 'boresight';
 import type { JobOptions } from 'boresight/worker';
 import type { Loaded } from './files.ts';
 
@@ -23,4 +23,15 @@ export function estimateCell(
   job: JobOptions,
 ): Promise<Estimate> {
   return kept.cellSpectrum(frame === 'all' ? cell : { ...cell, frame }, angle, chain, job);
+}
+
+/** Why a cell is a detection or none. */
+export function explainCell(
+  { kept }: Loaded,
+  chain: ChainOptions,
+  frame: number | 'all',
+  cell: Cell,
+  job: JobOptions,
+): Promise<CellExplanation> {
+  return kept.explainCell(frame === 'all' ? cell : { ...cell, frame }, chain, job);
 }

@@ -7,12 +7,14 @@ import type {
   Cell,
   ChainOptions,
   Method,
+  ReadingOptions,
 } from 'boresight';
 import { COLOR_MAPS } from '../../../plots/colormap.ts';
 import { methodNames, networkNames } from '../../methods.ts';
 import { optionsOf } from '../../options.ts';
 import { choice, codec, type Field, flag, names, number, text } from '../../state/codec.ts';
 import { keptField } from '../../state/comparison.ts';
+import { COLOURED_BY } from '../../ui/space/points.ts';
 import { PRESETS } from '../angle/state.ts';
 import { idOf, ownOf } from './own-calibrations.ts';
 
@@ -70,14 +72,19 @@ const reflectors: Field<readonly KnownReflector[]> = {
 };
 
 const detection = optionsOf('DetectionOptions');
+const reading = optionsOf('ReadingOptions');
 const region = optionsOf('RegionChainOptions');
 const arrayCalibration = optionsOf('ArrayCalibrationOptions');
 
 export const captureCodec = codec(
   {
-    source: choice('bundled', ['bundled', 'files']),
+    source: choice('bundled', ['bundled', 'simulated', 'files']),
     frame,
     cell,
+    iqOrder: reading.field('iqOrder'),
+    lanes: reading.field('lanes'),
+    /** Of an advanced frame. */
+    subFrame: choice('0', ['0', '1', '2', '3']),
     array: choice('auto', ['auto', ...PRESETS]),
     /** Of one's own calibrations the id. */
     calibration: text('configured', (value) => ['configured', 'none'].includes(value) || idOf(value) !== null),
@@ -96,16 +103,20 @@ export const captureCodec = codec(
     trainDoppler: detection.field('cfar.trainingCells.1', { min: 1, max: 64 }),
     rank: detection.field('cfar.rank'),
     grouping: detection.field('peakGrouping'),
+    folds: detection.field('dopplerFolds', { max: 8 }),
     // 0 for no limit: the package then has its own, or none where only the other is given.
     nearest: detection.field('region.rangeM.0', { fallback: 0, min: 0, max: 10_000 }),
     farthest: detection.field('region.rangeM.1', { fallback: 0, min: 0, max: 10_000 }),
     /** Half of it, to both sides. */
     sector: detection.field('region.azimuthDeg.1', { fallback: 90, min: 1 }),
+    /** The same upwards and downwards. */
+    elevation: detection.field('region.elevationDeg.1', { fallback: 90, min: 1 }),
     angle: detection.field('angle.method'),
     methods: names<Method>(['bartlett', 'capon', 'iaa'], methodNames),
     sources: detection.picks('angle.sources', ['mdl', 'aic', '1', '2', '3', '4']),
     networks: networkNames,
     refine: detection.field('angle.refine'),
+    mismatch: detection.maybe('angle.mismatchDb'),
     /** Whether regions are found, and their networks loaded. */
     regions: flag(false),
     regionsBy: choice('cnn3d', ['cnn3d', 'dnn']),
@@ -127,6 +138,9 @@ export const captureCodec = codec(
     exactRanges: arrayCalibration.field('rangeBias'),
     span: choice('60', ['30', '40', '50', '60', '80']),
     colors: choice('viridis', COLOR_MAPS),
+    /** Detections from above, or in space. */
+    points: choice('above', ['above', 'space']),
+    pointColour: choice('rate', COLOURED_BY),
     board: text('last', (value) => value === 'last' || /^\d{1,7}$/.test(value)),
     a: keptField,
   },
@@ -139,6 +153,9 @@ export const captureState = signal<CaptureState>(captureCodec.defaults);
 export function update(patch: Partial<CaptureState>): void {
   captureState.value = { ...captureState.value, ...patch };
 }
+
+/** How the samples are read. */
+export const readingOptions = ({ iqOrder, lanes }: CaptureState): ReadingOptions => ({ iqOrder, lanes });
 
 /** For those who see a plot alone. */
 export function settingsOf(state: CaptureState): string {
@@ -155,7 +172,8 @@ export function settingsOf(state: CaptureState): string {
 
 /** The part of the state that detection depends on, as the package takes it. */
 export function chainOptions(state: CaptureState): ChainOptions {
-  const regionSet = state.nearest > 0 || state.farthest > 0 || state.sector < 90;
+  const { nearest, farthest, sector, elevation } = state;
+  const regionSet = nearest > 0 || farthest > 0 || sector < 90 || elevation < 90;
   return {
     ...(state.array === 'auto' ? {} : { array: state.array }),
     rangeWindow: state.window,
@@ -172,17 +190,17 @@ export function chainOptions(state: CaptureState): ChainOptions {
       ...(state.cfar === 'ordered-statistic' ? { rank: state.rank } : {}),
     },
     peakGrouping: state.grouping,
+    dopplerFolds: state.folds,
     ...(regionSet
       ? {
           region: {
-            ...(state.nearest > 0 || state.farthest > 0
-              ? { rangeM: [state.nearest, state.farthest || 1e6] as const }
-              : {}),
-            ...(state.sector < 90 ? { azimuthDeg: [-state.sector, state.sector] as const } : {}),
+            ...(nearest > 0 || farthest > 0 ? { rangeM: [nearest, farthest || 1e6] as const } : {}),
+            ...(sector < 90 ? { azimuthDeg: [-sector, sector] as const } : {}),
+            ...(elevation < 90 ? { elevationDeg: [-elevation, elevation] as const } : {}),
           },
         }
       : {}),
-    angle: { method: state.angle },
+    angle: { method: state.angle, ...(state.mismatch === null ? {} : { mismatchDb: state.mismatch }) },
     ...calibrationOption(state),
   };
 }
@@ -220,6 +238,7 @@ export function sourceOption(state: CaptureState): number | 'aic' | 'mdl' {
 export const cellAngle = (state: CaptureState): AngleOptions => ({
   sources: sourceOption(state),
   ...(state.refine ? { refine: state.refine } : {}),
+  ...(state.mismatch === null ? {} : { mismatchDb: state.mismatch }),
 });
 
 /** How regions are found and their targets told apart. */

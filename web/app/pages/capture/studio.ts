@@ -114,17 +114,19 @@ function platformOf({ name, text }: TextFile): Line {
 
 function linesOf(file: Part): Line[] {
   const devices = file.at('mmWaveDevices').list('a device, as mmWave Studio writes it in .mmwave.json');
-  if (devices.length > 1)
-    file.at('mmWaveDevices').fail('one device: no captures of cascaded boards are read', `${devices.length} devices`);
+  for (const one of devices) {
+    const rf = one.at('rfConfig');
+    rf.at('waveformType').only(['legacyFrameChirp'], '"legacyFrameChirp": frames of chirps that are all alike');
+    rf.at('MIMOScheme').only(['TDM'], '"TDM": transmitters that take turns');
+    allZero(rf.at('rlBpmChirps'), 'rlBpmChirpCfg_t', ['constBpmVal'], 'no phase coding');
+  }
+  if (devices.length > 1) return linesOfCascade(file.at('mmWaveDevices'), devices);
   const device = devices[0] as Part;
   const rf = device.at('rfConfig');
-  rf.at('waveformType').only(['legacyFrameChirp'], '"legacyFrameChirp": frames of chirps that are all alike');
-  rf.at('MIMOScheme').only(['TDM'], '"TDM": transmitters that take turns');
-  allZero(rf.at('rlBpmChirps'), 'rlBpmChirpCfg_t', ['constBpmVal'], 'no phase coding');
   return [
     channels(rf.at('rlChanCfg_t')),
     samples(rf.at('rlAdcOutCfg_t', 'fmt')),
-    layout(device.at('rawDataCaptureConfig')),
+    layout(device.at('rawDataCaptureConfig'), rf.at('rlAdcOutCfg_t', 'fmt', 'b2AdcOutFmt').number() === 0),
     ...rf
       .at('rlProfiles')
       .list('a profile')
@@ -136,6 +138,64 @@ function linesOf(file: Part): Line[] {
     frame(rf.at('rlFrameCfg_t')),
   ];
 }
+
+/** Chips of a cascade, and the receivers and transmitters of each. */
+const CHIPS = 4;
+const CHIP_RECEIVERS = 0xf;
+const CHIP_TRANSMITTERS = 3;
+
+/** Of a cascade's chips: what they share is the master's, and of each chirp one chip transmits. */
+function linesOfCascade(of: Part, devices: readonly Part[]): Line[] {
+  if (devices.length !== CHIPS) of.fail('one device, or the four of a cascade', `${devices.length} devices`);
+  const rfs = devices.map((device) => device.at('rfConfig'));
+  const master = rfs[0] as Part;
+  let transmitters = 0;
+  rfs.forEach((rf, chip) => {
+    const channel = rf.at('rlChanCfg_t');
+    channel.at('rxChannelEn').only([CHIP_RECEIVERS], '0xF: all receivers of each chip of a cascade');
+    transmitters |= channel.at('txChannelEn').number() << (CHIP_TRANSMITTERS * chip);
+  });
+  const format = (devices[0] as Part).at('rawDataCaptureConfig', 'rlDevDataFmtCfg_t');
+  format.at('iqSwapSel').only([0, 1], '0 (I first) or 1 (Q first)');
+  return [
+    line('channelCfg', master.at('rlChanCfg_t'), [0xffff, transmitters, 1]),
+    samples(master.at('rlAdcOutCfg_t', 'fmt')),
+    line('adcbufCfg', format, [-1, 0, format.at('iqSwapSel').number(), 0, 0]),
+    ...master
+      .at('rlProfiles')
+      .list('a profile')
+      .map((one) => profile(one.at('rlProfileCfg_t'))),
+    ...cascadeChirps(rfs),
+    frame(master.at('rlFrameCfg_t')),
+  ];
+}
+
+function cascadeChirps(rfs: readonly Part[]): Line[] {
+  const frame = (rfs[0] as Part).at('rlFrameCfg_t');
+  const [first, last] = [frame.at('chirpStartIdx').number(), frame.at('chirpEndIdx').number()];
+  if (!(first >= 0 && last >= first && last <= MOST_CHIRPS))
+    frame.at('chirpEndIdx').fail(`a chirp from the first to ${MOST_CHIRPS}`);
+  const all = rfs.map((rf) =>
+    rf
+      .at('rlChirps')
+      .list('chirps')
+      .map((one) => one.at('rlChirpCfg_t')),
+  );
+  return Array.from({ length: last - first + 1 }, (_, i) => {
+    const index = first + i;
+    const chips = all.map((chirps, chip) => {
+      const one = chirps.find((c) => c.at('chirpStartIdx').number() <= index && index <= c.at('chirpEndIdx').number());
+      return one ?? (rfs[chip] as Part).at('rlChirps').fail(`settings of chirp ${index}`, 'without them');
+    });
+    for (const one of chips) allAlike(one);
+    const mask = chips.reduce((sum, one, chip) => sum | (one.at('txEnable').number() << (CHIP_TRANSMITTERS * chip)), 0);
+    const [master] = chips as [Part, ...Part[]];
+    if (!isOneBit(mask)) master.at('txEnable').fail('one transmitter of all chips a chirp (they take turns)');
+    return line('chirpCfg', master, [index, index, master.at('profileId').number(), 0, 0, 0, 0, mask]);
+  });
+}
+
+const MOST_CHIRPS = 511;
 
 function line(command: string, of: Part, values: readonly (number | string)[]): Line {
   return { text: [command, ...values].join(' '), from: of.path };
@@ -159,19 +219,26 @@ function channels(of: Part): Line {
 
 function samples(of: Part): Line {
   of.at('b2AdcBits').only([0, 1, 2], '0, 1 or 2 (12, 14 or 16 bits)');
-  of.at('b2AdcOutFmt').only([1, 2], '1 or 2: complex samples');
+  of.at('b2AdcOutFmt').only([0, 1, 2], '0 (real), 1 or 2 (complex samples)');
   return line('adcCfg', of, [of.at('b2AdcBits').number(), of.at('b2AdcOutFmt').number()]);
 }
 
-function layout(of: Part): Line {
+const TWO_LANES = '1: receivers one after another, over two lanes';
+
+function layout(of: Part, real: boolean): Line {
   of.at('rlDevDataPathCfg_t', 'intfSel').only([1], '1: LVDS, as the DCA1000 records');
   of.at('rlDevDataPathCfg_t', 'transferFmtPkt0').only([1], '0x1: samples alone');
   of.at('rlDevDataPathCfg_t', 'transferFmtPkt1').only([0], '0x0: no second packet');
-  of.at('rlDevLaneEnable_t', 'laneEn').only([3], '0x3: two lanes (xWR16xx, xWR18xx, xWR68xx)');
+  const lanes = of.at('rlDevLaneEnable_t', 'laneEn');
+  lanes.only([3, 15], '0x3: two lanes (xWR16xx, xWR18xx, xWR68xx), or 0xF: four (xWR12xx, xWR14xx, xWR22xx)');
   const format = of.at('rlDevDataFmtCfg_t');
-  format.at('chInterleave').only([1], '1: receivers one after another (two-lane boards)');
+  const interleave = format.at('chInterleave');
+  if (lanes.there) {
+    const four = lanes.number() === 15;
+    interleave.only([four ? 0 : 1], four ? '0: receivers sample by sample, over four lanes' : TWO_LANES);
+  } else interleave.only([0, 1], TWO_LANES);
   format.at('iqSwapSel').only([0, 1], '0 (I first) or 1 (Q first)');
-  return line('adcbufCfg', format, [-1, 0, format.at('iqSwapSel').number(), format.at('chInterleave').number(), 0]);
+  return line('adcbufCfg', format, [-1, Number(real), format.at('iqSwapSel').number(), interleave.number(), 0]);
 }
 
 function profile(of: Part): Line {
@@ -191,15 +258,19 @@ function profile(of: Part): Line {
   ]);
 }
 
-function chirps(of: Part): Line {
-  const value = (name: string): number => of.at(name).number();
+function allAlike(of: Part): void {
   for (const name of ['startFreqVar_MHz', 'freqSlopeVar_KHz_usec', 'idleTimeVar_usec', 'adcStartTimeVar_usec'])
     of.at(name).only([0], '0: all chirps alike');
+}
+
+const isOneBit = (mask: number): boolean => Number.isInteger(mask) && mask > 0 && (mask & (mask - 1)) === 0;
+
+function chirps(of: Part): Line {
+  const value = (name: string): number => of.at(name).number();
+  allAlike(of);
   const transmitters = of.at('txEnable');
   const mask = transmitters.number();
-  // One bit.
-  if (!(Number.isInteger(mask) && mask > 0 && (mask & (mask - 1)) === 0))
-    transmitters.fail('the bit of one transmitter a chirp (they take turns)');
+  if (!isOneBit(mask)) transmitters.fail('the bit of one transmitter a chirp (they take turns)');
   return line('chirpCfg', of, [value('chirpStartIdx'), value('chirpEndIdx'), value('profileId'), 0, 0, 0, 0, mask]);
 }
 

@@ -3,6 +3,15 @@ import type { ArrayGeometry, CaptureInfo } from 'boresight';
 import { engineering, fixed, significant } from '../../../plots/format.ts';
 import { captureState } from './state.ts';
 
+const SAMPLES = { complex: { iq: 'I before Q', qi: 'Q before I' }, real: { iq: 'real', qi: 'real' } };
+const LAYOUTS = { 'two-lane': 'two lanes', 'four-lane': 'four lanes', cascade: 'a cascade of four chips' };
+/** How transmitters share the chirps. */
+const SHARING = {
+  'time-division': 'in turn',
+  'binary-phase': 'at once in binary phase',
+  'doppler-division': 'at once in Doppler division',
+} as const;
+
 export function Summary({ info, geometry }: { info: CaptureInfo; geometry: ArrayGeometry | null }) {
   const { waveform, summary, platform, array } = info.config;
   const { array: chosen } = captureState.value;
@@ -16,7 +25,9 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
     [
       'Maximum range',
       `${significant(summary.maxRangeM, 4)}\u00a0m`,
-      'Where the beat frequency reaches the sample rate (complex sampling)',
+      waveform.sampling === 'real'
+        ? 'Where the beat frequency reaches half the sample rate (real sampling)'
+        : 'Where the beat frequency reaches the sample rate (complex sampling)',
       'maxRange',
     ],
     [
@@ -46,14 +57,14 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
     ],
     [
       'Frame',
-      `${waveform.loops} × ${waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`,
+      `${waveform.loops} × ${waveform.multiplexing === 'doppler-division' ? 1 : waveform.transmitters} chirps, ${significant(waveform.frameIntervalS * 1000)}\u00a0ms`,
       `${significant(summary.frameTimeS * 1000)} ms of them transmitting`,
       'frame',
     ],
     [
       'Samples a chirp',
       `${waveform.samples} at ${engineering(waveform.sampleRateHz, 'S/s', 4)}`,
-      `Slope ${significant(waveform.slopeHzPerS / 1e12, 4)} MHz/µs`,
+      `Slope ${significant(waveform.slopeHzPerS / 1e12, 4)} MHz/µs; ${SAMPLES[waveform.sampling ?? 'complex'][info.config.iqOrder]}, ${LAYOUTS[info.config.layout]}`,
       'samples',
     ],
     [
@@ -61,7 +72,7 @@ export function Summary({ info, geometry }: { info: CaptureInfo; geometry: Array
       geometry
         ? `${chosen === 'auto' ? (array ?? platform ?? 'configured') : chosen}, ${geometry.positions.length} virtual`
         : 'not known',
-      `${info.config.transmitters} transmitters, ${info.config.receivers} receivers`,
+      `${info.config.transmitters} transmitters ${SHARING[waveform.multiplexing ?? 'time-division']}, ${info.config.receivers} receivers`,
       'array',
     ],
   ];

@@ -1,19 +1,18 @@
 /** What a board sends of a frame: points, a profile, and maps where it is told to send them. */
+import { useSignal } from '@preact/signals';
 import type { BoardFrame, RadarConfig } from 'boresight';
 import { useMemo } from 'preact/hooks';
 import { pointsOf } from '../../../elements/board.ts';
-import { defineElement } from '../../../elements/define.ts';
-import { PointCloudElement } from '../../../elements/point-cloud.ts';
 import { fixed, signed } from '../../../plots/format.ts';
 import { COLOR_BAR_WIDTH, cellExtent, colorBar, heatImage, limitsBelow, nearestCell } from '../../../plots/heat.ts';
 import { verticalLines } from '../../../plots/layers.ts';
 import { toCsv } from '../../../plots/save.ts';
 import { ACCENT_STYLE, TRUTH_STYLE } from '../../../plots/theme.ts';
-import { ElementFrame, PlotFrame } from '../../ui/plot-frame.tsx';
+import { PlotFrame } from '../../ui/plot-frame.tsx';
+import { CloudPlot } from '../../ui/space/cloud.tsx';
+import type { SpacePoint } from '../../ui/space/points.ts';
 import { azimuthMap, dopplerMap, type GroundMap, rangeAxis } from './maps.ts';
-import { liveState } from './state.ts';
-
-defineElement('boresight-point-cloud', PointCloudElement);
+import { liveState, update } from './state.ts';
 
 interface Props {
   frame: BoardFrame;
@@ -26,7 +25,7 @@ export function BoardPlots({ frame, config }: Props) {
   return (
     <>
       <div class="wide-narrow">
-        <Points frame={frame} />
+        <Points frame={frame} config={config} />
         <Profile frame={frame} config={config} />
       </div>
       {doppler && (
@@ -39,17 +38,42 @@ export function BoardPlots({ frame, config }: Props) {
   );
 }
 
-function Points({ frame }: { frame: BoardFrame }) {
-  const points = useMemo(() => pointsOf(frame), [frame]);
-  const { range } = liveState.value;
+function Points({ frame, config }: Props) {
+  const cloud = useMemo(() => pointsOf(frame), [frame]);
+  const points = useMemo(
+    () =>
+      frame.objects.map(
+        ({ xM, yM, zM, rateMps, snrDb }, i): SpacePoint => ({
+          xM,
+          yM,
+          zM,
+          rateMps: rateMps ?? Number.NaN,
+          powerDb: snrDb ?? Number.NaN,
+          key: String(i),
+        }),
+      ),
+    [frame],
+  );
+  const chosen = useSignal<string | null>(null);
+  const { range, points: shown, pointColour } = liveState.value;
   return (
-    <ElementFrame
-      tag="boresight-point-cloud"
-      own={{ points, boresight: true, range: range > 0 ? range : undefined }}
+    <CloudPlot
       title="Detections"
       name="board-points"
-      height="medium"
       detail={`Frame ${frame.frameNumber}`}
+      cloud={cloud}
+      points={points}
+      of={config}
+      chosen={chosen.value}
+      onChoose={(key) => {
+        chosen.value = key;
+      }}
+      inSpace={shown === 'space'}
+      onSwitch={(inSpace) => update({ points: inSpace ? 'space' : 'above' })}
+      by={pointColour}
+      level="SNR (dB)"
+      onColour={(by) => update({ pointColour: by })}
+      range={range > 0 ? range : undefined}
       remarks={[`${frame.objects.length} detections of the board, ${frame.platform}, SDK ${frame.sdkVersion}.`]}
     />
   );

@@ -12,7 +12,11 @@ import { liveState } from './state.ts';
 defineElement('boresight-point-cloud', PointCloudElement);
 defineElement('boresight-range-doppler', RangeDopplerElement);
 
-const COLUMNS: readonly [name: keyof Detection, heading: string, said: (value: number) => string][] = [
+const COLUMNS: readonly [
+  name: keyof Omit<Detection, 'foldProbability'>,
+  heading: string,
+  said: (value: number) => string,
+][] = [
   ['rangeM', 'Range (m)', (value) => fixed(value, 3)],
   ['rateMps', 'Rate (m/s)', (value) => signed(value, 2)],
   ['azimuthDeg', 'Azimuth (°)', (value) => signed(value, 2)],

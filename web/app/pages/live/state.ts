@@ -5,6 +5,7 @@ import { COLOR_MAPS } from '../../../plots/colormap.ts';
 import { optionsOf } from '../../options.ts';
 import type { Caption } from '../../state/address.ts';
 import { choice, codec, number } from '../../state/codec.ts';
+import { COLOURED_BY } from '../../ui/space/points.ts';
 
 const detection = optionsOf('DetectionOptions');
 
@@ -28,6 +29,9 @@ export const liveCodec = codec(
     angle: detection.field('angle.method'),
     span: choice('60', ['30', '40', '50', '60', '80']),
     colors: choice('viridis', COLOR_MAPS),
+    /** The board's detections from above, or in space. */
+    points: choice('above', ['above', 'space']),
+    pointColour: choice('rate', COLOURED_BY),
   },
   ['source'],
 );
