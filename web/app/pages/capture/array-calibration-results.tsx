@@ -430,13 +430,19 @@ function CellBeforeAfter({ fileParts }: { fileParts: FileParts }) {
               <th scope="col" title="Of the conventional beam, over its peak">
                 Peak sidelobe (dB)
               </th>
-              <th scope="col" title="Newtonized orthogonal matching pursuit">
+              <th
+                scope="col"
+                title="Newtonized orthogonal matching pursuit; calibrated, what the calibration leaves of a target counts as array error, or what is chosen as such"
+              >
                 Targets by NOMP
               </th>
               <th scope="col" title="Strongest first">
                 At (°)
               </th>
-              <th scope="col" title="Minimum description length">
+              <th
+                scope="col"
+                title="Minimum description length; calibrated, what the calibration leaves of a target counts as array error, or what is chosen as such"
+              >
                 Targets by MDL
               </th>
             </tr>

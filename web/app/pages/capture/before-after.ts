@@ -113,6 +113,8 @@ async function seen(
   const [plain, corrected] = await Promise.all([of('none'), of(calibration)]);
   const { tx = [], rx = [] } = usedArray.peek() ?? {};
   const array = { tx, rx };
+  // What a calibration leaves of a target is no other target.
+  const chosen = captureState.peek().mismatch ?? undefined;
   const sets: readonly (readonly [FrameSet, readonly number[] | null])[] = split
     ? [['used', split.used], ...(split.others.length ? ([['others', split.others]] as const) : [])]
     : [['all', null]];
@@ -126,8 +128,8 @@ async function seen(
       return {
         frames: name,
         count: raw.shape[1] ?? 1,
-        before: side(raw, raw, { array }),
-        after: side(raw, right, { array, calibration }),
+        before: side(raw, raw, { array }, chosen),
+        after: side(raw, right, { array, calibration }, chosen ?? calibration.residualDb),
       };
     }),
   };
@@ -136,14 +138,15 @@ async function seen(
 type Known = Pick<Parameters<typeof api.estimate>[1], 'array' | 'calibration'>;
 
 /** Of snapshots as they are, and as the calibration makes them. */
-function side(raw: ComplexData, right: ComplexData, known: Known): Side {
+function side(raw: ComplexData, right: ComplexData, known: Known, mismatch: number | undefined): Side {
+  const mismatchDb = mismatch === undefined ? {} : { mismatchDb: mismatch };
   const beam = api.estimate({ snapshots: raw }, { ...known, method: 'bartlett', sources: 1 });
-  const { sources } = api.estimate({ snapshots: raw }, { ...known, method: 'nomp' });
+  const { sources } = api.estimate({ snapshots: raw }, { ...known, method: 'nomp', ...mismatchDb });
   return {
     beam,
     sidelobeDb: peakSidelobeDb(beam),
     targetsDeg: sources.map(({ azimuthDeg }) => azimuthDeg),
-    count: api.countSources({ snapshots: right }, { criterion: 'mdl' }).count,
+    count: api.countSources({ snapshots: right }, { criterion: 'mdl', ...mismatchDb }).count,
   };
 }
 

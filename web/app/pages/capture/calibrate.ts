@@ -3,7 +3,7 @@ import { batch, effect, signal } from '@preact/signals';
 import type { ArrayCalibrationResult, CaptureCalibrationOptions } from 'boresight';
 import { aborted, describeError, type Problem, pool } from '../../data.ts';
 import { apply, chosenArray, mending } from './array-calibration.ts';
-import { type Loaded, loaded } from './files.ts';
+import { configuredAs, type Loaded, loaded } from './files.ts';
 import { calibrationName, keep } from './own-calibrations.ts';
 import { calibrationOptions, captureState } from './state.ts';
 
@@ -117,7 +117,7 @@ interface Job {
 
 /** The package takes frames one after the other, so that others come in a capture of their own: first those it is made from. */
 async function inOrder(
-  { bin, cfg, info, kept }: Loaded,
+  { bin, cfg, reading, info, kept }: Loaded,
   { used, others }: Frames,
   options: CaptureCalibrationOptions,
   job: Job,
@@ -128,7 +128,7 @@ async function inOrder(
   const bytes = new Uint8Array(order.length * frameBytes);
   for (const [at, frame] of order.entries())
     bytes.set(bin.subarray(frame * frameBytes, (frame + 1) * frameBytes), at * frameBytes);
-  const ordered = await pool().loadCapture(bytes, cfg, { signal: job.signal });
+  const ordered = await pool().loadCapture(bytes, configuredAs(cfg, reading), { signal: job.signal });
   try {
     return await ordered.calibrateArray(options, job);
   } finally {

@@ -105,7 +105,7 @@ async function attempt(work: () => Promise<Opened | null>, sameFiles = false): P
       boardLog.value = next.log;
       const other = before?.kept !== next.loaded?.kept;
       update({ source: sourceOf(next.loaded) });
-      if (other && sourceOf(next.loaded) === 'files' && next.loaded && !linked)
+      if (other && !sameFiles && sourceOf(next.loaded) === 'files' && next.loaded && !linked)
         update({ frame: 'all', cell: null, board: 'last' });
       if (other) before?.kept.free();
     });
@@ -156,7 +156,8 @@ function readingNow(): Partial<ReadingOptions> {
   return { ...(iqOrder !== 'configured' && { iqOrder }), ...(lanes !== 'configured' && { lanes }) };
 }
 
-const configured = (text: string, reading: Partial<ReadingOptions>): ConfigInput =>
+/** A configuration, read as it is asked for. */
+export const configuredAs = (text: string, reading: Partial<ReadingOptions>): ConfigInput =>
   Object.keys(reading).length ? { text, ...reading } : text;
 
 /** Reads what is open once more, in another way. */
@@ -165,7 +166,7 @@ function reread(): Promise<void> {
   if (!open || JSON.stringify(open.reading) === JSON.stringify(readingNow())) return Promise.resolve();
   return attempt(async () => {
     const reading = readingNow();
-    const kept = await pool().loadCapture(open.bin, configured(open.cfg, reading));
+    const kept = await pool().loadCapture(open.bin, configuredAs(open.cfg, reading));
     return { own, loaded: { ...open, reading, kept, info: kept.info }, waiting: null, log: boardLog.peek() };
   }, true);
 }
@@ -205,7 +206,7 @@ export function openBundled(): Promise<void> {
       decodeURIComponent(address.split('/').pop() ?? '').replace(/-[\w-]{8}(?=\.\w+$)/, '');
     const log = api.parseBoardLog(dat, text);
     const reading = readingNow();
-    const kept = await pool().loadCapture(bin, configured(text, reading));
+    const kept = await pool().loadCapture(bin, configuredAs(text, reading));
     const next: Loaded = {
       files: [
         { kind: 'bin', name: name(binAddress), bytes: bin.length },
@@ -234,7 +235,7 @@ export function openSimulated(): Promise<void> {
   return attempt(async () => {
     const { bin, cfg } = await simulateCapture();
     const reading = readingNow();
-    const kept = await pool().loadCapture(bin, configured(cfg, reading));
+    const kept = await pool().loadCapture(bin, configuredAs(cfg, reading));
     const next: Loaded = {
       files: [
         { kind: 'bin', name: SIMULATED.bin, bytes: bin.length },
@@ -293,7 +294,7 @@ export function openFiles(files: readonly File[], alone = false): Promise<void> 
         : await samplesOf(bin, text);
       const reading = readingNow();
       const same = still?.cfg === text && JSON.stringify(still.reading) === JSON.stringify(reading);
-      const kept = still && same ? still.kept : await pool().loadCapture(samples, configured(text, reading));
+      const kept = still && same ? still.kept : await pool().loadCapture(samples, configuredAs(text, reading));
       const { info } = kept;
       const missingParts = bin.missing;
       const complete = {
