@@ -96,8 +96,10 @@ pub fn ti_compensation(calibration: &JsValue, config: &JsValue) -> Fallible<Stri
 #[wasm_bindgen(js_name = configuredCalibration)]
 pub fn configured_calibration(config: &JsValue, array: &JsValue) -> Fallible<JsValue> {
     let (config, _) = read_config(config, "configuration")?;
-    let array =
-        if array.is_undefined() { config.array() } else { Some(Array::read(array, "array")?) };
+    let array = match array.is_undefined() {
+        true => config.array(),
+        false => Some(Array::read(array, "array")?),
+    };
     let found = array.and_then(|array| config.calibration(&array));
     Ok(found.map_or(JsValue::NULL, |calibration| carry::write(&calibration)))
 }

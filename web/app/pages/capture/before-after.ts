@@ -42,6 +42,9 @@ const frames = computed<Frames | null>(() => {
   return own && captureState.value.calibration === `own:${own.id}` ? own.frames : null;
 });
 
+/** Least array error that estimators take. */
+const LEAST_DB = -100;
+
 /** Cells come quickly while arrows are held down. */
 const SETTLED_MS = 60;
 
@@ -129,11 +132,15 @@ async function seen(
         frames: name,
         count: raw.shape[1] ?? 1,
         before: side(raw, raw, { array }, chosen),
-        after: side(raw, right, { array, calibration }, chosen ?? calibration.residualDb),
+        after: side(raw, right, { array, calibration }, chosen ?? leftBy(calibration)),
       };
     }),
   };
 }
+
+/** What a calibration leaves of a target, as estimators take it. */
+const leftBy = ({ residualDb }: ArrayCalibration): number | undefined =>
+  residualDb === undefined ? undefined : Math.min(Math.max(residualDb, LEAST_DB), 0);
 
 type Known = Pick<Parameters<typeof api.estimate>[1], 'array' | 'calibration'>;
 
