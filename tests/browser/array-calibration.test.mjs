@@ -67,6 +67,7 @@ browserTest(
     assert.ok(before.nomp > 1, `the plan splits the target: ${before.azimuths}`);
     assert.equal(after.nomp, 1, `one target by NOMP: ${after.azimuths}`);
     assert.ok(Math.abs(after.azimuths[0] - BOARD_DEG) <= 1, `at ${after.azimuths[0]} degrees`);
+    assert.ok(before.mdl > 1 && after.mdl === 1, `targets by MDL: ${before.mdl} to ${after.mdl}`);
     assert.ok(after.sidelobe < before.sidelobe - 1, `sidelobe ${before.sidelobe} to ${after.sidelobe} dB`);
     // Uncertainty of every channel, and what is not told.
     const channels = await page.locator('[data-channel]').count();
