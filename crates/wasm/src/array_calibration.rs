@@ -87,7 +87,7 @@ pub fn calibrate_by_steering_table(table: &JsValue, array: &JsValue) -> Fallible
 #[wasm_bindgen(js_name = tiCompensation)]
 pub fn ti_compensation(calibration: &JsValue, config: &JsValue) -> Fallible<String> {
     let calibration = array_calibration(calibration, "calibration")?;
-    let config = read_config(config, "configuration")?;
+    let (config, _) = read_config(config, "configuration")?;
     Ok(config.compensation_of(&calibration)?.to_string())
 }
 
@@ -95,7 +95,7 @@ pub fn ti_compensation(calibration: &JsValue, config: &JsValue) -> Fallible<Stri
 /// otherwise; null where there are none to apply. Of the platform's array unless another is named.
 #[wasm_bindgen(js_name = configuredCalibration)]
 pub fn configured_calibration(config: &JsValue, array: &JsValue) -> Fallible<JsValue> {
-    let config = read_config(config, "configuration")?;
+    let (config, _) = read_config(config, "configuration")?;
     let array = match array.is_undefined() {
         true => config.array(),
         false => Some(Array::read(array, "array")?),
