@@ -160,8 +160,8 @@ pub struct EstimatorOptions {
     /// false-alarm probability and noise power of `nomp`.
     pub refine: bool,
     /// Power of the array's unknown error over that of each source, for methods that would take it for further sources:
-    /// NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6; after a calibration it is what
-    /// that leaves. None if absent.
+    /// NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6. If absent, what the array's
+    /// calibration leaves (in the chain), or none.
     #[option(range = -100..=0)]
     pub mismatch_db: Option<f64>,
     /// A network that has been loaded under this name: the one that a method needs, or a counting network for

@@ -15,6 +15,7 @@ pub struct Correction {
     /// The inverse of the coupling, and the coupling.
     uncoupling: Option<[Array2<Complex64>; 2]>,
     range_bias_m: f64,
+    residual_db: Option<f64>,
 }
 
 impl Correction {
@@ -22,7 +23,12 @@ impl Correction {
         let each = calibration.factors().into_iter().map(|factor| factor.inv()).collect();
         let both = |rows: &[Vec<Complex64>]| Ok::<_, CoreError>([inverse(rows)?, matrix(rows)]);
         let uncoupling = calibration.coupling.as_deref().map(both).transpose()?;
-        Ok(Self { each, uncoupling, range_bias_m: calibration.range_bias_m })
+        Ok(Self {
+            each,
+            uncoupling,
+            range_bias_m: calibration.range_bias_m,
+            residual_db: calibration.residual_db,
+        })
     }
 
     /// Corrects the measured values of all channels, all receivers of a transmitter after each other.
@@ -40,6 +46,11 @@ impl Correction {
         if let Some([_, coupling]) = &self.uncoupling {
             multiply(coupling, channels);
         }
+    }
+
+    /// Power of what the calibration leaves of a single target's response over that of the response, dB, where it says so.
+    pub fn residual_db(&self) -> Option<f64> {
+        self.residual_db
     }
 
     /// What measured ranges are too long by, m.

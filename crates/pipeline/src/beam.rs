@@ -1,6 +1,7 @@
 //! Sidelobes of the conventional beam.
 
 use boresight_aoa::{EstimatorOptions, Grid, Method};
+use boresight_core::response::Correction;
 use boresight_core::steering::steering_vector;
 use boresight_core::{Array, Direction};
 
@@ -13,11 +14,17 @@ const MARGIN_DB: f64 = 6.0;
 /// cancel the very targets (Cox, Zeskind and Owen 1987).
 const CAPON_LOADING: f64 = 0.1;
 
+/// Least mismatch that estimators take.
+const LEAST_DB: f64 = -100.0;
+
 /// Options under which a cell's spectrum gives sources only. The conventional beamformer, and
 /// Capon's with its loading, show each source with the sidelobes of the array; what lies below the
-/// highest of them, and a margin, is not reported. Other methods keep their dynamic range.
+/// highest of them, and a margin, is not reported. Other methods keep their dynamic range. What a
+/// calibration leaves of the array's errors is the mismatch where none is asked for.
 pub fn suited(method: Method, array: &Array, options: &EstimatorOptions) -> EstimatorOptions {
     let mut options = *options;
+    let left_db = array.correction().and_then(Correction::residual_db);
+    options.mismatch_db = options.mismatch_db.or(left_db.map(|db| db.clamp(LEAST_DB, 0.0)));
     if method == Method::Capon && options.loading == 0.0 {
         options.loading = CAPON_LOADING;
     }

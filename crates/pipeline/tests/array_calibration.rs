@@ -7,6 +7,7 @@ mod recorded;
 use boresight_aoa::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{Data, Method};
 use boresight_array_calibration::{CalibrationOptions, CalibrationResult, CellUse, Reflector};
+use boresight_core::response::Correction;
 use boresight_core::{Array, ArrayCalibration, Diagnose};
 use boresight_pipeline::array_calibration::{CalibrationFrames, calibrate_array, unwatched};
 use boresight_pipeline::{AngleOptions, Chain, ChainOptions};
@@ -15,8 +16,10 @@ use recorded::{board, recording};
 /// What the board itself says of its strongest target, in our frame.
 const BOARD_DEG: f64 = -10.8;
 
-fn counted(forward_backward: bool) -> CountOptions {
-    CountOptions { forward_backward, ..CountOptions::default() }
+/// Counts with what the array's calibration leaves as mismatch.
+fn counted(array: &Array, forward_backward: bool) -> CountOptions {
+    let mismatch_db = array.correction().and_then(Correction::residual_db);
+    CountOptions { forward_backward, mismatch_db, ..CountOptions::default() }
 }
 
 fn calibrated(options: &CalibrationOptions) -> CalibrationResult {
@@ -66,14 +69,18 @@ fn half_of_the_frames_calibrate_the_board_for_the_others() {
         let first: Vec<_> = seen.detections.iter().filter(|d| d.range_bin == 58).collect();
         println!("{:?}", first.iter().map(|d| d.azimuth_rad.to_degrees()).collect::<Vec<_>>());
         let snapshots = chain.cell_snapshots(&recording(), 4..8, 58, 8).unwrap();
-        let count = count_sources_in(Data::Snapshots(snapshots.view()), &counted(false)).unwrap();
-        let both = count_sources_in(Data::Snapshots(snapshots.view()), &counted(true)).unwrap();
+        let count =
+            count_sources_in(Data::Snapshots(snapshots.view()), &counted(array, false)).unwrap();
+        let both =
+            count_sources_in(Data::Snapshots(snapshots.view()), &counted(array, true)).unwrap();
         println!("MDL {} forward-backward {}", count.1.sources, both.1.sources);
         assert_eq!(seen.calibrated, array.correction().is_some());
         if seen.calibrated {
             assert_eq!(first.len(), 1, "{first:?}");
             assert!((first[0].azimuth_rad.to_degrees() - BOARD_DEG).abs() < 1.0, "{first:?}");
+            assert_eq!((count.1.sources, both.1.sources), (1, 1));
         } else {
+            assert!(count.1.sources > 1 && both.1.sources > 1);
             assert!(first.len() > 1, "{first:?}");
         }
     }

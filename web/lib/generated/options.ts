@@ -110,8 +110,8 @@ export interface SharedEstimatorOptions {
   refine?: boolean;
   /**
    * Power of the array's unknown error over that of each source, for methods that would take it for further sources:
-   * NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6; after a calibration it is what
-   * that leaves. None if absent (-100 to 0 dB).
+   * NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6. If absent, what the array's
+   * calibration leaves (in the chain), or none (-100 to 0 dB).
    */
   mismatchDb?: number;
   /** A network that has been loaded under this name: the one that a method needs, or a counting network for `sources`. */
@@ -140,8 +140,10 @@ export type WindowName = 'rectangular' | 'hann' | 'hamming' | 'blackman' | 'blac
 /**
  * How noise is estimated from the training cells.
  *
- * - `excision`: The mean of those that are no targets themselves (Goldman and Bar-David 1988): keeps targets apart, and the rate beside them.
- * - `cell-averaging`: The mean of all (Finn and Johnson 1968): the least loss in even noise; a strong target hides a weaker one among whose training cells it is.
+ * - `excision`: The mean of those that are no targets themselves (Goldman and Bar-David 1988): keeps targets apart,
+ * and the rate beside them.
+ * - `cell-averaging`: The mean of all (Finn and Johnson 1968): the least loss in even noise; a strong target hides a
+ * weaker one among whose training cells it is.
  * - `greatest-of`: The larger of the means of the halves (Hansen and Sawyers 1980): keeps the rate at clutter edges.
  * - `smallest-of`: The smaller of the means of the halves (Trunk 1978): keeps targets apart.
  * - `ordered-statistic`: The cell of a rank (Rohling 1983): keeps targets apart and most of the rate.
@@ -160,10 +162,7 @@ export type CfarAxes = 'range' | 'doppler' | 'both';
 
 /** How detection works. */
 export interface CfarOptions {
-  /**
-   * The detector of constant false-alarm rate: how it takes the noise from the training cells (default
-   * 'excision').
-   */
+  /** The detector of constant false-alarm rate: how it takes the noise from the training cells (default 'excision'). */
   kind?: CfarKind;
   /** Axes along which training cells lie (default 'range'). */
   axes?: CfarAxes;
@@ -284,8 +283,8 @@ export interface AngleOptions {
   refine?: boolean;
   /**
    * Power of the array's unknown error over that of each source, for methods that would take it for further sources:
-   * NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6; after a calibration it is what
-   * that leaves. None if absent (-100 to 0 dB).
+   * NOMP, refinement, and counting. Gains and phases off by 1 dB and 10 deg are -13.6. If absent, what the array's
+   * calibration leaves (in the chain), or none (-100 to 0 dB).
    */
   mismatchDb?: number;
   /** A network that has been loaded under this name: the one that a method needs, or a counting network for `sources`. */
@@ -320,14 +319,66 @@ export interface DetectionOptions {
    */
   region?: Region;
   /**
-   * Most folds of the range rate to each side that are tried where transmitters take turns: rates beyond the unambiguous
-   * one, told by the transmitters' phases. 0 takes every rate for that of its bin (0 to 32; default 0).
+   * Most folds of the range rate to each side that are tried where transmitters take turns: rates beyond the
+   * unambiguous one, told by the transmitters' phases. 0 takes every rate for that of its bin (0 to 32; default 0).
    */
   dopplerFolds?: number;
   /** Angle estimation. */
   angle?: AngleOptions;
   /** Most detections a frame; the strongest are kept (1 to 65536; default 256). */
   maxDetections?: number;
+}
+
+/**
+ * What is estimated.
+ *
+ * - `channels`: Gain and phase of each channel.
+ * - `positions`: These, and where each element is, along the axes the array spans; from targets at several angles.
+ * - `coupling`: Gain and phase, and coupling between all channels; from targets at as many known angles as there are
+ * channels.
+ */
+export type CalibrationModel = 'channels' | 'positions' | 'coupling';
+
+/** A target to calibrate by. */
+export interface Reflector {
+  /** Its range: the strongest cell within two range resolutions is taken (0 to 1000000 m). */
+  rangeM: number;
+  /** Its azimuth, positive to the left; unknown where absent (-90 to 90 deg). */
+  azimuthDeg?: number;
+  /** Its elevation, positive upwards; counts with an azimuth (-90 to 90 deg). */
+  elevationDeg?: number;
+}
+
+/** How an array is calibrated. */
+export interface ArrayCalibrationOptions {
+  /** What is estimated (default 'channels'). */
+  model?: CalibrationModel;
+  /** Targets to calibrate by; all strong cells where none are named (default []). */
+  reflectors?: readonly Reflector[];
+  /**
+   * Whether the ranges of the reflectors are exact, so that what measured ranges are too long by can be told (default
+   * false).
+   */
+  rangeBias?: boolean;
+  /** Least power of a cell's target in all of its snapshots, over the noise of one (-300 to 300 dB; default 15). */
+  minSnrDb?: number;
+  /** Most cells; the strongest are taken (1 to 4096; default 64). */
+  maxCells?: number;
+  /**
+   * Greatest power that may be left of a cell once one plane wave is fitted, over that of the cell. Others hold
+   * several targets or reflections, and are left out (-100 to 0 dB; default -12).
+   */
+  maxResidualDb?: number;
+}
+
+/** Responses of all channels, measured at known directions, each but for a factor of its own. */
+export interface SteeringTable {
+  /** Azimuth of each response, positive to the left (-90 to 90 deg). */
+  azimuthDeg: Float64Array;
+  /** Elevation of each, positive upwards; 0 where absent (-90 to 90 deg). */
+  elevationDeg?: Float64Array;
+  /** Directions x channels of [re, im], all receivers of a transmitter after each other. */
+  responses: readonly (readonly (readonly [number, number])[])[];
 }
 
 /**
@@ -938,27 +989,4 @@ export interface Limits {
   operations?: number;
   /** Memory of what a call makes, in bytes (a gibibyte) (at least 1; default 1073741824). */
   bytes?: number;
-}
-
-export type CalibrationModel = 'channels' | 'positions' | 'coupling';
-
-export interface Reflector {
-  rangeM: number;
-  azimuthDeg?: number;
-  elevationDeg?: number;
-}
-
-export interface ArrayCalibrationOptions {
-  model?: CalibrationModel;
-  reflectors?: readonly Reflector[];
-  rangeBias?: boolean;
-  minSnrDb?: number;
-  maxCells?: number;
-  maxResidualDb?: number;
-}
-
-export interface SteeringTable {
-  azimuthDeg: readonly number[];
-  elevationDeg?: readonly number[];
-  responses: readonly (readonly (readonly [number, number])[])[];
 }

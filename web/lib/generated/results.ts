@@ -48,14 +48,25 @@ export interface ArrayGeometry {
  * What the receivers' converters give.
  *
  * - `complex`: I and Q: beat frequencies from zero to the sample rate are told apart.
- * - `real`: I alone: beat frequencies from zero to half the sample rate. The spectrum is the same, mirrored, at negative
- * ones, so that a target has half the signal-to-noise ratio in its bin that complex samples give.
+ * - `real`: I alone: beat frequencies from zero to half the sample rate. The spectrum is the same, mirrored, at
+ * negative ones, so that a target has half the signal-to-noise ratio in its bin that complex samples give.
  */
 export type Sampling = 'complex' | 'real';
 
 /**
- * Timing and frequency plan of one frame: `loops` times through all transmitters, one chirp each, `samples` complex
- * samples a chirp.
+ * How transmitters share the chirps.
+ *
+ * - `time-division`: One transmitter a chirp, in turn.
+ * - `binary-phase`: All transmitters in each chirp, with the signs of a Hadamard matrix over the chirps of a loop;
+ * transmitters are a power of two.
+ * - `doppler-division`: All transmitters in each chirp, each with its own phase step from chirp to chirp, which moves
+ * it to its own band of Doppler frequencies; a loop is one chirp.
+ */
+export type Multiplexing = 'time-division' | 'binary-phase' | 'doppler-division';
+
+/**
+ * Timing and frequency plan of one frame: `loops` times through the chirps of a loop, which the transmitters share as
+ * `multiplexing` says, `samples` samples a chirp.
  */
 export interface Waveform {
   /** Frequency at the start of the ramp, Hz. */
@@ -65,19 +76,26 @@ export interface Waveform {
   /** Sample rate, Hz. */
   sampleRateHz: number;
   /** Whether samples are complex or real. */
-  sampling?: Sampling;
+  sampling: Sampling;
   /** Samples a chirp; an even number of real ones. */
   samples: number;
   /** Time from the start of the ramp to the first sample, s. */
   adcStartS: number;
   /** Time from the start of one chirp to the start of the next, s. */
   chirpIntervalS: number;
-  /** Number of transmitters, which take turns. */
+  /** Number of transmitters. */
   transmitters: number;
-  /** Chirps of each transmitter in a frame. */
+  /** Loops in a frame: how often each transmitter's turn comes, or, in Doppler division, chirps. */
   loops: number;
   /** Time from the start of one frame to the start of the next, s. */
   frameIntervalS: number;
+  /** How the transmitters share the chirps. */
+  multiplexing?: Multiplexing;
+  /**
+   * Doppler bands of Doppler division, more than transmitters, so that some are empty and tell which band is whose;
+   * half as many more as transmitters if absent.
+   */
+  dopplerBands?: number;
 }
 
 /** What follows from a waveform: the numbers engineers look for first. */
@@ -296,7 +314,7 @@ export interface CubeResult {
   /** Real and imaginary parts, one after the other. */
   data: Float32Array;
   /** Lengths of the axes. */
-  shape: [frames: number, loops: number, transmitters: number, receivers: number, samples: number];
+  shape: [frames: number, loops: number, chirps: number, receivers: number, samples: number];
 }
 
 /** Something that reflects. */
@@ -438,12 +456,12 @@ export interface SimulatedStreet {
 /**
  * How samples lie in the bytes of a capture, as little-endian 16-bit numbers.
  *
- * - `two-lane`: Two lanes (xWR16xx, xWR18xx, xWR64xx, xWR68xx): the receivers of a chirp one after another; complex samples
- * in pairs `I0 I1 Q0 Q1`.
- * - `four-lane`: Four lanes (xWR12xx, xWR14xx, xWR22xx): of each sample the four receivers, all I before all Q; lanes of
- * receivers that are off hold zeros.
- * - `cascade`: Four chips (MMWCAS-RF-EVM with MMWCAS-DSP-EVM), a file each: of each sample the four receivers, `I Q` of
- * each; the chips' frames in turn, as the reader of cascades puts them.
+ * - `two-lane`: Two lanes (xWR16xx, xWR18xx, xWR64xx, xWR68xx): the receivers of a chirp one after another; complex
+ * samples in pairs `I0 I1 Q0 Q1`.
+ * - `four-lane`: Four lanes (xWR12xx, xWR14xx, xWR22xx): of each sample the four receivers, all I before all Q; lanes
+ * of receivers that are off hold zeros.
+ * - `cascade`: Four chips (MMWCAS-RF-EVM with MMWCAS-DSP-EVM), a file each: of each sample the four receivers, `I Q`
+ * of each; the chips' frames in turn, as the reader of cascades puts them.
  */
 export type Layout = 'two-lane' | 'four-lane' | 'cascade';
 
@@ -473,7 +491,11 @@ export interface RadarConfig {
   iqOrder: 'iq' | 'qi';
   /** Where samples stand in the bytes. */
   layout: Layout;
-  /** Bytes of one frame of raw samples. */
+  /** Sub-frames of a frame; 1 for frames without. */
+  subFrames: number;
+  /** The one that waveform and transmitters are of, from 0. */
+  subFrame: number;
+  /** Bytes of one frame of raw samples, with all of its sub-frames. */
   frameBytes: number;
   /** Frames to record; null until stopped. */
   frames: number | null;
@@ -532,7 +554,7 @@ export interface Detection {
   frame: number;
   /** Range, interpolated between bins and corrected for the range rate. */
   rangeM: number;
-  /** Range rate, positive when receding, interpolated between bins. */
+  /** Range rate, positive when receding, interpolated between bins, in its fold. */
   rateMps: number;
   /** Azimuth, positive to the left. */
   azimuthDeg: number;
@@ -552,6 +574,16 @@ export interface Detection {
   rangeBin: number;
   /** Doppler bin. */
   dopplerBin: number;
+  /**
+   * Times twice the waveform's largest rate that the rate is beyond that of its bin: 0 where no other was tried, or
+   * none is certain enough.
+   */
+  dopplerFold: number;
+  /**
+   * Probability of the likeliest fold among those tried; below 0.99 the rate keeps that of its bin. Absent where no
+   * other was tried.
+   */
+  foldProbability?: number;
 }
 
 /** What became of cells and samples. */
@@ -560,6 +592,10 @@ export interface FrameCounts {
   cellsOverThreshold: number;
   /** Of these, cells grouped under a stronger neighbour. */
   grouped: number;
+  /** Of these, echoes of stronger targets in other bands of Doppler division. */
+  otherBands: number;
+  /** Cells whose fold of the range rate is not certain; they keep that of their bin. */
+  undecidedFolds: number;
   /** Cells and detections outside the region. */
   outsideRegion: number;
   /** Cells and detections beyond the most to report. */
@@ -582,6 +618,11 @@ export interface FrameResult {
   rangeM: Float64Array;
   /** Range rate of each Doppler bin, ascending. */
   rateMps: Float64Array;
+  /**
+   * Largest range rate of either sign that detections tell from others: that of the Doppler bins, or more where folds
+   * are told.
+   */
+  unambiguousRateMps: number;
   /** Power over range: mean over channels, sum over Doppler. */
   rangeProfileDb: Float64Array;
   /** Power over range and Doppler (Doppler fastest): mean over channels. */
@@ -602,6 +643,8 @@ export interface FrameCells {
   rangeM: Float64Array;
   /** Range rate of each, positive when receding, interpolated between bins. */
   rateMps: Float64Array;
+  /** Times twice the waveform's largest rate that each is beyond that of its bin. */
+  dopplerFold: Int8Array;
   /** Power of each: one raw sample at one element over full scale (1.0). */
   powerDb: Float64Array;
   /** Over the noise around the cell. */
@@ -625,7 +668,7 @@ export interface FrameCells {
  * - `outside-rate`: Its range rate is outside the limits.
  * - `beyond-limit`: More cells than are kept are stronger.
  * - `without-angle`: The method found no angle in it.
- * - `outside-azimuth`: No angle found in it is within the limits.
+ * - `outside-direction`: No direction found in it is within the limits.
  * - `kept`: It is a detection.
  */
 export type CellVerdict =
@@ -635,7 +678,7 @@ export type CellVerdict =
   | 'outside-rate'
   | 'beyond-limit'
   | 'without-angle'
-  | 'outside-azimuth'
+  | 'outside-direction'
   | 'kept';
 
 /** What a cell was held against, and what became of it. */
@@ -740,6 +783,163 @@ export interface RegionFrame {
   /** What became of cells, peaks and targets. */
   counts: RegionCounts;
   /** Remarks of the estimators, each kind once. */
+  warnings: Warning[];
+}
+
+/** What is known of one channel. */
+export interface ChannelCalibration {
+  /** Its gain over that of the plan (-100 to 100 dB). */
+  gainDb: number;
+  /** Its phase over that of the plan (-3600 to 3600 deg). */
+  phaseDeg: number;
+  /** Standard deviation of the gain; absent where it is not known. */
+  gainStdDb?: number;
+  /** Standard deviation of the phase; absent where it is not known. */
+  phaseStdDeg?: number;
+  /** Displacement, half wavelengths: x forward, y left, z up; none where absent (-1000 to 1000). */
+  displacement?: [number, number, number];
+  /** Standard deviation of each coordinate of it, half wavelengths. */
+  displacementStd?: [number, number, number];
+}
+
+/**
+ * What data may not determine.
+ *
+ * - `common-gain`: A gain common to all channels; it counts as power of the targets.
+ * - `common-phase`: A phase common to all channels; it counts as phase of the targets.
+ * - `direction`: A phase that rises linearly over the array: it turns all directions alike.
+ * - `displacement`: Displacements that a target's phase or the phases of the channels make up for.
+ * - `coupling`: Coupling between channels.
+ * - `range-bias`: What ranges are too long by.
+ */
+export type NotIdentifiable = 'common-gain' | 'common-phase' | 'direction' | 'displacement' | 'coupling' | 'range-bias';
+
+/**
+ * Errors of an array's channels, and how well they are known. The response to a plane wave is `C diag(g exp(j phi))
+ * a(p + d)`: gain `g`, phase `phi` and displacement `d` of each channel, and coupling `C`. [`Array::calibrated`] takes
+ * them off snapshots.
+ */
+export interface ArrayCalibration {
+  /** Transmitters as planned, half wavelengths: x forward, y left, z up. */
+  tx: [number, number, number][];
+  /** Receivers as planned, half wavelengths. */
+  rx: [number, number, number][];
+  /** One a pair of transmitter and receiver, all receivers of a transmitter after each other. */
+  channels: ChannelCalibration[];
+  /** Mutual coupling, channels x channels of [re, im]; none where absent. */
+  coupling?: [number, number][][];
+  /** What measured ranges are too long by (-1000 to 1000 m). */
+  rangeBiasM: number;
+  /** Standard deviation of that; absent where it was not measured. */
+  rangeBiasStdM?: number;
+  /** How it was found. */
+  method: CalibrationMethod;
+  /** What these data do not determine; there it stays with the plan. */
+  notIdentifiable: NotIdentifiable[];
+  /** Cells it was made from. */
+  cells: number;
+  /** Cells that were left out, since they do not hold one plane wave. */
+  cellsLeftOut: number;
+  /** Frames it was made from. */
+  frames: number;
+  /**
+   * Power that is left of a single target's response once it is fitted, over that of the response. Estimators that are
+   * given it as their mismatch do not take the rest for targets (-300 to 300 dB).
+   */
+  residualDb?: number;
+  /** Root mean square of what is left of the phase in each channel and cell. */
+  residualPhaseDeg?: number;
+  /** Root mean square of what is left of the gain. */
+  residualGainDb?: number;
+}
+
+/**
+ * What became of a cell.
+ *
+ * - `used`: It was used.
+ * - `weak`: Its target is too weak.
+ * - `several-targets`: Its snapshots do not lie on one line: several targets with phases of their own.
+ * - `does-not-fit`: One plane wave does not fit it under the errors that all cells share.
+ */
+export type CellUse = 'used' | 'weak' | 'several-targets' | 'does-not-fit';
+
+/** A cell that was looked at. */
+export interface CalibrationCell {
+  /** Its range. */
+  rangeM: number;
+  /** Its range rate, positive when receding. */
+  rateMps: number;
+  /** Range bin. */
+  rangeBin: number;
+  /** Doppler bin. */
+  dopplerBin: number;
+  /** Power of its target in all snapshots over the noise of one. */
+  snrDb: number;
+  /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg). */
+  azimuthDeg: number;
+  /** Elevation, positive upwards (-90 to 90 deg). */
+  elevationDeg: number;
+  /** Power left once one plane wave is fitted, over that of the cell. */
+  residualDb: number;
+  /** Whether it was used. */
+  state: CellUse;
+}
+
+/** How far cells are from one plane wave each. */
+export interface CheckFigures {
+  /** Root mean square of the phase that is left. */
+  residualPhaseDeg: number;
+  /** Root mean square of the gain that is left. */
+  residualGainDb: number;
+  /** Power that is left over that of the cells. */
+  residualDb: number;
+  /** Highest sidelobe of the conventional beam over its peak, in the cell where it is highest. */
+  sidelobeDb: number;
+}
+
+/** One cell. */
+export interface CheckedCell {
+  /** Its range. */
+  rangeM: number;
+  /** Range bin. */
+  rangeBin: number;
+  /** Doppler bin. */
+  dopplerBin: number;
+  /** Azimuth as the plan has it. */
+  azimuthBeforeDeg: number;
+  /** Azimuth once calibrated. */
+  azimuthDeg: number;
+  /** Elevation once calibrated; 0 where the array does not see it. */
+  elevationDeg: number;
+  /** As the plan has it. */
+  before: CheckFigures;
+  /** Once calibrated. */
+  after: CheckFigures;
+}
+
+/** Cells of data not used, as the plan has them and once calibrated. */
+export interface CalibrationCheck {
+  /** Frames it was made from. */
+  frames: number;
+  /** Over all cells, as the plan has them. */
+  before: CheckFigures;
+  /** Once calibrated. */
+  after: CheckFigures;
+  /** The cells. */
+  cells: CheckedCell[];
+}
+
+/** A calibration, and what it was made of. */
+export interface ArrayCalibrationResult {
+  /** The calibration. */
+  calibration: ArrayCalibration;
+  /** The cells, in the order they were given in. */
+  cells: CalibrationCell[];
+  /** How it does on data that it was not made from; absent where there are none. */
+  check?: CalibrationCheck;
+  /** Each cell under a calibration from the others; absent for fewer than three. */
+  leftOut?: CheckFigures;
+  /** What a reader should know. */
   warnings: Warning[];
 }
 
@@ -1452,65 +1652,5 @@ export interface BoardLog {
   /** Packets that were cut or damaged. */
   damagedPackets: number;
   /** Remarks on both. */
-  warnings: Warning[];
-}
-
-export interface ChannelCalibration {
-  gainDb: number;
-  phaseDeg: number;
-  gainStdDb?: number;
-  phaseStdDeg?: number;
-  displacement?: [number, number, number];
-  displacementStd?: [number, number, number];
-}
-
-export interface ArrayCalibration {
-  tx: [number, number, number][];
-  rx: [number, number, number][];
-  channels: ChannelCalibration[];
-  coupling?: [number, number][][];
-  rangeBiasM: number;
-  rangeBiasStdM?: number;
-  method: 'given' | 'reflector' | 'self-calibration' | 'steering-table' | 'board-configuration';
-  notIdentifiable: ('common-gain' | 'common-phase' | 'direction' | 'displacement' | 'coupling' | 'range-bias')[];
-  cells: number;
-  cellsLeftOut: number;
-  frames: number;
-  residualDb?: number;
-  residualPhaseDeg?: number;
-  residualGainDb?: number;
-}
-
-export interface CheckFigures {
-  residualPhaseDeg: number;
-  residualGainDb: number;
-  residualDb: number;
-  sidelobeDb: number;
-}
-
-export interface CalibrationCell {
-  rangeM: number;
-  rateMps: number;
-  rangeBin: number;
-  dopplerBin: number;
-  snrDb: number;
-  azimuthDeg: number;
-  elevationDeg: number;
-  residualDb: number;
-  state: 'used' | 'weak' | 'several-targets' | 'does-not-fit';
-}
-
-export interface CalibrationCheck {
-  frames: number;
-  before: CheckFigures;
-  after: CheckFigures;
-  cells: { rangeM: number; rangeBin: number; dopplerBin: number; azimuthDeg: number }[];
-}
-
-export interface ArrayCalibrationResult {
-  calibration: ArrayCalibration;
-  cells: CalibrationCell[];
-  check?: CalibrationCheck;
-  leftOut?: CheckFigures;
   warnings: Warning[];
 }
