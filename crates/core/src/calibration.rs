@@ -85,6 +85,7 @@ pub struct ChannelCalibration {
 
 /// How a calibration was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Described, Serialize, Deserialize)]
+#[option(name = "ArrayCalibrationMethod")]
 #[serde(rename_all = "kebab-case")]
 pub enum CalibrationMethod {
     /// It was given by hand.

@@ -803,6 +803,22 @@ export interface ChannelCalibration {
 }
 
 /**
+ * How a calibration was found.
+ *
+ * - `given`: It was given by hand.
+ * - `reflector`: From targets at known directions, such as corner reflectors.
+ * - `self-calibration`: From strong cells with one target each at an unknown direction.
+ * - `steering-table`: From a table of measured steering vectors.
+ * - `board-configuration`: From the coefficients in a board's configuration.
+ */
+export type ArrayCalibrationMethod =
+  | 'given'
+  | 'reflector'
+  | 'self-calibration'
+  | 'steering-table'
+  | 'board-configuration';
+
+/**
  * What data may not determine.
  *
  * - `common-gain`: A gain common to all channels; it counts as power of the targets.
@@ -833,7 +849,7 @@ export interface ArrayCalibration {
   /** Standard deviation of that; absent where it was not measured. */
   rangeBiasStdM?: number;
   /** How it was found. */
-  method: CalibrationMethod;
+  method: ArrayCalibrationMethod;
   /** What these data do not determine; there it stays with the plan. */
   notIdentifiable: NotIdentifiable[];
   /** Cells it was made from. */
