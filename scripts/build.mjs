@@ -35,6 +35,7 @@ const wasmPasses = ['-Os', '--gufa', '-Os'];
 const crates = (...names) => names.map((name) => `crates/${name}`);
 const shared = crates(
   'aoa',
+  'array-calibration',
   'calibrate',
   'core',
   'derive',
