@@ -55,7 +55,7 @@ describe('configurations', () => {
     assert.equal(first.frameBytes, (16 + 8) * 2 * 4 * 256 * 4);
     assert.equal(second.frameBytes, first.frameBytes);
     throwsTyped(() => subFrameConfig(advanced, 2), 'out-of-range', 'sub-frame');
-    throwsTyped(() => subFrameConfig(advanced, 0.5), 'wrong-type', 'subFrame');
+    throwsTyped(() => subFrameConfig(advanced, 0.5), 'out-of-range', 'subFrame');
   });
 
   test('that cannot be say where', () => {
@@ -148,16 +148,16 @@ describe('tables', () => {
     rateMps: -0.1,
     azimuthDeg: -10.8,
     elevationDeg: 0,
+    // Where range and angles put it.
+    xM: 2.95 * Math.cos((10.8 * Math.PI) / 180),
+    yM: -2.95 * Math.sin((10.8 * Math.PI) / 180),
+    zM: 0,
     powerDb: -30.25,
     snrDb: 25,
     rangeBin: 58,
     dopplerBin: 8,
     dopplerFold: -1,
     foldProbability: 0.995,
-    // Where range and angles put it.
-    xM: 2.95 * Math.cos((10.8 * Math.PI) / 180),
-    yM: -2.95 * Math.sin((10.8 * Math.PI) / 180),
-    zM: 0,
   };
 
   test('of detections keep every number', () => {

@@ -25,7 +25,7 @@ before(async () => {
   await init();
   scene = streetScene({ seed: 1 });
   street = simulateStreet({ seed: 1, radar: 'front-left' });
-  options = { waveform: street.radar.waveform, array: street.radar.array };
+  options = { waveform: street.radar.waveform, array: street.radar.array, cfar: { kind: 'cell-averaging' } };
   pool = createPool({ workers: 2 });
 });
 after(() => pool.terminate());

@@ -9,6 +9,7 @@ use boresight_core::{Array, CoreError, Waveform};
 use boresight_image::{
     Grid, GridOptions, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, Target,
 };
+use boresight_signal::{CfarKind, CfarOptions};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_3;
 
@@ -74,9 +75,16 @@ pub struct FrameMap {
     pub warnings: Vec<WarningCount>,
 }
 
-/// Options of the chain for images, which take every detected cell instead of one a peak.
+/// Options of the chain for images, which take every detected cell instead of one a peak, and noise
+/// from all training cells: what a strong reflector drowns is seldom a reflector of its own, and
+/// would double the cells to estimate angles in.
 pub fn chain_options() -> ChainOptions {
-    ChainOptions { peak_grouping: false, max_detections: 4096, ..ChainOptions::default() }
+    ChainOptions {
+        cfar: CfarOptions { kind: CfarKind::CellAveraging, ..CfarOptions::default() },
+        peak_grouping: false,
+        max_detections: 4096,
+        ..ChainOptions::default()
+    }
 }
 
 /// The grid of a map unless another is asked for: the range bins of a waveform, and 512 azimuths

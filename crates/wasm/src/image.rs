@@ -18,6 +18,7 @@ use boresight_image::{
 };
 use boresight_pipeline::image::{Angles, Content, chain_options, map_grid};
 use boresight_pipeline::{AngleOptions, ChainOptions, suited};
+use boresight_signal::CfarOptions;
 use js_sys::{Int8Array, Uint32Array};
 use ndarray::Array2;
 use serde::Serialize;
@@ -274,6 +275,7 @@ pub struct ImageDefaults {
 
 #[derive(Described, Serialize)]
 struct ImageChain {
+    cfar: CfarOptions,
     peak_grouping: bool,
     max_detections: usize,
 }
@@ -284,9 +286,9 @@ impl ImageDefaults {
     pub fn of(waveform: &Waveform, array: &Array, angle: &AngleOptions) -> Self {
         let AngleOptions { method, options } = angle;
         let suited = suited(*method, array, options);
-        let ChainOptions { peak_grouping, max_detections, .. } = chain_options();
+        let ChainOptions { cfar, peak_grouping, max_detections, .. } = chain_options();
         Self {
-            chain: ImageChain { peak_grouping, max_detections },
+            chain: ImageChain { cfar, peak_grouping, max_detections },
             method: *method,
             dynamic_range_db: suited.dynamic_range_db,
             loading: suited.loading,

@@ -9,7 +9,8 @@ use boresight_core::presets::preset;
 use boresight_image::{
     Grid, RangeAzimuthDoppler, RangeAzimuthMap, SpectrumPlan, ViewGrid, birds_eye_view,
 };
-use boresight_pipeline::{Chain, ChainOptions};
+use boresight_pipeline::Chain;
+use boresight_pipeline::image::chain_options;
 use boresight_simulate::street::{Street, StreetOptions};
 use ndarray::{Array2, Axis};
 use std::f64::consts::FRAC_PI_3;
@@ -26,7 +27,7 @@ fn map(street: &Street, index: usize, method: Method) -> RangeAzimuthMap {
     let radar = &street.radars[index];
     let array = preset(radar.array).unwrap();
     let (cube, _) = street.cube(index).unwrap();
-    let options = ChainOptions { peak_grouping: false, ..ChainOptions::default() };
+    let options = chain_options();
     let mut chain = Chain::new(&radar.waveform, 8, &array, &options).unwrap();
     let cells = chain.cells(cube.index_axis(Axis(0), 0)).unwrap();
     let mut estimator = Estimator::new(method, &array, &EstimatorOptions::default()).unwrap();

@@ -51,6 +51,7 @@ export function goodCalls() {
   };
   // Two transmitters, one loop of two samples, four receivers a chip.
   const cascadeCfg = cfg
+    .toString()
     .replace('channelCfg 15 3 0', 'channelCfg 65535 4095 1')
     .replace('60 1 256 5209', '60 1 2 5209')
     .replace('frameCfg 0 1 16', 'frameCfg 0 1 1');

@@ -19,6 +19,15 @@ pub struct DetectionRow {
     pub azimuth_rad: f64,
     /// Elevation.
     pub elevation_rad: f64,
+    /// Place forward of the sensor. Tables have the places that follow from range and angles.
+    #[serde(default)]
+    pub x_m: f64,
+    /// Place to its left.
+    #[serde(default)]
+    pub y_m: f64,
+    /// Place above it.
+    #[serde(default)]
+    pub z_m: f64,
     /// Power at one element over full scale (1.0).
     pub power_db: f64,
     /// Over the local noise.
@@ -33,15 +42,6 @@ pub struct DetectionRow {
     /// Probability of the likeliest fold among those tried.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fold_probability: Option<f64>,
-    /// Place forward of the sensor. Tables have the places that follow from range and angles.
-    #[serde(default)]
-    pub x_m: f64,
-    /// Place to its left.
-    #[serde(default)]
-    pub y_m: f64,
-    /// Place above it.
-    #[serde(default)]
-    pub z_m: f64,
 }
 
 impl DetectionRow {

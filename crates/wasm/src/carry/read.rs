@@ -211,6 +211,14 @@ impl<'de> Deserializer<'de> for Reader<'_> {
         self.deserialize_f64(visitor)
     }
 
+    fn deserialize_i32<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
+        let number = self.number()?;
+        if number.fract() == 0.0 && (f64::from(i32::MIN)..=f64::from(i32::MAX)).contains(&number) {
+            return visitor.visit_i32(number as i32);
+        }
+        Err(self.out_of_range("a whole number of 32 bits", number))
+    }
+
     fn deserialize_u64<V: Visitor<'de>>(self, visitor: V) -> Reading<V::Value> {
         self.whole(visitor)
     }
@@ -296,7 +304,7 @@ impl<'de> Deserializer<'de> for Reader<'_> {
     }
 
     forward_to_deserialize_any! {
-        i8 i16 i32 i64 i128 u128 char bytes byte_buf unit unit_struct tuple_struct identifier
+        i8 i16 i64 i128 u128 char bytes byte_buf unit unit_struct tuple_struct identifier
     }
 }
 
