@@ -1,5 +1,5 @@
 // Written by `npm run generate` from the descriptions in Rust; not edited by hand.
-import type { CalibrationMethod, DriveFormat, DriveScenario, MapGrid, Method } from './options.js';
+import type { CalibrationMethod, CfarOptions, DriveFormat, DriveScenario, MapGrid, Method } from './options.js';
 
 /** Transmitter and receiver a virtual element comes from. */
 export interface Channel {
@@ -969,6 +969,7 @@ export type ImageFrom = 'targets' | 'spectra';
 
 /** How an image is made unless something else is asked for. */
 export interface ImageDefaults {
+  cfar: CfarOptions;
   peakGrouping: boolean;
   maxDetections: number;
   /** The method. */

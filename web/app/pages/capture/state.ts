@@ -103,7 +103,7 @@ export const captureCodec = codec(
     trainDoppler: detection.field('cfar.trainingCells.1', { min: 1, max: 64 }),
     rank: detection.field('cfar.rank'),
     grouping: detection.field('peakGrouping'),
-    folds: detection.field('dopplerFolds', { max: 8 }),
+    folds: detection.field('dopplerFolds'),
     // 0 for no limit: the package then has its own, or none where only the other is given.
     nearest: detection.field('region.rangeM.0', { fallback: 0, min: 0, max: 10_000 }),
     farthest: detection.field('region.rangeM.1', { fallback: 0, min: 0, max: 10_000 }),
