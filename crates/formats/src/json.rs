@@ -77,6 +77,9 @@ fn inside(value: Value, kind: &Kind, is_angle: bool) -> Result<Value, serde_json
             }
             Value::Object(known)
         }
+        (Value::Array(_), Kind::Record(_)) => {
+            return Err(serde_json::Error::custom("a list, expected an object of named fields"));
+        }
         (value, _) => value,
     })
 }

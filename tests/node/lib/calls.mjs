@@ -19,6 +19,7 @@ export function goodCalls() {
   const targets = [{ rangeM: 4, azimuthDeg: 5, rateMps: 1 }];
   const simulated = { waveform, array, targets, snrDb: 20, seed: 1 };
   const cube = boresight.simulateCube(simulated);
+  const still = { ...simulated, waveform: { ...waveform, samples: 64 }, targets: [{ rangeM: 8, azimuthDeg: 5 }] };
   const chain = { waveform, array };
   const image = { ...chain, angle, maxDetections: 2 };
   const framed = boresight.imageFrame(cube, image);
@@ -89,7 +90,11 @@ export function goodCalls() {
     processCube: [cube, chain],
     frameCells: [cube, chain],
     calibrateArray: [{ snapshots: batchOf([seen8(10), seen8(-20)]), noisePower: 1e-4 }, { array: 'awr1642' }],
-    calibrateCubeArray: [boresight.simulateCube({ ...simulated, frames: 2 }), chain, () => true],
+    calibrateCubeArray: [
+      boresight.simulateCube({ ...still, frames: 2 }),
+      { waveform: still.waveform, array },
+      () => true,
+    ],
     calibrateBySteeringTable: [{ azimuthDeg: [0], responses: [Array.from({ length: 4 }, () => [1, 0])] }, array],
     configuredCalibration: [cfg],
     tiCompensation: [

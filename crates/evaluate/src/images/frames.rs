@@ -114,8 +114,11 @@ impl StreetFrames {
                 Chain::new(&placed.waveform, array.rx().len(), &array, options)
             };
             let samples = cube.index_axis(Axis(0), 0);
-            let cells = chain(&chain_options())?.cells(samples)?;
-            let detections = chain(&ChainOptions::default())?.process(samples)?.detections;
+            let images = chain_options();
+            let cells = chain(&images)?.cells(samples)?;
+            // Of the same cells, one a peak.
+            let peaks = ChainOptions { cfar: images.cfar, ..ChainOptions::default() };
+            let detections = chain(&peaks)?.process(samples)?.detections;
             Ok(RadarFrame { radar, cells, detections: detected_targets(&detections), targets })
         };
         let frames = radars.iter().map(frame).collect::<Result<_, EvaluateError>>()?;

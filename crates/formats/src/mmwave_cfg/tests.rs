@@ -244,7 +244,9 @@ fn lanes_are_the_buffers_or_else_the_platforms() {
         ("xWR14xx", "adcbufCfg -1 0 0 1 0", Layout::TwoLane, Some("lanes")),
     ] {
         let config = lanes_of(platform, buffer);
-        let codes: Vec<&str> = config.remarks.iter().map(|remark| remark.code).collect();
+        // What board a platform is taken for is another matter.
+        let codes = config.remarks.iter().map(|remark| remark.code);
+        let codes: Vec<&str> = codes.filter(|&code| code != "board-assumed").collect();
         let expected: Vec<&str> = remark.into_iter().collect();
         assert_eq!((config.adc.layout, codes), (layout, expected), "{platform} {buffer}");
     }
