@@ -10,11 +10,11 @@ const LINE = { offline: false, latency: 40, downloadThroughput: 10e6 / 8, upload
 
 /** When a page's first useful picture is there, s as asked for, and the most it may fetch until then, bytes. */
 const PAGES = [
-  { page: 'angle', ready: '[data-row="music"] [data-field="azimuth"][data-value]', asked: 1.8, most: 0.57e6 },
+  { page: 'angle', ready: '[data-row="music"] [data-field="azimuth"][data-value]', asked: 1.8, most: 0.71e6 },
   { page: 'capture', ready: '[data-table="detections"] [data-field="rangeM"][data-value]', asked: 2.5, most: 1.5e6 },
   { page: 'mounting', ready: '[data-row] [data-field="angleDeg"][data-value]', asked: 4, most: 2.3e6 },
-  { page: 'birdseye', ready: '[data-row] [data-field="outsideDb"][data-value]', asked: 4, most: 0.7e6 },
-  { page: 'networks', ready: '[data-card]', asked: 1.5, most: 0.69e6 },
+  { page: 'birdseye', ready: '[data-row] [data-field="outsideDb"][data-value]', asked: 4, most: 0.84e6 },
+  { page: 'networks', ready: '[data-card]', asked: 1.5, most: 0.83e6 },
   {
     page: 'networks',
     query: '?run=1&model=learned-pursuit',

@@ -14,13 +14,16 @@ const SETTLED: f64 = 1e-9;
 /// Least eigenvalue of the directions' responses over the largest: what is weaker is noise once it is undone.
 const LEAST_SHARE: f64 = 1e-4;
 
+/// A coupling matrix, and the misfit of each cell.
+pub(crate) type Coupled = (Array2<Complex64>, Vec<f64>);
+
 /// The matrix that turns responses of the plan into measured ones, and the misfit of each cell (Ng and See 1996); `None`
 /// where the directions known do not span all channels.
 pub(crate) fn matrix(
     fit: &Fit,
     start: &Fitted,
     weights: &[f64],
-) -> Result<Option<(Array2<Complex64>, Vec<f64>)>, CoreError> {
+) -> Result<Option<Coupled>, CoreError> {
     let channels = start.factors.len();
     let known: Vec<usize> =
         (0..fit.seen.len()).filter(|&index| fit.seen[index].known.is_some()).collect();

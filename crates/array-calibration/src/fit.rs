@@ -79,7 +79,7 @@ impl Fit {
 
     /// The best fit under weights, from several starts: the plan, and what each of the heaviest cells would be if it
     /// alone were right.
-    pub fn from_starts(&self, weights: &[f64]) -> Fitted {
+    pub fn best_of_starts(&self, weights: &[f64]) -> Fitted {
         let ones = vec![Complex64::ONE; self.waves.positions.len()];
         let mut order: Vec<usize> = (0..self.seen.len()).collect();
         order.sort_by(|&a, &b| weights[b].total_cmp(&weights[a]));

@@ -22,7 +22,7 @@ pub(crate) struct Weighed {
 pub(crate) fn weighed(fit: &Fit) -> Weighed {
     let noise: Vec<f64> = fit.seen.iter().map(|cell| cell.variance).collect();
     let mut weights: Vec<f64> = noise.iter().map(|variance| 1.0 / (variance + 0.01)).collect();
-    let mut found = fit.from_starts(&weights);
+    let mut found = fit.best_of_starts(&weights);
     for round in 0..ROUNDS {
         // What cells have beyond noise, over their power: reflections, and what a plane wave does not tell.
         let excess = excess_of(&found.residuals, &noise);
@@ -38,7 +38,7 @@ pub(crate) fn weighed(fit: &Fit) -> Weighed {
             .collect();
         // Starts anew once, when the outliers are known.
         found = if round == 0 {
-            fit.from_starts(&weights)
+            fit.best_of_starts(&weights)
         } else {
             fit.settle(found.factors, &weights)
         };

@@ -18,7 +18,7 @@ pub enum EvaluateCommand {
     /// Mounting angles on simulated drives of four radars: errors, trajectories, driving time.
     Calibration(EvaluateCalibrationArguments),
     /// Counting and angles of up to two targets in the region of interest of a data cube.
-    Doa(EvaluateDoaArguments),
+    Doa(Box<EvaluateDoaArguments>),
     /// Bird's-eye images of simulated streets: how much of each is not target, by method.
     Images(EvaluateImagesArguments),
     /// Two sources far below the noise in many snapshots, by methods and networks on the covariance.

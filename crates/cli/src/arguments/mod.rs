@@ -75,7 +75,7 @@ pub enum Command {
     /// Make more frames of a recording by moving all that it holds in range, to train networks on.
     Augment(Box<AugmentArguments>),
     /// Estimate the angle a car's radars are mounted at from a drive log.
-    Calibrate(CalibrateArguments),
+    Calibrate(Box<CalibrateArguments>),
     /// Estimate the car's motion from all of its radars, once they are calibrated on the same drive.
     Odometry(OdometryArguments),
     /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.

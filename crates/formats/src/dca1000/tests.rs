@@ -195,8 +195,11 @@ fn index(data_bytes: usize, frames: &[(u32, u64)]) -> Vec<u8> {
     bytes
 }
 
+/// Names and bytes.
+type Files = Vec<(String, Vec<u8>)>;
+
 /// The files of a recording of three frames, with names, and the capture they are of.
-fn recorded() -> (RadarConfig, Vec<(String, Vec<u8>)>, Vec<u8>) {
+fn recorded() -> (RadarConfig, Files, Vec<u8>) {
     let config = small(Layout::Cascade, Sampling::Complex);
     let each = config.frame_bytes() as usize;
     let bytes: Vec<u8> = (0..3 * each).map(|n| (n * n / 7) as u8).collect();

@@ -26,7 +26,7 @@ impl AntennaLines {
     /// Takes one of the lines.
     pub fn take(&mut self, line: &Line<'_>) -> Result<(), FormatError> {
         line.count(RECEIVERS, MOST)?;
-        if line.arguments.len() % RECEIVERS != 0 {
+        if !line.arguments.len().is_multiple_of(RECEIVERS) {
             let given = line.arguments.len().to_string();
             return Err(line.error("the number of arguments", "4 for each transmitter", given));
         }
