@@ -237,7 +237,10 @@ fn two_targets_are_where_they_are_once_a_board_has_calibrated_itself() {
             };
             let targets = [
                 target(first, random.uniform(0.0, std::f64::consts::TAU)),
-                target(first + random.uniform(25.0, 35.0), random.uniform(0.0, std::f64::consts::TAU)),
+                target(
+                    first + random.uniform(25.0, 35.0),
+                    random.uniform(0.0, std::f64::consts::TAU),
+                ),
             ];
             before.extend(board.errors_of_two(&board.plan, &targets, 100 * seed + draw));
             after.extend(board.errors_of_two(&own, &targets, 100 * seed + draw));

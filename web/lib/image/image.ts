@@ -47,8 +47,9 @@ export function imagePlan(options: ImageFrameOptions): ImagePlan {
   if (from != null && from !== 'spectra' && from !== 'targets') throw wrong('from', "'spectra' or 'targets'", from);
   const usual = call(() => glue.imageDefaults(waveform, chain.array, angle) as ImageDefaults);
   const { peakGrouping, maxDetections, method, dynamicRangeDb, loading } = usual;
+  const cfar = { ...usual.cfar, ...own(chain.cfar ?? undefined, 'cfar') };
   return {
-    chain: { peakGrouping, maxDetections, ...chain },
+    chain: { peakGrouping, maxDetections, ...chain, cfar },
     estimator: { ...angle, method, dynamicRangeDb, loading, array: chain.array },
     from: from ?? usual.from,
     grid: { ...usual.grid, ...asked },

@@ -1,7 +1,7 @@
 //! Raw samples of Texas Instruments' boards as their capture cards record them: the DCA1000 of boards with two lanes
 //! and with four, and the cascade of four chips. [`Layout`] says where samples stand, [`ReadingOptions`] overrides
 //! what the configuration says of that, [`Evidence`] is what the samples themselves tell, and [`Settled`] brings all
-//! that together. [`write`] is the inverse.
+//! that together. [`write()`] is the inverse.
 
 pub mod cascade;
 mod evidence;

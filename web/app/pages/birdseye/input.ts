@@ -148,7 +148,8 @@ export function chainOptions(radar: Radar, { falseAlarm, grouping }: BirdseyeSta
     array: radar.array,
     peakGrouping: grouping,
     maxDetections: 4096,
-    cfar: { falseAlarm: Number(falseAlarm) },
+    // The detector of images, as `imagePlan` has it.
+    cfar: { kind: 'cell-averaging', falseAlarm: Number(falseAlarm) },
   };
 }
 
