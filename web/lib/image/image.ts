@@ -7,6 +7,7 @@ import type {
   AngleOptions,
   BirdsEyeView,
   BirdsEyeViewInput,
+  CfarOptions,
   ComplexData,
   Gate,
   ImageDefaults,
@@ -47,7 +48,7 @@ export function imagePlan(options: ImageFrameOptions): ImagePlan {
   if (from != null && from !== 'spectra' && from !== 'targets') throw wrong('from', "'spectra' or 'targets'", from);
   const usual = call(() => glue.imageDefaults(waveform, chain.array, angle) as ImageDefaults);
   const { peakGrouping, maxDetections, method, dynamicRangeDb, loading } = usual;
-  const cfar = { ...usual.cfar, ...own(chain.cfar ?? undefined, 'cfar') };
+  const cfar = { ...usual.cfar, ...(own(chain.cfar ?? undefined, 'cfar') as Partial<CfarOptions>) };
   return {
     chain: { peakGrouping, maxDetections, ...chain, cfar },
     estimator: { ...angle, method, dynamicRangeDb, loading, array: chain.array },
