@@ -260,7 +260,7 @@ browserTest('space: opened twenty times it holds no more than once', { path: SIM
     await page.locator('[data-action="in-space"]').click();
     await ready(page);
   };
-  for (let i = 0; i < 3; i++) await again();
+  for (let i = 0; i < 10; i++) await again();
   const before = await heap();
   for (let i = 0; i < 20; i++) await again();
   let after = await heap();
