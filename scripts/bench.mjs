@@ -37,8 +37,16 @@ async function python() {
 await main(async () => {
   await setup();
   await buildPackage();
-  const interpreter = process.argv.includes('--against') ? '' : await python();
-  await run(process.execPath, [join(root, 'bench', 'main.mjs'), ...process.argv.slice(2)], {
-    env: { ...environment, PYTHON: interpreter },
+  const against = process.argv.includes('--against');
+  const interpreter = against ? '' : await python();
+  const measure = () =>
+    run(process.execPath, [join(root, 'bench', 'main.mjs'), ...process.argv.slice(2)], {
+      env: { ...environment, PYTHON: interpreter },
+    });
+  if (!against) return measure();
+  // Seen once in six runs: a row at half its speed all through a process, and not in the next one.
+  return measure().catch(() => {
+    console.log('bench: once more, since what is slower is so in another process too');
+    return measure();
   });
 });

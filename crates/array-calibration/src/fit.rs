@@ -1,6 +1,7 @@
 //! Channels' factors and cells' directions by alternating least squares.
 
 use crate::cells::Cell;
+use crate::orthonormal::orthonormal;
 use crate::plane_wave::{Cosines, PlaneWaves};
 use boresight_core::steering::cis;
 use boresight_core::{Array, Complex64, CoreError};
@@ -251,26 +252,11 @@ pub(crate) fn amplitude(model: &[Complex64], signal: &[Complex64]) -> (Complex64
     (amplitude, if total > 0.0 { left / total } else { 1.0 })
 }
 
-/// Takes off what lies along columns, which are made orthogonal one after the other.
+/// Takes off what lies along columns.
 pub(crate) fn remove(values: &mut [f64], columns: &[Vec<f64>]) {
-    let mut basis: Vec<Vec<f64>> = vec![];
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    for column in columns {
-        let mut rest = column.clone();
-        for _ in 0..2 {
-            for known in &basis {
-                let along = dot(known, &rest);
-                rest.iter_mut().zip(known).for_each(|(x, y)| *x -= along * y);
-            }
-        }
-        let length = dot(&rest, &rest).sqrt();
-        if length > 1e-9 * dot(column, column).sqrt() {
-            rest.iter_mut().for_each(|x| *x /= length);
-            basis.push(rest);
-        }
-    }
-    for known in &basis {
-        let along = dot(known, values);
-        values.iter_mut().zip(known).for_each(|(x, y)| *x -= along * y);
+    for known in orthonormal(columns, dot) {
+        let along = dot(&known, values);
+        values.iter_mut().zip(&known).for_each(|(x, y)| *x -= along * y);
     }
 }

@@ -2,6 +2,7 @@
 //! inverse.
 
 use crate::fit::{Fit, Fitted};
+use crate::orthonormal::orthonormal;
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::{Complex64, CoreError};
 use ndarray::Array2;
@@ -162,25 +163,10 @@ fn project(share: &[f64], own: &[Vec<f64>]) -> Array2<f64> {
     let channels = share.len();
     let mut matrix =
         Array2::from_shape_fn((channels, channels), |(i, k)| if i == k { share[i] } else { 0.0 });
-    let mut basis: Vec<Vec<f64>> = vec![];
     let dot = |a: &[f64], b: &[f64]| -> f64 {
         a.iter().zip(b).zip(share).map(|((x, y), w)| x * y * w).sum()
     };
-    for column in own {
-        let mut rest = column.clone();
-        for _ in 0..2 {
-            for known in &basis {
-                let along = dot(known, &rest);
-                rest.iter_mut().zip(known).for_each(|(x, y)| *x -= along * y);
-            }
-        }
-        let length = dot(&rest, &rest).sqrt();
-        if length > 1e-9 * dot(column, column).sqrt() {
-            rest.iter_mut().for_each(|x| *x /= length);
-            basis.push(rest);
-        }
-    }
-    for known in &basis {
+    for known in orthonormal(own, dot) {
         for i in 0..channels {
             for k in 0..channels {
                 matrix[[i, k]] -= share[i] * known[i] * known[k] * share[k];

@@ -42,6 +42,7 @@ mod error;
 mod fit;
 mod identifiable;
 mod options;
+mod orthonormal;
 mod plane_wave;
 mod positions;
 mod result;

@@ -143,7 +143,7 @@ impl Chain {
             }
         }
         self.map.power.assign(&mean);
-        Ok(self.decoded(found, raw)?)
+        Ok(self.decoded(found, &raw)?)
     }
 
     /// A target that leaves its range cell makes several detections, one behind the other.
@@ -184,7 +184,7 @@ impl Chain {
                 self.map.snapshot(range_bin, doppler_bin).map_err(PipelineError::from)?;
             raw.column_mut(n).assign(&snapshot);
         }
-        Ok(self.cell_snapshots_of(raw, doppler_bin)?)
+        Ok(self.cell_snapshots_of(raw.view(), doppler_bin)?)
     }
 
     /// Transforms a frame and tells how many of its samples are clipped.

@@ -1,6 +1,7 @@
 //! The chain for one frame.
 
 use crate::beam::suited;
+use crate::decoding::signs_of;
 use crate::error::PipelineError;
 use crate::folds::Folds;
 use crate::options::{ChainOptions, usable_range_m};
@@ -15,9 +16,9 @@ use boresight_core::{Array, Complex32, Complex64, Direction, Multiplexing, Remar
 use boresight_signal::peaks::{Peak, group_peaks, interpolate};
 use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
 use boresight_signal::{
-    Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, Region, binary_phase, doppler_division, tdm,
+    Cfar, CfarOptions, RangeDoppler, RangeDopplerMap, Region, doppler_division,
 };
-use ndarray::{Array1, Array2, Array3, ArrayView2, ArrayView3, ArrayView4, ArrayViewMut2, Axis};
+use ndarray::{Array1, Array3, ArrayView2, ArrayView3, ArrayView4, Axis};
 use std::sync::Arc;
 
 /// Least power in decibels of an empty cell, so that plots and tables need no infinities.
@@ -28,9 +29,9 @@ pub struct Chain {
     options: ChainOptions,
     array: Array,
     /// Channel of the cube (`tx * receivers + rx`) of each element of the array.
-    channels: Vec<usize>,
+    pub(crate) channels: Vec<usize>,
     /// Sign that each of them is multiplied by ([`signs_of`]).
-    signs: Array1<f64>,
+    pub(crate) signs: Vec<f64>,
     pub(crate) region: Region,
     pub(crate) transform: RangeDoppler,
     pub(crate) map: RangeDopplerMap,
@@ -202,7 +203,7 @@ impl Chain {
         for (cell, mut rows) in found.cells.iter().zip(raw.outer_iter_mut()) {
             rows.index_axis_mut(Axis(1), 0).assign(&self.raw_snapshot(cell)?);
         }
-        let snapshots = self.decoded(&mut found, raw)?;
+        let snapshots = self.decoded(&mut found, &raw)?;
         Ok((found, snapshots))
     }
 
@@ -217,26 +218,7 @@ impl Chain {
         doppler_bin: usize,
     ) -> Result<Array1<Complex64>, PipelineError> {
         let raw = self.map.snapshot(range_bin, doppler_bin)?.insert_axis(Axis(1));
-        Ok(self.cell_snapshots_of(raw, doppler_bin)?.column(0).to_owned())
-    }
-
-    /// As [`Chain::cell_snapshot`] of the channels of one cell in several frames.
-    pub(crate) fn cell_snapshots_of(
-        &self,
-        mut raw: Array2<Complex64>,
-        doppler_bin: usize,
-    ) -> Result<Array2<Complex64>, PipelineError> {
-        let bin = doppler_bin as f64;
-        let fold = match &self.folds {
-            Some(folds) => folds.decide(raw.view(), bin, self.map.power.ncols(), 0.0)?.0,
-            None => 0,
-        };
-        self.decode(raw.view_mut(), bin, fold)?;
-        let mut snapshots = raw.select(Axis(0), &self.channels);
-        for (mut row, sign) in snapshots.outer_iter_mut().zip(&self.signs) {
-            row.mapv_inplace(|z| z * sign);
-        }
-        Ok(snapshots)
+        Ok(self.cell_snapshots_of(raw.view(), doppler_bin)?.column(0).to_owned())
     }
 
     /// Angles and spectrum of snapshots (elements x snapshots) of one cell, by any method, under the
@@ -270,14 +252,10 @@ impl Chain {
             over.iter().map(|detection| interpolate(power, *detection)).collect()
         };
         let mut cells: Vec<Cell> = peaks.into_iter().map(|peak| self.cell(peak)).collect();
-        let waveform = self.transform.waveform();
-        if waveform.multiplexing == Multiplexing::DopplerDivision {
-            let is_own = |cell: &Cell| {
-                let at = cell.peak.detection;
-                !doppler_division::is_ghost(power, at.range_bin, at.doppler_bin, waveform)
-            };
-            counts.other_bands = Region::retain(&mut cells, is_own);
-        }
+        counts.other_bands = Region::retain(&mut cells, |cell| {
+            let at = cell.peak.detection;
+            !self.is_ghost([at.range_bin, at.doppler_bin])
+        });
         // The rate is not known before its fold.
         let rate_mps = if self.folds.is_some() { None } else { self.region.rate_mps };
         let region = Region { rate_mps, ..self.region };
@@ -287,6 +265,13 @@ impl Chain {
         counts.beyond_limit = cells.len().saturating_sub(self.options.max_detections);
         cells.truncate(self.options.max_detections);
         Ok(Found { cells, counts })
+    }
+
+    /// Whether a cell of the power map is the echo of a stronger target in another Doppler band, in Doppler division.
+    pub(crate) fn is_ghost(&self, [range_bin, doppler_bin]: [usize; 2]) -> bool {
+        let (waveform, power) = (self.waveform(), self.map.power.view());
+        waveform.multiplexing == Multiplexing::DopplerDivision
+            && doppler_division::is_ghost(power, range_bin, doppler_bin, waveform)
     }
 
     pub(crate) fn cell(&self, peak: Peak) -> Cell {
@@ -300,84 +285,12 @@ impl Chain {
         Cell { peak, range_m, rate_mps, fold: 0, fold_probability: None }
     }
 
-    fn cell_range_m(&self, peak: &Peak, rate_mps: f64) -> f64 {
+    pub(crate) fn cell_range_m(&self, peak: &Peak, rate_mps: f64) -> f64 {
         let waveform = self.transform.waveform();
         let bins = self.transform.range_m().len();
         range_of_bin_m(waveform, bins, peak.range_bin)
             - range_doppler_coupling_m(waveform, rate_mps)
             - self.array.correction().map_or(0.0, Correction::range_bias_m)
-    }
-
-    /// The channels of a cell of the frame transformed last, as measured.
-    pub(crate) fn raw_snapshot(&self, cell: &Cell) -> Result<Array1<Complex64>, PipelineError> {
-        let detection = cell.peak.detection;
-        Ok(self.map.snapshot(detection.range_bin, detection.doppler_bin)?)
-    }
-
-    /// Tells the folds of the cells found, and makes the array's snapshots, cells x elements x
-    /// snapshots, of the channels as measured. Cells whose rate so is outside the region are
-    /// dropped and counted.
-    pub(crate) fn decoded(
-        &self,
-        found: &mut Found,
-        mut raw: Array3<Complex64>,
-    ) -> Result<Array3<Complex64>, PipelineError> {
-        let dopplers = self.map.power.ncols();
-        let waveform = self.transform.waveform();
-        let mut kept = vec![];
-        for (index, cell) in found.cells.iter_mut().enumerate() {
-            let bin = cell.peak.doppler_bin;
-            let channels = raw.index_axis_mut(Axis(0), index);
-            if let Some(folds) = &self.folds {
-                let noise_power = cell.peak.detection.noise_power;
-                let (fold, probability) =
-                    folds.decide(channels.view(), bin, dopplers, noise_power)?;
-                found.counts.undecided_folds += usize::from(!folds.is_certain(probability));
-                cell.fold = fold;
-                cell.fold_probability = Some(probability);
-                cell.rate_mps += 2.0 * f64::from(fold) * waveform.max_rate_mps();
-                cell.range_m = self.cell_range_m(&cell.peak, cell.rate_mps);
-            }
-            if !self.region.contains(cell.range_m, cell.rate_mps) {
-                continue;
-            }
-            self.decode(channels, bin, cell.fold)?;
-            kept.push(index);
-        }
-        if kept.len() < found.cells.len() {
-            found.counts.outside_region += found.cells.len() - kept.len();
-            found.cells = kept.iter().map(|&index| found.cells[index]).collect();
-            raw = raw.select(Axis(0), &kept);
-        }
-        let mut snapshots = raw.select(Axis(1), &self.channels);
-        for (mut elements, sign) in snapshots.axis_iter_mut(Axis(1)).zip(&self.signs) {
-            elements.mapv_inplace(|z| z * sign);
-        }
-        Ok(snapshots)
-    }
-
-    /// Makes channels of transmitters of those of the cube, channels x snapshots of one cell.
-    fn decode(
-        &self,
-        mut raw: ArrayViewMut2<'_, Complex64>,
-        doppler_bin: f64,
-        fold: i32,
-    ) -> Result<(), PipelineError> {
-        let Waveform { transmitters, multiplexing, .. } = *self.transform.waveform();
-        let step = tdm::phase_step_rad(doppler_bin, self.map.power.ncols(), transmitters, fold);
-        for mut snapshot in raw.columns_mut() {
-            let mut values = snapshot.to_vec();
-            match multiplexing {
-                Multiplexing::TimeDivision => tdm::compensate(&mut values, transmitters, step)?,
-                Multiplexing::BinaryPhase => binary_phase::decode(&mut values, transmitters, step)?,
-                Multiplexing::DopplerDivision => {}
-            }
-            if let Some(correction) = self.array.correction() {
-                correction.apply(&mut values);
-            }
-            snapshot.assign(&ndarray::aview1(&values));
-        }
-        Ok(())
     }
 
     /// Angles in the cells found in the power map, of which `snapshots` has cells x elements x
@@ -508,9 +421,4 @@ pub(crate) fn channels_of(
         return Ok((0..array.len()).collect());
     }
     Err(given(format!("has {tx} transmitters x {rx} receivers, {} elements", array.len())))
-}
-
-/// What takes the sign of turned antennas off the samples of each element.
-pub(crate) fn signs_of(array: &Array) -> impl Iterator<Item = f64> {
-    array.channels().iter().map(|&channel| if array.is_inverted(channel) { -1.0 } else { 1.0 })
 }

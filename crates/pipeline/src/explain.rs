@@ -23,6 +23,8 @@ pub enum Verdict {
     BelowThreshold,
     /// It is over its threshold beside a stronger one, whose peak it belongs to.
     Grouped,
+    /// It is the echo of a stronger target in another Doppler band, in Doppler division.
+    OtherBand,
     /// Its range is outside the limits.
     OutsideRange,
     /// Its range rate is outside the limits.
@@ -138,6 +140,8 @@ impl Chain {
             Verdict::BelowThreshold
         } else if self.options().peak_grouping && !is_peak {
             Verdict::Grouped
+        } else if self.is_ghost([range_bin, doppler_bin]) {
+            Verdict::OtherBand
         } else if !self.region.contains_range(cell.range_m) {
             Verdict::OutsideRange
         } else if self.folds.is_none() && !self.region.contains(cell.range_m, cell.rate_mps) {
@@ -190,6 +194,9 @@ impl Chain {
                 let [ranges, apart] = [(ranges, "range"), (apart, "Doppler")]
                     .map(|(n, axis)| format!("{n} {axis} bin{}", if n == 1 { "" } else { "s" }));
                 format!("Part of a stronger peak {ranges} and {apart} away; {over}.")
+            }
+            Verdict::OtherBand => {
+                format!("The echo of a stronger target in another Doppler band; {over}.")
             }
             Verdict::OutsideRange => format!("Dropped for its range; {over}."),
             Verdict::OutsideRate => format!("Dropped for its range rate; {over}."),

@@ -39,6 +39,7 @@ pub mod array_calibration;
 mod beam;
 mod capture;
 mod chain;
+mod decoding;
 mod error;
 mod explain;
 mod folds;

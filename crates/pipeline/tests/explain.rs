@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::presets::preset;
-use boresight_core::{Complex32, Diagnose, Direction, Waveform};
+use boresight_core::{Complex32, Diagnose, Direction, Multiplexing, Waveform};
 use boresight_pipeline::{Chain, ChainOptions, CubeFrames, Verdict};
 use boresight_signal::{CfarKind, Region};
 use boresight_simulate::{CubeOptions, CubeTarget, simulate_cube, waveform_awr1642};
@@ -78,6 +78,32 @@ fn verdicts_are_what_the_chain_counts() {
         assert!(count(&outside) <= counts.outside_region && count(&outside) > 0);
         assert!(count(&[Verdict::BeyondLimit]) > 0, "{tally:?}");
     }
+}
+
+#[test]
+fn echoes_in_other_doppler_bands_are_said_to_be_such() {
+    let waveform =
+        Waveform { multiplexing: Multiplexing::DopplerDivision, loops: 48, ..waveform() };
+    let array = preset("awr1642").unwrap();
+    let targets = [target(3.0, 20.0, 0.0), target(5.0, -40.0, -6.0)];
+    let simulated = CubeOptions { snr_db: 10.0, seed: 12, ..CubeOptions::default() };
+    let cube = simulate_cube(&waveform, &array, &targets, &simulated).unwrap();
+    let source = CubeFrames(cube.view());
+    let options = ChainOptions::default();
+    let mut chain = Chain::new(&waveform, array.rx().len(), &array, &options).unwrap();
+    let counts = chain.process(cube.index_axis(ndarray::Axis(0), 0)).unwrap().counts;
+    let mut echoes = 0;
+    for range_bin in 0..64 {
+        for doppler_bin in 0..48 {
+            let bins = [range_bin, doppler_bin];
+            let told =
+                chain.explain(&source, 0..1, bins, &mut |_| ControlFlow::Continue(())).unwrap();
+            assert!(told.verdict != Verdict::BeyondLimit, "{told:?}");
+            echoes += usize::from(told.verdict == Verdict::OtherBand);
+        }
+    }
+    assert!(counts.other_bands > 0);
+    assert_eq!(echoes, counts.other_bands);
 }
 
 #[test]

@@ -664,6 +664,7 @@ export interface FrameCells {
  *
  * - `below-threshold`: Its power is not above its threshold.
  * - `grouped`: It is over its threshold beside a stronger one, whose peak it belongs to.
+ * - `other-band`: It is the echo of a stronger target in another Doppler band, in Doppler division.
  * - `outside-range`: Its range is outside the limits.
  * - `outside-rate`: Its range rate is outside the limits.
  * - `beyond-limit`: More cells than are kept are stronger.
@@ -674,6 +675,7 @@ export interface FrameCells {
 export type CellVerdict =
   | 'below-threshold'
   | 'grouped'
+  | 'other-band'
   | 'outside-range'
   | 'outside-rate'
   | 'beyond-limit'

@@ -2,7 +2,8 @@
 
 use super::options::{RegionChainOptions, Rotation};
 use super::result::RegionCounts;
-use crate::chain::{channels_of, signs_of};
+use crate::chain::channels_of;
+use crate::decoding::signs_of;
 use crate::error::PipelineError;
 use crate::options::usable_range_m;
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};

@@ -134,6 +134,7 @@ const CONTROLS: Readonly<Record<CellExplanation['verdict'], string>> = {
   grouped: 'Without “Keep local peaks only” it is a detection of its own.',
   'outside-range':
     '“From range” and “To range” keep it out; without them, ranges next to the antennas and at the end of the band.',
+  'other-band': 'The waveform decides how many bands there are.',
   'outside-rate': '“Remove static clutter” and the Doppler window bear on rates.',
   'beyond-limit': 'A lower false-alarm rate leaves fewer.',
   'without-angle': '“Angle by” chooses the method.',
