@@ -5,52 +5,19 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
+mod recorded;
+
 use boresight_aoa::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{AoaError, Data, EstimatorOptions, Method, SourceCount};
 use boresight_core::{Array, Diagnose};
-use boresight_formats::{Capture, FormatError, RadarConfig};
-use boresight_pipeline::{
-    Chain, ChainOptions, Detection, Frame, FrameResult, FrameSource, PipelineError,
-};
+use boresight_pipeline::{Chain, ChainOptions, Detection, FrameResult, FrameSource, PipelineError};
+use recorded::{Failure, Recording, board, recording};
 use std::collections::HashSet;
 use std::ops::ControlFlow;
 
-const CFG: &[u8] = include_bytes!("../../../recordings/awr1642/profile.cfg");
-const BIN: &[u8] =
-    include_bytes!("../../../recordings/awr1642/xwr16xx_crw_dca_module_2018_1015v2.bin");
-
-struct Recording<'a>(Capture<'a>);
-
-#[derive(Debug)]
-enum Failure {
-    Format(FormatError),
-    Pipeline(PipelineError),
-}
-
-impl From<PipelineError> for Failure {
-    fn from(error: PipelineError) -> Self {
-        Self::Pipeline(error)
-    }
-}
-
-impl FrameSource for Recording<'_> {
-    type Error = Failure;
-
-    fn frames(&self) -> usize {
-        self.0.frames()
-    }
-
-    fn frame(&self, index: usize) -> Result<Frame, Failure> {
-        let raw = self.0.frame(index).map_err(Failure::Format)?;
-        Ok(Frame { samples: raw.samples, clipped: raw.clipped })
-    }
-}
-
-fn chain(options: &ChainOptions) -> (Chain, Recording<'static>) {
-    let config = RadarConfig::parse(CFG).unwrap();
-    let array: Array = config.array().unwrap();
-    let chain = Chain::new(&config.waveform, config.receivers.len(), &array, options).unwrap();
-    (chain, Recording(Capture::new(BIN, &config).unwrap()))
+fn chain(options: &ChainOptions) -> (Chain, Recording) {
+    let (waveform, receivers, array) = board();
+    (Chain::new(&waveform, receivers, &array, options).unwrap(), recording())
 }
 
 fn each(options: &ChainOptions) -> Vec<FrameResult> {
@@ -62,11 +29,9 @@ fn each(options: &ChainOptions) -> Vec<FrameResult> {
 }
 
 fn combined(options: &ChainOptions) -> Result<FrameResult, Failure> {
-    let config = RadarConfig::parse(CFG).unwrap();
-    let array: Array = config.array().unwrap();
-    let mut chain = Chain::new(&config.waveform, config.receivers.len(), &array, options)?;
-    let recording = Recording(Capture::new(BIN, &config).unwrap());
-    chain.combine(&recording, 0..8, &mut |_| ControlFlow::Continue(()))
+    let (waveform, receivers, array) = board();
+    let mut chain = Chain::new(&waveform, receivers, &array, options)?;
+    chain.combine(&recording(), 0..8, &mut |_| ControlFlow::Continue(()))
 }
 
 /// The strongest detection within 5 cm of `range_m`.
@@ -244,10 +209,9 @@ fn cells_give_snapshots_and_spectra() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    let config = RadarConfig::parse(CFG).unwrap();
-    let array = config.array().unwrap();
+    let (waveform, _, array) = board();
     let plan = |receivers: usize, array: &Array, options: &ChainOptions| {
-        Chain::new(&config.waveform, receivers, array, options).err()
+        Chain::new(&waveform, receivers, array, options).err()
     };
     let options = ChainOptions::default();
     let wrong = Array::ula(7).unwrap();
