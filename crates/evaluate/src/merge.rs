@@ -14,6 +14,7 @@ use crate::resolution;
 use crate::straddling;
 use crate::sweep::{self, Line, Part};
 use boresight_core::CoreError;
+use boresight_core::lines::whole_lines;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -141,12 +142,12 @@ fn gather(sources: &[PathBuf]) -> Result<Vec<Gathered>, EvaluateError> {
     for path in sources.iter().cloned() {
         let failed = |error| EvaluateError::File { action: "read", path: path.clone(), error };
         let text = std::fs::read_to_string(&path).map_err(failed)?;
-        let mut lines = sweep::whole_lines(&text).lines().enumerate();
+        let mut lines = whole_lines(&text).lines().enumerate();
         let malformed =
             |line, error| EvaluateError::Record { path: path.clone(), line: line + 1, error };
         let Some((line, head)) = lines.next() else { continue };
         let mut head: Value = serde_json::from_str(head).map_err(|e| malformed(line, e))?;
-        Part::take_from(&mut head);
+        sweep::without_part(&mut head);
         if let Some(other) = gathered.iter().find(|g| g.setup["experiment"] != head["experiment"]) {
             return Err(other_run(&path, &other.setup, &head));
         }

@@ -2,14 +2,14 @@
 
 use crate::EvaluateError;
 use boresight_core::CoreError;
-use boresight_core::error::check_range;
+pub use boresight_core::Part;
+use boresight_core::lines::LineFile;
 use boresight_pipeline::Progress;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
-use std::io::{Read, Write};
+use std::io::Read;
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -31,62 +31,21 @@ pub struct Sweep<'a> {
     pub records: Option<&'a Path>,
 }
 
-/// One of several parts of a sweep: every `of`-th scene, so that all parts take about as long.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Part {
-    number: u64,
-    of: u64,
-}
-
-impl Part {
-    /// All scenes.
-    pub const WHOLE: Self = Self { number: 1, of: 1 };
-
-    /// Part `number`, from 1, of `of`.
-    ///
-    /// # Errors
-    /// [`CoreError::OutOfRange`] unless `number` is within 1 and `of`, and `of` at most a million.
-    pub fn new(number: u64, of: u64) -> Result<Self, CoreError> {
-        check_range("parts", of as f64, 1.0, 1e6)?;
-        check_range("number of the part", number as f64, 1.0, of as f64)?;
-        Ok(Self { number, of })
-    }
-
-    /// Whether it holds a scene.
-    pub fn contains(&self, scene: u64) -> bool {
-        scene % self.of == self.number - 1
-    }
-
-    /// Name of the file of its records.
-    pub fn file_name(&self, experiment: &str) -> String {
-        match *self {
-            Self::WHOLE => format!("{experiment}.jsonl"),
-            Self { number, of } => format!("{experiment}-{number}-of-{of}.jsonl"),
-        }
-    }
-
-    /// The head of its records.
-    fn head(&self, setup: &Value) -> Value {
-        let mut head = setup.clone();
-        if let (false, Some(head)) = (*self == Self::WHOLE, head.as_object_mut()) {
-            head.insert(PART.into(), format!("{self}").into());
-        }
-        head
-    }
-
-    /// Takes from a head what [`Part::head`] added.
-    pub(crate) fn take_from(head: &mut Value) {
-        if let Some(head) = head.as_object_mut() {
-            head.remove(PART);
-        }
-    }
-}
-
 const PART: &str = "part";
 
-impl std::fmt::Display for Part {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        write!(f, "{}/{}", self.number, self.of)
+/// The head of a part's records.
+fn head(part: Part, setup: &Value) -> Value {
+    let mut head = setup.clone();
+    if let (false, Some(head)) = (part == Part::WHOLE, head.as_object_mut()) {
+        head.insert(PART.into(), format!("{part}").into());
+    }
+    head
+}
+
+/// Takes from a head what tells its part.
+pub(crate) fn without_part(head: &mut Value) {
+    if let Some(head) = head.as_object_mut() {
+        head.remove(PART);
     }
 }
 
@@ -170,7 +129,7 @@ pub fn run<R: Serialize + DeserializeOwned + Send>(
     Ok(done)
 }
 
-type Opened<R> = (BTreeMap<u64, R>, Option<(File, PathBuf)>);
+type Opened<R> = (BTreeMap<u64, R>, Option<(LineFile, PathBuf)>);
 
 /// Reads what is recorded and opens the file for more.
 fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, EvaluateError> {
@@ -178,25 +137,16 @@ fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, Ev
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(failed("written"))?;
     }
-    let mut file = OpenOptions::new()
-        .create(true)
-        .read(true)
-        .write(true)
-        .truncate(false)
-        .open(path)
-        .map_err(failed("written"))?;
-    // Two runs would overwrite each other's records. The lock goes with the file.
-    file.try_lock().map_err(|error| failed("written")(error.into()))?;
+    // Two runs would overwrite each other's records.
+    let mut file = LineFile::open(path).map_err(failed("written"))?;
     let mut text = String::new();
-    file.read_to_string(&mut text).map_err(failed("read"))?;
-    text.truncate(whole_lines(&text).len());
-    file.set_len(text.len() as u64).map_err(failed("written"))?;
-    std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0)).map_err(failed("written"))?;
+    let read = file.reader().and_then(|mut reader| reader.read_to_string(&mut text));
+    read.map_err(failed("read"))?;
     let mut lines = text.lines().enumerate();
     let mut done = BTreeMap::new();
     let malformed =
         |line| move |error| EvaluateError::Record { path: path.to_owned(), line: line + 1, error };
-    let expected = sweep.part.head(&sweep.setup);
+    let expected = head(sweep.part, &sweep.setup);
     match lines.next() {
         None => append(&mut file, path, &expected)?,
         Some((line, head)) => {
@@ -217,11 +167,6 @@ fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, Ev
         }
     }
     Ok((done, Some((file, path.to_owned()))))
-}
-
-/// What of a file is whole: a run that was killed may have left half a line.
-pub(crate) fn whole_lines(text: &str) -> &str {
-    &text[..text.rfind('\n').map_or(0, |end| end + 1)]
 }
 
 /// The records of a whole run as the lines of a file.
@@ -247,17 +192,18 @@ fn line(path: &Path, value: &impl Serialize) -> Result<String, EvaluateError> {
     Ok(serde_json::to_string(value).map_err(failed)? + "\n")
 }
 
-fn append(file: &mut File, path: &Path, value: &impl Serialize) -> Result<(), EvaluateError> {
+fn append(file: &mut LineFile, path: &Path, value: &impl Serialize) -> Result<(), EvaluateError> {
     let failed = |error| EvaluateError::File { action: "written", path: path.to_owned(), error };
     let line = line(path, value)?;
-    file.write_all(line.as_bytes()).map_err(failed)
+    file.append(&line).map_err(failed)
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use boresight_core::Diagnose;
+    use std::fs::OpenOptions;
+    use std::io::Write;
     use std::sync::Mutex;
 
     fn folder(name: &str) -> PathBuf {
@@ -341,14 +287,6 @@ mod tests {
             all.extend(run(&sweep, Ok, go).unwrap().into_keys().map(|scene| (scene, number)));
         }
         assert_eq!(all.into_values().collect::<Vec<_>>(), [1, 2, 3, 1, 2, 3, 1, 2, 3, 1]);
-        for (number, of, what) in [
-            (0, 3, "number of the part"),
-            (4, 3, "number of the part"),
-            (1, 0, "parts"),
-            (1, 2_000_000, "parts"),
-        ] {
-            assert_eq!(Part::new(number, of).unwrap_err().details().what, what);
-        }
     }
 
     #[test]
