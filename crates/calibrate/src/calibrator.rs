@@ -5,7 +5,7 @@ use crate::motion::plan::plan;
 use crate::network::MotionNetwork;
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Method,
-    MotionPlan, Outlook, Recursive,
+    MotionPlan, NormalEquations, Outlook, Recursive,
 };
 use boresight_core::CoreError;
 use std::sync::Arc;
@@ -91,6 +91,14 @@ impl Calibrator {
     ) -> Result<Self, CalibrateError> {
         let recursive = Recursive::restore_with_network(snapshot, network)?;
         Ok(Self { inner: Inner::Recursive(Box::new(recursive)) })
+    }
+
+    /// What the frames so far say, to put together with other drives; `None` for the methods that weigh all frames at once.
+    pub fn normal_equations(&self) -> Option<NormalEquations> {
+        match &self.inner {
+            Inner::Recursive(recursive) => Some(recursive.normal_equations()),
+            Inner::Batch(_) => None,
+        }
     }
 
     /// Takes one frame.

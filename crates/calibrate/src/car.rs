@@ -4,7 +4,7 @@ use crate::network::MotionNetwork;
 use crate::radars;
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, Calibrator, FrameInput, FrameOutcome, Joint,
-    Method, Outlook,
+    Method, NormalEquations, Outlook,
 };
 #[cfg(doc)]
 use boresight_core::CoreError;
@@ -99,5 +99,14 @@ impl Car {
         let Inner::Apart(calibrators) = &self.inner else { return None };
         let at = self.radars.iter().position(|(id, _)| *id == sensor)?;
         calibrators[at].outlook()
+    }
+
+    /// What the drive says of a radar, as [`Calibrator::normal_equations`]; none for a radar that was not named.
+    pub fn normal_equations(&self, sensor: u8) -> Option<NormalEquations> {
+        let at = self.radars.iter().position(|(id, _)| *id == sensor)?;
+        match &self.inner {
+            Inner::Apart(calibrators) => calibrators[at].normal_equations(),
+            Inner::Together(joint) => Some(joint.normal_equations(at)),
+        }
     }
 }

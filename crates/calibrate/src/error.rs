@@ -31,6 +31,16 @@ pub enum CalibrateError {
         /// Its value in the other.
         given: f64,
     },
+    /// Equations of a drive that no drive leads to.
+    #[error("equations of drives to merge: expected {expected}, given {given} in drive {drive}")]
+    UnsoundEquations {
+        /// Which drive, from 0.
+        drive: usize,
+        /// What was expected.
+        expected: &'static str,
+        /// What was given.
+        given: &'static str,
+    },
     /// A motion by a network without its weights.
     #[error("{motion} needs the weights of its network, given {given}")]
     NeedsNetwork {
@@ -58,6 +68,7 @@ impl Diagnose for CalibrateError {
             Self::Core(error) => error.code(),
             Self::MalformedSnapshot { .. } => "malformed-snapshot",
             Self::UnlikeSnapshots { .. } => "unlike-snapshots",
+            Self::UnsoundEquations { .. } => "unsound-equations",
             Self::NeedsNetwork { .. } => "needs-weights",
             Self::Network(error) => error.code(),
             Self::TimeBackwards { .. } => "time-backwards",
@@ -72,6 +83,9 @@ impl Diagnose for CalibrateError {
             }
             Self::UnlikeSnapshots { what, expected, given } => {
                 Details::new(*what, expected.to_string(), given.to_string())
+            }
+            Self::UnsoundEquations { drive, expected, given } => {
+                Details::new(format!("equations of drive {drive}"), *expected, *given)
             }
             Self::NeedsNetwork { motion, given } => {
                 Details::new("weights", format!("a file of weights for {motion}"), *given)

@@ -176,7 +176,7 @@ pub enum Alignment {
 
 impl Alignment {
     /// Of an angle and its standard deviation; none without a nominal angle.
-    pub(crate) fn of(angle_rad: f64, sigma_rad: f64, options: &CalibrationOptions) -> Option<Self> {
+    pub fn of(angle_rad: f64, sigma_rad: f64, options: &CalibrationOptions) -> Option<Self> {
         let off = drift_rad(angle_rad, options)?.abs();
         Some(match (off - options.alarm_rad, CHANCE * sigma_rad) {
             (beyond, chance) if beyond > chance => Self::Misaligned,

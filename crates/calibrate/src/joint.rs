@@ -3,9 +3,10 @@
 use crate::network::MotionNetwork;
 use crate::radars;
 use crate::recursive::information::{Information, Matrix, UNKNOWNS, Vector};
-use crate::small::{inverse, times};
+use crate::small::{dot, inverse, times};
 use crate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Recursive, Verdict,
+    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, NormalEquations,
+    Recursive, Verdict,
 };
 #[cfg(doc)]
 use boresight_core::CoreError;
@@ -86,6 +87,11 @@ impl Joint {
         Ok(outcome)
     }
 
+    /// What the drive says of a radar by itself, by its place among those named.
+    pub(crate) fn normal_equations(&self, at: usize) -> NormalEquations {
+        self.radars[at].1.normal_equations()
+    }
+
     /// The angles as they stand, with one scale, bias, slip and delay for all.
     pub fn estimate(&self) -> Vec<(u8, AngleEstimate)> {
         let parts: Vec<Part> =
@@ -146,8 +152,6 @@ impl Part {
 
     /// The radar's unknowns and their covariance, from the shared ones.
     fn solution(&self, shared: &SharedVector, covariance: &SharedMatrix) -> (Vector, Matrix) {
-        let dot =
-            |a: &SharedVector, b: &SharedVector| -> f64 { (0..SHARED).map(|i| a[i] * b[i]).sum() };
         let pulled = times(covariance, &self.gain);
         let reference = self.known.reference();
         let x = std::array::from_fn(|i| {

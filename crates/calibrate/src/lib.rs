@@ -49,6 +49,7 @@ mod batch;
 pub mod calibrator;
 pub mod car;
 pub mod drive;
+pub mod equations;
 pub mod error;
 pub mod estimate;
 pub mod frame;
@@ -67,15 +68,20 @@ pub mod statistics;
 mod symmetric;
 pub mod trajectory;
 
+pub use angle::wrap;
 pub use calibrator::Calibrator;
 pub use car::Car;
 pub use drive::Frames;
+pub use equations::NormalEquations;
 pub use error::CalibrateError;
 pub use estimate::{Alignment, AngleEstimate, CHANCE, FrameCounts, Remark};
 pub use frame::{CarMotion, FrameInput, FrameOutcome, Motion, Verdict};
 pub use fusion::{FusedMotion, Fusion};
 pub use joint::Joint;
-pub use merge::merge;
+pub use merge::{
+    CarUnknowns, DrivePart, MergeOptions, MergedAngle, MergedDrive, MergedPart, MergedVehicle,
+    Sharing, Told, merge, merge_drives,
+};
 pub use motion::{FrameMotion, MotionEstimator, MotionPlan};
 pub use options::{CalibrationOptions, FrameWeights, Method, MotionMethod};
 pub use recursive::Recursive;

@@ -1,42 +1,49 @@
-//! Symmetric positive definite systems of a size known to the compiler.
+//! Symmetric positive definite systems, small or of a size known at run time.
 
 /// Inverse of a symmetric positive definite matrix by Cholesky factorisation; `None` where a pivot
 /// is not positive or not finite.
 pub(crate) fn inverse<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
-    let mut l = [[0.0; N]; N];
-    for i in 0..N {
+    let (mut l, mut result) = ([[0.0; N]; N], [[0.0; N]; N]);
+    invert(a.as_flattened(), N, l.as_flattened_mut(), result.as_flattened_mut()).then_some(result)
+}
+
+/// The same of a matrix of `n` rows, row by row, with room for its factor and its inverse, all zero; whether there is one.
+pub(crate) fn invert(a: &[f64], n: usize, l: &mut [f64], result: &mut [f64]) -> bool {
+    for i in 0..n {
         for j in 0..=i {
-            let rest: f64 = a[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
+            let rest: f64 = a[i * n + j] - (0..j).map(|k| l[i * n + k] * l[j * n + k]).sum::<f64>();
             if i == j {
                 if !(rest > 0.0 && rest.is_finite()) {
-                    return None;
+                    return false;
                 }
-                l[i][i] = rest.sqrt();
+                l[i * n + i] = rest.sqrt();
             } else {
-                l[i][j] = rest / l[j][j];
+                l[i * n + j] = rest / l[j * n + j];
             }
         }
     }
-    let mut result = [[0.0; N]; N];
-    for column in 0..N {
-        let mut x = [0.0; N];
-        for i in 0..N {
+    for column in 0..n {
+        for i in 0..n {
             let unit = if i == column { 1.0 } else { 0.0 };
-            x[i] = (unit - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>()) / l[i][i];
+            let known = (0..i).map(|k| l[i * n + k] * result[k * n + column]).sum::<f64>();
+            result[i * n + column] = (unit - known) / l[i * n + i];
         }
-        for i in (0..N).rev() {
-            x[i] = (x[i] - (i + 1..N).map(|k| l[k][i] * x[k]).sum::<f64>()) / l[i][i];
-        }
-        for i in 0..N {
-            result[i][column] = x[i];
+        for i in (0..n).rev() {
+            let known = (i + 1..n).map(|k| l[k * n + i] * result[k * n + column]).sum::<f64>();
+            result[i * n + column] = (result[i * n + column] - known) / l[i * n + i];
         }
     }
-    Some(result)
+    true
+}
+
+/// Scalar product.
+pub(crate) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    (0..N).map(|i| a[i] * b[i]).sum()
 }
 
 /// Matrix times vector.
 pub(crate) fn times<const N: usize, const M: usize>(a: &[[f64; M]; N], x: &[f64; M]) -> [f64; N] {
-    std::array::from_fn(|i| (0..M).map(|j| a[i][j] * x[j]).sum())
+    std::array::from_fn(|i| dot(&a[i], x))
 }
 
 /// Adds `weight * x x^T`.

@@ -80,7 +80,7 @@ pub(crate) struct Solution {
 pub(crate) const MAX_SINE: f64 = 0.9;
 
 /// An angle brought to `(-pi, pi]`.
-pub(crate) fn wrap(angle: f64) -> f64 {
+pub fn wrap(angle: f64) -> f64 {
     let wrapped = angle - TAU * (angle / TAU).round();
     if wrapped <= -PI { wrapped + TAU } else { wrapped }
 }

@@ -16,7 +16,7 @@
 
 mod begin;
 pub(crate) mod block;
-mod conclude;
+pub(crate) mod conclude;
 mod doubts;
 mod equation;
 mod frame;
