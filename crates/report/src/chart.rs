@@ -1,26 +1,33 @@
 //! Lines over a pair of axes, as SVG without text that has to be measured: plotters measures it by a page's document, which workers
 //! do not have.
 
+use crate::html::escaped;
 use std::fmt::Write as _;
 
 /// Size of the picture and of its margins (left, right, top, bottom), in its own units.
 const SIZE: [f64; 2] = [720.0, 250.0];
-const MARGIN: [f64; 4] = [62.0, 12.0, 14.0, 44.0];
+const MARGIN: [f64; 4] = [80.0, 12.0, 14.0, 44.0];
 /// About as many labels an axis.
 const TICKS: f64 = 6.0;
 
-/// What is drawn.
-pub(crate) enum Mark {
+/// What is drawn, by the name of its style.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mark {
     /// A line through points; where one is not finite it is broken.
-    Line(Vec<[f64; 2]>),
+    Line(&'static str, Vec<[f64; 2]>),
     /// The area between two ordinates at abscissas.
-    Band(Vec<[f64; 3]>),
-    /// An ordinate all along, by the name of its style.
+    Band(&'static str, Vec<[f64; 3]>),
+    /// An ordinate all along.
     Level(&'static str, f64),
+    /// An abscissa all along.
+    Upright(&'static str, f64),
+    /// Points of an abscissa, an ordinate and the ordinate's deviation, which is drawn as a bar where it is finite.
+    Points(&'static str, Vec<[f64; 3]>),
 }
 
 /// A pair of axes.
-pub(crate) struct Chart {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chart {
     /// What it shows, for those who do not see it.
     pub title: String,
     /// Labels with units.
@@ -33,14 +40,15 @@ pub(crate) struct Chart {
 
 impl Chart {
     /// As an SVG element; what lies beyond the axes is cut off.
-    pub(crate) fn svg(&self, id: &str) -> String {
+    pub fn svg(&self, id: &str) -> String {
         let points = || {
             self.marks.iter().flat_map(|mark| match mark {
-                Mark::Line(points) => points.clone(),
-                Mark::Band(points) => {
+                Mark::Line(_, points) => points.clone(),
+                Mark::Points(_, points) => points.iter().map(|p| [p[0], p[1]]).collect(),
+                Mark::Band(_, points) => {
                     points.iter().flat_map(|p| [[p[0], p[1]], [p[0], p[2]]]).collect()
                 }
-                Mark::Level(_, _) => vec![],
+                Mark::Level(_, _) | Mark::Upright(_, _) => vec![],
             })
         };
         let x = extent(points().map(|point| point[0]));
@@ -50,7 +58,7 @@ impl Chart {
         let across = |value: f64| left + (value - x[0]) / (x[1] - x[0]) * (right - left);
         let up = |value: f64| bottom - (value - y[0]) / (y[1] - y[0]) * (bottom - top);
         let [width, height] = SIZE;
-        let title = &self.title;
+        let title = escaped(&self.title);
         let mut svg = format!(
             "<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\">\
              <clipPath id=\"{id}\"><rect x=\"{left}\" y=\"{top}\" width=\"{}\" height=\"{}\"/></clipPath>",
@@ -85,16 +93,16 @@ impl Chart {
              text-anchor=\"middle\">{}</text><g clip-path=\"url(#{id})\">",
             0.5 * (left + right),
             height - 6.0,
-            self.axes[0],
+            escaped(self.axes[0]),
             -0.5 * (top + bottom),
-            self.axes[1],
+            escaped(self.axes[1]),
         );
         let at = |point: [f64; 2]| {
             format!("{:.1} {:.1}", across(point[0]), up(point[1]).clamp(-1e4, 1e4))
         };
         for mark in &self.marks {
             match mark {
-                Mark::Line(points) => {
+                Mark::Line(class, points) => {
                     let mut path = String::new();
                     let mut before = "M";
                     for point in points {
@@ -105,18 +113,40 @@ impl Chart {
                         path = path + before + &at(*point);
                         before = "L";
                     }
-                    let _ = write!(svg, "<path class=\"line\" d=\"{path}\"/>");
+                    let _ = write!(svg, "<path class=\"{class}\" d=\"{path}\"/>");
                 }
-                Mark::Band(points) => {
+                Mark::Band(class, points) => {
                     let there = points.iter().map(|p| [p[0], p[1]]);
                     let back = points.iter().rev().map(|p| [p[0], p[2]]);
                     let corners: Vec<String> = there.chain(back).map(at).collect();
-                    let _ =
-                        write!(svg, "<polygon class=\"band\" points=\"{}\"/>", corners.join(" "));
+                    let corners = corners.join(" ");
+                    let _ = write!(svg, "<polygon class=\"{class}\" points=\"{corners}\"/>");
                 }
                 Mark::Level(class, value) => {
                     let at = up(*value).clamp(-1e4, 1e4);
                     let _ = write!(svg, "<path class=\"{class}\" d=\"M{left} {at:.1}H{right}\"/>");
+                }
+                Mark::Upright(class, value) => {
+                    let at = across(*value).clamp(-1e4, 1e4);
+                    let _ = write!(svg, "<path class=\"{class}\" d=\"M{at:.1} {top}V{bottom}\"/>");
+                }
+                Mark::Points(class, points) => {
+                    let [mut bars, mut dots] = [String::new(), String::new()];
+                    for [x, y, deviation] in points {
+                        if !(x.is_finite() && y.is_finite()) {
+                            continue;
+                        }
+                        // A line of no length, whose round ends make the dot.
+                        let _ = write!(dots, "M{}h0", at([*x, *y]));
+                        if deviation.is_finite() {
+                            let end = up(y + deviation).clamp(-1e4, 1e4);
+                            let _ = write!(bars, "M{}V{end:.1}", at([*x, y - deviation]));
+                        }
+                    }
+                    let _ = write!(
+                        svg,
+                        "<path class=\"bars\" d=\"{bars}\"/><path class=\"dots {class}\" d=\"{dots}\"/>"
+                    );
                 }
             }
         }
@@ -164,10 +194,30 @@ mod tests {
 
     #[test]
     fn a_chart_of_nothing_and_one_of_anything_can_be_drawn() {
-        for marks in [vec![], vec![Mark::Line(vec![[f64::NAN; 2], [1.0, 1e300], [2.0, -1e300]])]] {
+        for marks in
+            [vec![], vec![Mark::Line("line", vec![[f64::NAN; 2], [1.0, 1e300], [2.0, -1e300]])]]
+        {
             let chart = Chart { title: "t".into(), axes: ["x", "y"], limits: None, marks };
             let svg = chart.svg("a");
             assert!(svg.ends_with("</g></svg>") && !svg.contains("NaN"), "{svg}");
         }
+    }
+
+    #[test]
+    fn points_have_a_bar_where_their_deviation_is_finite() {
+        let points = [[0.0, 1.0, 0.5], [1.0, 2.0, f64::INFINITY], [2.0, f64::NAN, 1.0]];
+        let marks = vec![Mark::Points("usual", points.to_vec()), Mark::Upright("event", 1.0)];
+        let svg = Chart { title: "<t>".into(), axes: ["x", "y"], limits: None, marks }.svg("a");
+        let path = |class: &str| {
+            let start = svg.split(&format!("class=\"{class}\" d=\"")).nth(1).unwrap();
+            start.split('"').next().unwrap().to_owned()
+        };
+        assert_eq!(path("bars").matches('M').count(), 1, "{svg}");
+        let dots = path("dots usual");
+        assert_eq!(dots.matches('M').count(), 2, "{svg}");
+        // The vertical goes through the second dot.
+        let second = dots.split('M').nth(2).unwrap().split(' ').next().unwrap();
+        assert!(path("event").starts_with(&format!("M{second} ")), "{svg}");
+        assert!(svg.contains("aria-label=\"&lt;t&gt;\""));
     }
 }

@@ -20,9 +20,10 @@ pub(crate) fn angle(
     let told = || recorder.history().filter(|[_, _, sigma]| sigma.is_finite());
     let mut marks = vec![
         Mark::Band(
+            "band",
             told().map(|[time, angle, sigma]| [time, angle - sigma, angle + sigma]).collect(),
         ),
-        Mark::Line(told().map(|[time, angle, _]| [time, angle]).collect()),
+        Mark::Line("line", told().map(|[time, angle, _]| [time, angle]).collect()),
     ];
     if let Some(nominal) = nominal {
         marks.push(Mark::Level("level", nominal));
@@ -47,7 +48,7 @@ pub(crate) fn drive(recorder: &Recorder, id: &str) -> String {
             title: title.into(),
             axes: ["time / s", y],
             limits: None,
-            marks: vec![Mark::Line(points)],
+            marks: vec![Mark::Line("line", points)],
         }
         .svg(&format!("{id}-{which}"))
     };

@@ -1,12 +1,13 @@
 //! What is told of a calibration: its facts in words, for a terminal and for paper, and a page of HTML to print or to keep, with
-//! verdict, plots, conditions and where it all came from. The page asks for nothing from elsewhere.
+//! verdict, plots, conditions and where it all came from. The page asks for nothing from elsewhere; other reports are made of the same parts.
 
-mod chart;
+pub mod chart;
 mod facts;
 mod figures;
+pub mod html;
 mod page;
 mod recorder;
 
-pub use facts::{Fact, facts, sentence};
-pub use page::{About, Radar, Source, page};
+pub use facts::{Fact, Place, facts, sentence, within};
+pub use page::{About, Radar, Source, page, verdict};
 pub use recorder::Recorder;
