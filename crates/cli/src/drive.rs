@@ -17,6 +17,8 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 const RADAR_DATA: &str = "radar_data.h5";
+/// What is read beside a sequence's data.
+const SEQUENCE_JSON: [&str; 2] = ["scenes.json", "sensors.json"];
 
 /// Reads a drive log, with the signs that its options say.
 pub fn open_path(
@@ -106,6 +108,61 @@ pub fn drives_in(folder: &Path, files: &Files) -> Result<Vec<(String, PathBuf)>,
     let folders: Vec<PathBuf> = entries(folder)?.into_iter().filter(|path| path.is_dir()).collect();
     let drives = if folders.is_empty() { vec![folder.to_owned()] } else { folders };
     Ok(drives.into_iter().map(|path| (name(&path), path)).collect())
+}
+
+/// The sequences of a data set of RadarScenes, if the folder is that of one, in their order.
+pub fn drives_of_data_set(path: &Path, files: &Files) -> Result<Option<Vec<PathBuf>>, CliError> {
+    if !path.is_dir() || entries(path)?.iter().any(|path| is_hdf5(&name(path))) {
+        return Ok(None);
+    }
+    let set = Sequences::find(path, files)?;
+    Ok(set.map(|set| set.names.iter().map(|name| set.folder.join(name)).collect()))
+}
+
+/// The files that a log is read from, by their names within its folder, in order: those whose names readers go by, in the folder and the
+/// folders in it, and the JSON files of a sequence.
+pub fn log_files(path: &Path) -> Result<Vec<(String, PathBuf)>, CliError> {
+    let mut found = vec![];
+    if path.is_dir() {
+        for path in entries(path)? {
+            if path.is_dir() {
+                let folder = name(&path);
+                let inner = entries(&path)?.into_iter().filter(|path| path.is_file());
+                found.extend(inner.map(|path| (format!("{folder}/{}", name(&path)), path)));
+            } else {
+                found.push((name(&path), path));
+            }
+        }
+        let is_kind = [is_table, is_hdf5, is_mcap_name, is_cloud, is_json];
+        found.retain(|(name, _)| is_kind.iter().any(|is| is(name)));
+    } else {
+        found.push((name(path), path.to_owned()));
+    }
+    // The companions of a sequence lie beside it and above it.
+    if let Some(hdf5) = found.iter().find(|(name, _)| is_hdf5(name)).map(|(_, path)| path.clone()) {
+        let folder = hdf5.parent().unwrap_or(Path::new(""));
+        for wanted in SEQUENCE_JSON {
+            for (name, path) in [
+                (wanted.to_owned(), folder.join(wanted)),
+                (format!("../{wanted}"), folder.join("..").join(wanted)),
+            ] {
+                if path.is_file() && !found.iter().any(|(known, _)| *known == name) {
+                    found.push((name, path));
+                    break;
+                }
+            }
+        }
+    }
+    if found.is_empty() {
+        let names: Vec<String> = entries(path)?.iter().map(|path| name(path)).collect();
+        return Err(no_drive_log(None, names.iter().map(String::as_str)).into());
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn is_json(name: &str) -> bool {
+    name.to_ascii_lowercase().ends_with(".json")
 }
 
 /// The log of one drive, for experiments.
@@ -239,7 +296,8 @@ fn read_sequence(
             .map(|path| files.read(&path))
             .transpose()
     };
-    let (scenes, sensors) = (beside("scenes.json")?, beside("sensors.json")?);
+    let [scenes, sensors] = SEQUENCE_JSON.map(beside);
+    let (scenes, sensors) = (scenes?, sensors?);
     let companions = Companions { scenes: scenes.as_deref(), sensors: sensors.as_deref() };
     let mut report = ReadReport::default();
     let json = ["scenes.json", "sensors.json", "sequences.json"];

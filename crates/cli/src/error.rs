@@ -6,6 +6,7 @@ use boresight_calibrate::CalibrateError;
 use boresight_calibrate::network::NetworkError;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_evaluate::EvaluateError;
+use boresight_fleet::FleetError;
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
 use boresight_live::LiveError;
@@ -45,6 +46,17 @@ pub enum CliError {
     /// A server cannot run.
     #[error(transparent)]
     Live(#[from] LiveError),
+    /// A plan or the records of a fleet refused, or a run was stopped.
+    #[error(transparent)]
+    Fleet(#[from] FleetError),
+    /// A log's files are not those that were planned.
+    #[error("{} is not as it was planned", path.display())]
+    Changed {
+        /// The log.
+        path: PathBuf,
+        /// What was planned.
+        expected: String,
+    },
     /// An image cannot be made.
     #[error(transparent)]
     Image(#[from] ImageError),
@@ -133,6 +145,7 @@ impl CliError {
         match self {
             Self::Pipeline(PipelineError::Cancelled { .. })
             | Self::Evaluate(EvaluateError::Cancelled { .. })
+            | Self::Fleet(FleetError::Cancelled { .. })
             | Self::Simulate(SimulateError::Cancelled { .. }) => ExitCode::from(INTERRUPTED),
             Self::Option { .. } | Self::OwnInput { .. } | Self::SameOutput { .. } => {
                 ExitCode::from(2)
@@ -162,6 +175,7 @@ impl CliError {
             Self::ArrayCalibration(error) => error,
             Self::Calibrate(error) => error,
             Self::Live(error) => error,
+            Self::Fleet(error) => error,
             Self::Image(error) => error,
             Self::Pipeline(error) => error,
             Self::Simulate(error) => error,
@@ -178,6 +192,7 @@ impl Diagnose for CliError {
         match self {
             Self::File { .. } => "file",
             Self::Exists { .. } => "exists",
+            Self::Changed { .. } => "changed",
             Self::OwnInput { .. } => "own-input",
             Self::SameOutput { .. } => "same-output",
             Self::Json { .. } => "malformed-file",
@@ -201,6 +216,11 @@ impl Diagnose for CliError {
                 path.display().to_string(),
                 "a file that is not there yet, or --force",
                 "a file that is there",
+            ),
+            Self::Changed { path, expected } => Details::new(
+                path.display().to_string(),
+                expected,
+                "other files, or other bytes in them",
             ),
             Self::OwnInput { path } => Details::new(
                 path.display().to_string(),

@@ -117,7 +117,8 @@ impl Files {
     }
 }
 
-fn source(path: &Path) -> Result<Source, CliError> {
+/// A file with the digest of its bytes.
+pub fn source(path: &Path) -> Result<Source, CliError> {
     let failed = |error| CliError::File { action: "read", path: path.into(), error };
     let mut hasher = Sha256::new();
     let mut file = File::open(path).map_err(failed)?;

@@ -29,6 +29,11 @@ pub struct Flags<T> {
 }
 
 impl<T> Flags<T> {
+    /// Options that come from elsewhere, none of them by a flag.
+    pub fn of(options: T) -> Self {
+        Self { options, given: vec![] }
+    }
+
     /// Whether a field that stands directly in the options was given, by its name in Rust.
     pub fn given(&self, field: &str) -> bool {
         self.given.contains(&field)

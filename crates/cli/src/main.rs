@@ -39,6 +39,7 @@ fn main() -> ExitCode {
         Command::Simulate { what } => commands::simulate::run(&what, &files),
         Command::Augment(arguments) => commands::augment::run(&arguments, &files),
         Command::Calibrate(arguments) => commands::calibrate::run(&arguments, &files),
+        Command::Fleet { what } => commands::fleet::run(&what, &files),
         Command::Evaluate { what } => commands::evaluate::run(&what, &files),
         Command::Image { what } => commands::image::run(&what, &files),
         Command::Log(arguments) => commands::log::run(&arguments, &files),

@@ -27,6 +27,11 @@ pub struct LogPaths {
     pub topics: Flags<TopicOptions>,
 }
 
+/// Names of the formats of logs.
+pub(super) fn formats() -> PossibleValuesParser {
+    PossibleValuesParser::new(DriveFormat::VARIANTS.iter().map(|format| format.name()))
+}
+
 /// Arguments of `log`.
 #[derive(Debug, Args)]
 pub struct LogArguments {
@@ -58,7 +63,7 @@ pub struct CalibrateArguments {
     #[command(flatten)]
     pub log: LogPaths,
     /// Format of the log, where it is not to be found from the files.
-    #[arg(long, value_parser = PossibleValuesParser::new(DriveFormat::VARIANTS.iter().map(|format| format.name())))]
+    #[arg(long, value_parser = formats())]
     pub format: Option<String>,
     /// Only this radar of the log.
     #[arg(long, value_name = "N")]

@@ -51,7 +51,7 @@ pub struct EvaluateArguments {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Run the K-th of N parts only, and keep its records for `evaluate merge`.
-    #[arg(long, value_name = "K/N", value_parser = part, requires = "out")]
+    #[arg(long, value_name = "K/N", requires = "out")]
     pub part: Option<Part>,
 }
 
@@ -353,11 +353,4 @@ pub struct EvaluateCalibrationArguments {
     /// Lengths of the pieces that these drives are cut into, s.
     #[arg(long, value_name = "S,...", value_delimiter = ',', default_values_t = [25.0, 60.0, 120.0], requires = "drives")]
     pub pieces: Vec<f64>,
-}
-
-fn part(text: &str) -> Result<Part, String> {
-    let (number, of) =
-        text.split_once('/').ok_or("expected the number of a part and of all, such as 1/4")?;
-    let number_of = |text: &str| text.parse::<u64>().map_err(|error| error.to_string());
-    Part::new(number_of(number)?, number_of(of)?).map_err(|error| error.to_string())
 }

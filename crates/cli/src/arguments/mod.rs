@@ -6,6 +6,7 @@ mod bridge;
 mod drives;
 mod estimate;
 mod evaluate;
+mod fleet;
 mod image;
 mod regions;
 mod serve;
@@ -19,6 +20,9 @@ pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
 pub use evaluate::{
     AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCalibrationArguments,
     EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
+};
+pub use fleet::{
+    FleetCommand, FleetMergeArguments, FleetPlanArguments, FleetRunArguments, WhichPart,
 };
 pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 pub use regions::RegionsArguments;
@@ -76,6 +80,12 @@ pub enum Command {
     Augment(Box<AugmentArguments>),
     /// Estimate the angle a car's radars are mounted at from a drive log.
     Calibrate(Box<CalibrateArguments>),
+    /// Calibrate many drives, on many machines, and put the results of a fleet together.
+    Fleet {
+        /// What to do.
+        #[command(subcommand)]
+        what: FleetCommand,
+    },
     /// Estimate the car's motion from all of its radars, once they are calibrated on the same drive.
     Odometry(OdometryArguments),
     /// Tell what is in a drive log: radars, scans, the car's motion, and what was left out.

@@ -11,6 +11,7 @@ mod cube;
 pub mod estimate;
 pub mod evaluate;
 mod explain;
+pub mod fleet;
 mod frame;
 pub mod image;
 pub mod lists;

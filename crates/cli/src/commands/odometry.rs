@@ -88,7 +88,8 @@ pub fn run(arguments: &OdometryArguments, files: &Files) -> Result<String, CliEr
 
     let run = Run::start("frames")?;
     let mut joint = Joint::with_network(&radars, Some(&network))?;
-    feed(log, &options, &run, wanted, |sensor, frame| {
+    let look = |progress| run.report(progress);
+    feed(log, &options, &look, wanted, |sensor, frame| {
         joint.add(sensor, frame)?;
         Ok(())
     })?;
@@ -107,7 +108,7 @@ pub fn run(arguments: &OdometryArguments, files: &Files) -> Result<String, CliEr
     let mut fusion = Fusion::new(&mounting, car.slip_gradient_rad, &network)?;
     let (mut track, mut against) = (Track::default(), Against::default());
     let mut last: Option<FusedMotion> = None;
-    feed(log, &options, &run, wanted, |sensor, frame| {
+    feed(log, &options, &look, wanted, |sensor, frame| {
         let Some(found) = fusion.add(sensor, frame)? else { return Ok(()) };
         let time_s = found.time_s - car.delay_s;
         let (speed, yaw) = (found.speed_mps, found.yaw_rate_radps);

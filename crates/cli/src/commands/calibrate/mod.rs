@@ -11,13 +11,16 @@ use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
 use boresight_calibrate::network::MotionNetwork;
-use boresight_calibrate::{AngleEstimate, CalibrationOptions, Car, FrameInput, Frames, Outlook};
+use boresight_calibrate::{
+    AngleEstimate, CalibrationOptions, Car, FrameInput, Frames, NormalEquations, Outlook,
+};
 use boresight_core::drive::{DriveLog, Sensor};
 use boresight_formats::DriveFormat;
 use boresight_live::foxglove::ResultTopics;
 use boresight_pipeline::{PipelineError, Progress};
 use boresight_report::Recorder;
 use serde_json::Value;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -34,6 +37,21 @@ struct Calibrated {
     recorder: Recorder,
     /// With the other radars of the log.
     joint: bool,
+    equations: Option<NormalEquations>,
+}
+
+/// What is asked of a calibration beside the log.
+pub(super) struct Asked<'a> {
+    /// Options, with the place and the angle that the log states where they are not given.
+    pub options: CalibrationOptions,
+    /// Whether `x_m` and `y_m` are given.
+    pub place_given: [bool; 2],
+    /// Only this radar.
+    pub sensor: Option<u8>,
+    /// All radars of the log together.
+    pub joint: bool,
+    /// Where the motion is by one.
+    pub network: &'a Arc<MotionNetwork>,
 }
 
 /// The angles, as text or JSON.
@@ -57,17 +75,26 @@ pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliE
     let network = arguments.network.as_deref().map(|path| read_network(path, files)).transpose()?;
     let network = network.unwrap_or_else(boresight_evaluate::calibration::network);
     let run = Run::start("frames")?;
-    let car = car(arguments, log, &shown, &network)?;
+    let flags = &arguments.flags;
+    let asked = Asked {
+        options: flags.options,
+        place_given: [flags.given("x_m"), flags.given("y_m")],
+        sensor: arguments.sensor,
+        joint: arguments.joint,
+        network: &network,
+    };
+    let car = car(&asked, log)?;
+    let look = |progress| run.report(progress);
     let mut results = match mcap {
         Some(destination) => {
             let mut topics = ResultTopics::new(log, &car)?;
             let channels = topics.channels().to_vec();
             mcap::write(files, destination, &channels, |file| {
                 topics.begin(&read.report.remarks, &mut file.out);
-                calibrated(car, log, &run, Some(Told { topics, file }))
+                calibrated(car, log, &look, Some(Told { topics, file }))
             })?
         }
-        None => calibrated(car, log, &run, None)?,
+        None => calibrated(car, log, &look, None)?,
     };
     run.finish();
     results.retain(|result| shown.iter().any(|sensor| sensor.id == result.sensor));
@@ -118,14 +145,6 @@ fn chosen(log: &DriveLog, sensor: Option<u8>) -> Result<Vec<&Sensor>, CliError> 
     Ok(found)
 }
 
-fn options(
-    arguments: &CalibrateArguments,
-    sensor: &Sensor,
-) -> Result<CalibrationOptions, CliError> {
-    let flags = &arguments.flags;
-    mounted(flags.options, sensor, [flags.given("x_m"), flags.given("y_m")])
-}
-
 /// The options with the place and the angle that the log states, unless they are given.
 pub(super) fn mounted(
     mut options: CalibrationOptions,
@@ -156,18 +175,18 @@ pub(super) fn mounted(
     Ok(options)
 }
 
-/// Hands the frames of the radars that `wanted` picks to `add`, in order.
+/// Hands the frames of the radars that `wanted` picks to `add`, in order, until `look` breaks.
 pub(super) fn feed<'a>(
     log: &'a DriveLog,
     options: &CalibrationOptions,
-    run: &Run,
+    look: &dyn Fn(Progress) -> ControlFlow<()>,
     wanted: impl Fn(u8) -> bool,
     mut add: impl FnMut(u8, FrameInput<'a>) -> Result<(), CliError>,
 ) -> Result<(), CliError> {
     let frames = Frames::of(log, wanted, options.max_gap_s);
     let total = frames.len();
     for (done, (sensor, frame)) in frames.enumerate() {
-        if done % FRAMES_A_REPORT == 0 && run.report(Progress { done, total }).is_break() {
+        if done % FRAMES_A_REPORT == 0 && look(Progress { done, total }).is_break() {
             return Err(PipelineError::Cancelled { done, total }.into());
         }
         add(sensor, frame)?;
@@ -175,19 +194,34 @@ pub(super) fn feed<'a>(
     Ok(())
 }
 
-/// The calibration of the radars shown, or of all radars of the log together.
-fn car(
-    arguments: &CalibrateArguments,
-    log: &DriveLog,
-    shown: &[&Sensor],
-    network: &Arc<MotionNetwork>,
-) -> Result<Car, CliError> {
-    let one = |sensor: &Sensor| Ok((sensor.id, options(arguments, sensor)?));
-    if arguments.joint {
+/// The calibration of the radars asked for, or of all radars of the log together.
+fn car(asked: &Asked, log: &DriveLog) -> Result<Car, CliError> {
+    let one = |sensor: &Sensor| Ok((sensor.id, mounted(asked.options, sensor, asked.place_given)?));
+    if asked.joint {
         return Ok(Car::together(log.sensors.iter().map(one).collect::<Result<_, CliError>>()?)?);
     }
-    let radars = shown.iter().map(|sensor| one(sensor)).collect::<Result<_, CliError>>()?;
-    Ok(Car::apart(radars, Some(network))?)
+    let radars =
+        chosen(log, asked.sensor)?.into_iter().map(one).collect::<Result<_, CliError>>()?;
+    Ok(Car::apart(radars, Some(asked.network))?)
+}
+
+/// The angles of the radars asked for, as `--json` has them but for the outlook, each with its number and what it says to other drives.
+pub(super) fn results(
+    asked: &Asked,
+    log: &DriveLog,
+    look: &dyn Fn(Progress) -> ControlFlow<()>,
+) -> Result<Vec<(u8, Value, Option<NormalEquations>)>, CliError> {
+    let shown: Vec<u8> = chosen(log, asked.sensor)?.iter().map(|sensor| sensor.id).collect();
+    let results = calibrated(car(asked, log)?, log, look, None)?;
+    let results = results.iter().filter(|result| shown.contains(&result.sensor));
+    let told = |result: &Calibrated| {
+        let mut told = report::json(result);
+        if let Some(fields) = told.as_object_mut() {
+            fields.remove("outlook");
+        }
+        (result.sensor, told, result.equations)
+    };
+    Ok(results.map(told).collect())
 }
 
 /// A pass over the log as messages, and where they go.
@@ -200,7 +234,7 @@ struct Told<'a, 'b, 'c> {
 fn calibrated(
     mut car: Car,
     log: &DriveLog,
-    run: &Run,
+    look: &dyn Fn(Progress) -> ControlFlow<()>,
     mut told: Option<Told>,
 ) -> Result<Vec<Calibrated>, CliError> {
     let radars = car.radars().to_vec();
@@ -210,7 +244,7 @@ fn calibrated(
     feed(
         log,
         &radars[0].1,
-        run,
+        look,
         |id| place(id).is_some(),
         |sensor, frame| {
             let outcome = car.add(sensor, frame)?;
@@ -237,7 +271,8 @@ fn calibrated(
         .zip(followed)
         .map(|((sensor, options), (track, recorder))| {
             let (estimate, outlook) = (car.estimate(sensor)?, car.outlook(sensor));
-            Ok(Calibrated { sensor, options, estimate, track, outlook, recorder, joint })
+            let equations = car.normal_equations(sensor);
+            Ok(Calibrated { sensor, options, estimate, track, outlook, recorder, joint, equations })
         })
         .collect()
 }
