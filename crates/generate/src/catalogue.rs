@@ -36,6 +36,7 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
             boresight_array_calibration::SteeringTable::KIND,
         ),
         entry::<boresight_calibrate::CalibrationOptions>("CalibrationOptions", "Mounting angles")?,
+        entry::<boresight_fleet::FleetOptions>("FleetOptions", "Fleets of drives")?,
         entry::<boresight_simulate::DriveOptions>("SimulateDriveOptions", "Simulated drives")?,
         entry::<boresight_formats::ReadingOptions>("ReadingOptions", "Reading captures")?,
         entry::<boresight_wasm::region::RegionOptions>("RegionOptions", "Regions of interest")?,
@@ -131,6 +132,7 @@ pub fn results() -> Vec<(&'static str, Vec<Kind>)> {
                 trajectory::Trajectory::KIND,
             ],
         ),
+        ("Fleets", vec![boresight_fleet::Fleet::KIND]),
         (
             "Networks",
             vec![

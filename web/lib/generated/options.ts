@@ -515,6 +515,48 @@ export interface CalibrationOptions {
 }
 
 /**
+ * Whether drives share an unknown.
+ *
+ * - `shared`: One for all drives, about which a drive's own lies as far off as the drives prove to.
+ * - `drive`: One a drive, each with the prior by itself.
+ */
+export type Sharing = 'shared' | 'drive';
+
+/** What to take the unknowns of a vehicle's drives for. */
+export interface MergeOptions {
+  /** Scale of the yaw rate (default 'shared'). */
+  scale?: Sharing;
+  /** Bias of the yaw rate (default 'drive'). */
+  bias?: Sharing;
+  /** Slip gradient of the rear axle (default 'shared'). */
+  slip?: Sharing;
+  /** Delay of the radars (default 'shared'). */
+  delay?: Sharing;
+  /**
+   * Standard deviation, before the drives tell it, of what a radar's angle is off by in one drive and not in another:
+   * load, tyre pressures, weather, and how straight the car goes (more than 0 deg; default 0.03).
+   */
+  driveSigmaDeg?: number;
+}
+
+/** Options of what the records of a fleet come to. */
+export interface FleetOptions {
+  /**
+   * The alarm is raised where an angle differs from nominal by more than this, beyond chance (1e-9 to 180 deg; default
+   * 1).
+   */
+  alarmDeg?: number;
+  /** Share of radars without a knock in which one is told (1e-9 to 0.5; default 0.001). */
+  knockChance?: number;
+  /** Share of radars without a drift in which one is told (1e-9 to 0.5; default 0.001). */
+  driftChance?: number;
+  /** Knocks and drifts that change the angle by less, over all drives, are not told (0 to 180 deg; default 0.05). */
+  leastChangeDeg?: number;
+  /** What the drives of a vehicle have in common. */
+  joint?: MergeOptions;
+}
+
+/**
  * Roads and traffic of a drive.
  *
  * - `city`: Streets with junctions, roundabouts, lights, parked cars, pedestrians.

@@ -1230,6 +1230,188 @@ export interface Trajectory {
   yawDeg: Float64Array;
 }
 
+/** What became of the logs; every one is counted once. */
+export interface FleetLogCounts {
+  /** Logs of the plan, or without a plan those with a record. */
+  planned: number;
+  /** Calibrated. */
+  done: number;
+  /** Failed. */
+  failed: number;
+  /** Planned and without a record. */
+  missing: number;
+  /** Records of jobs that are not in the plan, left out. */
+  foreign: number;
+  /** Records that were there more than once, counted once. */
+  repeated: number;
+  /** Lines that a killed run left unfinished. */
+  torn: number;
+}
+
+/** Logs that failed for one reason. */
+export interface FleetFailureCount {
+  /** Code of the error. */
+  code: string;
+  /** How many. */
+  count: number;
+  /** The message of the first, by path. */
+  message: string;
+  /** Its path. */
+  path: string;
+}
+
+/** Unknowns of a car beside the angles, by the joint estimate; none of those that belong elsewhere. */
+export interface FleetCarValues {
+  /** Scale factor of the yaw rate (measured over true). */
+  scale: number | null;
+  /** Its standard deviation. */
+  scaleSigma: number | null;
+  /** Bias of the yaw rate. */
+  biasDegps: number | null;
+  /** Its standard deviation. */
+  biasSigmaDegps: number | null;
+  /** Slip angle of the rear axle over lateral acceleration, rad/(m/s^2), outside Rust in degrees. */
+  slipGradientDeg: number | null;
+  /** Its standard deviation. */
+  slipGradientSigmaDeg: number | null;
+  /** How long before its time stamp a scan was measured. */
+  delayS: number | null;
+  /** Its standard deviation. */
+  delaySigmaS: number | null;
+}
+
+/** A drive of a vehicle. */
+export interface FleetDrive {
+  /** Its name. */
+  name: string;
+  /** Where the log was. */
+  path: string;
+  /** When it began, s since 1970, where that is known. */
+  timeS: number | null;
+  /** Its place in time: days since the vehicle's first drive, or drives. */
+  at: number;
+  /** From its first scan to its last. */
+  durationS: number;
+  /** What this drive has of its own, by the joint estimate; what drives share is with the vehicle. */
+  own: FleetCarValues;
+}
+
+/**
+ * Where an angle comes from.
+ *
+ * - `history`: The drives' angles over time.
+ * - `joint`: The joint estimate of all drives of the vehicle.
+ */
+export type FleetAngleSource = 'history' | 'joint';
+
+/** The angle by one drive. */
+export interface FleetDriveAngle {
+  /** Which drive of the vehicle, from 0. */
+  drive: number;
+  /** The angle. */
+  angleDeg: number;
+  /** Its standard deviation; infinite where the drive says nothing. */
+  sigmaDeg: number;
+  /** The angle that the history has at this drive. */
+  fittedDeg: number;
+  /** Whether it had settled. */
+  converged: boolean;
+  /** Whether it is further from the history than chance has it. */
+  outlying: boolean;
+  /** Codes of its warnings. */
+  warnings: string[];
+}
+
+/** A change of the angle from one drive to the next. */
+export interface FleetKnock {
+  /** The first drive after it, from 0. */
+  drive: number;
+  /** Place in time of the drive before, days or drives. */
+  after: number;
+  /** Place in time of that drive. */
+  before: number;
+  /** By how much the angle changed. */
+  stepDeg: number;
+  /** Its standard deviation. */
+  sigmaDeg: number;
+}
+
+/** A steady change of the angle. */
+export interface FleetDrift {
+  /** Change a day, or a drive where drives have no times. */
+  rateDeg: number;
+  /** Its standard deviation. */
+  sigmaDeg: number;
+}
+
+/** A radar of a vehicle over its drives. */
+export interface FleetVehicleRadar {
+  /** Its number. */
+  sensor: number;
+  /** The angle that it should be mounted at, as the last drive that says so does. */
+  nominalDeg: number | null;
+  /** The angle now: that at the last drive, after the last knock. */
+  angleDeg: number;
+  /** Its standard deviation; infinite where no drive tells. */
+  sigmaDeg: number;
+  /** Where the angle comes from. */
+  source: FleetAngleSource;
+  /** Whether it is where it should be; none without a nominal angle. */
+  alignment: Alignment | null;
+  /** Each drive's own angle. */
+  drives: FleetDriveAngle[];
+  /** When the angle changed at once. */
+  knocks: FleetKnock[];
+  /** How the angle drifts; none where it does not by more than chance. */
+  drift: FleetDrift | null;
+  /** Factor on the drives' stated deviations that their scatter speaks for. */
+  scatter: number;
+  /** How far this vehicle is from the others, in deviations, where it is further than chance has it; none otherwise. */
+  outlying: number | null;
+}
+
+/** A vehicle. */
+export interface FleetVehicle {
+  /** Its name. */
+  name: string;
+  /** Its drives, in their order. */
+  drives: FleetDrive[];
+  /** Whether drives are placed by their times, in days; otherwise by their order, one drive apart. */
+  timed: boolean;
+  /** Its radars, by number. */
+  radars: FleetVehicleRadar[];
+  /** What its drives share beside the angles; none where no drive could tell. */
+  shared: FleetCarValues | null;
+}
+
+/** A radar of the fleet's vehicles. */
+export interface FleetRadar {
+  /** Its number. */
+  sensor: number;
+  /** Vehicles whose angle off nominal (or where none states a nominal one, angle) is known. */
+  vehicles: number;
+  /** Centre of the vehicles' angles off nominal. */
+  centreDeg: number;
+  /** Their spread, beyond what their deviations have. */
+  spreadDeg: number;
+  /** Deviations from which a vehicle is called outlying. */
+  threshold: number;
+  /** Names of the vehicles beyond it. */
+  outlying: string[];
+}
+
+/** A fleet's drives, put together. */
+export interface Fleet {
+  /** What became of the logs. */
+  logs: FleetLogCounts;
+  /** Why logs failed, the most frequent first. */
+  failures: FleetFailureCount[];
+  /** The vehicles, by name. */
+  vehicles: FleetVehicle[];
+  /** Radars by their number, and how the vehicles' lie about each other. */
+  radars: FleetRadar[];
+}
+
 /**
  * What a network is: what its card says, and without one what the names and shapes of its inputs and outputs tell.
  * AAETR and the learned pursuit have the same; without a card such a network counts as AAETR.
