@@ -1,0 +1,117 @@
+"""Sweeps of experiments, in parts that run anywhere."""
+
+import json
+import os
+import shutil
+import tempfile
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from .command import Place, is_truth, run
+from .errors import BoresightError
+from .options import VERSION
+
+Task = tuple[list[str], int, int]
+"""Arguments of `boresight evaluate`, which part, of how many."""
+
+
+class Sweep:
+    """An experiment of `boresight evaluate`, to run in parts by `boresight.fleet.dask` or `boresight.fleet.ray`.
+
+    Options are the flags of the experiment, with underscores for dashes: `Sweep("aoa", parts=8, seed=1, trials=100,
+    methods=["iaa", "nomp"])`. Files that options name are read by the workers, by the same paths.
+    """
+
+    def __init__(self, experiment: str, *, parts: int, **options: object) -> None:
+        if parts < 1:
+            raise BoresightError("out-of-range", "parts", "a number from 1", str(parts))
+        self.experiment, self.parts = experiment, parts
+        self.arguments = [experiment, *_flags(options)]
+        """What stands behind `boresight evaluate`."""
+
+
+def _flags(options: dict[str, object]) -> list[str]:
+    """Flags of an experiment: each item of a list is given by itself."""
+    given = []
+    for name, value in options.items():
+        flag = f"--{name.replace('_', '-')}"
+        if is_truth(value):
+            given += [flag] if value else []
+        elif value is not None:
+            for item in value if isinstance(value, list | tuple) else [value]:
+                given += [flag, os.path.abspath(item) if isinstance(item, os.PathLike) else str(item)]
+    return given
+
+
+def run_part(task: Task) -> dict[str, str]:
+    """Runs a part on one thread; its files of records, by name."""
+    arguments, part, parts = task
+    with tempfile.TemporaryDirectory(prefix="boresight-") as folder:
+        place = ["--part", f"{part}/{parts}", "--threads", "1", "--out", folder]
+        run(["evaluate", *arguments, *place], stacklevel=None)
+        found = {path.name: path.read_text(encoding="utf-8") for path in sorted(Path(folder).glob("*.jsonl"))}
+    if not found:
+        raise BoresightError("malformed-record", f"part {part}", "files of records", "none")
+    return found
+
+
+class SweepWork:
+    """The parts of a sweep that have no records in a folder."""
+
+    def __init__(self, sweep: Sweep, out: Place) -> None:
+        self.sweep, self.out = sweep, Path(out)
+        self.parts = self.out / "parts"
+        self.parts.mkdir(parents=True, exist_ok=True)
+        self._hold()
+        numbers = range(1, sweep.parts + 1)
+        self.left = [number for number in numbers if not self._folder(number).is_dir()]
+        self.total = sweep.parts
+        self.done = self.total - len(self.left)
+
+    call = staticmethod(run_part)
+
+    def tasks(self, places: int) -> list[Task]:
+        """The parts left."""
+        return [(self.sweep.arguments, number, self.sweep.parts) for number in self.left]
+
+    def take(self, task: Task, result: dict[str, str]) -> None:
+        """Keeps the records of a part, all or none."""
+        folder = self._folder(task[1])
+        beside = folder.with_name(f".{folder.name}.{os.getpid()}")
+        shutil.rmtree(beside, ignore_errors=True)
+        beside.mkdir()
+        for name, text in result.items():
+            (beside / Path(name).name).write_text(text, encoding="utf-8")
+        beside.replace(folder)
+        self.done += 1
+
+    def finish(self) -> dict[str, Any]:
+        """Puts the parts together, by `boresight evaluate merge`."""
+        folders = [str(self._folder(number)) for number in range(1, self.sweep.parts + 1)]
+        merged: dict[str, Any] = json.loads(
+            run(["evaluate", "merge", *folders, "--out", str(self.out), "--json", "--force"], stacklevel=3)
+        )
+        return merged
+
+    def _folder(self, part: int) -> Path:
+        return self.parts / f"{part}-of-{self.sweep.parts}"
+
+    def _hold(self) -> None:
+        """Sees that the folder is of this sweep: parts of another would be taken for its own."""
+        wanted = json.dumps({"version": VERSION, "arguments": self.sweep.arguments, "parts": self.sweep.parts})
+        file = self.parts / "sweep.json"
+        if file.exists():
+            given = file.read_text(encoding="utf-8").strip()
+            if given != wanted:
+                raise BoresightError("other-run", str(self.parts), f"parts of {wanted}", given)
+        else:
+            file.write_text(f"{wanted}\n", encoding="utf-8")
+
+    def __enter__(self) -> "SweepWork":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        return None

@@ -1,0 +1,4 @@
+// Copies licences and weights into python/boresight, before maturin makes a wheel or a source distribution of it.
+import { preparePackage } from './lib/python-package.mjs';
+
+preparePackage();
