@@ -13,18 +13,22 @@ const node = process.execPath;
 // A step that hangs is ended and has failed.
 const longestStepMs = 30 * 60_000;
 const clippy = (...args) => ['cargo', 'clippy', '--quiet', ...args, '--', '-D', 'warnings'];
-/** Tests of a crate in Node. The runner writes CommonJS into a temporary folder, which a package.json above it may say is not. */
-const wasmPackTest = (name) => ({
-  name,
+/**
+ * Tests in Node of all crates of bindings at once, so that what they share is compiled once. The runner writes CommonJS into
+ * a temporary folder, which a package.json above it may say is not.
+ */
+const wasmTests = {
+  name: 'wasm',
   command: () => {
     const folder = join(root, 'target', 'wasm-tests');
     mkdirSync(folder, { recursive: true });
     writeFileSync(join(folder, 'package.json'), '{ "type": "commonjs" }\n');
-    return ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', `crates/${name}`];
+    const packages = ['wasm', 'wasm-neural'].flatMap((name) => ['-p', `boresight-${name}`]);
+    return ['wasm-pack', '--log-level', 'error', 'test', '--node', '--mode', 'no-install', 'crates/wasm', ...packages];
   },
   variables: { TMPDIR: join(root, 'target', 'wasm-tests') },
   counts: cargoCounts,
-});
+};
 const script = (name) => ({ name, command: [node, `scripts/${name}.mjs`], counts: checkCounts });
 
 /** Test files of a folder, named one by one: what a folder means to `node --test` depends on its version. */
@@ -67,7 +71,7 @@ const steps = [
     // Without libFuzzer, which needs a compiler of C++ and is linked only where fuzzing is done.
     name: 'fuzz',
     command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked', '--features', 'network'),
-    variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a' },
+    variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a', CARGO_TARGET_DIR: join(root, 'target') },
     counts: checkCounts,
   },
   script('check-dependencies'),
@@ -75,8 +79,7 @@ const steps = [
   script('check-workflows'),
   { name: 'scripts', command: () => nodeTests('tests/scripts'), counts: nodeCounts },
   { name: 'rust', command: ['cargo', 'test', '--workspace', '--no-fail-fast', '--quiet'], counts: cargoCounts },
-  wasmPackTest('wasm'),
-  wasmPackTest('wasm-neural'),
+  wasmTests,
   { name: 'build', work: buildPackage, counts: checkCounts },
   script('check-size'),
   script('check-simd'),

@@ -1,4 +1,5 @@
-import { tool, tools } from './paths.mjs';
+import { join } from 'node:path';
+import { root, tool, tools } from './paths.mjs';
 import { output, run } from './run.mjs';
 
 /**
@@ -22,6 +23,9 @@ export async function cargoTool(binary, crate, version, { features = [], compute
     '--quiet',
     '--root',
     tools,
+    // Kept, since tools share many crates.
+    '--target-dir',
+    join(root, 'target', 'tools'),
     ...settings.flatMap((setting) => ['--config', setting]),
     ...features,
     crate,
