@@ -26,6 +26,7 @@ export async function loadPage(page: Page): Promise<void> {
 /** Has the others come once the first is loaded: they are to open at once, and without a line. */
 export async function loadOthers(): Promise<void> {
   await quiet();
+  performance.mark('other pages');
   // What fails is tried again when it is opened.
   for (const page of PAGES) await loadPage(page).catch(() => {});
 }
