@@ -92,13 +92,22 @@ const stamp = (module, ...better) => ({
 /** Whether a module stands as it is published. */
 export const isBuilt = (module) => upToDate(module.name, stamp(module));
 
-/** Builds a module as it is published; `runner` runs the commands. */
-export async function buildModule(module, runner) {
+/** Builds a module as it is published; `runner` runs the commands, `compiling` says when it is its turn to be compiled. */
+export async function buildModule(module, runner, compiling = (work) => work()) {
   const done = await whenChanged(module.name, stamp(module), async () => {
-    await compile(module, runner);
-    await bind(module, runner);
+    await compiling(async () => {
+      await compile(module, runner);
+      await bind(module, runner);
+    });
+    await optimise(module, runner);
   });
   if (!done) sayStands(module);
+}
+
+/** Builds all modules: while one is made smaller, which is work for one core, the next is compiled. */
+async function buildModules() {
+  let before = Promise.resolve();
+  await Promise.all(modules.map((one) => buildModule(one, run, (work) => (before = before.then(work)))));
 }
 
 /**
@@ -117,6 +126,7 @@ export async function buildQuickly(tools) {
       // Both are one file of cargo's, which is that of the last one compiled.
       await run('cargo', cargoBuild(module, '--quiet'));
       await bind(module);
+      await optimise(module);
     });
     if (!done) sayStands(module);
   }
@@ -130,7 +140,7 @@ function compile(module, runner = run) {
   return runner('cargo', cargoBuild(module));
 }
 
-async function bind({ name, crate, profile, wasmOpt }, runner = run) {
+async function bind({ name, crate, profile }, runner = run) {
   await runner('wasm-bindgen', [
     join(targetDir, wasmTarget, profile, `boresight_${crate.replace('-', '_')}.wasm`),
     '--target',
@@ -143,8 +153,11 @@ async function bind({ name, crate, profile, wasmOpt }, runner = run) {
     // Makes the instance replaceable after a trap (web/lib/module.ts).
     '--experimental-reset-state-function',
   ]);
+}
+
+async function optimise({ name, wasmOpt }, runner = run) {
   if (!wasmOpt) return;
-  say('wasm-opt');
+  say(`wasm-opt of ${name}`);
   const file = join(dist, 'wasm', `${name}_bg.wasm`);
   const program = join(root, 'node_modules', 'binaryen', 'bin', 'wasm-opt');
   await runner(process.execPath, [program, ...wasmPasses, ...wasmFeatures, file, '-o', file]);
@@ -281,7 +294,7 @@ export async function buildFoxglove() {
 }
 
 export async function buildPackage() {
-  for (const one of modules) await buildModule(one);
+  await buildModules();
   await buildLibrary();
   await buildElements();
   await buildInline();

@@ -5,7 +5,7 @@ import { readdirSync, writeFileSync } from 'node:fs';
 import { mkdir, readdir, readFile, rename, rm, stat, utimes, writeFile } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { promisify } from 'node:util';
-import { brotliCompress, constants, gzip } from 'node:zlib';
+import { brotliCompress, constants, gzip as zip } from 'node:zlib';
 import sirv from 'sirv';
 import { cache } from './paths.mjs';
 
@@ -13,9 +13,6 @@ import { cache } from './paths.mjs';
 const GAINS = /\.(html|js|css|json|svg|wasm|bin|dat)$/;
 /** What no build has used for so long is thrown away, ms. */
 const KEPT_MS = 30 * 24 * 3600e3;
-
-const brotli = promisify(brotliCompress);
-const zip = promisify(gzip);
 
 /** What builds have compressed before. */
 export const compressedBefore = join(cache, 'compressed');
@@ -37,6 +34,19 @@ export async function once(keep, bytes, ending, make) {
   return made;
 }
 
+/** With Brotli at its best, and the widest window. */
+export function brotli(bytes, keep = compressedBefore) {
+  const params = {
+    [constants.BROTLI_PARAM_QUALITY]: constants.BROTLI_MAX_QUALITY,
+    [constants.BROTLI_PARAM_LGWIN]: constants.BROTLI_MAX_WINDOW_BITS,
+    [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length,
+  };
+  return once(keep, bytes, 'br', () => promisify(brotliCompress)(bytes, { params }));
+}
+
+export const gzip = (bytes, keep = compressedBefore) =>
+  once(keep, bytes, 'gz', () => promisify(zip)(bytes, { level: constants.Z_BEST_COMPRESSION }));
+
 async function forget(keep) {
   for (const name of await readdir(keep)) {
     const file = join(keep, name);
@@ -53,15 +63,7 @@ export async function compressFolder(folder, keep = compressedBefore) {
   await Promise.all(
     files.map(async (file) => {
       const bytes = await readFile(file);
-      const params = {
-        [constants.BROTLI_PARAM_QUALITY]: constants.BROTLI_MAX_QUALITY,
-        [constants.BROTLI_PARAM_LGWIN]: constants.BROTLI_MAX_WINDOW_BITS,
-        [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length,
-      };
-      const [small, wide] = await Promise.all([
-        once(keep, bytes, 'br', () => brotli(bytes, { params })),
-        once(keep, bytes, 'gz', () => zip(bytes)),
-      ]);
+      const [small, wide] = await Promise.all([brotli(bytes, keep), gzip(bytes, keep)]);
       for (const [made, ending] of [
         [small, 'br'],
         [wide, 'gz'],

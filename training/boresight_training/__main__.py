@@ -43,6 +43,8 @@ def parser() -> argparse.ArgumentParser:
     radars = "counting, cnn3d, dnn: radar of Table 3 or of Table 4"
     train.add_argument("--setup", choices=tuple(SETUPS), default="simulated", help=radars)
     train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
+    once = "aaetr: match targets by the last layer's answers for all layers, in place of by each layer's"
+    train.add_argument("--matched-last", action="store_true", help=once)
     stored = "deepego, deepego-plus: folder of simulate drive --dataset to train on; may be given several times"
     train.add_argument("--data", type=Path, action="append", default=[], metavar="DIR", help=stored)
     scored = "deepego, deepego-plus: folder of simulate drive --dataset, of another seed, to score on"
@@ -116,6 +118,8 @@ def train(arguments) -> list[dict]:
         identity["snr_db"] = a.snr_db
     if a.channel_error is not None:
         identity["channel_error"] = a.channel_error
+    if a.matched_last:
+        identity["matched_last"] = True
     if a.data:
         identity["data"] = Dataset(a.data).told()
     if a.doppler_loss_only:

@@ -92,6 +92,7 @@ class AaetrTask:
         targets: int = 16,
         arrays: str = "lrr48",
         snr_db: tuple[float, float] | None = None,
+        matched_last: bool = False,
     ):
         self.config = AAETRS[config]
         self.any_array = arrays == "any"
@@ -107,7 +108,7 @@ class AaetrTask:
         self.scenes = Scenes(targets=(0, targets), position_error=position_error)
         if snr_db is not None:
             self.scenes = replace(self.scenes, snr_db=snr_db)
-        self.loss_config = SetLossConfig()
+        self.loss_config = SetLossConfig(matched_last=matched_last)
         self.positions = array("lrr48")
         self.batch, self.learning_rate = (1024, 4e-4) if config == "paper" else (32, 2e-3)
         elements = "elements" if self.any_array else 48
@@ -448,6 +449,7 @@ def task(
     snr_db: tuple[float, float] | None = None,
     near: float = NEAR,
     channel_error: tuple[float, float] = (0.0, 0.0),
+    matched_last: bool = False,
     data: list[dict] | None = None,
     doppler_loss_only: bool = False,
     single_digest: str | None = None,
@@ -469,7 +471,7 @@ def task(
         return DeepEgoPlusTask(config, data, single_digest, folders, test, weights)
     snr_db = None if snr_db is None else tuple(snr_db)
     if name in ("aaetr", "learned-pursuit"):
-        return AaetrTask(config, position_error, 16 if targets is None else targets, arrays, snr_db)
+        return AaetrTask(config, position_error, 16 if targets is None else targets, arrays, snr_db, matched_last)
     if name == "unrolled-iaa":
         return UnrolledIaaTask(config, 16 if targets is None else targets)
     if name in ("covariance-cnn", "deep-music"):

@@ -95,6 +95,17 @@ def test_the_loss_vanishes_at_the_truth_and_matches_in_any_order(focal):
     assert loss == pytest.approx(config.magnitude, rel=1e-3)
 
 
+def test_the_last_layers_matching_can_be_that_of_all():
+    targets = truth([(10, 0), (-20, 0)])
+    last = torch.stack((targets.u[0].float(), torch.zeros(2), torch.full((2,), 30.0)), -1)
+    answers = torch.stack((last.flip(0), last)).unsqueeze(1)
+    each, _ = set_loss(answers, targets, SetLossConfig())
+    assert each < 1e-4
+    apart = (targets.u[0, 0] - targets.u[0, 1]).abs().item() / (2 / LRR48_APERTURE)
+    by_last, parts = set_loss(answers, targets, SetLossConfig(matched_last=True))
+    assert by_last.item() == pytest.approx(apart, rel=1e-4) and parts["sine"] < 1e-4
+
+
 def test_stated_variances_are_best_at_those_of_normal_errors_of_that_size_and_leave_the_answers_alone():
     targets = truth([(0, -3)])
     cell = 2 / LRR48_APERTURE
