@@ -47,8 +47,8 @@ const shared = crates(
   'wasm',
 );
 
-const core = { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'dist', wasmOpt: true, made: shared };
-const drives = {
+export const core = { name: 'boresight', crate: 'wasm', feature: 'core', profile: 'dist', wasmOpt: true, made: shared };
+export const drives = {
   ...core,
   name: 'boresight_drives',
   feature: 'drives',
@@ -64,20 +64,25 @@ export const neural = {
 };
 
 /** The modules: name in dist/wasm, crate, feature, how it is built, the crates it is made of. */
-export const modules = [core, drives, neural];
+const modules = [core, drives, neural];
 
 /** How `npm start` builds the core and the drives, for which somebody waits: without what makes them a little faster. */
 const QUICK = { profile: 'dist', wasmOpt: false };
 
-/** Arguments that tell cargo which module is meant. */
-export const cargoArguments = ({ crate, feature, profile }) => [
+/** Arguments that tell cargo which module's crate is meant, with which features. */
+export const crateArguments = ({ crate, feature }) => [
   '-p',
   `boresight-${crate}`,
   ...(feature ? ['--no-default-features', '--features', feature] : []),
+];
+
+/** Those that tell it how a module is compiled, too. */
+export const cargoArguments = (module) => [
+  ...crateArguments(module),
   '--target',
   wasmTarget,
   '--profile',
-  profile,
+  module.profile,
 ];
 
 const form = ({ profile, wasmOpt }) => `${profile}${wasmOpt ? ', wasm-opt' : ''}`;

@@ -53,24 +53,27 @@ export function runBehind(command, args, onLine) {
   return ended(child, command, args, () => `:\n${last.join('\n')}`);
 }
 
-/** Runs a command showing its output and keeping a copy; gives status and text. */
-export function runTee(command, args, options = {}) {
+/** Runs a command keeping what it prints; gives status and text. `show` is given each piece and where it was printed. */
+export function runKeeping(command, args, options = {}, show = () => {}) {
   return new Promise((resolve) => {
     const child = spawn(command, args, { cwd: root, env: environment, stdio: ['ignore', 'pipe', 'pipe'], ...options });
     let text = '';
-    const keep = (stream, sink) => {
-      stream.setEncoding('utf8');
-      stream.on('data', (piece) => {
+    for (const name of ['stdout', 'stderr']) {
+      child[name]?.setEncoding('utf8').on('data', (piece) => {
         text += piece;
-        sink.write(piece);
+        show(piece, name);
       });
-    };
-    keep(child.stdout, process.stdout);
-    keep(child.stderr, process.stderr);
+    }
     child.once('error', (error) => resolve({ ok: false, text: `${text}${command}: ${error.message}\n` }));
-    child.once('close', (code) => resolve({ ok: code === 0, text }));
+    child.once('close', (code, signal) =>
+      resolve({ ok: code === 0, text: signal ? `${text}${command} ended with ${signal}\n` : text }),
+    );
   });
 }
+
+/** Runs a command showing its output and keeping a copy; gives status and text. */
+export const runTee = (command, args, options) =>
+  runKeeping(command, args, options, (piece, name) => process[name].write(piece));
 
 /** Output of a command, or null if it is missing or fails. */
 export function output(command, args, options = {}) {
