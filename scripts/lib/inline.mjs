@@ -2,7 +2,7 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { pack } from './lzma.mjs';
+import { Worker } from 'node:worker_threads';
 import { dist, root } from './paths.mjs';
 
 const sources = join(root, 'web', 'inline');
@@ -51,12 +51,21 @@ async function bundled(entry, { format, archive = '', name = 'inline', footer = 
   return { code: chunks[0].code, licences: output.find(({ fileName }) => fileName === licences)?.source ?? '' };
 }
 
+/** Packs bytes on a thread of its own, as the layout of the library opens them. */
+function pack(bytes) {
+  const layout = pathToFileURL(join(dist, 'lib', 'runtime', 'lzma.js')).href;
+  return new Promise((resolve, reject) => {
+    const worker = new Worker(new URL('./lzma-worker.mjs', import.meta.url), { workerData: { bytes, layout } });
+    worker.once('message', resolve);
+    worker.once('error', reject);
+  });
+}
+
 /** Parts as a module that holds them: packed one after another, the first opened first. */
 async function packedOf(parts) {
-  const layout = await import(pathToFileURL(join(dist, 'lib', 'runtime', 'lzma.js')));
   const { compressedBefore, once } = await import('./compressed.mjs');
   const bytes = Buffer.concat(Object.values(parts));
-  const packed = await once(compressedBefore, bytes, 'lzma', () => pack(bytes, layout));
+  const packed = await once(compressedBefore, bytes, 'lzma', () => pack(bytes));
   const sizes = Object.fromEntries(Object.entries(parts).map(([name, { length }]) => [name, length]));
   return `export const text = '${Buffer.from(packed).toString('base64')}';\nexport const parts = ${JSON.stringify(sizes)};\n`;
 }
@@ -75,12 +84,10 @@ export const bundledWithDrives = async (entry, options) =>
 export async function makeInline() {
   const { code: worker } = await bundled(join(dist, 'worker', 'browser-worker.js'), { format: 'iife' });
   write('boresight.worker.js', worker);
-  const archive = await packedOf({
-    worker: Buffer.from(worker),
-    core: wasm('boresight'),
-    drives: wasm('boresight_drives'),
-  });
-  const networks = await packedOf({ networks: wasm('boresight_neural') });
+  const [archive, networks] = await Promise.all([
+    packedOf({ worker: Buffer.from(worker), core: wasm('boresight'), drives: wasm('boresight_drives') }),
+    packedOf({ networks: wasm('boresight_neural') }),
+  ]);
   for (const [name, format, parts] of [
     ['boresight', 'es', archive],
     ['boresight.global', 'iife', archive],
