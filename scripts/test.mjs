@@ -81,7 +81,7 @@ const steps = [
   {
     // Without libFuzzer, which needs a compiler of C++ and is linked only where fuzzing is done.
     name: 'fuzz',
-    command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked', '--features', 'network'),
+    command: clippy('--manifest-path', 'fuzz/Cargo.toml', '--locked', '--features', 'network,fleet'),
     variables: { CUSTOM_LIBFUZZER_PATH: '/none/libnone.a', CARGO_TARGET_DIR: join(root, 'target') },
     counts: checkCounts,
   },
