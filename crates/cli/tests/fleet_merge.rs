@@ -106,20 +106,30 @@ fn every_record_is_counted_once() {
     let (plan, all) = whole();
     let mut lines = all.clone();
     lines.push(all[0].clone());
-    // A failure of a log that was done elsewhere.
+    // Failures of a log that was done elsewhere.
     let mut failed: Value = serde_json::from_str(&all[1]).unwrap();
     failed.as_object_mut().unwrap().remove("done").unwrap();
     failed["failed"] =
         json!({"code": "file", "message": "m", "what": "w", "expected": "e", "given": "g"});
     lines.insert(0, failed.to_string());
+    lines.push(failed.to_string());
     let path = kept("merge-repeated", &lines);
     let torn = path.with_file_name("records-torn.jsonl");
     std::fs::write(&torn, &all[2][..40]).unwrap();
     let fleet = merged(path.parent().unwrap(), &["--plan", text(plan)]);
     let logs = &fleet["logs"];
     assert_eq!((&logs["done"], &logs["failed"]), (&7.into(), &0.into()));
-    assert_eq!((&logs["repeated"], &logs["torn"]), (&2.into(), &1.into()));
+    assert_eq!((&logs["repeated"], &logs["torn"]), (&3.into(), &1.into()));
     assert_eq!(fleet["vehicles"], merged(&kept("merge-plain", all), &[])["vehicles"]);
+
+    // A copy of a log that was run without a plan: which of the two comes first changes nothing.
+    let mut copy: Value = serde_json::from_str(&all[0]).unwrap();
+    copy["path"] = json!("elsewhere");
+    copy["drive"] = json!("a copy");
+    let behind = [all.clone(), vec![copy.to_string()]].concat();
+    let ahead = [vec![copy.to_string()], all.clone()].concat();
+    let of = |name: &str, lines: &[String]| merged(&kept(name, lines), &[])["vehicles"].clone();
+    assert_eq!(of("merge-copy-behind", &behind), of("merge-copy-ahead", &ahead));
 
     // Records of other plans.
     let short = folder("merge-short").join("jobs.jsonl");
