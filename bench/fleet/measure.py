@@ -1,4 +1,4 @@
-"""What fleets cost on Dask: a worker killed, weak scaling, and overhead a log.
+"""What fleets cost: a worker of Dask and one of Ray killed, weak scaling on Dask, and overhead a log.
 
     BORESIGHT=target/release/boresight PYTHONPATH=python/boresight python bench/fleet/measure.py --logs 60 --seconds 60
 
@@ -8,6 +8,7 @@ Where more processes want to run than there are cores, scaling tells about the m
 """
 
 import argparse
+import contextlib
 import os
 import platform
 import signal
@@ -19,6 +20,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import psutil
+import ray
 from distributed import Client, LocalCluster
 
 import boresight
@@ -39,7 +42,9 @@ def main() -> None:
     with tempfile.TemporaryDirectory(prefix="boresight-bench-") as place:
         folder = Path(place)
         plan = planned(folder, given.logs, given.seconds)
-        killed(folder, plan)
+        one_process(folder, plan)
+        killed_of_dask(folder, plan)
+        killed_of_ray(folder, plan)
         scaling(folder, plan, given.rounds)
         overhead(folder, plan, given.rounds)
 
@@ -63,31 +68,67 @@ def sorted_lines(out: Path) -> list[bytes]:
     return sorted(line for path in out.glob("*.jsonl") for line in path.read_bytes().splitlines())
 
 
-def killed(folder: Path, plan: fleet.Plan) -> None:
-    """One of three workers is killed when a third of the logs are done."""
+def one_process(folder: Path, plan: fleet.Plan) -> None:
+    """What the others are held against."""
     fleet.run(plan, folder / "one")
     fleet.merge(folder / "one", plan=plan, out=folder / "one")
+
+
+class Killer:
+    """Kills one busy worker when a third of the logs are done; `busy` gives processes by their numbers."""
+
+    def __init__(self, busy: Callable[[], list[int]]):
+        self.busy = busy
+        self.victim: int | None = None
+
+    def __call__(self, done: int, total: int) -> None:
+        if self.victim is None and done >= total / 3:
+            for process in self.busy()[:1]:
+                self.victim = process
+                os.kill(process, signal.SIGKILL)
+
+
+def killed_of_dask(folder: Path, plan: fleet.Plan) -> None:
     with cluster(3) as workers, Client(workers) as client:
         pids = client.run(os.getpid)
-        victim: list[str] = []
+        kill = Killer(lambda: [pids[worker] for worker, tasks in client.processing().items() if tasks])
+        out = folder / "dask"
+        took = timed(lambda: fleet.dask(client, plan, out=out, batch=1, progress=kill))
+    held_against_one_process("Dask", out, plan, kill, took)
 
-        def kill(done: int, total: int) -> None:
-            busy = [worker for worker, tasks in client.processing().items() if tasks] if not victim else []
-            if done >= total / 3 and busy:
-                victim.extend(busy[:1])
-                os.kill(pids[victim[0]], signal.SIGKILL)
 
-        began = time.perf_counter()
-        fleet.dask(client, plan, out=folder / "three", batch=1, progress=kill)
-        took = time.perf_counter() - began
-    keys = [record["key"] for record in fleet.read_records(folder / "three")]
+def killed_of_ray(folder: Path, plan: fleet.Plan) -> None:
+    ray.init(num_cpus=3, include_dashboard=False, log_to_driver=False, configure_logging=False)
+    try:
+        kill = Killer(busy_with_ray)
+        out = folder / "ray"
+        took = timed(lambda: fleet.ray(plan, out=out, batch=1, progress=kill))
+    finally:
+        ray.shutdown()
+    held_against_one_process("Ray", out, plan, kill, took)
+
+
+def busy_with_ray() -> list[int]:
+    """Processes beneath this one that run the command line: Ray tells no numbers of its workers."""
+    busy = []
+    for process in psutil.Process().children(recursive=True):
+        with contextlib.suppress(psutil.NoSuchProcess):
+            if process.name() == Path(binary()).name:
+                busy.append(process.ppid())
+    return busy
+
+
+def held_against_one_process(engine: str, out: Path, plan: fleet.Plan, kill: Killer, took: float) -> None:
+    keys = [record["key"] for record in fleet.read_records(out)]
     once = sorted(keys) == sorted(job["key"] for job in plan)
-    same = sorted_lines(folder / "three") == sorted_lines(folder / "one")
+    one = out.parent / "one"
+    same = sorted_lines(out) == sorted_lines(one)
     files = ["fleet.json", "drives.parquet", "radars.parquet"]
-    merged = all((folder / "three" / name).read_bytes() == (folder / "one" / name).read_bytes() for name in files)
-    print(f"\nkill -9 of one of 3 workers: {'yes' if victim else 'none was busy'}, {len(keys)} records in {took:.1f} s")
+    merged = all((out / name).read_bytes() == (one / name).read_bytes() for name in files)
+    victim = "none was busy" if kill.victim is None else "yes"
+    print(f"\nkill -9 of one of 3 workers of {engine}: {victim}, {len(keys)} records in {took:.1f} s")
     print(f"  every log once: {once}; records equal to one process's: {same}; merged files equal: {merged}")
-    if not (victim and once and same and merged):
+    if not (kill.victim and once and same and merged):
         sys.exit("a log was lost, or the result differs")
 
 
