@@ -96,11 +96,12 @@ fn without_misfits(
         let beyond = |at: usize| found.fit.residuals[at] - fit.seen[at].variance - most;
         let worst = (0..used.len()).max_by(|&a, &b| beyond(a).total_cmp(&beyond(b)));
         match worst {
-            // All that fit worse than twice the limit go at once, so that many cells do not take as many rounds.
-            Some(at) if beyond(at) > 0.0 => {
-                let limit = (beyond(at) * 0.5).max(0.0);
+            // A residual that is not a number ranks highest and does not fit either.
+            Some(worst) if beyond(worst) > 0.0 || beyond(worst).is_nan() => {
+                // Cells at least half as bad as the worst go with it, which bounds the rounds.
+                let limit = beyond(worst) * 0.5;
                 for (at, &index) in used.iter().enumerate() {
-                    if beyond(at) > limit {
+                    if at == worst || beyond(at) > limit {
                         states[index] = CellUse::DoesNotFit;
                     }
                 }

@@ -116,6 +116,14 @@ pub enum CoreError {
         /// Value of the failing pivot.
         given: f64,
     },
+    /// An iteration reached its bound before it converged.
+    #[error("{what} did not converge in {iterations} iterations")]
+    NotConverged {
+        /// The quantity computed.
+        what: String,
+        /// Iterations carried out.
+        iterations: usize,
+    },
 }
 
 impl Diagnose for CoreError {
@@ -129,6 +137,7 @@ impl Diagnose for CoreError {
             Self::Unknown { .. } => "unknown-name",
             Self::OtherArray { .. } => "other-array",
             Self::NotPositiveDefinite { .. } => "not-positive-definite",
+            Self::NotConverged { .. } => "not-converged",
         }
     }
 
@@ -153,6 +162,11 @@ impl Diagnose for CoreError {
                 what,
                 "a positive definite matrix",
                 format!("pivot {given} in row {index}"),
+            ),
+            Self::NotConverged { what, iterations } => Details::new(
+                what,
+                "convergence",
+                format!("no convergence in {iterations} iterations"),
             ),
         }
     }

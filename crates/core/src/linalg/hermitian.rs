@@ -19,7 +19,8 @@ pub struct HermitianEigen {
 ///
 /// # Errors
 /// [`CoreError::Shape`] if the matrix is empty or not square, [`CoreError::NotFinite`] if an entry
-/// is not finite.
+/// is not finite or an eigenvalue overflows, [`CoreError::NotConverged`] if the QL iteration reaches
+/// its bound.
 pub fn hermitian_eigen(matrix: ArrayView2<Complex64>) -> Result<HermitianEigen, CoreError> {
     leading_hermitian_eigen(matrix, matrix.nrows())
 }
@@ -49,11 +50,12 @@ pub fn leading_hermitian_eigen_by(
     super::eigenvalues::check_square("Hermitian matrix", matrix)?;
     check_finite("Hermitian matrix", matrix.iter().flat_map(|z| [z.re, z.im]))?;
     let n = matrix.nrows();
-    let mut reduced = Tridiagonal::new(matrix);
-    let rotations = ql(&mut reduced.diagonal, &mut reduced.off_diagonal);
+    let mut reduced = Tridiagonal::new(matrix)?;
+    let rotations = ql(&mut reduced.diagonal, &mut reduced.off_diagonal)?;
     let values = &reduced.diagonal;
     let order = crate::order::descending(values.iter().copied());
     let sorted: Vec<f64> = order.iter().map(|&i| values[i] * reduced.scale).collect();
+    check_finite("eigenvalues of the Hermitian matrix", sorted.iter().copied())?;
     let count = count(&sorted).min(n);
     let mut vectors = Array2::zeros((n, count));
     for (block, columns) in order[..count].chunks(LANES).enumerate() {
@@ -174,6 +176,39 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// Random matrices whose rows and columns are scaled by factors from 1e-300 to 1e300, with
+    /// zeroed rows, exact copies of rows and denormal entries.
+    #[test]
+    fn extreme_finite_matrices_have_a_unitary_basis_and_finite_eigenvalues() {
+        let mut random = Random::new(7, 0);
+        for trial in 0..4000 {
+            let n = 2 + trial % 9;
+            let scales: Vec<f64> = (0..n)
+                .map(|k| match (trial / 9 + k) % 7 {
+                    0 => 0.0,
+                    1 => 10f64.powf(random.uniform(-160.0, -70.0)),
+                    2 => 10f64.powf(random.uniform(-40.0, 0.0)),
+                    3 => 10f64.powf(random.uniform(100.0, 153.0)),
+                    _ => 1.0,
+                })
+                .collect();
+            let common =
+                if trial % 5 == 0 { 10f64.powf(random.uniform(-300.0, -150.0)) } else { 1.0 };
+            let x = Array2::from_shape_fn((n, 1 + trial % 4), |(i, _)| {
+                random.complex_normal(1.0) * scales[i]
+            });
+            let a = x.dot(&adjoint(x.view())) * Complex64::new(common, 0.0);
+            check(&a, 1e-13);
+        }
+    }
+
+    #[test]
+    fn eigenvalues_that_overflow_are_refused() {
+        let a = Array2::from_elem((8, 8), Complex64::new(1e308, 0.0));
+        let error = hermitian_eigen(a.view()).unwrap_err();
+        assert!(matches!(error, CoreError::NotFinite { .. }), "{error}");
     }
 
     #[test]

@@ -3,12 +3,17 @@
 //! parts are kept apart, so that the inner loops compile to vector instructions.
 
 use super::hermitian::LANES;
+use crate::error::{CoreError, check_finite};
 use ndarray::ArrayView2;
 use num_complex::Complex64;
 use wide::f64x2;
 
 /// A row of four numbers, one of each of the vectors transformed together.
 type Lanes = [f64; LANES];
+
+/// Entries below this fraction of the largest are treated as zero. Squares of larger ones neither
+/// underflow nor lead to quotients that overflow, and the perturbation is far below rounding.
+const NEGLIGIBLE: f64 = 1e-30;
 
 /// `A = scale Q T Q^H` with a real tridiagonal `T` and a unitary `Q` kept as reflections.
 pub(super) struct Tridiagonal {
@@ -46,7 +51,10 @@ impl Planes {
 
 impl Tridiagonal {
     /// Reduces a finite matrix, of which the lower triangle is read, from its last row upwards.
-    pub fn new(matrix: ArrayView2<Complex64>) -> Self {
+    ///
+    /// # Errors
+    /// [`CoreError::NotFinite`] if an intermediate value overflows.
+    pub fn new(matrix: ArrayView2<Complex64>) -> Result<Self, CoreError> {
         let n = matrix.nrows();
         let largest = |m: f64, z: &Complex64| m.max(z.re.abs()).max(z.im.abs());
         let scale = matrix.iter().fold(0.0, largest);
@@ -81,11 +89,15 @@ impl Tridiagonal {
         let mut off_diagonal = vec![0.0; n];
         for i in 0..n - 1 {
             let size = coupling[i].norm();
-            off_diagonal[i] = size;
-            phases[i + 1] =
-                if size > 0.0 { phases[i] * (coupling[i].conj() / size) } else { phases[i] };
+            (off_diagonal[i], phases[i + 1]) = if size > NEGLIGIBLE {
+                (size, phases[i] * (coupling[i].conj() / size))
+            } else {
+                (0.0, phases[i])
+            };
         }
-        Self { diagonal, off_diagonal, scale, reflections: a, strengths, phases }
+        let entries = diagonal.iter().chain(&off_diagonal).chain(&strengths).copied();
+        check_finite("tridiagonal form of the matrix", entries)?;
+        Ok(Self { diagonal, off_diagonal, scale, reflections: a, strengths, phases })
     }
 
     /// `Q z` of four real vectors `z`, as real and imaginary parts.
@@ -120,7 +132,7 @@ impl Tridiagonal {
 }
 
 /// The `v` for which `I - strength v v^H` maps the conjugate of a row onto its last entry alone,
-/// with `strength = 2 / |v|^2`, and that entry; strength 0 where the row already is so.
+/// with `strength = 2 / |v|^2`, and that entry; strength 0 where the other entries are negligible.
 fn reflection(row: (&[f64], &[f64]), v: (&mut [f64], &mut [f64])) -> (f64, Complex64) {
     let last = row.0.len() - 1;
     v.0.copy_from_slice(row.0);
@@ -130,7 +142,7 @@ fn reflection(row: (&[f64], &[f64]), v: (&mut [f64], &mut [f64])) -> (f64, Compl
     };
     let rest = square(&v.0[..last], &v.1[..last]);
     let alpha = Complex64::new(v.0[last], v.1[last]);
-    if rest < f64::MIN_POSITIVE {
+    if rest <= NEGLIGIBLE * NEGLIGIBLE {
         return (0.0, alpha);
     }
     let length = (rest + alpha.norm_sqr()).sqrt();
@@ -237,34 +249,42 @@ impl Rotation {
     }
 }
 
-/// Sweeps on one eigenvalue after which convergence is taken more and more lightly, so that the
-/// iteration ends whatever the numbers.
-const PATIENCE: i32 = 60;
+/// Sweeps per row after which the iteration is abandoned. LAPACK's `steqr` allows as many; two to
+/// three are usual.
+const SWEEPS_PER_ROW: usize = 30;
 
-/// Replaces the diagonal of a symmetric tridiagonal matrix by its eigenvalues, in no order, and
-/// returns the rotations whose product, the first one leftmost, is the matrix of eigenvectors.
-pub(super) fn ql(d: &mut [f64], e: &mut [f64]) -> Vec<Rotation> {
+/// Replaces the diagonal of a finite symmetric tridiagonal matrix by its eigenvalues, in no order,
+/// and returns the rotations whose product, the first one leftmost, is the matrix of eigenvectors.
+///
+/// # Errors
+/// [`CoreError::NotConverged`] after 30 sweeps per row.
+pub(super) fn ql(d: &mut [f64], e: &mut [f64]) -> Result<Vec<Rotation>, CoreError> {
     let n = d.len();
     let norm = d.iter().chain(e.iter()).fold(0.0_f64, |m, x| m.max(x.abs()));
-    let floor = 1e-30 * norm;
+    let floor = NEGLIGIBLE * norm;
     let mut rotations = Vec::with_capacity(n * n);
+    let mut sweeps = 0;
     for l in 0..n {
-        let mut sweep = 0;
         loop {
-            let laxness = 2.0_f64.powi((sweep - PATIENCE).clamp(0, 60));
-            let settled = |m: usize| {
+            let converged = |m: usize| {
                 let size = e[m].abs();
-                size <= laxness * f64::EPSILON * (d[m].abs() + d[m + 1].abs()) || size <= floor
+                size <= f64::EPSILON * (d[m].abs() + d[m + 1].abs()) || size <= floor
             };
-            let m = (l..n - 1).find(|&m| settled(m)).unwrap_or(n - 1);
+            let m = (l..n - 1).find(|&m| converged(m)).unwrap_or(n - 1);
             if m == l {
                 break;
             }
-            sweep += 1;
+            if sweeps == SWEEPS_PER_ROW * n {
+                return Err(CoreError::NotConverged {
+                    what: "eigenvalues of the Hermitian matrix".into(),
+                    iterations: sweeps,
+                });
+            }
+            sweeps += 1;
             ql_sweep(d, e, l, m, &mut rotations);
         }
     }
-    rotations
+    Ok(rotations)
 }
 
 /// One implicit QL step with Wilkinson's shift on the block from `l` to `m`.
@@ -277,12 +297,15 @@ fn ql_sweep(d: &mut [f64], e: &mut [f64], l: usize, m: usize, rotations: &mut Ve
         let f = sin * e[i];
         let b = cos * e[i];
         let r = (f * f + g * g).sqrt();
-        e[i + 1] = r;
-        if r == 0.0 {
+        // The block separates here. A smaller `r` has lost digits to underflow, and its rotation
+        // would not be orthogonal.
+        if r < f64::MIN_POSITIVE.sqrt() {
+            e[i + 1] = 0.0;
             d[i + 1] -= shift;
             e[m] = 0.0;
             return;
         }
+        e[i + 1] = r;
         let inverse = 1.0 / r;
         sin = f * inverse;
         cos = g * inverse;
