@@ -97,3 +97,38 @@ fn fault(block: &[u8], file_bytes: u64) -> Option<&'static str> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_that_the_parser_would_trust_are_rejected() {
+        let array = |bits, direct, page_bits| {
+            [&b"EAHD\0\0\x08"[..], &[bits, 4, 16, direct, page_bits]].concat()
+        };
+        assert_eq!(fault(&array(32, 4, 10), 4096), None);
+        for block in [array(255, 255, 10), array(32, 255, 10), array(32, 4, 64)] {
+            assert_eq!(fault(&block, 4096), Some("impossible extensible array"), "{block:?}");
+        }
+        let tree = |record_bytes, depth| {
+            [&b"BTHD\0\x08\0\x02\0\0"[..], &[record_bytes, 0, depth, 0, 100, 40]].concat()
+        };
+        assert_eq!(fault(&tree(17, 1), 4096), None);
+        for block in [tree(0, 1), tree(17, 255)] {
+            assert_eq!(fault(&block, 4096), Some("impossible B-tree"), "{block:?}");
+        }
+    }
+
+    #[test]
+    fn reading_the_same_metadata_again_and_again_ends() {
+        let source = Guarded::new(Cursor::new(vec![0; 4096])).unwrap();
+        let reads = (0..1_000_000).take_while(|_| source.read_metadata_at(0, 4096).is_ok()).count();
+        assert_eq!(
+            reads as u64,
+            (4096 * METADATA_GROWTH + METADATA_ALLOWANCE) / (4096 + READ_COST)
+        );
+        // Data is not charged.
+        assert!(source.read_exact_at(0, 4096).is_ok());
+    }
+}
