@@ -21,10 +21,10 @@ function targets() {
   return bin.map(({ name, 'required-features': features = [] }) => ({ name, features }));
 }
 
-/** The targets of `--only`, or all that do not wait for an ONNX runtime to be built. */
-function chosen(only) {
+/** The targets of `--only`, or those that build without a feature, or all of them. */
+function chosen({ only, all: everything }) {
   const all = targets();
-  if (only === undefined) return all.filter(({ features }) => !features.includes('network'));
+  if (only === undefined) return all.filter(({ features }) => everything || features.length === 0);
   const names = only.split(',');
   const unknown = names.filter((name) => !all.some((target) => target.name === name));
   if (unknown.length > 0)
@@ -58,11 +58,13 @@ async function fuzz(name, features, seconds) {
 }
 
 await main(async () => {
-  const { values } = parseArgs({ options: { seconds: { type: 'string', default: '60' }, only: { type: 'string' } } });
+  const { values } = parseArgs({
+    options: { seconds: { type: 'string', default: '60' }, only: { type: 'string' }, all: { type: 'boolean' } },
+  });
   const seconds = Number(values.seconds);
   if (!Number.isInteger(seconds) || seconds < 1)
     throw new Error(`--seconds is ${values.seconds}; expected a whole number from 1`);
-  const wanted = chosen(values.only);
+  const wanted = chosen(values);
   if (output('cargo', [`+${toolchain}`, '--version']) === null) {
     console.log('Fuzz targets did not run: they need a nightly compiler (rustup toolchain install nightly)');
     return;
