@@ -1,19 +1,5 @@
-//! Configurations: whatever is accepted describes a possible radar.
+//! Fuzzes `boresight_fuzz_targets::targets::cfg`.
 
 #![no_main]
 
-use boresight_formats::RadarConfig;
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|bytes: &[u8]| {
-    if let Ok(config) = RadarConfig::parse(bytes) {
-        assert!(config.waveform.check().is_ok());
-        assert_eq!(config.transmitters.len(), config.waveform.transmitters);
-        assert!(!config.receivers.is_empty() && config.frame_bytes() > 0);
-        if let Some(array) = config.array() {
-            let channels = config.transmitters.len() * config.receivers.len();
-            assert_eq!(array.tx().len() * array.rx().len(), channels);
-            assert!(array.len() <= channels);
-        }
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| boresight_fuzz_targets::targets::cfg::check(bytes));

@@ -1,18 +1,5 @@
-//! Tables: what is accepted comes back when written.
+//! Fuzzes `boresight_fuzz_targets::targets::csv`.
 
 #![no_main]
 
-use boresight_formats::tables::{
-    read_detections, read_snapshots, write_detections, write_snapshots,
-};
-use libfuzzer_sys::fuzz_target;
-
-fuzz_target!(|bytes: &[u8]| {
-    if let Ok(rows) = read_detections(bytes) {
-        let again = read_detections(write_detections(&rows).as_bytes());
-        assert_eq!(again.map(|again| again.len()), Ok(rows.len()));
-    }
-    if let Ok(matrix) = read_snapshots(bytes) {
-        assert_eq!(read_snapshots(write_snapshots(matrix.view()).as_bytes()), Ok(matrix));
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| boresight_fuzz_targets::targets::csv::check(bytes));

@@ -29,6 +29,7 @@ const allowed = {
     'wasm',
     'wasm-neural',
   ],
+  'fuzz-targets': ['core', 'aoa', 'calibrate', 'fleet', 'formats', 'neural', 'pipeline'],
   cli: null,
   wasm: null,
   'wasm-neural': null,

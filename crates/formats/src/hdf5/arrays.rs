@@ -1,7 +1,7 @@
 //! Datasets of numbers, listed and read.
 
-use super::matlab;
 use super::number::{Field, Kind, chunks_inside, field, most_bytes, wrong};
+use super::{guard, matlab};
 use crate::error::FormatError;
 use crate::npy::{NpyArray, NpyData};
 use boresight_core::{Complex32, Complex64};
@@ -44,7 +44,7 @@ struct Found {
 
 fn open(bytes: Vec<u8>) -> Result<File, FormatError> {
     matlab::refuse_earlier(&bytes)?;
-    File::from_bytes(bytes).map_err(|error| wrong("the file", "a whole HDF5 file", error))
+    guard::from_bytes(bytes).map_err(|error| wrong("the file", "a whole HDF5 file", error))
 }
 
 /// The datasets of numbers in a file.

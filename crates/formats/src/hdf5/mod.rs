@@ -5,6 +5,7 @@
 //! MATLAB drops axes of length 1 at the end, and gives a vector two axes.
 
 mod arrays;
+pub(crate) mod guard;
 mod matlab;
 pub(crate) mod number;
 

@@ -2,7 +2,9 @@
 //! hold.
 
 use crate::error::FormatError;
-use hdf5_pure::{Dataset, Datatype, DatatypeByteOrder, File, FloatingPointLayout};
+use hdf5_pure::{
+    ChunkIndex, Dataset, Datatype, DatatypeByteOrder, File, FloatingPointLayout, Layout,
+};
 
 /// Data may unpack to this, bytes, and [`GROWTH`] times the length of the file beside: what claims more
 /// is none.
@@ -97,10 +99,34 @@ pub(crate) fn field(name: &str, offset: u64, datatype: &Datatype) -> Result<Fiel
     Ok(Field { offset, size: size as usize, kind, big_endian })
 }
 
-/// Refuses chunks that claim more bytes than the file has: their length is reserved before it is read.
+/// Refuses chunks that claim more bytes than the file has, as their length is reserved before they are read, and more chunks
+/// than the data of the file can have, as several may share the same bytes.
 pub(crate) fn chunks_inside(file: &File, name: &str, dataset: &Dataset) -> Result<(), FormatError> {
-    // Contiguous data has none; an index that cannot be listed fails when rows are read.
-    for chunk in dataset.chunks().unwrap_or_default() {
+    let failed = |error| wrong(name, "a readable layout", error);
+    let Layout::Chunked { chunk_shape, index } = dataset.layout().map_err(failed)? else {
+        return Ok(());
+    };
+    let chunk_bytes = chunk_shape
+        .iter()
+        .try_fold(dataset.element_size().map_err(failed)?, |bytes, n| bytes.checked_mul(*n))
+        .unwrap_or(u64::MAX);
+    let no_more = |count: u64, most: u64| match count.checked_mul(chunk_bytes.max(1)) {
+        Some(bytes) if bytes <= most => Ok(()),
+        _ => Err(wrong(name, "no more chunks than the file can hold", count)),
+    };
+    if index == ChunkIndex::Implicit {
+        // Unlike other indexes it takes no space: the chunks follow from the shape, one after the other.
+        let shape = dataset.shape().map_err(failed)?;
+        let count = shape
+            .iter()
+            .zip(&chunk_shape)
+            .try_fold(1_u64, |count, (n, chunk)| count.checked_mul(n.div_ceil((*chunk).max(1))));
+        no_more(count.unwrap_or(u64::MAX), file.file_size())?;
+    }
+    // An index that cannot be listed fails when rows are read.
+    let chunks = dataset.chunks().unwrap_or_default();
+    no_more(chunks.len() as u64, most_bytes(file))?;
+    for chunk in chunks {
         let end = chunk.address.checked_add(chunk.storage_size);
         if end.is_none_or(|end| end > file.file_size()) {
             let given = format!("{} bytes at {}", chunk.storage_size, chunk.address);

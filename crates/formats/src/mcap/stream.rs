@@ -219,6 +219,9 @@ impl Contents {
             None => self.counts.unread_chunks += 1,
         }
         self.counts.chunks += 1;
+        let mut inside = Inside::new();
+        // Its records are read as they come. Without this check, which of them are read would depend on the pieces.
+        inside.is_damaged = compression == Some(Compression::None) && head.unpacked != packed;
         self.chunk = Some(Chunk {
             compression,
             unpacked: head.unpacked,
@@ -226,7 +229,7 @@ impl Contents {
             packed,
             pending: vec![],
             left: packed,
-            inside: Inside::new(),
+            inside,
         });
     }
 

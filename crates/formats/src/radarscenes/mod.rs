@@ -21,6 +21,7 @@ pub use write::{Packing, SequenceFiles, write};
 use crate::drive_log::scans::Scans;
 use crate::drive_log::{self, DropReason, MountingSource, ReadReport};
 use crate::error::FormatError;
+use crate::hdf5::guard;
 use boresight_core::Remark;
 use boresight_core::drive::{
     DriveLog, MotionSample, Mounting, Pose, RADARSCENES_SENSORS, Scan, Sensor,
@@ -51,7 +52,7 @@ pub fn read(
     beside: Companions,
     report: &mut ReadReport,
 ) -> Result<DriveLog, FormatError> {
-    from_file(&File::from_bytes(radar_data).map_err(|error| not_hdf5(&error))?, beside, report)
+    from_file(&guard::from_bytes(radar_data).map_err(|error| not_hdf5(&error))?, beside, report)
 }
 
 /// Reads `radar_data.h5` from a file, piece by piece.
@@ -63,7 +64,10 @@ pub fn read_path(
     beside: Companions,
     report: &mut ReadReport,
 ) -> Result<DriveLog, FormatError> {
-    let file = File::open_streaming(path).map_err(|error| not_hdf5(&error))?;
+    let file = std::fs::File::open(path)
+        .map_err(hdf5_pure::Error::Io)
+        .and_then(guard::from_file)
+        .map_err(|error| not_hdf5(&error))?;
     from_file(&file, beside, report)
 }
 

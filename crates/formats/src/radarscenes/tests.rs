@@ -262,3 +262,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_chunk_index_of_impossible_size_is_refused() {
+    // 2.4 KB that claim an extensible array of 2^64 chunks, with valid checksums.
+    let path =
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../../fuzz/regressions/drive_h5/huge-array-index");
+    let from_bytes = read(std::fs::read(path).unwrap());
+    assert!(matches!(from_bytes, Err(FormatError::Hdf5 { .. })), "{from_bytes:?}");
+    let from_path = read_path(std::path::Path::new(path));
+    assert!(matches!(from_path, Err(FormatError::Hdf5 { .. })), "{from_path:?}");
+}

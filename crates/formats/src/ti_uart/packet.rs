@@ -86,7 +86,9 @@ pub(super) fn parts<'a>(header: &Header, packet: &'a [u8]) -> Option<(usize, Vec
     let starts = if older { &[HEADER, SHORT_HEADER][..] } else { &[HEADER] };
     starts.iter().find_map(|&start| {
         let (found, end) = leading_parts(header, packet, start);
-        let whole = found.len() == header.parts && packet.len() - end < SEGMENT;
+        // A packet of a short header and no parts ends before the longer header does.
+        let padding = packet.len().checked_sub(end);
+        let whole = found.len() == header.parts && padding.is_some_and(|bytes| bytes < SEGMENT);
         whole.then_some((start, found))
     })
 }

@@ -188,3 +188,13 @@ fn maps_come_in_the_units_of_the_profile() {
     let log = BoardLog::parse(&odd, None);
     assert!(log.frames.is_empty() && log.counts.damaged_packets > 0, "{:?}", log.counts);
 }
+
+#[test]
+fn a_packet_of_a_short_header_alone_is_read() {
+    // Of SDK 1, whose headers have 36 bytes, with no part.
+    let words = [0x0100_0005, 36, 0xa_1642, 7, 0, 0, 0];
+    let mut packet = MAGIC.to_vec();
+    packet.extend(words.iter().flat_map(|word: &u32| word.to_le_bytes()));
+    let log = BoardLog::parse(&packet, None);
+    assert_eq!((log.frames.len(), log.counts.skipped_bytes), (1, 0), "{log:?}");
+}
