@@ -75,7 +75,7 @@ describe('a calibration', () => {
       assert.ok(Math.abs(angleDeg - 25) < Math.max(4 * sigmaDeg, 0.02), `${method} ${angleDeg} +- ${sigmaDeg}`);
       calibration.free();
     }
-    throwsTyped(() => new Calibration({ ...radar, method: 'recursive', motion: 'ransac' }), 'unknown-name', 'motion');
+    throwsTyped(() => new Calibration({ ...radar, method: 'recursive', motion: 'ransac' }), 'incompatible', 'motion');
   });
 
   test('lists its methods, also in a worker', async () => {
@@ -162,7 +162,7 @@ describe('a calibration', () => {
     throwsTyped(() => mergeCalibrations([]), 'empty', 'snapshots');
     throwsTyped(() => mergeCalibrations([new Uint8Array(9)]), 'malformed-snapshot', 'snapshot');
     const other = new Calibration({ ...radar, method: 'kabsch' });
-    throwsTyped(() => other.snapshot(), 'unknown-name', 'method of a snapshot');
+    throwsTyped(() => other.snapshot(), 'incompatible', 'method');
     for (const calibration of [whole, cut, other]) calibration.free();
   });
 

@@ -9,7 +9,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 /// Versions with fixtures, all of which must be readable.
-const VERSIONS: [u8; 1] = [3];
+const VERSIONS: [u8; 2] = [3, 4];
 /// Allowed relative difference of a continued estimate. Mathematical functions differ in the last digit between platforms.
 const TOLERANCE: f64 = 1e-9;
 

@@ -30,10 +30,11 @@ mod standstill;
 mod tracked;
 mod vote;
 
-use crate::calibrator::{check_time, tracked_only};
+use crate::calibrator::tracked_only;
 use crate::error::CalibrateError;
 use crate::estimate::{AngleEstimate, FrameCounts};
 use crate::frame::{FrameInput, FrameOutcome, Verdict};
+use crate::intake::{Admission, Intake};
 use crate::motion::ransac::Ransac;
 use crate::motion::weighed::needed;
 use crate::motion::{FrameMotion, MotionPlan};
@@ -41,7 +42,7 @@ use crate::network::MotionNetwork;
 use crate::options::{CalibrationOptions, MotionMethod};
 use block::{Block, Scatter};
 use doubts::Doubts;
-use information::Information;
+use information::{DELAY, Information};
 use recent::Recent;
 use serde::{Deserialize, Serialize};
 use speed::Speed;
@@ -70,9 +71,10 @@ pub struct Recursive {
     /// What tells how likely detections are to stand.
     network: Option<Arc<MotionNetwork>>,
     state: State,
+    intake: Intake,
 }
 
-/// What a frame leaves behind.
+/// What a frame leaves behind. Its layout is that of snapshots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct State {
     /// Without the blocks of `recent`.
@@ -113,6 +115,10 @@ impl MotionPlan for Recursive {
         *weights = outcome.weights;
         Ok(FrameMotion { motion: outcome.motion, verdict: outcome.verdict, earlier: None })
     }
+
+    fn restart(&mut self) {
+        self.restart();
+    }
 }
 
 impl Recursive {
@@ -130,7 +136,7 @@ impl Recursive {
     /// The same, with DeepEgo's weights of detections where the options name its motion.
     ///
     /// # Errors
-    /// Those of [`CalibrationOptions::validate`]; [`boresight_core::CoreError::Unknown`] for other motions,
+    /// Those of [`CalibrationOptions::validate`]; [`boresight_core::CoreError::Incompatible`] for other motions,
     /// [`CalibrateError::NeedsNetwork`] for DeepEgo's without a network.
     pub fn with_network(
         options: &CalibrationOptions,
@@ -164,7 +170,7 @@ impl Recursive {
             detections: 0.0,
             changed_s: None,
         };
-        Ok(Self::with_state(options, network, state))
+        Ok(Self::with_state(options, network, state, Intake::default()))
     }
 
     /// The network that options ask for.
@@ -183,6 +189,7 @@ impl Recursive {
         options: &CalibrationOptions,
         network: Option<Arc<MotionNetwork>>,
         state: State,
+        intake: Intake,
     ) -> Self {
         Self {
             options: *options,
@@ -197,17 +204,23 @@ impl Recursive {
             alone: Ransac::new(options),
             alone_weights: Vec::new(),
             state,
+            intake,
         }
     }
 
-    /// Takes one frame.
+    /// Adds one frame. Consecutive frames on an earlier time base start a new session, as for [`crate::Calibrator::add`].
     ///
     /// # Errors
     /// [`CalibrateError::TimeBackwards`], and [`boresight_core::CoreError::NotFinite`] for a time that
-    /// is no number; the frame is then not counted.
+    /// is not finite; the frame then counts as rejected only.
     pub fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
-        check_time(self.state.time_s, frame.time_s)?;
+        if self.intake.admit(self.state.time_s, frame.time_s)? == Admission::NewSession {
+            self.restart();
+        }
         self.state.time_s = Some(frame.time_s);
+        let screened = self.intake.screen(frame.detections);
+        self.state.doubts.look_at_azimuths(frame.detections);
+        let frame = FrameInput { detections: &screened.detections, ..frame };
         let mut outcome = FrameOutcome {
             time_s: frame.time_s,
             verdict: Verdict::Sparse,
@@ -225,7 +238,24 @@ impl Recursive {
             }
             _ => {}
         }
+        screened.spread(&mut outcome.weights);
         Ok(outcome)
+    }
+
+    /// Starts a session, as [`crate::Calibrator::restart`].
+    pub fn restart(&mut self) {
+        self.intake.restart();
+        // The recent blocks and the incomplete one become part of what is known before: a change of the angle is looked for in
+        // blocks of the new session alone.
+        let mut known = self.complete();
+        let o = &self.options;
+        known.release(DELAY, o.delay_s, o.delay_sigma_s);
+        let state = &mut self.state;
+        (state.before, state.now) = (known, known);
+        state.recent = Recent::default();
+        state.block = Block::default();
+        (state.time_s, state.reading, state.speed) = (None, None, None);
+        state.speed_scale.restart();
     }
 
     /// The angle as it stands.
@@ -241,7 +271,9 @@ impl Recursive {
 
     /// Adds the counts of another drive with the same radar.
     pub(crate) fn absorb(&mut self, other: &Self) {
+        self.intake.absorb(&other.intake);
         let (state, other) = (&mut self.state, &other.state);
+        state.time_s = None;
         state.counts += other.counts;
         state.doubts += other.doubts;
         state.inliers += other.inliers;

@@ -42,6 +42,12 @@ impl Speed {
         }
     }
 
+    /// Starts a session on another clock.
+    pub(crate) fn restart(&mut self) {
+        self.end_block();
+        self.reading = None;
+    }
+
     /// Takes the speed that a frame was found to have.
     pub(crate) fn add(&mut self, found_mps: f64, evidence: &SpeedEvidence) {
         if found_mps.abs() >= LEAST_MPS {
