@@ -149,7 +149,7 @@ impl Calibrator {
 pub(crate) fn tracked_only(given: &str) -> CalibrateError {
     CoreError::Incompatible {
         what: "motion".into(),
-        expected: "tracked or deepego with the method recursive".into(),
+        expected: "tracked or deepego, with the recursive method".into(),
         given: given.into(),
     }
     .into()

@@ -58,7 +58,8 @@ const EXCESS_RAD: f64 = 0.003_490_658_503_988_66;
 const CORRELATED: f64 = 4.0;
 /// Error that the frames of a block share on real drives, rad (0.1 deg).
 const LASTING_RAD: f64 = 0.001_745_329_251_994_33;
-const SCATTER_BLOCKS: [f64; 2] = [1.0, 60.0];
+const FIRST_SCATTER_BLOCKS: f64 = 1.0;
+const MOST_SCATTER_BLOCKS: f64 = 60.0;
 
 /// The recursive estimator.
 #[derive(Debug, Clone)]
@@ -86,21 +87,51 @@ struct State {
     vote: Option<Vote>,
     misses: usize,
     time_s: Option<f64>,
-    reading: Option<(f64, f64)>,
-    speed: Option<(f64, f64)>,
+    /// Last reading of the yaw rate, rad/s.
+    reading: Option<Reading>,
+    /// Speed of the car at the last frame that had one.
+    speed: Option<CarSpeed>,
     speed_scale: Speed,
     noise_scale: f64,
-    /// Scatter of frames, and blocks that it was learnt from.
-    scatter: (Scatter, f64),
+    scatter: LearntScatter,
     blocks: u64,
     /// Angles after the last blocks.
     angles: [Option<f64>; 3],
-    bias_sum: [f64; 3],
+    bias_sums: BiasSums,
     counts: FrameCounts,
     doubts: Doubts,
     inliers: f64,
     detections: f64,
     changed_s: Option<f64>,
+}
+
+/// A reading of a sensor of the car.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Reading {
+    pub(crate) time_s: f64,
+    pub(crate) value: f64,
+}
+
+/// The car's speed at a time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct CarSpeed {
+    pub(crate) mps: f64,
+    pub(crate) time_s: f64,
+}
+
+/// Scatter of frames, and number of blocks that it was learnt from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct LearntScatter {
+    scatter: Scatter,
+    blocks: f64,
+}
+
+/// Yaw rates at standstill: their number, their sum (rad/s) and the sum of their squares.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+struct BiasSums {
+    count: f64,
+    sum: f64,
+    squares: f64,
 }
 
 impl MotionPlan for Recursive {
@@ -157,13 +188,16 @@ impl Recursive {
             speed: None,
             speed_scale: Speed::default(),
             noise_scale: 1.0,
-            scatter: (
-                Scatter { excess: EXCESS_RAD * EXCESS_RAD, correlated: correlated(options) },
-                SCATTER_BLOCKS[0],
-            ),
+            scatter: LearntScatter {
+                scatter: Scatter {
+                    excess: EXCESS_RAD * EXCESS_RAD,
+                    correlated: correlated(options),
+                },
+                blocks: FIRST_SCATTER_BLOCKS,
+            },
             blocks: 0,
             angles: [None; 3],
-            bias_sum: [0.0; 3],
+            bias_sums: BiasSums::default(),
             counts: FrameCounts::default(),
             doubts: Doubts::default(),
             inliers: 0.0,
@@ -287,14 +321,14 @@ impl Recursive {
         self.state.angles = [Some(angle_rad); 3];
     }
 
-    /// The car's speed at the last frame that had one, m/s, and its time, s.
-    pub(crate) fn speed(&self) -> Option<(f64, f64)> {
+    /// The car's speed at the last frame that had one.
+    pub(crate) fn speed(&self) -> Option<CarSpeed> {
         self.state.speed
     }
 
     /// A later speed of the car, from elsewhere.
-    pub(crate) fn tell_speed(&mut self, speed: (f64, f64)) {
-        if self.state.speed.is_none_or(|own| own.1 < speed.1) {
+    pub(crate) fn tell_speed(&mut self, speed: CarSpeed) {
+        if self.state.speed.is_none_or(|own| own.time_s < speed.time_s) {
             self.state.speed = Some(speed);
         }
     }

@@ -103,8 +103,8 @@ impl State {
             && self.time_s.is_none_or(f64::is_finite)
             && self.noise_scale > 0.0
             && self.noise_scale.is_finite()
-            && self.scatter.0.excess > 0.0
-            && self.scatter.0.correlated >= 0.0
-            && self.scatter.1 >= 0.0
+            && self.scatter.scatter.excess > 0.0
+            && self.scatter.scatter.correlated >= 0.0
+            && self.scatter.blocks >= 0.0
     }
 }

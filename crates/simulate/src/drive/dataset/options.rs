@@ -51,7 +51,7 @@ impl DatasetOptions {
         if self.scenarios().is_empty() {
             return Err(CoreError::Incompatible {
                 what: "scenario_left_out".into(),
-                expected: "a kind of roads other than the only one simulated".into(),
+                expected: "another kind of roads than the only one".into(),
                 given: self.scenario_left_out.map_or("", Scenario::name).into(),
             });
         }
