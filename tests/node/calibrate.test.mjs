@@ -75,7 +75,7 @@ describe('a calibration', () => {
       assert.ok(Math.abs(angleDeg - 25) < Math.max(4 * sigmaDeg, 0.02), `${method} ${angleDeg} +- ${sigmaDeg}`);
       calibration.free();
     }
-    throwsTyped(() => new Calibration({ ...radar, method: 'recursive', motion: 'ransac' }), 'unknown-name', 'motion');
+    throwsTyped(() => new Calibration({ ...radar, method: 'recursive', motion: 'ransac' }), 'incompatible', 'motion');
   });
 
   test('lists its methods, also in a worker', async () => {
@@ -162,8 +162,84 @@ describe('a calibration', () => {
     throwsTyped(() => mergeCalibrations([]), 'empty', 'snapshots');
     throwsTyped(() => mergeCalibrations([new Uint8Array(9)]), 'malformed-snapshot', 'snapshot');
     const other = new Calibration({ ...radar, method: 'kabsch' });
-    throwsTyped(() => other.snapshot(), 'unknown-name', 'method of a snapshot');
+    throwsTyped(() => other.snapshot(), 'incompatible', 'method');
     for (const calibration of [whole, cut, other]) calibration.free();
+  });
+
+  test('starts a session where the clock was reset, and says so', () => {
+    const calibration = new Calibration({ ...radar, method: 'recursive', nominalDeg: 25 });
+    const before = drive(calibration, 25, 400);
+    assert.deepEqual(
+      [before.clockResets, before.rejectedFrames, before.stale, before.lastFrameS],
+      [0, 0, false, 399 * 0.06],
+    );
+    let rejected = 0;
+    for (let index = 0; index < 200; index++) {
+      try {
+        calibration.addFrame(frame(index, 25));
+      } catch (error) {
+        assert.equal(error.code, 'time-backwards');
+        rejected += 1;
+        const { stale, warnings } = calibration.estimate();
+        assert.equal(stale, rejected >= 5);
+        assert.equal(
+          warnings.some(({ code }) => code === 'stale'),
+          stale,
+        );
+      }
+    }
+    const after = calibration.estimate();
+    assert.deepEqual([rejected, after.rejectedFrames, after.clockResets, after.stale], [9, 9, 1, false]);
+    assert.equal(after.frames.given, 400 + 191);
+    assert.equal(after.lastFrameS, 199 * 0.06);
+    assert.ok(after.warnings.some(({ code }) => code === 'clock-reset'));
+    assert.equal(after.alignment, 'aligned');
+    calibration.restart();
+    const restarted = calibration.estimate();
+    assert.ok(Math.abs(restarted.angleDeg - after.angleDeg) < 1e-6);
+    assert.equal(restarted.lastFrameS, undefined);
+    calibration.addFrame({ ...frame(0, 25), timeS: -1e6 });
+    assert.equal(calibration.estimate().clockResets, 1);
+    const later = calibration.snapshot();
+    later[4] += 1;
+    throwsTyped(() => Calibration.restore(later), 'unsupported-snapshot', 'snapshot');
+    calibration.free();
+  });
+
+  test('leaves out special values of azimuths and range rates, and counts them', () => {
+    for (const method of ['recursive', 'least-squares']) {
+      const options = { ...radar, method, nominalDeg: 22 };
+      const [clean, calibration] = [new Calibration(options), new Calibration(options)];
+      const special = [
+        [655.35, 0],
+        [10, 327.67],
+      ];
+      for (let index = 0; index < 400; index++) {
+        const good = frame(index, 25);
+        const more = (column, place) => Float64Array.from([...special.map((pair) => pair[place]), ...column]);
+        const bad = {
+          ...good,
+          azimuthDeg: more(good.azimuthDeg, 0),
+          rangeRateMps: more(good.rangeRateMps, 1),
+          rangeM: null,
+        };
+        const { weights } = calibration.addFrame(bad);
+        assert.equal(weights.length, 42);
+        assert.deepEqual([...weights.subarray(0, 2)], [0, 0]);
+        clean.addFrame({ ...good, rangeM: null });
+      }
+      const { rejectedDetections, warnings, ...found } = calibration.estimate();
+      const { rejectedDetections: none, warnings: usual, ...expected } = clean.estimate();
+      assert.deepEqual([rejectedDetections, none], [800, 0]);
+      assert.deepEqual(found, expected);
+      assert.equal(found.alignment, 'misaligned');
+      assert.deepEqual(
+        warnings.filter(({ code }) => code !== 'invalid-detections'),
+        usual,
+      );
+      assert.equal(warnings.length, usual.length + 1);
+      for (const each of [clean, calibration]) each.free();
+    }
   });
 
   test('says what became of each frame', () => {
@@ -238,7 +314,11 @@ describe('bad input', () => {
       }
       assert.deepEqual(calibration.addFrame(good), untouched.addFrame(good));
     }
-    assert.deepEqual(calibration.estimate(), untouched.estimate());
+    // Frames rejected for their time are counted, and change nothing else.
+    const { rejectedFrames, ...found } = calibration.estimate();
+    const { rejectedFrames: none, ...expected } = untouched.estimate();
+    assert.deepEqual([found, none], [expected, 0]);
+    assert.ok(rejectedFrames > 0);
     calibration.free();
     untouched.free();
   });

@@ -164,7 +164,7 @@ describe('motions by networks', () => {
       () => calibrateDrive(drive, { ...options('deepego'), network: new Uint8Array(9) }),
       'malformed-weights',
     );
-    throwsTyped(() => calibrateDrive(drive, options('deepego-plus', 'recursive')), 'unknown-name', 'motion');
+    throwsTyped(() => calibrateDrive(drive, options('deepego-plus', 'recursive')), 'incompatible', 'motion');
     const broken = Uint8Array.from(single);
     broken[broken.length >> 1] ^= 1;
     await rejectsTyped(pool.calibrateDrive(drive, { ...options('deepego'), network: broken }), 'malformed-weights');

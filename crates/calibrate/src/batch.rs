@@ -4,8 +4,8 @@ use crate::angle::bias::Bias;
 use crate::angle::{
     Sample, Setting, Solution, kabsch, least_squares, orthogonal_distance, weighted_mean, wrap,
 };
-use crate::calibrator::check_time;
 use crate::estimate::{Alignment, CHANCE};
+use crate::intake::{Admission, Intake};
 use crate::{
     AngleEstimate, CalibrateError, CalibrationOptions, CarMotion, FrameCounts, FrameInput,
     FrameMotion, FrameOutcome, Method, Motion, MotionPlan, Remark, Verdict,
@@ -21,6 +21,8 @@ const STANDSTILL_RADPS: f64 = 0.05;
 const UNDETERMINED_ANGLE_RAD: f64 = 0.017_453_292_519_943_295;
 /// Standard deviation of the scale from which it counts as undetermined.
 const UNDETERMINED_SCALE: f64 = 0.05;
+/// Time between the last frame of a session and the first of the next, s: more than frames of one manoeuvre are apart.
+const SESSION_GAP_S: f64 = 2.0;
 /// Convergence compares with the angle of all frames but the last of this time, s.
 const SETTLING_S: f64 = 10.0;
 
@@ -35,6 +37,9 @@ pub(crate) struct Batch {
     inliers: u64,
     detections: u64,
     last_time_s: Option<f64>,
+    /// What the clock of this session is behind the times of the samples, s, which ascend over all sessions.
+    offset_s: f64,
+    intake: Intake,
 }
 
 impl Batch {
@@ -48,6 +53,8 @@ impl Batch {
             inliers: 0,
             detections: 0,
             last_time_s: None,
+            offset_s: 0.0,
+            intake: Intake::default(),
         }
     }
 
@@ -56,10 +63,19 @@ impl Batch {
     }
 
     pub(crate) fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
-        check_time(self.last_time_s, frame.time_s)?;
-        self.last_time_s = Some(frame.time_s);
+        if self.intake.admit(self.last_time_s, frame.time_s)? == Admission::NewSession {
+            self.restart();
+        }
+        if self.last_time_s.replace(frame.time_s).is_none()
+            && let Some(last) = self.samples.last()
+        {
+            self.offset_s = last.time_s + SESSION_GAP_S - frame.time_s;
+        }
+        let screened = self.intake.screen(frame.detections);
+        let frame = FrameInput { detections: &screened.detections, ..frame };
         let mut weights = Vec::new();
         let FrameMotion { motion, verdict, earlier } = self.motion.estimate(frame, &mut weights)?;
+        screened.spread(&mut weights);
         let car = earlier.unwrap_or_else(|| frame.car());
         let (verdict, sample) = match verdict {
             Verdict::Used => self.judge(&car, motion.as_ref()),
@@ -91,6 +107,13 @@ impl Batch {
         Ok(outcome)
     }
 
+    /// Starts a session on another clock.
+    pub(crate) fn restart(&mut self) {
+        self.intake.restart();
+        self.motion.restart();
+        self.last_time_s = None;
+    }
+
     /// What becomes of a frame, and what is kept of it.
     fn judge(&self, car: &CarMotion, motion: Option<&Motion>) -> (Verdict, Option<Sample>) {
         let o = &self.options;
@@ -118,7 +141,7 @@ impl Batch {
             return (Verdict::WithoutMotion, None);
         }
         let sample = Sample {
-            time_s: car.time_s,
+            time_s: car.time_s + self.offset_s,
             yaw_rate_radps,
             radar_speed_mps: speed,
             beta_rad: polar.direction_rad,
@@ -147,6 +170,7 @@ impl Batch {
             Method::OrthogonalDistance => orthogonal_distance::solve(samples, &setting),
             Method::LeastSquares | Method::Recursive => least_squares::solve(samples, &setting),
         }
+        .filter(Solution::is_sound)
     }
 
     pub(crate) fn estimate(&self) -> AngleEstimate {
@@ -180,6 +204,9 @@ impl Batch {
                 scaled && (scale_sigma.is_nan() || scale_sigma > UNDETERMINED_SCALE),
             ),
             (Remark::BiasUndetermined, !self.bias.sigma().is_finite()),
+            (Remark::InvalidDetections, self.intake.rejected_detections > 0),
+            (Remark::ClockReset, self.intake.clock_resets > 0),
+            (Remark::Stale, self.intake.is_stale()),
             (Remark::FewInliers, self.detections > 0 && inlier_share < 0.5),
             (Remark::Misaligned, misaligned == Some(true)),
             (Remark::NotConverged, !converged),
@@ -201,6 +228,11 @@ impl Batch {
             changed_s: None,
             inlier_share,
             frames,
+            last_frame_s: self.last_time_s,
+            stale: self.intake.is_stale(),
+            rejected_frames: self.intake.rejected_frames,
+            rejected_detections: self.intake.rejected_detections,
+            clock_resets: self.intake.clock_resets,
             converged,
             misaligned,
             alignment,

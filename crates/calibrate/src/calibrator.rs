@@ -26,7 +26,7 @@ impl Calibrator {
     /// A calibration without frames.
     ///
     /// # Errors
-    /// Those of [`CalibrationOptions::validate`], [`CoreError::Unknown`] for the recursive method with another
+    /// Those of [`CalibrationOptions::validate`], [`CoreError::Incompatible`] for the recursive method with another
     /// motion than its own or DeepEgo's, and [`CalibrateError::NeedsNetwork`] for motions by networks.
     pub fn new(options: CalibrationOptions) -> Result<Self, CalibrateError> {
         Self::with_network(options, None)
@@ -53,14 +53,14 @@ impl Calibrator {
     /// not looked at.
     ///
     /// # Errors
-    /// Those of [`CalibrationOptions::validate`], and [`CoreError::Unknown`] for the recursive method, which finds the motion itself.
+    /// Those of [`CalibrationOptions::validate`], and [`CoreError::Incompatible`] for the recursive method, which finds the motion itself.
     pub fn with_motion(
         options: CalibrationOptions,
         motion: Box<dyn MotionPlan>,
     ) -> Result<Self, CalibrateError> {
         options.validate()?;
         if options.method == Method::Recursive {
-            return Err(tracked_only("a plan"));
+            return Err(tracked_only("a custom motion plan"));
         }
         Ok(Self { inner: Inner::Batch(Box::new(Batch::new(options, motion))) })
     }
@@ -68,13 +68,13 @@ impl Calibrator {
     /// The calibration as bytes, from which [`Calibrator::restore`] makes one that goes on to the last digit as this one does.
     ///
     /// # Errors
-    /// [`CoreError::Unknown`] for the methods that weigh all frames at once: they keep all of them.
+    /// [`CoreError::Incompatible`] for the methods that weigh all frames at once: they keep all of them.
     pub fn snapshot(&self) -> Result<Vec<u8>, CalibrateError> {
         match &self.inner {
             Inner::Recursive(recursive) => Ok(recursive.snapshot()),
-            Inner::Batch(batch) => Err(CoreError::Unknown {
-                what: "method of a snapshot".into(),
-                expected: "recursive".into(),
+            Inner::Batch(batch) => Err(CoreError::Incompatible {
+                what: "method".into(),
+                expected: "recursive, the only one with snapshots".into(),
                 given: batch.method().name().into(),
             }
             .into()),
@@ -101,15 +101,26 @@ impl Calibrator {
         }
     }
 
-    /// Takes one frame.
+    /// Adds one frame. Ten consecutive frames that ascend on an earlier time base start a new session, as [`Calibrator::restart`]
+    /// does: the tenth is the first one used.
     ///
     /// # Errors
     /// [`CalibrateError::TimeBackwards`] for a frame older than the one before, and
-    /// [`CoreError::NotFinite`] for a time that is no number; the frame is then not counted.
+    /// [`CoreError::NotFinite`] for a time that is not finite; the frame then counts as rejected only.
     pub fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
         match &mut self.inner {
             Inner::Batch(batch) => batch.add(frame),
             Inner::Recursive(recursive) => recursive.add(frame),
+        }
+    }
+
+    /// Starts a session on a clock that need not continue the one before: after a restart of the radar or of its clock. Keeps what
+    /// was learnt of the mounting angle and of the car; drops the delay of time stamps, the speed and yaw rate of the last frame
+    /// and all that compares frames by time.
+    pub fn restart(&mut self) {
+        match &mut self.inner {
+            Inner::Batch(batch) => batch.restart(),
+            Inner::Recursive(recursive) => recursive.restart(),
         }
     }
 
@@ -136,23 +147,10 @@ impl Calibrator {
 }
 
 pub(crate) fn tracked_only(given: &str) -> CalibrateError {
-    CoreError::Unknown {
+    CoreError::Incompatible {
         what: "motion".into(),
         expected: "tracked or deepego, with the recursive method".into(),
         given: given.into(),
     }
     .into()
-}
-
-/// Checks that time is a number and does not run backwards.
-pub(crate) fn check_time(previous: Option<f64>, given: f64) -> Result<(), CalibrateError> {
-    if !given.is_finite() {
-        return Err(CoreError::NotFinite { what: "timeS".into(), index: 0, given }.into());
-    }
-    match previous {
-        Some(previous) if given < previous => {
-            Err(CalibrateError::TimeBackwards { previous, given })
-        }
-        _ => Ok(()),
-    }
 }

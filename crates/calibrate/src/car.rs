@@ -81,6 +81,14 @@ impl Car {
         }
     }
 
+    /// Starts a session of all radars, as [`Calibrator::restart`].
+    pub fn restart(&mut self) {
+        match &mut self.inner {
+            Inner::Apart(calibrators) => calibrators.iter_mut().for_each(Calibrator::restart),
+            Inner::Together(joint) => joint.restart(),
+        }
+    }
+
     /// The angle of a radar from all frames so far.
     ///
     /// # Errors

@@ -11,7 +11,17 @@ pub enum CalibrateError {
     /// An argument is wrong.
     #[error(transparent)]
     Core(#[from] CoreError),
-    /// Bytes that are no snapshot, or one of another version.
+    /// A snapshot of a version that this release does not read.
+    #[error("unsupported snapshot: expected version {first} to {last}, given version {given}")]
+    UnsupportedSnapshot {
+        /// First version that is read.
+        first: u8,
+        /// Last version that is read.
+        last: u8,
+        /// Version given.
+        given: u8,
+    },
+    /// Bytes that are no snapshot, or a damaged one.
     #[error("malformed snapshot: expected {expected}, given {given}")]
     MalformedSnapshot {
         /// What was expected.
@@ -25,7 +35,7 @@ pub enum CalibrateError {
     )]
     UnlikeSnapshots {
         /// The option that differs.
-        what: &'static str,
+        what: String,
         /// Its value in the first.
         expected: f64,
         /// Its value in the other.
@@ -62,10 +72,24 @@ pub enum CalibrateError {
     },
 }
 
+impl CalibrateError {
+    /// The same error about an option that another front end calls otherwise.
+    #[must_use]
+    pub fn renamed(self, name: impl Fn(&str) -> String) -> Self {
+        match self {
+            Self::UnlikeSnapshots { what, expected, given } => {
+                Self::UnlikeSnapshots { what: name(&what), expected, given }
+            }
+            other => other,
+        }
+    }
+}
+
 impl Diagnose for CalibrateError {
     fn code(&self) -> &'static str {
         match self {
             Self::Core(error) => error.code(),
+            Self::UnsupportedSnapshot { .. } => "unsupported-snapshot",
             Self::MalformedSnapshot { .. } => "malformed-snapshot",
             Self::UnlikeSnapshots { .. } => "unlike-snapshots",
             Self::UnsoundEquations { .. } => "unsound-equations",
@@ -81,8 +105,13 @@ impl Diagnose for CalibrateError {
             Self::MalformedSnapshot { expected, given } => {
                 Details::new("snapshot", expected, given)
             }
+            Self::UnsupportedSnapshot { first, last, given } => Details::new(
+                "snapshot",
+                format!("version {first} to {last}"),
+                format!("version {given}"),
+            ),
             Self::UnlikeSnapshots { what, expected, given } => {
-                Details::new(*what, expected.to_string(), given.to_string())
+                Details::new(what, expected.to_string(), given.to_string())
             }
             Self::UnsoundEquations { drive, expected, given } => {
                 Details::new(format!("equations of drive {drive}"), *expected, *given)

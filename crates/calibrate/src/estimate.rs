@@ -89,6 +89,12 @@ pub enum Remark {
     YawRateUnit,
     /// Azimuths beyond half a turn: degrees in place of radians.
     AzimuthUnit,
+    /// Detections with an azimuth or a range rate that no sensor measures were left out.
+    InvalidDetections,
+    /// The clock of the frames was reset, and a new session started.
+    ClockReset,
+    /// The last frames were all rejected, so that the estimate says nothing of the present.
+    Stale,
     /// Scale, bias, slip or delay come out as no car has them.
     Implausible,
     /// The angle changed during the drive; it is the one since then.
@@ -114,6 +120,9 @@ impl Coded for Remark {
             Self::YawRateReversed => "yaw-rate-reversed",
             Self::YawRateUnit => "yaw-rate-unit",
             Self::AzimuthUnit => "azimuth-unit",
+            Self::InvalidDetections => "invalid-detections",
+            Self::ClockReset => "clock-reset",
+            Self::Stale => "stale",
             Self::Implausible => "implausible",
             Self::Changed => "changed",
             Self::Misaligned => "misaligned",
@@ -150,6 +159,13 @@ impl Display for Remark {
                 "the angle goes with the yaw rate as if it were in degrees per second"
             }
             Self::AzimuthUnit => "azimuths lie beyond half a turn: they may be degrees taken for radians",
+            Self::InvalidDetections => {
+                "detections with an azimuth beyond half a turn or a range rate beyond 300 m/s were left out"
+            }
+            Self::ClockReset => {
+                "times of the frames jumped back, so that a new session was started"
+            }
+            Self::Stale => "the last frames were rejected, so this estimate is of the time before",
             Self::Implausible => {
                 "scale, bias, slip or delay come out as no car has them, so the angle may be wrong"
             }
@@ -222,13 +238,24 @@ pub struct AngleEstimate {
     pub speed_scale: f64,
     /// Its standard deviation; 0 where it was not estimated.
     pub speed_scale_sigma: f64,
-    /// When the angle last changed by a knock, on the clock of the frames.
+    /// When the angle last changed by a knock, on the clock of the frames then.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changed_s: Option<f64>,
     /// Static detections over all, of the frames used; 0 without any.
     pub inlier_share: f64,
     /// What became of the frames.
     pub frames: FrameCounts,
+    /// Time of the last accepted frame, on the clock of the frames; absent before the first frame of a session.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub last_frame_s: Option<f64>,
+    /// Whether the last five frames or more were rejected, so that the estimate says nothing of the present.
+    pub stale: bool,
+    /// Frames rejected for their time; they are not among those given.
+    pub rejected_frames: u64,
+    /// Detections left out because no sensor measures their azimuth or range rate.
+    pub rejected_detections: u64,
+    /// Sessions started because times jumped back.
+    pub clock_resets: u64,
     /// The angle has settled: its standard deviation is below the limit of the options and it moved
     /// by no more than that lately.
     pub converged: bool,

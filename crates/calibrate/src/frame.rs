@@ -7,7 +7,7 @@ use serde::Serialize;
 /// One scan of the radar with the car's motion at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrameInput<'a> {
-    /// Time, s; must not run backwards from frame to frame.
+    /// Time, s; must not run backwards from frame to frame of a session.
     pub time_s: f64,
     /// The point cloud, in the radar's frame.
     pub detections: &'a [Detection],
@@ -52,7 +52,7 @@ pub struct Motion {
     pub covariance: [[f64; 2]; 2],
     /// Detections taken as static.
     pub inliers: usize,
-    /// Detections given.
+    /// Detections given that a sensor can have measured.
     pub detections: usize,
 }
 

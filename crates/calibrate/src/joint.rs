@@ -87,6 +87,13 @@ impl Joint {
         Ok(outcome)
     }
 
+    /// Starts a session of all radars, as [`crate::Calibrator::restart`].
+    pub fn restart(&mut self) {
+        for (_, radar) in &mut self.radars {
+            radar.restart();
+        }
+    }
+
     /// What the drive says of a radar by itself, by its place among those named.
     pub(crate) fn normal_equations(&self, at: usize) -> NormalEquations {
         self.radars[at].1.normal_equations()

@@ -54,6 +54,7 @@ pub mod error;
 pub mod estimate;
 pub mod frame;
 pub mod fusion;
+mod intake;
 pub mod joint;
 pub mod merge;
 pub mod motion;

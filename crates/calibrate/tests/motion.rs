@@ -271,7 +271,7 @@ fn motions_from_elsewhere_give_the_angle() {
         assert_eq!(counts, (used, 600 - used), "{}, {delay}", method.name());
     }
     let refused = Calibrator::with_motion(drive.options(Method::Recursive), given(0)).unwrap_err();
-    assert_eq!((refused.code(), &*refused.details().what), ("unknown-name", "motion"));
+    assert_eq!((refused.code(), &*refused.details().what), ("incompatible", "motion"));
 }
 
 #[test]

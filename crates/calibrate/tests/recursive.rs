@@ -173,7 +173,7 @@ fn poor_frames_are_counted_and_change_nothing() {
         Err(CalibrateError::TimeBackwards { previous: 3.0, given: 1.0 })
     );
     let refused = recursive.add(FrameInput { time_s: f64::NAN, ..backwards }).unwrap_err();
-    assert_eq!((refused.code(), &*refused.details().what), ("not-finite", "timeS"));
+    assert_eq!((refused.code(), &*refused.details().what), ("not-finite", "time_s"));
 }
 
 #[test]

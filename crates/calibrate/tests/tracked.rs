@@ -95,7 +95,7 @@ fn the_recursive_method_takes_no_other_motion() {
                 Calibrator::with_network(options, Some(&network())).unwrap();
             }
             Err(error) => assert!(
-                matches!(&error, CalibrateError::Core(CoreError::Unknown { given, .. }) if given == motion.name()),
+                matches!(&error, CalibrateError::Core(CoreError::Incompatible { given, .. }) if given == motion.name()),
                 "{error}"
             ),
         }

@@ -98,6 +98,26 @@ pub enum CoreError {
         /// The name given.
         given: String,
     },
+    /// Text that does not have the form asked for.
+    #[error("{what} {given:?} is malformed; expected {expected}")]
+    Malformed {
+        /// What the text is.
+        what: String,
+        /// The form, in words.
+        expected: String,
+        /// The text given.
+        given: String,
+    },
+    /// A valid value that cannot be used with other arguments or for this task.
+    #[error("{what} {given} cannot be used here; expected {expected}")]
+    Incompatible {
+        /// The argument.
+        what: String,
+        /// What would have been accepted, and why.
+        expected: String,
+        /// The value given.
+        given: String,
+    },
     /// A calibration of another array.
     #[error("the calibration is of {expected}; the array has {given}")]
     OtherArray {
@@ -135,6 +155,8 @@ impl Diagnose for CoreError {
             Self::OutOfRange { .. } => "out-of-range",
             Self::TooLarge { .. } => "too-large",
             Self::Unknown { .. } => "unknown-name",
+            Self::Malformed { .. } => "malformed",
+            Self::Incompatible { .. } => "incompatible",
             Self::OtherArray { .. } => "other-array",
             Self::NotPositiveDefinite { .. } => "not-positive-definite",
             Self::NotConverged { .. } => "not-converged",
@@ -156,7 +178,9 @@ impl Diagnose for CoreError {
             Self::TooLarge { what, measure, most, given } => {
                 Details::new(what, limits::most(measure, *most), format!("{given:.3e} {measure}"))
             }
-            Self::Unknown { what, expected, given } => Details::new(what, expected, given),
+            Self::Unknown { what, expected, given }
+            | Self::Malformed { what, expected, given }
+            | Self::Incompatible { what, expected, given } => Details::new(what, expected, given),
             Self::OtherArray { expected, given } => Details::new("calibration", given, expected),
             Self::NotPositiveDefinite { what, index, given } => Details::new(
                 what,

@@ -53,13 +53,13 @@ impl FromStr for Part {
 
     /// From `1/4`.
     fn from_str(text: &str) -> Result<Self, CoreError> {
-        let unknown = || CoreError::Unknown {
+        let malformed = || CoreError::Malformed {
             what: "part".into(),
             expected: "K/N, such as 1/4".into(),
-            given: format!("{text:?}"),
+            given: text.into(),
         };
-        let (number, of) = text.split_once('/').ok_or_else(unknown)?;
-        let number_of = |text: &str| text.parse::<u64>().map_err(|_| unknown());
+        let (number, of) = text.split_once('/').ok_or_else(malformed)?;
+        let number_of = |text: &str| text.parse::<u64>().map_err(|_| malformed());
         Self::new(number_of(number)?, number_of(of)?)
     }
 }

@@ -108,13 +108,13 @@ impl Waveform {
     /// Checks that samples are complex, for what has no other form.
     ///
     /// # Errors
-    /// [`CoreError::Unknown`] for real samples.
+    /// [`CoreError::Incompatible`] for real samples.
     pub fn check_complex(&self) -> Result<(), CoreError> {
         match self.sampling {
             Sampling::Complex => Ok(()),
-            Sampling::Real => Err(CoreError::Unknown {
+            Sampling::Real => Err(CoreError::Incompatible {
                 what: "sampling".into(),
-                expected: "complex samples here".into(),
+                expected: "complex".into(),
                 given: "real".into(),
             }),
         }

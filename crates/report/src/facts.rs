@@ -40,6 +40,15 @@ pub fn facts(e: &AngleEstimate) -> Vec<Fact> {
             f.used, f.given, f.standing, f.slow, f.turning, f.sparse, f.off_speed, f.without_motion,
         ),
     ));
+    for (name, count, what) in [
+        ("rejected frames", e.rejected_frames, "their times ran backwards"),
+        ("rejected detections", e.rejected_detections, "invalid azimuths or range rates"),
+        ("clock resets", e.clock_resets, "a new session each"),
+    ] {
+        if count > 0 {
+            all.push((name, format!("{count}; {what}")));
+        }
+    }
     all.push(("converged", if e.converged { "yes" } else { "no" }.into()));
     all.into_iter().map(|(name, value)| Fact { name, value }).collect()
 }

@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 /// plainer wavefront, and so does noise. What leaves `0..max_range_m` comes back at the other end.
 ///
 /// # Errors
-/// [`CoreError::Unknown`] for real samples, which a phase cannot be put on; [`CoreError::OutOfRange`] for a shift beyond the largest range either way, [`CoreError::Shape`] for chirps of another length than
+/// [`CoreError::Incompatible`] for real samples, which a phase cannot be put on; [`CoreError::OutOfRange`] for a shift beyond the largest range either way, [`CoreError::Shape`] for chirps of another length than
 /// the waveform's; what is wrong with the waveform.
 pub fn shift_range(
     mut frame: ArrayViewMut4<'_, Complex32>,

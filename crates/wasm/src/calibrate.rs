@@ -56,6 +56,11 @@ impl Calibration {
         })?))
     }
 
+    /// Starts a session on another clock.
+    pub fn restart(&mut self) {
+        self.inner.restart();
+    }
+
     /// The angle as far as the frames so far tell.
     pub fn estimate(&self) -> JsValue {
         carry::write(&self.inner.estimate())

@@ -7,6 +7,8 @@ use boresight_array_calibration::ArrayCalibrationError;
 use boresight_calibrate::CalibrateError;
 use boresight_core::describe::At;
 use boresight_core::describe::naming::camel_case;
+#[cfg(feature = "drives")]
+use boresight_core::describe::naming::javascript;
 use boresight_core::{CoreError, Details, Diagnose};
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
@@ -36,7 +38,7 @@ pub enum BindingError {
     /// The calibration refused.
     #[cfg(feature = "drives")]
     #[error(transparent)]
-    Calibrate(#[from] CalibrateError),
+    Calibrate(CalibrateError),
     /// A file cannot be read or written.
     #[error(transparent)]
     Format(#[from] FormatError),
@@ -90,6 +92,13 @@ pub enum BindingError {
         /// Bytes asked for.
         given: usize,
     },
+}
+
+#[cfg(feature = "drives")]
+impl From<CalibrateError> for BindingError {
+    fn from(error: CalibrateError) -> Self {
+        Self::Calibrate(error.renamed(javascript))
+    }
 }
 
 impl Diagnose for BindingError {

@@ -16,7 +16,8 @@ export class History {
 
   /** Whether a point is due. @param {number} timeS */
   due(timeS) {
-    return this.#rows.length === 0 || timeS >= (this.#rows.at(-3) ?? 0) + this.#everyS;
+    // Times jump back where the clock was reset.
+    return this.#rows.length === 0 || Math.abs(timeS - (this.#rows.at(-3) ?? 0)) >= this.#everyS;
   }
 
   /** @param {number} timeS @param {{ angleDeg: number, sigmaDeg: number }} estimate */

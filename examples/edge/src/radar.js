@@ -63,17 +63,18 @@ export class Radar {
   add(frame, limits) {
     this.#changed = true;
     const digest = digestOf(frame);
-    if (this.timeS !== null && frame.timeS <= this.timeS && this.#recent.has(frame.timeS, digest)) {
+    if (this.#recent.has(frame.timeS, digest)) {
       this.repeated += 1;
       return 'repeated';
     }
     this.#checkTime(frame.timeS, limits);
+    // A rejected frame counts in the estimate, too.
+    this.#estimate = undefined;
     this.#calibration.addFrame(frame);
     this.timeS = frame.timeS;
     this.frames += 1;
     this.detections += frame.azimuthDeg.length;
     this.#recent.add(frame.timeS, digest);
-    this.#estimate = undefined;
     if (this.history.due(frame.timeS)) this.history.add(frame.timeS, this.estimate());
     return 'accepted';
   }
@@ -85,7 +86,8 @@ export class Radar {
       throw new Problem(422, 'out-of-range', { what, expected: `within ${LATEST_S} s of 0`, given: String(timeS) });
     }
     if (this.timeS === null) return;
-    if (timeS <= this.timeS) {
+    // Earlier times are for the calibration to judge: it rejects them, and starts a session where the clock was reset.
+    if (timeS === this.timeS) {
       throw new Problem(422, 'time-backwards', { what, expected: `later than ${this.timeS} s`, given: `${timeS} s` });
     }
     // One wrong time far ahead would have all that follow refused.
@@ -120,7 +122,8 @@ export class Radar {
 
   /** What a fleet is told. */
   summary() {
-    const { angleDeg, sigmaDeg, alignment, misaligned, frames } = this.estimate();
+    const { angleDeg, sigmaDeg, alignment, misaligned, frames, stale, clockResets, rejectedDetections } =
+      this.estimate();
     return {
       radar: this.name,
       nominalDeg: this.options.nominalDeg ?? null,
@@ -136,6 +139,9 @@ export class Radar {
       repeated: this.repeated,
       refused: { ...this.refused },
       verdicts: frames,
+      stale,
+      clockResets,
+      rejectedDetections,
     };
   }
 

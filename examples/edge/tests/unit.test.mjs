@@ -335,7 +335,26 @@ test('frames out of order, far ahead or of no radar are refused and counted, and
   );
   const { radars } = (await about()).json;
   assert.deepEqual(radars[0].refused, { 'time-backwards': 1, 'out-of-range': 1, 'time-ahead': 1 });
-  assert.deepEqual(radars[0].result, await reference(all.slice(0, 50)));
+  assert.deepEqual(radars[0].result, { ...(await reference(all.slice(0, 50))), rejectedFrames: 1 });
+});
+
+test('a radar whose clock was reset starts a session after ten frames, also across a restart of the service', async () => {
+  const { put, take, about, restart } = vehicle();
+  await put();
+  const before = all.map((frame) => ({ ...frame, timeS: frame.timeS + 4294.967296 }));
+  await take(...before);
+  await take(...all.slice(0, 5));
+  const stale = (await about()).json.radars[0];
+  assert.deepEqual([stale.stale, stale.clockResets, stale.refused], [true, 0, { 'time-backwards': 5 }]);
+  restart();
+  await take(...all.slice(5));
+  const radar = (await about()).json.radars[0];
+  assert.deepEqual([radar.stale, radar.clockResets, radar.refused], [false, 1, { 'time-backwards': 9 }]);
+  assert.equal(radar.frames, 2 * all.length - 9);
+  assert.equal(radar.timeS, all.at(-1).timeS);
+  assert.equal(radar.history.timeS.at(-1) < before[0].timeS, true);
+  // What is sent again counts once.
+  assert.equal((await take(...all.slice(-20))).json.repeated, 20);
 });
 
 test('a radar keeps its options until it is forgotten', async () => {

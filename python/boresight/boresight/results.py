@@ -69,11 +69,21 @@ class CalibrationResult(TypedDict):
     speedScaleSigma: float
     """Its standard deviation; 0 where it was not estimated."""
     changedS: NotRequired[float]
-    """When the angle last changed by a knock, on the clock of the frames."""
+    """When the angle last changed by a knock, on the clock of the frames then."""
     inlierShare: float
     """Static detections over all, of the frames used; 0 without any."""
     frames: CalibrationCounts
     """What became of the frames."""
+    lastFrameS: NotRequired[float]
+    """Time of the last accepted frame, on the clock of the frames; absent before the first frame of a session."""
+    stale: bool
+    """Whether the last five frames or more were rejected, so that the estimate says nothing of the present."""
+    rejectedFrames: float
+    """Frames rejected for their time; they are not among those given."""
+    rejectedDetections: float
+    """Detections left out because no sensor measures their azimuth or range rate."""
+    clockResets: float
+    """Sessions started because times jumped back."""
     converged: bool
     """The angle has settled: its standard deviation is below the limit of the options and it moved by no more than that
     lately.

@@ -75,8 +75,8 @@ export class Calibration extends Handle<glue.Calibration> {
   }
 
   /**
-   * The calibration that a snapshot is of, with its options: it goes on to the last digit as the one that was kept. A network
-   * is no part of it, and is given again.
+   * The calibration that a snapshot is of, with its options: it continues to the last digit as the one that was kept. A network
+   * is no part of it, and is given again. Snapshots of all earlier versions from version 3 on are read; later ones are `unsupported-snapshot`.
    */
   static restore(snapshot: Uint8Array | ArrayBuffer, network?: Uint8Array | ArrayBuffer): Calibration {
     return new Calibration(snapshot, network === undefined ? {} : { network });
@@ -87,9 +87,20 @@ export class Calibration extends Handle<glue.Calibration> {
     return this.use((raw) => raw.snapshot());
   }
 
-  /** Takes the next frame and says what became of it. A frame that is refused leaves no trace. */
+  /**
+   * Adds the next frame and returns what became of it. A frame that is rejected changes no estimate; for its time it counts in `rejectedFrames`.
+   * Ten consecutive frames whose times ascend more than ten seconds before the last accepted one start a new session, as {@link restart} does.
+   */
   addFrame(frame: CalibrationFrame): FrameOutcome {
     return this.use((raw) => raw.addFrame(frame) as FrameOutcome);
+  }
+
+  /**
+   * Starts a session on a clock that need not continue the one before, as after a restart of the radar. Keeps what was learnt of the mounting angle and
+   * the car; drops the delay of time stamps and all that compares frames by time.
+   */
+  restart(): void {
+    this.use((raw) => raw.restart());
   }
 
   /** What driving on would bring (recursive method; null for the others). */

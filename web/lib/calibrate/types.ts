@@ -6,7 +6,7 @@ export interface MotionNetwork {
 
 /** One radar frame with the car's motion at that time; arrays have a number for each detection. */
 export interface CalibrationFrame {
-  /** Must not run backwards. */
+  /** Must not run backwards within a session. */
   timeS: number;
   /** In the radar's frame. */
   azimuthDeg: Float32Array | Float64Array;

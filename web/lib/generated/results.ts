@@ -1075,7 +1075,7 @@ export interface RadarMotion {
   covariance: [[xx: number, xy: number], [xy: number, yy: number]];
   /** Detections taken as static. */
   inliers: number;
-  /** Detections given. */
+  /** Detections given that a sensor can have measured. */
   detections: number;
 }
 
@@ -1159,12 +1159,22 @@ export interface CalibrationResult {
   speedScale: number;
   /** Its standard deviation; 0 where it was not estimated. */
   speedScaleSigma: number;
-  /** When the angle last changed by a knock, on the clock of the frames. */
+  /** When the angle last changed by a knock, on the clock of the frames then. */
   changedS?: number;
   /** Static detections over all, of the frames used; 0 without any. */
   inlierShare: number;
   /** What became of the frames. */
   frames: CalibrationCounts;
+  /** Time of the last accepted frame, on the clock of the frames; absent before the first frame of a session. */
+  lastFrameS?: number;
+  /** Whether the last five frames or more were rejected, so that the estimate says nothing of the present. */
+  stale: boolean;
+  /** Frames rejected for their time; they are not among those given. */
+  rejectedFrames: number;
+  /** Detections left out because no sensor measures their azimuth or range rate. */
+  rejectedDetections: number;
+  /** Sessions started because times jumped back. */
+  clockResets: number;
   /**
    * The angle has settled: its standard deviation is below the limit of the options and it moved by no more than that
    * lately.

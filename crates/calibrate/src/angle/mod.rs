@@ -75,6 +75,18 @@ pub(crate) struct Solution {
     pub gated: usize,
 }
 
+impl Solution {
+    /// Whether it consists of numbers: extreme frames and options overflow.
+    pub fn is_sound(&self) -> bool {
+        let Symmetric { xx, xy, yy } = self.covariance;
+        self.angle_rad.is_finite()
+            && self.inverse_scale.is_finite()
+            && xx >= 0.0
+            && yy >= 0.0
+            && !xy.is_nan()
+    }
+}
+
 /// A frame whose `|s' chi|` is larger turns more tightly than the model allows for: its angle would
 /// rest on the steep end of the arcsine.
 pub(crate) const MAX_SINE: f64 = 0.9;

@@ -7,7 +7,7 @@
 
 mod filter;
 
-use crate::calibrator::check_time;
+use crate::intake::{Admission, Intake};
 use crate::motion::weighed::{inliers, told};
 use crate::network::{MotionNetwork, Near};
 use crate::plane::{turned, turned_covariance};
@@ -89,6 +89,7 @@ pub struct Fusion {
     /// When a motion fitted last.
     fitted_s: f64,
     last_s: Option<f64>,
+    intake: Intake,
 }
 
 #[derive(Debug, Clone)]
@@ -128,6 +129,7 @@ impl Fusion {
             filter: None,
             fitted_s: f64::NEG_INFINITY,
             last_s: None,
+            intake: Intake::default(),
         })
     }
 
@@ -143,8 +145,12 @@ impl Fusion {
         frame: FrameInput<'_>,
     ) -> Result<Option<FusedMotion>, CalibrateError> {
         let at = radars::place(self.radars.iter().map(|radar| radar.mounted.sensor), sensor)?;
-        check_time(self.last_s, frame.time_s)?;
+        if self.intake.admit(self.last_s, frame.time_s)? == Admission::NewSession {
+            self.restart();
+        }
         self.last_s = Some(frame.time_s);
+        let screened = self.intake.screen(frame.detections);
+        let frame = FrameInput { detections: &screened.detections, ..frame };
         if let Some(filter) = &mut self.filter {
             filter.advance(frame.time_s);
         }
@@ -174,6 +180,15 @@ impl Fusion {
             covariance: filter.covariance(),
             fate,
         }))
+    }
+
+    /// Starts a session on a clock that need not continue the one before: the radars vote again.
+    pub fn restart(&mut self) {
+        self.intake.restart();
+        (self.filter, self.last_s, self.fitted_s) = (None, None, f64::NEG_INFINITY);
+        for radar in &mut self.radars {
+            radar.last = None;
+        }
     }
 
     /// What became of each radar's frames.

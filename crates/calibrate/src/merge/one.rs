@@ -21,13 +21,13 @@ pub fn merge(drives: &[Recursive]) -> Result<AngleEstimate, CalibrateError> {
     };
     let place = |drive: &Recursive| {
         let o = drive.options();
-        [("xM", o.x_m), ("yM", o.y_m)]
+        [("x_m", o.x_m), ("y_m", o.y_m)]
     };
     let mut whole = first.clone();
     for other in others {
         for ((what, expected), (_, given)) in place(first).into_iter().zip(place(other)) {
             if expected != given {
-                return Err(CalibrateError::UnlikeSnapshots { what, expected, given });
+                return Err(CalibrateError::UnlikeSnapshots { what: what.into(), expected, given });
             }
         }
         whole.absorb(other);

@@ -14,6 +14,7 @@ pub(crate) mod weighed;
 
 pub use plan::{FrameMotion, MotionPlan};
 
+use crate::intake::{self, Screened};
 use crate::{CalibrateError, CalibrationOptions, FrameInput, Motion, MotionMethod};
 use boresight_core::{CoreError, Detection};
 use plan::plan;
@@ -26,9 +27,9 @@ pub(crate) struct Columns {
     pub cos: Vec<f32>,
     /// Sine of azimuth.
     pub sin: Vec<f32>,
-    /// Minus range rate, m/s; NaN where the detection is not finite or there is none, so that it agrees with nothing.
+    /// Minus range rate, m/s; NaN where the detection is not valid or there is none, so that it agrees with nothing.
     pub approach: Vec<f32>,
-    /// Positions of the finite detections.
+    /// Positions of the valid detections.
     pub finite: Vec<u32>,
 }
 
@@ -45,7 +46,7 @@ impl Columns {
         // Azimuths stand in the place of their cosines first.
         let rows = detections.iter().zip(&mut self.cos).zip(&mut self.approach);
         for (i, ((d, azimuth), approach)) in rows.enumerate() {
-            if d.azimuth_rad.is_finite() && d.range_rate_mps.abs() <= MAX_RANGE_RATE_MPS {
+            if intake::is_valid(d) {
                 (*azimuth, *approach) = (d.azimuth_rad, -d.range_rate_mps);
                 self.finite.push(i as u32);
             }
@@ -66,10 +67,6 @@ impl Columns {
 /// Azimuths whose sines are computed at once.
 const LANES: usize = 4;
 
-/// Faster than any car and slower than what overflows a sum of squares in single precision; markers
-/// of missing values such as 1e30 lie above.
-const MAX_RANGE_RATE_MPS: f32 = 1e4;
-
 /// Estimates the motion from single frames, reusing its buffers.
 #[derive(Debug)]
 pub struct MotionEstimator {
@@ -81,14 +78,16 @@ impl MotionEstimator {
     /// An estimator with the thresholds, noises and seed of the options.
     ///
     /// # Errors
-    /// Those of [`CalibrationOptions::validate`]; [`CoreError::Unknown`] for [`MotionMethod::Tracked`], which
+    /// Those of [`CalibrationOptions::validate`]; [`CoreError::Incompatible`] for [`MotionMethod::Tracked`], which
     /// needs more than one frame: ask a [`crate::Calibrator`] for it; [`CalibrateError::NeedsNetwork`] for networks.
     pub fn new(options: &CalibrationOptions, method: MotionMethod) -> Result<Self, CalibrateError> {
         options.validate()?;
         if method == MotionMethod::Tracked {
-            return Err(CoreError::Unknown {
-                what: "motion of one frame".into(),
-                expected: "ransac, weighted-least-squares, orthogonal-distance".into(),
+            return Err(CoreError::Incompatible {
+                what: "motion".into(),
+                expected:
+                    "ransac, weighted-least-squares or orthogonal-distance for a single frame"
+                        .into(),
                 given: method.name().into(),
             }
             .into());
@@ -100,8 +99,16 @@ impl MotionEstimator {
     /// residuals where they exceed it, for the weighted methods). `None` where fewer than
     /// `min_inliers` detections agree, or their azimuths do not span a plane.
     pub fn estimate(&mut self, detections: &[Detection]) -> Option<Motion> {
-        let frame = FrameInput { time_s: 0.0, detections, yaw_rate_radps: None, speed_mps: None };
-        self.plan.estimate(frame, &mut self.weights).ok()?.motion
+        let screened = Screened::new(detections);
+        let frame = FrameInput {
+            time_s: 0.0,
+            detections: &screened.detections,
+            yaw_rate_radps: None,
+            speed_mps: None,
+        };
+        let found = self.plan.estimate(frame, &mut self.weights);
+        screened.spread(&mut self.weights);
+        found.ok()?.motion
     }
 
     /// For each detection of the last frame, whether it was taken as static (1) or not (0).

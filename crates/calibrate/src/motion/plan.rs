@@ -25,6 +25,9 @@ pub trait MotionPlan: Debug + Send {
         frame: FrameInput<'_>,
         weights: &mut Vec<f32>,
     ) -> Result<FrameMotion, CalibrateError>;
+
+    /// Starts a session: the next frame may be on another clock. A plan that compares frames by time drops those before.
+    fn restart(&mut self) {}
 }
 
 /// What a plan makes of a frame.

@@ -132,4 +132,8 @@ impl MotionPlan for Weighed {
         let earlier = found.map(|(taken, ..)| taken.car);
         Ok(FrameMotion { earlier, ..FrameMotion::to_judge(motion) })
     }
+
+    fn restart(&mut self) {
+        self.window.clear();
+    }
 }

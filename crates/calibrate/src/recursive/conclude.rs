@@ -79,6 +79,9 @@ impl Recursive {
             (Remark::BiasUndetermined, unknown(2, options.bias_sigma_radps)),
         ];
         let after = [
+            (Remark::InvalidDetections, self.intake.rejected_detections > 0),
+            (Remark::ClockReset, self.intake.clock_resets > 0),
+            (Remark::Stale, self.intake.is_stale()),
             (Remark::Changed, state.changed_s.is_some()),
             (Remark::Misaligned, misaligned == Some(true)),
             (Remark::NotConverged, !converged),
@@ -104,6 +107,11 @@ impl Recursive {
             changed_s: state.changed_s,
             inlier_share,
             frames: state.counts,
+            last_frame_s: state.time_s,
+            stale: self.intake.is_stale(),
+            rejected_frames: self.intake.rejected_frames,
+            rejected_detections: self.intake.rejected_detections,
+            clock_resets: self.intake.clock_resets,
             converged,
             misaligned,
             alignment,

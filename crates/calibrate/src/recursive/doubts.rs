@@ -4,14 +4,17 @@ use super::block::FreeScale;
 use super::information::Information;
 use crate::angle::wrap;
 use crate::frame::FrameInput;
+use crate::intake::azimuths_beyond;
 use crate::{Remark, Verdict};
+use boresight_core::Detection;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// A car that drives faster does not see a world at rest, m/s.
 const DRIVING_MPS: f64 = 3.0;
-/// Share of detections beyond half a turn, and of frames, from which something is wrong with all.
-const WRONG_AZIMUTHS: f64 = 0.02;
+/// Share of detections beyond half a turn from which azimuths are taken for degrees.
+const WRONG_AZIMUTHS: f64 = 0.2;
+/// Share of frames from which something is wrong with all.
 const MOST: f64 = 0.5;
 /// Share of a driving car's frames below which those used are exceptions.
 const FEW: f64 = 0.2;
@@ -54,11 +57,14 @@ impl std::ops::AddAssign for Doubts {
 }
 
 impl Doubts {
+    /// Looks at all azimuths of a frame, valid or not.
+    pub(crate) fn look_at_azimuths(&mut self, detections: &[Detection]) {
+        self.detections += detections.len() as u64;
+        self.beyond += azimuths_beyond(detections) as u64;
+    }
+
     /// Looks at a frame before anything is done with it.
     pub(crate) fn look(&mut self, frame: &FrameInput, share_at_rest: f64) {
-        self.detections += frame.detections.len() as u64;
-        let beyond = |azimuth: f32| f64::from(azimuth.abs()) > PI * (1.0 + 1e-6);
-        self.beyond += frame.detections.iter().filter(|d| beyond(d.azimuth_rad)).count() as u64;
         if frame.speed_mps.is_some_and(|speed| speed.abs() > DRIVING_MPS)
             && !frame.detections.is_empty()
         {

@@ -1,8 +1,8 @@
 //! One frame: from its detections to the radar's motion, and to an equation in the shared unknowns.
 
-use super::Recursive;
 use super::equation::Equation;
 use super::tracked::{Fit, Prediction};
+use super::{CarSpeed, Reading, Recursive};
 use crate::frame::{FrameInput, FrameOutcome, Motion, Verdict};
 use boresight_core::Detection;
 
@@ -39,12 +39,12 @@ impl Recursive {
             .speed_mps
             .filter(|speed| speed.is_finite())
             .map(|speed| self.state.speed_scale.evidence(frame.time_s, speed));
-        let age = self.state.speed.map(|(_, time)| frame.time_s - time);
+        let age = self.state.speed.map(|speed| frame.time_s - speed.time_s);
         if age.is_some_and(|age| age > SPEED_LIFE_S) {
             self.state.speed = None;
         }
         if self.stands(measured, at_rest, evidence.as_ref()) {
-            self.state.speed = Some((0.0, frame.time_s));
+            self.state.speed = Some(CarSpeed { mps: 0.0, time_s: frame.time_s });
             self.learn_bias(measured);
             outcome.motion = Some(self.at_rest(frame.detections.len(), at_rest));
             return Verdict::Standing;
@@ -63,7 +63,7 @@ impl Recursive {
             slip: x[3],
             x_m: self.options.x_m,
             y_m: self.options.y_m,
-            speed: self.state.speed.map(|(speed, time)| (speed, frame.time_s - time)),
+            speed: self.state.speed.map(|speed| (speed.mps, frame.time_s - speed.time_s)),
             measured_speed: evidence,
         };
         let Some(fit) = self.fit(&prediction, frame.detections) else {
@@ -88,7 +88,7 @@ impl Recursive {
             self.state.speed_scale.add(fit.speed, &evidence);
         }
         outcome.motion = Some(motion);
-        self.state.speed = Some((fit.speed, frame.time_s));
+        self.state.speed = Some(CarSpeed { mps: fit.speed, time_s: frame.time_s });
         let polar = motion.polar();
         if polar.speed_mps < self.options.min_speed_mps {
             return Verdict::Slow;
@@ -139,8 +139,8 @@ impl Recursive {
 
     /// How fast the yaw rate changes, rad/s^2, from this reading and the one before.
     fn change(&mut self, time_s: f64, measured: f64) -> f64 {
-        let before = self.state.reading.replace((time_s, measured));
-        let apart = before.map(|(time, reading)| (time_s - time, measured - reading));
+        let before = self.state.reading.replace(Reading { time_s, value: measured });
+        let apart = before.map(|before| (time_s - before.time_s, measured - before.value));
         match apart {
             Some((gap, change)) if gap > 0.0 && gap <= CHANGE_GAP_S => {
                 (change / gap).clamp(-MAX_CHANGE, MAX_CHANGE)

@@ -3,7 +3,7 @@
 use super::block::Scatter;
 use super::equation::Equation;
 use super::information::{Information, Vector};
-use super::{ANGLE_PRIOR_RAD, Recursive, SCATTER_BLOCKS};
+use super::{ANGLE_PRIOR_RAD, LearntScatter, MOST_SCATTER_BLOCKS, Recursive};
 use crate::angle::wrap;
 use crate::frame::FrameOutcome;
 
@@ -24,7 +24,7 @@ impl Recursive {
         }
         self.state.block.add(equation.row);
         let state = &self.state;
-        let variance = equation.row.variance + state.scatter.0.excess;
+        let variance = equation.row.variance + state.scatter.scatter.excess;
         outcome.angle_rad = Some(wrap(state.now.mean()[0] + equation.innovation));
         outcome.angle_sigma_rad = Some((variance + state.now.lasting()).sqrt());
         outcome.weight = 1.0 / variance;
@@ -40,20 +40,20 @@ impl Recursive {
         for block in state.recent.iter() {
             known.add(block);
         }
-        known.with(&state.block.sum(&offset(&known), state.scatter.0))
+        known.with(&state.block.sum(&offset(&known), state.scatter.scatter))
     }
 
     fn end_block(&mut self, time_s: f64, driven_s: f64) {
         let state = &mut self.state;
-        let block = state.block.sum(&offset(&state.now), state.scatter.0);
+        let block = state.block.sum(&offset(&state.now), state.scatter.scatter);
         state.doubts.free_scale.add(&state.block);
         state.block.clear();
         state.speed_scale.end_block();
         state.blocks += 1;
-        let (Scatter { excess, correlated }, blocks) = &mut state.scatter;
+        let LearntScatter { scatter: Scatter { excess, correlated }, blocks } = &mut state.scatter;
         *excess = (*excess + (block.excess - *excess) / (*blocks + 1.0)).max(1e-8);
         *correlated += (block.correlated.unwrap_or(*correlated) - *correlated) / (*blocks + 1.0);
-        *blocks = (*blocks + 1.0).min(SCATTER_BLOCKS[1]);
+        *blocks = (*blocks + 1.0).min(MOST_SCATTER_BLOCKS);
         if let Some(old) = state.recent.push(block) {
             state.before.add(&old);
             state.before.forget((-driven_s / self.options.memory_s).exp());

@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 /// Unknowns: mounting angle (rad), inverse scale, bias times inverse scale (rad/s), slip gradient
 /// (rad per m/s^2), delay of the radar (s).
 pub(crate) const UNKNOWNS: usize = 5;
+/// Place of the delay among them.
+pub(crate) const DELAY: usize = 4;
 /// The error that a block's frames share is never taken as less than a twentieth of that expected.
 const LEAST_LASTING: f64 = 0.05;
 /// Blocks that this prior knowledge counts as.
@@ -234,6 +236,41 @@ impl Information {
         self.plain[0][0] = PRIOR_BLOCKS * lasting;
         self.blocks = PRIOR_BLOCKS;
         self.scaled[0][0] = PRIOR_BLOCKS;
+    }
+
+    /// Forgets what is known of an unknown, which has another value from now on, and gives it a prior. What is known of the others
+    /// stays: the unknown is eliminated from the equations.
+    pub(crate) fn release(&mut self, at: usize, mean: f64, sigma: f64) {
+        let temper = self.design_effect;
+        let pivot = self.n[at][at] + temper * self.prior[at];
+        let row = self.n[at];
+        let right =
+            self.y[at] + temper * self.prior[at] * (self.prior_mean[at] - self.reference[at]);
+        for i in 0..UNKNOWNS {
+            self.y[i] -= row[i] * right / pivot;
+            for j in 0..UNKNOWNS {
+                self.n[i][j] -= row[i] * row[j] / pivot;
+            }
+        }
+        self.y[at] = 0.0;
+        for i in 0..UNKNOWNS {
+            (self.n[at][i], self.n[i][at]) = (0.0, 0.0);
+        }
+        // Residuals of the blocks so far are those at the value that the unknown had.
+        let had = self.reference[at] - self.x[at];
+        for moments in [&mut self.plain, &mut self.scaled, &mut self.lagged] {
+            for i in 0..=UNKNOWNS {
+                moments[0][i] += had * moments[at + 1][i];
+            }
+            for row in moments.iter_mut() {
+                row[0] += had * row[at + 1];
+                row[at + 1] = 0.0;
+            }
+            moments[at + 1] = [0.0; UNKNOWNS + 1];
+        }
+        self.last = [0.0; UNKNOWNS + 1];
+        (self.prior_mean[at], self.prior[at]) = (mean, 1.0 / (sigma * sigma));
+        self.solve();
     }
 
     /// Sets what is known of the bias from standstill, in the place of its prior.

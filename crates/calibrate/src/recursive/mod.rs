@@ -30,10 +30,11 @@ mod standstill;
 mod tracked;
 mod vote;
 
-use crate::calibrator::{check_time, tracked_only};
+use crate::calibrator::tracked_only;
 use crate::error::CalibrateError;
 use crate::estimate::{AngleEstimate, FrameCounts};
 use crate::frame::{FrameInput, FrameOutcome, Verdict};
+use crate::intake::{Admission, Intake};
 use crate::motion::ransac::Ransac;
 use crate::motion::weighed::needed;
 use crate::motion::{FrameMotion, MotionPlan};
@@ -41,7 +42,7 @@ use crate::network::MotionNetwork;
 use crate::options::{CalibrationOptions, MotionMethod};
 use block::{Block, Scatter};
 use doubts::Doubts;
-use information::Information;
+use information::{DELAY, Information};
 use recent::Recent;
 use serde::{Deserialize, Serialize};
 use speed::Speed;
@@ -57,7 +58,8 @@ const EXCESS_RAD: f64 = 0.003_490_658_503_988_66;
 const CORRELATED: f64 = 4.0;
 /// Error that the frames of a block share on real drives, rad (0.1 deg).
 const LASTING_RAD: f64 = 0.001_745_329_251_994_33;
-const SCATTER_BLOCKS: [f64; 2] = [1.0, 60.0];
+const FIRST_SCATTER_BLOCKS: f64 = 1.0;
+const MOST_SCATTER_BLOCKS: f64 = 60.0;
 
 /// The recursive estimator.
 #[derive(Debug, Clone)]
@@ -70,9 +72,10 @@ pub struct Recursive {
     /// What tells how likely detections are to stand.
     network: Option<Arc<MotionNetwork>>,
     state: State,
+    intake: Intake,
 }
 
-/// What a frame leaves behind.
+/// What a frame leaves behind. Its layout is that of snapshots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct State {
     /// Without the blocks of `recent`.
@@ -84,21 +87,51 @@ struct State {
     vote: Option<Vote>,
     misses: usize,
     time_s: Option<f64>,
-    reading: Option<(f64, f64)>,
-    speed: Option<(f64, f64)>,
+    /// Last reading of the yaw rate, rad/s.
+    reading: Option<Reading>,
+    /// Speed of the car at the last frame that had one.
+    speed: Option<CarSpeed>,
     speed_scale: Speed,
     noise_scale: f64,
-    /// Scatter of frames, and blocks that it was learnt from.
-    scatter: (Scatter, f64),
+    scatter: LearntScatter,
     blocks: u64,
     /// Angles after the last blocks.
     angles: [Option<f64>; 3],
-    bias_sum: [f64; 3],
+    bias_sums: BiasSums,
     counts: FrameCounts,
     doubts: Doubts,
     inliers: f64,
     detections: f64,
     changed_s: Option<f64>,
+}
+
+/// A reading of a sensor of the car.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Reading {
+    pub(crate) time_s: f64,
+    pub(crate) value: f64,
+}
+
+/// The car's speed at a time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct CarSpeed {
+    pub(crate) mps: f64,
+    pub(crate) time_s: f64,
+}
+
+/// Scatter of frames, and number of blocks that it was learnt from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct LearntScatter {
+    scatter: Scatter,
+    blocks: f64,
+}
+
+/// Yaw rates at standstill: their number, their sum (rad/s) and the sum of their squares.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+struct BiasSums {
+    count: f64,
+    sum: f64,
+    squares: f64,
 }
 
 impl MotionPlan for Recursive {
@@ -112,6 +145,10 @@ impl MotionPlan for Recursive {
         let outcome = self.add(frame)?;
         *weights = outcome.weights;
         Ok(FrameMotion { motion: outcome.motion, verdict: outcome.verdict, earlier: None })
+    }
+
+    fn restart(&mut self) {
+        self.restart();
     }
 }
 
@@ -130,7 +167,7 @@ impl Recursive {
     /// The same, with DeepEgo's weights of detections where the options name its motion.
     ///
     /// # Errors
-    /// Those of [`CalibrationOptions::validate`]; [`boresight_core::CoreError::Unknown`] for other motions,
+    /// Those of [`CalibrationOptions::validate`]; [`boresight_core::CoreError::Incompatible`] for other motions,
     /// [`CalibrateError::NeedsNetwork`] for DeepEgo's without a network.
     pub fn with_network(
         options: &CalibrationOptions,
@@ -151,20 +188,23 @@ impl Recursive {
             speed: None,
             speed_scale: Speed::default(),
             noise_scale: 1.0,
-            scatter: (
-                Scatter { excess: EXCESS_RAD * EXCESS_RAD, correlated: correlated(options) },
-                SCATTER_BLOCKS[0],
-            ),
+            scatter: LearntScatter {
+                scatter: Scatter {
+                    excess: EXCESS_RAD * EXCESS_RAD,
+                    correlated: correlated(options),
+                },
+                blocks: FIRST_SCATTER_BLOCKS,
+            },
             blocks: 0,
             angles: [None; 3],
-            bias_sum: [0.0; 3],
+            bias_sums: BiasSums::default(),
             counts: FrameCounts::default(),
             doubts: Doubts::default(),
             inliers: 0.0,
             detections: 0.0,
             changed_s: None,
         };
-        Ok(Self::with_state(options, network, state))
+        Ok(Self::with_state(options, network, state, Intake::default()))
     }
 
     /// The network that options ask for.
@@ -183,6 +223,7 @@ impl Recursive {
         options: &CalibrationOptions,
         network: Option<Arc<MotionNetwork>>,
         state: State,
+        intake: Intake,
     ) -> Self {
         Self {
             options: *options,
@@ -197,17 +238,23 @@ impl Recursive {
             alone: Ransac::new(options),
             alone_weights: Vec::new(),
             state,
+            intake,
         }
     }
 
-    /// Takes one frame.
+    /// Adds one frame. Consecutive frames on an earlier time base start a new session, as for [`crate::Calibrator::add`].
     ///
     /// # Errors
     /// [`CalibrateError::TimeBackwards`], and [`boresight_core::CoreError::NotFinite`] for a time that
-    /// is no number; the frame is then not counted.
+    /// is not finite; the frame then counts as rejected only.
     pub fn add(&mut self, frame: FrameInput) -> Result<FrameOutcome, CalibrateError> {
-        check_time(self.state.time_s, frame.time_s)?;
+        if self.intake.admit(self.state.time_s, frame.time_s)? == Admission::NewSession {
+            self.restart();
+        }
         self.state.time_s = Some(frame.time_s);
+        let screened = self.intake.screen(frame.detections);
+        self.state.doubts.look_at_azimuths(frame.detections);
+        let frame = FrameInput { detections: &screened.detections, ..frame };
         let mut outcome = FrameOutcome {
             time_s: frame.time_s,
             verdict: Verdict::Sparse,
@@ -225,7 +272,24 @@ impl Recursive {
             }
             _ => {}
         }
+        screened.spread(&mut outcome.weights);
         Ok(outcome)
+    }
+
+    /// Starts a session, as [`crate::Calibrator::restart`].
+    pub fn restart(&mut self) {
+        self.intake.restart();
+        // The recent blocks and the incomplete one become part of what is known before: a change of the angle is looked for in
+        // blocks of the new session alone.
+        let mut known = self.complete();
+        let o = &self.options;
+        known.release(DELAY, o.delay_s, o.delay_sigma_s);
+        let state = &mut self.state;
+        (state.before, state.now) = (known, known);
+        state.recent = Recent::default();
+        state.block = Block::default();
+        (state.time_s, state.reading, state.speed) = (None, None, None);
+        state.speed_scale.restart();
     }
 
     /// The angle as it stands.
@@ -241,7 +305,9 @@ impl Recursive {
 
     /// Adds the counts of another drive with the same radar.
     pub(crate) fn absorb(&mut self, other: &Self) {
+        self.intake.absorb(&other.intake);
         let (state, other) = (&mut self.state, &other.state);
+        state.time_s = None;
         state.counts += other.counts;
         state.doubts += other.doubts;
         state.inliers += other.inliers;
@@ -255,14 +321,14 @@ impl Recursive {
         self.state.angles = [Some(angle_rad); 3];
     }
 
-    /// The car's speed at the last frame that had one, m/s, and its time, s.
-    pub(crate) fn speed(&self) -> Option<(f64, f64)> {
+    /// The car's speed at the last frame that had one.
+    pub(crate) fn speed(&self) -> Option<CarSpeed> {
         self.state.speed
     }
 
     /// A later speed of the car, from elsewhere.
-    pub(crate) fn tell_speed(&mut self, speed: (f64, f64)) {
-        if self.state.speed.is_none_or(|own| own.1 < speed.1) {
+    pub(crate) fn tell_speed(&mut self, speed: CarSpeed) {
+        if self.state.speed.is_none_or(|own| own.time_s < speed.time_s) {
             self.state.speed = Some(speed);
         }
     }

@@ -1,15 +1,22 @@
-//! A calibration as bytes, to go on with elsewhere or later.
+//! A calibration as bytes, to continue elsewhere or later.
 //!
 //! `BSCA`, a version (one byte), options and state by postcard, and the CRC-32 of all before it, little endian.
+//!
+//! Every release reads the snapshots of all earlier versions from [`FIRST_VERSION`] on. Postcard writes fields without names or lengths, so
+//! that any change of `CalibrationOptions`, `State`, `Intake` or a type within them is a new version: copy the types of the version before
+//! to read it, convert them here, and write fixtures of the new version (`tests/snapshot_versions.rs`).
 
 use super::{Recursive, State};
+use crate::intake::Intake;
 use crate::network::MotionNetwork;
 use crate::{CalibrateError, CalibrationOptions};
 use std::sync::Arc;
 
 const MAGIC: &[u8; 4] = b"BSCA";
-/// Counts up where options or state change.
-const VERSION: u8 = 3;
+/// Version written.
+const VERSION: u8 = 4;
+/// First version that can be read. It has options and state as version 4, and no counts of what was rejected.
+const FIRST_VERSION: u8 = 3;
 const CHECKSUM: usize = 4;
 
 impl Recursive {
@@ -19,8 +26,8 @@ impl Recursive {
         let mut bytes = MAGIC.to_vec();
         bytes.push(VERSION);
         // Numbers, options and sequences of them are written to memory, which cannot fail.
-        let mut bytes =
-            postcard::to_extend(&(&self.options, &self.state), bytes).unwrap_or_default();
+        let mut bytes = postcard::to_extend(&(&self.options, &self.state, &self.intake), bytes)
+            .unwrap_or_default();
         bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
         bytes
     }
@@ -37,8 +44,8 @@ impl Recursive {
     ///
     /// # Errors
     /// Those of [`Recursive::with_network`];
-    /// [`CalibrateError::MalformedSnapshot`] for other bytes, a snapshot of another version, and one that was damaged; those of
-    /// [`CalibrationOptions::validate`].
+    /// [`CalibrateError::MalformedSnapshot`] for other bytes and a snapshot that was damaged;
+    /// [`CalibrateError::UnsupportedSnapshot`] for one of a later or unknown version; those of [`CalibrationOptions::validate`].
     pub fn restore_with_network(
         snapshot: &[u8],
         network: Option<&Arc<MotionNetwork>>,
@@ -55,15 +62,24 @@ impl Recursive {
             return Err(malformed("a calibration's snapshot, which begins with BSCA", given));
         };
         let version = body[MAGIC.len()];
-        if version != VERSION {
-            return Err(malformed(&format!("version {VERSION}"), format!("version {version}")));
+        if !(FIRST_VERSION..=VERSION).contains(&version) {
+            return Err(CalibrateError::UnsupportedSnapshot {
+                first: FIRST_VERSION,
+                last: VERSION,
+                given: version,
+            });
         }
         if crc32fast::hash(body) != u32::from_le_bytes(*checksum) {
             return Err(malformed("bytes as they were written", "a wrong checksum".into()));
         }
-        let (options, state): (CalibrationOptions, State) =
-            postcard::from_bytes(&body[MAGIC.len() + 1..])
-                .map_err(|error| malformed("options and state", error.to_string()))?;
+        let content = &body[MAGIC.len() + 1..];
+        let read: postcard::Result<(CalibrationOptions, State, Intake)> = match version {
+            FIRST_VERSION => postcard::from_bytes(content)
+                .map(|(options, state)| (options, state, Intake::default())),
+            _ => postcard::from_bytes(content),
+        };
+        let (options, state, intake) =
+            read.map_err(|error| malformed("options and state", error.to_string()))?;
         options.validate()?;
         if !state.is_sound() {
             return Err(malformed(
@@ -72,7 +88,7 @@ impl Recursive {
             ));
         }
         let network = Self::network_of(&options, network)?;
-        Ok(Self::with_state(&options, network, state))
+        Ok(Self::with_state(&options, network, state, intake))
     }
 }
 
@@ -87,8 +103,8 @@ impl State {
             && self.time_s.is_none_or(f64::is_finite)
             && self.noise_scale > 0.0
             && self.noise_scale.is_finite()
-            && self.scatter.0.excess > 0.0
-            && self.scatter.0.correlated >= 0.0
-            && self.scatter.1 >= 0.0
+            && self.scatter.scatter.excess > 0.0
+            && self.scatter.scatter.correlated >= 0.0
+            && self.scatter.blocks >= 0.0
     }
 }

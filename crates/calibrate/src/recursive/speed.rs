@@ -1,5 +1,6 @@
 //! The car's own speed as evidence, with its scale, which is estimated on the way.
 
+use super::Reading;
 use super::tracked::SpeedEvidence;
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +20,7 @@ const MAX_ACCELERATION: f64 = 10.0;
 /// Scale of the measured speed over the radar's, tempered: the frames of a block count as one observation.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Speed {
-    reading: Option<(f64, f64)>,
+    reading: Option<Reading>,
     blocks: f64,
     sum: f64,
     block_frames: f64,
@@ -29,10 +30,12 @@ pub(crate) struct Speed {
 impl Speed {
     /// The evidence in a reading of the car's speed at a time.
     pub(crate) fn evidence(&mut self, time_s: f64, measured_mps: f64) -> SpeedEvidence {
-        let before = self.reading.replace((time_s, measured_mps));
+        let before = self.reading.replace(Reading { time_s, value: measured_mps });
         let acceleration = match before {
-            Some((time, speed)) if time_s > time && time_s - time <= CHANGE_GAP_S => {
-                ((measured_mps - speed) / (time_s - time)).abs().min(MAX_ACCELERATION)
+            Some(before) if time_s > before.time_s && time_s - before.time_s <= CHANGE_GAP_S => {
+                ((measured_mps - before.value) / (time_s - before.time_s))
+                    .abs()
+                    .min(MAX_ACCELERATION)
             }
             _ => 0.0,
         };
@@ -40,6 +43,12 @@ impl Speed {
             mps: measured_mps / self.scale(),
             sigma_mps: SIGMA_MPS + SIGMA_SHARE * measured_mps.abs() + DELAY_S * acceleration,
         }
+    }
+
+    /// Starts a session on another clock.
+    pub(crate) fn restart(&mut self) {
+        self.end_block();
+        self.reading = None;
     }
 
     /// Takes the speed that a frame was found to have.

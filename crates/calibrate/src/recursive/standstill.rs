@@ -1,7 +1,7 @@
 //! Whether the car stands, and what that tells of the yaw rate.
 
-use super::Recursive;
 use super::tracked::SpeedEvidence;
+use super::{BiasSums, Recursive};
 use crate::frame::Motion;
 
 /// Measured speed below which a car may stand, m/s, and below which it does, if its radar does not say otherwise.
@@ -22,7 +22,7 @@ impl Recursive {
         self.cloud.len() >= self.limits.min_inliers
             && at_rest >= share
             && (evidence.is_none() || slow(STANDSTILL_MPS[0]))
-            && self.state.speed.is_none_or(|(speed, _)| speed.abs() < 1.0)
+            && self.state.speed.is_none_or(|speed| speed.mps.abs() < 1.0)
             && turning < 0.02
     }
 
@@ -41,17 +41,17 @@ impl Recursive {
     }
 
     pub(super) fn bias_mean(&self) -> Option<f64> {
-        let [count, sum, _] = self.state.bias_sum;
+        let BiasSums { count, sum, .. } = self.state.bias_sums;
         (count >= 1.0).then(|| sum / count)
     }
 
     /// Equation 5 of Zhu et al., with the prior as one more observation of its own standard deviation.
     pub(super) fn learn_bias(&mut self, measured: f64) {
-        let sums = &mut self.state.bias_sum;
-        sums[0] += 1.0;
-        sums[1] += measured;
-        sums[2] += measured * measured;
-        let [count, sum, squares] = *sums;
+        let sums = &mut self.state.bias_sums;
+        sums.count += 1.0;
+        sums.sum += measured;
+        sums.squares += measured * measured;
+        let BiasSums { count, sum, squares } = *sums;
         // Samples of one second are not independent: ten count as one.
         if count < 10.0 {
             return;

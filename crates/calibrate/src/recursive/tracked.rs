@@ -1,5 +1,6 @@
 //! Ego-motion led by the frames before: one unknown is searched for, the speed.
 
+use crate::intake;
 use boresight_core::Detection;
 
 /// Widest change of speed a car is believed to make, m/s^2.
@@ -115,7 +116,7 @@ pub(crate) struct Cloud {
 }
 
 impl Cloud {
-    /// Takes the finite detections of a frame.
+    /// Takes the valid detections of a frame.
     pub(crate) fn set(&mut self, detections: &[Detection]) {
         self.cos.clear();
         self.sin.clear();
@@ -124,7 +125,7 @@ impl Cloud {
         for (index, detection) in detections.iter().enumerate() {
             let (azimuth, rate) =
                 (f64::from(detection.azimuth_rad), f64::from(detection.range_rate_mps));
-            if azimuth.is_finite() && rate.is_finite() && rate.abs() < 1e3 {
+            if intake::is_valid(detection) {
                 let (sin, cos) = azimuth.sin_cos();
                 self.cos.push(cos);
                 self.sin.push(sin);

@@ -94,7 +94,7 @@ impl RegionFinder {
     /// `waveform.samples`, whose channels are elements of the array as in [`crate::Chain::new`].
     ///
     /// # Errors
-    /// [`CoreError::Unknown`] for real samples, which no network of regions was trained on; [`CoreError::OutOfRange`]
+    /// [`CoreError::Incompatible`] for real samples, which no network of regions was trained on; [`CoreError::OutOfRange`]
     /// for options out of range, and where frames have fewer range bins or loops than a
     /// region; [`PipelineError::Channels`] for an array of other channels; [`PipelineError::Multiplexing`] for transmitters
     /// that send at once; what detection says of its window.

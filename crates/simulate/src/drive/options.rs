@@ -118,10 +118,10 @@ impl DriveOptions {
     pub fn check(&self) -> Result<(), CoreError> {
         describe::check(self, Naming::Rust)?;
         if self.profile == DriveProfile::Radarscenes && self.noise != RadarNoise::default() {
-            return Err(CoreError::Unknown {
+            return Err(CoreError::Incompatible {
                 what: "noise".into(),
-                expected: "its defaults: the profile radarscenes has numbers of its own".into(),
-                given: "other numbers".into(),
+                expected: "the default, because the profile radarscenes has its own noise".into(),
+                given: "other than the default".into(),
             });
         }
         if self.sensors.is_empty() {

@@ -253,7 +253,7 @@ fn drive_bad_options_are_typed_errors() {
                 noise: RadarNoise { clutter: 2.0, ..RadarNoise::default() },
                 ..good()
             },
-            "unknown-name",
+            "incompatible",
         ),
     ];
     for (options, code) in bad {

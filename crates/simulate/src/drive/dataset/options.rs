@@ -44,12 +44,12 @@ impl DatasetOptions {
     /// Checks every number.
     ///
     /// # Errors
-    /// [`CoreError::OutOfRange`] for a number out of range, [`CoreError::Unknown`] where the only kind
+    /// [`CoreError::OutOfRange`] for a number out of range, [`CoreError::Incompatible`] where the only kind
     /// of roads is left out.
     pub fn check(&self) -> Result<(), CoreError> {
         describe::check(self, Naming::Rust)?;
         if self.scenarios().is_empty() {
-            return Err(CoreError::Unknown {
+            return Err(CoreError::Incompatible {
                 what: "scenario_left_out".into(),
                 expected: "another kind of roads than the only one".into(),
                 given: self.scenario_left_out.map_or("", Scenario::name).into(),
