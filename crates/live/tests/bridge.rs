@@ -32,7 +32,7 @@ struct Running {
 
 fn options() -> BridgeOptions {
     let local = SocketAddr::from(([127, 0, 0, 1], 0));
-    BridgeOptions { card: local, clients: local, origins: Origins::default() }
+    BridgeOptions { card: local, sender: None, clients: local, origins: Origins::default() }
 }
 
 fn start(options: &BridgeOptions) -> Running {

@@ -2,14 +2,15 @@
 
 use super::options::ServeOptions;
 use super::play::Play;
-use super::protocol::{self, Control, Playing};
+use super::protocol::{self, Control, Playback, Playing};
 use super::queue::{Out, Outbox};
+use crate::admission::Admission;
 use crate::origin::Origins;
 use boresight_core::describe::Described;
 use boresight_formats::foxglove::{Channel, Message};
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
@@ -69,8 +70,7 @@ pub(super) struct Shared {
     pub(super) origins: Origins,
     pub(super) channels: Vec<Channel>,
     pub(super) tally: Tally,
-    /// Connections there are.
-    pub(super) connections: AtomicUsize,
+    pub(super) admission: Arc<Admission>,
     /// Whether all are to end.
     pub(super) stopped: AtomicBool,
     /// Something that the drive waits for.
@@ -117,7 +117,7 @@ impl Shared {
             tally: Tally::default(),
             changed: Condvar::new(),
             stopped: AtomicBool::new(false),
-            connections: AtomicUsize::new(0),
+            admission: Admission::new(options.clients),
             channels,
             options,
         }
@@ -138,7 +138,7 @@ impl Shared {
         client.answer(Out::Text(info));
         client.answer(Out::Text(self.advertise.clone()));
         client.tell_time(state.time_ns);
-        state.tell_playing(Some(client), false, "");
+        state.answer_playing(client, "");
         state.clients.push(Arc::clone(client));
     }
 
@@ -183,12 +183,14 @@ impl Shared {
             if matches!(state.playing, Playing::Plays | Playing::Paused) {
                 state.playing = if control.paused { Playing::Paused } else { Playing::Plays };
             }
-            state.tell_playing(None, false, &control.id);
+            let from = from.filter(|client| client.has_control);
+            from.inspect(|client| state.answer_playing(client, &control.id));
+            state.tell_playing(from, false, &control.id);
         }
         let values = protocol::parameter_values(&state.parameters(), None);
         for client in state.clients.iter().filter(|client| client.wants_parameters()) {
-            if from.is_none_or(|from| !std::ptr::eq(from, &raw const **client)) {
-                client.answer(Out::Text(values.clone()));
+            if !is_same(client, from) {
+                client.tell_parameters(values.clone());
             }
         }
         self.changed.notify_all();
@@ -216,17 +218,34 @@ impl Shared {
     }
 }
 
+fn is_same(client: &Arc<Outbox>, other: Option<&Outbox>) -> bool {
+    other.is_some_and(|other| std::ptr::eq(other, Arc::as_ptr(client)))
+}
+
 impl State {
     fn parameters(&self) -> [(&'static str, Value); 2] {
         [("rate", json!(self.rate)), ("paused", json!(self.paused))]
     }
 
-    /// Tells one client or all what the drive does, where they know the control of playback.
-    pub(super) fn tell_playing(&self, client: Option<&Arc<Outbox>>, did_seek: bool, id: &str) {
-        let bytes = protocol::playback_state(self.playing, self.time_ns, self.rate, did_seek, id);
-        let told = client.map_or(&self.clients[..], std::slice::from_ref);
-        for client in told.iter().filter(|client| client.has_control) {
-            client.answer(Out::Binary(bytes.clone()));
+    fn playback(&self, did_seek: bool, id: &str) -> Playback {
+        let Self { playing, time_ns, rate, .. } = *self;
+        Playback { playing, time_ns, rate, did_seek, id: id.into() }
+    }
+
+    /// Answers a client's request with the state of playback.
+    fn answer_playing(&self, client: &Outbox, id: &str) {
+        if client.has_control {
+            client.answer(Out::Binary(self.playback(false, id).bytes()));
+        }
+    }
+
+    /// Reports the state of playback to all clients that know it, except one that has its answer.
+    pub(super) fn tell_playing(&self, answered: Option<&Outbox>, did_seek: bool, id: &str) {
+        let playback = self.playback(did_seek, id);
+        for client in self.clients.iter().filter(|client| client.has_control) {
+            if !is_same(client, answered) {
+                client.tell_playback(playback.clone());
+            }
         }
     }
 }
