@@ -135,10 +135,10 @@ type Opened<R> = (BTreeMap<u64, R>, Option<(LineFile, PathBuf)>);
 fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, EvaluateError> {
     let failed = |action| move |error| EvaluateError::File { action, path: path.to_owned(), error };
     if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(failed("written"))?;
+        std::fs::create_dir_all(folder).map_err(failed("write"))?;
     }
     // Two runs would overwrite each other's records.
-    let mut file = LineFile::open(path).map_err(failed("written"))?;
+    let mut file = LineFile::open(path).map_err(failed("write"))?;
     let mut text = String::new();
     let read = file.reader().and_then(|mut reader| reader.read_to_string(&mut text));
     read.map_err(failed("read"))?;
@@ -185,7 +185,7 @@ pub(crate) fn text<R: Serialize>(
 /// A value as a line of a file of records.
 fn line(path: &Path, value: &impl Serialize) -> Result<String, EvaluateError> {
     let failed = |error: serde_json::Error| EvaluateError::File {
-        action: "written",
+        action: "write",
         path: path.to_owned(),
         error: error.into(),
     };
@@ -193,7 +193,7 @@ fn line(path: &Path, value: &impl Serialize) -> Result<String, EvaluateError> {
 }
 
 fn append(file: &mut LineFile, path: &Path, value: &impl Serialize) -> Result<(), EvaluateError> {
-    let failed = |error| EvaluateError::File { action: "written", path: path.to_owned(), error };
+    let failed = |error| EvaluateError::File { action: "write", path: path.to_owned(), error };
     let line = line(path, value)?;
     file.append(&line).map_err(failed)
 }
@@ -261,6 +261,17 @@ mod tests {
         let broken = run(&sweep(&path, 0..2), Ok, go);
         assert!(matches!(broken, Err(EvaluateError::Record { line: 2, .. })), "{broken:?}");
         std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_path_that_cannot_be_written_is_named() {
+        let path = folder("unwritable");
+        std::fs::write(&path, "a file").unwrap();
+        let within = path.join("records.jsonl");
+        let error = run(&sweep(&within, 0..1), |_| Ok(0), |_| ControlFlow::Continue(()));
+        let message = error.unwrap_err().to_string();
+        assert!(message.starts_with(&format!("cannot write {}: ", within.display())), "{message}");
+        std::fs::remove_file(&path).unwrap();
     }
 
     #[test]

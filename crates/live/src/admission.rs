@@ -116,7 +116,7 @@ fn gives_way(clients: &[Place], peer: IpAddr, now_ms: u64) -> Option<usize> {
     })
 }
 
-/// The place of a connection, given up when dropped.
+/// The place of a connection. Dropping it gives up the place and closes the connection.
 #[derive(Debug)]
 pub(crate) struct Ticket {
     admission: Arc<Admission>,
@@ -155,6 +155,7 @@ impl Ticket {
 
 impl Drop for Ticket {
     fn drop(&mut self) {
+        self.place.close();
         let mut places = self.admission.lock();
         let Places { pending, clients, .. } = &mut *places;
         for places in [pending, clients] {

@@ -60,16 +60,15 @@ struct Client {
 struct Clients(Mutex<Vec<Client>>);
 
 impl Clients {
+    /// Calls `tell` for each that has not ended, and removes the others.
     fn each(&self, tell: impl Fn(&Mailbox)) {
-        let clients = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut clients = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        clients.retain(|client| !client.thread.is_finished());
         clients.iter().for_each(|client| tell(&client.mailbox));
     }
 
-    /// Adds one, and removes those that have ended.
     fn add(&self, client: Client) {
-        let mut clients = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        clients.retain(|client| !client.thread.is_finished());
-        clients.push(client);
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(client);
     }
 
     /// Ends all; those that take nothing are cut off.
@@ -240,6 +239,7 @@ impl Card {
                     for frame in self.assembler.push(&buffer[..length]) {
                         let message = message(&frame);
                         let counts = self.assembler.counts();
+                        set(told, counts);
                         clients.each(|mailbox| mailbox.leave(message.clone(), counts));
                     }
                 }
@@ -257,7 +257,7 @@ impl Card {
             if reported.elapsed() >= REPORT_EVERY {
                 reported = Instant::now();
                 let counts = self.assembler.counts();
-                *told.lock().unwrap_or_else(PoisonError::into_inner) = counts;
+                set(told, counts);
                 clients.each(|mailbox| mailbox.count(counts));
                 report(counts);
             }
@@ -266,17 +266,17 @@ impl Card {
     }
 }
 
+fn set(told: &Mutex<Counts>, counts: Counts) {
+    *told.lock().unwrap_or_else(PoisonError::into_inner) = counts;
+}
+
 /// Whether two addresses are the same. A socket of both families reports IPv4 senders as mapped to IPv6.
 fn is_same(one: IpAddr, other: IpAddr) -> bool {
     one.to_canonical() == other.to_canonical()
 }
 
 /// Starts the thread of a connection; `None` where that is not possible.
-fn welcome(
-    stream: TcpStream,
-    admission: &Arc<Admission>,
-    shared: &Arc<Shared>,
-) -> Option<Client> {
+fn welcome(stream: TcpStream, admission: &Arc<Admission>, shared: &Arc<Shared>) -> Option<Client> {
     let ticket = admission.enter(stream).ok()?;
     let mailbox = Arc::<Mailbox>::default();
     let stream = Arc::clone(ticket.stream());

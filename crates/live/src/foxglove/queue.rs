@@ -67,6 +67,13 @@ struct Inner {
     is_overrun: bool,
 }
 
+impl Inner {
+    fn take_state(&mut self) -> Option<Out> {
+        let playback = self.playback.take().map(|playback| Out::Binary(playback.bytes()));
+        playback.or_else(|| self.parameters.take().map(Out::Text))
+    }
+}
+
 impl Outbox {
     pub(super) fn new(most: usize, has_control: bool) -> Self {
         Self { most, has_control, inner: Mutex::default(), filled: Condvar::new() }
@@ -76,12 +83,15 @@ impl Outbox {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Puts an answer before all messages.
+    /// Puts an answer before all messages, and behind the states that waited before it.
     pub(super) fn answer(&self, out: Out) {
-        let mut inner = self.lock();
+        let inner = &mut *self.lock();
         if inner.answers.len() >= MOST_ANSWERS {
             inner.is_overrun = true;
         } else {
+            while let Some(state) = inner.take_state() {
+                inner.answers.push_back(state);
+            }
             inner.answers.push_back(out);
         }
         self.filled.notify_one();
@@ -165,8 +175,7 @@ impl Outbox {
         let out = inner
             .answers
             .pop_front()
-            .or_else(|| inner.playback.take().map(|playback| Out::Binary(playback.bytes())))
-            .or_else(|| inner.parameters.take().map(Out::Text))
+            .or_else(|| inner.take_state())
             .or_else(|| inner.messages.pop_front())?;
         if let Out::Data(_, message) = &out {
             inner.bytes -= message.data.len();
@@ -228,7 +237,7 @@ mod tests {
             assert!(outbox.subscribe(1, 0, Some(&message)));
             outbox.unsubscribe(&[1]);
         }
-        assert_eq!((outbox.lock().messages.len(), outbox.lost()), (16, 984));
-        assert_eq!(outbox.lock().bytes, 1600);
+        let inner = outbox.lock();
+        assert_eq!((inner.messages.len(), inner.lost, inner.bytes), (16, 984, 1600));
     }
 }

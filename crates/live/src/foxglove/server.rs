@@ -93,9 +93,10 @@ fn accept<'scope>(
 }
 
 fn connect<'scope>(stream: TcpStream, scope: &'scope Scope<'scope, '_>, shared: &'scope Shared) {
-    let started = shared.admission.enter(stream).and_then(|ticket| {
-        Builder::new().spawn_scoped(scope, move || client::run(ticket, shared))
-    });
+    let started = shared
+        .admission
+        .enter(stream)
+        .and_then(|ticket| Builder::new().spawn_scoped(scope, move || client::run(ticket, shared)));
     if started.is_err() {
         shared.tally.rejected.fetch_add(1, Ordering::Relaxed);
     }
