@@ -1,6 +1,6 @@
 //! Names from files and of files, with characters that a terminal obeys.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, dead_code)]
 
 mod common;
 

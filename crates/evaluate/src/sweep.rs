@@ -137,6 +137,10 @@ fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, Ev
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(failed("write"))?;
     }
+    if path.metadata().is_ok_and(|there| !there.is_file()) {
+        let why = "it is not a regular file, which records need";
+        return Err(failed("write")(std::io::Error::other(why)));
+    }
     // Two runs would overwrite each other's records.
     let mut file = LineFile::open(path).map_err(failed("write"))?;
     let mut text = String::new();
@@ -271,6 +275,9 @@ mod tests {
         let error = run(&sweep(&within, 0..1), |_| Ok(0), |_| ControlFlow::Continue(()));
         let message = error.unwrap_err().to_string();
         assert!(message.starts_with(&format!("cannot write {}: ", within.display())), "{message}");
+        let device = run(&sweep(Path::new("/dev"), 0..1), |_| Ok(0), |_| ControlFlow::Continue(()));
+        let message = device.unwrap_err().to_string();
+        assert!(message.contains("not a regular file"), "{message}");
         std::fs::remove_file(&path).unwrap();
     }
 

@@ -298,6 +298,7 @@ fn evaluate<E: Experiment>(
 }
 
 fn merged(arguments: &EvaluateMergeArguments, files: &Files) -> Result<String, CliError> {
+    arguments.sources.iter().try_for_each(|path| files.check_input(path))?;
     let Merged { outcome, records, sources } = merge(&arguments.sources)?;
     sources.iter().for_each(|path| files.note_input(path));
     let mut all = outcome.files();
