@@ -212,7 +212,7 @@ impl Client<'_> {
     }
 
     fn control(&self, control: Control) {
-        if let Err(what) = self.shared.control(control, Some(&self.outbox)) {
+        if let Err(what) = self.shared.control(control, &self.outbox) {
             self.warn(Level::Error, &what, None);
         }
     }

@@ -81,6 +81,16 @@ pub(super) struct Shared {
     state: Mutex<State>,
 }
 
+/// A request to go to a time.
+#[derive(Debug, Default)]
+pub(super) struct Seek {
+    pub(super) time_ns: u64,
+    /// The identifier of the request; empty for none.
+    pub(super) id: String,
+    /// The client that asked.
+    pub(super) from: Option<Arc<Outbox>>,
+}
+
 pub(super) struct State {
     pub(super) clients: Vec<Arc<Outbox>>,
     /// Of channels whose last message holds, that message.
@@ -89,8 +99,7 @@ pub(super) struct State {
     pub(super) rate: f64,
     pub(super) paused: bool,
     pub(super) playing: Playing,
-    /// A time to go to, and who asked by which name.
-    pub(super) seek: Option<(u64, String)>,
+    pub(super) seek: Option<Seek>,
     /// When a topic was last asked for.
     pub(super) asked: Option<Instant>,
 }
@@ -138,7 +147,7 @@ impl Shared {
         client.answer(Out::Text(info));
         client.answer(Out::Text(self.advertise.clone()));
         client.tell_time(state.time_ns);
-        state.answer_playing(client, "");
+        state.answer_playing(client, false, "");
         state.clients.push(Arc::clone(client));
     }
 
@@ -163,7 +172,7 @@ impl Shared {
     }
 
     /// Makes the drive go on as asked, and tells all clients; what is wrong with it otherwise.
-    pub(super) fn control(&self, control: Control, from: Option<&Outbox>) -> Result<(), String> {
+    pub(super) fn control(&self, control: Control, from: &Arc<Outbox>) -> Result<(), String> {
         let [low, high] = RATES;
         if !(low..=high).contains(&control.rate) {
             return Err(format!(
@@ -178,18 +187,17 @@ impl Shared {
         let seek_ns = control.seek_ns.or(again.then_some(self.span_ns[0]));
         if let Some(seek_ns) = seek_ns {
             let [start, end] = self.span_ns;
-            state.seek = Some((seek_ns.clamp(start, end), control.id));
+            let time_ns = seek_ns.clamp(start, end);
+            state.seek = Some(Seek { time_ns, id: control.id, from: Some(Arc::clone(from)) });
         } else {
             if matches!(state.playing, Playing::Plays | Playing::Paused) {
                 state.playing = if control.paused { Playing::Paused } else { Playing::Plays };
             }
-            let from = from.filter(|client| client.has_control);
-            from.inspect(|client| state.answer_playing(client, &control.id));
-            state.tell_playing(from, false, &control.id);
+            state.tell_playing(Some(from), false, &control.id);
         }
         let values = protocol::parameter_values(&state.parameters(), None);
         for client in state.clients.iter().filter(|client| client.wants_parameters()) {
-            if !is_same(client, from) {
+            if !Arc::ptr_eq(client, from) {
                 client.tell_parameters(values.clone());
             }
         }
@@ -218,10 +226,6 @@ impl Shared {
     }
 }
 
-fn is_same(client: &Arc<Outbox>, other: Option<&Outbox>) -> bool {
-    other.is_some_and(|other| std::ptr::eq(other, Arc::as_ptr(client)))
-}
-
 impl State {
     fn parameters(&self) -> [(&'static str, Value); 2] {
         [("rate", json!(self.rate)), ("paused", json!(self.paused))]
@@ -233,17 +237,19 @@ impl State {
     }
 
     /// Answers a client's request with the state of playback.
-    fn answer_playing(&self, client: &Outbox, id: &str) {
+    fn answer_playing(&self, client: &Outbox, did_seek: bool, id: &str) {
         if client.has_control {
-            client.answer(Out::Binary(self.playback(false, id).bytes()));
+            client.answer(Out::Binary(self.playback(did_seek, id).bytes()));
         }
     }
 
-    /// Reports the state of playback to all clients that know it, except one that has its answer.
-    pub(super) fn tell_playing(&self, answered: Option<&Outbox>, did_seek: bool, id: &str) {
+    /// Reports the state of playback to all clients that know it: to the one that asked for a change as an answer.
+    pub(super) fn tell_playing(&self, from: Option<&Arc<Outbox>>, did_seek: bool, id: &str) {
         let playback = self.playback(did_seek, id);
         for client in self.clients.iter().filter(|client| client.has_control) {
-            if !is_same(client, answered) {
+            if from.is_some_and(|from| Arc::ptr_eq(from, client)) {
+                self.answer_playing(client, did_seek, id);
+            } else {
                 client.tell_playback(playback.clone());
             }
         }
