@@ -32,11 +32,17 @@ fn text(text: &str) -> Vec<u8> {
 }
 
 #[test]
-fn a_header_of_a_table_is_escaped() {
-    let path = folder("hostile-header").join("drive.csv");
+fn headers_and_cells_of_a_table_are_escaped() {
+    let path = folder("hostile-table").join("drive.csv");
+    let path_text = path.to_str().unwrap();
     std::fs::write(&path, format!("\"{HOSTILE}\",\"{HOSTILE}\"\n1,2\n")).unwrap();
-    let (success, text) = checked(&["log", path.to_str().unwrap()]);
+    let (success, text) = checked(&["log", path_text]);
     assert!(!success, "{text}");
+    let cell = HOSTILE.replace(['\n', '\r'], "");
+    let table = format!("time_s,sensor,azimuth_deg,range_rate_mps,{cell}\n1,1,{cell},2,3\n");
+    std::fs::write(&path, table).unwrap();
+    let (success, text) = checked(&["log", path_text]);
+    assert!(!success && text.contains("a\\u001b[2J\\u009b2J\\u007f\\u202e\\u2066"), "{text}");
 }
 
 #[test]
