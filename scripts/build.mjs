@@ -155,7 +155,7 @@ async function bind({ name, crate, profile }, runner = run) {
     '--out-name',
     name,
     '--omit-default-module-path',
-    // Makes the instance replaceable after a trap (web/lib/module.ts).
+    // Makes the instance replaceable after a trap (web/lib/runtime/module.ts).
     '--experimental-reset-state-function',
   ]);
 }

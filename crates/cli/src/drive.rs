@@ -214,13 +214,7 @@ fn read_clouds(
     }
     let mut tables = Tables::default();
     for path in all.iter().filter(|path| !is_cloud(&name(path)) && Tables::has(&name(path))) {
-        let file = File::open(path).map_err(|error| CliError::File {
-            action: "read",
-            path: path.into(),
-            error,
-        })?;
-        files.note_input(path);
-        tables.take(&name(path), Box::new(file));
+        tables.take(&name(path), Box::new(files.open(path)?));
     }
     Ok(Some(clouds.finish(tables)?))
 }
@@ -229,7 +223,9 @@ fn read_clouds(
 fn is_recording(path: &Path) -> bool {
     let mut begin = vec![];
     is_mcap_name(&name(path))
-        || File::open(path).is_ok_and(|file| file.take(8).read_to_end(&mut begin).is_ok())
+        // A pipe would lose what is read here.
+        || path.is_file()
+            && File::open(path).is_ok_and(|file| file.take(8).read_to_end(&mut begin).is_ok())
             && is_mcap(&begin)
 }
 
@@ -242,9 +238,8 @@ fn read_recording(
 ) -> Result<DriveRead, CliError> {
     let mut reader = McapDriveReader::new(log.topics.options.clone());
     for path in parts {
-        files.note_input(path);
         let failed = |error| CliError::File { action: "read", path: (*path).into(), error };
-        reader.push_all(File::open(path).map_err(failed)?).map_err(failed)??;
+        reader.push_all(files.open(path)?).map_err(failed)??;
         reader.end_file();
     }
     let mut read = reader.finish()?;
@@ -305,12 +300,7 @@ fn read_sequence(
         report.ignored(&other);
     }
     // The reader of a file that is not there would not say that.
-    std::fs::metadata(radar_data).map_err(|error| CliError::File {
-        action: "read",
-        path: radar_data.into(),
-        error,
-    })?;
-    files.note_input(radar_data);
+    files.check_input(radar_data)?;
     let log = read_path(radar_data, companions, &mut report)?;
     Ok(DriveRead { log, report, format: DriveFormat::Radarscenes })
 }

@@ -1,5 +1,6 @@
 //! Errors of the command line, and the one place that prints them.
 
+use crate::terminal::one_line;
 use boresight_aoa::AoaError;
 use boresight_array_calibration::ArrayCalibrationError;
 use boresight_calibrate::CalibrateError;
@@ -158,10 +159,11 @@ impl CliError {
     pub fn report(&self) -> String {
         let details = self.details();
         format!(
-            "error: {self}\n  what:     {}\n  expected: {}\n  given:    {}\n  code:     {}\n",
-            details.what,
-            details.expected,
-            details.given,
+            "error: {}\n  what:     {}\n  expected: {}\n  given:    {}\n  code:     {}\n",
+            one_line(&self.to_string()),
+            one_line(&details.what),
+            one_line(&details.expected),
+            one_line(&details.given),
             self.code()
         )
     }

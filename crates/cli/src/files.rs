@@ -13,6 +13,9 @@ use std::fs::File;
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
+/// Maximum number of bytes read from a pipe, whose length is unknown.
+const MOST_PIPED: u64 = 1 << 30;
+
 /// The files of a run: all reading and writing goes through it, so that nothing is lost by accident.
 #[derive(Debug, Default)]
 pub struct Files {
@@ -33,12 +36,36 @@ impl Files {
 
     /// The bytes of a file.
     pub fn read(&self, path: &Path) -> Result<Vec<u8>, CliError> {
+        let failed = |error| CliError::File { action: "read", path: path.into(), error };
+        let mut input = self.open(path)?;
+        let mut bytes = vec![];
+        // A sparse file can claim more than there is memory.
+        let length = input.length().map_err(failed)?;
+        bytes.try_reserve_exact(length).map_err(|_| failed(ErrorKind::OutOfMemory.into()))?;
+        input.read_to_end(&mut bytes).map_err(failed)?;
+        Ok(bytes)
+    }
+
+    /// Opens a file, or a pipe that is a descriptor of this process, to read, and keeps it from being written.
+    pub fn open(&self, path: &Path) -> Result<Input, CliError> {
+        let failed = |error| CliError::File { action: "read", path: path.into(), error };
+        self.check_input(path)?;
+        let file = File::open(path).map_err(failed)?;
+        let is_file = file.metadata().map_err(failed)?.is_file();
+        Ok(Input { file, remaining: (!is_file).then_some(MOST_PIPED) })
+    }
+
+    /// Refuses what has no end or may never begin, before it is opened, and keeps the file from being written.
+    pub fn check_input(&self, path: &Path) -> Result<(), CliError> {
+        let failed = |error| CliError::File { action: "read", path: path.into(), error };
         self.note_input(path);
-        std::fs::read(path).map_err(|error| CliError::File {
-            action: "read",
-            path: path.into(),
-            error,
-        })
+        match unreadable(path, &path.metadata().map_err(failed)?) {
+            Some(what) => {
+                let why = format!("it is {what}; expected a file, or /dev/stdin for a pipe");
+                Err(failed(std::io::Error::other(why)))
+            }
+            None => Ok(()),
+        }
     }
 
     /// Keeps a file that is read by other means from being written.
@@ -115,6 +142,58 @@ impl Files {
     pub fn standard_output_taken(&self) -> bool {
         self.standard_output.get()
     }
+}
+
+/// A file or a pipe that is read.
+#[derive(Debug)]
+pub struct Input {
+    file: File,
+    /// Number of bytes that may still come from a pipe.
+    remaining: Option<u64>,
+}
+
+impl Input {
+    /// Length of a file; 0 for a pipe.
+    fn length(&self) -> std::io::Result<usize> {
+        let length = if self.remaining.is_some() { 0 } else { self.file.metadata()?.len() };
+        usize::try_from(length).map_err(|_| ErrorKind::OutOfMemory.into())
+    }
+}
+
+impl Read for Input {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.file.read(buffer)?;
+        if let Some(remaining) = &mut self.remaining {
+            *remaining = remaining.checked_sub(count as u64).ok_or_else(|| {
+                let why = format!("more than {MOST_PIPED} bytes from a pipe; expected a file");
+                std::io::Error::other(why)
+            })?;
+        }
+        Ok(count)
+    }
+}
+
+/// What a path leads to, if it cannot be read to an end: a device, a socket, or a named pipe, which blocks until somebody
+/// writes to it.
+#[cfg(unix)]
+fn unreadable(path: &Path, metadata: &std::fs::Metadata) -> Option<&'static str> {
+    use std::os::unix::fs::FileTypeExt;
+    let kind = metadata.file_type();
+    if kind.is_char_device() || kind.is_block_device() {
+        Some("a device")
+    } else if kind.is_socket() {
+        Some("a socket")
+    } else if kind.is_fifo() && path.canonicalize().is_ok() {
+        // A pipe that is a descriptor alone has no path behind its links.
+        Some("a named pipe")
+    } else {
+        None
+    }
+}
+
+#[cfg(not(unix))]
+fn unreadable(_: &Path, _: &std::fs::Metadata) -> Option<&'static str> {
+    None
 }
 
 /// A file with the digest of its bytes.

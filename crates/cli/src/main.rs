@@ -23,16 +23,24 @@ mod output;
 mod pairs;
 mod picture;
 mod run;
+mod terminal;
 
 use arguments::{Cli, Command};
 use clap::Parser;
 use error::CliError;
 use files::Files;
-use std::io::Write;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) if error.use_stderr() => {
+            terminal::report(&error.render().to_string());
+            return ExitCode::from(2);
+        }
+        // Help and version.
+        Err(error) => error.exit(),
+    };
     let files = Files::new(cli.force);
     let result = match cli.command {
         Command::Estimate(arguments) => commands::estimate::run(&arguments, &files),
@@ -55,8 +63,7 @@ fn main() -> ExitCode {
     match result.and_then(|text| print(&text, &files)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // Nothing is left to do where even the standard error is closed.
-            let _ = std::io::stderr().write_all(error.report().as_bytes());
+            terminal::report(&error.report());
             error.exit_code()
         }
     }
@@ -67,11 +74,10 @@ fn main() -> ExitCode {
 fn print(text: &str, files: &Files) -> Result<(), CliError> {
     if files.standard_output_taken() {
         // The data is what was asked for.
-        let _ = std::io::stderr().write_all(text.as_bytes());
+        terminal::report(text);
         return Ok(());
     }
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match terminal::print(text) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
             Err(CliError::File { action: "write", path: "the standard output".into(), error })
         }

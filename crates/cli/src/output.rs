@@ -2,8 +2,8 @@
 
 use crate::arguments::OutputFormat;
 use crate::error::CliError;
+use crate::terminal::{one_line, report};
 use serde_json::{Map, Value};
-use std::io::Write;
 
 /// A column: its name in JSON, its name in CSV and tables, and the digits shown in tables.
 pub struct Column {
@@ -112,7 +112,6 @@ fn shown(number: f64, digits: usize) -> String {
 
 /// Writes remarks to the standard error.
 pub fn remark(lines: impl IntoIterator<Item = String>) {
-    let text: String = lines.into_iter().map(|line| format!("note: {line}\n")).collect();
-    // The result still goes out where the standard error is closed.
-    let _ = std::io::stderr().write_all(text.as_bytes());
+    let lines = lines.into_iter().map(|line| format!("note: {}\n", one_line(&line)));
+    report(&lines.collect::<String>());
 }

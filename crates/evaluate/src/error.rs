@@ -165,7 +165,10 @@ impl Diagnose for EvaluateError {
             Self::Image(error) => error.details(),
             Self::File { action, path, error } => Details::new(
                 path.display().to_string(),
-                format!("a path that can be {action}"),
+                format!(
+                    "a path that can be {}",
+                    if *action == "read" { "read" } else { "written" }
+                ),
                 error.to_string(),
             ),
             Self::OtherRun { path, expected, given } => {

@@ -197,7 +197,8 @@ fn files(sources: &[PathBuf]) -> Result<Vec<PathBuf>, EvaluateError> {
         let mut within = vec![];
         for entry in std::fs::read_dir(source).map_err(failed)? {
             let path = entry.map_err(failed)?.path();
-            if path.extension().is_some_and(|ending| ending == "jsonl") {
+            // A named pipe would block.
+            if path.extension().is_some_and(|ending| ending == "jsonl") && path.is_file() {
                 within.push(path);
             }
         }

@@ -135,10 +135,14 @@ type Opened<R> = (BTreeMap<u64, R>, Option<(LineFile, PathBuf)>);
 fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, EvaluateError> {
     let failed = |action| move |error| EvaluateError::File { action, path: path.to_owned(), error };
     if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(failed("written"))?;
+        std::fs::create_dir_all(folder).map_err(failed("write"))?;
+    }
+    if path.metadata().is_ok_and(|there| !there.is_file()) {
+        let why = "it is not a regular file, which records need";
+        return Err(failed("write")(std::io::Error::other(why)));
     }
     // Two runs would overwrite each other's records.
-    let mut file = LineFile::open(path).map_err(failed("written"))?;
+    let mut file = LineFile::open(path).map_err(failed("write"))?;
     let mut text = String::new();
     let read = file.reader().and_then(|mut reader| reader.read_to_string(&mut text));
     read.map_err(failed("read"))?;
@@ -185,7 +189,7 @@ pub(crate) fn text<R: Serialize>(
 /// A value as a line of a file of records.
 fn line(path: &Path, value: &impl Serialize) -> Result<String, EvaluateError> {
     let failed = |error: serde_json::Error| EvaluateError::File {
-        action: "written",
+        action: "write",
         path: path.to_owned(),
         error: error.into(),
     };
@@ -193,7 +197,7 @@ fn line(path: &Path, value: &impl Serialize) -> Result<String, EvaluateError> {
 }
 
 fn append(file: &mut LineFile, path: &Path, value: &impl Serialize) -> Result<(), EvaluateError> {
-    let failed = |error| EvaluateError::File { action: "written", path: path.to_owned(), error };
+    let failed = |error| EvaluateError::File { action: "write", path: path.to_owned(), error };
     let line = line(path, value)?;
     file.append(&line).map_err(failed)
 }
@@ -261,6 +265,20 @@ mod tests {
         let broken = run(&sweep(&path, 0..2), Ok, go);
         assert!(matches!(broken, Err(EvaluateError::Record { line: 2, .. })), "{broken:?}");
         std::fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn a_path_that_cannot_be_written_is_named() {
+        let path = folder("unwritable");
+        std::fs::write(&path, "a file").unwrap();
+        let within = path.join("records.jsonl");
+        let error = run(&sweep(&within, 0..1), |_| Ok(0), |_| ControlFlow::Continue(()));
+        let message = error.unwrap_err().to_string();
+        assert!(message.starts_with(&format!("cannot write {}: ", within.display())), "{message}");
+        let device = run(&sweep(Path::new("/dev"), 0..1), |_| Ok(0), |_| ControlFlow::Continue(()));
+        let message = device.unwrap_err().to_string();
+        assert!(message.contains("not a regular file"), "{message}");
+        std::fs::remove_file(&path).unwrap();
     }
 
     #[test]

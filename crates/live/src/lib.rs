@@ -4,9 +4,11 @@
 //! - [`foxglove`]: a server that plays drives and their calibration to viewers.
 //! - [`origin`]: which pages may connect to either.
 
+mod admission;
 pub mod bridge;
 mod error;
 pub mod foxglove;
+mod handshake;
 pub mod origin;
 
 pub use error::LiveError;

@@ -4,9 +4,10 @@
 
 use boresight_core::Diagnose;
 use boresight_live::LiveError;
-use boresight_live::bridge::{Bridge, BridgeOptions, Counts, Replay, write_header};
+use boresight_live::bridge::{Bridge, BridgeOptions, Counts, MOST_CLIENTS, Replay, write_header};
 use boresight_live::origin::Origins;
 use serde_json::Value;
+use std::io::Write;
 use std::net::{SocketAddr, TcpStream, UdpSocket};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,7 +33,7 @@ struct Running {
 
 fn options() -> BridgeOptions {
     let local = SocketAddr::from(([127, 0, 0, 1], 0));
-    BridgeOptions { card: local, clients: local, origins: Origins::default() }
+    BridgeOptions { card: local, sender: None, clients: local, origins: Origins::default() }
 }
 
 fn start(options: &BridgeOptions) -> Running {
@@ -292,5 +293,80 @@ fn many_clients_and_those_that_say_nothing_do_no_harm() {
     send(bridge.card, &packets(&BIN[..2 * FRAME]), SLOWLY);
     assert_eq!(frame(&mut socket, &mut vec![]).unwrap().0, 0);
     drop(silent);
+    bridge.end();
+}
+
+#[test]
+fn packets_of_other_senders_are_dropped_and_counted() {
+    let local = "127.0.0.1".parse().unwrap();
+    for (sender, expected) in [("127.0.0.2".parse().unwrap(), 0), (local, 1)] {
+        let bridge = start(&BridgeOptions { sender: Some(sender), ..options() });
+        let (mut socket, _) = bridge.greeted();
+        send(bridge.card, &packets(&BIN[..FRAME]), SLOWLY);
+        // The status says when all packets have come.
+        let status = loop {
+            let Ok(Message::Text(text)) = socket.read() else { continue };
+            let status: Value = serde_json::from_str(&text).unwrap();
+            let counts = &status["counts"];
+            if counts["foreign"].as_u64().unwrap() + counts["packets"].as_u64().unwrap() > 90 {
+                break status;
+            }
+        };
+        let counts = bridge.end();
+        assert_eq!(status["counts"]["frames"], expected, "{sender}");
+        assert_eq!((counts.packets == 0, counts.foreign == 0), (expected == 0, expected == 1));
+    }
+}
+
+#[test]
+fn half_open_connections_take_no_place_of_a_client() {
+    let bridge = start(&options());
+    let half_open: Vec<TcpStream> = (0..300)
+        .map(|k| {
+            let mut stream = TcpStream::connect(bridge.clients).unwrap();
+            // The server may have closed it for a later one.
+            let _ = stream.write_all(&b"GET / HTTP/1.1\r\nX: "[..k % 20]);
+            stream
+        })
+        .collect();
+    let (mut socket, _) = bridge.greeted();
+    send(bridge.card, &packets(&BIN[..2 * FRAME]), SLOWLY);
+    assert!(frame(&mut socket, &mut vec![]).is_some());
+    drop(half_open);
+    bridge.end();
+}
+
+#[test]
+fn clients_that_never_read_give_way_to_a_new_one() {
+    let bridge = start(&options());
+    // None of them answers a ping.
+    let silent: Vec<_> = (0..MOST_CLIENTS).map(|_| bridge.connect(None).unwrap()).collect();
+    let error = *bridge.connect(None).unwrap_err();
+    assert!(matches!(&error, Error::Http(response) if response.status() == 503), "{error}");
+    let mut socket = loop {
+        if let Ok(socket) = bridge.connect(None) {
+            break socket;
+        }
+        thread::sleep(SLOWLY);
+    };
+    send(bridge.card, &packets(&BIN[..2 * FRAME]), SLOWLY);
+    assert!(frame(&mut socket, &mut vec![]).is_some());
+    drop(silent);
+    bridge.end();
+}
+
+#[test]
+fn messages_that_are_too_long_end_their_own_connection_alone() {
+    let bridge = start(&options());
+    let (mut socket, _) = bridge.greeted();
+    for bytes in
+        [&b"\x82\xff\x7f\xff\xff\xff\xff\xff\xff\xff\0\0\0\0"[..], &[0xff; 1000], b"\x81\x01x"]
+    {
+        let (mut hostile, _) = bridge.greeted();
+        hostile.get_mut().write_all(bytes).unwrap();
+        while hostile.read().is_ok() {}
+    }
+    send(bridge.card, &packets(&BIN[..2 * FRAME]), SLOWLY);
+    assert!(frame(&mut socket, &mut vec![]).is_some());
     bridge.end();
 }

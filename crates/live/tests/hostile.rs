@@ -134,3 +134,49 @@ fn a_viewer_that_does_not_read_loses_whole_messages_and_is_told_and_others_lose_
     });
     assert!(counts.lost > 1000, "{counts:?}");
 }
+
+#[test]
+fn half_open_and_silent_connections_leave_places_for_viewers() {
+    let log = drive(100);
+    serve(&log, ServeOptions { rate: FAST, ..ServeOptions::default() }, |address| {
+        let half_open: Vec<TcpStream> = (0..300)
+            .map(|k| {
+                let mut stream = TcpStream::connect(address).unwrap();
+                // The server may have closed it for a later one.
+                let _ = stream.write_all(&b"GET / HTTP/1.1\r\nX: "[..k % 20]);
+                stream
+            })
+            .collect();
+        sees_all(address, 100);
+        // These have places, but answer no ping.
+        let mut silent = vec![];
+        while let Ok(socket) = connect(address, V1, None) {
+            silent.push(socket);
+            assert!(silent.len() <= 17);
+        }
+        while connect(address, V1, None).is_err() {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        // It waits for the topics.
+        Viewer::new(address, V1);
+        drop(half_open);
+    });
+}
+
+#[test]
+fn requests_of_one_viewer_neither_disconnect_nor_delay_another() {
+    const SDK: &str = "foxglove.sdk.v1";
+    let log = drive(10);
+    serve(&log, ServeOptions { rate: FAST, ..ServeOptions::default() }, |address| {
+        let mut idle = Viewer::new(address, SDK);
+        let mut eager = Viewer::new(address, SDK);
+        // More than the sockets in between hold, while the other viewer does not read.
+        for k in 0..600 {
+            eager.control(1, 1.0, None, &format!("{k:060000}"));
+            let known = eager.playing.len();
+            eager.until(|viewer| viewer.playing.len() > known);
+        }
+        let last = format!("{:060000}", 599);
+        idle.until(|viewer| viewer.playing.last().is_some_and(|playing| playing.4 == last));
+    });
+}

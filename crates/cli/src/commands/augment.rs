@@ -6,6 +6,7 @@ use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::numbers;
 use crate::run::Run;
+use crate::terminal::name;
 use boresight_core::{Complex32, Waveform};
 use boresight_formats::npy::{Element, preamble};
 use boresight_formats::{RadarConfig, json};
@@ -66,7 +67,7 @@ where
                 let shape: Vec<usize> =
                     std::iter::once(drawn.len()).chain(frame.shape().iter().copied()).collect();
                 out.write_all(&preamble::<Complex32>(&shape)?).map_err(failed)?;
-                said = format!("{}: complex numbers of shape {shape:?}\n", named.display());
+                said = format!("{}: complex numbers of shape {shape:?}\n", name(&named));
             }
             let mut bytes = Vec::with_capacity(frame.len() * 8);
             frame.iter().for_each(|sample| sample.put(&mut bytes));
@@ -80,7 +81,7 @@ where
     })?;
     run.finish();
     if let Some(destination) = shifts {
-        said += &format!("{}: what they were made from\n", destination.named().display());
+        said += &format!("{}: what they were made from\n", name(destination.named()));
         let told = json!({ "waveform": waveform, "frames": json::result(&drawn) });
         files.write(destination, format!("{told:#}\n").as_bytes())?;
     }

@@ -6,7 +6,6 @@ use crate::error::CliError;
 use crate::files::Files;
 use crate::output::{Column, Table, remark};
 use boresight_formats::{BoardLog, RadarConfig};
-use std::fs::File;
 use std::path::Path;
 
 /// Packets out of messages of a recording, as [`run`] takes them.
@@ -17,8 +16,7 @@ pub fn recorded(
 ) -> Result<String, CliError> {
     let failed = |error| CliError::File { action: "read", path: path.into(), error };
     run(arguments, files, |config| {
-        files.note_input(path);
-        let file = File::open(path).map_err(failed)?;
+        let file = files.open(path)?;
         Ok(BoardLog::of_mcap(file, None, config).map_err(failed)??)
     })
 }

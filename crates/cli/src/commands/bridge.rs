@@ -17,7 +17,8 @@ use std::thread;
 pub fn run(arguments: &BridgeArguments, files: &Files) -> Result<String, CliError> {
     let config = files.read(&arguments.config)?;
     let options = BridgeOptions {
-        card: arguments.listen,
+        card: arguments.listen(),
+        sender: arguments.sender(),
         clients: SocketAddr::new(arguments.host, arguments.port),
         origins: Origins::new(&arguments.origin)?,
     };
@@ -30,7 +31,11 @@ pub fn run(arguments: &BridgeArguments, files: &Files) -> Result<String, CliErro
     let (card, clients) = (bridge.card_address()?, bridge.client_address()?);
     remark(bridge.config().remarks.iter().map(|remark| remark.message.clone()));
     remark([
-        format!("the card is heard on udp {card}, {} bytes a frame", bridge.config().frame_bytes()),
+        format!(
+            "packets from {} are received at udp {card}, {} bytes a frame",
+            options.sender.map_or("any address".into(), |sender| sender.to_string()),
+            bridge.config().frame_bytes()
+        ),
         format!("pages connect to ws://{clients}; Ctrl-C ends"),
     ]);
     let shown = std::io::stderr().is_terminal();
@@ -65,6 +70,7 @@ fn sentence(counts: &Counts) -> String {
         reordered,
         duplicates,
         malformed,
+        foreign,
         restarts,
         ..
     } = counts;
@@ -75,6 +81,7 @@ fn sentence(counts: &Counts) -> String {
         (reordered, "out of order"),
         (duplicates, "twice"),
         (malformed, "malformed"),
+        (foreign, "from other senders"),
         (restarts, "starts of the card"),
     ] {
         if *count > 0 {

@@ -11,6 +11,7 @@ use crate::files::{self, Files};
 use crate::network;
 use crate::output::remark;
 use crate::run::Run;
+use crate::terminal::name;
 use boresight_core::CoreError;
 use boresight_core::presets::preset;
 use boresight_evaluate::experiment::{self, Answered, Experiment, How};
@@ -278,7 +279,7 @@ fn evaluate<E: Experiment>(
         run.finish();
         took(new);
         let file = folder.join(part.file_name(E::NAME));
-        return Ok(format!("Part {part}: {records} records in {}\n", file.display()));
+        return Ok(format!("Part {part}: {records} records in {}\n", name(&file)));
     }
     // What a run wrote before is replaced when it goes on; what only bears the same name is not.
     let mut results = BTreeMap::new();
@@ -297,6 +298,7 @@ fn evaluate<E: Experiment>(
 }
 
 fn merged(arguments: &EvaluateMergeArguments, files: &Files) -> Result<String, CliError> {
+    arguments.sources.iter().try_for_each(|path| files.check_input(path))?;
     let Merged { outcome, records, sources } = merge(&arguments.sources)?;
     sources.iter().for_each(|path| files.note_input(path));
     let mut all = outcome.files();

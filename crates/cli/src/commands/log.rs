@@ -7,6 +7,7 @@ use crate::drive::open_path;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::output::remark;
+use crate::terminal::one_line;
 use boresight_calibrate::CalibrationOptions;
 use boresight_calibrate::signs::{SignFindings, find_signs};
 use boresight_core::describe::Named;
@@ -131,7 +132,8 @@ fn topic_line(topic: &DriveTopic) -> String {
         None => topic.used_as.name().into(),
     };
     let clock = topic.clock.map_or(String::new(), |clock| format!(", times by {}", clock.name()));
-    let DriveTopic { name, message_type, messages, note, .. } = topic;
+    let [name, message_type] = [&topic.name, &topic.message_type].map(|text| one_line(text));
+    let DriveTopic { messages, note, .. } = topic;
     let plural = if *messages == 1 { "" } else { "s" };
     format!(
         "topic       {name} ({message_type}, {messages} message{plural}): {used}{clock}; {note}\n"
@@ -148,10 +150,10 @@ fn as_text(read: &DriveRead, signs: &SignFindings) -> String {
     let report = &read.report;
     let name = report.sequence.as_ref().map_or(String::new(), |(name, category)| {
         let category = category.as_ref().map_or(String::new(), |text| format!(" ({text})"));
-        format!("\nsequence    {name}{category}")
+        one_line(&format!("sequence    {name}{category}")) + "\n"
     });
     let mut text = format!(
-        "format      {}{name}\nscans       {}, {radar}\ndetections  {detections} of {} rows\n",
+        "format      {}\n{name}scans       {}, {radar}\ndetections  {detections} of {} rows\n",
         read.format.name(),
         log.scans.len(),
         report.detections,

@@ -6,7 +6,6 @@ use boresight_formats::mcap::{Channel, McapSink, McapStream, Message, Schema};
 use boresight_formats::ros::{Definitions, Encoding, Field, Kind, Value, decode};
 use serde_json::{Map, json};
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -72,8 +71,7 @@ fn as_json(definitions: &Definitions, of: usize, value: &Value<'_>) -> serde_jso
 /// The messages of a topic.
 pub fn run(path: &Path, topic: &str, files: &Files) -> Result<String, CliError> {
     let failed = |error| CliError::File { action: "read", path: path.into(), error };
-    files.note_input(path);
-    let mut file = File::open(path).map_err(failed)?;
+    let mut file = files.open(path)?;
     let mut lines = Lines { topic, decoders: BTreeMap::new(), text: String::new() };
     let mut stream = McapStream::default();
     let mut piece = vec![0; PIECE];

@@ -7,12 +7,12 @@ use crate::error::CliError;
 use crate::files::Files;
 use crate::output::remark;
 use crate::run::Run;
+use crate::terminal::report;
 use boresight_calibrate::CalibrationOptions;
 use boresight_formats::json;
 use boresight_live::foxglove::play::Setup;
 use boresight_live::foxglove::{Counts, Play, Server};
 use boresight_pipeline::Progress;
-use std::io::Write;
 
 /// Serves until Ctrl-C; what became of connections and messages, as text or JSON.
 pub fn run(arguments: &ServeArguments, files: &Files) -> Result<String, CliError> {
@@ -44,8 +44,7 @@ pub fn run(arguments: &ServeArguments, files: &Files) -> Result<String, CliError
     let server = Server::bind(arguments.serve.options.clone())?;
     if let Some(address) = server.address() {
         // Who starts it by a program waits for this line.
-        let text = format!("serving at ws://{address}; Ctrl-C ends it\n");
-        let _ = std::io::stderr().write_all(text.as_bytes());
+        report(&format!("serving at ws://{address}; Ctrl-C ends it\n"));
     }
     let run = Run::start("scans")?;
     let counts = server.run(&mut play, &|[done, total]| run.report(Progress { done, total }))?;

@@ -6,6 +6,7 @@ use crate::destination::Destination;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::pairs;
+use crate::terminal::name;
 use boresight_core::Array;
 use boresight_core::describe::Described;
 use boresight_formats::json;
@@ -106,11 +107,10 @@ impl Outputs {
         data: &[u8],
         truth: &Value,
     ) -> Result<String, CliError> {
-        let mut said =
-            format!("{}: complex numbers of shape {shape:?}\n", self.data.named().display());
+        let mut said = format!("{}: complex numbers of shape {shape:?}\n", name(self.data.named()));
         files.write(self.data, data)?;
         if let Some(destination) = self.truth {
-            said += &format!("{}: the truth\n", destination.named().display());
+            said += &format!("{}: the truth\n", name(destination.named()));
             files.write(destination, format!("{truth:#}\n").as_bytes())?;
         }
         Ok(said)

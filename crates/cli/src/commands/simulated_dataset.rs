@@ -4,6 +4,7 @@ use crate::arguments::DriveArguments;
 use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::run::Run;
+use crate::terminal::name;
 use boresight_core::describe::{Named, naming};
 use boresight_pipeline::Progress;
 use boresight_simulate::SimulateError;
@@ -42,7 +43,7 @@ pub fn run(arguments: &DriveArguments, folder: &Path, files: &Files) -> Result<S
     Ok(format!(
         "{}: {} drives, {} frames, {} detections, {:.1} % of them moving, {:.1} % of the frames without \
          anything static\n",
-        folder.display(),
+        name(folder),
         counts.drives,
         counts.frames,
         counts.detections,

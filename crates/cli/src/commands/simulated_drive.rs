@@ -5,6 +5,7 @@ use crate::error::CliError;
 use crate::files::{self, Files};
 use crate::pairs;
 use crate::run::Run;
+use crate::terminal::name;
 use boresight_core::describe::Named;
 use boresight_core::drive::{Mounting, RADARSCENES_SENSORS};
 use boresight_formats::json;
@@ -52,11 +53,11 @@ pub fn run(arguments: &DriveArguments, out: &Path, files: &Files) -> Result<Stri
     let detections: usize = drive.log.scans.iter().map(|scan| scan.detections.len()).sum();
     Ok(format!(
         "{}: {} radars, {} scans, {detections} detections, {:.1} % of them moving\n{}: the truth\n",
-        folder.display(),
+        name(&folder),
         drive.log.sensors.len(),
         drive.log.scans.len(),
         100.0 * moving_share(&drive),
-        truth_path.display(),
+        name(&truth_path),
     ))
 }
 

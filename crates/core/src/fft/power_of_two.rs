@@ -13,6 +13,10 @@ pub(super) const LANES: usize = 4;
 const LONGEST: usize = 1024;
 
 /// A transform whose length is a power of two.
+///
+/// Buffers hold any number of whole blocks of this length, and inputs as many as outputs. Unlike `rustfft`, which panics
+/// otherwise, this planner leaves numbers after the last whole block unchanged: a panic would end the WebAssembly
+/// instance. With debug assertions it panics as well, so that tests find such a call.
 pub struct PowerOfTwo<T> {
     length: usize,
     direction: FftDirection,
@@ -201,6 +205,15 @@ fn butterfly<T: Transforms, P: Point<T>, const FORWARD: bool>(
     ]
 }
 
+/// Checks in debug builds that a buffer holds whole blocks.
+fn debug_check<T>(buffer: &[Complex<T>], length: usize) {
+    debug_assert!(
+        buffer.len().is_multiple_of(length),
+        "a buffer of {} numbers; expected a multiple of {length}",
+        buffer.len()
+    );
+}
+
 fn twiddle<T: Transforms>(phase_rad: f64) -> Complex<T> {
     let z = crate::steering::cis(phase_rad);
     let part = |x: f64| T::from_f64(x).unwrap_or_else(T::zero);
@@ -209,6 +222,7 @@ fn twiddle<T: Transforms>(phase_rad: f64) -> Complex<T> {
 
 impl<T: Transforms> Fft<T> for PowerOfTwo<T> {
     fn process_with_scratch(&self, buffer: &mut [Complex<T>], scratch: &mut [Complex<T>]) {
+        debug_check(buffer, self.length);
         let fours = if self.length <= LONGEST { buffer.len() / (LANES * self.length) } else { 0 };
         let (fours, rest) = buffer.split_at_mut(fours * LANES * self.length);
         for rows in fours.chunks_exact_mut(LANES * self.length) {
@@ -225,6 +239,8 @@ impl<T: Transforms> Fft<T> for PowerOfTwo<T> {
         output: &mut [Complex<T>],
         _scratch: &mut [Complex<T>],
     ) {
+        debug_check(input, self.length);
+        debug_assert_eq!(input.len(), output.len(), "input and output of a transform");
         let blocks = input.chunks_exact_mut(self.length);
         for (from, to) in blocks.zip(output.chunks_exact_mut(self.length)) {
             to.copy_from_slice(from);
@@ -238,7 +254,10 @@ impl<T: Transforms> Fft<T> for PowerOfTwo<T> {
         output: &mut [Complex<T>],
         scratch: &mut [Complex<T>],
     ) {
-        output.copy_from_slice(input);
+        debug_assert_eq!(input.len(), output.len(), "input and output of a transform");
+        let length = input.len().min(output.len());
+        let output = &mut output[..length];
+        output.copy_from_slice(&input[..length]);
         self.process_with_scratch(output, scratch);
     }
 
@@ -264,5 +283,40 @@ impl<T> Length for PowerOfTwo<T> {
 impl<T> Direction for PowerOfTwo<T> {
     fn fft_direction(&self) -> FftDirection {
         self.direction
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn call(length: usize) -> Vec<Complex<f64>> {
+        let plan = PowerOfTwo::<f64>::new(4, FftDirection::Forward);
+        let mut buffer = vec![Complex::new(1.0, 0.0); length];
+        let mut scratch = vec![Complex::default(); plan.get_inplace_scratch_len()];
+        plan.process_with_scratch(&mut buffer, &mut scratch);
+        buffer
+    }
+
+    #[test]
+    fn whole_blocks_are_transformed() {
+        for blocks in 0..10 {
+            let expected = [[4.0, 0.0, 0.0, 0.0]].repeat(blocks).concat();
+            assert_eq!(call(4 * blocks), expected.iter().map(Complex::from).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    #[cfg(debug_assertions)]
+    #[should_panic = "a buffer of 6 numbers; expected a multiple of 4"]
+    fn a_partial_block_is_found_in_debug_builds() {
+        call(6);
+    }
+
+    #[test]
+    #[cfg(not(debug_assertions))]
+    fn a_partial_block_is_left_unchanged() {
+        let re: Vec<f64> = call(6).iter().map(|z| z.re).collect();
+        assert_eq!(re, [4.0, 0.0, 0.0, 0.0, 1.0, 1.0]);
     }
 }

@@ -2,10 +2,10 @@
 
 use super::frames::{Counts, Frame};
 use super::messages::{Status, text};
+use crate::handshake::Connection;
 use std::collections::VecDeque;
 use std::io::ErrorKind;
-use std::net::TcpStream;
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tungstenite::protocol::CloseFrame;
 use tungstenite::protocol::frame::coding::CloseCode;
@@ -16,10 +16,10 @@ const MOST_WAITING: usize = 4;
 /// How often a client is told what came.
 const STATUS_EVERY: Duration = Duration::from_secs(1);
 /// How long a client's own messages are looked for, and how often while frames come.
-pub(super) const LISTEN: Duration = Duration::from_millis(1);
+const LISTEN: Duration = Duration::from_millis(1);
 const LISTEN_EVERY: Duration = Duration::from_millis(50);
 /// How long a client that takes nothing is waited for.
-pub(super) const STALLED: Duration = Duration::from_secs(10);
+const STALLED: Duration = Duration::from_secs(10);
 
 /// What waits for one client.
 #[derive(Default)]
@@ -83,8 +83,16 @@ pub(super) fn message(frame: &Frame) -> Bytes {
     [&frame.number.to_le_bytes()[..], &frame.samples].concat().into()
 }
 
-/// Sends a client what is left for it, until it goes or the bridge ends.
-pub(super) fn serve(mut socket: WebSocket<TcpStream>, mailbox: &Arc<Mailbox>) {
+/// Sends a client the hello and its mailbox, until it goes or the bridge ends.
+pub(super) fn serve(mut socket: WebSocket<Connection>, mailbox: &Mailbox, hello: String) {
+    let stream = socket.get_ref().stream();
+    let blocks = stream
+        .set_nonblocking(false)
+        .and_then(|()| stream.set_read_timeout(Some(LISTEN)))
+        .and_then(|()| stream.set_write_timeout(Some(STALLED)));
+    if blocks.is_err() || socket.send(Message::Text(hello.into())).is_err() {
+        return;
+    }
     let mut sent_frames = 0;
     let (mut told, mut listened) = (Instant::now(), Instant::now());
     loop {
@@ -104,7 +112,11 @@ pub(super) fn serve(mut socket: WebSocket<TcpStream>, mailbox: &Arc<Mailbox>) {
         if told.elapsed() >= STATUS_EVERY {
             told = Instant::now();
             let status = Status { counts, sent_frames, skipped_frames };
-            if socket.send(Message::Text(text(&status).into())).is_err() {
+            // The answer to a ping shows that the client has read everything before it.
+            let told = socket
+                .send(Message::Text(text(&status).into()))
+                .and_then(|()| socket.send(Message::Ping(Bytes::new())));
+            if told.is_err() {
                 return;
             }
         }

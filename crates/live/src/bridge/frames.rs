@@ -34,6 +34,8 @@ pub struct Counts {
     pub duplicates: u64,
     /// Packets that no card sends: too short, or with numbers that contradict each other.
     pub malformed: u64,
+    /// Packets from other senders than the card, dropped.
+    pub foreign: u64,
     /// How often the card began anew.
     pub restarts: u64,
     /// Whole frames.
@@ -117,6 +119,11 @@ impl FrameAssembler {
         self.counts.bytes += packet.samples.len() as u64;
         self.put(&packet);
         self.settle()
+    }
+
+    /// Counts a packet from another sender than the card.
+    pub(super) fn count_foreign(&mut self) {
+        self.counts.foreign += 1;
     }
 
     /// Ends the run: what is not whole is given up.

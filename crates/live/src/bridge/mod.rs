@@ -14,5 +14,5 @@ mod server;
 pub use frames::{Counts, Frame, FrameAssembler};
 pub use messages::{Hello, Status};
 pub use packet::{HEADER_BYTES, Packet, write_header};
-pub use replay::Replay;
-pub use server::{Bridge, BridgeOptions};
+pub use replay::{Replay, replay_target};
+pub use server::{Bridge, BridgeOptions, MOST_CLIENTS};

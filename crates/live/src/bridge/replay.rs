@@ -3,7 +3,7 @@
 use super::packet::write_header;
 use crate::LiveError;
 use boresight_formats::{Capture, RadarConfig};
-use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -12,6 +12,17 @@ use std::time::{Duration, Instant};
 const SAMPLE_BYTES: usize = 1456;
 /// How long the sender sleeps at most.
 const TICK: Duration = Duration::from_millis(2);
+
+/// The address that a replay sends to, from its own port at the same IP address: that of the bridge, or loopback for a
+/// bridge that listens at all addresses.
+pub fn replay_target(bridge: SocketAddr) -> SocketAddr {
+    let ip = match bridge.ip() {
+        IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
+        IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
+        ip => ip,
+    };
+    SocketAddr::new(ip, bridge.port())
+}
 
 /// The frames of a recording, sent over and over.
 pub struct Replay<'a> {
@@ -44,22 +55,8 @@ impl<'a> Replay<'a> {
             what: "the replay",
             given: error.to_string(),
         };
-        // Where the bridge listens on all addresses, its own is one of them.
-        let (from, to) = match to {
-            SocketAddr::V4(mut to) => {
-                if to.ip().is_unspecified() {
-                    to.set_ip(Ipv4Addr::LOCALHOST);
-                }
-                (SocketAddr::from((Ipv4Addr::UNSPECIFIED, 0)), SocketAddr::V4(to))
-            }
-            SocketAddr::V6(mut to) => {
-                if to.ip().is_unspecified() {
-                    to.set_ip(Ipv6Addr::LOCALHOST);
-                }
-                (SocketAddr::from((Ipv6Addr::UNSPECIFIED, 0)), SocketAddr::V6(to))
-            }
-        };
-        let socket = UdpSocket::bind(from).map_err(failed)?;
+        let to = replay_target(to);
+        let socket = UdpSocket::bind((to.ip(), 0)).map_err(failed)?;
         let begun = Instant::now();
         let (mut sequence, mut offset) = (1_u32, 0_u64);
         let mut packet = Vec::with_capacity(1500);

@@ -1,26 +1,24 @@
 //! The sockets of a bridge.
 
-use super::clients::{LISTEN, Mailbox, STALLED, message, serve};
+use super::clients::{Mailbox, message, serve};
 use super::frames::{Counts, FrameAssembler};
 use super::messages::{Hello, text};
 use crate::LiveError;
+use crate::admission::{Admission, Ticket};
+use crate::handshake::{Terms, handshake};
 use crate::origin::Origins;
 use boresight_formats::RadarConfig;
 use std::io::ErrorKind;
-use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream, UdpSocket};
+use std::net::{IpAddr, Shutdown, SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
-use tungstenite::handshake::server::{Callback, ErrorResponse, Request, Response};
-use tungstenite::http::{HeaderValue, StatusCode, header::ORIGIN};
-use tungstenite::protocol::WebSocketConfig;
-use tungstenite::{Message, accept_hdr_with_config};
 
-/// More clients than somebody looks at.
-const MOST_CLIENTS: usize = 16;
-/// A client has nothing to say that is longer.
-const MOST_SAID: usize = 1 << 16;
+/// Maximum number of clients.
+pub const MOST_CLIENTS: usize = 16;
+/// Pause between two looks for new connections.
+const LOOK: Duration = Duration::from_millis(10);
 /// How long a call waits before it looks whether the bridge ends.
 const PATIENCE: Duration = Duration::from_millis(50);
 /// How often counts are told.
@@ -29,8 +27,10 @@ const REPORT_EVERY: Duration = Duration::from_secs(1);
 /// Where a bridge listens, and whom it serves.
 #[derive(Debug, Clone)]
 pub struct BridgeOptions {
-    /// Where the card sends its packets: port 4098 unless it was told otherwise.
+    /// Address that receives the card's packets. The factory setting of the port is 4098.
     pub card: SocketAddr,
+    /// Address of the card; packets from other addresses are dropped. `None` accepts any sender.
+    pub sender: Option<IpAddr>,
     /// Where clients connect.
     pub clients: SocketAddr,
     /// Pages that may.
@@ -40,6 +40,7 @@ pub struct BridgeOptions {
 /// A bridge that listens.
 pub struct Bridge {
     udp: UdpSocket,
+    sender: Option<IpAddr>,
     listener: TcpListener,
     origins: Origins,
     config: RadarConfig,
@@ -47,10 +48,10 @@ pub struct Bridge {
     assembler: FrameAssembler,
 }
 
-/// A client that is served.
+/// A connection and its thread.
 struct Client {
     mailbox: Arc<Mailbox>,
-    stream: TcpStream,
+    stream: Arc<TcpStream>,
     thread: thread::JoinHandle<()>,
 }
 
@@ -59,16 +60,11 @@ struct Client {
 struct Clients(Mutex<Vec<Client>>);
 
 impl Clients {
+    /// Calls `tell` for each that has not ended, and removes the others.
     fn each(&self, tell: impl Fn(&Mailbox)) {
-        let clients = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        clients.iter().for_each(|client| tell(&client.mailbox));
-    }
-
-    /// How many there are, once those that went are left out.
-    fn count(&self) -> usize {
         let mut clients = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         clients.retain(|client| !client.thread.is_finished());
-        clients.len()
+        clients.iter().for_each(|client| tell(&client.mailbox));
     }
 
     fn add(&self, client: Client) {
@@ -115,6 +111,7 @@ impl Bridge {
         listener.set_nonblocking(true).map_err(socket("clients"))?;
         Ok(Self {
             udp,
+            sender: options.sender,
             listener,
             origins: options.origins.clone(),
             config: parsed,
@@ -154,129 +151,147 @@ impl Bridge {
         stop: &AtomicBool,
         report: &mut dyn FnMut(Counts, usize),
     ) -> Result<Counts, LiveError> {
-        let Self { udp, listener, origins, config, config_text, mut assembler } = self;
+        let Self { udp, sender, listener, origins, config, config_text, assembler } = self;
         let clients = Clients::default();
-        let told = Mutex::new(Counts::default());
-        let ended = AtomicBool::new(false);
-        let ends = || stop.load(Ordering::Relaxed) || ended.load(Ordering::Relaxed);
+        let admission = Admission::new(MOST_CLIENTS);
+        let shared = Arc::new(Shared {
+            origins,
+            config,
+            config_text,
+            told: Mutex::default(),
+            ended: AtomicBool::new(false),
+        });
+        let mut card = Card { udp, sender, assembler };
         let result = thread::scope(|scope| {
             scope.spawn(|| {
-                while !ends() {
+                while !stop.load(Ordering::Relaxed) && !shared.ends() {
                     let Ok((stream, _)) = listener.accept() else {
-                        thread::sleep(PATIENCE);
+                        thread::sleep(LOOK);
                         continue;
                     };
-                    if clients.count() >= MOST_CLIENTS {
-                        continue;
-                    }
-                    let counts = *told.lock().unwrap_or_else(PoisonError::into_inner);
-                    let hello = text(&Hello {
-                        version: 1,
-                        frame_bytes: config.frame_bytes(),
-                        frame_interval_s: config.waveform.frame_interval_s,
-                        config: &config_text,
-                        counts,
-                    });
-                    if let Some(client) = welcome(stream, &origins, hello) {
+                    if let Some(client) = welcome(stream, &admission, &shared) {
                         clients.add(client);
                     }
                 }
             });
-            let result = receive(&udp, &mut assembler, &clients, &told, stop, report);
-            ended.store(true, Ordering::Relaxed);
+            let result = card.receive(&clients, &shared.told, stop, &mut |counts| {
+                report(counts, admission.clients());
+            });
+            shared.ended.store(true, Ordering::Relaxed);
             result
         });
         clients.close();
-        assembler.finish();
-        result.map(|()| assembler.counts())
+        card.assembler.finish();
+        result.map(|()| card.assembler.counts())
     }
 }
 
-/// Receives packets and hands frames out until `stop`.
-fn receive(
-    udp: &UdpSocket,
-    assembler: &mut FrameAssembler,
-    clients: &Clients,
-    told: &Mutex<Counts>,
-    stop: &AtomicBool,
-    report: &mut dyn FnMut(Counts, usize),
-) -> Result<(), LiveError> {
-    let mut buffer = vec![0; 1 << 16];
-    let mut reported = Instant::now();
-    while !stop.load(Ordering::Relaxed) {
-        match udp.recv(&mut buffer) {
-            Ok(length) => {
-                for frame in assembler.push(&buffer[..length]) {
-                    let message = message(&frame);
-                    let counts = assembler.counts();
-                    clients.each(|mailbox| mailbox.leave(message.clone(), counts));
+/// What the threads of connections share.
+struct Shared {
+    origins: Origins,
+    config: RadarConfig,
+    config_text: String,
+    told: Mutex<Counts>,
+    ended: AtomicBool,
+}
+
+impl Shared {
+    fn ends(&self) -> bool {
+        self.ended.load(Ordering::Relaxed)
+    }
+
+    fn hello(&self) -> String {
+        let counts = *self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        text(&Hello {
+            version: 1,
+            frame_bytes: self.config.frame_bytes(),
+            frame_interval_s: self.config.waveform.frame_interval_s,
+            config: &self.config_text,
+            counts,
+        })
+    }
+}
+
+/// The side of the card.
+struct Card {
+    udp: UdpSocket,
+    sender: Option<IpAddr>,
+    assembler: FrameAssembler,
+}
+
+impl Card {
+    /// Receives packets and hands frames out until `stop`.
+    fn receive(
+        &mut self,
+        clients: &Clients,
+        told: &Mutex<Counts>,
+        stop: &AtomicBool,
+        report: &mut dyn FnMut(Counts),
+    ) -> Result<(), LiveError> {
+        let mut buffer = vec![0; 1 << 16];
+        let mut reported = Instant::now();
+        while !stop.load(Ordering::Relaxed) {
+            match self.udp.recv_from(&mut buffer) {
+                Ok((_, from)) if self.sender.is_some_and(|sender| !is_same(sender, from.ip())) => {
+                    self.assembler.count_foreign();
                 }
+                Ok((length, _)) => {
+                    for frame in self.assembler.push(&buffer[..length]) {
+                        let message = message(&frame);
+                        let counts = self.assembler.counts();
+                        set(told, counts);
+                        clients.each(|mailbox| mailbox.leave(message.clone(), counts));
+                    }
+                }
+                // The last is what a port that nobody listens on answers to an answer.
+                Err(error)
+                    if matches!(
+                        error.kind(),
+                        ErrorKind::WouldBlock
+                            | ErrorKind::TimedOut
+                            | ErrorKind::Interrupted
+                            | ErrorKind::ConnectionReset
+                    ) => {}
+                Err(error) => return Err(socket("the card")(error)),
             }
-            // The last is what a port that nobody listens on answers to an answer.
-            Err(error)
-                if matches!(
-                    error.kind(),
-                    ErrorKind::WouldBlock
-                        | ErrorKind::TimedOut
-                        | ErrorKind::Interrupted
-                        | ErrorKind::ConnectionReset
-                ) => {}
-            Err(error) => return Err(socket("the card")(error)),
+            if reported.elapsed() >= REPORT_EVERY {
+                reported = Instant::now();
+                let counts = self.assembler.counts();
+                set(told, counts);
+                clients.each(|mailbox| mailbox.count(counts));
+                report(counts);
+            }
         }
-        if reported.elapsed() >= REPORT_EVERY {
-            reported = Instant::now();
-            let counts = assembler.counts();
-            *told.lock().unwrap_or_else(PoisonError::into_inner) = counts;
-            clients.each(|mailbox| mailbox.count(counts));
-            report(counts, clients.count());
-        }
+        Ok(())
     }
-    Ok(())
 }
 
-/// A client in a thread of its own; `None` where none could be made. What it says first is read there, as a client may
-/// take its time.
-fn welcome(stream: TcpStream, origins: &Origins, hello: String) -> Option<Client> {
-    stream.set_nonblocking(false).ok()?;
-    stream.set_nodelay(true).ok()?;
-    stream.set_read_timeout(Some(STALLED)).ok()?;
-    stream.set_write_timeout(Some(STALLED)).ok()?;
+fn set(told: &Mutex<Counts>, counts: Counts) {
+    *told.lock().unwrap_or_else(PoisonError::into_inner) = counts;
+}
+
+/// Whether two addresses are the same. A socket of both families reports IPv4 senders as mapped to IPv6.
+fn is_same(one: IpAddr, other: IpAddr) -> bool {
+    one.to_canonical() == other.to_canonical()
+}
+
+/// Starts the thread of a connection; `None` where that is not possible.
+fn welcome(stream: TcpStream, admission: &Arc<Admission>, shared: &Arc<Shared>) -> Option<Client> {
+    let ticket = admission.enter(stream).ok()?;
     let mailbox = Arc::<Mailbox>::default();
-    let (mine, origins) = (mailbox.clone(), origins.clone());
-    let theirs = stream.try_clone().ok()?;
-    let work = move || {
-        let config = WebSocketConfig::default()
-            .max_message_size(Some(MOST_SAID))
-            .max_frame_size(Some(MOST_SAID));
-        let Ok(mut socket) = accept_hdr_with_config(theirs, Door(&origins), Some(config)) else {
-            return;
-        };
-        let listening = socket.get_ref().set_read_timeout(Some(LISTEN));
-        if listening.is_ok() && socket.send(Message::Text(hello.into())).is_ok() {
-            serve(socket, &mine);
-        }
-    };
+    let stream = Arc::clone(ticket.stream());
+    let (mine, shared) = (Arc::clone(&mailbox), Arc::clone(shared));
+    let work = move || client(ticket, &mine, &shared);
     let thread = thread::Builder::new().name("bridge client".into()).spawn(work).ok()?;
     Some(Client { mailbox, stream, thread })
 }
 
-/// Lets a page in, or answers why not.
-struct Door<'a>(&'a Origins);
-
-impl Callback for Door<'_> {
-    fn on_request(self, request: &Request, response: Response) -> Result<Response, ErrorResponse> {
-        let allowed = match request.headers().get(ORIGIN).map(HeaderValue::to_str) {
-            None => self.0.allow(None),
-            Some(Ok(origin)) => self.0.allow(Some(origin)),
-            Some(Err(_)) => false,
-        };
-        if allowed {
-            return Ok(response);
-        }
-        let why = "this page may not read the radar: boresight bridge --origin\n";
-        let mut refused = ErrorResponse::new(Some(why.into()));
-        *refused.status_mut() = StatusCode::FORBIDDEN;
-        Err(refused)
+/// A connection from its handshake to its end.
+fn client(ticket: Ticket, mailbox: &Mailbox, shared: &Shared) {
+    let ends = || shared.ends();
+    let terms = Terms { origins: &shared.origins, protocols: &[], ends: &ends };
+    if let Ok((socket, _)) = handshake(ticket, &terms) {
+        serve(socket, mailbox, shared.hello());
     }
 }
 

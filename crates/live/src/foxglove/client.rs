@@ -1,12 +1,14 @@
 //! One connection: what it asks for, and what it is sent.
 
-use super::handshake::{Counted, handshake};
-use super::protocol::{self, Control, Level, Parameter, Request, Subscription, WITH_CONTROL};
+use super::protocol::{
+    self, Control, Level, Parameter, Request, SUBPROTOCOLS, Subscription, WITH_CONTROL,
+};
 use super::queue::{Out, Outbox};
 use super::shared::Shared;
-use serde_json::{Value, json};
+use crate::admission::{PING_AFTER, Ticket};
+use crate::handshake::{Connection, Refusal, Terms, handshake};
+use serde_json::Value;
 use std::io::ErrorKind;
-use std::net::TcpStream;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -14,8 +16,7 @@ use tungstenite::{Error, Message, WebSocket};
 
 /// A client that takes no byte for so long is gone.
 const STALLED: Duration = Duration::from_secs(20);
-/// A silent client is asked whether it is there, and is gone after so long without an answer.
-const ASK_AFTER: Duration = Duration::from_secs(20);
+/// A client that sends nothing for so long, not even the answer to a ping, is gone.
 const SILENT: Duration = Duration::from_secs(60);
 /// Between two looks at a socket on which nothing happens.
 const PAUSE: Duration = Duration::from_millis(10);
@@ -29,10 +30,19 @@ const BATCH: usize = 1 << 18;
 const MOST_READ: usize = 64;
 
 /// Serves a connection until it ends.
-pub(super) fn run(stream: TcpStream, shared: &Shared) {
-    let Some((socket, protocol)) = handshake(stream, shared) else {
-        shared.tally.rejected.fetch_add(1, Ordering::Relaxed);
-        return;
+pub(super) fn run(ticket: Ticket, shared: &Shared) {
+    let ends = || shared.is_stopped();
+    let terms = Terms { origins: &shared.origins, protocols: &SUBPROTOCOLS, ends: &ends };
+    let (socket, protocol) = match handshake(ticket, &terms) {
+        Ok(client) => client,
+        Err(refusal) => {
+            let count = match refusal {
+                Refusal::Full => &shared.tally.refused,
+                Refusal::Rejected => &shared.tally.rejected,
+            };
+            count.fetch_add(1, Ordering::Relaxed);
+            return;
+        }
     };
     shared.tally.clients.fetch_add(1, Ordering::Relaxed);
     let outbox = Arc::new(Outbox::new(shared.options.queue, protocol == WITH_CONTROL));
@@ -46,7 +56,7 @@ pub(super) fn run(stream: TcpStream, shared: &Shared) {
 }
 
 struct Client<'a> {
-    socket: WebSocket<Counted>,
+    socket: WebSocket<Connection>,
     shared: &'a Shared,
     outbox: Arc<Outbox>,
     lost_told: u64,
@@ -104,7 +114,7 @@ impl Client<'_> {
             if silent > SILENT {
                 return;
             }
-            if silent < ASK_AFTER {
+            if silent < PING_AFTER {
                 asked = false;
             } else if !std::mem::replace(&mut asked, true) {
                 // A failure shows when it is next read or written.
@@ -202,7 +212,7 @@ impl Client<'_> {
     }
 
     fn control(&self, control: Control) {
-        if let Err(what) = self.shared.control(control, Some(&self.outbox)) {
+        if let Err(what) = self.shared.control(control, &self.outbox) {
             self.warn(Level::Error, &what, None);
         }
     }
@@ -275,15 +285,12 @@ impl Client<'_> {
                 self.control(Control { paused, rate, seek_ns: None, id: String::new() });
             }
             _ => {
-                let text = format!("{name} is {}; expected {}", value, json!(name_of(name)));
+                let expected = if name == "rate" { "a number" } else { "true or false" };
+                let text = format!("{name} is {value}; expected {expected}");
                 self.warn(Level::Error, &text, None);
             }
         }
     }
-}
-
-fn name_of(parameter: &str) -> &'static str {
-    if parameter == "rate" { "a number" } else { "true or false" }
 }
 
 fn would_block(error: &Error) -> bool {

@@ -2,7 +2,6 @@
 //! protocol that plays them ([`server`]).
 
 mod client;
-mod handshake;
 pub mod options;
 pub mod play;
 mod player;

@@ -2,7 +2,7 @@
 
 use super::play::Play;
 use super::protocol::Playing;
-use super::shared::{Shared, State};
+use super::shared::{Seek, Shared, State};
 use crate::LiveError;
 use boresight_formats::foxglove::Message;
 use std::ops::ControlFlow;
@@ -24,7 +24,7 @@ enum Next {
     /// The time of a message.
     Due,
     /// A time to go to.
-    Seek(u64, String),
+    Seek(Seek),
 }
 
 pub(super) struct Player<'a, 'b> {
@@ -80,9 +80,11 @@ impl<'a, 'b> Player<'a, 'b> {
                 ControlFlow::Break(()) => return Ok(Ended::Break(())),
                 ControlFlow::Continue(seek) => seek,
             };
-            let (to_ns, id) = match seek {
+            let seek = match seek {
                 Some(seek) => seek,
-                None if self.shared.options.repeat => (self.play.span_ns()[0], String::new()),
+                None if self.shared.options.repeat => {
+                    Seek { time_ns: self.play.span_ns()[0], ..Seek::default() }
+                }
                 None => {
                     self.shared.set_playing(Playing::Ended, false, "");
                     if self.wait(|state| state.seek.is_some()).is_break() {
@@ -92,7 +94,7 @@ impl<'a, 'b> Player<'a, 'b> {
                 }
             };
             self.shared.set_playing(Playing::Waits, false, "");
-            if self.seek(to_ns, &id, &mut out)?.is_break() {
+            if self.seek(&seek, &mut out)?.is_break() {
                 return Ok(Ended::Break(()));
             }
         }
@@ -106,15 +108,15 @@ impl<'a, 'b> Player<'a, 'b> {
     fn drive(
         &mut self,
         out: &mut Vec<Message>,
-    ) -> Result<ControlFlow<(), Option<(u64, String)>>, LiveError> {
+    ) -> Result<ControlFlow<(), Option<Seek>>, LiveError> {
         let mut anchor: Option<Anchor> = None;
         loop {
             for message in out.drain(..) {
                 match self.until_due(message.time_ns, &mut anchor) {
                     ControlFlow::Break(()) => return Ok(ControlFlow::Break(())),
                     ControlFlow::Continue(Next::Due) => self.shared.publish(message),
-                    ControlFlow::Continue(Next::Seek(to_ns, id)) => {
-                        return Ok(ControlFlow::Continue(Some((to_ns, id))));
+                    ControlFlow::Continue(Next::Seek(seek)) => {
+                        return Ok(ControlFlow::Continue(Some(seek)));
                     }
                 }
             }
@@ -132,7 +134,8 @@ impl<'a, 'b> Player<'a, 'b> {
     }
 
     /// Goes to a time from the start, calibrating all that lies between, and tells what holds there.
-    fn seek(&mut self, to_ns: u64, id: &str, out: &mut Vec<Message>) -> Result<Ended, LiveError> {
+    fn seek(&mut self, seek: &Seek, out: &mut Vec<Message>) -> Result<Ended, LiveError> {
+        let to_ns = seek.time_ns;
         let mut fresh = vec![];
         self.restart(&mut fresh)?;
         out.clear();
@@ -158,7 +161,7 @@ impl<'a, 'b> Player<'a, 'b> {
         state.time_ns = to_ns;
         state.clients.iter().for_each(|client| client.tell_time(to_ns));
         state.playing = if state.paused { Playing::Paused } else { Playing::Plays };
-        state.tell_playing(None, true, id);
+        state.tell_playing(seek.from.as_ref(), true, &seek.id);
         Ok(Ended::Continue(()))
     }
 
@@ -183,8 +186,8 @@ impl<'a, 'b> Player<'a, 'b> {
     fn until_due(&mut self, time_ns: u64, anchor: &mut Option<Anchor>) -> ControlFlow<(), Next> {
         let mut state = self.shared.lock();
         loop {
-            if let Some((to_ns, id)) = state.seek.take() {
-                return ControlFlow::Continue(Next::Seek(to_ns, id));
+            if let Some(seek) = state.seek.take() {
+                return ControlFlow::Continue(Next::Seek(seek));
             }
             // It starts anew where the rate changes and after a pause.
             if state.paused || anchor.as_ref().is_some_and(|anchor| anchor.rate != state.rate) {

@@ -197,21 +197,28 @@ pub(super) fn time(time_ns: u64) -> Vec<u8> {
     [&[TIME][..], &time_ns.to_le_bytes()].concat()
 }
 
-/// What the drive does, in answer to a request or of itself.
-pub(super) fn playback_state(
-    playing: Playing,
-    time_ns: u64,
-    rate: f64,
-    did_seek: bool,
-    id: &str,
-) -> Vec<u8> {
-    [
-        &[PLAYBACK_STATE, playing as u8][..],
-        &time_ns.to_le_bytes(),
-        &(rate as f32).to_le_bytes(),
-        &[u8::from(did_seek)],
-        &(id.len() as u32).to_le_bytes(),
-        id.as_bytes(),
-    ]
-    .concat()
+/// The state of playback.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Playback {
+    pub(super) playing: Playing,
+    pub(super) time_ns: u64,
+    pub(super) rate: f64,
+    pub(super) did_seek: bool,
+    /// The identifier of the request that led to it; empty for none.
+    pub(super) id: String,
+}
+
+impl Playback {
+    /// As a binary message.
+    pub(super) fn bytes(&self) -> Vec<u8> {
+        [
+            &[PLAYBACK_STATE, self.playing as u8][..],
+            &self.time_ns.to_le_bytes(),
+            &(self.rate as f32).to_le_bytes(),
+            &[u8::from(self.did_seek)],
+            &(self.id.len() as u32).to_le_bytes(),
+            self.id.as_bytes(),
+        ]
+        .concat()
+    }
 }

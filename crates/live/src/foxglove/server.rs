@@ -74,15 +74,6 @@ impl Server {
     }
 }
 
-/// Counts a connection for as long as it is there.
-struct Connection<'a>(&'a Shared);
-
-impl Drop for Connection<'_> {
-    fn drop(&mut self) {
-        self.0.connections.fetch_sub(1, Ordering::Relaxed);
-    }
-}
-
 fn accept<'scope>(
     listener: &TcpListener,
     scope: &'scope Scope<'scope, '_>,
@@ -102,13 +93,11 @@ fn accept<'scope>(
 }
 
 fn connect<'scope>(stream: TcpStream, scope: &'scope Scope<'scope, '_>, shared: &'scope Shared) {
-    let before = shared.connections.fetch_add(1, Ordering::Relaxed);
-    let connection = Connection(shared);
-    let serve = move || {
-        client::run(stream, shared);
-        drop(connection);
-    };
-    if before >= shared.options.clients || Builder::new().spawn_scoped(scope, serve).is_err() {
-        shared.tally.refused.fetch_add(1, Ordering::Relaxed);
+    let started = shared
+        .admission
+        .enter(stream)
+        .and_then(|ticket| Builder::new().spawn_scoped(scope, move || client::run(ticket, shared)));
+    if started.is_err() {
+        shared.tally.rejected.fetch_add(1, Ordering::Relaxed);
     }
 }

@@ -2,14 +2,15 @@
 
 use super::options::ServeOptions;
 use super::play::Play;
-use super::protocol::{self, Control, Playing};
+use super::protocol::{self, Control, Playback, Playing};
 use super::queue::{Out, Outbox};
+use crate::admission::Admission;
 use crate::origin::Origins;
 use boresight_core::describe::Described;
 use boresight_formats::foxglove::{Channel, Message};
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
@@ -69,8 +70,7 @@ pub(super) struct Shared {
     pub(super) origins: Origins,
     pub(super) channels: Vec<Channel>,
     pub(super) tally: Tally,
-    /// Connections there are.
-    pub(super) connections: AtomicUsize,
+    pub(super) admission: Arc<Admission>,
     /// Whether all are to end.
     pub(super) stopped: AtomicBool,
     /// Something that the drive waits for.
@@ -81,6 +81,16 @@ pub(super) struct Shared {
     state: Mutex<State>,
 }
 
+/// A request to go to a time.
+#[derive(Debug, Default)]
+pub(super) struct Seek {
+    pub(super) time_ns: u64,
+    /// The identifier of the request; empty for none.
+    pub(super) id: String,
+    /// The client that asked.
+    pub(super) from: Option<Arc<Outbox>>,
+}
+
 pub(super) struct State {
     pub(super) clients: Vec<Arc<Outbox>>,
     /// Of channels whose last message holds, that message.
@@ -89,8 +99,7 @@ pub(super) struct State {
     pub(super) rate: f64,
     pub(super) paused: bool,
     pub(super) playing: Playing,
-    /// A time to go to, and who asked by which name.
-    pub(super) seek: Option<(u64, String)>,
+    pub(super) seek: Option<Seek>,
     /// When a topic was last asked for.
     pub(super) asked: Option<Instant>,
 }
@@ -117,7 +126,7 @@ impl Shared {
             tally: Tally::default(),
             changed: Condvar::new(),
             stopped: AtomicBool::new(false),
-            connections: AtomicUsize::new(0),
+            admission: Admission::new(options.clients),
             channels,
             options,
         }
@@ -138,7 +147,7 @@ impl Shared {
         client.answer(Out::Text(info));
         client.answer(Out::Text(self.advertise.clone()));
         client.tell_time(state.time_ns);
-        state.tell_playing(Some(client), false, "");
+        state.answer_playing(client, false, "");
         state.clients.push(Arc::clone(client));
     }
 
@@ -163,7 +172,7 @@ impl Shared {
     }
 
     /// Makes the drive go on as asked, and tells all clients; what is wrong with it otherwise.
-    pub(super) fn control(&self, control: Control, from: Option<&Outbox>) -> Result<(), String> {
+    pub(super) fn control(&self, control: Control, from: &Arc<Outbox>) -> Result<(), String> {
         let [low, high] = RATES;
         if !(low..=high).contains(&control.rate) {
             return Err(format!(
@@ -178,17 +187,18 @@ impl Shared {
         let seek_ns = control.seek_ns.or(again.then_some(self.span_ns[0]));
         if let Some(seek_ns) = seek_ns {
             let [start, end] = self.span_ns;
-            state.seek = Some((seek_ns.clamp(start, end), control.id));
+            let time_ns = seek_ns.clamp(start, end);
+            state.seek = Some(Seek { time_ns, id: control.id, from: Some(Arc::clone(from)) });
         } else {
             if matches!(state.playing, Playing::Plays | Playing::Paused) {
                 state.playing = if control.paused { Playing::Paused } else { Playing::Plays };
             }
-            state.tell_playing(None, false, &control.id);
+            state.tell_playing(Some(from), false, &control.id);
         }
         let values = protocol::parameter_values(&state.parameters(), None);
         for client in state.clients.iter().filter(|client| client.wants_parameters()) {
-            if from.is_none_or(|from| !std::ptr::eq(from, &raw const **client)) {
-                client.answer(Out::Text(values.clone()));
+            if !Arc::ptr_eq(client, from) {
+                client.tell_parameters(values.clone());
             }
         }
         self.changed.notify_all();
@@ -221,12 +231,27 @@ impl State {
         [("rate", json!(self.rate)), ("paused", json!(self.paused))]
     }
 
-    /// Tells one client or all what the drive does, where they know the control of playback.
-    pub(super) fn tell_playing(&self, client: Option<&Arc<Outbox>>, did_seek: bool, id: &str) {
-        let bytes = protocol::playback_state(self.playing, self.time_ns, self.rate, did_seek, id);
-        let told = client.map_or(&self.clients[..], std::slice::from_ref);
-        for client in told.iter().filter(|client| client.has_control) {
-            client.answer(Out::Binary(bytes.clone()));
+    fn playback(&self, did_seek: bool, id: &str) -> Playback {
+        let Self { playing, time_ns, rate, .. } = *self;
+        Playback { playing, time_ns, rate, did_seek, id: id.into() }
+    }
+
+    /// Answers a client's request with the state of playback.
+    fn answer_playing(&self, client: &Outbox, did_seek: bool, id: &str) {
+        if client.has_control {
+            client.answer(Out::Binary(self.playback(did_seek, id).bytes()));
+        }
+    }
+
+    /// Reports the state of playback to all clients that know it: to the one that asked for a change as an answer.
+    pub(super) fn tell_playing(&self, from: Option<&Arc<Outbox>>, did_seek: bool, id: &str) {
+        let playback = self.playback(did_seek, id);
+        for client in self.clients.iter().filter(|client| client.has_control) {
+            if from.is_some_and(|from| Arc::ptr_eq(from, client)) {
+                self.answer_playing(client, did_seek, id);
+            } else {
+                client.tell_playback(playback.clone());
+            }
         }
     }
 }
