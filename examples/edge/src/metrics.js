@@ -60,7 +60,26 @@ const OF_RADARS = [
 /** @type {[name: string, type: string, help: string, samples: (vehicle: Vehicles[number]) => Sample[]][]} */
 const OF_VEHICLES = [
   ['boresight_received_timestamp_seconds', 'gauge', 'When frames last came.', (v) => [[{}, v.receivedMs / 1000]]],
+  [
+    'boresight_quarantined',
+    'gauge',
+    'Whether the stored data of the vehicle cannot be read.',
+    (v) => [[{}, Number(v.quarantined !== undefined)]],
+  ],
   ['boresight_lines_refused', 'counter', 'Lines refused that name no radar, by reason.', (v) => reasons(v.refused)],
+];
+
+/** @typedef {{ halfOpen: number, withoutRequest: number }} Connections */
+
+/** @type {[name: string, type: string, help: string, value: (connections: Connections) => number][]} */
+const OF_CONNECTIONS = [
+  ['boresight_connections_half_open', 'gauge', 'Connections that have sent no request yet.', (c) => c.halfOpen],
+  [
+    'boresight_connections_without_request',
+    'counter',
+    'Connections that were closed before they sent a request.',
+    (c) => c.withoutRequest,
+  ],
 ];
 
 /** @param {Record<string, number>} refused @returns {Sample[]} */
@@ -73,8 +92,8 @@ const escaped = (/** @type {string} */ value) => value.replace(/[\\"\n]/g, (char
 const written = (value) =>
   Number.isFinite(value) ? String(value) : Number.isNaN(value) ? 'NaN' : value > 0 ? '+Inf' : '-Inf';
 
-/** @param {Vehicles} vehicles */
-export function openMetrics(vehicles) {
+/** @param {Vehicles} vehicles @param {Connections} [connections] where the runtime counts them */
+export function openMetrics(vehicles, connections) {
   const lines = [
     ...OF_RADARS.flatMap(([name, type, help, samples]) =>
       family(
@@ -93,6 +112,9 @@ export function openMetrics(vehicles) {
         help,
         vehicles.flatMap((vehicle) => samples(vehicle).map(labelled({ vehicle: vehicle.vehicle }))),
       ),
+    ),
+    ...OF_CONNECTIONS.flatMap(([name, type, help, value]) =>
+      family(name, type, help, connections ? [[{}, value(connections)]] : []),
     ),
   ];
   return `${lines.join('\n')}\n# EOF\n`;
@@ -115,7 +137,8 @@ function family(name, type, help, samples) {
       .filter(([, value]) => value !== null && value !== undefined)
       .map(([labels, value]) => {
         const pairs = Object.entries(labels).map(([label, text]) => `${label}="${escaped(text)}"`);
-        return `${name}${ending}{${pairs.join(',')}} ${written(/** @type {number} */ (value))}`;
+        const braced = pairs.length > 0 ? `{${pairs.join(',')}}` : '';
+        return `${name}${ending}${braced} ${written(/** @type {number} */ (value))}`;
       }),
   ];
 }
