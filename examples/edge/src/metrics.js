@@ -92,53 +92,48 @@ const escaped = (/** @type {string} */ value) => value.replace(/[\\"\n]/g, (char
 const written = (value) =>
   Number.isFinite(value) ? String(value) : Number.isNaN(value) ? 'NaN' : value > 0 ? '+Inf' : '-Inf';
 
+/** @param {Record<string, string>} labels */
+const pairs = (labels) =>
+  Object.keys(labels)
+    .map((label) => `${label}="${escaped(labels[label] ?? '')}"`)
+    .join();
+
 /** @param {Vehicles} vehicles @param {Connections} [connections] where the runtime counts them */
 export function openMetrics(vehicles, connections) {
+  // Labels of a radar are on many lines, and are written once.
+  const ofVehicles = vehicles.map((vehicle) => ({ labels: pairs({ vehicle: vehicle.vehicle }), of: vehicle }));
+  const ofRadars = ofVehicles.flatMap(({ labels, of: { radars } }) =>
+    radars.map((radar) => ({ labels: `${labels},${pairs({ radar: radar.radar })}`, of: radar })),
+  );
   const lines = [
-    ...OF_RADARS.flatMap(([name, type, help, samples]) =>
-      family(
-        name,
-        type,
-        help,
-        vehicles.flatMap(({ vehicle, radars }) =>
-          radars.flatMap((radar) => samples(radar).map(labelled({ vehicle, radar: radar.radar }))),
-        ),
-      ),
-    ),
-    ...OF_VEHICLES.flatMap(([name, type, help, samples]) =>
-      family(
-        name,
-        type,
-        help,
-        vehicles.flatMap((vehicle) => samples(vehicle).map(labelled({ vehicle: vehicle.vehicle }))),
-      ),
-    ),
-    ...OF_CONNECTIONS.flatMap(([name, type, help, value]) =>
-      family(name, type, help, connections ? [[{}, value(connections)]] : []),
+    ...OF_RADARS.map(([name, type, help, samples]) => family(name, type, help, ofRadars, samples)),
+    ...OF_VEHICLES.map(([name, type, help, samples]) => family(name, type, help, ofVehicles, samples)),
+    ...OF_CONNECTIONS.map(([name, type, help, value]) =>
+      family(name, type, help, connections ? [{ labels: '', of: connections }] : [], (c) => [[{}, value(c)]]),
     ),
   ];
-  return `${lines.join('\n')}\n# EOF\n`;
+  return `${lines.join('')}# EOF\n`;
 }
 
-/** @param {Record<string, string>} common @returns {(sample: Sample) => Sample} */
-const labelled =
-  (common) =>
-  ([labels, value]) => [{ ...common, ...labels }, value];
-
-/** @param {string} name @param {string} type @param {string} help @param {Sample[]} samples */
-function family(name, type, help, samples) {
+/**
+ * @template T
+ * @param {string} name
+ * @param {string} type
+ * @param {string} help
+ * @param {{ labels: string, of: T }[]} subjects
+ * @param {(subject: T) => Sample[]} samples
+ */
+function family(name, type, help, subjects, samples) {
   const unit = /_(degrees|seconds)$/.exec(name)?.[1];
-  const ending = type === 'counter' ? '_total' : '';
-  return [
-    `# TYPE ${name} ${type}`,
-    ...(unit ? [`# UNIT ${name} ${unit}`] : []),
-    `# HELP ${name} ${help}`,
-    ...samples
-      .filter(([, value]) => value !== null && value !== undefined)
-      .map(([labels, value]) => {
-        const pairs = Object.entries(labels).map(([label, text]) => `${label}="${escaped(text)}"`);
-        const braced = pairs.length > 0 ? `{${pairs.join(',')}}` : '';
-        return `${name}${ending}${braced} ${written(/** @type {number} */ (value))}`;
-      }),
-  ];
+  const metric = type === 'counter' ? `${name}_total` : name;
+  let text = `# TYPE ${name} ${type}\n${unit ? `# UNIT ${name} ${unit}\n` : ''}# HELP ${name} ${help}\n`;
+  for (const { labels, of } of subjects) {
+    for (const [more, value] of samples(of)) {
+      if (value === null || value === undefined) continue;
+      const own = pairs(more);
+      const all = labels && own ? `${labels},${own}` : labels || own;
+      text += `${metric}${all && `{${all}}`} ${written(value)}\n`;
+    }
+  }
+  return text;
 }
