@@ -15,6 +15,13 @@ const ROUNDS = 4;
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 
+/** A promise with what settles it. */
+function resolvers() {
+  const made = {};
+  made.promise = new Promise((resolve, reject) => Object.assign(made, { resolve, reject }));
+  return made;
+}
+
 /** What an object holds, as one string that can be compared. */
 const stateOf = (storage) =>
   [...storage.read()]
@@ -48,9 +55,9 @@ function* writesOf(name) {
   }
 }
 
-/** Has all objects write at the same time, one write of each after the other. */
-async function drive(database, expected) {
-  await Promise.all(
+/** Has all objects write at the same time, one write of each after the other; gives their storages. */
+function drive(database, expected) {
+  return Promise.all(
     NAMES.map(async (name) => {
       const storage = database.open(name);
       for (const { apply, write } of writesOf(name)) {
@@ -60,15 +67,18 @@ async function drive(database, expected) {
         );
         expected.get(name).add(apply, acknowledged);
       }
+      return storage;
     }),
   );
 }
 
 const expectations = () => new Map(NAMES.map((name) => [name, new Expected()]));
-function check(database, expected) {
-  for (const name of NAMES) {
+/** Whether objects hold what was acknowledged, those that are open too. */
+function check(database, expected, open = []) {
+  for (const [i, name] of NAMES.entries()) {
     const state = stateOf(database.open(name));
     assert.ok(expected.get(name).allows(state), `${name} holds ${state}`);
+    if (open[i]) assert.equal(stateOf(open[i]), state, `${name}, which is open`);
   }
 }
 
@@ -95,9 +105,10 @@ test('files: no fault and no power cut loses what was acknowledged', async (cont
     const trigger = disk.inject(fault, at);
     const expected = expectations();
     let database;
+    let open;
     try {
       database = openFiles('/data', disk);
-      await drive(database, expected);
+      open = await drive(database, expected);
     } catch (error) {
       // It did not start.
       assert.ok(!database, error);
@@ -105,7 +116,7 @@ test('files: no fault and no power cut loses what was acknowledged', async (cont
     const { hit } = trigger;
     if (!fault.cut && database) {
       trigger.heal();
-      check(database, expected);
+      check(database, expected, open);
       await drive(database, expected);
       acknowledgedAfter += 1;
       for (const name of NAMES) assert.equal(stateOf(database.open(name)), 'k3=3,x=3');
@@ -123,6 +134,27 @@ test('files: no fault and no power cut loses what was acknowledged', async (cont
   assert.ok(acknowledgedAfter > 0);
 });
 
+test('files: a write that fails takes nothing from those that wait behind it', async () => {
+  const disk = new MemoryDisk();
+  const { rename } = disk;
+  const begun = resolvers();
+  const fails = resolvers();
+  disk.rename = () => {
+    disk.rename = rename;
+    begun.resolve();
+    return fails.promise;
+  };
+  const storage = openFiles('/data', disk).open('vehicle/a');
+  const put = (key) => storage.write([[key, encoder.encode('1')]]);
+  const first = put('a');
+  await begun.promise;
+  const second = put('b');
+  fails.reject(new Error('the disk is full'));
+  await assert.rejects(first);
+  await Promise.all([second, put('c')]);
+  assert.equal(stateOf(openFiles('/data', disk).open('vehicle/a')), 'a=1,b=1,c=1');
+});
+
 test('sqlite: no fault loses what was acknowledged, nor leaves a transaction open', async (context) => {
   const sqlite = await import('node:sqlite').catch(() => undefined);
   if (!sqlite) return context.skip('this runtime has no SQLite');
@@ -133,10 +165,10 @@ test('sqlite: no fault loses what was acknowledged, nor leaves a transaction ope
     const expected = expectations();
     const database = await openSqlite('', async () => faulty);
     const trigger = faulty.inject(fault, at);
-    await drive(database, expected);
+    const open = await drive(database, expected);
     const { hit } = trigger;
     trigger.heal();
-    check(database, expected);
+    check(database, expected, open);
     await drive(database, expected);
     for (const name of NAMES) assert.equal(stateOf(database.open(name)), 'k3=3,x=3');
     db.close();

@@ -116,7 +116,7 @@ function unread(runtime, environment) {
     await closing;
     assert.match(answer, /^HTTP\/1\.1 401 /);
     assert.match(answer, /^connection: close\r$/im);
-    assert.ok(socket.bytesWritten < most / 4, `${socket.bytesWritten} bytes were read`);
+    if (runtime === 'node') assert.ok(socket.bytesWritten < most / 4, `${socket.bytesWritten} bytes were read`);
     // A small one is, and the connection goes on.
     const small = await service.ask('/v1/estimate', { method: 'POST', body: '{}', token: 'wrong' });
     assert.deepEqual([small.status, small.headers.get('connection') === 'close'], [401, false]);
@@ -214,13 +214,11 @@ function quarantine(runtime, environment) {
 /** Whether a file has this text. */
 const readFileIs = (path, text) => statSync(path).isFile() && readFileSync(path).includes(text);
 
-export async function limits(runtime, { environment } = {}) {
-  return {
-    runtime,
-    halfOpen: await halfOpen(runtime, environment),
-    streams: await streams(runtime, environment),
-    unreadBytes: await unread(runtime, environment),
-    processes: await lock(runtime, environment),
-    entries: await quarantine(runtime, environment),
-  };
+const PARTS = { halfOpen, streams, unread, lock, quarantine };
+
+/** What each part counted; nothing where it is not for this runtime. */
+export async function limits(runtime, { parts = Object.keys(PARTS), environment } = {}) {
+  const told = { runtime };
+  for (const part of parts) told[part] = await PARTS[part](runtime, environment);
+  return told;
 }
