@@ -29,6 +29,30 @@ const SMALL_BYTES = 1 << 16;
 const isUnread = ({ bodyUsed, headers }) =>
   !bodyUsed && (headers.has('transfer-encoding') || Number(headers.get('content-length') ?? 0) > SMALL_BYTES);
 
+/** How long a connection whose body is not read is left to the client to close. */
+const LINGER_MS = 1000;
+
+/**
+ * A body that ends some time after its last byte. Where a server closes a connection on which a client still sends, the
+ * client may not see the answer.
+ *
+ * @param {Response} response
+ */
+function lingering(response) {
+  let over = false;
+  return new ReadableStream({
+    async start(controller) {
+      const bytes = new Uint8Array(await response.arrayBuffer());
+      if (over) return;
+      controller.enqueue(bytes);
+      setTimeout(() => over || controller.close(), LINGER_MS);
+    },
+    cancel() {
+      over = true;
+    },
+  });
+}
+
 /** What a request's path is of, and the names in it. @param {string} url */
 function matched(url) {
   // A host may be one that no address has.
@@ -147,11 +171,13 @@ export function handlerOf(service, now = Date.now) {
     if (!headers.has('cache-control')) headers.set('cache-control', 'no-store');
     headers.set('x-content-type-options', 'nosniff');
     // A server reads the rest of a body before the next request of its connection.
-    if (response.status >= 400 && isUnread(request)) headers.set('connection', 'close');
+    const closes = response.status >= 400 && isUnread(request);
+    if (closes) headers.set('connection', 'close');
     for (const [name, value] of shared(request)) headers.set(name, value);
     if (!headers.has('access-control-allow-origin')) {
       for (const name of [...headers.keys()]) if (name.startsWith('access-control-')) headers.delete(name);
     }
-    return new Response(request.method === 'HEAD' ? null : response.body, { status: response.status, headers });
+    const body = closes ? lingering(response) : response.body;
+    return new Response(request.method === 'HEAD' ? null : body, { status: response.status, headers });
   };
 }
