@@ -6,7 +6,12 @@ const ALIGNMENTS = ['aligned', 'misaligned', 'undecided'];
 
 /** @typedef {ReturnType<import('./fleet.js').Fleet['vehicles']>} Vehicles */
 /** @typedef {Vehicles[number]['radars'][number]} RadarSummary */
-/** @typedef {[labels: Record<string, string>, value: number | null | undefined]} Sample */
+/** Labels as they are written, and a value. @typedef {[labels: string, value: number | null | undefined]} Sample */
+
+const ESCAPES = /** @type {Record<string, string>} */ ({ '\\': '\\\\', '"': '\\"', '\n': '\\n' });
+const escaped = (/** @type {string} */ value) => value.replace(/[\\"\n]/g, (character) => ESCAPES[character] ?? '');
+/** @param {string} name @param {string} value */
+const label = (name, value) => `${name}="${escaped(value)}"`;
 
 /**
  * What is measured of each radar: metric, type, what it is, and its samples.
@@ -14,25 +19,25 @@ const ALIGNMENTS = ['aligned', 'misaligned', 'undecided'];
  * @type {[name: string, type: string, help: string, samples: (radar: RadarSummary) => Sample[]][]}
  */
 const OF_RADARS = [
-  ['boresight_mounting_angle_degrees', 'gauge', 'Mounting angle of the radar.', (r) => [[{}, r.angleDeg]]],
+  ['boresight_mounting_angle_degrees', 'gauge', 'Mounting angle of the radar.', (r) => [['', r.angleDeg]]],
   [
     'boresight_mounting_angle_sigma_degrees',
     'gauge',
     'Standard deviation of the mounting angle.',
-    (r) => [[{}, r.sigmaDeg ?? Number.POSITIVE_INFINITY]],
+    (r) => [['', r.sigmaDeg ?? Number.POSITIVE_INFINITY]],
   ],
-  ['boresight_nominal_angle_degrees', 'gauge', 'Angle the radar should have.', (r) => [[{}, r.nominalDeg]]],
+  ['boresight_nominal_angle_degrees', 'gauge', 'Angle the radar should have.', (r) => [['', r.nominalDeg]]],
   [
     'boresight_alarm_limit_degrees',
     'gauge',
     'Limit of the alarm.',
-    (r) => [[{}, r.nominalDeg === null ? null : r.alarmDeg]],
+    (r) => [['', r.nominalDeg === null ? null : r.alarmDeg]],
   ],
   [
     'boresight_misaligned',
     'gauge',
     'Whether the angle differs from the nominal one beyond limit and chance.',
-    (r) => [[{}, r.misaligned === null ? null : Number(r.misaligned)]],
+    (r) => [['', r.misaligned === null ? null : Number(r.misaligned)]],
   ],
   [
     'boresight_alignment',
@@ -41,30 +46,30 @@ const OF_RADARS = [
     (r) =>
       r.alignment === null
         ? []
-        : ALIGNMENTS.map((state) => [{ boresight_alignment: state }, Number(r.alignment === state)]),
+        : ALIGNMENTS.map((state) => [label('boresight_alignment', state), Number(r.alignment === state)]),
   ],
-  ['boresight_frame_time_seconds', 'gauge', 'Time of the last frame on its own clock.', (r) => [[{}, r.timeS]]],
-  ['boresight_frames', 'counter', 'Frames taken.', (r) => [[{}, r.frames]]],
-  ['boresight_detections', 'counter', 'Detections in frames taken.', (r) => [[{}, r.detections]]],
-  ['boresight_frames_repeated', 'counter', 'Frames that were sent again.', (r) => [[{}, r.repeated]]],
+  ['boresight_frame_time_seconds', 'gauge', 'Time of the last frame on its own clock.', (r) => [['', r.timeS]]],
+  ['boresight_frames', 'counter', 'Frames taken.', (r) => [['', r.frames]]],
+  ['boresight_detections', 'counter', 'Detections in frames taken.', (r) => [['', r.detections]]],
+  ['boresight_frames_repeated', 'counter', 'Frames that were sent again.', (r) => [['', r.repeated]]],
   [
     'boresight_frames_judged',
     'counter',
     'Frames taken, by what became of them.',
     ({ verdicts: { given: _, ...verdicts } }) =>
-      Object.entries(verdicts).map(([verdict, count]) => [{ verdict }, count]),
+      Object.entries(verdicts).map(([verdict, count]) => [label('verdict', verdict), count]),
   ],
   ['boresight_frames_refused', 'counter', 'Frames refused, by reason.', (r) => reasons(r.refused)],
 ];
 
 /** @type {[name: string, type: string, help: string, samples: (vehicle: Vehicles[number]) => Sample[]][]} */
 const OF_VEHICLES = [
-  ['boresight_received_timestamp_seconds', 'gauge', 'When frames last came.', (v) => [[{}, v.receivedMs / 1000]]],
+  ['boresight_received_timestamp_seconds', 'gauge', 'When frames last came.', (v) => [['', v.receivedMs / 1000]]],
   [
     'boresight_quarantined',
     'gauge',
     'Whether the stored data of the vehicle cannot be read.',
-    (v) => [[{}, Number(v.quarantined !== undefined)]],
+    (v) => [['', Number(v.quarantined !== undefined)]],
   ],
   ['boresight_lines_refused', 'counter', 'Lines refused that name no radar, by reason.', (v) => reasons(v.refused)],
 ];
@@ -83,33 +88,24 @@ const OF_CONNECTIONS = [
 ];
 
 /** @param {Record<string, number>} refused @returns {Sample[]} */
-const reasons = (refused) => Object.entries(refused).map(([reason, count]) => [{ reason }, count]);
-
-const ESCAPES = /** @type {Record<string, string>} */ ({ '\\': '\\\\', '"': '\\"', '\n': '\\n' });
-const escaped = (/** @type {string} */ value) => value.replace(/[\\"\n]/g, (character) => ESCAPES[character] ?? '');
+const reasons = (refused) => Object.entries(refused).map(([reason, count]) => [label('reason', reason), count]);
 
 /** @param {number} value */
 const written = (value) =>
   Number.isFinite(value) ? String(value) : Number.isNaN(value) ? 'NaN' : value > 0 ? '+Inf' : '-Inf';
 
-/** @param {Record<string, string>} labels */
-const pairs = (labels) =>
-  Object.keys(labels)
-    .map((label) => `${label}="${escaped(labels[label] ?? '')}"`)
-    .join();
-
 /** @param {Vehicles} vehicles @param {Connections} [connections] where the runtime counts them */
 export function openMetrics(vehicles, connections) {
   // Labels of a radar are on many lines, and are written once.
-  const ofVehicles = vehicles.map((vehicle) => ({ labels: pairs({ vehicle: vehicle.vehicle }), of: vehicle }));
+  const ofVehicles = vehicles.map((vehicle) => ({ labels: label('vehicle', vehicle.vehicle), of: vehicle }));
   const ofRadars = ofVehicles.flatMap(({ labels, of: { radars } }) =>
-    radars.map((radar) => ({ labels: `${labels},${pairs({ radar: radar.radar })}`, of: radar })),
+    radars.map((radar) => ({ labels: `${labels},${label('radar', radar.radar)}`, of: radar })),
   );
   const lines = [
     ...OF_RADARS.map(([name, type, help, samples]) => family(name, type, help, ofRadars, samples)),
     ...OF_VEHICLES.map(([name, type, help, samples]) => family(name, type, help, ofVehicles, samples)),
     ...OF_CONNECTIONS.map(([name, type, help, value]) =>
-      family(name, type, help, connections ? [{ labels: '', of: connections }] : [], (c) => [[{}, value(c)]]),
+      family(name, type, help, connections ? [{ labels: '', of: connections }] : [], (c) => [['', value(c)]]),
     ),
   ];
   return `${lines.join('')}# EOF\n`;
@@ -130,8 +126,7 @@ function family(name, type, help, subjects, samples) {
   for (const { labels, of } of subjects) {
     for (const [more, value] of samples(of)) {
       if (value === null || value === undefined) continue;
-      const own = pairs(more);
-      const all = labels && own ? `${labels},${own}` : labels || own;
+      const all = labels && more ? `${labels},${more}` : labels || more;
       text += `${metric}${all && `{${all}}`} ${written(value)}\n`;
     }
   }

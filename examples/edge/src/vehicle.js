@@ -76,7 +76,7 @@ export class Vehicle {
       await initDrives();
       return await actions[ask.action](this, ask, request);
     } catch (error) {
-      if (this.quarantined) await this.#tellQuarantine(ask, this.quarantined);
+      if (error instanceof Problem && error.code === this.quarantined) await this.#tellQuarantine(ask, error);
       return refusal(error);
     }
   }
@@ -353,11 +353,11 @@ export class Vehicle {
     }
   }
 
-  /** Lists the vehicle as quarantined. @param {Ask} ask @param {string} code */
-  async #tellQuarantine({ tenant, vehicle }, code) {
+  /** Lists the vehicle as quarantined. @param {Ask} ask @param {Problem} problem */
+  async #tellQuarantine({ tenant, vehicle }, { code, message }) {
     if (this.#toldQuarantine === code) return;
     this.#toldQuarantine = code;
-    console.error(`vehicle ${vehicle} of tenant ${tenant} is quarantined (${code}); its stored data is left as it is`);
+    console.error(`vehicle ${vehicle} of tenant ${tenant}: ${message} (${code})`);
     try {
       await (await this.#fleetOf(tenant)).quarantine(vehicle, code);
     } catch (error) {
@@ -429,7 +429,8 @@ export class Vehicle {
     try {
       await (await this.#fleetOf(tenant)).tell(vehicle, { receivedMs, refused, radars });
     } catch (error) {
-      console.error(error);
+      // A list that cannot be read was reported when it was found.
+      if (!(error instanceof Problem)) console.error(error);
       nextMs = this.#now() + TELL_MS;
     }
     await this.#wake(nextMs);

@@ -250,7 +250,7 @@ export function scrape(runtime, { vehicles = 1000, everyS = 10, seconds = 30, de
     const told = (name) => {
       const sorted = tookMs[name].sort((a, b) => a - b);
       const quantile = (q) => Math.round(sorted[Math.floor(q * (sorted.length - 1))]);
-      return { [`${name}MedianMs`]: quantile(0.5), [`${name}MostMs`]: quantile(1) };
+      return { [`${name}MedianMs`]: quantile(0.5), [`${name}P95Ms`]: quantile(0.95), [`${name}MostMs`]: quantile(1) };
     };
     return {
       runtime,

@@ -52,9 +52,12 @@ export function openFiles(folder, fs = disk) {
         values: new Map(keys.map((/** @type {string} */ key, /** @type {number} */ i) => [key, parts[i]])),
       };
     } catch (error) {
-      if (/** @type {any} */ (error).code === 'ENOENT') unreadable.delete(entry);
-      else failed(entry, error);
-      throw error;
+      if (/** @type {any} */ (error).code === 'ENOENT') {
+        unreadable.delete(entry);
+        throw error;
+      }
+      failed(entry, error);
+      throw new Error(`${entry}: ${unreadable.get(entry)}`, { cause: error });
     }
   }
 
