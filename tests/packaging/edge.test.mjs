@@ -41,9 +41,9 @@ test('its JavaScript has the types that it says', { timeout }, () => project.scr
 test('its parts work', { timeout }, async () => {
   // Node leaves out tests that a test runs, unless it is not told of them.
   const { NODE_TEST_CONTEXT: _, ...env } = process.env;
-  const file = at('tests', 'unit.test.mjs');
-  const { stdout } = await run(process.execPath, ['--test', '--test-reporter=tap', file], { cwd: at('.'), env });
-  assert.match(stdout, /^# pass 1\d$/m);
+  const files = ['unit', 'faults'].map((name) => at('tests', `${name}.test.mjs`));
+  const { stdout } = await run(process.execPath, ['--test', '--test-reporter=tap', ...files], { cwd: at('.'), env });
+  assert.match(stdout, /^# pass 2\d$/m);
   assert.match(stdout, /^# fail 0$/m);
 });
 
@@ -61,6 +61,13 @@ for (const runtime of ['node', 'workerd']) {
     assert.ok(Object.keys(counts).length > 15);
   });
 }
+
+test('node: sockets, bodies, files and processes that misbehave leave the service to others', { timeout }, async () => {
+  const { halfOpen, streams, lock, quarantine } = await part('limits', 'node', {});
+  assert.ok(halfOpen > 0 && streams > 0 && lock > 0);
+  // Newer versions of Node have SQLite, and no files.
+  if (!('sqlite' in process.versions)) assert.ok(quarantine > 0);
+});
 
 test('it answers as HTTP has it, works out what the package does, and its page shows it', { timeout }, async () => {
   const { Service, TOKENS } = edge;

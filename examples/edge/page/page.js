@@ -55,11 +55,11 @@ const count = (/** @type {number} */ value) => value.toLocaleString('en');
 const total = (/** @type {Record<string, number>} */ counts) =>
   Object.values(counts).reduce((sum, one) => sum + one, 0);
 
-/** @param {{ vehicle: string, radars: any[] }[]} vehicles */
+/** @param {{ vehicle: string, radars: any[], quarantined?: string }[]} vehicles */
 function showList(vehicles) {
   none.hidden = vehicles.length > 0;
   const links = new Map([...list.children].map((item) => [item.dataset.vehicle, item]));
-  for (const { vehicle, radars } of vehicles) {
+  for (const { vehicle, radars, quarantined } of vehicles) {
     const item =
       links.get(vehicle) ?? made('li', {}, made('a', {}, made('span', { textContent: vehicle }), made('span')));
     links.delete(vehicle);
@@ -69,7 +69,7 @@ function showList(vehicles) {
     link.toggleAttribute('aria-current', vehicle === chosen());
     const verdict = gravest(radars);
     link.lastChild.dataset.alignment = verdict;
-    link.lastChild.textContent = radars.length ? WORDS[verdict] : 'no radar';
+    link.lastChild.textContent = quarantined ? 'quarantined' : radars.length ? WORDS[verdict] : 'no radar';
     if (!item.isConnected) list.append(item);
   }
   for (const item of links.values()) item.remove();
@@ -99,6 +99,7 @@ function withNow(history, timeS, { angleDeg, sigmaDeg }) {
 function showVehicle(given) {
   if (!given) {
     section.replaceChildren();
+    delete section.dataset.vehicle;
     return;
   }
   const { vehicle, receivedMs, radars } = given;
@@ -163,13 +164,16 @@ async function update() {
     const { vehicles } = await ask('/v1/vehicles');
     const wanted = chosen() || vehicles[0]?.vehicle;
     const known = vehicles.some(({ vehicle }) => vehicle === wanted);
-    const vehicle = known ? await ask(`/v1/vehicles/${encodeURIComponent(wanted)}`) : null;
     if (mine !== turn) return;
     if (!chosen() && wanted) history.replaceState(null, '', `#${encodeURIComponent(wanted)}`);
     [main.hidden, entry.hidden, leave.hidden] = [false, true, false];
     sessionStorage.setItem('token', token);
+    // The list is shown even where the vehicle is quarantined and cannot be.
     showList(vehicles);
-    showVehicle(vehicle);
+    const vehicle = known ? await ask(`/v1/vehicles/${encodeURIComponent(wanted)}`).catch((error) => error) : null;
+    if (mine !== turn) return;
+    showVehicle(vehicle instanceof Error ? null : vehicle);
+    if (vehicle instanceof Error) throw vehicle;
     if (chosen() && !known) say(`There is no vehicle ${chosen()}.`, true);
     else
       say(

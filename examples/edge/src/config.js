@@ -20,9 +20,13 @@ const DEFAULTS = {
     /** Of one call of boresight; docs/javascript.md says what they are. */
     operations: 5e8,
     callBytes: 64 << 20,
-    /** Of a tenant, and how many at once. */
+    /** Of a tenant: requests, and bodies of frames, counted separately. */
     requests: { perS: 100, burst: 1000 },
+    /** Of a tenant at once: requests, and bodies of frames, which may last for days. */
     open: 256,
+    streams: 2048,
+    /** Connections that have not sent a request yet, on Node. */
+    halfOpen: 2048,
     /** Lines of a vehicle. */
     frames: { perS: 400, burst: 20_000 },
   },

@@ -1,4 +1,5 @@
 /** A frame as a line of JSON. */
+import { mixed, SEED } from './digest.js';
 import { Problem, wrongType } from './reply.js';
 
 const FIELDS = ['radar', 'timeS', 'azimuthDeg', 'rangeRateMps', 'yawRateDegps', 'speedMps'];
@@ -54,19 +55,14 @@ export function frameOf(value, { detections }) {
 }
 
 /**
- * Two words that frames of the same numbers share, and others hardly ever (FNV-1a, over words in place of bytes).
+ * A hash of a frame's numbers. Frames that were sent again have the same one.
  *
  * @param {import('boresight').CalibrationFrame} frame
- * @returns {[number, number]}
  */
 export function digestOf({ timeS, azimuthDeg, rangeRateMps, yawRateDegps, speedMps }) {
-  let [a, b] = [0x811c9dc5, 0x9dc5811c];
   const rest = Float64Array.of(timeS, yawRateDegps ?? Number.NaN, speedMps ?? Number.NaN, azimuthDeg.length);
-  for (const part of [rest, azimuthDeg, rangeRateMps]) {
-    for (const word of new Uint32Array(part.buffer, part.byteOffset, part.byteLength / 4)) {
-      a = Math.imul(a ^ word, 0x01000193);
-      b = Math.imul(b ^ word ^ (a >>> 15), 0x85ebca6b);
-    }
-  }
-  return [a >>> 0, b >>> 0];
+  return [rest, azimuthDeg, rangeRateMps].reduce(
+    (digest, { buffer, byteOffset, byteLength }) => mixed(digest, new Uint32Array(buffer, byteOffset, byteLength / 4)),
+    SEED,
+  );
 }

@@ -13,12 +13,45 @@ import { tokensOf } from './tokens.js';
  * @property {(ask: import('./vehicle.js').Ask, request: Request) => Promise<Response>} vehicle
  * @property {(tenant: string) => Promise<import('./metrics.js').Vehicles>} vehicles
  * @property {(path: string) => Response} page
+ * @property {import('./metrics.js').Connections} [connections] where the runtime counts them
+ * @property {() => Record<string, number>} [health] counts that /health tells
  */
 
 const paths = [...new Set(routes.map(({ path }) => path))].map((path) => ({
   parts: path.split('/'),
   methods: routes.filter((route) => route.path === path),
 }));
+
+/** A body of this size or less is read even where it is refused, so that the connection can be used again. */
+const SMALL_BYTES = 1 << 16;
+
+/** Whether a request may have a large body that nobody has read. @param {Request} request */
+const isUnread = ({ bodyUsed, headers }) =>
+  !bodyUsed && (headers.has('transfer-encoding') || Number(headers.get('content-length') ?? 0) > SMALL_BYTES);
+
+/** How long a connection whose body is not read is left to the client to close. */
+const LINGER_MS = 1000;
+
+/**
+ * A body that ends some time after its last byte. Where a server closes a connection on which a client still sends, the
+ * client may not see the answer.
+ *
+ * @param {Response} response
+ */
+function lingering(response) {
+  let over = false;
+  return new ReadableStream({
+    async start(controller) {
+      const bytes = new Uint8Array(await response.arrayBuffer());
+      if (over) return;
+      controller.enqueue(bytes);
+      setTimeout(() => over || controller.close(), LINGER_MS);
+    },
+    cancel() {
+      over = true;
+    },
+  });
+}
 
 /** What a request's path is of, and the names in it. @param {string} url */
 function matched(url) {
@@ -61,8 +94,10 @@ function named(encoded) {
 export function handlerOf(service, now = Date.now) {
   const { origins, limits } = service.config;
   const tenantOf = tokensOf(service.config);
-  /** @type {Map<string, { bucket: Bucket, open: number }>} */
+  /** What a tenant uses of its limits: requests with one answer, and bodies of frames. @typedef {{ bucket: Bucket, open: number }} Use */
+  /** @type {Map<string, { requests: Use, streams: Use }>} */
   const tenants = new Map();
+  const unused = () => ({ bucket: new Bucket(limits.requests, now()), open: 0 });
 
   /** @param {Request} request */
   async function answer(request) {
@@ -99,18 +134,22 @@ export function handlerOf(service, now = Date.now) {
         given: 'one that reads',
       });
     }
-    const state = tenants.get(tenant) ?? { bucket: new Bucket(limits.requests, now()), open: 0 };
-    tenants.set(tenant, state);
-    state.bucket.take(1, now(), 'requests of the tenant');
-    if (state.open >= limits.open) {
-      const details = { what: 'open requests', expected: `${limits.open} at most`, given: 'more' };
+    const uses = tenants.get(tenant) ?? { requests: unused(), streams: unused() };
+    tenants.set(tenant, uses);
+    // Vehicles that send frames for days leave room for others to ask.
+    const [use, most, what] = route.streams
+      ? [uses.streams, limits.streams, 'bodies of frames']
+      : [uses.requests, limits.open, 'requests'];
+    use.bucket.take(1, now(), `${what} of the tenant`);
+    if (use.open >= most) {
+      const details = { what: `open ${what}`, expected: `${most} at most`, given: 'more' };
       throw new Problem(429, 'too-many-requests', details, { headers: { 'retry-after': '1' } });
     }
-    state.open += 1;
+    use.open += 1;
     try {
       return await route.run({ request, names, tenant, service });
     } finally {
-      state.open -= 1;
+      use.open -= 1;
     }
   }
 
@@ -131,10 +170,14 @@ export function handlerOf(service, now = Date.now) {
     const headers = new Headers(response.headers);
     if (!headers.has('cache-control')) headers.set('cache-control', 'no-store');
     headers.set('x-content-type-options', 'nosniff');
+    // A server reads the rest of a body before the next request of its connection.
+    const closes = response.status >= 400 && isUnread(request);
+    if (closes) headers.set('connection', 'close');
     for (const [name, value] of shared(request)) headers.set(name, value);
     if (!headers.has('access-control-allow-origin')) {
       for (const name of [...headers.keys()]) if (name.startsWith('access-control-')) headers.delete(name);
     }
-    return new Response(request.method === 'HEAD' ? null : response.body, { status: response.status, headers });
+    const body = closes ? lingering(response) : response.body;
+    return new Response(request.method === 'HEAD' ? null : body, { status: response.status, headers });
   };
 }

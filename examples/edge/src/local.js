@@ -1,13 +1,17 @@
 /** Objects by name in one process, as Durable Objects are on their platform: made when asked, put to rest when idle, woken by alarms. */
 
 const IDLE_MS = 10_000;
+/** After this, an alarm that failed is tried again. */
+const RETRY_MS = 60_000;
 /** Longest wait that a timer takes. */
 const LONGEST_MS = 2 ** 31 - 1;
 
 /**
- * @template {{ rest(): void, alarm(): void | Promise<void> }} T
+ * @template {{ rest(): void, alarm(): void | Promise<void>, quarantined: string | null }} T
  */
 export class Objects {
+  /** Names of those whose stored data could not be read when they were last used. @type {Set<string>} */
+  quarantined = new Set();
   #database;
   #prefix;
   #make;
@@ -44,6 +48,8 @@ export class Objects {
       return await work(one.object);
     } finally {
       one.running -= 1;
+      if (one.object.quarantined) this.quarantined.add(name);
+      else this.quarantined.delete(name);
       if (one.running === 0) one.idle = this.#later(IDLE_MS, () => this.#rest(name));
     }
   }
@@ -69,13 +75,18 @@ export class Objects {
   }
 
   /** @param {string} name @param {number} atMs */
-  #wake(name, atMs) {
-    this.#later(Math.min(LONGEST_MS, Math.max(0, atMs - Date.now())), async () => {
-      const setMs = await this.#database.open(this.#prefix + name).alarm();
-      // Taken away, or set for another time.
-      if (setMs !== atMs) return;
-      if (Date.now() < atMs) this.#wake(name, atMs);
-      else await this.use(name, (object) => object.alarm()).catch((error) => console.error(error));
+  #wake(name, atMs, waitMs = atMs - Date.now()) {
+    this.#later(Math.min(LONGEST_MS, Math.max(0, waitMs)), async () => {
+      try {
+        const setMs = await this.#database.open(this.#prefix + name).alarm();
+        // Taken away, or set for another time.
+        if (setMs !== atMs) return;
+        if (Date.now() < atMs) this.#wake(name, atMs);
+        else await this.use(name, (object) => object.alarm());
+      } catch (error) {
+        console.error(error);
+        this.#wake(name, atMs, RETRY_MS);
+      }
     });
   }
 

@@ -26,7 +26,13 @@ const frame = {
     speedMps: { type: ['number', 'null'] },
   },
 };
-const problems = { 400: 'malformed', 401: 'no token of a tenant', 403: 'a token that may only read', 429: 'too often' };
+const problems = {
+  400: 'malformed',
+  401: 'no token of a tenant',
+  403: 'a token that may only read',
+  429: 'too often',
+  503: 'not stored, or quarantined',
+};
 
 /** @param {import('./routes.js').Route[]} routes */
 export function description(routes) {

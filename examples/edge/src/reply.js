@@ -28,8 +28,11 @@ const OURS = new Set(['trap', 'not-loaded', 'not-initialised', 'handle-stale', '
 /** @param {unknown} error @returns {error is import('boresight').BoresightError} */
 export const isBoresightError = (error) => error instanceof Error && error.name === 'BoresightError';
 
+/** Whether an error is a fault of the process, which passes, and says nothing of what was given. @param {unknown} error */
+export const isOurs = (error) => isBoresightError(error) && OURS.has(error.code);
+
 /** Whether an error says that what was given is refused. @param {unknown} error */
-export const isRefusal = (error) => error instanceof Problem || (isBoresightError(error) && !OURS.has(error.code));
+export const isRefusal = (error) => error instanceof Problem || (isBoresightError(error) && !isOurs(error));
 
 /**
  * What is answered for something thrown; what nobody foresaw is logged and told without its words.
@@ -38,7 +41,7 @@ export const isRefusal = (error) => error instanceof Problem || (isBoresightErro
  */
 export function problemOf(error) {
   if (error instanceof Problem) return error;
-  if (isBoresightError(error) && !OURS.has(error.code)) {
+  if (isBoresightError(error) && !isOurs(error)) {
     return new Problem(422, error.code, { ...error.details }, { message: error.message });
   }
   console.error(error);
@@ -62,6 +65,36 @@ export function refusal(error) {
   return json(problem, problem.status, problem.headers);
 }
 
+/** @param {unknown} value */
+function typeOf(value) {
+  if (value === null) return 'null';
+  if (value === undefined) return 'missing';
+  if (Array.isArray(value)) return 'an array';
+  return typeof value === 'object' ? 'an object' : `a ${typeof value}`;
+}
+
 /** @param {string} what @param {string} expected @param {unknown} given */
 export const wrongType = (what, expected, given) =>
-  new Problem(422, 'wrong-type', { what, expected, given: given === null ? 'null' : typeof given });
+  new Problem(422, 'wrong-type', { what, expected, given: typeOf(given) });
+
+/** A fault of the storage; the caller is to send it again later. */
+export const notStored = () =>
+  new Problem(503, 'not-stored', { what: 'the storage', expected: 'to take it', given: 'failing' });
+
+/**
+ * What is answered where stored data cannot be read. It is left as it is, for whoever runs the service to restore.
+ *
+ * @param {string} what
+ * @param {unknown} error
+ */
+export function unreadable(what, error) {
+  const reason = error instanceof Error ? error.message : String(error);
+  const newer = isBoresightError(error) && error.code === 'unsupported-snapshot';
+  const expected = newer ? 'data of a version that this service reads' : 'what was stored';
+  return new Problem(
+    503,
+    newer ? 'unsupported-snapshot' : 'quarantined',
+    { what, expected, given: reason },
+    { message: `${what} cannot be read and is quarantined: ${reason}` },
+  );
+}

@@ -13,6 +13,7 @@ import { json } from './reply.js';
  * @property {string} summary
  * @property {string[]} [takes] types of the body
  * @property {string[]} gives types of the answer
+ * @property {true} [streams] whether the body may last
  * @property {(call: Call) => Response | Promise<Response>} run
  */
 
@@ -102,6 +103,7 @@ export const routes = [
     role: 'write',
     summary: 'Takes frames, one a line, as long as they come. What is answered as accepted is kept.',
     takes: ['application/x-ndjson', 'application/jsonl'],
+    streams: true,
     gives: [JSON_TYPE],
     run: ofVehicle('take'),
   },
@@ -112,7 +114,9 @@ export const routes = [
     summary: 'OpenMetrics of all vehicles.',
     gives: [METRICS_TYPE],
     run: async ({ tenant, service }) =>
-      new Response(openMetrics(await service.vehicles(tenant)), { headers: { 'content-type': METRICS_TYPE } }),
+      new Response(openMetrics(await service.vehicles(tenant), service.connections), {
+        headers: { 'content-type': METRICS_TYPE },
+      }),
   },
   {
     method: 'GET',
@@ -126,9 +130,9 @@ export const routes = [
     method: 'GET',
     path: '/health',
     role: null,
-    summary: 'Whether the service is there.',
+    summary: 'Whether the service is there, and how much of what is stored cannot be read.',
     gives: [JSON_TYPE],
-    run: () => json({ ok: true }),
+    run: ({ service }) => json({ ok: true, ...service.health?.() }),
   },
   {
     method: 'GET',

@@ -5,7 +5,18 @@ import { Bucket } from './bucket.js';
 import { frameOf, isObject } from './frame.js';
 import { Lines } from './lines.js';
 import { Radar } from './radar.js';
-import { isBoresightError, isRefusal, json, Problem, problemOf, refusal, wrongType } from './reply.js';
+import {
+  isBoresightError,
+  isOurs,
+  isRefusal,
+  json,
+  notStored,
+  Problem,
+  problemOf,
+  refusal,
+  unreadable,
+  wrongType,
+} from './reply.js';
 import { pack, unpack } from './storage/pack.js';
 
 /** A fleet is told at most so often. */
@@ -14,10 +25,13 @@ const DAY_MS = 86_400_000;
 /** Lines of a request whose problems are told; the others are counted. */
 const TOLD = 20;
 
+/** @param {Uint8Array} line */
+const isBlank = (line) => line.every((byte) => byte === 32 || byte === 9 || byte === 13);
+
 /** @typedef {{ tenant: string, vehicle: string, radar?: string, action: keyof typeof actions }} Ask */
 /** @typedef {{ accepted: number, repeated: number, refused: number, problems: unknown[] }} Tally */
 /** @typedef {{ tenant: string, vehicle: string, receivedMs: number, refused: Record<string, number> }} Head */
-/** @typedef {Pick<import('./fleet.js').Fleet, 'admit' | 'tell' | 'forget'>} FleetPort */
+/** @typedef {Pick<import('./fleet.js').Fleet, 'admit' | 'tell' | 'quarantine' | 'forget'>} FleetPort */
 
 export class Vehicle {
   #storage;
@@ -32,6 +46,10 @@ export class Vehicle {
   #alarmMs;
   /** The last write, whatever becomes of it. @type {Promise<void>} */
   #written = Promise.resolve();
+  /** The code that was last reported. @type {string | null} */
+  #toldQuarantine = null;
+  /** Code of what is wrong with the stored data, which nothing is written over. @type {string | null} */
+  quarantined = null;
 
   /**
    * @param {import('./storage/storage.js').Storage} storage
@@ -58,6 +76,7 @@ export class Vehicle {
       await initDrives();
       return await actions[ask.action](this, ask, request);
     } catch (error) {
+      if (error instanceof Problem && error.code === this.quarantined) await this.#tellQuarantine(ask, error);
       return refusal(error);
     }
   }
@@ -66,7 +85,7 @@ export class Vehicle {
   async alarm() {
     await initDrives();
     this.#alarmMs = null;
-    const { head } = this.#load();
+    const head = this.#headOrNone();
     if (!head) return;
     if (this.#now() >= head.receivedMs + this.#config.retentionDays * DAY_MS) await this.forget(head);
     else await this.#tell(head);
@@ -120,6 +139,7 @@ export class Vehicle {
   /** @param {Ask} ask @param {Request} request */
   async configure({ tenant, vehicle, radar: name = '' }, request) {
     checkType(request, ['application/json']);
+    this.#load();
     const given = parsed(await bytesOf(request, 1 << 16, this.#config.limits.idleS), 'the options');
     if (!isObject(given)) throw wrongType('the options', 'an object', given);
     const { method = 'recursive', ...rest } = given;
@@ -128,33 +148,33 @@ export class Vehicle {
       throw new Problem(422, 'unsuited-method', { what: 'method', expected, given: String(method).slice(0, 64) });
     }
     const made = Radar.begin(name, /** @type {any} */ ({ method, ...rest }));
-    const fleet = await this.#fleetOf(tenant);
-    const most = this.#config.tenants[tenant]?.vehicles ?? 1000;
-    if (!this.#load().head && !(await fleet.admit(vehicle, most))) {
-      made.free();
-      throw new Problem(409, 'too-many', { what: 'vehicles', expected: `${most} at most`, given: 'one more' });
-    }
-    // Nothing waits from here on.
-    const { head, radars } = this.#load();
-    const before = radars.get(name);
-    if (before) {
-      made.free();
-      if (JSON.stringify(before.options) === JSON.stringify(made.options)) {
-        if (head) await this.#commit(head);
-        return json(before.summary());
+    let begun = false;
+    try {
+      const most = this.#config.tenants[tenant]?.vehicles ?? 1000;
+      const admitted = async () => (await this.#fleetOf(tenant)).admit(vehicle, most);
+      if (!this.#load().head && !(await this.#stored(admitted))) {
+        throw new Problem(409, 'too-many', { what: 'vehicles', expected: `${most} at most`, given: 'one more' });
       }
-      const expected = 'the options that it was begun with; delete it to begin anew';
-      throw new Problem(409, 'exists', { what: `radar ${name}`, expected, given: 'others' });
+      // Nothing waits from here on.
+      const { head, radars } = this.#load();
+      const before = radars.get(name);
+      if (before && JSON.stringify(before.options) !== JSON.stringify(made.options)) {
+        const expected = 'the options that it was begun with; delete it to begin anew';
+        throw new Problem(409, 'exists', { what: `radar ${name}`, expected, given: 'others' });
+      }
+      if (!before && radars.size >= this.#config.limits.radars) {
+        const expected = `${this.#config.limits.radars} at most`;
+        throw new Problem(409, 'too-many', { what: 'radars', expected, given: 'one more' });
+      }
+      const radar = before ?? made;
+      if (!before) radars.set(name, made);
+      begun = !before;
+      await this.#commit(head ?? { tenant, vehicle, receivedMs: this.#now(), refused: {} });
+      await this.#tellSoon(true);
+      return json(radar.summary(), begun ? 201 : 200);
+    } finally {
+      if (!begun) made.free();
     }
-    if (radars.size >= this.#config.limits.radars) {
-      made.free();
-      const expected = `${this.#config.limits.radars} at most`;
-      throw new Problem(409, 'too-many', { what: 'radars', expected, given: 'one more' });
-    }
-    radars.set(name, made);
-    await this.#commit(head ?? { tenant, vehicle, receivedMs: this.#now(), refused: {} });
-    await this.#tellSoon(true);
-    return json(made.summary(), 201);
   }
 
   /** @param {Ask} ask */
@@ -163,29 +183,48 @@ export class Vehicle {
     const radar = radars.get(name);
     if (!radar) throw new Problem(404, 'not-found', { what: 'radar', expected: 'one of the vehicle', given: name });
     radars.delete(name);
+    try {
+      await this.#stored(() =>
+        this.#storage.write([
+          [`radar/${name}`, null],
+          [`history/${name}`, null],
+        ]),
+      );
+    } catch (error) {
+      // It is still stored, unless another one was begun.
+      if (this.#state?.radars === radars && !radars.has(name)) radars.set(name, radar);
+      else radar.free();
+      throw error;
+    }
     radar.free();
-    await this.#storage.write([
-      [`radar/${name}`, null],
-      [`history/${name}`, null],
-    ]);
     await this.#tell(head);
     return new Response(null, { status: 204 });
   }
 
   /** @param {Pick<Ask, 'tenant' | 'vehicle'>} ask */
   async forget({ tenant, vehicle }) {
-    const { head } = this.#load();
-    this.rest();
-    this.#state = { head: null, radars: new Map() };
+    const before = this.#load();
+    const empty = { head: null, radars: new Map() };
+    this.#state = empty;
     this.#alarmMs = undefined;
-    await this.#storage.clear();
-    await (await this.#fleetOf(tenant)).forget(vehicle);
-    if (!head) throw new Problem(404, 'not-found', { what: 'vehicle', expected: 'a known one', given: vehicle });
+    this.#toldMs = 0;
+    try {
+      await this.#stored(() => this.#storage.clear());
+    } catch (error) {
+      // It is still stored, unless another one was begun.
+      if (this.#state === empty && empty.radars.size === 0) this.#state = before;
+      throw error;
+    }
+    for (const radar of before.radars.values()) radar.free();
+    const listed = await this.#stored(async () => (await this.#fleetOf(tenant)).forget(vehicle));
+    if (!before.head && !listed)
+      throw new Problem(404, 'not-found', { what: 'vehicle', expected: 'a known one', given: vehicle });
     return new Response(null, { status: 204 });
   }
 
-  /** @param {ReturnType<Lines['push']>} lines @param {Tally} tally */
-  async #takeLines(lines, tally) {
+  /** @param {ReturnType<Lines['push']>} given @param {Tally} tally */
+  async #takeLines(given, tally) {
+    const lines = given.filter(({ bytes }) => !bytes || !isBlank(bytes));
     if (lines.length === 0) return;
     this.#lines.take(lines.length, this.#now(), 'frames of the vehicle');
     /** Lines at which boresight stopped: the rest is taken without them. @type {Set<number>} */
@@ -239,7 +278,6 @@ export class Vehicle {
       let radar;
       try {
         const read = this.#read(line, radars, fatal);
-        if (!read) continue;
         radar = read.radar;
         tally[radar.add(read.frame, this.#config.limits)] += 1;
       } catch (error) {
@@ -252,12 +290,11 @@ export class Vehicle {
         if (tally.problems.length < TOLD) tally.problems.push({ line: line.number, ...problem.toJSON() });
       }
     }
-    const any = tally.accepted + tally.repeated + tally.refused > 0;
-    return { tally, kept: any ? this.#commit({ ...head, receivedMs: this.#now(), refused }) : undefined };
+    return { tally, kept: this.#commit({ ...head, receivedMs: this.#now(), refused }) };
   }
 
   /**
-   * The frame on a line with its radar; nothing where the line is blank.
+   * The frame on a line with its radar.
    *
    * @param {{ number: number, bytes?: Uint8Array }} line
    * @param {Map<string, Radar>} radars
@@ -269,7 +306,6 @@ export class Vehicle {
       const details = { what: 'the line', expected: `${limits.lineBytes} bytes at most`, given: 'more' };
       throw new Problem(413, 'line-too-long', details);
     }
-    if (bytes.every((byte) => byte === 32 || byte === 9 || byte === 13)) return null;
     if (fatal.has(number)) {
       throw new Problem(422, 'trap', { what: 'the frame', expected: 'one that can be worked out', given: 'another' });
     }
@@ -284,17 +320,49 @@ export class Vehicle {
   /** What is kept of the vehicle, brought into memory. */
   #load() {
     if (this.#state) return this.#state;
-    const kept = this.#storage.read();
-    const head = kept.get('vehicle');
     /** @type {Map<string, Radar>} */
     const radars = new Map();
-    for (const [key, state] of kept) {
-      if (!key.startsWith('radar/')) continue;
-      const name = key.slice('radar/'.length);
-      radars.set(name, Radar.restore(name, state, kept.get(`history/${name}`)));
+    try {
+      const kept = this.#storage.read();
+      const head = kept.get('vehicle');
+      for (const [key, state] of kept) {
+        if (!key.startsWith('radar/')) continue;
+        const name = key.slice('radar/'.length);
+        radars.set(name, Radar.restore(name, state, kept.get(`history/${name}`)));
+      }
+      this.#state = { head: head ? /** @type {[Head]} */ (unpack(head))[0] : null, radars };
+    } catch (error) {
+      for (const radar of radars.values()) radar.free();
+      if (isOurs(error)) throw error;
+      const problem = unreadable('the stored data of the vehicle', error);
+      this.quarantined = problem.code;
+      throw problem;
     }
-    this.#state = { head: head ? /** @type {[Head]} */ (unpack(head))[0] : null, radars };
+    this.quarantined = null;
+    this.#toldQuarantine = null;
     return this.#state;
+  }
+
+  /** The head, or nothing where there is none or it cannot be read. */
+  #headOrNone() {
+    try {
+      return this.#load().head;
+    } catch (error) {
+      if (this.quarantined) return null;
+      throw error;
+    }
+  }
+
+  /** Lists the vehicle as quarantined. @param {Ask} ask @param {Problem} problem */
+  async #tellQuarantine({ tenant, vehicle }, { code, message }) {
+    if (this.#toldQuarantine === code) return;
+    this.#toldQuarantine = code;
+    console.error(`vehicle ${vehicle} of tenant ${tenant}: ${message} (${code})`);
+    try {
+      await (await this.#fleetOf(tenant)).quarantine(vehicle, code);
+    } catch (error) {
+      console.error(error);
+    }
   }
 
   #known() {
@@ -311,23 +379,41 @@ export class Vehicle {
   /** Keeps what changed. Where that fails, it is kept with what changes next. @param {Head} head */
   #commit(head) {
     const state = this.#load();
+    const before = state.head;
     const radars = [...state.radars.values()];
     const changes = radars.flatMap((radar) => radar.kept());
     for (const radar of radars) radar.settle(true);
     state.head = head;
     const written = (async () => this.#storage.write([['vehicle', pack(head)], ...changes]))();
-    this.#written = written.catch((error) => {
-      console.error(error);
+    const settled = written.catch(() => {
       for (const radar of radars) radar.settle(false);
+      // A vehicle is there once it is stored, by this or by a later write.
+      if (!before && this.#written === settled) state.head = null;
     });
-    return written.catch(() => {
-      throw new Problem(503, 'not-stored', { what: 'the storage', expected: 'to take frames', given: 'an error' });
-    });
+    this.#written = settled;
+    return this.#stored(() => written);
+  }
+
+  /**
+   * Waits for something to be stored, or throws what is answered where it is not.
+   *
+   * @template T
+   * @param {() => T | Promise<T>} write
+   * @returns {Promise<T>}
+   */
+  async #stored(write) {
+    try {
+      return await write();
+    } catch (error) {
+      if (error instanceof Problem) throw error;
+      console.error(error);
+      throw notStored();
+    }
   }
 
   /** Tells the fleet now, if that was not done lately; else a little later, where `later` says so. @param {boolean} later */
   async #tellSoon(later) {
-    const { head } = this.#load();
+    const head = this.#headOrNone();
     if (!head) return;
     const dueMs = this.#toldMs + TELL_MS;
     if (this.#now() >= dueMs) await this.#tell(head);
@@ -343,7 +429,8 @@ export class Vehicle {
     try {
       await (await this.#fleetOf(tenant)).tell(vehicle, { receivedMs, refused, radars });
     } catch (error) {
-      console.error(error);
+      // A list that cannot be read was reported when it was found.
+      if (!(error instanceof Problem)) console.error(error);
       nextMs = this.#now() + TELL_MS;
     }
     await this.#wake(nextMs);
@@ -351,10 +438,16 @@ export class Vehicle {
 
   /** Sets the alarm, unless it comes before. @param {number} atMs */
   async #wake(atMs) {
-    if (this.#alarmMs === undefined) this.#alarmMs = await this.#storage.alarm();
-    if (this.#alarmMs !== null && this.#alarmMs <= atMs) return;
-    this.#alarmMs = atMs;
-    await this.#storage.setAlarm(atMs);
+    try {
+      if (this.#alarmMs === undefined) this.#alarmMs = await this.#storage.alarm();
+      if (this.#alarmMs !== null && this.#alarmMs <= atMs) return;
+      this.#alarmMs = atMs;
+      await this.#storage.setAlarm(atMs);
+    } catch (error) {
+      // It is set when the fleet is told next.
+      console.error(error);
+      this.#alarmMs = undefined;
+    }
   }
 }
 

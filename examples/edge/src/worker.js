@@ -55,6 +55,11 @@ export class FleetObject extends DurableObject {
     return this.#fleet.tell(...given);
   }
 
+  /** @param {Parameters<Fleet['quarantine']>} given */
+  quarantine(...given) {
+    return this.#fleet.quarantine(...given);
+  }
+
   /** @param {Parameters<Fleet['forget']>} given */
   forget(...given) {
     return this.#fleet.forget(...given);

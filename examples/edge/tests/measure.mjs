@@ -1,18 +1,19 @@
 /** What the service takes: processor time of a frame, memory of vehicles, and how many vehicles it holds. */
 import assert from 'node:assert/strict';
 import { once } from 'node:events';
+import { request } from 'node:http';
 import { createServer } from 'node:net';
 import { setTimeout as wait } from 'node:timers/promises';
 import { frames, line, RADAR } from './lib/drive.mjs';
-import { Service } from './lib/service.mjs';
+import { Service, TOKENS } from './lib/service.mjs';
 
-const FREE = { requests: { perS: 1e9, burst: 1e9 }, frames: { perS: 1e9, burst: 1e9 }, open: 1e6 };
+const FREE = { requests: { perS: 1e9, burst: 1e9 }, frames: { perS: 1e9, burst: 1e9 }, open: 1e6, streams: 1e6 };
 const WARM = 100;
 const HZ = 13;
 
 /** Starts the service, does something with it, and stops it. */
-async function running(runtime, environment, work, inspector) {
-  const service = new Service(runtime, { config: { limits: FREE }, environment, inspector });
+async function running(runtime, environment, work, inspector, limits = FREE) {
+  const service = new Service(runtime, { config: { limits }, environment, inspector });
   try {
     return await work(await service.start());
   } finally {
@@ -178,4 +179,88 @@ export function load(runtime, { vehicles = 40, seconds = 15, detections = 225, e
       vehiclesACore: Math.floor(1000 / (HZ * aFrame)),
     };
   });
+}
+
+/** How long lists and metrics take while so many vehicles stream, a frame of each every so often: of those that ask, ms. */
+export function scrape(runtime, { vehicles = 1000, everyS = 10, seconds = 30, detections = 225, environment } = {}) {
+  // The limits of requests at once are the defaults, which are what is tried; the radars are put faster than clients may.
+  const limits = { requests: FREE.requests };
+  const work = async (service) => {
+    const all = await frames({ durationS: 20, detections });
+    const lines = all.map((frame) => Buffer.from(line('front', frame)));
+    const names = Array.from({ length: vehicles }, (_, i) => `car ${i}`);
+    for (let at = 0; at < vehicles; at += 100) {
+      const put = await Promise.all(names.slice(at, at + 100).map((name) => service.put(name, 'front', RADAR)));
+      for (const { status } of put) assert.equal(status, 201);
+    }
+    const headers = {
+      authorization: `Bearer ${TOKENS.write}`,
+      'content-type': 'application/x-ndjson',
+      'transfer-encoding': 'chunked',
+    };
+    const streams = names.map((name) => {
+      const path = `/v1/vehicles/${encodeURIComponent(name)}/frames`;
+      const sent = request(service.url + path, { method: 'POST', headers, agent: false });
+      const answer = once(sent, 'response').then(async ([response]) => {
+        response.setEncoding('utf8');
+        let text = '';
+        for await (const piece of response) text += piece;
+        return { status: response.statusCode, json: JSON.parse(text) };
+      });
+      sent.flushHeaders();
+      return { sent, answer, count: 0 };
+    });
+    const next = (stream) => stream.sent.write(lines[stream.count++]);
+    const sending = streams.map((stream, i) => {
+      const begin = setTimeout(
+        () => {
+          next(stream);
+          stream.timer = setInterval(next, 1000 * everyS, stream);
+        },
+        (1000 * everyS * i) / vehicles,
+      );
+      return () => {
+        clearTimeout(begin);
+        clearInterval(stream.timer);
+      };
+    });
+    const tookMs = { metrics: [], vehicles: [] };
+    const timed = async (name, path) => {
+      const askedMs = performance.now();
+      const { status, text } = await service.ask(path);
+      tookMs[name].push(performance.now() - askedMs);
+      assert.equal(status, 200, text.slice(0, 200));
+      return text;
+    };
+    // All stream before it is measured.
+    await wait(1000 * everyS);
+    const before = service.cpuMs();
+    const startMs = performance.now();
+    let text = '';
+    while (performance.now() - startMs < 1000 * seconds) {
+      text = await timed('metrics', '/metrics');
+      await timed('vehicles', '/v1/vehicles');
+      await wait(500);
+    }
+    const cores = (service.cpuMs() - before) / (performance.now() - startMs);
+    assert.equal(text.match(/^boresight_frames_total/gm)?.length, vehicles);
+    for (const stop of sending) stop();
+    for (const { sent } of streams) sent.end();
+    for (const { answer, count } of streams) await accepted(answer, count);
+    const told = (name) => {
+      const sorted = tookMs[name].sort((a, b) => a - b);
+      const quantile = (q) => Math.round(sorted[Math.floor(q * (sorted.length - 1))]);
+      return { [`${name}MedianMs`]: quantile(0.5), [`${name}P95Ms`]: quantile(0.95), [`${name}MostMs`]: quantile(1) };
+    };
+    return {
+      runtime,
+      streams: vehicles,
+      framesASecond: vehicles / everyS,
+      asked: tookMs.metrics.length,
+      ...told('metrics'),
+      ...told('vehicles'),
+      cores: Number(cores.toFixed(2)),
+    };
+  };
+  return running(runtime, environment, work, undefined, limits);
 }

@@ -1,18 +1,23 @@
 /** The parts of the service, and a vehicle on a storage in memory that can fail. */
 import assert from 'node:assert/strict';
-import { mkdtempSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { createHash } from 'node:crypto';
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { initDrives } from 'boresight';
+import { Calibration, initDrives } from 'boresight';
 import { Bucket } from '../src/bucket.js';
 import { configOf } from '../src/config.js';
+import { Fleet } from '../src/fleet.js';
 import { digestOf, frameOf, isName } from '../src/frame.js';
+import { handlerOf } from '../src/handler.js';
 import { History } from '../src/history.js';
 import { Lines } from '../src/lines.js';
 import { openMetrics } from '../src/metrics.js';
 import { Recent } from '../src/recent.js';
+import { wrongType } from '../src/reply.js';
 import { openFiles } from '../src/storage/files.js';
+import { pack, unpack } from '../src/storage/pack.js';
 import { openSqlite } from '../src/storage/sqlite.js';
 import { together } from '../src/storage/together.js';
 import { Vehicle } from '../src/vehicle.js';
@@ -226,9 +231,13 @@ for (const [kind, open] of [
       assert.equal(text(last.open('a/2').read().get('x')), 'other');
       if (kind === 'files') {
         // What a killed process had begun to write.
-        writeFileSync(join(folder, 'files', 'x.new'), 'half');
-        await open(folder);
-        assert.ok(readdirSync(join(folder, 'files')).every((name) => name.endsWith('.kept')));
+        const begun = join(folder, 'files', `${'a'.repeat(64)}.kept.new`);
+        writeFileSync(begun, 'half');
+        // What is not the service's stays.
+        const notes = join(folder, 'files', 'notes.txt');
+        writeFileSync(notes, 'mine');
+        const { unreadable } = await open(folder);
+        assert.deepEqual([existsSync(begun), existsSync(notes), [...unreadable.keys()]], [false, true, ['notes.txt']]);
       }
     } finally {
       rmSync(folder, { recursive: true, force: true });
@@ -237,9 +246,9 @@ for (const [kind, open] of [
 }
 
 /** A vehicle whose storage fails when told to, and whose clock is set. */
-function vehicle() {
+function vehicle(limits = {}) {
   const kept = new Map();
-  const state = { fails: false, nowMs: 1e12, alarmMs: null, told: [], forgotten: 0 };
+  const state = { fails: false, nowMs: 1e12, alarmMs: null, told: [], quarantined: [], forgotten: 0 };
   const storage = {
     read: () => new Map(kept),
     write(changes) {
@@ -247,6 +256,7 @@ function vehicle() {
       for (const [key, value] of changes) value ? kept.set(key, value.slice()) : kept.delete(key);
     },
     clear() {
+      if (state.fails) throw new Error('the disk is full');
       kept.clear();
       state.alarmMs = null;
     },
@@ -258,9 +268,10 @@ function vehicle() {
   const fleet = {
     admit: async () => true,
     tell: (_, told) => void state.told.push(told),
-    forget: () => void state.forgotten++,
+    quarantine: async (name, code) => void state.quarantined.push([name, code]),
+    forget: async () => Boolean(++state.forgotten),
   };
-  const config = configOf({ tenants: {}, retentionDays: 1 });
+  const config = configOf({ tenants: {}, retentionDays: 1, limits });
   const make = () =>
     new Vehicle(
       storage,
@@ -280,7 +291,9 @@ function vehicle() {
     kept,
     put: (options = RADAR) => ask('configure', 'PUT', JSON.stringify(options), 'application/json', 'front'),
     take: (...all) => ask('take', 'POST', all.map((frame) => line('front', frame)).join(''), 'application/x-ndjson'),
+    send: (body) => ask('take', 'POST', body, 'application/x-ndjson'),
     about: () => ask('describe', 'GET'),
+    forget: () => ask('forget', 'DELETE'),
     forgetRadar: () => ask('forgetRadar', 'DELETE', undefined, undefined, 'front'),
     alarm: () => live.alarm(),
     /** As a process that was killed and started anew. */
@@ -296,6 +309,8 @@ test('what no storage took is not acknowledged, and is taken once when it comes 
   const { put, take, about, state, restart } = vehicle();
   state.fails = true;
   assert.equal((await put()).status, 503);
+  assert.equal((await about()).status, 404);
+  assert.deepEqual(state.told, [], 'no fleet lists it');
   state.fails = false;
   // The radar is there, and is kept now.
   assert.equal((await put()).status, 200);
@@ -387,4 +402,160 @@ test('a fleet is told every five seconds, and of the end by an alarm; then a veh
   await alarm();
   assert.deepEqual([state.forgotten, kept.size], [1, 0]);
   assert.equal((await about()).status, 404);
+});
+
+test('what no storage forgets is still there, and is forgotten when it is asked again', async (context) => {
+  context.mock.method(console, 'error', () => {});
+  const { put, take, about, forget, forgetRadar, state, restart } = vehicle();
+  await put();
+  await take(...all.slice(0, 30));
+  state.fails = true;
+  for (const answer of [await forgetRadar(), await forget()]) {
+    assert.deepEqual([answer.status, answer.json.code], [503, 'not-stored']);
+    assert.equal((await about()).json.radars[0].frames, 30);
+  }
+  state.fails = false;
+  assert.equal((await take(...all.slice(30, 60))).json.accepted, 30);
+  restart();
+  assert.equal((await about()).json.radars[0].frames, 60);
+  assert.equal((await forgetRadar()).status, 204);
+  assert.equal((await forget()).status, 204);
+  assert.equal((await about()).status, 404);
+});
+
+test('a full disk is answered with 503, and nothing is listed that is not stored', async (context) => {
+  context.mock.method(console, 'error', () => {});
+  const disk = { full: true, kept: new Map() };
+  const storageOf = (name) => ({
+    read: () => new Map(disk.kept.get(name)),
+    async write(changes) {
+      if (disk.full) throw Object.assign(new Error('no space left on device'), { code: 'ENOSPC' });
+      disk.kept.set(name, new Map([...(disk.kept.get(name) ?? []), ...changes]));
+    },
+    clear: () => disk.kept.delete(name),
+    alarm: () => null,
+    setAlarm: async () => {},
+  });
+  const sha256 = createHash('sha256').update('w').digest('hex');
+  const config = configOf({ tenants: { test: { tokens: [{ sha256, role: 'write' }], vehicles: 2 } } });
+  const fleet = new Fleet(storageOf('fleet'));
+  const vehicles = new Map();
+  const handler = handlerOf({
+    config,
+    vehicle: (ask, request) => {
+      const made = vehicles.get(ask.vehicle) ?? new Vehicle(storageOf(ask.vehicle), config, () => fleet);
+      vehicles.set(ask.vehicle, made);
+      return made.answer(ask, request);
+    },
+    vehicles: async () => fleet.vehicles(),
+    page: () => new Response(),
+  });
+  const ask = async (path, method, body) => {
+    const headers = {
+      authorization: 'Bearer w',
+      'content-type': 'application/json',
+      'content-length': `${body?.length}`,
+    };
+    const answer = await handler(new Request(`http://edge${path}`, { method, headers, body }));
+    return { status: answer.status, json: await answer.json() };
+  };
+  const put = (name) => ask(`/v1/vehicles/${name}/radars/front`, 'PUT', JSON.stringify(RADAR));
+  const listed = async () => (await ask('/v1/vehicles', 'GET')).json.vehicles.map(({ vehicle }) => vehicle);
+  assert.deepEqual([(await put('a')).json.code, (await put('b')).status], ['not-stored', 503]);
+  assert.deepEqual(await listed(), []);
+  disk.full = false;
+  assert.deepEqual([(await put('a')).status, (await put('b')).status], [200, 200]);
+  assert.deepEqual(await listed(), ['a', 'b']);
+  // Places are counted whether they are listed yet or not.
+  assert.equal((await put('c')).status, 409);
+});
+
+test('packed bytes that changed anywhere are recognised; those of versions without a checksum are read', () => {
+  const given = [{ a: [1, null, 'ä'] }, bytes('part'), new Uint8Array(), bytes('odd')];
+  const packed = pack(...given);
+  assert.deepEqual(unpack(packed), given);
+  const shifted = new Uint8Array(packed.length + 1);
+  shifted.set(packed, 1);
+  assert.deepEqual(unpack(shifted.subarray(1)), given);
+  for (let at = 0; at < packed.length; at++) {
+    for (let bit = 0; bit < 8; bit++) {
+      const changed = packed.slice();
+      changed[at] ^= 1 << bit;
+      assert.throws(() => unpack(changed), `bit ${bit} of byte ${at}`);
+    }
+    assert.throws(() => unpack(packed.subarray(0, at)), `the first ${at} bytes`);
+    assert.throws(() => unpack(packed.slice().fill(0, at)), `zeros from byte ${at} on`);
+  }
+  assert.deepEqual(unpack(packed.subarray(12)), given);
+});
+
+test('a vehicle whose stored data is damaged is quarantined: it answers 503, and nothing is written over it', async (context) => {
+  context.mock.method(console, 'error', () => {});
+  for (const key of ['vehicle', 'radar/front', 'history/front']) {
+    const { put, take, about, forget, alarm, kept, restart, state } = vehicle();
+    await put();
+    await take(...all.slice(0, 60));
+    const whole = kept.get(key);
+    // The times and digests of the last frames are at the end, counts at the beginning.
+    for (const at of [whole.length - 9, 40]) {
+      const damaged = whole.slice();
+      damaged[at] ^= 1;
+      kept.set(key, damaged);
+      restart();
+      for (const answer of [await about(), await take(...all), await put(), await forget()]) {
+        assert.deepEqual([answer.status, answer.json.code], [503, 'quarantined'], `${key}, byte ${at}`);
+      }
+      await alarm();
+      assert.equal(kept.get(key), damaged);
+    }
+    assert.deepEqual(state.quarantined[0], ['car', 'quarantined']);
+    kept.set(key, whole);
+    assert.equal((await about()).json.radars[0].frames, 60);
+  }
+});
+
+test('a snapshot of a newer version is quarantined under its own code, and is taken again by a service that reads it', async (context) => {
+  context.mock.method(console, 'error', () => {});
+  const { put, take, about, kept, restart, state } = vehicle();
+  await put();
+  await take(...all.slice(0, 60));
+  const stored = new Map(kept);
+  const newer = Object.assign(new Error('the snapshot has version 9; expected 3 at most'), {
+    name: 'BoresightError',
+    code: 'unsupported-snapshot',
+  });
+  const restore = context.mock.method(Calibration, 'restore', () => {
+    throw newer;
+  });
+  restart();
+  for (const answer of [await about(), await take(...all)]) {
+    assert.deepEqual([answer.status, answer.json.code], [503, 'unsupported-snapshot']);
+    assert.match(answer.json.message, /version 9; expected 3 at most/);
+  }
+  assert.deepEqual(state.quarantined, [['car', 'unsupported-snapshot']]);
+  assert.deepEqual(kept, stored);
+  restore.mock.restore();
+  assert.equal((await take(...all)).json.repeated, 60);
+  assert.deepEqual((await about()).json.radars[0].result, await reference(all));
+});
+
+test('blank lines cost no frames', async () => {
+  const { put, send } = vehicle({ frames: { perS: 1, burst: 2 } });
+  await put();
+  const blank = ['\n', '\r\n', ' \t\n'].join('').repeat(500);
+  const sent = await send(blank + line('front', all[0]) + blank + line('front', all[1]) + blank);
+  assert.deepEqual([sent.status, sent.json.accepted, sent.json.refused], [200, 2, 0]);
+  assert.equal((await send(blank)).status, 200);
+  assert.equal((await send(line('front', all[2]))).json.code, 'too-many-requests');
+});
+
+test('a wrong type is named', () => {
+  for (const [given, message] of [
+    [[], 'the body is an array; expected an object'],
+    [null, 'the body is null; expected an object'],
+    ['x', 'the body is a string; expected an object'],
+    [undefined, 'the body is missing; expected an object'],
+  ]) {
+    assert.equal(wrongType('the body', 'an object', given).message, message);
+  }
 });

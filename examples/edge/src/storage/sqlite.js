@@ -16,9 +16,13 @@ async function opened(path) {
   return sqlite && new sqlite.DatabaseSync(path);
 }
 
-/** @param {string} path @returns {Promise<import('./storage.js').Database | undefined>} */
-export async function openSqlite(path) {
-  const db = await opened(path);
+/**
+ * @param {string} path
+ * @param {typeof opened} [open] which tests replace
+ * @returns {Promise<import('./storage.js').Database | undefined>}
+ */
+export async function openSqlite(path, open = opened) {
+  const db = await open(path);
   if (!db) return undefined;
   db.exec(SCHEMA);
   const read = db.prepare('SELECT key, value FROM kept WHERE name = ?');
@@ -30,12 +34,16 @@ export async function openSqlite(path) {
   const setAlarm = db.prepare('INSERT OR REPLACE INTO alarms VALUES (?, ?)');
   const clearAlarm = db.prepare('DELETE FROM alarms WHERE name = ?');
   const commit = together((/** @type {(() => void)[]} */ writes) => {
-    db.exec('BEGIN IMMEDIATE');
     try {
+      db.exec('BEGIN IMMEDIATE');
       for (const write of writes) write();
       db.exec('COMMIT');
     } catch (error) {
-      db.exec('ROLLBACK');
+      try {
+        db.exec('ROLLBACK');
+      } catch {
+        // Where the disk is full, SQLite has already rolled back.
+      }
       throw error;
     }
   });
@@ -55,5 +63,7 @@ export async function openSqlite(path) {
       setAlarm: (atMs) => commit(() => setAlarm.run(name, atMs)),
     }),
     alarms: () => alarms.all(),
+    unreadable: new Map(),
+    isUnreadable: () => false,
   };
 }

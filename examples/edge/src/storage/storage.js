@@ -18,6 +18,8 @@
  * @typedef {object} Database
  * @property {(name: string) => Storage} open
  * @property {() => { name: string, atMs: number }[]} alarms all that are set
+ * @property {ReadonlyMap<string, string>} unreadable entries that cannot be read, with the reason; they are left as they are
+ * @property {(name: string) => boolean} isUnreadable whether the entry of that name is one of them
  */
 
 export {};

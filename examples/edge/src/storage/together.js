@@ -5,14 +5,16 @@ const GATHER_MS = 2;
  * Gathers writes of many objects for one commit; each promise stands for the commit that its write is in.
  *
  * @template T
- * @param {(writes: T[]) => void | Promise<void>} commit
- * @returns {(write: T) => Promise<void>}
+ * @template R
+ * @param {(writes: T[]) => R | Promise<R>} commit
+ * @returns {(write: T) => Promise<R>}
  */
 export function together(commit) {
   /** @type {T[]} */
   let waiting = [];
-  /** @type {Promise<void> | undefined} */
+  /** @type {Promise<R> | undefined} */
   let next;
+  /** @type {Promise<unknown>} */
   let last = Promise.resolve();
   return (write) => {
     waiting.push(write);
@@ -22,7 +24,7 @@ export function together(commit) {
       next = undefined;
       const done = (async () => commit(writes))();
       last = done.catch(() => {});
-      await done;
+      return done;
     });
     return next;
   };

@@ -61,6 +61,11 @@ export class Service {
     writeFileSync(join(this.#folder, 'config.capnp'), text);
   }
 
+  /** The folder of its data. */
+  get data() {
+    return join(this.#folder, 'data');
+  }
+
   get pid() {
     return this.#child.pid;
   }
