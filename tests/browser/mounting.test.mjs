@@ -425,7 +425,7 @@ browserTest(
 browserTest(
   'mounting angle: a report is saved that stands by itself, and its writing can be cancelled',
   { path: '#/mounting?methods=recursive' },
-  async ({ page }) => {
+  async ({ page, browser }) => {
     await ready(page);
     const report = await saved(page, '[data-export="report"]');
     const html = report.bytes.toString();
@@ -434,18 +434,19 @@ browserTest(
     assert.ok(html.includes(`${angle.toFixed(3)} ± `), html.slice(0, 2000));
     assert.match(html, /front_radar\.csv, as served<\/th><td>\d+ bytes, SHA-256 [0-9a-f]{64}</);
     // As a page of its own it shows the same, and asks for nothing; its policy lets its style pass and no script.
-    const shown = await page.context().newPage();
+    const apart = await browser.newContext();
+    const shown = await apart.newPage();
     const address = 'http://report.invalid/';
     const opened = async (body) => {
-      const [asked, blocked] = [[], []];
+      const [answered, blocked] = [[], []];
       shown.removeAllListeners();
-      shown.on('request', (request) => asked.push(request.url()));
+      shown.on('response', (response) => answered.push(response.url()));
       shown.on('console', (message) => blocked.push(message.text()));
       await shown.route(address, (route) => route.fulfill({ contentType: 'text/html', body }));
       await shown.goto(address);
       assert.match(await shown.locator('.verdict').innerText(), /^(Pass|Fail|Undecided)/);
       assert.notEqual(await shown.locator('body').evaluate((body) => getComputedStyle(body).maxWidth), 'none');
-      assert.deepEqual(asked, [address]);
+      assert.deepEqual(answered, [address]);
       return blocked;
     };
     assert.deepEqual(await opened(html), []);
@@ -457,7 +458,7 @@ browserTest(
       blocked,
     );
     assert.match(await shown.title(), /^Mounting angle/);
-    await shown.close();
+    await apart.close();
     await page.click('[data-export="report"]');
     await page.click('[data-export="report"]:has-text("Cancel")');
     await page.waitForSelector('[data-export="report"]:text-is("Report")');
