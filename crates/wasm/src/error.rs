@@ -1,6 +1,7 @@
 //! Errors that cross into JavaScript.
 
 use crate::carry;
+use crate::given::MOST_KEYS;
 use boresight_aoa::AoaError;
 use boresight_array_calibration::ArrayCalibrationError;
 #[cfg(feature = "drives")]
@@ -90,6 +91,14 @@ pub enum BindingError {
         /// Bytes asked for.
         given: usize,
     },
+    /// An object has more properties than any function takes.
+    #[error("{what} has {given} properties; expected at most {MOST_KEYS}")]
+    TooManyKeys {
+        /// The object.
+        what: String,
+        /// Its number of properties.
+        given: u32,
+    },
 }
 
 impl Diagnose for BindingError {
@@ -110,7 +119,7 @@ impl Diagnose for BindingError {
             Self::Type { .. } => "wrong-type",
             Self::Missing { .. } => "missing",
             Self::UnknownField { .. } => "unknown-option",
-            Self::TooLarge { .. } => "too-large",
+            Self::TooLarge { .. } | Self::TooManyKeys { .. } => "too-large",
         }
     }
 
@@ -136,6 +145,11 @@ impl Diagnose for BindingError {
             Self::TooLarge { what, given } => {
                 Details::new(what, "what fits into memory", format!("{given} bytes"))
             }
+            Self::TooManyKeys { what, given } => Details::new(
+                what,
+                format!("at most {MOST_KEYS} properties"),
+                format!("{given} properties"),
+            ),
         }
     }
 }
