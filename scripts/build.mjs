@@ -334,6 +334,7 @@ export async function buildDemo(variables = {}) {
     const built = join(app, 'next', 'dist');
     await run('vite', ['build', '--logLevel', 'warn', '--outDir', built], { env: { ...environment, ...variables } });
     publish(built, join(app, 'dist'));
+    rmSync(join(app, 'next'), { recursive: true });
   });
   if (!done) say('web/app/dist is up to date');
 }
