@@ -1,4 +1,5 @@
 import { cpSync, existsSync } from 'node:fs';
+import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { defineConfig, type Plugin } from 'vite';
 import { bundledDrive } from './scripts/lib/bundled-drive.mjs';
@@ -25,8 +26,8 @@ const reference = path('dist/reference');
 const withReference: Plugin = {
   name: 'reference',
   apply: 'build',
-  closeBundle: () => {
-    if (existsSync(reference)) cpSync(reference, path('web/app/dist/reference'), { recursive: true });
+  writeBundle: ({ dir = '' }) => {
+    if (existsSync(reference)) cpSync(reference, join(dir, 'reference'), { recursive: true });
   },
 };
 

@@ -9,6 +9,7 @@ import { manifest } from './lib/manifest.mjs';
 import { makeNotebook, notebookFolder } from './lib/notebook.mjs';
 import { npmTools } from './lib/npm-tools.mjs';
 import { dist, environment, root, wasmTarget } from './lib/paths.mjs';
+import { publish } from './lib/publish.mjs';
 import { isMain, main, run } from './lib/run.mjs';
 import { upToDate, whenChanged } from './lib/stamp.mjs';
 import { setup } from './setup.mjs';
@@ -328,7 +329,12 @@ export async function buildDemo(variables = {}) {
   const outputs = ['web/app/dist/index.html'];
   const done = await whenChanged('demo', { inputs, extra: Object.keys(variables), outputs }, async () => {
     say('web/app -> web/app/dist (vite)');
-    await run('vite', ['build', '--logLevel', 'warn'], { env: { ...environment, ...variables } });
+    // A demo that is being served stays whole while the next is built.
+    const app = join(root, 'web', 'app');
+    const built = join(app, 'next', 'dist');
+    await run('vite', ['build', '--logLevel', 'warn', '--outDir', built], { env: { ...environment, ...variables } });
+    publish(built, join(app, 'dist'));
+    rmSync(join(app, 'next'), { recursive: true });
   });
   if (!done) say('web/app/dist is up to date');
 }

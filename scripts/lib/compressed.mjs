@@ -17,12 +17,19 @@ const KEPT_MS = 30 * 24 * 3600e3;
 /** What builds have compressed before. */
 export const compressedBefore = join(cache, 'compressed');
 
+/** Another build may throw a file away at any time. */
+const unlessGone = (work) =>
+  work.catch((error) => {
+    if (error.code === 'ENOENT') return null;
+    throw error;
+  });
+
 /** Makes it once of the same bytes: the best quality takes some 2 s a MB, and most files are those of the build before. */
 export async function once(keep, bytes, ending, make) {
   const file = join(keep, `${createHash('sha256').update(bytes).digest('hex')}.${ending}`);
-  const before = await readFile(file).catch(() => null);
+  const before = await unlessGone(readFile(file));
   if (before) {
-    await utimes(file, new Date(), new Date());
+    await unlessGone(utimes(file, new Date(), new Date()));
     return before;
   }
   const made = await make();
@@ -50,7 +57,8 @@ export const gzip = (bytes, keep = compressedBefore) =>
 async function forget(keep) {
   for (const name of await readdir(keep)) {
     const file = join(keep, name);
-    if (Date.now() - (await stat(file)).mtimeMs > KEPT_MS) await rm(file, { force: true });
+    const known = await unlessGone(stat(file));
+    if (known && Date.now() - known.mtimeMs > KEPT_MS) await rm(file, { force: true });
   }
 }
 
@@ -75,9 +83,10 @@ export async function compressFolder(folder, keep = compressedBefore) {
   await forget(keep);
 }
 
-/** Serves a folder so. */
+/** Serves a folder so. Files are looked up at each request, as a build may replace them meanwhile. */
 export function serveFolder(folder) {
   return sirv(folder, {
+    dev: true,
     brotli: true,
     gzip: true,
     etag: true,

@@ -53,20 +53,66 @@ export function runBehind(command, args, onLine) {
   return ended(child, command, args, () => `:\n${last.join('\n')}`);
 }
 
-/** Runs a command keeping what it prints; gives status and text. `show` is given each piece and where it was printed. */
-export function runKeeping(command, args, options = {}, show = () => {}) {
+const isWindows = process.platform === 'win32';
+
+/** Kills a command that leads a process group, with its descendants; Windows knows these without a group. */
+function killTree({ pid }) {
+  if (pid === undefined) return;
+  if (isWindows) {
+    spawnSync('taskkill', ['/pid', String(pid), '/t', '/f']);
+    return;
+  }
+  try {
+    process.kill(-pid, 'SIGKILL');
+  } catch (error) {
+    if (error.code !== 'ESRCH') throw error;
+  }
+}
+
+const ENDING = ['SIGINT', 'SIGTERM', 'SIGHUP'];
+
+/**
+ * Runs a command keeping what it prints; gives status and text. `show` is given each piece and where it was printed.
+ * After `timeout` ms the command is killed with its descendants, and nothing more is waited for.
+ */
+export function runKeeping(command, args, { timeout, ...options } = {}, show = () => {}) {
   return new Promise((resolve) => {
-    const child = spawn(command, args, { cwd: root, env: environment, stdio: ['ignore', 'pipe', 'pipe'], ...options });
+    // A process group can be killed as a whole. It does not get the terminal's Ctrl+C, which is passed on below.
+    const grouped = timeout !== undefined && !isWindows;
+    const stdio = ['ignore', 'pipe', 'pipe'];
+    const child = spawn(command, args, { cwd: root, env: environment, stdio, detached: grouped, ...options });
     let text = '';
+    const pass = (signal) => {
+      killTree(child);
+      finish({ ok: false, text });
+      process.kill(process.pid, signal);
+    };
+    const timer =
+      timeout === undefined
+        ? undefined
+        : setTimeout(() => {
+            killTree(child);
+            // Descendants that left the group may still hold the pipes.
+            for (const stream of [child.stdout, child.stderr]) stream?.destroy();
+            const note = `${command} was killed after ${timeout / 1000} s\n`;
+            show(note, 'stderr');
+            finish({ ok: false, text: text + note });
+          }, timeout);
+    if (grouped) for (const signal of ENDING) process.once(signal, pass);
+    function finish(result) {
+      clearTimeout(timer);
+      for (const signal of ENDING) process.removeListener(signal, pass);
+      resolve(result);
+    }
     for (const name of ['stdout', 'stderr']) {
       child[name]?.setEncoding('utf8').on('data', (piece) => {
         text += piece;
         show(piece, name);
       });
     }
-    child.once('error', (error) => resolve({ ok: false, text: `${text}${command}: ${error.message}\n` }));
+    child.once('error', (error) => finish({ ok: false, text: `${text}${command}: ${error.message}\n` }));
     child.once('close', (code, signal) =>
-      resolve({ ok: code === 0, text: signal ? `${text}${command} ended with ${signal}\n` : text }),
+      finish({ ok: code === 0, text: signal ? `${text}${command} ended with ${signal}\n` : text }),
     );
   });
 }

@@ -6,9 +6,8 @@ import { typeNumber, typeText } from './type.mjs';
 const path =
   '#/angle?array=ula10&targets=-5:0,12:0&snr=20&snapshots=100&seed=7&methods=bartlett,capon,music,root-music';
 const estimates = (page, method) =>
-  values(page, `[data-table="results"] [data-row="${method}"]:not(.stale) [data-field="azimuth"]`);
-const shown = (page, method) =>
-  page.waitForSelector(`[data-row="${method}"]:not(.stale) [data-field="azimuth"][data-value]`);
+  values(page, `[data-table="results"] [data-row="${method}"] [data-field="azimuth"]`);
+const shown = (page, method) => page.waitForSelector(`[data-row="${method}"] [data-field="azimuth"][data-value]`);
 
 browserTest('angle lab: estimates lie within five bounds of the targets', { path }, async ({ page }) => {
   await shown(page, 'root-music');
@@ -47,7 +46,7 @@ browserTest('angle lab: dragging a target moves its estimates and the address', 
   }, truth);
   const [azimuth] = await values(page, truth);
   await page.waitForFunction((wanted) => {
-    const cell = document.querySelector('[data-row="music"]:not(.stale) [data-field="azimuth"][data-target="1"]');
+    const cell = document.querySelector('[data-row="music"] [data-field="azimuth"][data-target="1"]');
     return Math.abs(Number(cell?.dataset.value) - wanted) < 1;
   }, azimuth);
   const after = await estimates(page, 'music');

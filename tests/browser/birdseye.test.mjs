@@ -8,7 +8,7 @@ import { slideTo, typeNumber } from './type.mjs';
 // One radar and a coarse image, where the test needs no more: the machine may be busy.
 const path = '#/birdseye?methods=bartlett,iaa';
 const small = `${path}&radars=front-left&cell=0.5`;
-const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"]:not(.stale) [data-field="${field}"]`;
+const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"] [data-field="${field}"]`;
 // Four cubes are simulated and some thousand cells estimated: that takes a busy machine its time.
 const ready = (page, method = 'iaa', field = 'cells') =>
   page.waitForSelector(`${cell(method, field)}[data-value]`, { timeout: 80_000 });
@@ -190,7 +190,7 @@ browserTest('bird’s-eye view: work is cancelled and taken up again', { path: s
   const { value: share, max } = await clickWhenThere(page, '[data-progress] [data-action="cancel"]');
   assert.ok(share >= 0 && share < max, `${share} of ${max}`);
   await page.waitForSelector('[data-cancelled]');
-  assert.equal(await page.locator(cell('iaa', 'outsideDb')).count(), 0);
+  assert.equal(await page.locator(`${cell('iaa', 'outsideDb')}[data-value]`).count(), 0);
   await page.locator('[data-action="resume"]').click();
   await ready(page);
 });

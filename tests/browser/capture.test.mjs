@@ -18,8 +18,7 @@ const bin = recording('xwr16xx_crw_dca_module_2018_1015v2.bin');
 const cfg = recording('profile.cfg');
 const ready = (page) =>
   page.waitForSelector('[aria-busy="false"] [data-table="detections"] [data-field="rangeM"][data-value]');
-const cellReady = (page) =>
-  page.waitForSelector('[data-row="bartlett"]:not(.stale) [data-field="azimuth"][data-value]');
+const cellReady = (page) => page.waitForSelector('[data-row="bartlett"] [data-field="azimuth"][data-value]');
 
 /** Rows of the table of detections as objects. */
 const detections = (page) =>
@@ -290,6 +289,40 @@ browserTest(
   },
 );
 
+/** Remembers, without keeping them, the buffers of what is fetched. */
+const rememberBuffers = `
+  window.buffers = [];
+  const { arrayBuffer } = Response.prototype;
+  Response.prototype.arrayBuffer = async function () {
+    const buffer = await arrayBuffer.call(this);
+    if (buffer.byteLength === ${bin.length}) buffers.push(new WeakRef(buffer));
+    return buffer;
+  };
+`;
+
+browserTest(
+  'capture: the samples of a capture that was closed are let go of',
+  { path, before: rememberBuffers },
+  async ({ page, context }) => {
+    await ready(page);
+    await cellReady(page);
+    const cdp = await context.newCDPSession(page);
+    const held = async () => {
+      await cdp.send('HeapProfiler.collectGarbage');
+      return page.evaluate(() => buffers.filter((buffer) => buffer.deref()).length);
+    };
+    assert.equal(await held(), 1);
+    await page.evaluate(() => {
+      location.hash = '#/capture?source=files';
+    });
+    await page.locator('[data-table="detections"]').waitFor({ state: 'detached' });
+    // What was drawn last may hold it for a moment.
+    let left = await held();
+    for (let tries = 0; left > 0 && tries < 100; tries++) left = await held();
+    assert.equal(left, 0);
+  },
+);
+
 browserTest(
   'capture: one’s own files wait for each other, and never for the bundled ones',
   { path },
@@ -342,7 +375,7 @@ browserTest('capture: a click on a cell does not send the capture again', { path
   const pick = async (nth) => {
     await page.locator('[data-detection]:not([data-detection="board"]) .cell-button').nth(nth).click();
     await parametersWith(page, (params) => params.has('cell'));
-    await page.waitForFunction(() => !document.querySelector('[data-table="cell"] tr.stale'));
+    await page.waitForFunction(() => !document.querySelector('[data-table="cell"] tr[aria-busy="true"]'));
   };
   // A worker that had nothing to do with it yet gets it once.
   await pick(1);

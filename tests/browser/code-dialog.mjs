@@ -57,7 +57,7 @@ export const settled = (page, table, names, done = '[data-value]') =>
     ([table, names, done]) =>
       names.every((name) => {
         const rows = [...document.querySelectorAll(`[data-table="${table}"] [data-row="${name}"]`)];
-        return rows.some((row) => row.querySelector(done)) && rows.every((row) => !row.classList.contains('stale'));
+        return rows.some((row) => row.querySelector(done)) && rows.every((row) => !row.matches('[aria-busy="true"]'));
       }),
     [table, names, done],
     patient,

@@ -8,7 +8,7 @@ import { typeNumber } from './type.mjs';
 
 const path = '#/mounting?source=simulated&duration=5&methods=weighted-mean';
 const dialog = 'dialog.columns[open]';
-const answer = '[aria-busy="false"] [data-row="weighted-mean"]:not(.stale) [data-field="angleDeg"][data-value]';
+const answer = '[aria-busy="false"] [data-row="weighted-mean"] [data-field="angleDeg"][data-value]';
 const counts = (page) => page.locator('[data-facts="counts"]').innerText();
 const select = (page, name) => page.locator(`${dialog} select[name="${name}"]`);
 const chosen = async (page, name) => select(page, name).inputValue();

@@ -278,3 +278,37 @@ elementTest('a mounting angle’s plot holds its band and its tolerance, and giv
   // The tolerance is drawn in, and what was not yet known at first is not.
   assert.ok(levels[0] > 12 && levels[0] < 14 && levels[1] < 8 && levels[1] > 6, levels.join());
 });
+
+elementTest(
+  'detections are marked where they are between the lines of a coarse range-Doppler map',
+  async ({ page }) => {
+    const boxes = await page.evaluate(async () => {
+      const boxes = [];
+      for (const { prototype } of [CanvasRenderingContext2D, Path2D]) {
+        const { rect } = prototype;
+        prototype.rect = function (x, y, width, height) {
+          if (width === height) boxes.push(y + height / 2);
+          return rect.call(this, x, y, width, height);
+        };
+      }
+      const rangeM = Float64Array.from({ length: 8 }, (_, i) => i);
+      const rateMps = Float64Array.of(-20, -10, 0, 10);
+      // Two on the lines, one between them, and one that is folded onto that by the span of 40 m/s.
+      const detections = [
+        { rangeM: 1, rateMps: -10, rangeBin: 1, dopplerBin: 1 },
+        { rangeM: 2, rateMps: 0, rangeBin: 2, dopplerBin: 2 },
+        { rangeM: 3, rateMps: -6, rangeBin: 3, dopplerBin: 1 },
+        { rangeM: 4, rateMps: 34, rangeBin: 4, dopplerBin: 1 },
+      ];
+      add(
+        'boresight-range-doppler',
+        {},
+        { frame: { rangeM, rateMps, rangeDopplerDb: new Float32Array(32), detections } },
+      );
+      await drawn();
+      return boxes.slice(-4);
+    });
+    const [line, next, between, folded] = boxes;
+    for (const at of [between, folded]) assert.ok(Math.abs((at - line) / (next - line) - 0.4) < 0.02, `${boxes}`);
+  },
+);

@@ -7,7 +7,7 @@ import { patient } from './trial.mjs';
 
 /** Where examples show other methods than a fresh visit. */
 const READY = {
-  'angle lab': 'tr:not(.stale) [data-field="azimuth"][data-value]',
+  'angle lab': 'tr [data-field="azimuth"][data-value]',
   'birds-eye view': '[aria-busy="false"] [data-field="milliseconds"], [aria-busy="false"] [data-plot^="image-"]',
 };
 
@@ -161,12 +161,12 @@ browserTest('first minute: the examples of the angle lab show what they say', { 
     await page.waitForFunction(
       () =>
         document.querySelector('.introduction [aria-current]') &&
-        !document.querySelector('tr.stale') &&
+        !document.querySelector('tr[aria-busy="true"]') &&
         document.querySelector('[data-table="results"] [data-row]'),
     );
     // Slow methods answer from a worker.
     await page.waitForTimeout(300);
-    await page.waitForFunction(() => !document.querySelector('tr.stale'));
+    await page.waitForFunction(() => !document.querySelector('tr[aria-busy="true"]'));
     return Object.fromEntries(
       await page
         .locator('[data-table="results"] [data-row]')

@@ -7,7 +7,7 @@ import { parametersWith, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const weights = join(root, 'models', 'motion', 'deepego.bin');
-const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"]:not(.stale) [data-field="${field}"]`;
+const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"] [data-field="${field}"]`;
 const angle = async (page, method) => (await values(page, cell(method, 'angleDeg')))[0];
 const settled = (page, method) => page.waitForSelector(`${cell(method, 'angleDeg')}[data-value]`);
 

@@ -20,7 +20,7 @@ import { typeNumber } from './type.mjs';
 
 const path = '#/mounting';
 const golden = (name) => join(root, 'tests', 'golden', name);
-const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"]:not(.stale) [data-field="${field}"]`;
+const cell = (method, field) => `[aria-busy="false"] [data-row="${method}"] [data-field="${field}"]`;
 const ready = (page, method = 'recursive') => page.waitForSelector(`${cell(method, 'angleDeg')}[data-value]`);
 const value = async (page, method, field) => (await values(page, cell(method, field)))[0];
 const frameNumber = async (page) =>
@@ -425,7 +425,7 @@ browserTest(
 browserTest(
   'mounting angle: a report is saved that stands by itself, and its writing can be cancelled',
   { path: '#/mounting?methods=recursive' },
-  async ({ page }) => {
+  async ({ page, browser }) => {
     await ready(page);
     const report = await saved(page, '[data-export="report"]');
     const html = report.bytes.toString();
@@ -433,14 +433,32 @@ browserTest(
     assert.match(html, /<h1>Mounting angle of radar 1<\/h1>/);
     assert.ok(html.includes(`${angle.toFixed(3)} ± `), html.slice(0, 2000));
     assert.match(html, /front_radar\.csv, as served<\/th><td>\d+ bytes, SHA-256 [0-9a-f]{64}</);
-    // As a page of its own it shows the same, and asks for nothing.
-    const asked = [];
-    const shown = await page.context().newPage();
-    shown.on('request', (request) => asked.push(request.url()));
-    await shown.setContent(html);
-    assert.match(await shown.locator('.verdict').innerText(), /^(Pass|Fail|Undecided)/);
-    assert.deepEqual(asked, []);
-    await shown.close();
+    // As a page of its own it shows the same, and asks for nothing; its policy lets its style pass and no script.
+    const apart = await browser.newContext();
+    const shown = await apart.newPage();
+    const address = 'http://report.invalid/';
+    const opened = async (body) => {
+      const [answered, blocked] = [[], []];
+      shown.removeAllListeners();
+      shown.on('response', (response) => answered.push(response.url()));
+      shown.on('console', (message) => blocked.push(message.text()));
+      await shown.route(address, (route) => route.fulfill({ contentType: 'text/html', body }));
+      await shown.goto(address);
+      assert.match(await shown.locator('.verdict').innerText(), /^(Pass|Fail|Undecided)/);
+      assert.notEqual(await shown.locator('body').evaluate((body) => getComputedStyle(body).maxWidth), 'none');
+      assert.deepEqual(answered, [address]);
+      return blocked;
+    };
+    assert.deepEqual(await opened(html), []);
+    const injected =
+      '<script>document.title = "run"</script><img src="http://report.invalid/x" onerror="document.title = 1">';
+    const blocked = await opened(html.replace('</h1>', `</h1>${injected}`));
+    assert.ok(
+      blocked.some((text) => /inline script/.test(text)) && blocked.some((text) => /image/.test(text)),
+      blocked,
+    );
+    assert.match(await shown.title(), /^Mounting angle/);
+    await apart.close();
     await page.click('[data-export="report"]');
     await page.click('[data-export="report"]:has-text("Cancel")');
     await page.waitForSelector('[data-export="report"]:text-is("Report")');

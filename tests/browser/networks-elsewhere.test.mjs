@@ -9,7 +9,7 @@ browserTest(
   'networks in the angle lab: one that fits loads and estimates, others say which array they are for',
   { path: '#/angle?array=lrr48&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,learned-pursuit' },
   async ({ page }) => {
-    await page.waitForSelector('[data-row="learned-pursuit"]:not(.stale) [data-field="error"][data-value]', patient);
+    await page.waitForSelector('[data-row="learned-pursuit"] [data-field="error"][data-value]', patient);
     const errors = await values(page, '[data-row="learned-pursuit"] [data-field="error"]');
     assert.equal(errors.length, 3);
     for (const error of errors) assert.ok(Math.abs(error) < 0.3, `${error} deg`);
@@ -17,13 +17,13 @@ browserTest(
     assert.match(await page.locator('#method-dnn-note').innerText(), /8 elements|uniform/);
     assert.match(await page.locator('#method-cnn3d-note').innerText(), /region/);
     await page.locator('input[name="refine"]').check();
-    await page.waitForSelector('[data-row="learned-pursuit"]:not(.stale) [data-field="error"][data-value]', patient);
+    await page.waitForSelector('[data-row="learned-pursuit"] [data-field="error"][data-value]', patient);
     await page.locator('select[name="array"]').selectOption('ula');
     await page.waitForSelector('#method-learned-pursuit-note:not([hidden])');
     assert.match(await page.locator('#method-learned-pursuit-note').innerText(), /lrr48/);
     await typeNumber(page.locator('input[name="elements"]'), '8');
     await page.locator('#method-dnn').check();
-    await page.waitForSelector('[data-row="dnn"]:not(.stale)', patient);
+    await page.waitForSelector('[data-row="dnn"]', patient);
     await parametersWith(page, (params) => params.get('methods').split(',').includes('dnn'));
   },
 );
@@ -32,7 +32,7 @@ browserTest(
   'networks in the angle lab: a transformer takes positions that are typed, and its deviations are shown',
   { path: '#/angle?array=ula24&targets=-20:0,5:-3,31:-6&snr=25&snapshots=1&seed=2&methods=iaa,aaetr' },
   async ({ page }) => {
-    const found = '[data-row="aaetr"]:not(.stale) [data-field="error"][data-value]';
+    const found = '[data-row="aaetr"] [data-field="error"][data-value]';
     await page.waitForSelector(found, patient);
     const check = async () => {
       const [errors, stated] = [
@@ -63,7 +63,7 @@ browserTest(
   'networks in Capture: the DNN works on a cell of the recording, the learned pursuit says why not',
   { path: '#/capture?methods=bartlett,dnn&sources=1' },
   async ({ page }) => {
-    await page.waitForSelector('[data-row="dnn"]:not(.stale) [data-field="azimuth"][data-value]', patient);
+    await page.waitForSelector('[data-row="dnn"] [data-field="azimuth"][data-value]', patient);
     const [azimuth] = await values(page, '[data-row="dnn"] [data-field="azimuth"]');
     // The recording's near target lies at -10.8 deg, just outside the network's classes.
     assert.ok(Math.abs(azimuth + 10) <= 2, `${azimuth} deg`);
@@ -135,7 +135,7 @@ browserTest(
   { path: '#/birdseye?methods=bartlett,learned-pursuit&radars=front-left&cell=0.5' },
   async ({ page }) => {
     await page.waitForSelector(
-      '[aria-busy="false"] [data-row="learned-pursuit"]:not(.stale) [data-field="outsideDb"][data-value]',
+      '[aria-busy="false"] [data-row="learned-pursuit"] [data-field="outsideDb"][data-value]',
       { timeout: 80_000 },
     );
     const [network] = await values(page, '[data-row="learned-pursuit"] [data-field="outsideDb"]');

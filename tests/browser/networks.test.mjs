@@ -88,7 +88,7 @@ browserTest(
     assertPng(await saved(page, '[data-plot="attempt"] [data-export="png"]'));
     assertCsv(
       await saved(page, '[data-table="attempt"] [data-export="csv"]'),
-      'method,found,missed,false,rmse_deg,power_error_db,time_ms',
+      'method,found,missed,false,rmse_deg,power_error_db,median_ms',
     );
   },
 );

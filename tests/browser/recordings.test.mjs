@@ -8,7 +8,7 @@ import { clickWhenThere, drop, values } from './demo.mjs';
 import { browserTest } from './harness.mjs';
 
 const small = '#/mounting?source=simulated&duration=5&methods=recursive';
-const cell = '[aria-busy="false"] [data-row="recursive"]:not(.stale) [data-field="angleDeg"]';
+const cell = '[aria-busy="false"] [data-row="recursive"] [data-field="angleDeg"]';
 const opened = (page, name) =>
   page.waitForFunction((wanted) => document.querySelector('.files.own')?.textContent.includes(wanted), name);
 

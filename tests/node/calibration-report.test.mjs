@@ -1,5 +1,6 @@
 // What driving on would bring, and the report of a calibration: the same here, in a worker and frame by frame.
 import assert from 'node:assert/strict';
+import { createHash } from 'node:crypto';
 import { after, before, describe, test } from 'node:test';
 import { Calibration, calibrateDrive, calibrationReport, driveFrame, init, initDrives, scanMotion } from 'boresight';
 import { createPool } from 'boresight/worker';
@@ -65,6 +66,15 @@ describe('calibrationReport', () => {
     assert.ok(html.includes('a&amp;b.csv') && html.includes('by &lt;hand&gt;') && html.includes('ab'.repeat(32)));
     assert.doesNotMatch(html, /<script|src=|href=|NaN/);
     assert.equal(await pool.calibrationReport(drive, about, { sensor: 3 }), html);
+  });
+
+  test('has a policy that allows its own style and nothing else', () => {
+    const html = calibrationReport(drive, about, { sensor: 3 });
+    const [, style] = /<style>([^<]*)<\/style>/.exec(html);
+    const digest = createHash('sha256').update(style).digest('base64');
+    const policy = `default-src 'none'; style-src 'sha256-${digest}'; base-uri 'none'; form-action 'none'`;
+    assert.ok(html.includes(`<meta http-equiv="Content-Security-Policy" content="${policy}">`), policy);
+    assert.doesNotMatch(html, / style=| on\w+=/);
   });
 
   test('has a section for each of several radars', () => {

@@ -57,6 +57,24 @@ test(`${CALLS} calls with objects that lie are answered or refused with typed er
   assert.deepEqual(Object.fromEntries(failed), {});
 });
 
+test('an object with more properties than are read is refused before they are', () => {
+  const [input, options] = goodCalls().estimate;
+  const many = Object.fromEntries(Array.from({ length: 65_537 }, (_, i) => [`key${i}`, undefined]));
+  for (const [spoilt, what] of [
+    [{ ...options, ...many }, /^object has 6554\d properties/],
+    [{ ...options, iaa: many }, /iaa/],
+  ])
+    assert.throws(
+      () => boresight.estimate(input, spoilt),
+      ({ code, message }) => code === 'too-large' && /expected at most 65536/.test(message) && what.test(message),
+    );
+  delete many.key0;
+  assert.deepEqual(
+    boresight.estimate(input, { ...options, iaa: many }),
+    boresight.estimate(input, { ...options, iaa: {} }),
+  );
+});
+
 test('calls of the pool without arguments, or with such that lie, reject with typed errors', async () => {
   const pool = createPool({ workers: 1 });
   const revoked = () => {

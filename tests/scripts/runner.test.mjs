@@ -1,9 +1,10 @@
 import assert from 'node:assert/strict';
-import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { after, test } from 'node:test';
 import { findBrowser } from '../../scripts/lib/browser.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
+import { runKeeping } from '../../scripts/lib/run.mjs';
 import { digest, filesUnder, upToDate, whenChanged } from '../../scripts/lib/stamp.mjs';
 import { cargoCounts, nodeCounts, summary } from '../../scripts/lib/summary.mjs';
 
@@ -41,6 +42,27 @@ test('the summary closes with the totals alone on a line', () => {
 test('a browser that is named but missing is not replaced by another', () => {
   assert.equal(findBrowser({ PATH: process.env.PATH, CHROMIUM: '/no/such/chromium' }), null);
   assert.equal(findBrowser({ PATH: '', CHROMIUM: process.execPath }), process.execPath);
+});
+
+test('a command that runs too long is killed with what it started, and its pipes are not waited for', {
+  skip: process.platform === 'win32' && 'there is no sh',
+}, async () => {
+  // The grandchild holds the pipes of its parent for longer than any test may take.
+  const { ok, text } = await runKeeping('sh', ['-c', 'sleep 600 & echo $!; wait'], { timeout: 300 });
+  assert.equal(ok, false);
+  const [pid, note] = text.trim().split('\n');
+  assert.equal(note, 'sh was killed after 0.3 s');
+  const gone = () => {
+    try {
+      // A zombie that nobody has reaped yet is no longer running.
+      return / Z /.test(readFileSync(`/proc/${pid}/stat`, 'utf8'));
+    } catch {
+      return true;
+    }
+  };
+  for (let tries = 0; !gone() && tries < 500; tries++) await new Promise((next) => setTimeout(next, 10));
+  assert.ok(gone(), `process ${pid} still runs`);
+  assert.deepEqual(await runKeeping('sh', ['-c', 'echo done'], { timeout: 60_000 }), { ok: true, text: 'done\n' });
 });
 
 test('digests follow names and contents and leave build outputs out', () => {

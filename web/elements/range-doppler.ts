@@ -113,9 +113,7 @@ export class RangeDopplerElement extends PlotElement {
         series: [],
         below: [this.#heat.layer],
         above: [
-          detectionBoxes(
-            detections.map((one) => ({ x: one.rangeM, y: rateMps[cellOf(one, frame).dopplerBin] ?? one.rateMps })),
-          ),
+          detectionBoxes(detections.map((one) => ({ x: one.rangeM, y: rateOnMap(one, frame) }))),
           ...(chosen ? [chosenCell(chosen.x, chosen.y)] : []),
           colorBar(limits, colors, 'dBFS'),
         ],
@@ -175,6 +173,21 @@ export class RangeDopplerElement extends PlotElement {
 
 const levelOf = ({ rangeDopplerDb, rateMps }: RangeDopplerFrame, range: number, doppler: number): number =>
   rangeDopplerDb[range * rateMps.length + doppler] ?? Number.NaN;
+
+/**
+ * Where a detection is on the axis of range rates. Rates beyond the axis appear folded by its span; a detection whose
+ * cell lies elsewhere, in another band of a Doppler division, is marked at its cell.
+ */
+function rateOnMap(one: Pick<Detection, 'rangeM' | 'rateMps'> & Partial<Cell>, frame: RangeDopplerFrame): number {
+  const { rateMps } = frame;
+  const [first = 0, second = 0] = rateMps;
+  const step = second - first;
+  const cell = rateMps[cellOf(one, frame).dopplerBin] ?? one.rateMps;
+  if (!(step > 0)) return cell;
+  const span = step * rateMps.length;
+  const folded = one.rateMps - span * Math.round((one.rateMps - cell) / span);
+  return Math.abs(folded - cell) <= step ? folded : cell;
+}
 
 /** The cell of a detection: as it says, or the nearest. */
 const cellOf = (

@@ -59,7 +59,8 @@ export function decibels(value: number): string {
 }
 
 /** A duration of a computation. */
-export function milliseconds(value: number): string {
+export function milliseconds(value: number | undefined): string {
+  if (value === undefined || !Number.isFinite(value)) return '–';
   if (value < 0.1) return '<0.1\u00a0ms';
   if (value < 10) return `${fixed(value, 1)}\u00a0ms`;
   if (value < 10_000) return `${fixed(value, 0)}\u00a0ms`;

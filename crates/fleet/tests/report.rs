@@ -38,6 +38,14 @@ fn numberless(text: &str) -> bool {
 
 /// A page whose tags are closed in order, whose links lead somewhere in it and which asks for nothing.
 fn sound(html: String) -> String {
+    let policy = "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-";
+    assert!(
+        html[..html.find("<title>").unwrap()].contains(policy),
+        "no policy ahead of the contents"
+    );
+    for inline in ["<script", " style=", " onload=", " onclick="] {
+        assert!(!html.contains(inline), "the policy blocks {inline}");
+    }
     let mut open: Vec<&str> = vec![];
     let mut targets = vec![];
     for (at, _) in html.match_indices('<') {

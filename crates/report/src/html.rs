@@ -1,5 +1,5 @@
 //! What every page is made of: one document with its style, for light and dark screens and for paper, that asks for nothing from
-//! elsewhere.
+//! elsewhere and runs no scripts: its policy (CSP) allows its own style alone.
 
 use crate::About;
 use std::fmt::Write as _;
@@ -27,11 +27,16 @@ code{font-size:.85rem;overflow-wrap:anywhere}section{break-inside:avoid}\
 @media screen and (max-width:30rem){svg{font-size:20px}th{width:7rem}.wide td.long{min-width:6rem}}\
 @media print{body{margin:0;max-width:none}h2{break-before:auto}}@page{margin:18mm}";
 
+/// Digest of [`STYLE`], by which the policy of a page allows it.
+const STYLE_SHA256: &str = "mSD6KTlYunIA3zayYulUuJ0xIPQFkj2OlKGnIT2UdrA=";
+
 /// A page with a title, whose body is made of HTML; `lead` says in words, after when and by what the page was made, how to read it.
 pub fn document(about: &About, title: &str, lead: &str, body: &str) -> String {
     let [title, lead] = [title, lead].map(escaped);
     format!(
-        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-{STYLE_SHA256}'; \
+         base-uri 'none'; form-action 'none'\">\n<meta name=\"viewport\" content=\"width=device-width\">\n\
          <title>{title}</title>\n<style>{STYLE}</style>\n<body>\n<h1>{title}</h1>\n<p class=\"small\">Made {} by Boresight {}. \
          {lead}</p>\n{body}</body>\n</html>\n",
         escaped(&about.made),

@@ -1,6 +1,7 @@
 //! Errors that cross into JavaScript.
 
 use crate::carry;
+use crate::given::MOST_KEYS;
 use boresight_aoa::AoaError;
 use boresight_array_calibration::ArrayCalibrationError;
 #[cfg(feature = "drives")]
@@ -92,6 +93,14 @@ pub enum BindingError {
         /// Bytes asked for.
         given: usize,
     },
+    /// An object has more properties than any function takes.
+    #[error("{what} has {given} properties; expected at most {MOST_KEYS}")]
+    TooManyKeys {
+        /// The object.
+        what: String,
+        /// Its number of properties.
+        given: u32,
+    },
 }
 
 #[cfg(feature = "drives")]
@@ -119,7 +128,7 @@ impl Diagnose for BindingError {
             Self::Type { .. } => "wrong-type",
             Self::Missing { .. } => "missing",
             Self::UnknownField { .. } => "unknown-option",
-            Self::TooLarge { .. } => "too-large",
+            Self::TooLarge { .. } | Self::TooManyKeys { .. } => "too-large",
         }
     }
 
@@ -145,6 +154,11 @@ impl Diagnose for BindingError {
             Self::TooLarge { what, given } => {
                 Details::new(what, "what fits into memory", format!("{given} bytes"))
             }
+            Self::TooManyKeys { what, given } => Details::new(
+                what,
+                format!("at most {MOST_KEYS} properties"),
+                format!("{given} properties"),
+            ),
         }
     }
 }

@@ -64,9 +64,24 @@ pub fn item(array: &JsValue, index: u32, path: &dyn Fn() -> String) -> Fallible<
     Reflect::get_u32(array, index).map_err(|_| throws(path()))
 }
 
+/// Maximum number of properties of one object. No function takes an object with nearly as many.
+pub const MOST_KEYS: u32 = 65_536;
+
 /// The names of an object's own properties; `path` names the object in errors.
+///
+/// # Errors
+/// [`BindingError::TooManyKeys`] above [`MOST_KEYS`]: each name that is read takes memory here.
 pub fn keys(object: &JsValue, path: &dyn Fn() -> String) -> Fallible<Array> {
-    keys_or_throws(object).map_err(|_| throws(path()))
+    let keys = keys_or_throws(object).map_err(|_| throws(path()))?;
+    match keys.length() {
+        0..=MOST_KEYS => Ok(keys),
+        given => {
+            let path = path();
+            // An argument as a whole has no path.
+            let what = if path.is_empty() { "object".into() } else { path };
+            Err(BindingError::TooManyKeys { what, given })
+        }
+    }
 }
 
 /// The error for what throws when it is read.

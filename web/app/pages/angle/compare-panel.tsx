@@ -5,22 +5,22 @@ import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
 import { ComparisonPanel } from '../../ui/comparison.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
-import { compared, type Kept, kept, keptProblem } from './compare.ts';
-import { type MethodResult, results, type Scene } from './compute.ts';
+import { compared, kept, keptProblem } from './compare.ts';
+import type { Answers, MethodResult } from './compute.ts';
 import { rms, type Score, scoreOf } from './score.ts';
 
-export function ComparePanel({ scene }: { scene: Scene }) {
+export function ComparePanel(present: Answers) {
   return (
     <ComparisonPanel of={compared} problem={keptProblem.value}>
-      {kept.value && <Figures a={kept.value} b={{ scene, results: results.value }} />}
+      {kept.value && <Figures a={kept.value} b={present} />}
     </ComparisonPanel>
   );
 }
 
 const degrees = (value: number): string => (Number.isFinite(value) ? fixed(value, value < 0.01 ? 4 : 3) : '–');
 
-function Figures({ a, b }: { a: Kept; b: Kept }) {
-  const bound = ({ scene }: Kept): number => rms([...(scene.bound ?? [])]);
+function Figures({ a, b }: { a: Answers; b: Answers }) {
+  const bound = ({ scene }: Answers): number => rms([...(scene.bound ?? [])]);
   const rows = api.methods().filter(({ name }) => a.results.has(name) || b.results.has(name));
   return (
     <table class="data">
@@ -91,7 +91,7 @@ function Errors({ a, b }: { a: number; b: number }) {
   );
 }
 
-function score({ scene }: Kept, result: MethodResult | undefined): Score | null {
+function score({ scene }: Answers, result: MethodResult | undefined): Score | null {
   return result?.estimate ? scoreOf(scene, result.estimate.sources) : null;
 }
 

@@ -1,10 +1,9 @@
 /** What the angle lab's kept settings, A, give. */
 import { effect, signal } from '@preact/signals';
-import type { Method } from 'boresight';
 import { describeError, type Problem } from '../../data.ts';
 import type { Caption } from '../../state/address.ts';
 import { comparison } from '../../state/comparison.ts';
-import { computeApart, type MethodResult, type Scene } from './compute.ts';
+import { type Answers, computeApart } from './compute.ts';
 import { angleCodec, angleState, captionOf } from './state.ts';
 
 export const compared = comparison(angleCodec, angleState, {
@@ -18,13 +17,8 @@ export const compared = comparison(angleCodec, angleState, {
   },
 });
 
-export interface Kept {
-  scene: Scene;
-  results: ReadonlyMap<Method, MethodResult>;
-}
-
 /** Each method as soon as it is there. */
-export const kept = signal<Kept | null>(null);
+export const kept = signal<Answers | null>(null);
 export const keptProblem = signal<Problem | null>(null);
 
 /** For those who see a plot alone. */
@@ -45,8 +39,8 @@ export function start(): () => void {
       kept.value = null;
       return;
     }
-    computeApart(state, (scene, results) => {
-      if (mine === latest) kept.value = { scene, results };
+    computeApart(state, (answers) => {
+      if (mine === latest) kept.value = answers;
     }).catch((error: unknown) => {
       if (mine !== latest) return;
       kept.value = null;

@@ -2,7 +2,7 @@
  * Everything computed from the state: geometry, snapshots, bounds, and each method's estimate.
  * Quick methods run within the frame that shows them; slow ones on workers, latest state first.
  */
-import { batch, effect, signal } from '@preact/signals';
+import { batch, computed, effect, signal } from '@preact/signals';
 import type {
   ArrayGeometry,
   BoundOptions,
@@ -22,14 +22,18 @@ import type { Model } from '../../networks/models.ts';
 import { type AngleState, angleState, arrayInput } from './state.ts';
 
 export interface MethodResult {
+  /** Scene and options of the estimate, as text. */
+  inputs: string;
+  /** Absent until it is computed. */
   estimate?: Estimate;
   problem?: Problem;
   /** Of the estimate alone where it ran here; with the way to the worker and back where it ran there. */
   milliseconds?: number;
   where?: 'page' | 'worker';
-  /** A newer state is being computed. */
-  stale: boolean;
 }
+
+/** Whether a method is still computing. */
+export const isPending = ({ estimate, problem }: MethodResult): boolean => !estimate && !problem;
 
 export interface Scene {
   state: AngleState;
@@ -41,9 +45,17 @@ export interface Scene {
   boundProblem?: Problem;
 }
 
-export const scene = signal<Scene | null>(null);
+/** A scene with the results computed from it, and from no other. */
+export interface Answers {
+  scene: Scene;
+  results: ReadonlyMap<Method, MethodResult>;
+}
+
+/** Scene and results are replaced together, so that no estimate meets the truth of another scene. */
+export const answers = signal<Answers | null>(null);
+export const scene = computed(() => answers.value?.scene ?? null);
+export const results = computed<ReadonlyMap<Method, MethodResult>>(() => answers.value?.results ?? new Map());
 export const sceneProblem = signal<Problem | null>(null);
-export const results = signal<ReadonlyMap<Method, MethodResult>>(new Map());
 export const unavailable = signal<ReadonlyMap<Method, string>>(new Map());
 
 /** Above this a method moves to a worker; well below it, back. */
@@ -189,6 +201,14 @@ function input({ snapshots }: Scene) {
   return { snapshots: { data: snapshots.data, shape: [elements, count] } };
 }
 
+/** Everything that a method's estimate depends on, as text. */
+const inputsOf = (method: Method, { state, geometry }: Scene): string =>
+  JSON.stringify([
+    simulationOf(state),
+    estimatorOptions(method, state),
+    networkFor(method, geometry, state)?.name ?? null,
+  ]);
+
 const waiting = new Map<Method, Scene>();
 const running = new Set<Method>();
 
@@ -206,51 +226,52 @@ function recompute(state: AngleState): void {
     const reason = whyNot(info, made.geometry, state);
     if (reason) reasons.set(info.name, reason);
     if (reason || !state.methods.includes(info.name)) continue;
+    const inputs = inputsOf(info.name, made);
     const before = results.peek().get(info.name);
-    if (info.network || typicalMs(info.name) > FRAME_BUDGET_MS) {
-      next.set(info.name, before?.estimate ? { ...before, stale: true } : { stale: true });
+    waiting.delete(info.name);
+    if (before?.inputs === inputs && before.estimate) {
+      next.set(info.name, before);
+    } else if (info.network || typicalMs(info.name) > FRAME_BUDGET_MS) {
+      next.set(info.name, { inputs });
       waiting.set(info.name, made);
     } else {
-      waiting.delete(info.name);
-      next.set(info.name, runHere(info.name, made));
+      next.set(info.name, { inputs, ...runHere(info.name, made) });
     }
   }
   batch(() => {
     sceneProblem.value = null;
-    scene.value = made;
+    answers.value = { scene: made, results: next };
     unavailable.value = reasons;
-    results.value = next;
   });
   for (const method of waiting.keys()) void runThere(method);
 }
 
 /** Another state's scene and what its methods make of it, each told as soon as it is there. */
-export async function computeApart(
-  state: AngleState,
-  tell: (scene: Scene, results: ReadonlyMap<Method, MethodResult>) => void,
-): Promise<void> {
+export async function computeApart(state: AngleState, tell: (answers: Answers) => void): Promise<void> {
   const made = simulate(state);
   const found = new Map<Method, MethodResult>();
-  tell(made, found);
+  tell({ scene: made, results: found });
   const methods = api
     .methods()
     .filter((info) => state.methods.includes(info.name) && !whyNot(info, made.geometry, state));
   await Promise.all(
     methods.map(async ({ name }) => {
-      found.set(name, await onWorker(name, made));
-      tell(made, new Map(found));
+      found.set(name, { inputs: inputsOf(name, made), ...(await onWorker(name, made)) });
+      tell({ scene: made, results: new Map(found) });
     }),
   );
 }
 
+type Answer = Omit<MethodResult, 'inputs'>;
+
 const warm = new Set<Method>();
 
-function runHere(method: Method, made: Scene): MethodResult {
+function runHere(method: Method, made: Scene): Answer {
   try {
-    const run = (): MethodResult => {
+    const run = (): Answer => {
       const started = performance.now();
       const estimate = api.estimate(input(made), estimatorOptions(method, made.state));
-      return { estimate, milliseconds: performance.now() - started, where: 'page', stale: false };
+      return { estimate, milliseconds: performance.now() - started, where: 'page' };
     };
     // A method's first call pays for compiling it; the time that is shown and learnt is the second's.
     if (!warm.has(method)) run();
@@ -259,7 +280,7 @@ function runHere(method: Method, made: Scene): MethodResult {
     learn(method, result.milliseconds ?? 0);
     return result;
   } catch (error) {
-    return { problem: describeError(error), stale: false };
+    return { problem: describeError(error) };
   }
 }
 
@@ -268,7 +289,7 @@ let busy = 0;
 const queue: (() => void)[] = [];
 const warmThere = new Set<string>();
 
-async function onWorker(method: Method, made: Scene): Promise<MethodResult> {
+async function onWorker(method: Method, made: Scene): Promise<Answer> {
   const model = networkFor(method, made.geometry, made.state);
   const network =
     model &&
@@ -276,15 +297,15 @@ async function onWorker(method: Method, made: Scene): Promise<MethodResult> {
       ({ id }) => id,
       (error: unknown) => ({ problem: describeError(error) }),
     ));
-  if (typeof network === 'object') return { problem: network.problem, stale: false };
+  if (typeof network === 'object') return { problem: network.problem };
   if (busy >= pool().workers) await new Promise<void>((free) => queue.push(free));
   busy += 1;
   try {
-    const run = async (): Promise<MethodResult> => {
+    const run = async (): Promise<Answer> => {
       const started = performance.now();
       const options = estimatorOptions(method, made.state);
       const estimate = await pool().estimate(input(made), network ? { ...options, network } : options);
-      return { estimate, milliseconds: performance.now() - started, where: 'worker', stale: false };
+      return { estimate, milliseconds: performance.now() - started, where: 'worker' };
     };
     // The first call starts a worker and compiles the method.
     if (!warmThere.has(network ?? method)) await run();
@@ -293,7 +314,7 @@ async function onWorker(method: Method, made: Scene): Promise<MethodResult> {
     learn(method, (result.milliseconds ?? 0) * TRAVEL_SHARE);
     return result;
   } catch (error) {
-    return { problem: describeError(error), stale: false };
+    return { problem: describeError(error) };
   } finally {
     busy -= 1;
     queue.shift()?.();
@@ -307,10 +328,13 @@ async function runThere(method: Method): Promise<void> {
   try {
     for (let made = waiting.get(method); made; made = waiting.get(method)) {
       waiting.delete(method);
+      const inputs = inputsOf(method, made);
       const result = await onWorker(method, made);
-      // Deselected meanwhile, or answered here for a newer state.
-      if (!results.peek().get(method)?.stale) continue;
-      results.value = new Map(results.peek()).set(method, { ...result, stale: made !== scene.peek() });
+      // The method may have been deselected, or the scene or its options replaced.
+      const now = answers.peek();
+      const expected = now?.results.get(method);
+      if (!now || !expected || !isPending(expected) || expected.inputs !== inputs) continue;
+      answers.value = { ...now, results: new Map(now.results).set(method, { inputs, ...result }) };
     }
   } finally {
     running.delete(method);

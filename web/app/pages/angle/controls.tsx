@@ -13,7 +13,7 @@ import { NetworkNote } from '../../ui/network-note.tsx';
 import { NumberField } from '../../ui/number-field.tsx';
 import { SeedField } from '../../ui/seed-field.tsx';
 import { Sidebar } from '../../ui/sidebar.tsx';
-import { networkFor, results, scene, unavailable } from './compute.ts';
+import { isPending, networkFor, results, scene, unavailable } from './compute.ts';
 import { angleCodec, angleState, LIMITS, positionsProblem, update } from './state.ts';
 import { TargetTable } from './target-table.tsx';
 
@@ -204,13 +204,10 @@ function Methods() {
           extra: (
             <span class="time" data-time={info.name}>
               {shown && result?.milliseconds !== undefined ? (
-                <span
-                  class={result.stale ? 'muted' : ''}
-                  title={result.where === 'worker' ? 'On a worker, with the way there and back' : 'On this page'}
-                >
+                <span title={result.where === 'worker' ? 'On a worker, with the way there and back' : 'On this page'}>
                   {milliseconds(result.milliseconds)}
                 </span>
-              ) : shown && result?.stale ? (
+              ) : shown && result && isPending(result) ? (
                 <span class="muted">running</span>
               ) : null}
             </span>

@@ -7,7 +7,7 @@ import { MainColumn } from '../../ui/main-column.tsx';
 import { ArrayPanel } from './array-panel.tsx';
 import { caption, start as startCompare } from './compare.ts';
 import { ComparePanel } from './compare-panel.tsx';
-import { results, scene, sceneProblem, start } from './compute.ts';
+import { answers, results, sceneProblem, start } from './compute.ts';
 import { Controls } from './controls.tsx';
 import { ResultsTable } from './results-table.tsx';
 import { SpectrumPlot } from './spectrum-plot.tsx';
@@ -39,6 +39,7 @@ export function AnglePage() {
     if (lines.length) announce(`Estimates. ${lines.join('. ')}.`);
   });
   const problem = sceneProblem.value;
+  const present = answers.value;
   return (
     <div class="page">
       <Controls />
@@ -48,13 +49,13 @@ export function AnglePage() {
             <strong>Cannot simulate this.</strong> {problem.message} <code>{problem.code}</code>
           </p>
         )}
-        {scene.value ? (
+        {present ? (
           <>
-            <SpectrumPlot scene={scene.value} />
-            <ComparePanel scene={scene.value} />
-            <ResultsTable scene={scene.value} />
+            <SpectrumPlot {...present} />
+            <ComparePanel {...present} />
+            <ResultsTable {...present} />
             <SweepPanel />
-            <ArrayPanel scene={scene.value} />
+            <ArrayPanel scene={present.scene} />
           </>
         ) : (
           !problem && <p class="panel loading">Computing the first scene</p>
@@ -74,7 +75,7 @@ export function AnglePage() {
           <p>
             <b>Signs.</b> Azimuth is positive to the left of boresight, counter-clockwise seen from above. An estimate
             is counted for a target when it lies within one beam width of it
-            {scene.value ? ` (${fixed(scene.value.geometry.resolutionDeg, 1)}° here)` : ''}, nearest pairs first.
+            {present ? ` (${fixed(present.scene.geometry.resolutionDeg, 1)}° here)` : ''}, nearest pairs first.
           </p>
           <p>
             <b>Bounds</b> are Cramér–Rao bounds of an unbiased estimator that knows the array exactly: the stochastic

@@ -5,18 +5,19 @@ import { download, fileName, toCsv } from '../../../plots/save.ts';
 import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
 import { Swatch } from '../../ui/swatch.tsx';
-import { results, type Scene } from './compute.ts';
+import { type Answers, isPending } from './compute.ts';
 import { assigned } from './score.ts';
 
-export function ResultsTable({ scene }: { scene: Scene }) {
+export function ResultsTable({ scene, results }: Answers) {
   const { targets } = scene.state;
   const rows = api
     .methods()
-    .filter(({ name }) => results.value.has(name))
+    .filter(({ name }) => results.has(name))
     .map((info) => {
-      const result = results.value.get(info.name);
+      const result = results.get(info.name);
+      const pending = result !== undefined && isPending(result);
       const sources = result?.estimate?.sources ?? [];
-      return { info, result, sources, assignment: assigned(scene, sources) };
+      return { info, result, pending, sources, assignment: assigned(scene, sources) };
     });
   const sigma = (i: number): number => scene.bound?.[i] ?? Number.NaN;
   const csv = (): string =>
@@ -33,7 +34,9 @@ export function ResultsTable({ scene }: { scene: Scene }) {
         'crb_sigma_deg',
         'time_ms',
       ],
-      rows.flatMap(({ info, result, sources, assignment }) => {
+      rows.flatMap(({ info, result, pending, sources, assignment }) => {
+        // Without an estimate nothing is known of a target, not even that it was missed.
+        if (pending) return [];
         // Estimates of no target stand below those of targets.
         const pairs = [
           ...targets.map((target, i) => ({ target, i, source: sources[assignment.matched[i] ?? -1] })),
@@ -130,8 +133,8 @@ export function ResultsTable({ scene }: { scene: Scene }) {
               <td />
               <td />
             </tr>
-            {rows.map(({ info, result, sources, assignment }) => (
-              <tr key={info.name} class={result?.stale ? 'stale' : ''} data-row={info.name}>
+            {rows.map(({ info, result, pending, sources, assignment }) => (
+              <tr key={info.name} aria-busy={pending} data-row={info.name}>
                 <th scope="row" class="text">
                   <Swatch style={methodStyle(info.name)} line={info.spectrum} /> {info.title}
                 </th>
@@ -167,7 +170,7 @@ export function ResultsTable({ scene }: { scene: Scene }) {
                     <td title={assignment.extra.map((k) => `${signed(sources[k]?.azimuthDeg ?? 0, 1)}°`).join(', ')}>
                       {result?.estimate ? assignment.extra.length : '–'}
                     </td>
-                    <td>{result?.milliseconds === undefined ? '–' : milliseconds(result.milliseconds)}</td>
+                    <td>{pending ? 'running' : milliseconds(result?.milliseconds)}</td>
                   </>
                 )}
               </tr>

@@ -9,14 +9,14 @@ import { announce } from '../../state/announce.ts';
 import { hasMoved, rememberMoved } from '../../state/settings.ts';
 import { KeepButton } from '../../ui/comparison.tsx';
 import { ElementFrame } from '../../ui/plot-frame.tsx';
-import { compared, type Kept, kept } from './compare.ts';
-import { results, type Scene } from './compute.ts';
+import { compared, kept } from './compare.ts';
+import type { Answers } from './compute.ts';
 import { addTarget, LIMITS, removeTarget, setTarget, setupOf } from './state.ts';
 
 defineElement('boresight-spectrum', SpectrumElement);
 
 /** What each method found, also of those that have found nothing yet. */
-function estimatesOf({ scene: { geometry }, results }: Kept): NamedEstimate[] {
+function estimatesOf({ scene: { geometry }, results }: Answers): NamedEstimate[] {
   const closed = closes(geometry.positions);
   return api.methods().flatMap(({ name, title, spectrum }) => {
     const result = results.get(name);
@@ -35,14 +35,14 @@ const ofA = ({ id, label, ...rest }: NamedEstimate): NamedEstimate => ({
 
 const SHIFTED = 'Pseudo-spectra (MUSIC, min-norm) are shifted to the strongest estimated power.';
 
-export function SpectrumPlot({ scene }: { scene: Scene }) {
+export function SpectrumPlot(present: Answers) {
+  const { scene } = present;
   const { state, geometry, bound } = scene;
   const { targets, snr } = state;
-  const found = results.value;
   const a = kept.value;
   const estimates = useMemo(
-    () => [...estimatesOf({ scene, results: found }), ...(a ? estimatesOf(a).map(ofA) : [])],
-    [scene, found, a],
+    () => [...estimatesOf(present), ...(a ? estimatesOf(a).map(ofA) : [])],
+    [present.scene, present.results, a],
   );
   return (
     <ElementFrame

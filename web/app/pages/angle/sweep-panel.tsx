@@ -19,6 +19,7 @@ import {
   type Sweep,
   sweep,
   sweepCancelled,
+  sweepIsOld,
   sweepProblem,
   sweepProgress,
   UNITS,
@@ -80,7 +81,7 @@ export function SweepPanel() {
             </button>
           )}
           {problem && <span class="problem">{problem}</span>}
-          {sweepCancelled.value && <span class="muted">Cancelled; what was done is shown.</span>}
+          {sweepCancelled.value && <span class="muted">Cancelled{made ? '; what was done is shown' : ''}.</span>}
         </div>
       </div>
       {sweepProblem.value && (
@@ -88,12 +89,17 @@ export function SweepPanel() {
           <strong>The runs ended.</strong> {sweepProblem.value.message} <code>{sweepProblem.value.code}</code>
         </p>
       )}
-      {made && <Plots key={made.swept} made={made} stale={made.state !== state} />}
+      {sweepIsOld.value && !sweepProgress.value && (
+        <p class="notice" data-old-sweep>
+          The last runs are of other settings. Run again, or undo the change to see them.
+        </p>
+      )}
+      {made && <Plots key={made.swept} made={made} />}
     </section>
   );
 }
 
-function Plots({ made, stale }: { made: Sweep; stale: boolean }) {
+function Plots({ made }: { made: Sweep }) {
   const { swept, values, boundDeg, scores, gateDeg, state } = made;
   const { title, unit } = UNITS[swept];
   const log = swept === 'snapshots';
@@ -155,9 +161,7 @@ function Plots({ made, stale }: { made: Sweep; stale: boolean }) {
       ]),
     );
   const setup = `${state.targets.length} target${state.targets.length === 1 ? '' : 's'}, ${state.runs} runs a value, seed ${state.seed}`;
-  const remarks = [
-    `${setup}. Errors of targets found within ${fixed(gateDeg, 1)}°.${stale ? ' Of the settings before the last change.' : ''}`,
-  ];
+  const remarks = [`${setup}. Errors of targets found within ${fixed(gateDeg, 1)}°.`];
   return (
     <div class="two">
       <PlotFrame

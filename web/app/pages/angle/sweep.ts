@@ -2,14 +2,14 @@
  * Monte-Carlo runs: the scene of the page drawn many times at each of some values of one setting, and how far off each
  * method is on the mean, beside the bound. On workers, method by method, quick ones first.
  */
-import { batch, signal } from '@preact/signals';
+import { batch, computed, signal } from '@preact/signals';
 import type { BatchEstimate, Method, SnapshotResult, Source } from 'boresight';
 import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
 import { quickestFirst } from '../../methods.ts';
 import { load } from '../../networks/load.ts';
 import { assign } from './assign.ts';
 import { boundOf, estimatorOptions, networkFor, simulationOf, whyNot } from './compute.ts';
-import { type AngleState, arrayInput, LIMITS, type SWEPT } from './state.ts';
+import { type AngleState, angleState, arrayInput, LIMITS, type SWEPT } from './state.ts';
 
 export type Swept = (typeof SWEPT)[number];
 
@@ -32,7 +32,17 @@ export interface Sweep {
   gateDeg: number;
 }
 
-export const sweep = signal<Sweep | null>(null);
+const made = signal<Sweep | null>(null);
+
+/** Everything that runs depend on, as text; a curve of each method stands by itself. */
+const inputsOf = ({ methods: _, a: __, ...state }: AngleState): string => JSON.stringify(state);
+const inputs = computed(() => inputsOf(angleState.value));
+const ofPresent = computed(() => made.value !== null && inputsOf(made.value.state) === inputs.value);
+
+/** The runs of the present settings; runs of others are not shown. */
+export const sweep = computed(() => (ofPresent.value ? made.value : null));
+/** Whether there are runs of other settings only. */
+export const sweepIsOld = computed(() => made.value !== null && !ofPresent.value);
 export const sweepProblem = signal<Problem | null>(null);
 export const sweepProgress = signal<{ share: number; what: string } | null>(null);
 export const sweepCancelled = signal(false);
@@ -119,7 +129,7 @@ export async function runSweep(state: AngleState): Promise<void> {
     const methods = quickestFirst(state.methods)
       .flatMap((name) => api.methods().filter((info) => info.name === name))
       .filter((info) => values.some((value) => whyNot(info, geometry, stateAt(state, value)) === null));
-    const made: Sweep = {
+    const planned: Sweep = {
       state,
       swept: state.sweep,
       values,
@@ -138,22 +148,22 @@ export async function runSweep(state: AngleState): Promise<void> {
       const place = `${UNITS[state.sweep].title} ${Number(value.toPrecision(3))}`;
       say(`${place}: drawing`, 0);
       const drawn = await draw(at, stop);
-      made.boundDeg.push(meanBound(at, drawn));
+      planned.boundDeg.push(meanBound(at, drawn));
       done += 1;
       for (const info of methods) {
         const suits = whyNot(info, geometry, at) === null;
         const score = suits
-          ? await scoreOf(info.name, at, drawn, made.gateDeg, stop, (part) => say(`${place}: ${info.title}`, part))
+          ? await scoreOf(info.name, at, drawn, planned.gateDeg, stop, (part) => say(`${place}: ${info.title}`, part))
           : { rmseDeg: Number.NaN, found: Number.NaN };
         scores.get(info.name)?.push(score);
         done += 1;
       }
       if (!current()) return;
       // What is there already is shown.
-      sweep.value = {
-        ...made,
-        values: values.slice(0, made.boundDeg.length),
-        boundDeg: [...made.boundDeg],
+      made.value = {
+        ...planned,
+        values: values.slice(0, planned.boundDeg.length),
+        boundDeg: [...planned.boundDeg],
         scores: new Map([...scores].map(([name, list]) => [name, [...list]])),
       };
     }

@@ -11,7 +11,7 @@ import { api } from '../../data.ts';
 import type { Model } from '../../networks/models.ts';
 import type { Loaded } from '../capture/files.ts';
 import { chainOptions, grid, type Input, input, type Radar, shownRadars, streetOptions } from './input.ts';
-import { imageOptions, images, networkFor } from './process.ts';
+import { imageOptions, images, isPending, networkFor } from './process.ts';
 import { type BirdseyeState, birdseyeCodec, birdseyeState } from './state.ts';
 
 interface Image {
@@ -61,7 +61,7 @@ export function birdseyeCode(): Code {
     ...shown.flatMap(({ info, image }) =>
       image.problem ? [`${info.title} is left out, as it did not run: ${image.problem.message}`] : [],
     ),
-    ...(shown.some(({ image }) => image.stale)
+    ...(shown.some(({ image }) => isPending(image))
       ? ['The page is still computing: what is not there yet may be missing.']
       : []),
   ];

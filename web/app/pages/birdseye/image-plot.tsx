@@ -13,7 +13,7 @@ import { ElementFrame } from '../../ui/plot-frame.tsx';
 import { boardPoints, grid, input, type Point, shownRadars } from './input.ts';
 import { fieldsOfView, truth } from './layers.ts';
 import { legendItems } from './legend.tsx';
-import { frames, images, type MethodImage, working } from './process.ts';
+import { frames, images, isPending, type MethodImage, working } from './process.ts';
 import { birdseyeState, zoom } from './state.ts';
 
 /**
@@ -45,10 +45,11 @@ function fileParts(): (string | number)[] {
   return source === 'street' ? ['street', `seed${seed}`, from] : ['capture', `frame${frame + 1}`, from];
 }
 
-function detailOf({ stale, problem, from, measure }: MethodImage): string {
-  if (problem) return 'no image';
-  const made = stale ? (working.value ? 'computing' : 'not of these settings') : (from ?? '');
-  return `${made}${measure ? `, ${decibels(measure.outsideDb)} outside` : ''}`;
+function detailOf(image: MethodImage): string {
+  const { problem, from, measure } = image;
+  if (isPending(image) && working.value) return 'computing';
+  if (problem || isPending(image)) return 'no image';
+  return `${from ?? ''}${measure ? `, ${decibels(measure.outsideDb)} outside` : ''}`;
 }
 
 /** What a true point under the cursor belongs to. */

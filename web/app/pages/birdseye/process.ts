@@ -45,6 +45,9 @@ export interface RadarFrame {
 }
 
 export interface MethodImage {
+  /** Input, radars and settings of the image, as text. */
+  inputs: string;
+  /** Absent until it is computed. */
   view?: BirdsEyeView;
   peakDb?: number;
   radars?: readonly Radar[];
@@ -61,9 +64,10 @@ export interface MethodImage {
   /** Of the estimates alone, all radars together. */
   milliseconds?: number;
   problem?: Problem;
-  /** Not of the present state: about to be replaced, unless that was cancelled. */
-  stale: boolean;
 }
+
+/** Whether there is no image yet. */
+export const isPending = ({ view, problem }: MethodImage): boolean => !view && !problem;
 
 export const images = signal<ReadonlyMap<Method, MethodImage>>(new Map());
 export const frames = signal<readonly RadarFrame[]>([]);
@@ -103,15 +107,13 @@ export function networkFor(method: Method): Model | undefined {
   return modelFor(method, geometriesOf(input.value?.radars ?? []), null, birdseyeState.value.networks);
 }
 
-/** What the images depend on; as text, so that effects run when it changes only. */
-const job = computed(() => {
-  const { methods, networks, refine, from, falseAlarm, grouping, sources, points, gate, frame } = birdseyeState.value;
+/** What every image depends on; as text, so that effects run when it changes only. */
+const settings = computed(() => {
+  const { refine, from, falseAlarm, grouping, sources, points, gate, frame } = birdseyeState.value;
   return JSON.stringify({
     input: input.value?.key,
     radars: shownRadars.value.map(({ name }) => name),
     grid: grid.value,
-    methods: methods.filter((method) => !unavailable.value.has(method)),
-    networks,
     refine,
     from,
     falseAlarm,
@@ -122,6 +124,9 @@ const job = computed(() => {
     frame,
   });
 });
+/** The methods that can run. */
+const chosen = computed(() => birdseyeState.value.methods.filter((method) => !unavailable.value.has(method)));
+const job = computed(() => JSON.stringify([settings.value, chosen.value, birdseyeState.value.networks]));
 
 const attempts = signal(0);
 let running: AbortController | undefined;
@@ -177,21 +182,24 @@ export function start(): () => void {
         images.value = new Map();
         frames.value = [];
       }
-      const { methods } = birdseyeState.peek();
-      const before = shownRadars.value.length ? images.peek() : new Map<Method, MethodImage>();
+      const before = images.peek();
       images.value = new Map(
-        methods
-          .filter((method) => !unavailable.peek().has(method))
-          .map((method) => [method, { ...before.get(method), stale: shownRadars.peek().length > 0 }]),
+        chosen.peek().map((method): [Method, MethodImage] => {
+          const inputs = JSON.stringify([settings.peek(), networkFor(method)?.name ?? null]);
+          const known = before.get(method);
+          return [method, known?.inputs === inputs && known.view ? known : { inputs }];
+        }),
       );
     });
     if (!looked || gridProblem.value || !shownRadars.peek().length) return;
+    const missing = [...images.peek()].filter(([, image]) => isPending(image)).map(([method]) => method);
+    // Detections of an image that stays are those of the present settings.
+    if (!missing.length && images.peek().size) return;
     working.value = true;
     const state = birdseyeState.peek();
     const radars = shownRadars.peek();
-    const chosen = [...images.peek().keys()];
     // Numbers are typed digit by digit.
-    timer = setTimeout(() => void run(looked, radars, chosen, state), 100);
+    timer = setTimeout(() => void run(looked, radars, missing, state), 100);
   });
   return () => {
     clearTimeout(timer);
@@ -244,17 +252,19 @@ async function run(
       const more = methods.length - at - 1;
       then = more > 0 ? `, then ${more} more` : '';
       what = `Estimating by ${api.methods().find(({ name }) => name === method)?.title ?? method}`;
+      const { inputs = '' } = images.peek().get(method) ?? {};
       let image: MethodImage;
       try {
-        image = await imageOf(looked, method, made, state, signal, {
+        const steps = {
           step: () => {
             done += 1;
           },
           report: say,
-        });
+        };
+        image = { inputs, ...(await imageOf(looked, method, made, state, signal, steps)) };
       } catch (error) {
         if (signal.aborted) throw error;
-        image = { problem: describeError(error), stale: false };
+        image = { inputs, problem: describeError(error) };
       }
       if (!current()) return;
       images.value = new Map(images.peek()).set(method, image);
@@ -328,7 +338,7 @@ async function imageOf(
   state: BirdseyeState,
   signal: AbortSignal,
   { step, report }: Steps,
-): Promise<MethodImage> {
+): Promise<Omit<MethodImage, 'inputs'>> {
   const { points, gate, refine } = state;
   const {
     spectrum: hasSpectrum = false,
@@ -385,7 +395,6 @@ async function imageOf(
     outside: sum(({ map }) => map.outside.count),
     warnings: [...warnings.values()],
     milliseconds: sum((part) => part.milliseconds),
-    stale: false,
   };
 }
 

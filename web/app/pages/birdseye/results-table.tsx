@@ -6,7 +6,7 @@ import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
 import { Swatch } from '../../ui/swatch.tsx';
 import { input } from './input.ts';
-import { images, type MethodImage } from './process.ts';
+import { images, isPending, type MethodImage, working } from './process.ts';
 import { birdseyeState } from './state.ts';
 
 interface Column {
@@ -112,7 +112,9 @@ export function ResultsTable() {
   const csv = (): string =>
     toCsv(
       ['method', 'from', ...columns.map((column) => column.csv)],
-      rows.map(({ info, image }) => [info.name, image.from, ...columns.map(({ value }) => value(image))]),
+      rows
+        .filter(({ image }) => !isPending(image))
+        .map(({ info, image }) => [info.name, image.from, ...columns.map(({ value }) => value(image))]),
     );
   const warnings = rows.flatMap(({ info, image }) =>
     (image.warnings ?? []).map(({ code, message }) => ({ title: info.title, code, message })),
@@ -148,7 +150,7 @@ export function ResultsTable() {
           </thead>
           <tbody>
             {rows.map(({ info, image }) => (
-              <tr key={info.name} class={image.stale ? 'stale' : ''} data-row={info.name}>
+              <tr key={info.name} aria-busy={working.value && isPending(image)} data-row={info.name}>
                 <th scope="row" class="text">
                   <Swatch style={methodStyle(info.name)} line={info.spectrum} /> {info.title}
                 </th>

@@ -10,7 +10,7 @@ import { methodStyle } from '../../../plots/theme.ts';
 import { api } from '../../data.ts';
 import { ElementFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
-import type { CellResult } from './process.ts';
+import { type CellResult, isPending } from './process.ts';
 import { captureState } from './state.ts';
 
 defineElement('boresight-spectrum', SpectrumElement);
@@ -95,7 +95,7 @@ export function CellPanel({
                 const result = results.get(info.name);
                 const sources = result?.estimate?.sources ?? [];
                 return (
-                  <tr key={info.name} data-row={info.name} class={result?.stale ? 'stale' : ''}>
+                  <tr key={info.name} data-row={info.name} aria-busy={result !== undefined && isPending(result)}>
                     <th scope="row" class="text">
                       <Swatch style={methodStyle(info.name)} line={info.spectrum} /> {info.title}
                     </th>

@@ -5,7 +5,7 @@ import { aborted, describeError, type Problem } from '../../data.ts';
 import type { Caption } from '../../state/address.ts';
 import { comparison } from '../../state/comparison.ts';
 import { fileNames, loaded } from './files.ts';
-import { shownFrame, withNetwork } from './process.ts';
+import { result, shownFrame, withNetwork } from './process.ts';
 import { runChain } from './source.ts';
 import { captureCodec, captureState, chainOptions, settingsOf } from './state.ts';
 
@@ -30,7 +30,7 @@ export const keptProblem = signal<Problem | null>(null);
 /** For those who see a plot alone. */
 export const caption = (): Caption => ({
   data: fileNames(),
-  settings: compared.captioned(settingsOf(captureState.peek())),
+  settings: compared.captioned(result.peek()?.settings ?? settingsOf(captureState.peek())),
 });
 
 /** Runs A's chain whenever other settings are kept or another capture is open; the newest wins. */

@@ -10,20 +10,27 @@ import { load, readyNetworks } from '../../networks/load.ts';
 import type { Model } from '../../networks/models.ts';
 import { type Loaded, loaded } from './files.ts';
 import { estimateCell, explainCell, runChain } from './source.ts';
-import { type CaptureState, captureState, cellAngle, chainOptions, sourceOption } from './state.ts';
+import { type CaptureState, captureState, cellAngle, chainOptions, settingsOf, sourceOption } from './state.ts';
 import { shownCell } from './view.ts';
 
 export interface CellResult {
+  /** Capture, frame, cell and options of the estimate, as text. */
+  inputs: string;
+  /** Absent until it is computed. */
   estimate?: Estimate;
   problem?: Problem;
-  stale: boolean;
 }
+
+/** Whether a method is still computing. */
+export const isPending = ({ estimate, problem }: CellResult): boolean => !estimate && !problem;
 
 /** A result with what it is of. */
 export interface Shown {
   capture: Loaded;
   /** Options of the chain, as text. */
   chain: string;
+  /** Settings in words. */
+  settings: string;
   /** One frame, or all of them combined. */
   frame: number | 'all';
   view: FrameResult;
@@ -118,6 +125,12 @@ function keyOf(capture: Loaded, chain: string): string {
   return `${numbers.get(capture)} ${chain}`;
 }
 
+/** Results hold their capture, and with it all of its samples. */
+function forgetResults(): void {
+  known.clear();
+  knownFor = '';
+}
+
 /** The frame that is shown, kept within the capture. */
 export function shownFrame(capture: Loaded, { frame } = captureState.value): number | 'all' {
   return frame === 'all' ? 'all' : Math.min(frame, capture.info.frames - 1);
@@ -132,7 +145,10 @@ export function start(): () => void {
       const chain = options.value;
       const wanted = frame.value;
       if (capture) void processFrame(capture, chain, wanted);
-      else close();
+      else {
+        forgetResults();
+        close();
+      }
     }),
     effect(() => {
       const shown = result.value;
@@ -168,7 +184,7 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
   running?.abort();
   const key = keyOf(capture, chain);
   if (key !== knownFor) {
-    known.clear();
+    forgetResults();
     knownFor = key;
   }
   if (result.peek()?.capture !== capture) close();
@@ -187,6 +203,7 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
   const controller = new AbortController();
   running = controller;
   working.value = true;
+  const settings = settingsOf(captureState.peek());
   let last = { done: 0, total: frame === 'all' ? capture.info.frames : 1 };
   // A bar that only flashes tells nothing.
   const timer = setTimeout(() => {
@@ -202,7 +219,7 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
     if (running !== controller) return;
     const view = await runChain(capture, { ...options, angle }, frame, { signal: controller.signal, onProgress });
     if (running !== controller) return;
-    const made = { capture, chain, frame, view };
+    const made = { capture, chain, settings, frame, view };
     known.set(frame, made);
     batch(() => {
       processProblem.value = null;
@@ -229,11 +246,14 @@ async function processFrame(capture: Loaded, chain: string, frame: number | 'all
 
 let cellTimer: ReturnType<typeof setTimeout> | undefined;
 let cellJob: AbortController | undefined;
+/** The capture, frame and cell of the explanation, as text. */
+let explained = '';
 
 function forgetCell(): void {
   clearTimeout(cellTimer);
   cellJob?.abort();
   cellJob = undefined;
+  explained = '';
   batch(() => {
     cellResults.value = new Map();
     explanation.value = null;
@@ -248,27 +268,47 @@ function scheduleCell(shown: Shown, cell: Cell, methods: readonly Method[]): voi
   cellJob = controller;
   const wanted = methods.filter((method) => !cellUnavailable.peek().has(method));
   const before = cellResults.peek();
-  cellResults.value = new Map(wanted.map((method) => [method, { ...before.get(method), stale: true }]));
+  const place = JSON.stringify([keyOf(shown.capture, shown.chain), shown.frame, cell]);
+  const next = new Map(
+    wanted.map((method): [Method, CellResult] => {
+      const inputs = JSON.stringify([place, cellOptions.peek(), networkFor(method)?.name ?? null]);
+      const known = before.get(method);
+      return [method, known?.inputs === inputs && known.estimate ? known : { inputs }];
+    }),
+  );
+  batch(() => {
+    if (explained !== place) explanation.value = null;
+    cellResults.value = next;
+  });
   cellTimer = setTimeout(() => {
-    void explainOne(shown, cell, controller);
-    for (const method of wanted) void estimateOne(shown, cell, method, controller);
+    if (explained !== place) void explainOne(shown, cell, place, controller);
+    for (const [method, result] of next)
+      if (isPending(result)) void estimateOne(shown, cell, method, result.inputs, controller);
   }, 40);
 }
 
-async function explainOne({ capture, chain, frame }: Shown, cell: Cell, controller: AbortController): Promise<void> {
+async function explainOne(
+  { capture, chain, frame }: Shown,
+  cell: Cell,
+  place: string,
+  controller: AbortController,
+): Promise<void> {
   let told: CellExplanation | null = null;
   try {
     told = await explainCell(capture, JSON.parse(chain) as ChainOptions, frame, cell, { signal: controller.signal });
   } catch {
     // What is wrong with the chain's options is said above the plots.
   }
-  if (cellJob === controller) explanation.value = told;
+  if (cellJob !== controller) return;
+  explained = place;
+  explanation.value = told;
 }
 
 async function estimateOne(
   { capture, chain, frame }: Shown,
   cell: Cell,
   method: Method,
+  inputs: string,
   controller: AbortController,
 ): Promise<void> {
   let made: CellResult;
@@ -278,10 +318,10 @@ async function estimateOne(
     const estimate = await estimateCell(capture, JSON.parse(chain) as ChainOptions, frame, cell, angle, {
       signal: controller.signal,
     });
-    made = { estimate, stale: false };
+    made = { inputs, estimate };
   } catch (error) {
     if (controller.signal.aborted) return;
-    made = { problem: describeError(error), stale: false };
+    made = { inputs, problem: describeError(error) };
   }
   if (cellJob === controller) cellResults.value = new Map(cellResults.peek()).set(method, made);
 }

@@ -22,7 +22,6 @@ interface Curve {
   method: Way;
   title: string;
   history: AngleHistory;
-  stale: boolean;
 }
 
 /** The last entry not later than a time. */
@@ -44,7 +43,7 @@ export function AnglePlot() {
       WAYS.flatMap((way): Curve[] => {
         const result = found.get(way);
         const history = result?.calibration?.history;
-        return history ? [{ method: way, title: about(way).title, history, stale: result.stale }] : [];
+        return history ? [{ method: way, title: about(way).title, history }] : [];
       }),
     [found],
   );

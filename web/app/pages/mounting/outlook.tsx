@@ -7,9 +7,8 @@ import { results } from './process.ts';
 const open = ({ converged, alignment }: CalibrationResult): boolean => !converged || alignment === 'undecided';
 
 export function Outlook() {
-  const one = results.value.get('recursive');
-  const { outlook, result } = one?.calibration ?? {};
-  return outlook && result && !one?.stale ? <OutlookOf outlook={outlook} result={result} /> : null;
+  const { outlook, result } = results.value.get('recursive')?.calibration ?? {};
+  return outlook && result ? <OutlookOf outlook={outlook} result={result} /> : null;
 }
 
 export function OutlookOf({ outlook, result }: { outlook: CalibrationOutlook; result: CalibrationResult }) {

@@ -13,11 +13,13 @@ export interface MethodResult {
   /** Where motions are smoothed over frames: the angles that frames give without, deg. */
   aloneDeg?: Float32Array;
   problem?: Problem;
-  /** Not of the present options: about to be replaced, unless that was cancelled. */
-  stale: boolean;
   milliseconds?: number;
 }
 
+/** Whether a method is still computing. */
+export const isPending = ({ calibration, problem }: MethodResult): boolean => !calibration && !problem;
+
+/** Of the present drive, radar and options only. */
 export const results = signal<ReadonlyMap<Way, MethodResult>>(new Map());
 export const progress = signal<{ done: number; total: number } | null>(null);
 export const wasCancelled = signal(false);
@@ -98,16 +100,11 @@ export function start(): () => void {
         results.value = new Map();
         return;
       }
-      // What another drive or radar gave must not stand beside this one.
-      const same = knownOf?.open === open && JSON.parse(knownOf.job || '{}').sensor === JSON.parse(text).sensor;
-      const before = same ? results.peek() : new Map<Way, MethodResult>();
       if (knownOf?.open !== open || knownOf.job !== text) {
         known.clear();
         knownOf = { open, job: text };
       }
-      results.value = new Map(
-        wanted.map((method) => [method, known.get(method) ?? { ...before.get(method), stale: true }]),
-      );
+      results.value = new Map(wanted.map((method) => [method, known.get(method) ?? {}]));
     });
     const missing = wanted.filter((method) => !known.has(method));
     if (!open || !text || !missing.length) return;
@@ -183,9 +180,9 @@ async function calibrate(open: Loaded, text: string, missing: readonly Way[]): P
             say();
           },
         });
-        keep(method, { ...found, stale: false, milliseconds: performance.now() - started });
+        keep(method, { ...found, milliseconds: performance.now() - started });
       } catch (error) {
-        if (!aborted(error)) keep(method, { problem: describeError(error), stale: false });
+        if (!aborted(error)) keep(method, { problem: describeError(error) });
       }
       shares.set(method, 1);
       say();

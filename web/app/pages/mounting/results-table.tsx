@@ -7,7 +7,7 @@ import { api } from '../../data.ts';
 import { Swatch } from '../../ui/swatch.tsx';
 import { type Loaded, loaded, sensor } from './drive.ts';
 import { Outlook } from './outlook.tsx';
-import { type MethodResult, results, where } from './process.ts';
+import { isPending, type MethodResult, results, where, working } from './process.ts';
 import { ReportButton, ReportProblem } from './report-button.tsx';
 import { calibrationOptions, mountingState } from './state.ts';
 import { fileParts } from './time-plot.tsx';
@@ -243,10 +243,11 @@ export function ResultsTable() {
     return result ? [{ ...result, method, title: about(method).title, result: result.calibration?.result }] : [];
   });
   const shared = { rows, open, trueDeg };
+  const computed = rows.filter((row) => !isPending(row));
   const csv = (): string =>
     toCsv(
       ['method', ...list.map((column) => column.csv), 'warnings'],
-      rows.map((row) => [
+      computed.map((row) => [
         row.method,
         ...list.map(({ value }) => row.result && value(row.result, row)),
         row.result?.warnings.map(({ code }) => code).join(' '),
@@ -275,7 +276,7 @@ export function ResultsTable() {
             type="button"
             data-export="json"
             title="Save results and options"
-            onClick={() => save(report(open, radar.id, rows), 'json')}
+            onClick={() => save(report(open, radar.id, computed), 'json')}
           >
             JSON
           </button>
@@ -372,7 +373,7 @@ function Columns({
             </tr>
           )}
           {rows.map((row) => (
-            <tr key={row.method} class={row.stale ? 'stale' : ''} data-row={row.method}>
+            <tr key={row.method} aria-busy={working.value && isPending(row)} data-row={row.method}>
               <th scope="row" class="text">
                 <Swatch style={methodStyle(row.method)} line /> {row.title}
               </th>

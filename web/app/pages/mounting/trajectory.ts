@@ -40,6 +40,7 @@ const relativeError = (estimated: Trajectory | null): number | null =>
   estimated && reference.value ? api.relativeTrajectoryError(estimated, reference.value.path, SEGMENT_M) : null;
 
 export interface Paths {
+  of: DriveCalibration;
   /** With the angle that was found, and with the nominal one. */
   found: Trajectory | null;
   nominal: Trajectory | null;
@@ -64,6 +65,7 @@ function pathsNow(): Paths | null {
   const found = path(calibration, calibration.result.angleDeg, turns);
   const nominal = nominalDeg === null ? null : path(calibration, nominalDeg, turns);
   return {
+    of: calibration,
     found,
     nominal,
     reference: found && reference.value && fromStart(reference.value.path, found),
@@ -73,14 +75,23 @@ function pathsNow(): Paths | null {
   };
 }
 
-/** What is known of calibrations that stay while others come. */
+/** Errors by calibration, as calibrations stay while others come. */
 const known = new WeakMap<DriveCalibration, number | null>();
+const found = signal(0);
 
-/** By the radar alone with every method's own motion and angle, as published. */
-export const relativeErrors = signal<ReadonlyMap<Way, number>>(new Map());
+/** By the radar alone with every method's own motion and angle, as published; of the calibrations that are shown. */
+export const relativeErrors = computed<ReadonlyMap<Way, number>>(() => {
+  void found.value;
+  return new Map(
+    [...results.value].flatMap(([way, { calibration }]) => {
+      const error = calibration && known.get(calibration);
+      return error == null ? [] : [[way, error] as const];
+    }),
+  );
+});
 
-const calibrations = (): [Way, DriveCalibration][] =>
-  [...results.peek()].flatMap(([way, { calibration }]) => (calibration ? [[way, calibration]] : []));
+const unknown = (): DriveCalibration | undefined =>
+  [...results.peek().values()].flatMap(({ calibration }) => calibration ?? []).find((one) => !known.has(one));
 
 /** Follows the results, a moment behind and a path at a time: nothing seen at first waits for them. */
 export function start(): () => void {
@@ -88,21 +99,18 @@ export function start(): () => void {
     paths.value = pathsNow();
   };
   const findErrors = (): void => {
-    const next = calibrations().find(([, calibration]) => !known.has(calibration))?.[1];
-    if (next) {
-      known.set(next, relativeError(path(next, next.result.angleDeg)));
-      inTurn(findErrors);
+    const next = unknown();
+    if (!next) {
+      found.value += 1;
       return;
     }
-    relativeErrors.value = new Map(
-      calibrations().flatMap(([way, calibration]) => {
-        const error = known.get(calibration);
-        return error == null ? [] : [[way, error] as const];
-      }),
-    );
+    known.set(next, relativeError(path(next, next.result.angleDeg)));
+    inTurn(findErrors);
   };
   const stop = effect(() => {
-    void [results.value, shown.value, loaded.value, heading.value];
+    void [results.value, loaded.value, heading.value];
+    // A path of another calibration is not shown meanwhile.
+    if (paths.peek()?.of !== shown.value) paths.value = null;
     for (const find of [findPaths, findErrors]) inTurn(find);
   });
   return () => {

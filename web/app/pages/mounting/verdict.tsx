@@ -110,8 +110,7 @@ function awaited(): Said | null {
 
 export function Verdict() {
   const told = WAYS.flatMap((way): Told[] => {
-    const one = results.value.get(way);
-    const result = one?.stale ? undefined : one?.calibration?.result;
+    const result = results.value.get(way)?.calibration?.result;
     return result ? [{ way, result }] : [];
   });
   return <VerdictPanel said={told.length ? verdictOf(told, where.value?.nominalDeg) : awaited()} />;

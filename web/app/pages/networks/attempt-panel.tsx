@@ -11,7 +11,17 @@ import { LoadState } from '../../ui/network-note.tsx';
 import { ElementFrame } from '../../ui/plot-frame.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { assign } from '../angle/assign.ts';
-import { type Attempt, attempt, attemptProblem, COVARIANCE_SNAPSHOTS, type Row, selected, trying } from './attempt.ts';
+import {
+  type Attempt,
+  attempt,
+  attemptProblem,
+  COVARIANCE_SNAPSHOTS,
+  EFFORT,
+  type Row,
+  selected,
+  trying,
+} from './attempt.ts';
+import { WARM_UP } from './measure.ts';
 import { networksState, update } from './state.ts';
 
 /** Within this of a target an estimate is right, degrees: the papers' limits for snapshots and regions. */
@@ -25,6 +35,8 @@ const SCENES: Record<Sight, string> = {
     'One simulated region of interest, drawn from the seed: the network beside classical methods on the same numbers. All are told the number of targets but those that count it.',
 };
 
+const TIME = `median of at least ${EFFORT.fewest} estimates after ${WARM_UP} that are not counted, each with the way to a worker and back`;
+
 defineElement('boresight-spectrum', SpectrumElement);
 
 export function AttemptPanel() {
@@ -37,10 +49,9 @@ export function AttemptPanel() {
     wasRun.current = run;
   }, [run]);
   const model = selected.value;
-  const made = attempt.value;
   const problem = attemptProblem.value;
   if (!model) return null;
-  const shown = made && made.model === model.name ? made : null;
+  const shown = attempt.value;
   return (
     <section
       ref={place}
@@ -144,7 +155,7 @@ function Found({ shown }: { shown: Attempt }) {
   const onSnapshot = shown.sight !== 'region';
   const csv = (): string =>
     toCsv(
-      ['method', 'found', 'missed', 'false', 'rmse_deg', 'power_error_db', 'time_ms'],
+      ['method', 'found', 'missed', 'false', 'rmse_deg', 'power_error_db', 'median_ms'],
       scored.map(({ row, found, extra, rmse, power }) => [
         row.method,
         found,
@@ -191,8 +202,8 @@ function Found({ shown }: { shown: Attempt }) {
                   Power error (dB)
                 </th>
               )}
-              <th scope="col" title="Of one estimate, with the way to the worker and back">
-                Time
+              <th scope="col" title={TIME}>
+                Median time
               </th>
             </tr>
           </thead>
@@ -234,7 +245,13 @@ function Found({ shown }: { shown: Attempt }) {
                       {fixed(rmse, 3)}
                     </td>
                     {onSnapshot && <td>{fixed(power, 2)}</td>}
-                    <td>{milliseconds(row.milliseconds ?? Number.NaN)}</td>
+                    <td
+                      data-field="time"
+                      data-value={row.milliseconds}
+                      title={row.calls === undefined ? undefined : `${row.calls} calls`}
+                    >
+                      {row.milliseconds === undefined ? 'running' : milliseconds(row.milliseconds)}
+                    </td>
                   </>
                 )}
               </tr>
@@ -242,6 +259,7 @@ function Found({ shown }: { shown: Attempt }) {
           </tbody>
         </table>
       </div>
+      <p class="remark">Time: {TIME}.</p>
       <Warnings rows={rows} />
     </section>
   );

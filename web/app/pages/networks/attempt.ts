@@ -12,6 +12,7 @@ import type {
 import { api, describeError, type Problem, pool } from '../../data.ts';
 import { load, loadings, models } from '../../networks/load.ts';
 import { type Card, elementsOf, type Model, type Sight, sightOf, targetsOf } from '../../networks/models.ts';
+import { measure } from './measure.ts';
 import { radarOf, simulateRegion } from './region.ts';
 import { type NetworksState, networksState, SOURCE_RANGE, TARGET_RANGE } from './state.ts';
 
@@ -20,7 +21,9 @@ export interface Row {
   title: string;
   estimate?: Estimate;
   problem?: Problem;
+  /** Median of several calls. */
   milliseconds?: number;
+  calls?: number;
 }
 
 export interface Count {
@@ -46,13 +49,21 @@ export interface Attempt {
   scene: string;
 }
 
-export const attempt = signal<Attempt | null>(null);
+const made = signal<{ inputs: string; attempt: Attempt } | null>(null);
 export const attemptProblem = signal<Problem | null>(null);
 export const trying = signal(false);
 
 export const selected = computed<Model | undefined>(() =>
   models.value.find(({ name }) => name === networksState.value.model),
 );
+
+/** Everything that an attempt depends on, as text. */
+const inputsOf = (model: Model, { targets, snr, seed, refine, range, array }: Scene): string =>
+  JSON.stringify([model.name, targets, snr, seed, refine, range, array]);
+const inputs = computed(() => selected.value && inputsOf(selected.value, networksState.value));
+
+/** The attempt on the present scene, of the chosen network; attempts on other scenes are not shown. */
+export const attempt = computed(() => (made.value?.inputs === inputs.value ? (made.value?.attempt ?? null) : null));
 
 /** How many targets a network can be tried on. */
 export function targetRange(card: Card): readonly [number, number] {
@@ -99,19 +110,18 @@ export type Scene = Pick<NetworksState, 'targets' | 'snr' | 'seed' | 'refine' | 
 
 async function attemptOn(model: Model, scene: Scene, controller: AbortController): Promise<void> {
   trying.value = true;
-  // What was shown before stays until all is there.
-  const isFirst = attempt.peek()?.model !== model.name;
+  const inputs = inputsOf(model, scene);
   try {
     const info = await load(model.name, controller.signal);
-    const made = await (sightOf(model.card) === 'region' ? onRegion : onSnapshots)(model, info, scene, {
+    const whole = await (sightOf(model.card) === 'region' ? onRegion : onSnapshots)(model, info, scene, {
       signal: controller.signal,
       show: (part) => {
-        if (isFirst && running === controller) attempt.value = part;
+        if (running === controller) made.value = { inputs, attempt: part };
       },
     });
     if (running !== controller) return;
     batch(() => {
-      attempt.value = made;
+      made.value = { inputs, attempt: whole };
       attemptProblem.value = null;
     });
   } catch (error) {
@@ -133,7 +143,10 @@ interface Job {
   show(part: Attempt): void;
 }
 
-/** Each by itself, so that times say something; the first call of each is not timed, for it may compile. */
+/** Calls of each method that are timed. */
+export const EFFORT = { budgetMs: 100, fewest: 3, most: 25, warm: 1 };
+
+/** One method at a time, so that none slows another. */
 async function rowsOf(wanted: readonly Wanted[], made: Attempt, { signal, show }: Job): Promise<Row[]> {
   const rows: Row[] = [];
   for (const { method, title, run } of wanted) {
@@ -141,9 +154,8 @@ async function rowsOf(wanted: readonly Wanted[], made: Attempt, { signal, show }
       const first = await run();
       signal.throwIfAborted();
       show({ ...made, rows: [...rows, { method, title, estimate: first }] });
-      const started = performance.now();
-      const estimate = await run();
-      rows.push({ method, title, estimate, milliseconds: performance.now() - started });
+      const { median, calls } = await measure(run, signal, EFFORT);
+      rows.push({ method, title, estimate: first, milliseconds: median, calls });
     } catch (error) {
       if (signal.aborted) throw error;
       rows.push({ method, title, problem: describeError(error) });

@@ -5,7 +5,7 @@ import { announce } from '../../state/announce.ts';
 import { MainColumn } from '../../ui/main-column.tsx';
 import { ModuleNote } from '../../ui/module-note.tsx';
 import { AboutNetworks } from './about.tsx';
-import { attempt, selected, start } from './attempt.ts';
+import { attempt, selected, start, targetsIn } from './attempt.ts';
 import { AttemptPanel } from './attempt-panel.tsx';
 import { CardPanel, MetricsPanel } from './card.tsx';
 import { Controls } from './controls.tsx';
@@ -25,7 +25,10 @@ export function NetworksPage() {
     },
     start,
     write: () => networksCodec.write(networksState.value),
-    caption: () => captionOf(networksState.peek(), selected.peek()),
+    caption: () => {
+      const [state, model] = [networksState.peek(), selected.peek()];
+      return captionOf({ ...state, targets: model ? targetsIn(state, model.card) : state.targets }, model);
+    },
   });
   useSignalEffect(() => {
     const made = attempt.value;

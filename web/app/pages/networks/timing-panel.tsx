@@ -5,7 +5,8 @@ import { methodStyle } from '../../../plots/theme.ts';
 import { ProgressLine } from '../../ui/progress.tsx';
 import { Swatch } from '../../ui/swatch.tsx';
 import { selected } from './attempt.ts';
-import { BATCHES, type Batch, cancelTiming, type Spread, timeModel, timing, timingProblem, timings } from './timing.ts';
+import type { Spread } from './measure.ts';
+import { BATCHES, type Batch, cancelTiming, timeModel, timing, timingKey, timingProblem, timings } from './timing.ts';
 
 const perSecond = (spread: Spread, batch: Batch): number => (1000 * batch) / spread.median;
 const short = (value: number): string => milliseconds(value).replace('\u00a0ms', '');
@@ -16,7 +17,7 @@ export function TimingPanel() {
   const state = timing.value;
   const mine = state?.model === model.name ? state : null;
   const problem = timingProblem.value?.model === model.name ? timingProblem.value.problem : null;
-  const made = timings.value.get(model.name);
+  const made = timings.value.get(timingKey(model));
   const csv = (): string =>
     toCsv(
       ['subject', 'batch', 'median_ms', 'lower_quartile_ms', 'upper_quartile_ms', 'calls', 'samples_per_s'],

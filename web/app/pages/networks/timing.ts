@@ -5,19 +5,12 @@ import { aborted, api, describeError, type Problem, pool } from '../../data.ts';
 import { load } from '../../networks/load.ts';
 import { type Card, type Model, sightOf } from '../../networks/models.ts';
 import { arrayFor, snapshotScene, targetRange } from './attempt.ts';
+import { measure, type Spread } from './measure.ts';
 import { type RegionScene, radarOf, simulateRegion } from './region.ts';
 import { networksState } from './state.ts';
 
 export const BATCHES = [1, 32] as const;
 export type Batch = (typeof BATCHES)[number];
-
-/** Of one call, milliseconds. */
-export interface Spread {
-  median: number;
-  low: number;
-  high: number;
-  calls: number;
-}
 
 export interface Timed {
   subject: string;
@@ -33,7 +26,10 @@ export interface Timing {
   travelMs: number;
 }
 
+/** By what was timed. */
 export const timings = signal<ReadonlyMap<string, Timing>>(new Map());
+/** A network on the cells of an array. */
+export const timingKey = ({ name, card }: Model): string => `${name} ${arrayFor(card, networksState.value.array)}`;
 export const timing = signal<{ model: string; share: number; what: string } | null>(null);
 export const timingProblem = signal<{ model: string; problem: Problem } | null>(null);
 
@@ -43,10 +39,8 @@ export function cancelTiming(): void {
   running?.abort();
 }
 
-/** Each subject and batch is called for as long as this, at least the fewest times and at most the most. */
-const BUDGET_MS = 1500;
-const [FEWEST, MOST] = [5, 200];
-const WARM_UP = 2;
+/** Of each subject and batch. */
+const EFFORT = { budgetMs: 1500, fewest: 5, most: 200 };
 
 interface Subject {
   id: string;
@@ -66,6 +60,7 @@ export async function timeModel(model: Model): Promise<void> {
     if (current()) timing.value = { model: model.name, share, what };
   };
   timingProblem.value = null;
+  const key = timingKey(model);
   try {
     say(0, 'Loading');
     const info = await load(model.name, signal);
@@ -73,14 +68,7 @@ export async function timeModel(model: Model): Promise<void> {
       model,
       info,
     );
-    const travelMs = (
-      await measure(
-        () => pool().version({ signal }),
-        signal,
-        () => {},
-        200,
-      )
-    ).median;
+    const travel = await measure(() => pool().version({ signal }), signal, { ...EFFORT, budgetMs: 200 });
     const rows: Timed[] = [];
     let step = 0;
     for (const { id, title, method, network, run } of subjects) {
@@ -92,13 +80,14 @@ export async function timeModel(model: Model): Promise<void> {
           await measure(
             () => run(batch, signal),
             signal,
+            EFFORT,
             (share) => say((step + share) / (subjects.length * BATCHES.length), what),
           ),
         );
         step += 1;
       }
       rows.push({ subject: id, title, method, network, batches });
-      if (current()) timings.value = new Map(timings.peek()).set(model.name, { rows: [...rows], travelMs });
+      if (current()) timings.value = new Map(timings.peek()).set(key, { rows: [...rows], travelMs: travel.median });
     }
   } catch (error) {
     if (current() && !aborted(error)) timingProblem.value = { model: model.name, problem: describeError(error) };
@@ -108,27 +97,6 @@ export async function timeModel(model: Model): Promise<void> {
       running = undefined;
     }
   }
-}
-
-async function measure(
-  call: () => Promise<unknown>,
-  signal: AbortSignal,
-  report: (share: number) => void,
-  budgetMs = BUDGET_MS,
-): Promise<Spread> {
-  for (let i = 0; i < WARM_UP; i++) await call();
-  const times: number[] = [];
-  const started = performance.now();
-  while (times.length < FEWEST || (times.length < MOST && performance.now() - started < budgetMs)) {
-    signal.throwIfAborted();
-    const before = performance.now();
-    await call();
-    times.push(performance.now() - before);
-    report(Math.min(Math.max(times.length / MOST, (performance.now() - started) / budgetMs), 1));
-  }
-  times.sort((a, b) => a - b);
-  const at = (share: number): number => times[Math.min(Math.floor(share * times.length), times.length - 1)] as number;
-  return { median: at(0.5), low: at(0.25), high: at(0.75), calls: times.length };
 }
 
 const titleOf = (method: Method): string => api.methods().find(({ name }) => name === method)?.title ?? method;

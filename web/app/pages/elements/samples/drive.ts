@@ -1,3 +1,4 @@
+import { TRACKED_SPEED } from '../../mounting/state.ts';
 import python from '../python/drive.py?raw';
 import { formOf, from, type Sample } from '../sample.ts';
 
@@ -6,7 +7,9 @@ export const drive: Sample = {
   title: 'A front radar in traffic',
   leaves: formOf('CalibrationOptions', ['xM', 'yM', 'nominalDeg']),
   recording: { of: 'drive', files: ['front_radar.csv.gz', 'pose_10hz.csv.gz'] },
-  settings: { method: 'least-squares', 'x-m': '3', 'nominal-deg': '0', 'tolerance-deg': '3' },
+  // The log states the radar's place and nominal angle; the limit is the element's own.
+  settings: { method: 'least-squares' },
+  usual: { minSpeedMps: TRACKED_SPEED },
   steps: () => [],
   properties: (options) => ({
     ...(Object.keys(options).length ? { options } : {}),

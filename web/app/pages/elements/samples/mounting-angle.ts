@@ -8,7 +8,7 @@ export const mountingAngle: Sample = {
   tag: 'boresight-mounting-angle',
   title: 'An angle as the car drives',
   leaves: formOf('CalibrationOptions', ['xM', 'yM', 'nominalDeg']),
-  settings: { 'nominal-deg': '-85', 'tolerance-deg': '1' },
+  settings: { 'nominal-deg': '-85' },
   steps: (options) => [
     { name: 'drive', call: 'simulateDrive', args: [drive] },
     {
