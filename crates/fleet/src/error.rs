@@ -48,6 +48,12 @@ pub enum FleetError {
         /// The file.
         path: PathBuf,
     },
+    /// A worker process does not start. This is no fault of a log.
+    #[error("a worker process did not start: {given}")]
+    Worker {
+        /// Its answer or its end.
+        given: String,
+    },
     /// A line of a plan is none.
     #[error("{}, line {line}: {error}", path.display())]
     Plan {
@@ -136,6 +142,7 @@ impl Diagnose for FleetError {
             Self::File { .. } => "file",
             Self::DiskFull { .. } => "disk-full",
             Self::Busy { .. } => "busy",
+            Self::Worker { .. } => "worker",
             Self::Plan { .. } => "malformed-plan",
             Self::EditedPlan { .. } => "edited-plan",
             Self::Record { .. } => "malformed-record",
@@ -171,6 +178,11 @@ impl Diagnose for FleetError {
                 path.display().to_string(),
                 "one run a part and folder at a time",
                 "a file that another run has open",
+            ),
+            Self::Worker { given } => Details::new(
+                "a worker process",
+                "a process that accepts jobs, and a memory limit that lets it start",
+                given.clone(),
             ),
             Self::Plan { path, line: at, error } => {
                 Details::new(line(path, at), "a job of `fleet plan`", error.to_string())

@@ -23,6 +23,7 @@ pub mod tables;
 mod tails;
 pub mod text;
 mod vehicle;
+pub mod worker;
 pub mod written;
 
 pub use error::FleetError;
