@@ -1,9 +1,11 @@
 //! Where output goes: through links, into devices and pipes, and never by halves onto a file.
 
 use crate::error::CliError;
-use std::fs::{Metadata, OpenOptions};
+use boresight_core::lines::sync_folder;
+use std::fs::{Metadata, OpenOptions, Permissions};
 use std::io::{Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// Links followed before they are taken for a circle, as on Linux.
 const MOST_LINKS: usize = 40;
@@ -96,28 +98,68 @@ impl Destination {
                 fill(&mut options.open(path).map_err(failed)?)
             }
             Place::File { path, there } => {
-                let mut file = beside(&path).map_err(failed)?;
-                let value = fill(file.as_file_mut())?;
-                match there {
-                    Some(there) => {
-                        file.as_file().set_permissions(there.permissions()).map_err(failed)?;
-                        file.persist(&path).map_err(|error| failed(error.error))?;
+                let file = beside(&path).map_err(failed)?;
+                let permissions = there.as_ref().map(Metadata::permissions);
+                write_whole(file, &path, permissions, fill, failed).map_err(|error| match error {
+                    CliError::File { error, .. } if error.kind() == ErrorKind::AlreadyExists => {
+                        CliError::Exists { path: named.clone() }
                     }
-                    None => {
-                        file.persist_noclobber(&path).map_err(|error| {
-                            match error.error.kind() {
-                                ErrorKind::AlreadyExists => {
-                                    CliError::Exists { path: named.clone() }
-                                }
-                                _ => failed(error.error),
-                            }
-                        })?;
-                    }
-                }
-                Ok(value)
+                    error => error,
+                })
             }
         }
     }
+}
+
+/// A new file next to the one that it is to become, removed unless it takes that name.
+trait NewFile: Write + Sized {
+    /// Gives it the permissions of the file that it replaces.
+    fn set_permissions(&mut self, permissions: Permissions) -> Result<()>;
+    /// Waits until its bytes are on the disk.
+    fn sync(&mut self) -> Result<()>;
+    /// Gives it its name; a file of that name is replaced or an error.
+    fn take_name(self, path: &Path, replace: bool) -> Result<()>;
+    /// Waits until its name is on the disk.
+    fn sync_name(path: &Path) -> Result<()>;
+}
+
+impl NewFile for NamedTempFile {
+    fn set_permissions(&mut self, permissions: Permissions) -> Result<()> {
+        self.as_file().set_permissions(permissions)
+    }
+
+    fn sync(&mut self) -> Result<()> {
+        self.as_file().sync_all()
+    }
+
+    fn take_name(self, path: &Path, replace: bool) -> Result<()> {
+        let taken = if replace { self.persist(path) } else { self.persist_noclobber(path) };
+        Ok(taken.map(drop)?)
+    }
+
+    fn sync_name(path: &Path) -> Result<()> {
+        sync_folder(path)
+    }
+}
+
+/// Fills a new file and gives it its name once all of it is on the disk: a loss of power leaves the old file or the new one. `permissions` are
+/// those of the file that it replaces.
+fn write_whole<F: NewFile, T>(
+    mut file: F,
+    path: &Path,
+    permissions: Option<Permissions>,
+    fill: impl FnOnce(&mut dyn Write) -> std::result::Result<T, CliError>,
+    failed: impl Fn(Error) -> CliError,
+) -> std::result::Result<T, CliError> {
+    let value = fill(&mut file)?;
+    let replace = permissions.is_some();
+    if let Some(permissions) = permissions {
+        file.set_permissions(permissions).map_err(&failed)?;
+    }
+    file.sync().map_err(&failed)?;
+    file.take_name(path, replace).map_err(&failed)?;
+    F::sync_name(path).map_err(failed)?;
+    Ok(value)
 }
 
 /// The file behind a path and its links, there or not yet.
@@ -153,7 +195,7 @@ fn in_its_folder(path: PathBuf) -> PathBuf {
 }
 
 /// A new file under a name of its own in the folder of another, gone unless it takes the other's name.
-fn beside(path: &Path) -> Result<tempfile::NamedTempFile> {
+fn beside(path: &Path) -> Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".boresight-").suffix(".part");
     #[cfg(unix)]

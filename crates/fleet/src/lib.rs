@@ -18,6 +18,7 @@ pub mod plan;
 pub mod record;
 pub mod report;
 pub mod run;
+pub mod schema;
 pub mod store;
 pub mod tables;
 mod tails;

@@ -6,6 +6,7 @@
 use boresight_core::Diagnose;
 use boresight_fleet::job::{LogFile, Settings};
 use boresight_fleet::run::{RunCounts, run};
+use boresight_fleet::schema::SCHEMA;
 use boresight_fleet::worker::Workers;
 use boresight_fleet::{FleetError, Job, Record};
 use std::collections::BTreeMap;
@@ -41,7 +42,7 @@ fn job(path: &str) -> Job {
     let settings = Settings::default();
     let key = Job::key_of(&files, &settings);
     let [vehicle, drive] = ["v", "d"].map(String::from);
-    Job { key, path: path.into(), vehicle, drive, time_s: None, files, settings }
+    Job { key, path: path.into(), vehicle, drive, time_s: None, files, settings, schema: SCHEMA }
 }
 
 fn workers(script: &'static str, time_limit: Duration) -> Workers<impl Fn() -> Command> {

@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &FleetRunArguments, files: &Files) -> Result<String
     };
     make_folder(folder)?;
     let path = folder.join(part.file_name(store::NAME));
-    let mut store = Store::open(&path)?;
+    let mut store = Store::open(&path, files.force())?;
     // Records of other parts count too: who runs with another number of parts goes on with what is there.
     let there: HashSet<String> = keys_of(folder, arguments.retry)?;
     let plan = Jobs::new(lines_of(&arguments.plan, files)?, &arguments.plan);
