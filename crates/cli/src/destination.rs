@@ -211,6 +211,145 @@ fn beside(path: &Path) -> Result<NamedTempFile> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use std::cell::Cell;
+    use std::rc::Rc;
+
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    enum Fault {
+        NoSpace,
+        /// After half of what was to be written.
+        InputOutput,
+        Interrupted,
+        /// Fewer bytes than asked for, without an error.
+        Short,
+    }
+
+    thread_local! {
+        /// The call that fails, whether all later ones do, and the calls so far.
+        static PLAN: Cell<(Fault, u64, bool, u64)> = const { Cell::new((Fault::NoSpace, 0, false, 0)) };
+    }
+
+    fn fails() -> Option<Fault> {
+        let (fault, at, lasting, calls) = PLAN.get();
+        PLAN.set((fault, at, lasting, calls + 1));
+        (calls == at || (lasting && calls > at)).then_some(fault)
+    }
+
+    fn call() -> Result<()> {
+        match fails() {
+            None => Ok(()),
+            Some(Fault::NoSpace) => Err(ErrorKind::StorageFull.into()),
+            Some(Fault::Interrupted) => Err(ErrorKind::Interrupted.into()),
+            Some(Fault::InputOutput | Fault::Short) => Err(Error::other("input/output")),
+        }
+    }
+
+    /// A new file whose calls fail as planned. `named` becomes true with its name.
+    struct Faulty {
+        file: NamedTempFile,
+        synced: bool,
+        named: Rc<Cell<bool>>,
+    }
+
+    impl Write for Faulty {
+        fn write(&mut self, bytes: &[u8]) -> Result<usize> {
+            let half = &bytes[..bytes.len() / 2];
+            match fails() {
+                None => self.file.write(bytes),
+                Some(Fault::NoSpace) => Err(ErrorKind::StorageFull.into()),
+                Some(Fault::Interrupted) => Err(ErrorKind::Interrupted.into()),
+                Some(Fault::InputOutput) => {
+                    self.file.write_all(half)?;
+                    Err(Error::other("input/output"))
+                }
+                Some(Fault::Short) => self.file.write(half),
+            }
+        }
+
+        fn flush(&mut self) -> Result<()> {
+            self.file.flush()
+        }
+    }
+
+    impl NewFile for Faulty {
+        fn set_permissions(&mut self, permissions: Permissions) -> Result<()> {
+            call()?;
+            NewFile::set_permissions(&mut self.file, permissions)
+        }
+
+        fn sync(&mut self) -> Result<()> {
+            call()?;
+            self.synced = true;
+            NewFile::sync(&mut self.file)
+        }
+
+        fn take_name(self, path: &Path, replace: bool) -> Result<()> {
+            assert!(self.synced, "a name before the bytes are on the disk");
+            call()?;
+            self.file.take_name(path, replace)?;
+            self.named.set(true);
+            Ok(())
+        }
+
+        fn sync_name(path: &Path) -> Result<()> {
+            call()?;
+            NamedTempFile::sync_name(path)
+        }
+    }
+
+    /// Each call in turn fails, once or from then on: the file has its old content or all of its new one, and the new one where there was no error.
+    #[test]
+    fn no_fault_leaves_part_of_a_file_under_its_name() {
+        let folder = tempfile::Builder::new().prefix("boresight-faults").tempdir().unwrap();
+        let path = folder.path().join("out.json");
+        let new: Vec<u8> = (0..8000_u32).flat_map(u32::to_le_bytes).collect();
+        let mut injected = 0;
+        for old in [None, Some(b"old".to_vec())] {
+            for fault in [Fault::NoSpace, Fault::InputOutput, Fault::Interrupted, Fault::Short] {
+                // Interrupted calls are made again: they cannot be interrupted forever.
+                for lasting in
+                    [false, true].into_iter().filter(|l| !l || fault != Fault::Interrupted)
+                {
+                    for at in 0.. {
+                        let _ = std::fs::remove_file(&path);
+                        let permissions = old.as_ref().map(|old| {
+                            std::fs::write(&path, old).unwrap();
+                            path.metadata().unwrap().permissions()
+                        });
+                        PLAN.set((fault, at, lasting, 0));
+                        let named = Rc::new(Cell::new(false));
+                        let file = Faulty {
+                            file: beside(&path).unwrap(),
+                            synced: false,
+                            named: named.clone(),
+                        };
+                        let failed =
+                            |error| CliError::File { action: "write", path: path.clone(), error };
+                        let fill = |out: &mut dyn Write| {
+                            // As much at once as tables and plans are written in.
+                            new.chunks(1000)
+                                .try_for_each(|bytes| out.write_all(bytes))
+                                .map_err(failed)
+                        };
+                        let ended = write_whole(file, &path, permissions, fill, failed);
+                        let found = std::fs::read(&path).ok();
+                        let expected = if named.get() { Some(new.clone()) } else { old.clone() };
+                        assert!(found == expected, "{fault:?} at {at}, lasting: {lasting}");
+                        assert!(named.get() || ended.is_err());
+                        let names = std::fs::read_dir(folder.path()).unwrap().count();
+                        assert_eq!(names, usize::from(found.is_some()), "parts are removed");
+                        if PLAN.get().3 <= at {
+                            assert!(ended.is_ok());
+                            break;
+                        }
+                        injected += 1;
+                    }
+                }
+            }
+        }
+        println!("{injected} faults injected");
+        assert!(injected >= 400, "{injected}");
+    }
 
     // Nothing is written here: a fault would cost the machine its devices.
     #[test]
