@@ -3,6 +3,7 @@
 use crate::destination::{Destination, file_behind};
 use crate::error::CliError;
 use boresight_core::Waveform;
+use boresight_core::lines::sync_folder;
 use boresight_formats::RadarConfig;
 use boresight_report::Source;
 use boresight_simulate::{waveform_preset, waveform_presets};
@@ -32,6 +33,11 @@ impl Files {
     /// Of a run that may replace files with `force`.
     pub fn new(force: bool) -> Self {
         Self { force, ..Self::default() }
+    }
+
+    /// Whether files that are there may be replaced.
+    pub fn force(&self) -> bool {
+        self.force
     }
 
     /// The bytes of a file.
@@ -221,11 +227,10 @@ pub fn source(path: &Path) -> Result<Source, CliError> {
 
 /// Makes a folder and those above it, where they are not there.
 pub fn make_folder(path: &Path) -> Result<(), CliError> {
-    std::fs::create_dir_all(path).map_err(|error| CliError::File {
-        action: "write",
-        path: path.into(),
-        error,
-    })
+    let failed = |error| CliError::File { action: "write", path: path.into(), error };
+    let new: Vec<&Path> = path.ancestors().take_while(|folder| !folder.exists()).collect();
+    std::fs::create_dir_all(path).map_err(failed)?;
+    new.into_iter().filter(|folder| folder.exists()).try_for_each(sync_folder).map_err(failed)
 }
 
 /// The ending of a file's name, in lower case.

@@ -290,6 +290,101 @@ fn plans_that_were_edited_or_are_none_are_refused() {
 }
 
 #[test]
+fn records_that_are_damaged_are_run_again() {
+    let top = folder("fleet-damaged");
+    let plan = planned(&top, &[]);
+    let (out, whole) = (top.join("out"), top.join("whole"));
+    run(&plan, &whole, &[]);
+    let file = out.join("records.jsonl");
+    let kept = lines(&whole.join("records.jsonl"));
+    let zeros = "\0".repeat(4096);
+    let half = |line: &str| line[line.len() / 2..].to_owned();
+    // A block of zeros behind the records, over the end of one and the beginning of the next, and over all of them; and a byte that was turned.
+    for (damaged, had) in [
+        ([&kept[..3].join("\n"), "\n", &zeros].concat(), 3),
+        (
+            [&kept[0], "\n", &kept[1][..90], &zeros, &half(&kept[2]), "\n", &kept[3], "\n"]
+                .concat(),
+            2,
+        ),
+        (zeros.clone(), 0),
+        ([&zeros, "\n", &kept[0], "\n"].concat(), 1),
+        (kept.join("\n").replacen("\"sensor\":1", "\"sensor\":9", 1) + "\n", 6),
+    ] {
+        std::fs::create_dir_all(&out).unwrap();
+        std::fs::write(&file, &damaged).unwrap();
+        let told = run(&plan, &out, &[]);
+        let expected = format!("{} logs calibrated, 0 failed, {had} had a record", 7 - had);
+        assert!(told.contains(&expected), "{told}");
+        stdout(&["fleet", "merge", text(&out), "--plan", text(&plan)]);
+        assert!(run(&plan, &out, &[]).contains("7 had a record"));
+    }
+}
+
+#[test]
+fn files_of_others_are_left_as_they_are() {
+    let top = folder("fleet-foreign");
+    let plan = planned(&top, &[]);
+    let out = top.join("out");
+    std::fs::create_dir_all(&out).unwrap();
+    let file = out.join("records.jsonl");
+    let elsewhere = top.join("elsewhere.txt");
+    let first = ["fleet", "run", text(&plan), "--out", text(&out)];
+    for content in [
+        "one line without an end",
+        "{\"key\":\"of something else\"}",
+        "{\"a\":1}\n{\"b\":",
+        "a,b\n1,2\n3,",
+        "\0\0\nPAR1",
+    ] {
+        for linked in [false, true] {
+            let _ = std::fs::remove_file(&file);
+            std::fs::write(&elsewhere, content).unwrap();
+            if linked {
+                #[cfg(unix)]
+                std::os::unix::fs::symlink(&elsewhere, &file).unwrap();
+                #[cfg(not(unix))]
+                continue;
+            } else {
+                std::fs::write(&file, content).unwrap();
+            }
+            assert_eq!(code(&boresight(&first)), "exists", "{content:?}");
+            assert_eq!(std::fs::read_to_string(&file).unwrap(), content);
+            assert_eq!(std::fs::read_to_string(&elsewhere).unwrap(), content);
+        }
+    }
+    std::fs::remove_file(&file).unwrap();
+    std::fs::write(&file, "one line without an end").unwrap();
+    let told = stdout(&[&first[..], &["--force"]].concat());
+    assert!(told.contains("7 logs calibrated"), "{told}");
+    // Records that are there are the run's own, with --force too.
+    let told = stdout(&[&first[..], &["--force"]].concat());
+    assert!(told.contains("7 had a record"), "{told}");
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_are_no_logs_and_no_files_of_records() {
+    let top = folder("fleet-pipes");
+    let log = top.join("car/log");
+    std::fs::create_dir_all(&log).unwrap();
+    let pipe = |path: &Path| assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+    let (inside, alone) = (log.join("a.csv"), top.join("car/b.csv"));
+    pipe(&inside);
+    pipe(&alone);
+    for path in [&log, &alone] {
+        let output = boresight(&["fleet", "plan", text(path)]);
+        assert_eq!(code(&output), "file");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("no regular file"));
+    }
+    let plan = planned(&top, &[]);
+    let out = top.join("out");
+    std::fs::create_dir_all(&out).unwrap();
+    pipe(&out.join("records.jsonl"));
+    assert_eq!(code(&boresight(&["fleet", "run", text(&plan), "--out", text(&out)])), "file");
+}
+
+#[test]
 fn two_runs_do_not_write_to_one_file() {
     let top = folder("fleet-busy");
     let plan = planned(&top, &[]);

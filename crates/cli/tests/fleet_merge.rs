@@ -7,7 +7,7 @@ mod common;
 mod fleet;
 
 use common::{boresight, folder, stdout};
-use fleet::{DRIVES, lines, planned, records, text, values};
+use fleet::{DRIVES, lines, planned, records, text, unchecked, values};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Output;
@@ -36,6 +36,11 @@ fn kept(name: &str, lines: &[String]) -> PathBuf {
     let path = folder(name).join("records.jsonl");
     std::fs::write(&path, lines.join("\n") + "\n").unwrap();
     path
+}
+
+/// The notes of a merge.
+fn notes(records: &Path) -> String {
+    String::from_utf8(boresight(&["fleet", "merge", text(records)]).stderr).unwrap()
 }
 
 fn merged(records: &Path, further: &[&str]) -> Value {
@@ -92,6 +97,13 @@ fn what_records_come_to_does_not_hang_on_parts_or_order() {
     let other = kept("merge-reversed", &reversed);
     let folder = other.parent().unwrap();
     assert_eq!(results("reversed", &[text(folder), text(&other)]), expected);
+    // However often a record is there, and whatever else is.
+    let mut again = all.clone();
+    again.extend(all.iter().take(3).cloned());
+    again.push("\0".repeat(5000));
+    let repeated = kept("merge-again", &again);
+    std::fs::write(repeated.with_file_name("records-torn.jsonl"), &all[2][..40]).unwrap();
+    assert_eq!(results("again", &[text(repeated.parent().unwrap())]), expected);
     let page = std::fs::read_to_string(top.join("one/report.html")).unwrap();
     assert!(page.contains("car1") && page.trim_end().ends_with("</html>"));
     // Results are not replaced unasked.
@@ -119,7 +131,9 @@ fn every_record_is_counted_once() {
     let fleet = merged(path.parent().unwrap(), &["--plan", text(plan)]);
     let logs = &fleet["logs"];
     assert_eq!((&logs["done"], &logs["failed"]), (&7.into(), &0.into()));
-    assert_eq!((&logs["repeated"], &logs["torn"]), (&3.into(), &1.into()));
+    let notes = notes(path.parent().unwrap());
+    assert!(notes.contains("3 records of logs that have another are counted once"), "{notes}");
+    assert!(notes.contains("1 records are damaged or unfinished"), "{notes}");
     assert_eq!(fleet["vehicles"], merged(&kept("merge-plain", all), &[])["vehicles"]);
 
     // A copy of a log that was run without a plan: which of the two comes first changes nothing.
@@ -185,7 +199,7 @@ fn records_that_differ_or_are_none_are_refused() {
         code(&output)
     };
     let changed = |change: &dyn Fn(&mut Value)| {
-        let mut record: Value = serde_json::from_str(&all[0]).unwrap();
+        let mut record: Value = serde_json::from_str(&unchecked(&all[0])).unwrap();
         change(&mut record);
         record.to_string()
     };
@@ -197,7 +211,7 @@ fn records_that_differ_or_are_none_are_refused() {
     let elsewhere = changed(&|record| record["vehicle"] = json!("another"));
     assert_eq!(refused("merge-vehicle", &pair(elsewhere)), "conflict");
     let odd = [
-        all[0].replacen("\"angleDeg\":", "\"angleDeg\":1e999, \"x\":", 1),
+        unchecked(&all[0]).replacen("\"angleDeg\":", "\"angleDeg\":1e999, \"x\":", 1),
         angle(Value::Null),
         changed(&|record| record["done"]["radars"][0]["result"]["sigmaDeg"] = json!(-1.0)),
         changed(&|record| {
@@ -215,6 +229,19 @@ fn records_that_differ_or_are_none_are_refused() {
     ];
     for (at, line) in odd.into_iter().enumerate() {
         assert_eq!(refused(&format!("merge-odd-{at}"), &pair(line)), "malformed-record", "{at}");
+    }
+    // What its checksum or its zeros show to be damaged is left out, and its log is missing.
+    let (plan, _) = whole();
+    let turned = all[0].replacen("\"angleDeg\":", "\"angleDeg\":1", 1);
+    for (name, line) in [("merge-turned", turned), ("merge-zeros", "\0".repeat(4096))] {
+        let mut lines = all.clone();
+        lines[0] = line;
+        let path = kept(name, &lines);
+        let output = boresight(&["fleet", "merge", text(&path), "--plan", text(plan)]);
+        assert_eq!(code(&output), "incomplete");
+        let fleet = merged(&path, &["--plan", text(plan), "--partial"]);
+        assert_eq!((&fleet["logs"]["done"], &fleet["logs"]["missing"]), (&6.into(), &1.into()));
+        assert!(notes(&path).contains("1 records are damaged or unfinished"));
     }
     // A folder without records comes to nothing.
     let fleet = merged(&folder("merge-empty"), &[]);

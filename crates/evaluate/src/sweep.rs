@@ -129,6 +129,9 @@ pub fn run<R: Serialize + DeserializeOwned + Send>(
     Ok(done)
 }
 
+/// Bytes of an unfinished first line that are compared; a head is shorter.
+const MOST_HEAD: u64 = 1 << 16;
+
 type Opened<R> = (BTreeMap<u64, R>, Option<(LineFile, PathBuf)>);
 
 /// Reads what is recorded and opens the file for more.
@@ -151,7 +154,18 @@ fn open<R: DeserializeOwned>(path: &Path, sweep: &Sweep) -> Result<Opened<R>, Ev
     let malformed =
         |line| move |error| EvaluateError::Record { path: path.to_owned(), line: line + 1, error };
     let expected = head(sweep.part, &sweep.setup);
+    let mut rest = vec![];
+    let tail = file.unfinished().and_then(|tail| tail.take(MOST_HEAD).read_to_end(&mut rest));
+    tail.map_err(failed("read"))?;
     match lines.next() {
+        // The beginning of a head is what a run leaves that was killed at once; anything else is another's file.
+        None if !line(path, &expected)?.as_bytes().starts_with(&rest) => {
+            return Err(EvaluateError::OtherRun {
+                path: path.to_owned(),
+                expected: expected.to_string(),
+                given: String::from_utf8_lossy(&rest).into_owned(),
+            });
+        }
         None => append(&mut file, path, &expected)?,
         Some((line, head)) => {
             let found: Value = serde_json::from_str(head).map_err(malformed(line))?;

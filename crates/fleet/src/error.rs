@@ -1,5 +1,6 @@
 //! Errors of fleets.
 
+use crate::schema::SCHEMA;
 use boresight_calibrate::CalibrateError;
 use boresight_core::{CoreError, Details, Diagnose};
 use std::io::ErrorKind;
@@ -47,6 +48,28 @@ pub enum FleetError {
     Busy {
         /// The file.
         path: PathBuf,
+    },
+    /// A worker process does not start. This is no fault of a log.
+    #[error("a worker process did not start: {given}")]
+    Worker {
+        /// Its answer or its end.
+        given: String,
+    },
+    /// A file would be replaced that holds no records of a fleet.
+    #[error("{} holds no records of a fleet", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A line is of a newer release, in a format that this release cannot read.
+    #[error("{}, line {line}: the format has version {found}; this release reads up to {SCHEMA}", path.display())]
+    Newer {
+        /// The plan or the file of records.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// Version of the line.
+        found: u32,
     },
     /// A line of a plan is none.
     #[error("{}, line {line}: {error}", path.display())]
@@ -136,6 +159,9 @@ impl Diagnose for FleetError {
             Self::File { .. } => "file",
             Self::DiskFull { .. } => "disk-full",
             Self::Busy { .. } => "busy",
+            Self::Worker { .. } => "worker",
+            Self::Foreign { .. } => "exists",
+            Self::Newer { .. } => "unsupported-version",
             Self::Plan { .. } => "malformed-plan",
             Self::EditedPlan { .. } => "edited-plan",
             Self::Record { .. } => "malformed-record",
@@ -171,6 +197,21 @@ impl Diagnose for FleetError {
                 path.display().to_string(),
                 "one run a part and folder at a time",
                 "a file that another run has open",
+            ),
+            Self::Worker { given } => Details::new(
+                "a worker process",
+                "a process that accepts jobs, and a memory limit that lets it start",
+                given.clone(),
+            ),
+            Self::Foreign { path } => Details::new(
+                path.display().to_string(),
+                "a file of records, an empty file, no file, or --force",
+                "a file with other content",
+            ),
+            Self::Newer { path, line: at, found } => Details::new(
+                line(path, at),
+                format!("format version {SCHEMA} or earlier, or a newer release of Boresight"),
+                format!("format version {found}"),
             ),
             Self::Plan { path, line: at, error } => {
                 Details::new(line(path, at), "a job of `fleet plan`", error.to_string())

@@ -28,12 +28,8 @@ pub struct LogCounts {
     pub failed: u64,
     /// Planned and without a record.
     pub missing: u64,
-    /// Records of jobs that are not in the plan, left out.
+    /// Logs with a record that are not in the plan, left out.
     pub foreign: u64,
-    /// Records that were there more than once, counted once.
-    pub repeated: u64,
-    /// Lines that a killed run left unfinished.
-    pub torn: u64,
 }
 
 /// Logs that failed for one reason.

@@ -1,9 +1,11 @@
 //! The records of a fleet, each log's once.
 
 use crate::fleet::LogCounts;
+use crate::pattern::natural_order;
 use crate::record::{RadarResult, Record};
+use crate::schema::{self, SCHEMA};
 use crate::{FleetError, Job, store};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// Records as merging reads them, and what was left out.
@@ -13,9 +15,14 @@ pub struct Gathered {
     pub records: Vec<Record<RadarResult>>,
     /// What became of the logs.
     pub counts: LogCounts,
+    /// Records beyond the first of a log. This and the next depend on how the records came to be, which results do not.
+    pub repeated: u64,
+    /// Lines that are damaged or unfinished.
+    pub damaged: u64,
 }
 
-/// Reads the records in files and folders. Of several records of a log that was done is taken before one that failed. With a plan, records of
+/// Reads the records in files and folders. Of several records of a log, one that was done counts before one that failed, and one of a later release before
+/// one of an earlier release. With a plan, records of
 /// logs that are not in it are left out.
 ///
 /// # Errors
@@ -30,12 +37,13 @@ pub fn gather(
         plan.map(|jobs| jobs.iter().map(|job| (&*job.key, job)).collect());
     let mut places: HashMap<String, usize> = HashMap::new();
     let mut result = Gathered::default();
+    let mut foreign: HashSet<String> = HashSet::new();
     for path in store::files(sources)? {
-        let torn = store::each_line(&path, |line, text| {
+        result.damaged += store::each_line(&path, |line, text| {
             let mut record = read(&path, line, text)?;
             if let Some(planned) = &planned {
                 let Some(job) = planned.get(&*record.key) else {
-                    result.counts.foreign += 1;
+                    foreign.insert(record.key);
                     return Ok(());
                 };
                 // What the plan calls it counts, whichever copy was run.
@@ -47,15 +55,15 @@ pub fn gather(
                     result.records.push(record);
                 }
                 Some(&at) => {
-                    result.counts.repeated += 1;
+                    result.repeated += 1;
                     choose(&mut result.records[at], record)?;
                 }
             }
             Ok(())
         })?;
-        result.counts.torn += u64::from(torn);
     }
     let counts = &mut result.counts;
+    counts.foreign = foreign.len() as u64;
     counts.failed = result.records.iter().filter(|record| record.done.is_none()).count() as u64;
     counts.done = result.records.len() as u64 - counts.failed;
     counts.planned = planned.as_ref().map_or(result.records.len(), HashMap::len) as u64;
@@ -71,8 +79,15 @@ pub fn gather(
 
 fn read(path: &Path, line: u64, text: &[u8]) -> Result<Record<RadarResult>, FleetError> {
     let wrong = |error: String| FleetError::Record { path: path.to_owned(), line, error };
-    let record: Record<RadarResult> =
-        serde_json::from_slice(text).map_err(|error| wrong(error.to_string()))?;
+    let record: Record<RadarResult> = serde_json::from_slice(text).map_err(|error| {
+        schema::newer(text).map_or_else(
+            || wrong(error.to_string()),
+            |found| FleetError::Newer { path: path.to_owned(), line, found },
+        )
+    })?;
+    if record.schema > SCHEMA {
+        return Err(FleetError::Newer { path: path.to_owned(), line, found: record.schema });
+    }
     match (&record.done, &record.failed) {
         (Some(_), Some(_)) => return Err(wrong("done and failed in one record".into())),
         (None, None) => return Err(wrong(store::NEITHER.into())),
@@ -111,6 +126,13 @@ fn choose(kept: &mut Record<RadarResult>, other: Record<RadarResult>) -> Result<
         (Some(_), None) => return Ok(()),
         (None, Some(_)) => {
             *kept = other;
+            return Ok(());
+        }
+        // Another release may come to another angle.
+        (Some(_), Some(_)) if kept.version != other.version => {
+            if natural_order(&kept.version, &other.version).is_lt() {
+                *kept = other;
+            }
             return Ok(());
         }
         (Some(one), Some(another)) if one != another => {

@@ -1,5 +1,6 @@
 //! A line of a plan: one drive log, and how it is calibrated.
 
+use crate::schema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
@@ -9,7 +10,7 @@ use sha2::{Digest, Sha256};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Job {
-    /// Digest of all that the record depends on but names and places: the log's bytes, the settings, the version ([`Job::key_of`]).
+    /// Digest of all that the record depends on but names and places: the log's bytes and the settings ([`Job::key_of`]).
     pub key: String,
     /// Where the log is: a file or a folder.
     pub path: String,
@@ -25,7 +26,14 @@ pub struct Job {
     /// How it is read and calibrated.
     #[serde(default)]
     pub settings: Settings,
+    /// Version of the format of the line; 1 where it is absent.
+    #[serde(default = "schema::first")]
+    pub schema: u32,
 }
+
+/// First part of every digest, so that a key is that of no other data. It was the version of Boresight once; keys must not change with that,
+/// so that plans survive an upgrade.
+const KEY: &str = "0.1.0";
 
 /// A file of a log.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -64,20 +72,20 @@ pub struct Settings {
 }
 
 impl Job {
-    /// The key of a log's files and settings, with this version: 32 hexadecimal digits. Copies of a log have the same key, whatever they are
+    /// The key of a log's files and settings: 32 hexadecimal digits. Copies of a log have the same key, whatever they are
     /// called.
     #[must_use]
     pub fn key_of(files: &[LogFile], settings: &Settings) -> String {
         let mut files: Vec<&LogFile> = files.iter().collect();
         files.sort();
         // Maps of JSON are sorted by name, and numbers are written in one way.
-        let whole = (env!("CARGO_PKG_VERSION"), files, settings);
+        let whole = (KEY, files, settings);
         let text = serde_json::to_string(&whole).unwrap_or_default();
         let digest = Sha256::digest(text.as_bytes());
         digest.iter().take(16).map(|byte| format!("{byte:02x}")).collect()
     }
 
-    /// Whether the key is that of files and settings: it is not where a line was edited, or planned by another version.
+    /// Whether the key is that of files and settings: it is not where a line was edited.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.key == Self::key_of(&self.files, &self.settings)

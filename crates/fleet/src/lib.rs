@@ -18,11 +18,13 @@ pub mod plan;
 pub mod record;
 pub mod report;
 pub mod run;
+pub mod schema;
 pub mod store;
 pub mod tables;
 mod tails;
 pub mod text;
 mod vehicle;
+pub mod worker;
 pub mod written;
 
 pub use error::FleetError;

@@ -20,7 +20,7 @@ pub fn merge(
     threads: usize,
 ) -> Result<Fleet, FleetError> {
     describe::check(options, Naming::Rust)?;
-    let Gathered { records, counts } = gathered;
+    let Gathered { records, counts, .. } = gathered;
     let failures = failures(&records);
     let mut by_vehicle: HashMap<String, Vec<Record<RadarResult>>> = HashMap::new();
     for record in records.into_iter().filter(|record| record.done.is_some()) {

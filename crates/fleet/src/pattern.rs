@@ -3,6 +3,7 @@
 use crate::FleetError;
 use jiff::civil::{Date, DateTime};
 use jiff::tz::TimeZone;
+use std::collections::HashSet;
 
 /// What the end of a path is made of: components between slashes, in which `{vehicle}`, `{drive}`, `{time}` and `*` stand for text of any length.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,6 +51,10 @@ const TIMES: [&str; 7] = [
     "%Y%m%d_%H%M%S",
     "%Y%m%d-%H%M%S",
 ];
+/// Longest component that is matched, bytes; file systems allow about 255 characters.
+const LONGEST_COMPONENT: usize = 1024;
+/// Longest text that may be a time, bytes.
+const LONGEST_TIME: usize = 64;
 const DATES: [&str; 2] = ["%Y-%m-%d", "%Y%m%d"];
 
 impl Pattern {
@@ -89,28 +94,33 @@ impl Pattern {
         };
         let skipped = parts.len().checked_sub(self.components.len());
         let ends = skipped.map(|skipped| &parts[skipped..]);
+        let matched = |timed: bool| -> Option<Vec<(&Piece, &str)>> {
+            let mut found = vec![];
+            for (pieces, part) in self.components.iter().zip(ends?) {
+                found.extend(matched(pieces, part, timed)?);
+            }
+            Some(found)
+        };
+        let Some(found) = matched(true) else {
+            let times = matched(false);
+            let times = times.iter().flatten().find(|(piece, _)| **piece == Piece::Time);
+            return Err(wrong(times.map_or_else(
+                || format!("an end as {}", self.text),
+                |(_, text)| {
+                    format!(
+                        "{{time}} as 2026-05-01T10-00-00, 2026-05-01, 20260501_100000 or s since 1970, not {text:?}"
+                    )
+                },
+            )));
+        };
         let mut named = Named::default();
-        let mut time = None;
-        let fits = ends.is_some_and(|ends| {
-            self.components.iter().zip(ends).all(|(pieces, part)| {
-                matched(pieces, part, &mut |piece, text| match piece {
-                    Piece::Vehicle => named.vehicle = Some(text.into()),
-                    Piece::Drive => named.drive = Some(text.into()),
-                    Piece::Time => time = Some(text.to_owned()),
-                    Piece::Literal(_) | Piece::Any => {}
-                })
-            })
-        });
-        if !fits {
-            return Err(wrong(format!("an end as {}", self.text)));
-        }
-        if let Some(text) = time {
-            let read = time_s(&text);
-            named.time_s = Some(read.ok_or_else(|| {
-                wrong(format!(
-                    "{{time}} as 2026-05-01T10-00-00, 2026-05-01, 20260501_100000 or s since 1970, not {text:?}"
-                ))
-            })?);
+        for (piece, text) in found {
+            match piece {
+                Piece::Vehicle => named.vehicle = Some(text.into()),
+                Piece::Drive => named.drive = Some(text.into()),
+                Piece::Time => named.time_s = time_s(text),
+                Piece::Literal(_) | Piece::Any => {}
+            }
         }
         named.drive = named.drive.or_else(|| parts.last().map(|last| (*last).to_owned()));
         Ok(named)
@@ -139,29 +149,74 @@ fn pieces(text: &str) -> Option<Vec<Piece>> {
     (!pieces.is_empty() && !pieces.iter().any(odd)).then_some(pieces)
 }
 
-/// Whether a component is made of the pieces. A place takes the least that what follows it allows; the last takes all.
-fn matched(pieces: &[Piece], text: &str, found: &mut impl FnMut(&Piece, &str)) -> bool {
-    let Some((first, others)) = pieces.split_first() else { return text.is_empty() };
-    match (first, others.split_first()) {
-        (Piece::Literal(literal), _) => {
-            text.strip_prefix(&**literal).is_some_and(|rest| matched(others, rest, found))
+/// The text of each place of a component; `None` where it is not made of the pieces. Each place takes the shortest text, from left to right,
+/// that lets the remaining pieces match; with `timed` that of `{time}` is a time.
+fn matched<'a>(
+    pieces: &'a [Piece],
+    text: &'a str,
+    timed: bool,
+) -> Option<Vec<(&'a Piece, &'a str)>> {
+    if text.len() > LONGEST_COMPONENT {
+        return None;
+    }
+    let mut search = Search { pieces, text, timed, failed: HashSet::new() };
+    let mut found = vec![];
+    search.from(0, 0, &mut found).then(|| {
+        found.reverse();
+        found
+    })
+}
+
+/// A search that tries each piece at each offset once, so that its cost is bounded by the square of the length.
+struct Search<'a> {
+    pieces: &'a [Piece],
+    text: &'a str,
+    timed: bool,
+    /// Pieces, and offsets at which they and those behind them do not match.
+    failed: HashSet<(usize, usize)>,
+}
+
+impl<'a> Search<'a> {
+    /// Matches the pieces from one on with the text from an offset on. `found` becomes their places, the last first.
+    fn from(&mut self, piece: usize, at: usize, found: &mut Vec<(&'a Piece, &'a str)>) -> bool {
+        let (pieces, rest) = (self.pieces, &self.text[at..]);
+        let Some(first) = pieces.get(piece) else { return rest.is_empty() };
+        if self.failed.contains(&(piece, at)) {
+            return false;
         }
-        (place, None) => {
-            found(place, text);
-            !text.is_empty()
+        let fits = match first {
+            Piece::Literal(literal) => {
+                rest.starts_with(&**literal) && self.from(piece + 1, at + literal.len(), found)
+            }
+            // A place ends where the next literal begins, or with the component.
+            place => self.ends(piece, rest).any(|end| {
+                let text = &rest[..end];
+                let is_time = || text.len() <= LONGEST_TIME && time_s(text).is_some();
+                let accepted = !(self.timed && *place == Piece::Time) || is_time();
+                let fits = accepted && self.from(piece + 1, at + end, found);
+                if fits {
+                    found.push((place, text));
+                }
+                fits
+            }),
+        };
+        if !fits {
+            self.failed.insert((piece, at));
         }
-        (place, Some((Piece::Literal(literal), []))) => {
-            let Some(inner) = text.strip_suffix(&**literal) else { return false };
-            found(place, inner);
-            !inner.is_empty()
-        }
-        (place, Some((Piece::Literal(literal), _))) => {
-            let Some(at) = text.find(&**literal).filter(|at| *at > 0) else { return false };
-            found(place, &text[..at]);
-            matched(others, &text[at..], found)
-        }
-        // No place follows another.
-        _ => false,
+        fits
+    }
+
+    /// Lengths that a place may have, the shortest first.
+    fn ends(&self, piece: usize, rest: &'a str) -> impl Iterator<Item = usize> + use<'a> {
+        let literal = match self.pieces.get(piece + 1) {
+            Some(Piece::Literal(literal)) => Some(&**literal),
+            _ => None,
+        };
+        let inner = literal.into_iter().flat_map(move |literal| {
+            rest.char_indices().map(|(at, _)| at).filter(move |at| rest[*at..].starts_with(literal))
+        });
+        let whole = literal.is_none().then_some(rest.len());
+        inner.chain(whole).filter(|end| *end > 0)
     }
 }
 
@@ -228,11 +283,26 @@ mod tests {
         assert_eq!(read(DEFAULT_PATTERN, "/logs/car 7/d.mcap"), told("car 7", "d.mcap", None));
         assert_eq!(read(DEFAULT_PATTERN, "logs/car7/drive_1/"), told("car7", "drive_1", None));
         assert_eq!(read(DEFAULT_PATTERN, "d.mcap"), None);
-        assert_eq!(
-            read("{vehicle}_{time}_*.mcap", "logs/c_1_2026-05-01_x.mcap"),
-            None,
-            "the vehicle ends at the first underscore, and 1 is no time"
-        );
+        let may = time_s("2026-05-01");
+        let read_time = |pattern: &str, name: &str| {
+            read(pattern, &format!("logs/{name}")).map(|(vehicle, _, time)| (vehicle, time))
+        };
+        for (pattern, name, vehicle) in [
+            ("{vehicle}_{time}_*.mcap", "c_1_2026-05-01_x.mcap", "c_1"),
+            ("{vehicle}_{time}", "c_1_2026-05-01", "c_1"),
+            ("{vehicle}_{time}.mcap", "c_2026-05-01_2026-05-01.mcap", "c_2026-05-01"),
+            ("{vehicle}_{time}.mcap", "c_1_20260501_000000.mcap", "c_1"),
+            ("{vehicle}-{time}-*", "a-b-2026-05-01-x", "a-b"),
+            ("{vehicle}_x", "a_x_x", "a_x"),
+            ("{time}_{vehicle}", "2026-05-01_a_b", "a_b"),
+        ] {
+            let (found, time) = read_time(pattern, name).unwrap();
+            assert_eq!(found, vehicle, "{pattern} {name}");
+            assert!(time.is_none() || time == may, "{pattern} {name}: {time:?}");
+        }
+        assert_eq!(read("{vehicle}_{drive}", "a_b_c"), told("a", "b_c", None));
+        let error = Pattern::new("{vehicle}_{time}").unwrap().read("c_1_x").unwrap_err();
+        assert!(error.to_string().contains("not \"1_x\""), "{error}");
         assert_eq!(
             read("{vehicle}/*/{time}_{drive}.mcap", "a/car/x/20260501T100000_night.v2.mcap"),
             told("car", "night.v2", Some(1_777_629_600.0))
@@ -249,6 +319,16 @@ mod tests {
         ] {
             assert!(Pattern::new(wrong).is_err(), "{wrong}");
         }
+    }
+
+    /// Without a bound the number of ways to split this text is beyond any computer.
+    #[test]
+    fn many_places_are_matched_in_bounded_time() {
+        let pattern = Pattern::new(&("*a".repeat(30) + "{vehicle}b")).unwrap();
+        assert!(pattern.read(&"a".repeat(LONGEST_COMPONENT)).is_err());
+        let fits = "a".repeat(LONGEST_COMPONENT - 1) + "b";
+        assert!(pattern.read(&fits).is_ok());
+        assert!(pattern.read(&("a".to_owned() + &fits)).is_err(), "too long");
     }
 
     #[test]

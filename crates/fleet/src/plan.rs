@@ -1,6 +1,6 @@
 //! Plans: files of jobs, a line each.
 
-use crate::{FleetError, Job};
+use crate::{FleetError, Job, schema};
 use std::collections::BTreeMap;
 use std::io::BufRead;
 use std::path::Path;
@@ -8,7 +8,7 @@ use std::path::Path;
 /// Longest line that is read, bytes: a log of a hundred thousand files.
 const LONGEST_LINE: u64 = 64 << 20;
 
-/// The jobs of a plan that is read line by line. A line that was planned by another version, or edited, is an error.
+/// The jobs of a plan that is read line by line. A line that was edited, or planned by a newer release in a format of its own, is an error.
 pub struct Jobs<'a, R> {
     reader: R,
     /// Where the plan is from, for errors.
@@ -25,6 +25,9 @@ impl<'a, R: BufRead> Jobs<'a, R> {
 
     fn job(&self) -> Result<Job, FleetError> {
         let (path, line) = (self.path.to_owned(), self.line);
+        if let Some(found) = schema::newer(&self.buffer) {
+            return Err(FleetError::Newer { path, line, found });
+        }
         let job: Job = serde_json::from_slice(&self.buffer).map_err(|error| FleetError::Plan {
             path: path.clone(),
             line,

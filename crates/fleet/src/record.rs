@@ -1,11 +1,11 @@
 //! What a drive log came to, as a line of JSON.
 
-use crate::Job;
+use crate::{Job, schema};
 use boresight_calibrate::NormalEquations;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// What running a job gives. It depends on the job alone, not on when, where and beside what it ran. `R` is what is known of a radar's
+/// What running a job gives. It depends on the job and the version alone, not on when, where and beside what it ran. `R` is what is known of a radar's
 /// angle: all that `boresight calibrate --json` says where records are made, the part that merging reads where they are read.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
@@ -27,6 +27,12 @@ pub struct Record<R = Value> {
     /// Why the job failed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<Failure>,
+    /// Version of the format of the line; 1 where it is absent.
+    #[serde(default = "schema::first")]
+    pub schema: u32,
+    /// Version of Boresight that ran the job; empty where it is absent.
+    #[serde(default)]
+    pub version: String,
 }
 
 fn none<R>() -> Option<Done<R>> {
@@ -137,6 +143,8 @@ impl<R> Record<R> {
             path: job.path.clone(),
             done: None,
             failed: None,
+            schema: schema::SCHEMA,
+            version: env!("CARGO_PKG_VERSION").into(),
         }
     }
 }

@@ -1,8 +1,10 @@
-//! Running the jobs of a plan over threads.
+//! Running the jobs of a plan over worker processes.
 
+use crate::worker::{Place, Workers};
 use crate::{FleetError, Job, Record};
 use boresight_core::error::check_range;
 use std::ops::ControlFlow;
+use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::time::Duration;
@@ -31,16 +33,16 @@ impl RunCounts {
     }
 }
 
-/// Runs jobs as they are given, and hands each record to `keep` once it is there. `work` gives none where it saw that `stop` became
-/// true. What is kept is whole whenever the run ends.
+/// Runs jobs as they are given over `threads` worker processes, and hands each record to `keep` once it is there. What is kept is whole
+/// whenever the run ends.
 ///
 /// # Errors
-/// The first of `jobs` or of `keep`; [`FleetError::Cancelled`] where `look`, which is asked every tenth of a second and after each record, breaks the run;
-/// [`boresight_core::CoreError::OutOfRange`] without threads.
+/// The first of `jobs` or of `keep`; [`FleetError::Worker`] if no worker can be started; [`FleetError::Cancelled`] where `look`, which is asked
+/// every tenth of a second and after each record, breaks the run; [`boresight_core::CoreError::OutOfRange`] without threads.
 pub fn run(
     jobs: impl Iterator<Item = Result<Job, FleetError>> + Send,
     threads: usize,
-    work: impl Fn(&Job, &AtomicBool) -> Option<Record> + Sync,
+    workers: &Workers<impl Fn() -> Command + Sync>,
     mut keep: impl FnMut(&Record) -> Result<(), FleetError>,
     mut look: impl FnMut(RunCounts) -> ControlFlow<()>,
 ) -> Result<RunCounts, FleetError> {
@@ -50,13 +52,14 @@ pub fn run(
     std::thread::scope(|scope| {
         let (sender, records) = mpsc::sync_channel(threads);
         for _ in 0..threads {
-            let (sender, jobs, stop, work) = (sender.clone(), &jobs, &stop, &work);
+            let (sender, jobs, stop) = (sender.clone(), &jobs, &stop);
             scope.spawn(move || {
+                let mut place = Place::new(workers);
                 while !stop.load(Ordering::Relaxed) {
                     let next = jobs.lock().unwrap_or_else(PoisonError::into_inner).next();
                     let made = match next {
                         None => break,
-                        Some(Ok(job)) => work(&job, stop).map(Ok),
+                        Some(Ok(job)) => place.run(&job, stop).transpose(),
                         Some(Err(error)) => Some(Err(error)),
                     };
                     let Some(made) = made else { break };

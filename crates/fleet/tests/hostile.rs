@@ -5,6 +5,7 @@
 use boresight_core::{Diagnose, Random};
 use boresight_fleet::gather::gather;
 use boresight_fleet::job::{LogFile, Settings};
+use boresight_fleet::schema::SCHEMA;
 use boresight_fleet::{FleetOptions, Job, Jobs, merge};
 use std::path::Path;
 
@@ -31,7 +32,8 @@ fn job() -> String {
     let settings = Settings { sensor: Some(2), ..Settings::default() };
     let key = Job::key_of(&files, &settings);
     let [path, vehicle, drive] = ["logs/car/d1", "car", "d1"].map(String::from);
-    let job = Job { key, path, vehicle, drive, time_s: Some(1.7e9), files, settings };
+    let job =
+        Job { key, path, vehicle, drive, time_s: Some(1.7e9), files, settings, schema: SCHEMA };
     serde_json::to_string(&job).unwrap()
 }
 

@@ -17,6 +17,9 @@ pub enum FleetCommand {
     Plan(Box<FleetPlanArguments>),
     /// Run a plan or a part of it: a record a log, as a line of JSON.
     Run(FleetRunArguments),
+    /// Calibrate the jobs on the standard input, one at a time, for `fleet run`.
+    #[command(hide = true)]
+    Worker(FleetWorkerArguments),
     /// Put the records of all parts together: each vehicle's angles over its drives, and vehicles unlike the others.
     Merge(Box<FleetMergeArguments>),
 }
@@ -76,9 +79,29 @@ pub struct FleetRunArguments {
     /// Threads; as many as there are cores if absent.
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
-    /// Run logs again that failed.
+    /// Run logs again that failed, those that crashed or timed out included.
     #[arg(long, requires = "out")]
     pub retry: bool,
+    /// Longest time for one log; a log that takes longer gets a record with the code timed-out.
+    #[arg(long, value_name = "SECONDS", default_value_t = 3600.0, value_parser = seconds)]
+    pub time_limit: f64,
+    /// Most memory for one log (address space, Linux only); a log that needs more gets a record with the code crashed. Half of the memory of
+    /// the machine or container if absent.
+    #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
+    pub memory_limit: Option<u64>,
+}
+
+/// Arguments of `fleet worker`.
+#[derive(Debug, Args)]
+pub struct FleetWorkerArguments {
+    /// Most memory, bytes.
+    #[arg(long)]
+    pub memory_limit: Option<u64>,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let found = text.parse().ok().filter(|s| (1e-3..=1e9).contains(s));
+    found.ok_or_else(|| "expected seconds from 0.001 to 1000000000".into())
 }
 
 /// A part, or where to find out which.

@@ -22,7 +22,8 @@ pub use evaluate::{
     EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
 };
 pub use fleet::{
-    FleetCommand, FleetMergeArguments, FleetPlanArguments, FleetRunArguments, WhichPart,
+    FleetCommand, FleetMergeArguments, FleetPlanArguments, FleetRunArguments, FleetWorkerArguments,
+    WhichPart,
 };
 pub use image::{ImageArguments, ImageCaptureArguments, ImageCommand, ImageStreetArguments};
 pub use regions::RegionsArguments;

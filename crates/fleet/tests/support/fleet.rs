@@ -107,14 +107,7 @@ pub fn small() -> Fleet {
         ("misaligned", 40, misaligned),
     ];
     Fleet {
-        logs: LogCounts {
-            planned: 206,
-            done: 202,
-            failed: 3,
-            missing: 1,
-            torn: 1,
-            ..LogCounts::default()
-        },
+        logs: LogCounts { planned: 206, done: 202, failed: 3, missing: 1, ..LogCounts::default() },
         failures: vec![FailureCount {
             code: "log/no-radar".into(),
             count: 3,

@@ -40,14 +40,18 @@ pub(super) fn run(arguments: &FleetMergeArguments, files: &Files) -> Result<Stri
     };
     let gathered = gather::gather(&sources, plan.as_deref(), arguments.partial)?;
     drop(plan);
-    let options = &arguments.flags.options;
-    let fleet = merge::merge(gathered, options, threads(arguments.threads))?;
-    if fleet.logs.torn > 0 {
+    if gathered.damaged > 0 {
+        let lines = gathered.damaged;
+        remark([format!("{lines} records are damaged or unfinished and left out")]);
+    }
+    if gathered.repeated > 0 {
         remark([format!(
-            "{} records were not finished, and are left out: a run was killed and has not gone on",
-            fleet.logs.torn
+            "{} records of logs that have another are counted once",
+            gathered.repeated
         )]);
     }
+    let options = &arguments.flags.options;
+    let fleet = merge::merge(gathered, options, threads(arguments.threads))?;
     if let Some((result, drives, radars, page)) = out {
         let named = result.named().to_owned();
         files.write_with(result, |file| {

@@ -1,10 +1,12 @@
 //! `boresight fleet`: the mounting angles of many drives, on many machines.
 
 mod log;
+mod memory;
 mod merge;
 mod part;
 mod plan;
 mod run;
+mod worker;
 
 use crate::arguments::FleetCommand;
 use crate::error::CliError;
@@ -19,6 +21,7 @@ pub fn run(what: &FleetCommand, files: &Files) -> Result<String, CliError> {
     match what {
         FleetCommand::Plan(arguments) => plan::run(arguments, files),
         FleetCommand::Run(arguments) => run::run(arguments, files),
+        FleetCommand::Worker(arguments) => worker::run(arguments),
         FleetCommand::Merge(arguments) => merge::run(arguments, files),
     }
 }

@@ -13,6 +13,7 @@ use boresight_fleet::job::Settings;
 use boresight_fleet::parallel;
 use boresight_fleet::pattern::DEFAULT_PATTERN;
 use boresight_fleet::plan::Distinct;
+use boresight_fleet::schema::SCHEMA;
 use boresight_fleet::{FleetError, Job, Pattern};
 use boresight_formats::json;
 use boresight_pipeline::{PipelineError, Progress};
@@ -185,5 +186,6 @@ fn job(entry: &Listed, vehicles: &Vehicles, settings: &Settings) -> Result<Job, 
         time_s: entry.time_s.or(named.time_s),
         files,
         settings: settings.clone(),
+        schema: SCHEMA,
     })
 }
