@@ -51,6 +51,9 @@ const OF_RADARS = [
   ['boresight_frame_time_seconds', 'gauge', 'Time of the last frame on its own clock.', (r) => [['', r.timeS]]],
   ['boresight_frames', 'counter', 'Frames taken.', (r) => [['', r.frames]]],
   ['boresight_detections', 'counter', 'Detections in frames taken.', (r) => [['', r.detections]]],
+  ['boresight_stale', 'gauge', 'Whether the latest frames were all rejected.', (r) => [['', Number(r.stale)]]],
+  ['boresight_clock_resets', 'counter', 'Sessions started after a clock reset.', (r) => [['', r.clockResets]]],
+  ['boresight_detections_rejected', 'counter', 'Invalid detections left out.', (r) => [['', r.rejectedDetections]]],
   ['boresight_frames_repeated', 'counter', 'Frames that were sent again.', (r) => [['', r.repeated]]],
   [
     'boresight_frames_judged',

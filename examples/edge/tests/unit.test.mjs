@@ -159,6 +159,9 @@ test('labels are escaped, and no deviation is infinite', () => {
     frames: 1,
     detections: 2,
     repeated: 0,
+    stale: true,
+    clockResets: 2,
+    rejectedDetections: 5,
     refused: { shape: 3 },
     verdicts: { given: 1, used: 1 },
   };
@@ -168,6 +171,9 @@ test('labels are escaped, and no deviation is infinite', () => {
     `boresight_mounting_angle_degrees{${labels}} 1.5`,
     `boresight_mounting_angle_sigma_degrees{${labels}} +Inf`,
     `boresight_frames_refused_total{${labels},reason="shape"} 3`,
+    `boresight_stale{${labels}} 1`,
+    `boresight_clock_resets_total{${labels}} 2`,
+    `boresight_detections_rejected_total{${labels}} 5`,
     'boresight_received_timestamp_seconds{vehicle="line\\nbreak"} 1.5',
     '# UNIT boresight_mounting_angle_degrees degrees',
   ]) {
