@@ -157,11 +157,7 @@ class FleetLogCounts(TypedDict):
     missing: float
     """Planned and without a record."""
     foreign: float
-    """Records of jobs that are not in the plan, left out."""
-    repeated: float
-    """Records that were there more than once, counted once."""
-    torn: float
-    """Lines that a killed run left unfinished."""
+    """Logs with a record that are not in the plan, left out."""
 
 
 class FleetFailureCount(TypedDict):

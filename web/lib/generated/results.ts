@@ -1240,12 +1240,8 @@ export interface FleetLogCounts {
   failed: number;
   /** Planned and without a record. */
   missing: number;
-  /** Records of jobs that are not in the plan, left out. */
+  /** Logs with a record that are not in the plan, left out. */
   foreign: number;
-  /** Records that were there more than once, counted once. */
-  repeated: number;
-  /** Lines that a killed run left unfinished. */
-  torn: number;
 }
 
 /** Logs that failed for one reason. */

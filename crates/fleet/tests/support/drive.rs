@@ -6,6 +6,7 @@ use boresight_core::drive::DriveLog;
 use boresight_fleet::fleet::Fleet;
 use boresight_fleet::gather::Gathered;
 use boresight_fleet::record::{Done, Frames as Counts, RadarRecord, RadarResult, Record, Warning};
+use boresight_fleet::schema::SCHEMA;
 use boresight_fleet::{FleetOptions, merge, parallel};
 
 /// The record of a drive.
@@ -61,6 +62,8 @@ pub fn record(
             radars: radars.iter().map(told).collect(),
         }),
         failed: None,
+        schema: SCHEMA,
+        version: String::new(),
     }
 }
 
