@@ -131,6 +131,17 @@ def test_a_file_of_records_grows_by_whole_lines(tmp_path, torn):
     assert path.read_bytes() == b"{}\n"
 
 
+def test_damaged_records_are_run_again(records_of_one_process, tmp_path):
+    plan, lines, _ = records_of_one_process
+    file = tmp_path / "records.jsonl"
+    turned = lines[0].replace(b'"sensor":1', b'"sensor":9', 1)
+    assert turned != lines[0]
+    file.write_bytes(turned + lines[1][:90] + b"\0" * 4096 + lines[2][90:] + lines[3])
+    with FleetWork(plan, tmp_path, None, False) as work:
+        assert (work.total, work.done) == (13, 1)
+    assert [record["drive"] for record in fleet.read_records(tmp_path)] == [json.loads(lines[3])["drive"]]
+
+
 def test_a_write_that_fails_leaves_whole_lines(tmp_path, monkeypatch):
     """The disk is full after so many bytes."""
     path = tmp_path / "records.jsonl"

@@ -22,6 +22,22 @@ fn codes(path: &Path) -> Vec<(String, String)> {
     all.iter().map(|record| (text(&record["drive"]), text(&record["failed"]["code"]))).collect()
 }
 
+/// The one process that another has started, unless it has ended.
+fn child_of(parent: u32) -> Option<String> {
+    let mut found = std::fs::read_dir("/proc").unwrap().filter_map(|entry| {
+        let entry = entry.unwrap();
+        let stat = std::fs::read_to_string(entry.path().join("stat")).ok()?;
+        // The name, in brackets, may hold anything; the state and the parent follow.
+        let mut fields = stat.rsplit_once(") ")?.1.split(' ');
+        let runs = !["Z", "X"].contains(&fields.next()?);
+        (runs && fields.next()? == parent.to_string())
+            .then(|| entry.file_name().into_string().unwrap())
+    });
+    let first = found.next();
+    assert_eq!(found.next(), None, "one worker");
+    first
+}
+
 /// A stopped worker cannot be told from one that computes forever.
 #[test]
 fn a_log_that_hangs_is_a_record_and_the_next_is_run() {
@@ -42,35 +58,17 @@ fn a_log_that_hangs_is_a_record_and_the_next_is_run() {
         serde_json::from_str::<Value>(&line).unwrap()
     };
     assert!(next(&plan[0])["done"].is_object());
-    let of = format!("/proc/{0}/task/{0}/children", run.id());
-    let worker = || {
-        // Threads of the run start the processes: all of them are asked.
-        let tasks = std::fs::read_dir(format!("/proc/{}/task", run.id())).unwrap();
-        let children = tasks.map(|task| task.unwrap().path().join("children"));
-        let found: String =
-            children.filter_map(|file| std::fs::read_to_string(file).ok()).collect();
-        found.trim().to_owned()
-    };
-    if !Path::new(&of).exists() {
-        // A kernel that does not list children.
-        run.kill().unwrap();
-        run.wait().unwrap();
-        return;
-    }
-    let first = worker();
-    assert!(first.parse::<u32>().is_ok(), "one worker: {first:?}");
+    let worker = || child_of(run.id());
+    let first = worker().unwrap();
     assert!(Command::new("kill").args(["-STOP", &first]).status().unwrap().success());
     let hung = next(&plan[1]);
     assert_eq!(hung["failed"]["code"], "timed-out", "{hung}");
     assert!(next(&plan[2])["done"].is_object());
-    let second = worker();
-    assert!(second.parse::<u32>().is_ok() && second != first, "{first} {second}");
+    let second = worker().unwrap();
+    assert_ne!(second, first);
     // A worker that dies between two logs is the fault of neither.
     assert!(Command::new("kill").args(["-KILL", &second]).status().unwrap().success());
-    while !std::fs::read_to_string(format!("/proc/{second}/stat"))
-        .is_ok_and(|stat| stat.contains(") Z ") || stat.is_empty())
-        && Path::new(&format!("/proc/{second}")).exists()
-    {
+    while worker().is_some() {
         std::thread::yield_now();
     }
     assert!(next(&plan[3])["done"].is_object());

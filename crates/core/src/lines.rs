@@ -187,7 +187,12 @@ mod tests {
         for torn in [0, 1, 4095, 4096, 4097, 10_000] {
             for lines in ["", "one\n", "one\ntwo\n"] {
                 std::fs::write(&path, format!("{lines}{}", "x".repeat(torn))).unwrap();
+                let before = std::fs::read(&path).unwrap();
                 let mut file = LineFile::open(&path).unwrap();
+                assert_eq!(std::fs::read(&path).unwrap(), before, "opening changes nothing");
+                let mut rest = String::new();
+                file.unfinished().unwrap().read_to_string(&mut rest).unwrap();
+                assert_eq!(rest.len(), torn);
                 assert_eq!(LineFile::open(&path).unwrap_err().kind(), ErrorKind::WouldBlock);
                 let found: Vec<String> =
                     file.reader().unwrap().lines().map(|line| line.unwrap()).collect();

@@ -275,6 +275,16 @@ mod tests {
         run(&sweep(&path, 0..2), Ok, go).unwrap();
         let other = Sweep { setup: serde_json::json!({ "seed": 2 }), ..sweep(&path, 0..2) };
         assert!(matches!(run(&other, Ok, go), Err(EvaluateError::OtherRun { .. })));
+        // Other files are left unchanged, those of one unfinished line included.
+        let whole = std::fs::read(&path).unwrap();
+        for (content, accepted) in
+            [(&b"one line"[..], false), (b"{\"seed\":2", false), (&whole[..5], true)]
+        {
+            std::fs::write(&path, content).unwrap();
+            let ended = run(&sweep(&path, 0..2), Ok, go);
+            assert_eq!(ended.is_ok(), accepted, "{ended:?}");
+            assert!(accepted || std::fs::read(&path).unwrap() == content);
+        }
         std::fs::write(&path, "{\"seed\":1}\n{\"scene\":\"x\"}\n").unwrap();
         let broken = run(&sweep(&path, 0..2), Ok, go);
         assert!(matches!(broken, Err(EvaluateError::Record { line: 2, .. })), "{broken:?}");

@@ -14,7 +14,7 @@ class Job(TypedDict):
     """What a plan says of a log; the lines of a plan have more, which only the command line reads."""
 
     key: str
-    """Digest of all that the record depends on: the log's bytes, the settings, the version."""
+    """Digest of all that the record depends on: the log's bytes and the settings."""
     path: str
     """Where the log is."""
     vehicle: str

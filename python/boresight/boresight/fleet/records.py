@@ -2,7 +2,9 @@
 
 import json
 import os
+import re
 import sys
+import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -11,6 +13,9 @@ from typing import Any, NotRequired, TypedDict
 from ..command import Place
 from ..errors import BoresightError
 from ..results import CalibrationResult
+
+
+CHECKSUM = re.compile(rb',"crc32":"([0-9a-f]{8})"}$')
 
 
 class Failure(TypedDict):
@@ -68,7 +73,13 @@ class Record(TypedDict):
     done: NotRequired[Done]
     """What was found; absent where the job failed."""
     failed: NotRequired[Failure]
-    """Why the job failed."""
+    """Why the job failed: `crashed` and `timed-out` where it ended or outlasted its process."""
+    schema: NotRequired[int]
+    """Version of the format; 1 if absent."""
+    version: NotRequired[str]
+    """Version of Boresight that ran the job."""
+    crc32: NotRequired[str]
+    """Checksum of the line before it."""
 
 
 def files(out: Path) -> list[Path]:
@@ -77,12 +88,20 @@ def files(out: Path) -> list[Path]:
 
 
 def lines(path: Path) -> Iterator[Record]:
-    """The whole lines of a file of records."""
+    """The whole lines of a file of records, without damaged ones."""
     with path.open("rb") as file:
         for number, line in enumerate(file, 1):
             if not line.endswith(b"\n"):
                 return
+            if is_damaged(line[:-1]):
+                continue
             yield record_of(line, f"{path}, line {number}")
+
+
+def is_damaged(line: bytes) -> bool:
+    """Whether a line differs from its checksum or has zeros, as files have after a loss of power."""
+    found = CHECKSUM.search(line)
+    return zlib.crc32(line[: found.start()]) != int(found[1], 16) if found else b"\0" in line
 
 
 def record_of(line: str | bytes, place: str) -> Record:
