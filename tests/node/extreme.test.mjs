@@ -8,7 +8,7 @@ import { callBy, goodCalls } from './lib/calls.mjs';
 import { spoilers, withExtremes } from './lib/extremes.mjs';
 
 /** Calls in all; `EXTREME_CALLS` asks for more. */
-const CALLS = Number(process.env.EXTREME_CALLS ?? 1500);
+const CALLS = Number(process.env.EXTREME_CALLS ?? 5000);
 /** Limits of each call. An instance keeps the memory that it has grown to, so growth beyond its start is bounded by them. */
 const LIMITS = { operations: 1e8, bytes: 64 * 2 ** 20 };
 
@@ -34,7 +34,7 @@ function calls() {
   const [input, options] = goodCalls().estimate;
   const estimates = classical().map((method) => [
     'estimate',
-    [input, { ...options, method, sources: 1, gridPoints: 32, maxSources: 2 }],
+    [input, { ...options, method, sources: 1, gridPoints: 32 }],
   ]);
   return [...good, ...estimates, ...estimates];
 }
@@ -50,7 +50,7 @@ test('a channel 1e-80 below the others ends within the limits', async () => {
     }
   }
   const input = { snapshots: { data, shape: [elements, snapshots] } };
-  for (const method of classical()) {
+  for (const method of classical().filter((name) => name !== 'single-snapshot-music')) {
     const counted = ['music', 'root-music', 'esprit', 'min-norm'].includes(method) ? { sources: 1 } : {};
     assert.equal(boresight.estimate(input, { method, array: 'ula4', gridPoints: 64, ...counted }).method, method);
   }

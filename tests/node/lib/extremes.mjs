@@ -56,7 +56,11 @@ export function withExtremes(args, spoil, tools) {
     if (isNumbers(value)) places.push({ path, array: true });
     else if (typeof value === 'number') places.push({ path, array: false });
     else if (typeof value === 'object' && value !== null && !ArrayBuffer.isView(value)) {
-      for (const key of Object.keys(value).slice(0, 30)) look(value[key], [...path, key]);
+      // A wrong shape is refused before any number is looked at.
+      for (const key of Object.keys(value)
+        .filter((key) => key !== 'shape')
+        .slice(0, 30))
+        look(value[key], [...path, key]);
     }
   };
   look(args, []);
