@@ -95,7 +95,7 @@ fn a_page_says_what_needs_attention_first_and_why() {
         &[
             "<h1>",
             "6 vehicles, 6 radars, 202 drives, 2026-01-02 to 2026-02-10 (UTC)",
-            "206 logs planned: 202 calibrated, 3 failed, 1 without a record; 1 unfinished line",
+            "206 logs planned: 202 calibrated, 3 failed, 1 without a record",
             "What needs attention",
             "5 radars: 1 misaligned, 1 knocked, 1 drifting, 1 unlike the others, 1 undecided.",
             "<b>misaligned</b> 1.400 \u{b1} 0.009 deg off nominal",
