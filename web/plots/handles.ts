@@ -13,6 +13,10 @@ export class Handles {
   #plot: Plot;
   #actions: HandleActions;
   #points: readonly HandlePoint[] = [];
+  /** Points as the owner last set them. */
+  #given: readonly HandlePoint[] = [];
+  /** Whether a key has moved a point that the owner has not set since. */
+  #ahead = false;
   #steps: HandleSteps = { x: [0.1, 1], y: [0.5, 3] };
   #buttons: HTMLButtonElement[] = [];
   #layer: HTMLElement;
@@ -27,7 +31,15 @@ export class Handles {
   }
 
   set(points: readonly HandlePoint[], steps: HandleSteps, title: string): void {
-    this.#points = points;
+    // An owner that computes first sets the old points until it is done. The next key must not start from those.
+    const unchanged =
+      points.length === this.#given.length &&
+      points.every((point, i) => point.x === this.#given[i]?.x && point.y === this.#given[i]?.y);
+    if (!this.#ahead || !unchanged) {
+      this.#points = points;
+      this.#ahead = false;
+    }
+    this.#given = points;
     this.#steps = steps;
     while (this.#buttons.length > points.length) this.#buttons.pop()?.remove();
     while (this.#buttons.length < points.length) this.#buttons.push(this.#button(this.#buttons.length));
@@ -121,9 +133,18 @@ export class Handles {
       const coarse = Number(event.shiftKey && event.key.startsWith('Arrow'));
       const x = point.x + this.#plot.direction * step[0] * (this.#steps.x[coarse] as number);
       const y = point.y + step[1] * (this.#steps.y[coarse] as number);
-      // The next key may come before the points are set again.
       this.#points = this.#points.map((one, i) => (i === index ? { ...one, x, y } : one));
+      this.#ahead = true;
       this.#actions.move(index, x, y);
+      // An owner that keeps the points where they are, at a limit for example, has its way after two frames.
+      requestAnimationFrame(() =>
+        requestAnimationFrame(() => {
+          if (!this.#ahead) return;
+          this.#ahead = false;
+          this.#points = this.#given;
+          this.#place();
+        }),
+      );
     } else if (event.key === 'Delete' || event.key === 'Backspace') this.#actions.remove(index);
     else return;
     event.preventDefault();
