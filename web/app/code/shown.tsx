@@ -10,9 +10,20 @@ export const shownCode = signal<{ Dialog: ComponentType<{ code: Code }>; code: C
 /** It could not be loaded, which a line that is down may do. */
 export const codeProblem = signal(false);
 
+/**
+ * Fails where the server does not answer. Chromium keeps a failed import for the life of the page, so nothing is imported
+ * before the server has answered. A service worker answers from its store.
+ */
+async function reachServer(): Promise<void> {
+  if (navigator.serviceWorker?.controller) return;
+  const { ok, status } = await fetch(import.meta.url, { method: 'HEAD', cache: 'no-store' });
+  if (!ok) throw new Error(`the server answered ${status}`);
+}
+
 export async function showCode(source: CodeSource): Promise<void> {
   codeProblem.value = false;
   try {
+    await reachServer();
     const [{ CodeDialog: Dialog }, make] = await Promise.all([import('./dialog.tsx'), source()]);
     shownCode.value = { Dialog, code: make() };
   } catch (error) {
