@@ -2,6 +2,7 @@
 // tests find it, and the status is 1. Without a nightly compiler there is nothing to run.
 import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync } from 'node:fs';
+import { availableParallelism } from 'node:os';
 import { join, relative } from 'node:path';
 import { parseArgs } from 'node:util';
 import { parse } from 'smol-toml';
@@ -77,11 +78,17 @@ await main(async () => {
   const started = performance.now();
   await run('cargo', [`+${toolchain}`, 'fuzz', 'build', ...options, ...features, ...alone]);
   console.log(`built in ${((performance.now() - started) / 1000).toFixed(0)} s`);
+  // As many targets at a time as there are cores: each uses one.
   const results = [];
-  for (const { name } of wanted) {
-    results.push(await fuzz(name, features, seconds));
-    console.log(`${name}: ${results.at(-1).runs} runs`);
-  }
+  const waiting = [...wanted.entries()];
+  const worker = async () => {
+    for (let one = waiting.shift(); one; one = waiting.shift()) {
+      const [at, { name }] = one;
+      results[at] = await fuzz(name, features, seconds);
+      console.log(`${name}: ${results[at].runs} runs`);
+    }
+  };
+  await Promise.all(Array.from({ length: availableParallelism() }, worker));
   console.log(`\n${fuzzTable(results)}`);
   const crashes = results.reduce((sum, result) => sum + result.crashes, 0);
   if (crashes > 0) throw new Error(`${crashes} crashes; their inputs are in fuzz/regressions`);

@@ -5,6 +5,7 @@
 
 use std::io;
 use std::net::{IpAddr, Shutdown, TcpStream};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -164,8 +165,14 @@ impl Drop for Ticket {
     }
 }
 
+/// Runs the work of one connection. A panic, which the panic hook has reported, ends this connection only.
+pub(crate) fn isolated(work: impl FnOnce()) {
+    // What is shared with other connections is behind locks that ignore poisoning.
+    let _ = catch_unwind(AssertUnwindSafe(work));
+}
+
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used, clippy::panic)]
 mod tests {
     use super::*;
     use std::net::TcpListener;
@@ -200,5 +207,20 @@ mod tests {
         assert_eq!(most_frequent(&places(&[(1, 0), (2, 0), (2, 0), (3, 0)])), Some((2, 1)));
         assert_eq!(most_frequent(&places(&[(1, 0), (2, 0)])), Some((1, 0)));
         assert_eq!(most_frequent(&[]), None);
+    }
+
+    #[test]
+    fn a_connection_that_panics_gives_up_its_place_and_no_other() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let connect = || TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        let admission = Admission::new(2);
+        let [one, other] = [(); 2].map(|()| admission.enter(connect()).unwrap());
+        assert!(one.admit() && other.admit());
+        isolated(move || {
+            let _held = one;
+            panic!("expected by this test");
+        });
+        assert_eq!(admission.clients(), 1);
+        assert!(admission.enter(connect()).unwrap().admit());
     }
 }

@@ -156,7 +156,10 @@ fn parameters_are_told_set_and_checked() {
             viewer.until(|viewer| viewer.statuses.len() > before);
             assert_eq!(viewer.statuses.last().unwrap()["level"], 2);
         }
-        assert!(viewer.statuses[0]["message"].as_str().unwrap().contains("from 0.01"));
+        let messages: Vec<_> = viewer.statuses.iter().map(|status| &status["message"]).collect();
+        assert!(messages[0].as_str().unwrap().contains("from 0.01"));
+        assert_eq!(messages[1], "rate is \"fast\"; expected a number");
+        assert_eq!(messages[2], "paused is 1; expected true or false");
     });
 }
 

@@ -4,7 +4,7 @@ use super::clients::{Mailbox, message, serve};
 use super::frames::{Counts, FrameAssembler};
 use super::messages::{Hello, text};
 use crate::LiveError;
-use crate::admission::{Admission, Ticket};
+use crate::admission::{Admission, Ticket, isolated};
 use crate::handshake::{Terms, handshake};
 use crate::origin::Origins;
 use boresight_formats::RadarConfig;
@@ -281,7 +281,7 @@ fn welcome(stream: TcpStream, admission: &Arc<Admission>, shared: &Arc<Shared>) 
     let mailbox = Arc::<Mailbox>::default();
     let stream = Arc::clone(ticket.stream());
     let (mine, shared) = (Arc::clone(&mailbox), Arc::clone(shared));
-    let work = move || client(ticket, &mine, &shared);
+    let work = move || isolated(|| client(ticket, &mine, &shared));
     let thread = thread::Builder::new().name("bridge client".into()).spawn(work).ok()?;
     Some(Client { mailbox, stream, thread })
 }

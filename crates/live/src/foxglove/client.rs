@@ -46,13 +46,29 @@ pub(super) fn run(ticket: Ticket, shared: &Shared) {
     };
     shared.tally.clients.fetch_add(1, Ordering::Relaxed);
     let outbox = Arc::new(Outbox::new(shared.options.queue, protocol == WITH_CONTROL));
-    shared.enter(&outbox);
-    let mut client = Client { socket, shared, outbox, lost_told: 0 };
+    let entered = Entered::new(shared, &outbox);
+    let mut client = Client { socket, shared, outbox: Arc::clone(&outbox), lost_told: 0 };
     client.serve();
-    let Client { socket, outbox, .. } = client;
-    shared.leave(&outbox);
+    let Client { socket, .. } = client;
+    drop(entered);
     shared.tally.lost.fetch_add(outbox.lost(), Ordering::Relaxed);
     shared.tally.bytes.fetch_add(socket.get_ref().written, Ordering::Relaxed);
+}
+
+/// A client's entry among those that results are sent to, which ends with this value, after a panic too.
+struct Entered<'a>(&'a Shared, &'a Arc<Outbox>);
+
+impl<'a> Entered<'a> {
+    fn new(shared: &'a Shared, outbox: &'a Arc<Outbox>) -> Self {
+        shared.enter(outbox);
+        Self(shared, outbox)
+    }
+}
+
+impl Drop for Entered<'_> {
+    fn drop(&mut self) {
+        self.0.leave(self.1);
+    }
 }
 
 struct Client<'a> {

@@ -6,6 +6,7 @@ use super::play::Play;
 use super::player::{Player, Watch};
 use super::shared::{Counts, Shared};
 use crate::LiveError;
+use crate::admission::isolated;
 use crate::origin::Origins;
 use boresight_core::describe::{self, Naming};
 use std::io::ErrorKind;
@@ -96,7 +97,10 @@ fn connect<'scope>(stream: TcpStream, scope: &'scope Scope<'scope, '_>, shared: 
     let started = shared
         .admission
         .enter(stream)
-        .and_then(|ticket| Builder::new().spawn_scoped(scope, move || client::run(ticket, shared)));
+        .and_then(|ticket| {
+            let work = move || isolated(|| client::run(ticket, shared));
+            Builder::new().spawn_scoped(scope, work)
+        });
     if started.is_err() {
         shared.tally.rejected.fetch_add(1, Ordering::Relaxed);
     }

@@ -36,7 +36,7 @@ fn lines_of(path: &Path, files: &Files) -> Result<Box<dyn BufRead + Send>, CliEr
     if path == Path::new("-") {
         return Ok(Box::new(BufReader::new(std::io::stdin())));
     }
-    files.note_input(path);
+    files.check_input(path)?;
     let file = File::open(path).map_err(|error| FleetError::file("read", path, error))?;
     Ok(Box::new(BufReader::with_capacity(1 << 18, file)))
 }

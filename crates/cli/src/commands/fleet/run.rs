@@ -5,6 +5,7 @@ use crate::arguments::{FleetRunArguments, WhichPart};
 use crate::error::CliError;
 use crate::files::{Files, make_folder};
 use crate::run::Run;
+use crate::terminal;
 use boresight_core::Part;
 use boresight_fleet::run::{RunCounts, run as run_jobs};
 use boresight_fleet::store::{self, Store, keys_of, line};
@@ -74,7 +75,7 @@ pub(super) fn run(arguments: &FleetRunArguments, files: &Files) -> Result<String
         "Part {part}: {} logs calibrated, {} failed, {found} had a record; {}\n",
         counts.done,
         counts.failed,
-        path.display(),
+        terminal::name(path),
     ))
 }
 
