@@ -47,7 +47,7 @@ pub enum CoreError {
         expected: String,
     },
     /// A NaN or an infinity where a finite number is needed.
-    #[error("{what} is {given} at index {index}; expected finite numbers")]
+    #[error("{what} is {} at index {index}; expected finite numbers", number(*given))]
     NotFinite {
         /// The argument.
         what: String,
@@ -67,7 +67,7 @@ pub enum CoreError {
         given: Vec<usize>,
     },
     /// A number outside its range.
-    #[error("{what} is {given}; expected {expected}")]
+    #[error("{what} is {}; expected {expected}", number(*given))]
     OutOfRange {
         /// The argument.
         what: String,
@@ -127,7 +127,7 @@ pub enum CoreError {
         given: String,
     },
     /// A matrix that has to be positive definite is not.
-    #[error("{what} is not positive definite: pivot {index} is {given}")]
+    #[error("{what} is not positive definite: pivot {index} is {}", number(*given))]
     NotPositiveDefinite {
         /// The matrix.
         what: String,
@@ -167,13 +167,13 @@ impl Diagnose for CoreError {
         match self {
             Self::Empty { what, expected } => Details::new(what, expected, "nothing"),
             Self::NotFinite { what, index, given } => {
-                Details::new(what, "finite numbers", format!("{given} at index {index}"))
+                Details::new(what, "finite numbers", format!("{} at index {index}", number(*given)))
             }
             Self::Shape { what, expected, given } => {
                 Details::new(what, expected, format!("{given:?}"))
             }
             Self::OutOfRange { what, expected, given } => {
-                Details::new(what, expected, given.to_string())
+                Details::new(what, expected, number(*given))
             }
             Self::TooLarge { what, measure, most, given } => {
                 Details::new(what, limits::most(measure, *most), format!("{given:.3e} {measure}"))
@@ -185,7 +185,7 @@ impl Diagnose for CoreError {
             Self::NotPositiveDefinite { what, index, given } => Details::new(
                 what,
                 "a positive definite matrix",
-                format!("pivot {given} in row {index}"),
+                format!("pivot {} in row {index}", number(*given)),
             ),
             Self::NotConverged { what, iterations } => Details::new(
                 what,
@@ -194,6 +194,13 @@ impl Diagnose for CoreError {
             ),
         }
     }
+}
+
+/// A number as messages show it: in scientific notation where it would otherwise have many zeros.
+#[must_use]
+pub fn number(value: f64) -> String {
+    let decimal = value == 0.0 || !value.is_finite() || (1e-5..1e16).contains(&value.abs());
+    if decimal { value.to_string() } else { format!("{value:e}") }
 }
 
 /// Finds what has a name among all there are.
@@ -269,4 +276,20 @@ pub fn check_single(what: &dyn Fn() -> String, numbers: &[f64]) -> Result<(), Co
         return Ok(());
     }
     check_finite(&what(), kept().map(f64::from))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extreme_numbers_are_shown_in_scientific_notation() {
+        let shown = [0.0, -0.25, 1e-5, 123_456.0, 1e16, -1e300, 5e-324, f64::INFINITY].map(number);
+        let expected = ["0", "-0.25", "0.00001", "123456", "1e16", "-1e300", "5e-324", "inf"];
+        assert_eq!(shown, expected);
+        let error =
+            CoreError::OutOfRange { what: "x".into(), expected: "less".into(), given: 1e300 };
+        assert_eq!(error.to_string(), "x is 1e300; expected less");
+        assert_eq!(error.details().given, "1e300");
+    }
 }

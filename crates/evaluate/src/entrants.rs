@@ -86,7 +86,7 @@ impl Entrants {
         }
         for (k, Network { name, .. }) in self.networks.iter().enumerate() {
             if self.networks[..k].iter().any(|known| known.name == *name) {
-                return Err(CoreError::Unknown {
+                return Err(CoreError::Incompatible {
                     what: "networks".into(),
                     expected: "each of a name of its own".into(),
                     given: format!("two of the name {name}"),

@@ -101,7 +101,7 @@ pub fn map_grid(waveform: &Waveform) -> GridOptions {
 /// Estimates the angles in the cells of a frame and adds them up to a map.
 ///
 /// # Errors
-/// What the method says of the snapshots; [`CoreError::Unknown`] for spectra of a method that has none.
+/// What the method says of the snapshots; [`CoreError::Incompatible`] for spectra of a method that has none.
 pub fn frame_map(
     cells: &FrameCells,
     estimator: &mut Estimator,
@@ -168,7 +168,7 @@ fn spectrum_map(
     if cells.cells.is_empty() {
         return Ok(image.to_map());
     }
-    let spectra = estimates.spectra.as_ref().ok_or_else(|| CoreError::Unknown {
+    let spectra = estimates.spectra.as_ref().ok_or_else(|| CoreError::Incompatible {
         what: "spectrum".into(),
         expected: "targets for this method".into(),
         given: estimates.method.name().into(),

@@ -39,7 +39,7 @@ impl EndToEnd {
         if self.counting.kind != Kind::Counting {
             let given = self.counting.name.clone();
             let (what, expected) = ("counting network".into(), "one that counts".into());
-            return Err(boresight_core::CoreError::Unknown { what, expected, given }.into());
+            return Err(boresight_core::CoreError::Incompatible { what, expected, given }.into());
         }
         Ok(())
     }

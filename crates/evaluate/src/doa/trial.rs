@@ -156,7 +156,7 @@ impl Plan {
         let named = |name: &str| methods.iter().any(|method| method == name);
         for network in networks {
             if network.kind.answers_target_set() {
-                return Err(CoreError::Unknown {
+                return Err(CoreError::Incompatible {
                     what: format!("use of the network {}", network.name),
                     expected: "a network that counts, or one of a region or its covariance".into(),
                     given: network.kind.name().into(),
@@ -173,7 +173,7 @@ impl Plan {
             flow.check()?;
             if let Some(given) = methods.first().cloned() {
                 let (what, expected) = ("methods from end to end".into(), "networks only".into());
-                return Err(CoreError::Unknown { what, expected, given }.into());
+                return Err(CoreError::Incompatible { what, expected, given }.into());
             }
         }
         let seed = options.seed;

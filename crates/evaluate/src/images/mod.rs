@@ -141,7 +141,7 @@ impl Experiment for ImagesExperiment {
         names.retain(|name| known.insert(name.clone()));
         let methods = names.iter().map(|name| images_by(name));
         let networks = self.entrants.networks.iter().map(|network| {
-            let other = || CoreError::Unknown {
+            let other = || CoreError::Incompatible {
                 what: format!("network {}", network.name),
                 expected: "one that finds angles in a snapshot".into(),
                 given: network.kind.name().into(),

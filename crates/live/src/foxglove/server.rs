@@ -94,13 +94,10 @@ fn accept<'scope>(
 }
 
 fn connect<'scope>(stream: TcpStream, scope: &'scope Scope<'scope, '_>, shared: &'scope Shared) {
-    let started = shared
-        .admission
-        .enter(stream)
-        .and_then(|ticket| {
-            let work = move || isolated(|| client::run(ticket, shared));
-            Builder::new().spawn_scoped(scope, work)
-        });
+    let started = shared.admission.enter(stream).and_then(|ticket| {
+        let work = move || isolated(|| client::run(ticket, shared));
+        Builder::new().spawn_scoped(scope, work)
+    });
     if started.is_err() {
         shared.tally.rejected.fetch_add(1, Ordering::Relaxed);
     }
