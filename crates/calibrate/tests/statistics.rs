@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use boresight_calibrate::signs::find_signs;
 use boresight_calibrate::statistics::{Row, SensorStatistics, log_statistics};
-use boresight_core::DriveLog;
+use boresight_core::drive::STATIC_LABEL;
+use boresight_core::{Detection, DriveLog};
 use boresight_formats::ReadReport;
 use boresight_formats::radarscenes::{Companions, read_path};
 use boresight_simulate::drive::{DriveOptions, DriveProfile, Scenario, simulate_drive};
@@ -54,6 +56,28 @@ fn white_noise_of_a_clean_drive_is_found_and_does_not_last() {
         assert!(angles.offset_rad.abs() < 0.1_f64.to_radians(), "{angles:?}");
         assert!((one.speed_ratio - 1.0).abs() < 0.003, "{}", one.speed_ratio);
     }
+}
+
+#[test]
+fn special_values_of_azimuth_change_neither_statistics_nor_signs() {
+    let options = DriveOptions { seed: 3, duration_s: 40.0, ..DriveOptions::default() };
+    let clean = simulate_drive(&options).unwrap().log;
+    let mut marked = clean.clone();
+    for scan in &mut marked.scans {
+        scan.labels.extend((!scan.labels.is_empty()).then_some(STATIC_LABEL));
+        let azimuth_rad = 655.35_f32.to_radians();
+        let marker =
+            scan.detections.first().map(|first| Detection { azimuth_rad, ..*first }).unwrap();
+        scan.detections.push(marker);
+    }
+    for (expected, found) in statistics(&clean).iter().zip(statistics(&marked)) {
+        assert_eq!(found.counts.azimuth_span_rad, expected.counts.azimuth_span_rad);
+        assert_eq!(format!("{:?}", found.noise), format!("{:?}", expected.noise));
+        assert_eq!(format!("{:?}", found.angles), format!("{:?}", expected.angles));
+        assert_eq!(found.counts.detections, expected.counts.detections + expected.counts.scans);
+    }
+    let signs = |log: &DriveLog| format!("{:?}", find_signs(log, GAP_S).unwrap());
+    assert_eq!(signs(&marked), signs(&clean));
 }
 
 #[test]

@@ -117,7 +117,8 @@ impl<'a> Followed<'a> {
         // elsewhere, that does not hold.
         let holds = |merged: &MergedAngle| {
             let apart = wrap(merged.angle_rad - self.history.angle_rad).abs();
-            self.history.drift.is_none()
+            joint.converged
+                && self.history.drift.is_none()
                 && apart <= APART * merged.sigma_rad.hypot(self.history.sigma_rad)
         };
         let (source, angle_rad, sigma_rad) = match merged.filter(|merged| holds(merged)) {

@@ -28,9 +28,10 @@ use crate::{CalibrateError, NormalEquations};
 use boresight_core::CoreError;
 use boresight_core::describe::{self, Naming};
 use boresight_core::limits;
-use elimination::{About, Effects, Layout, Residual, Solution};
+use elimination::{About, Layout, Residual};
 use gather::{Reference, gather};
 use serde::Serialize;
+use vehicle::Outcome;
 
 /// Unknowns of the car: inverse scale, bias times inverse scale, slip gradient, delay.
 const CAR: usize = UNKNOWNS - 1;
@@ -59,6 +60,9 @@ pub struct MergedVehicle {
     pub spreads: [Option<f64>; CAR],
     /// The drives.
     pub drives: Vec<MergedDrive>,
+    /// Whether what drives differ by had stopped changing when the iteration ended. Otherwise its bound was reached, and the standard
+    /// deviations may be wrong.
+    pub converged: bool,
 }
 
 /// An angle of the vehicle.
@@ -115,13 +119,11 @@ pub struct MergedPart {
     pub weight: f64,
 }
 
-/// A solution with all that belongs to it, in the unknowns of the equations.
+/// A solution with what it refers to.
 struct Settled {
     layout: Layout,
     reference: Reference,
-    solution: Solution,
-    effects: Effects,
-    about: Vec<About>,
+    outcome: Outcome,
     told: Vec<Account>,
 }
 
@@ -160,9 +162,9 @@ fn settle(
     let operations = size.powi(3) + drives.iter().map(each).sum::<f64>();
     limits::check_operations("the joint estimate", vehicle::ROUNDS as f64 * operations)?;
     let (mut vehicle, reference) = gather(radars, drives, options)?;
-    let (solution, effects, about) = vehicle.settle()?;
+    let outcome = vehicle.settle()?;
     let mut told = vec![Account::default(); radars.len()];
-    for ((drive, given), about) in vehicle.drives.iter().zip(drives).zip(&about) {
+    for ((drive, given), about) in vehicle.drives.iter().zip(drives).zip(&outcome.about) {
         for ((part, DrivePart { angle, equations }), about) in
             drive.parts.iter().zip(given).zip(&about.parts).filter(|((p, _), _)| p.tells())
         {
@@ -173,7 +175,7 @@ fn settle(
             account.floor += information * equations.floor_rad * equations.floor_rad;
         }
     }
-    Ok(Settled { layout: vehicle.layout, reference, solution, effects, about, told })
+    Ok(Settled { layout: vehicle.layout, reference, outcome, told })
 }
 
 impl Settled {
@@ -190,12 +192,14 @@ impl Settled {
     /// Steps and covariance of the car's unknowns that drives share.
     fn shared(&self) -> (CarVector, CarMatrix) {
         let (angles, size) = (self.layout.radar.len(), self.layout.size());
-        let at = |i: usize, j: usize| self.solution.covariance[(angles + i) * size + angles + j];
-        let step = std::array::from_fn(|i| self.solution.x[angles + i]);
+        let at =
+            |i: usize, j: usize| self.outcome.solution.covariance[(angles + i) * size + angles + j];
+        let step = std::array::from_fn(|i| self.outcome.solution.x[angles + i]);
         (step, std::array::from_fn(|i| std::array::from_fn(|j| at(i, j))))
     }
 
     fn tell(&self, radars: &[u8]) -> MergedVehicle {
+        let Outcome { solution, effects, about, converged } = &self.outcome;
         let size = self.layout.size();
         let floor = |angle: usize| {
             let account = &self.told[angle];
@@ -209,21 +213,21 @@ impl Settled {
                     _ => {
                         let common = radars[i] == radars[j];
                         let beyond = if common { floor(i) * floor(j) } else { 0.0 };
-                        self.solution.covariance[i * size + j] + beyond
+                        solution.covariance[i * size + j] + beyond
                     }
                 };
                 (0..radars.len()).map(entry).collect()
             })
             .collect();
         let (step, known) = self.shared();
-        let anything = self.about.iter().any(|about| !about.parts.is_empty());
-        let spread = |i: usize| self.layout.shared[i].then(|| self.effects.car[i].sqrt());
+        let anything = about.iter().any(|about| !about.parts.is_empty());
+        let spread = |i: usize| self.layout.shared[i].then(|| effects.car[i].sqrt());
         MergedVehicle {
             angles: (0..radars.len())
                 .map(|i| MergedAngle {
-                    angle_rad: wrap(self.reference.angles[i] + self.solution.x[i]),
+                    angle_rad: wrap(self.reference.angles[i] + solution.x[i]),
                     sigma_rad: covariance[i][i].max(0.0).sqrt(),
-                    drive_sigma_rad: self.effects.angle[self.layout.radar[i]].sqrt(),
+                    drive_sigma_rad: effects.angle[self.layout.radar[i]].sqrt(),
                     drives: self.told[i].drives,
                 })
                 .collect(),
@@ -234,7 +238,8 @@ impl Settled {
                 CarUnknowns::default()
             },
             spreads: std::array::from_fn(spread),
-            drives: self.about.iter().map(|about| self.drive(about)).collect(),
+            drives: about.iter().map(|about| self.drive(about)).collect(),
+            converged: *converged,
         }
     }
 

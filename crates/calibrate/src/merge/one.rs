@@ -37,16 +37,16 @@ pub fn merge(drives: &[Recursive]) -> Result<AngleEstimate, CalibrateError> {
     let settled = settle(&[0], &parts, &MergeOptions::default())?;
     let (mut step, known) = settled.shared();
     let mut variance: [f64; UNKNOWNS - 1] = std::array::from_fn(|i| known[i][i]);
-    if let Some(last) = settled.about.last() {
+    if let Some(last) = settled.outcome.about.last() {
         for i in (0..step.len()).filter(|i| !settled.layout.shared[*i]) {
             step[i] = last.car[i];
             variance[i] = last.car_variance[i];
         }
     }
     // Angles come first among the unknowns, and this is the only one.
-    let at = |i: usize, j: usize| settled.solution.covariance[i * UNKNOWNS + j];
+    let at = |i: usize, j: usize| settled.outcome.solution.covariance[i * UNKNOWNS + j];
     let x: Vector = std::array::from_fn(|i| match i {
-        0 => settled.reference.angles[0] + settled.solution.x[0],
+        0 => settled.reference.angles[0] + settled.outcome.solution.x[0],
         i => settled.reference.car[i - 1] + step[i - 1],
     });
     let covariance: Matrix = std::array::from_fn(|i| {

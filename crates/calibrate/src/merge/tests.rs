@@ -1,5 +1,6 @@
 //! The elimination against least squares of all unknowns at once.
 
+use super::elimination::Effects;
 use super::*;
 use crate::recursive::information::Vector;
 use boresight_core::{Diagnose, Random};
@@ -223,16 +224,16 @@ fn compare(settled: &Settled, dense: &Dense, drives: usize) {
     let is_told = |i: usize| i < 3 || shared[i - 3];
     for i in (0..size).filter(|i| is_told(*i)) {
         let x = if i < 3 {
-            let angle = settled.reference.angles[i] + settled.solution.x[i];
+            let angle = settled.reference.angles[i] + settled.outcome.solution.x[i];
             level[i] + wrap(angle - level[i])
         } else {
-            settled.reference.car[i - 3] + settled.solution.x[i]
+            settled.reference.car[i - 3] + settled.outcome.solution.x[i]
         };
         near(x, dense.x[i], 0.01 * UNITS[if i < 3 { 0 } else { i - 2 }], "unknown");
         for j in (0..size).filter(|j| is_told(*j)) {
             let [ii, jj] = [i, j].map(|k| dense.covariance[k][k]);
             near(
-                settled.solution.covariance[i * size + j],
+                settled.outcome.solution.covariance[i * size + j],
                 dense.covariance[i][j],
                 (ii * jj).sqrt(),
                 "covariance",
@@ -240,7 +241,7 @@ fn compare(settled: &Settled, dense: &Dense, drives: usize) {
         }
     }
     for drive in 0..drives {
-        let about = &settled.about[drive];
+        let about = &settled.outcome.about[drive];
         for i in 0..CAR {
             let at = size + drive * size + i;
             let (both, own) = (3 + i, at);
@@ -270,14 +271,16 @@ fn eliminated_or_all_at_once_the_solution_is_the_same() {
     for (seed, sharing) in SHARINGS.into_iter().enumerate() {
         let given = given(seed as u64, 4);
         let settled = settle(&RADARS, &given.drives, &options(sharing)).unwrap();
+        assert!(settled.outcome.converged);
         let weights: Vec<Vec<f64>> = settled
+            .outcome
             .about
             .iter()
             .map(|about| about.parts.iter().map(|part| part.weight).collect())
             .collect();
         let tau: [f64; 3] =
-            std::array::from_fn(|i| settled.effects.angle[settled.layout.radar[i]].sqrt());
-        let spread = settled.effects.car.map(f64::sqrt);
+            std::array::from_fn(|i| settled.outcome.effects.angle[settled.layout.radar[i]].sqrt());
+        let spread = settled.outcome.effects.car.map(f64::sqrt);
         let at_once =
             |without| dense(&given, &weights, settled.layout.shared, &tau, &spread, without);
         compare(&settled, &at_once(None), 4);
@@ -293,7 +296,7 @@ fn eliminated_or_all_at_once_the_solution_is_the_same() {
                 + own
                 + tau[angle].powi(2)
                 + part.doubt_rad.powi(2);
-            let deviations = settled.about[drive].parts[angle].deviations();
+            let deviations = settled.outcome.about[drive].parts[angle].deviations();
             near(deviations, others.x[error] / variance.sqrt(), 1.0, "deviations");
         }
     }
@@ -319,7 +322,8 @@ fn with_differences_given_the_solution_is_the_same() {
             let at_once = dense(&given, &weights, options.shared(), &tau, &spread, None);
             let told = vec![];
             let layout = vehicle.layout;
-            let settled = Settled { layout, reference, solution, effects, about, told };
+            let outcome = Outcome { solution, effects, about, converged: true };
+            let settled = Settled { layout, reference, outcome, told };
             compare(&settled, &at_once, 4);
         }
     }

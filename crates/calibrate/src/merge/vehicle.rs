@@ -37,6 +37,17 @@ pub(super) struct Vehicle {
     pub(super) expected_drive: f64,
 }
 
+/// A solution with all that belongs to it, in the unknowns of the equations.
+#[derive(Debug)]
+pub(super) struct Outcome {
+    pub(super) solution: Solution,
+    pub(super) effects: Effects,
+    /// How each drive lies about the solution.
+    pub(super) about: Vec<About>,
+    /// Whether the rounds ended before [`ROUNDS`].
+    pub(super) converged: bool,
+}
+
 /// What the sum over drives says of a variance: the slope of the log-likelihood, its two parts, and its expected curvature.
 #[derive(Debug, Clone, Copy, Default)]
 struct Scatter {
@@ -101,23 +112,24 @@ impl Vehicle {
         Ok(Solution { x, covariance })
     }
 
-    /// Solution, differences, and how each drive lies about it, all of which belong together.
-    pub(super) fn settle(&mut self) -> Result<(Solution, Effects, Vec<About>), CalibrateError> {
+    /// Solves for the vehicle and what drives differ by in turns, until neither changes.
+    pub(super) fn settle(&mut self) -> Result<Outcome, CalibrateError> {
         let mut effects = self.start();
+        let mut converged = false;
         for _ in 0..ROUNDS {
             let solution = self.solve(&effects)?;
             let next = self.weigh(&solution, &effects)?;
             let before = effects.angle.iter().chain(&effects.car);
             let after = next.angle.iter().chain(&next.car);
-            let settled = before.zip(after).all(|(a, b)| (a - b).abs() <= SETTLED * a);
+            converged = before.zip(after).all(|(a, b)| (a - b).abs() <= SETTLED * a);
             effects = next;
-            if settled {
+            if converged {
                 break;
             }
         }
         let solution = self.solve(&effects)?;
         let about = self.about(&solution, &effects)?;
-        Ok((solution, effects, about))
+        Ok(Outcome { solution, effects, about, converged })
     }
 
     /// How each drive lies about a solution.

@@ -8,6 +8,7 @@
 //! hang on that of azimuths, nor either of them on the mounting.
 
 use super::tally::Tally;
+use crate::intake;
 use crate::statistics::frames::Frame;
 use boresight_core::{Detection, DriveLog, Scan};
 
@@ -83,7 +84,7 @@ pub(super) fn passing(
 
 fn within(detection: &Detection) -> bool {
     let [least, most] = RANGES_M;
-    (least..=most).contains(&f64::from(detection.range_m)) && detection.azimuth_rad.is_finite()
+    (least..=most).contains(&f64::from(detection.range_m)) && intake::is_valid(detection)
 }
 
 /// Places of the standing detections of a scan, m.

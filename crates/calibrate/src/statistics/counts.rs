@@ -2,6 +2,7 @@
 
 use super::robust::{deviation, median, quantile};
 use super::{Counts, Row, Untold};
+use crate::intake;
 use boresight_core::Scan;
 use boresight_core::drive::STATIC_LABEL;
 
@@ -19,8 +20,8 @@ pub(super) fn counts(scans: &[&Scan], untold: &mut Vec<Untold>) -> Counts {
     }
     let mut numbers: Vec<f64> = scans.iter().map(|scan| scan.detections.len() as f64).collect();
     let detections: f64 = numbers.iter().sum();
-    let azimuths = scans.iter().flat_map(|scan| &scan.detections).map(|d| f64::from(d.azimuth_rad));
-    let span = azimuths.filter(|azimuth| azimuth.is_finite()).fold(None, |span, azimuth| {
+    let valid = scans.iter().flat_map(|scan| &scan.detections).filter(|d| intake::is_valid(d));
+    let span = valid.map(|d| f64::from(d.azimuth_rad)).fold(None, |span, azimuth| {
         let [low, high] = span.unwrap_or([azimuth; 2]);
         Some([f64::min(low, azimuth), f64::max(high, azimuth)])
     });

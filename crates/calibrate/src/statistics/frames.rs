@@ -1,5 +1,6 @@
 //! The motion of a radar in each of its scans, and what is left of its detections.
 
+use crate::intake;
 use crate::{CalibrateError, CalibrationOptions, Motion, MotionEstimator, MotionMethod};
 use boresight_core::{Detection, Scan};
 
@@ -45,7 +46,7 @@ impl Frame<'_> {
         self.motion.velocity_mps[0].hypot(self.motion.velocity_mps[1])
     }
 
-    /// Residuals of the detections labelled static; of all, where there are no labels.
+    /// Residuals of the valid detections labelled static; of all valid ones, where there are no labels.
     pub(crate) fn residuals(&self) -> impl Iterator<Item = Residual> {
         let [vx, vy] = self.motion.velocity_mps;
         let labels = &self.scan.labels;
@@ -54,18 +55,17 @@ impl Frame<'_> {
             .iter()
             .enumerate()
             .filter(|(i, _)| labels.get(*i).is_none_or(|label| *label == STATIC_LABEL))
-            .filter_map(move |(_, detection)| residual(detection, vx, vy))
+            .filter(|(_, detection)| intake::is_valid(detection))
+            .map(move |(_, detection)| residual(detection, vx, vy))
     }
 }
 
-fn residual(detection: &Detection, vx: f64, vy: f64) -> Option<Residual> {
+fn residual(detection: &Detection, vx: f64, vy: f64) -> Residual {
     let azimuth_rad = f64::from(detection.azimuth_rad);
     let (sin, cos) = azimuth_rad.sin_cos();
-    let residual_mps = -f64::from(detection.range_rate_mps) - vx * cos - vy * sin;
-    let slope_mps = vy * cos - vx * sin;
-    (residual_mps.is_finite() && slope_mps.is_finite()).then_some(Residual {
+    Residual {
         azimuth_rad,
-        residual_mps,
-        slope_mps,
-    })
+        residual_mps: -f64::from(detection.range_rate_mps) - vx * cos - vy * sin,
+        slope_mps: vy * cos - vx * sin,
+    }
 }
