@@ -147,17 +147,18 @@ export function openMetrics(vehicles, connections) {
 function family(name, type, help, subjects, samples) {
   const unit = /_(degrees|seconds)$/.exec(name)?.[1];
   const metric = type === 'counter' ? `${name}_total` : name;
-  let text = `# TYPE ${name} ${type}\n${unit ? `# UNIT ${name} ${unit}\n` : ''}# HELP ${name} ${help}\n`;
+  const parts = [`# TYPE ${name} ${type}\n${unit ? `# UNIT ${name} ${unit}\n` : ''}# HELP ${name} ${help}\n`];
   let labels = '';
   /** @type {Write} */
   const write = (value, more) => {
     if (value === null || value === undefined) return;
     const all = labels && more ? `${labels},${more}` : labels || more;
-    text += all ? `${metric}{${all}} ${written(value)}\n` : `${metric} ${written(value)}\n`;
+    if (all) parts.push(metric, '{', all, '} ', written(value), '\n');
+    else parts.push(metric, ' ', written(value), '\n');
   };
   for (const subject of subjects) {
     labels = subject.labels;
     samples(subject.of, write);
   }
-  return text;
+  return parts.join('');
 }
