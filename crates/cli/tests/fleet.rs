@@ -380,6 +380,7 @@ fn pipes_are_no_logs_and_no_files_of_records() {
     let plan = planned(&top, &[]);
     let out = top.join("out");
     assert_eq!(code(&boresight(&["fleet", "run", text(&alone), "--out", text(&out)])), "file");
+    assert!(!out.exists());
     std::fs::create_dir_all(&out).unwrap();
     pipe(&out.join("records.jsonl"));
     assert_eq!(code(&boresight(&["fleet", "run", text(&plan), "--out", text(&out)])), "file");

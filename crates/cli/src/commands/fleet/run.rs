@@ -48,12 +48,13 @@ pub(super) fn run(arguments: &FleetRunArguments, files: &Files) -> Result<String
         run.finish();
         return Ok(String::new());
     };
+    // A plan that cannot be read leaves no folder behind.
+    let plan = Jobs::new(lines_of(&arguments.plan, files)?, &arguments.plan);
     make_folder(folder)?;
     let path = folder.join(part.file_name(store::NAME));
     let mut store = Store::open(&path, files.force())?;
     // Records of other parts count too: who runs with another number of parts goes on with what is there.
     let there: HashSet<String> = keys_of(folder, arguments.retry)?;
-    let plan = Jobs::new(lines_of(&arguments.plan, files)?, &arguments.plan);
     let mut jobs = vec![];
     let (mut found, mut planned) = (0_u64, HashSet::new());
     for job in of_part(plan, part) {
