@@ -14,7 +14,6 @@ from ..command import Place
 from ..errors import BoresightError
 from ..results import CalibrationResult
 
-
 CHECKSUM = re.compile(rb',"crc32":"([0-9a-f]{8})"}$')
 
 
