@@ -28,10 +28,23 @@ function parse(hash: string): Route {
 /** Changes when the address is edited, a link is followed, or one goes back. */
 export const route = signal<Route>(parse(location.hash));
 
+/** The address that {@link route} is of. */
+let known = location.hash;
+
 addEventListener('hashchange', () => {
   flush();
-  route.value = parse(location.hash);
+  known = location.hash;
+  route.value = parse(known);
 });
+
+// A link that is followed must not be overtaken by the state of what it leaves, which then is in the history instead.
+addEventListener(
+  'click',
+  ({ target }) => {
+    if (target instanceof Element && target.closest('a[href]')) write();
+  },
+  { capture: true },
+);
 
 /** The address of what is shown now, which the browser may be told of only later. */
 export function link(): string {
@@ -72,16 +85,19 @@ function flush(): void {
   pending = null;
 }
 
+/** Puts what is pending into the address, unless that has changed and its event is still to come. */
+function write(): void {
+  const shown = pending;
+  flush();
+  if (!shown || location.hash !== known || parse(known).page !== shown.page) return;
+  history.replaceState(null, '', pageAddress(shown.page, shown.params));
+  known = location.hash;
+}
+
 /** Puts the state into the address without a new history entry; browsers limit how often. */
 export function writeParams(page: Page, params: URLSearchParams): void {
   last.set(page, params);
   if (page === route.peek().page) shownParams.value = params;
   pending = { page, params };
-  timer ??= setTimeout(() => {
-    const write = pending;
-    flush();
-    if (write && parse(location.hash).page === write.page) {
-      history.replaceState(null, '', pageAddress(write.page, write.params));
-    }
-  }, 150);
+  timer ??= setTimeout(write, 150);
 }
