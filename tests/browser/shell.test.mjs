@@ -27,6 +27,20 @@ browserTest(
 );
 
 browserTest(
+  'shell: a link that is followed right after a change is shown, and back is the change',
+  {},
+  async ({ page }) => {
+    await page.waitForSelector('[data-plot="spectrum"]');
+    // Less than the 150 ms after which the change is in the address.
+    await page.locator('select[name="array"]').selectOption('awr1642');
+    await page.evaluate(() => document.querySelectorAll('.introduction a')[1].click());
+    await parametersWith(page, (params) => params.get('fluctuation') === 'coherent');
+    await page.goBack();
+    await parametersWith(page, (params) => params.get('array') === 'awr1642');
+  },
+);
+
+browserTest(
   'shell: colours follow the system until they are chosen, and the choice lasts',
   { scheme: 'dark' },
   async ({ page }) => {
