@@ -37,7 +37,6 @@ mod batch_columns;
 pub mod bounds;
 mod capon;
 mod checks;
-mod coincident;
 mod cosines;
 mod cost;
 pub mod counted;
