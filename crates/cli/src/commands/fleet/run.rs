@@ -75,7 +75,7 @@ pub(super) fn run(arguments: &FleetRunArguments, files: &Files) -> Result<String
         "Part {part}: {} logs calibrated, {} failed, {found} had a record; {}\n",
         counts.done,
         counts.failed,
-        terminal::name(path),
+        terminal::name(&path),
     ))
 }
 
