@@ -37,6 +37,7 @@ mod batch_columns;
 pub mod bounds;
 mod capon;
 mod checks;
+mod coincident;
 mod cosines;
 mod cost;
 pub mod counted;

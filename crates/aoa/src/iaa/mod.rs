@@ -7,6 +7,9 @@
 //! since what is there is in the data as well. Directions of sources are between the points of the grid,
 //! and their powers are fitted there ([`peak_powers`]).
 //!
+//! Coincident elements of the array are averaged first: what they differ by is noise, which no plane wave explains
+//! ([`crate::coincident`]).
+//!
 //! Thresholding makes the spectrum sparse. After each iteration, with `t` the threshold below the strongest,
 //! `P -> P` where `P >= t max P`, else 0 (hard), or `P -> max(P - t max P, 0)` (soft). Without its weak part
 //! the spectrum would imply a covariance of low rank and no noise, which nothing inverts to use. So what is taken away
@@ -24,6 +27,7 @@ mod residues;
 mod split;
 
 use crate::checks::{ambiguity, check_array, settle};
+use crate::coincident::Coincident;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Source, Warning};
@@ -61,11 +65,15 @@ pub(crate) struct Iaa {
     /// What the last threshold took off the element power.
     removed: f64,
     ambiguity: Option<Warning>,
+    /// Where the array has coincident elements.
+    coincident: Option<Coincident>,
 }
 
 impl Iaa {
     pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(Method::Iaa, array, options)?;
+        let coincident = Coincident::new(array)?;
+        let array = coincident.as_ref().map_or(array, Coincident::array);
         let grid = Grid::new(array, options);
         let kernel: Box<dyn Kernel> = match (options.iaa.form, array.lattice()) {
             (IaaForm::Auto | IaaForm::Fast, Some(lattice)) => {
@@ -103,6 +111,7 @@ impl Iaa {
             removed: 0.0,
             grid,
             ambiguity: ambiguity(array, options),
+            coincident,
         })
     }
 
@@ -181,6 +190,8 @@ impl Plan for Iaa {
         values.clear();
         values.resize(self.grid.len(), 0.0);
         out.sources.clear();
+        let mut coincident = self.coincident.take();
+        let y = coincident.as_mut().map_or(y, |coincident| coincident.average(y));
         if let Some(largest) = scale_of(y) {
             let (loaded, iterations) = self.iterate(y, 1.0 / largest);
             out.iterations = iterations;
@@ -195,6 +206,7 @@ impl Plan for Iaa {
             );
             values.iter_mut().for_each(|p| *p = power_out(*p, largest));
         }
+        self.coincident = coincident;
         settle(out, None);
         Ok(())
     }
