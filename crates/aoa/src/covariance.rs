@@ -135,7 +135,11 @@ impl CovariancePlan {
                 },
             )?;
         }
-        let sizes = CountSizes { vectors, forward_backward: self.forward_backward };
+        let sizes = CountSizes {
+            vectors,
+            subarrays: self.subarrays,
+            forward_backward: self.forward_backward,
+        };
         Prepared::new(matrix, sizes, snapshots)
     }
 

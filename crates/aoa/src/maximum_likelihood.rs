@@ -8,17 +8,18 @@
 use crate::checks::{ambiguity, check_array, check_sources, conclude};
 use crate::cosines::{Geometry, Point};
 use crate::counting::Counting;
-use crate::covariance::CovariancePlan;
+use crate::covariance::{CovariancePlan, Prepared};
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Warning};
-use crate::gauss_newton::{Limits, refine_points};
+use crate::gauss_newton::{Limits, Refined, refine_points};
 use crate::grid::Grid;
 use crate::method::Method;
 use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use crate::powers::sources_at;
 use crate::quadratic::QuadraticSpectrum;
+use crate::residual_count::ResidualCount;
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::{Array, Complex64};
 use ndarray::Array2;
@@ -42,6 +43,8 @@ pub(crate) struct MaximumLikelihood {
     covariance: CovariancePlan,
     spectrum: QuadraticSpectrum,
     wanted: Counting,
+    /// Counts sources in a single vector, whose covariance has no eigenvalues to test.
+    single: Option<ResidualCount>,
     most: usize,
     limits: Limits,
     /// Largest `|sin(azimuth)|` reported: the field of view and a step of the grid.
@@ -57,17 +60,49 @@ impl MaximumLikelihood {
         let grid = Grid::new(covariance.array(), options);
         let most = (covariance.array().len() - 1).min(MAX_SOURCES).min(grid.len());
         check_sources(method, options.sources, most)?;
+        let geometry = Geometry::new(covariance.array());
+        let single = ResidualCount::new(covariance.array(), &geometry, options, most);
         Ok(Self {
             array: array.clone(),
-            geometry: Geometry::new(covariance.array()),
+            geometry,
             spectrum: QuadraticSpectrum::new(covariance.array(), &grid),
             covariance,
             wanted: Counting::new(options),
+            single: Some(single),
             most,
             limits: Limits { iterations: options.max_iterations, tolerance: options.tolerance },
             widest: options.field_of_view_rad.sin() + 2.0 / options.grid_points as f64,
             ambiguity: ambiguity(array, options),
         })
+    }
+
+    /// How many sources to look for in a covariance of mean element power 1.
+    fn count(&mut self, prepared: &Prepared) -> Result<usize, AoaError> {
+        if let Some(known) = self.wanted.known() {
+            return Ok(known);
+        }
+        if self.wanted.is_auto()
+            && prepared.sizes.vectors == 1
+            && let Some(mut single) = self.single.take()
+        {
+            let matrix = &prepared.matrix;
+            let count = single.count(|sources| match sources {
+                0 => matrix.nrows() as f64,
+                _ => self.fit(matrix, sources).1.residual_power,
+            });
+            self.single = Some(single);
+            return Ok(count);
+        }
+        let values = hermitian_eigen(prepared.matrix.view())?.values;
+        Ok(self.wanted.resolve(&values.to_vec(), prepared.sizes, self.most))
+    }
+
+    /// The best fit of up to so many sources.
+    fn fit(&mut self, matrix: &Array2<Complex64>, sources: usize) -> (Vec<Point>, Refined) {
+        let chosen = self.search(matrix, sources);
+        let points = chosen.iter().map(|&g| self.geometry.point(self.spectrum.grid().direction(g)));
+        let whole = Data::Covariance { matrix: matrix.view(), snapshots: 1 };
+        refine_points(&self.geometry, points.collect(), whole, self.limits)
     }
 
     /// Alternating projection: grid points of up to `count` sources.
@@ -188,33 +223,17 @@ fn project(
 impl Plan for MaximumLikelihood {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
         let mut prepared = self.covariance.prepare(data)?;
-        let count = match self.wanted.known() {
-            Some(count) => count,
-            None => {
-                let values = hermitian_eigen(prepared.matrix.view())?.values;
-                self.wanted.resolve(&values.to_vec(), prepared.sizes, self.most)
-            }
-        };
         let mut warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
         if prepared.power <= f64::MIN_POSITIVE {
             return Ok(conclude(Method::MaximumLikelihood, vec![], None, None, 0, warnings));
         }
         let power = prepared.power;
         prepared.matrix.mapv_inplace(|z| z / power);
-        let chosen = self.search(&prepared.matrix, count);
-        let mut iterations = 0;
-        let mut points: Vec<Point> = chosen
-            .iter()
-            .map(|&g| self.geometry.point(self.spectrum.grid().direction(g)))
-            .collect();
-        if !points.is_empty() {
-            let whole = Data::Covariance { matrix: prepared.matrix.view(), snapshots: 1 };
-            let (refined, outcome) = refine_points(&self.geometry, points, whole, self.limits);
-            points = refined;
-            iterations = outcome.iterations;
-            if !outcome.converged {
-                warnings.push(Warning::NotConverged { iterations });
-            }
+        let count = self.count(&prepared)?;
+        let (points, outcome) = self.fit(&prepared.matrix, count);
+        let iterations = outcome.iterations;
+        if !points.is_empty() && !outcome.converged {
+            warnings.push(Warning::NotConverged { iterations });
         }
         let directions: Vec<_> = points
             .iter()

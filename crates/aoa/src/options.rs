@@ -12,6 +12,9 @@ use std::f64::consts::FRAC_PI_2;
 pub enum SourceCount {
     /// It is known.
     Known(usize),
+    /// By a test at the false-alarm probability of [`EstimatorOptions::nomp`]: by the largest-root test on the eigenvalues,
+    /// or by what each further source explains of a single vector (maximum likelihood).
+    Auto,
     /// Akaike's information criterion on the eigenvalues.
     Aic,
     /// Minimum description length on the eigenvalues.
@@ -120,7 +123,7 @@ pub struct NompOptions {
 #[serde(default)]
 pub struct EstimatorOptions {
     /// Number of sources, or how they are counted, for methods that need it.
-    #[option(default = SourceCount::Mdl, range = 1..=1024)]
+    #[option(default = SourceCount::Auto, range = 1..=1024)]
     pub sources: SourceCount,
     /// Half width of the field of view in azimuth.
     #[option(default = FRAC_PI_2, range = 0.1..=90)]
@@ -223,24 +226,28 @@ impl Serialize for NetworkName {
 }
 
 /// The ways of counting, by name.
-const COUNTED: [(&str, SourceCount); 3] =
-    [("aic", SourceCount::Aic), ("mdl", SourceCount::Mdl), ("network", SourceCount::Network)];
+const COUNTED: [(&str, SourceCount); 4] = [
+    ("auto", SourceCount::Auto),
+    ("aic", SourceCount::Aic),
+    ("mdl", SourceCount::Mdl),
+    ("network", SourceCount::Network),
+];
 
 /// What can be given, in words.
-const EXPECTED: &str = "a number, 'aic', 'mdl' or 'network'";
+const EXPECTED: &str = "a number, 'auto', 'aic', 'mdl' or 'network'";
 
 impl Described for SourceCount {
     const KIND: Kind = Kind::Special(&Special {
         expected: EXPECTED,
-        typescript: "number | 'aic' | 'mdl' | 'network'",
-        schema: r#"{ "anyOf": [{ "type": "integer", "minimum": 1, "maximum": 1024 }, { "enum": ["aic", "mdl", "network"] }] }"#,
-        flag: "N|aic|mdl|network",
+        typescript: "number | 'auto' | 'aic' | 'mdl' | 'network'",
+        schema: r#"{ "anyOf": [{ "type": "integer", "minimum": 1, "maximum": 1024 }, { "enum": ["auto", "aic", "mdl", "network"] }] }"#,
+        flag: "N|auto|aic|mdl|network",
     });
 
     fn check(&self, range: Option<Range>, at: &At<'_>) -> Result<(), CoreError> {
         match self {
             Self::Known(count) => count.check(range, at),
-            Self::Aic | Self::Mdl | Self::Network => Ok(()),
+            Self::Auto | Self::Aic | Self::Mdl | Self::Network => Ok(()),
         }
     }
 }
@@ -286,6 +293,6 @@ impl Visitor<'_> for CountVisitor {
         let known = COUNTED.iter().find(|(name, _)| *name == given);
         known
             .map(|(_, way)| *way)
-            .ok_or_else(|| E::unknown_variant(given, &["aic", "mdl", "network"]))
+            .ok_or_else(|| E::unknown_variant(given, &["auto", "aic", "mdl", "network"]))
     }
 }

@@ -61,7 +61,11 @@ impl SingleSnapshotMusic {
         if self.forward_backward {
             matrix = forward_backward(matrix.view());
         }
-        let sizes = CountSizes { vectors: windows, forward_backward: self.forward_backward };
+        let sizes = CountSizes {
+            vectors: windows,
+            subarrays: windows,
+            forward_backward: self.forward_backward,
+        };
         Prepared::new(matrix, sizes, 1)
     }
 }

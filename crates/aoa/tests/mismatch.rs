@@ -59,7 +59,8 @@ fn refined(array: &Array, y: Array2<Complex64>, mismatch_db: Option<f64>) -> usi
 }
 
 fn reversed(criterion: Criterion, y: Array2<Complex64>, mismatch_db: Option<f64>) -> usize {
-    let options = CountOptions { criterion, forward_backward: true, mismatch_db };
+    let options =
+        CountOptions { criterion, forward_backward: true, mismatch_db, ..CountOptions::default() };
     count_sources_in(Data::Snapshots(y.view()), &options).unwrap().1.sources
 }
 
