@@ -12,7 +12,7 @@ export const singleSnapshotMethods = (): MethodInfo[] => api.methods().filter(({
 export const networkNames = text('', (names) => /^[\w.,-]{0,200}$/.test(names));
 
 /** What ways to count sources are called. */
-export const COUNTED = { mdl: 'counted, MDL', aic: 'counted, AIC' };
+export const COUNTED = { auto: 'counted', mdl: 'counted, MDL', aic: 'counted, AIC' };
 
 const WHY: Readonly<Record<Unsuited, string>> = {
   'one-place': 'needs elements at different places along y',

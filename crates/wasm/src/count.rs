@@ -18,12 +18,13 @@ pub struct CountResult {
     /// Eigenvalues of the covariance, largest first.
     #[serde(serialize_with = "columns::serialize")]
     eigenvalues: Vec<f64>,
-    /// The criterion for 0, 1, 2, ... sources.
+    /// For 0, 1, 2, ... sources: the information criterion, smallest at their number, or the largest eigenvalue left over the
+    /// level of the largest-root test, above 1 for a source. Empty where nothing can be tested: of a single snapshot.
     #[serde(serialize_with = "columns::serialize")]
     criterion: Vec<f64>,
 }
 
-/// Counts sources by an information criterion on the eigenvalues of the covariance.
+/// Counts sources by the eigenvalues of the covariance.
 #[wasm_bindgen(js_name = countSources)]
 pub fn count_sources(input: &JsValue, options: &JsValue) -> Fallible<JsValue> {
     let input = Input::read(input, "input")?;

@@ -3,7 +3,8 @@ import { call } from '../runtime/instance.js';
 import type { Bound, BoundOptions, CountOptions, CountResult, EstimateInput } from '../types.js';
 
 /**
- * Counts sources by an information criterion on the eigenvalues of the covariance.
+ * Counts sources by the eigenvalues of the covariance: by the largest-root test, which is valid from two snapshots on, or by an
+ * information criterion.
  *
  * @example
  * ```js
@@ -12,7 +13,7 @@ import type { Bound, BoundOptions, CountOptions, CountResult, EstimateInput } fr
  * await init();
  * const targets = [-12, 20, 40].map((azimuthDeg) => ({ azimuthDeg }));
  * const { data, shape } = simulateSnapshots({ array: 'ula8', targets, snapshots: 100, snrDb: 20, seed: 1 });
- * const { count } = countSources({ snapshots: { data, shape: shape.slice(1) } }, { criterion: 'mdl' });
+ * const { count } = countSources({ snapshots: { data, shape: shape.slice(1) } });
  * console.log(count); // → 3
  * ```
  */

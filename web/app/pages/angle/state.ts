@@ -73,7 +73,7 @@ export const angleCodec = codec(
     position: number(0, [0, 0.5]),
     coupling: text('off', (value) => value === 'off' || (Number(value) >= -60 && Number(value) <= -5)),
     /** `known`: as many as there are targets. */
-    sources: estimator.picks('sources', ['known', 'mdl', 'aic'], 'known'),
+    sources: estimator.picks('sources', ['known', 'auto', 'mdl', 'aic'], 'known'),
     methods: names<Method>(['bartlett', 'capon', 'music', 'root-music'], methodNames),
     /** At most what quick methods do within a frame. */
     grid: estimator.field('gridPoints', { max: 8192 }),

@@ -113,7 +113,7 @@ export const captureCodec = codec(
     elevation: detection.field('region.elevationDeg.1', { fallback: 90, min: 1 }),
     angle: detection.field('angle.method'),
     methods: names<Method>(['bartlett', 'capon', 'iaa'], methodNames),
-    sources: detection.picks('angle.sources', ['mdl', 'aic', '1', '2', '3', '4']),
+    sources: detection.picks('angle.sources', ['auto', 'mdl', 'aic', '1', '2', '3', '4']),
     networks: networkNames,
     refine: detection.field('angle.refine'),
     mismatch: detection.maybe('angle.mismatchDb'),
@@ -230,8 +230,8 @@ export function calibrationOptions(state: CaptureState, by: 'reflectors' | 'cell
   };
 }
 
-export function sourceOption(state: CaptureState): number | 'aic' | 'mdl' {
-  return state.sources === 'aic' || state.sources === 'mdl' ? state.sources : Number(state.sources);
+export function sourceOption({ sources }: CaptureState): number | 'auto' | 'aic' | 'mdl' {
+  return sources === 'auto' || sources === 'aic' || sources === 'mdl' ? sources : Number(sources);
 }
 
 /** What the angles of a cell are estimated by beside the method. */

@@ -270,9 +270,10 @@ async function onSnapshots(model: Model, info: NetworkInfo, scene: Scene, job: J
 
 /** What a number of targets is counted by, beside the network. */
 export const COUNT_RULES = [
-  { criterion: 'mdl', forwardBackward: false },
-  { criterion: 'mdl', forwardBackward: true },
-  { criterion: 'aic', forwardBackward: false },
+  { criterion: 'largest-root', title: 'Largest root', forwardBackward: false },
+  { criterion: 'mdl', title: 'MDL', forwardBackward: false },
+  { criterion: 'mdl', title: 'MDL, forward-backward', forwardBackward: true },
+  { criterion: 'aic', title: 'AIC', forwardBackward: false },
 ] as const;
 
 /** What of a region a method takes: the covariance of all its bins, or the strongest bin's snapshots. */
@@ -329,9 +330,9 @@ async function onRegion(model: Model, info: NetworkInfo, scene: Scene, job: Job)
       counts: [
         { rule: 'network', title: model.title, sources: answer.sources, probability: [...answer.probability] },
         ...COUNT_RULES.map(
-          ({ criterion, forwardBackward }): Count => ({
+          ({ criterion, title, forwardBackward }): Count => ({
             rule: `${criterion}${forwardBackward ? '-reversed' : ''}`,
-            title: `${criterion.toUpperCase()}${forwardBackward ? ', forward-backward' : ''}`,
+            title,
             sources: api.countSources(input, { criterion, forwardBackward }).count,
           }),
         ),

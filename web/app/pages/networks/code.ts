@@ -129,9 +129,9 @@ function regionScript(model: Model, scene: Scene, lacks: string[]): Part {
     const network = networks.open(model);
     script.add(`const { sources, probability } = ${network}.count(input);`);
     script.add("console.log('network', sources, ...probability);");
-    for (const rule of COUNT_RULES) {
-      const name = `${rule.criterion}${rule.forwardBackward ? '-reversed' : ''}`;
-      const options = withoutDefaults('CountOptions', rule, ['criterion']);
+    for (const { criterion, forwardBackward } of COUNT_RULES) {
+      const name = `${criterion}${forwardBackward ? '-reversed' : ''}`;
+      const options = withoutDefaults('CountOptions', { criterion, forwardBackward }, ['criterion']);
       const given = Object.entries(options).map(
         ([key, value]) => `${key}: ${typeof value === 'string' ? `'${value}'` : value}`,
       );
