@@ -325,7 +325,7 @@ fn highest_peaks(alpha: &[f64], most: usize) -> Vec<usize> {
         .collect();
     sort_descending(&mut peaks, |&g| alpha[g]);
     peaks.truncate(most);
-    peaks.sort_unstable();
+    boresight_core::order::sort_by(&mut peaks, Ord::cmp);
     peaks
 }
 

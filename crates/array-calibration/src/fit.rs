@@ -82,8 +82,7 @@ impl Fit {
     /// alone were right.
     pub fn best_of_starts(&self, weights: &[f64]) -> Fitted {
         let ones = vec![Complex64::ONE; self.waves.positions.len()];
-        let mut order: Vec<usize> = (0..self.seen.len()).collect();
-        order.sort_by(|&a, &b| weights[b].total_cmp(&weights[a]));
+        let order = boresight_core::order::descending(weights.iter().copied());
         let own = order.iter().take(STARTS).map(|&index| self.own(index));
         let fits = std::iter::once(ones).chain(own).map(|start| self.settle(start, weights));
         let cost =

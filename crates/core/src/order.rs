@@ -1,6 +1,8 @@
 //! Order by numbers. What is sorted here is compiled once: for a type of its own each use would cost a module of
 //! WebAssembly seven kilobytes.
 
+use std::cmp::Ordering;
+
 /// The places of numbers from the least to the greatest, equal ones as they stand. NaN lies as [`f64::total_cmp`] has it.
 pub fn ascending(keys: impl IntoIterator<Item = f64>) -> Vec<usize> {
     places(&keys.into_iter().collect::<Vec<f64>>(), false)
@@ -12,20 +14,54 @@ pub fn descending(keys: impl IntoIterator<Item = f64>) -> Vec<usize> {
 }
 
 /// Sorts items by a number of each, from the greatest to the least, equal ones as they stand.
-pub fn sort_descending<T>(items: &mut Vec<T>, key: impl Fn(&T) -> f64) {
+pub fn sort_descending<T>(items: &mut [T], key: impl Fn(&T) -> f64) {
     let order = descending(items.iter().map(key));
-    let mut all: Vec<Option<T>> = items.drain(..).map(Some).collect();
-    items.extend(order.into_iter().filter_map(|place| all[place].take()));
+    permute(items, order);
+}
+
+/// Sorts items by a number of each, from the least to the greatest, equal ones as they stand.
+pub fn sort_ascending<T>(items: &mut [T], key: impl Fn(&T) -> f64) {
+    let order = ascending(items.iter().map(key));
+    permute(items, order);
+}
+
+/// Sorts items as [`slice::sort_by`] does.
+pub fn sort_by<T>(items: &mut [T], mut compare: impl FnMut(&T, &T) -> Ordering) {
+    let order = sorted(items.len(), &mut |a, b| compare(&items[a], &items[b]));
+    permute(items, order);
+}
+
+/// Sorts numbers from the least to the greatest, NaN as [`f64::total_cmp`] has it.
+#[inline(never)]
+pub fn sort_numbers(numbers: &mut [f64]) {
+    numbers.sort_unstable_by(f64::total_cmp);
+}
+
+fn places(keys: &[f64], is_descending: bool) -> Vec<usize> {
+    sorted(keys.len(), &mut |a, b| {
+        let by = keys[a].total_cmp(&keys[b]);
+        if is_descending { by.reverse() } else { by }
+    })
 }
 
 #[inline(never)]
-fn places(keys: &[f64], is_descending: bool) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..keys.len()).collect();
-    order.sort_by(|&a, &b| {
-        let by = keys[a].total_cmp(&keys[b]);
-        if is_descending { by.reverse() } else { by }
-    });
+fn sorted(len: usize, compare: &mut dyn FnMut(usize, usize) -> Ordering) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..len).collect();
+    order.sort_by(|&a, &b| compare(a, b));
     order
+}
+
+/// Moves the item at each `order[i]` to `i`.
+fn permute<T>(items: &mut [T], mut order: Vec<usize>) {
+    for start in 0..items.len() {
+        let mut at = start;
+        while order[at] != start {
+            let from = std::mem::replace(&mut order[at], at);
+            items.swap(at, from);
+            at = from;
+        }
+        order[at] = at;
+    }
 }
 
 #[cfg(test)]
@@ -40,6 +76,26 @@ mod tests {
         let mut items: Vec<(f64, char)> = keys.into_iter().zip('a'..).collect();
         sort_descending(&mut items, |item| item.0);
         assert_eq!(items.iter().map(|item| item.1).collect::<String>(), "beacd");
+        sort_ascending(&mut items, |item| item.0);
+        assert_eq!(items.iter().map(|item| item.1).collect::<String>(), "dacbe");
+        sort_by(&mut items, |a, b| b.1.cmp(&a.1));
+        assert_eq!(items.iter().map(|item| item.1).collect::<String>(), "edcba");
+        let mut numbers = keys;
+        sort_numbers(&mut numbers);
+        assert_eq!(numbers, [-2.0, 1.0, 1.0, 3.0, 3.0]);
+    }
+
+    #[test]
+    fn items_are_sorted_as_the_standard_library_does() {
+        let mut random = crate::Random::new(7, 1);
+        for length in 0..60 {
+            let mut items: Vec<(u64, usize)> =
+                (0..length).map(|index| (random.bits() % 8, index)).collect();
+            let mut expected = items.clone();
+            expected.sort_by(|a, b| a.0.cmp(&b.0));
+            sort_by(&mut items, |a, b| a.0.cmp(&b.0));
+            assert_eq!(items, expected);
+        }
     }
 
     #[test]

@@ -24,7 +24,7 @@ pub(super) fn gather(
     let angles = radars.len();
     let shared = options.shared();
     let mut numbers = radars.to_vec();
-    numbers.sort_unstable();
+    boresight_core::order::sort_by(&mut numbers, Ord::cmp);
     numbers.dedup();
     let place = |radar: &u8| numbers.binary_search(radar).unwrap_or_default();
     let layout = Layout { radar: radars.iter().map(place).collect(), shared };

@@ -130,7 +130,7 @@ impl Recursive {
             .map(|&manoeuvre| self.forecast(&known, manoeuvre, variance_beyond, needed))
             .collect();
         let never = f64::from(MOST_MINUTES) + 1.0;
-        forecasts.sort_by(|a, b| {
+        boresight_core::order::sort_by(&mut forecasts, |a, b| {
             let key = |f: &Forecast| (f.minutes.unwrap_or(never), f.sigma_rad);
             let ((a, a_sigma), (b, b_sigma)) = (key(a), key(b));
             a.total_cmp(&b).then(a_sigma.total_cmp(&b_sigma))

@@ -112,7 +112,7 @@ impl Later {
         let kept = detections.iter().filter(|detection| within(detection));
         let mut places: Vec<_> =
             kept.map(|d| [f64::from(d.range_m), f64::from(d.azimuth_rad)]).collect();
-        places.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        boresight_core::order::sort_ascending(&mut places, |place: &[f64; 2]| place[0]);
         Self { places }
     }
 

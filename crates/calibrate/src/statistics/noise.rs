@@ -91,7 +91,7 @@ fn variances(near: &mut [Vec<Near>]) -> Option<([f64; UNKNOWNS], [bool; AT_DEG.l
             continue;
         }
         seen[at / 2] = true;
-        ones.sort_by(|a, b| a.slope_mps.total_cmp(&b.slope_mps));
+        boresight_core::order::sort_ascending(ones, |one| one.slope_mps);
         for group in ones.chunks((ones.len() / GROUPS).max(LEAST_GROUP)) {
             let count = group.len() as f64;
             let mean = |of: fn(&Near) -> f64| group.iter().map(of).sum::<f64>() / count;

@@ -6,7 +6,7 @@ const NORMAL: f64 = 0.674_489_750_196_081_7;
 /// The value below which a share `q` of the values lies, linear between ranks; NaN of none. Sorts
 /// the values.
 pub(crate) fn quantile(values: &mut [f64], q: f64) -> f64 {
-    values.sort_by(f64::total_cmp);
+    boresight_core::order::sort_numbers(values);
     let Some(last) = values.len().checked_sub(1) else { return f64::NAN };
     let place = last as f64 * q.clamp(0.0, 1.0);
     let low = place as usize;

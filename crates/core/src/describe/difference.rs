@@ -9,7 +9,7 @@ use std::fmt::Debug;
 pub fn differing_fields<T: Debug>(a: &T, b: &T) -> Vec<String> {
     let (a, b) = (fields(&format!("{a:#?}")), fields(&format!("{b:#?}")));
     let mut names: Vec<String> = a.keys().chain(b.keys()).cloned().collect();
-    names.sort();
+    crate::order::sort_by(&mut names, Ord::cmp);
     names.dedup();
     names.retain(|name| a.get(name) != b.get(name));
     names

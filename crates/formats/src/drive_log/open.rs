@@ -281,7 +281,7 @@ fn open_mcap(
     let (parts, others): (Vec<_>, Vec<_>) =
         (0..files.len()).partition(|i| roles[*i] == Some(Role::Mcap));
     let mut parts: Vec<_> = parts.into_iter().map(|i| (files[i].0, i)).collect();
-    parts.sort_unstable();
+    boresight_core::order::sort_by(&mut parts, Ord::cmp);
     for (name, i) in parts {
         let bytes = std::mem::take(&mut files[i].1);
         reader.push(&bytes).map_err(|error| in_file(error, name))?;

@@ -467,7 +467,7 @@ impl Commands {
         if let Some(forced) = frame.forced_profile {
             used = vec![forced];
         }
-        used.sort_unstable();
+        boresight_core::order::sort_by(&mut used, Ord::cmp);
         used.dedup();
         if used.len() > 1 {
             return Err(line.error("profiles of its chirps", "one", format!("{used:?}")));

@@ -179,7 +179,7 @@ impl FoldTest {
         let turns = phase_step_rad(doppler_bin, dopplers, 1, 0) / TAU;
         let mut folds: Vec<i32> = (-self.most_folds..=self.most_folds).collect();
         let speed = |fold: &i32| (f64::from(*fold) + turns).abs();
-        folds.sort_by(|a, b| speed(a).total_cmp(&speed(b)));
+        boresight_core::order::sort_ascending(&mut folds, speed);
         let chirps = self.chirps as i32;
         let mut told: Vec<i32> = vec![];
         for fold in folds {

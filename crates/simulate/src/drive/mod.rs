@@ -39,6 +39,7 @@ pub use wire::PlacedRadar;
 use crate::error::SimulateError;
 use boresight_core::Random;
 use boresight_core::drive::{DriveLog, Mounting, Scan, Sensor};
+use boresight_core::order::{sort_ascending, sort_by};
 use std::ops::ControlFlow;
 
 /// Streams of the seed.
@@ -147,7 +148,7 @@ fn simulate(
     }
 
     let mut sensors = options.sensors.clone();
-    sensors.sort_by_key(|(id, _)| *id);
+    sort_ascending(&mut sensors, |(id, _)| f64::from(*id));
     let scene = realistic::SceneFactors::new(&mut realism);
     let mut radars: Vec<radar::Radar> = vec![];
     for (id, mounting) in &sensors {
@@ -180,7 +181,7 @@ fn simulate(
         };
         times.extend(scans.into_iter().map(|t| (t * variant.cycle_factor, i)));
     }
-    times.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    sort_by(&mut times, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
 
     let mut traffic =
         traffic::Traffic::new(&path, &motion, scenario, moving_share, stream(TRAFFIC));

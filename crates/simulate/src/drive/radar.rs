@@ -86,7 +86,7 @@ impl Radar<'_> {
             MAX_DETECTIONS
         };
         if detections.len() > limit {
-            detections.sort_by(|a, b| b.strength_db.total_cmp(&a.strength_db));
+            boresight_core::order::sort_descending(&mut detections, |one| one.strength_db.into());
             detections.truncate(limit);
         }
         detections

@@ -18,6 +18,7 @@ pub use tables::Tables;
 
 use super::open::{DriveFormat, DriveRead};
 use super::report::{MountingSource, ReadReport};
+use crate::drive_log::scans::sort_scans;
 use crate::error::FormatError;
 use crate::pcd::PointCloud;
 use boresight_core::Remark;
@@ -126,7 +127,7 @@ impl Clouds {
         let seconds = |stamp_ns: i128| (stamp_ns - first_ns) as f64 / 1e9;
         let mut channels: Vec<String> =
             self.scans.values().map(|scan| scan.channel.clone()).collect();
-        channels.sort();
+        boresight_core::order::sort_by(&mut channels, Ord::cmp);
         channels.dedup();
         if channels.len() > MOST_RADARS {
             return Err(FormatError::NoDriveLog {
@@ -158,7 +159,7 @@ impl Clouds {
                 labels: vec![],
             });
         }
-        log.scans.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.sensor.cmp(&b.sensor)));
+        sort_scans(&mut log.scans);
         log.motion = read.motion(seconds, &mut self.report);
         self.remark(&channels, &mirrored, &log);
         self.report.mountings = log

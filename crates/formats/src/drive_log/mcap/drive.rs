@@ -6,6 +6,7 @@ use super::motion::MotionTopic;
 use super::topic::{Times, Topic};
 use super::{DriveTopic, TopicUse};
 use crate::drive_log::report::{DropReason, MountingSource, ReadReport};
+use crate::drive_log::scans::sort_scans;
 use crate::drive_log::{DriveFormat, DriveRead, motion};
 use boresight_core::Remark;
 use boresight_core::drive::{DriveLog, Scan, Sensor};
@@ -75,7 +76,7 @@ impl Drive {
                 self.remark("car-frame", place, &text);
             }
         }
-        log.scans.sort_by(|a, b| a.time_s.total_cmp(&b.time_s).then(a.sensor.cmp(&b.sensor)));
+        sort_scans(&mut log.scans);
         log.scans.dedup_by(|next, scan| {
             let is_same = next.time_s == scan.time_s && next.sensor == scan.sensor;
             if is_same {
@@ -129,7 +130,7 @@ impl Drive {
         let has_speed = topic.motion().is_some_and(|motion| motion.has_speed());
         let mut rows: Vec<_> =
             topic.rows.iter().map(|(times, row)| (seconds(topic, *times), row)).collect();
-        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+        boresight_core::order::sort_ascending(&mut rows, |row| row.0);
         // An odometer tells its rates in the car's frame.
         let frame = topic.frame.as_deref().filter(|_| !has_speed);
         let turned = frame.and_then(|frame| self.frames.between(frame, &self.base));

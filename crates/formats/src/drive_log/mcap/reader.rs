@@ -137,7 +137,9 @@ impl McapDriveReader {
     pub fn finish(mut self) -> Result<DriveRead, FormatError> {
         self.end_file();
         let Self { topics: Topics { options, mut all, frames, .. }, remarks, .. } = self;
-        all.sort_by(|a, b| (&a.name, &a.message_type).cmp(&(&b.name, &b.message_type)));
+        boresight_core::order::sort_by(&mut all, |a, b| {
+            (&a.name, &a.message_type).cmp(&(&b.name, &b.message_type))
+        });
         let lost = remarks.iter().map(|remark| &*remark.message);
         let lost = lost.collect::<Vec<_>>().join("; ");
         let radars = choose_radars(&options, &mut all, &lost)?;
