@@ -92,7 +92,7 @@ pub(crate) fn conclude(
     warnings: Vec<Warning>,
 ) -> Estimate {
     let mut estimate =
-        Estimate { method, sources, spectrum, resolved: false, iterations, warnings };
+        Estimate { sources, spectrum, iterations, warnings, ..Estimate::new(method) };
     settle(&mut estimate, expected);
     estimate
 }
@@ -114,5 +114,6 @@ pub fn settle(estimate: &mut Estimate, expected: Option<usize>) {
         _ if found == 0 => warnings.push(Warning::NoSources),
         _ => {}
     }
+    estimate.expected = expected;
     estimate.resolved = found > 0 && expected.is_none_or(|expected| found >= expected);
 }

@@ -104,6 +104,14 @@ impl Geometry {
         Steering { vector, slopes }
     }
 
+    /// Appends the steering vector.
+    pub fn extend_by_steering(&self, at: Point, to: &mut Vec<Complex64>) {
+        let x = Self::third(at);
+        to.extend(
+            self.positions.iter().map(|p| cis(PI * (p[0] * x + p[1] * at[0] + p[2] * at[1]))),
+        );
+    }
+
     /// Second derivatives of the phase of element `k` by (v, v), (v, w), (w, w).
     pub fn bends(&self, at: Point, k: usize) -> [f64; 3] {
         let along = PI * self.positions[k][0];

@@ -197,7 +197,8 @@ pub fn most_by_mismatch(eigenvalues: &[f64], mismatch: f64) -> usize {
 /// Averaging with the reversal is for arrays that are evenly spaced.
 ///
 /// # Errors
-/// As [`Data::check`]; [`boresight_core::CoreError::OutOfRange`] for an option out of range;
+/// As [`Data::check`]; [`AoaError::Snapshots`] for a single vector, in which no criterion can tell sources from noise;
+/// [`boresight_core::CoreError::OutOfRange`] for an option out of range;
 /// [`boresight_core::CoreError::TooLarge`] for what takes more than the limits of this thread.
 pub fn count_sources_in(
     data: Data<'_>,
@@ -226,6 +227,13 @@ pub fn count_sources_in(
     }
     let eigenvalues = hermitian_eigen(covariance.view())?.values.to_vec();
     let (vectors, subarrays) = (data.snapshots(), 1);
+    if vectors < 2 && !average_reversed {
+        return Err(AoaError::Snapshots {
+            method: "counting by eigenvalues",
+            expected: "at least 2 snapshots, or averaging with the reversal".into(),
+            given: vectors,
+        });
+    }
     let sizes = CountSizes { vectors, subarrays, forward_backward: average_reversed };
     let mut count = count_sources(&eigenvalues, sizes, criterion, false_alarm);
     count.sources = count.sources.min(most_by_mismatch(&eigenvalues, mismatch_of(mismatch_db)));

@@ -94,6 +94,13 @@ pub enum Warning {
     },
     /// Counting found no source.
     NoSources,
+    /// Sources that noise explains.
+    Insignificant {
+        /// How many: those of a known or counted number that do not stand out, or all that were listed.
+        explained: usize,
+        /// Number found.
+        found: usize,
+    },
     /// Directions beyond the unambiguous sector of the array cannot be told from ones within.
     Ambiguous {
         /// Half width of the unambiguous sector, rad.
@@ -123,6 +130,7 @@ impl Coded for Warning {
             Self::NotConverged { .. } => "not-converged",
             Self::Loaded { .. } => "loaded",
             Self::NoSources => "no-sources",
+            Self::Insignificant { .. } => "insignificant",
             Self::Ambiguous { .. } => "ambiguous",
             Self::AmbiguousElevation { .. } => "ambiguous-elevation",
             Self::ElementsUnused { .. } => "elements-unused",
@@ -144,6 +152,9 @@ impl std::fmt::Display for Warning {
                 write!(f, "the covariance is singular; its diagonal was loaded by {share:.1e}")
             }
             Self::NoSources => write!(f, "no source stands out of the noise"),
+            Self::Insignificant { explained, found } => {
+                write!(f, "{explained} of {found} sources do not stand out of the noise")
+            }
             Self::Ambiguous { unambiguous_rad } => write!(
                 f,
                 "the array is unambiguous only within {:.1} deg of boresight",
@@ -170,9 +181,13 @@ pub struct Estimate {
     /// The spectrum, from methods that have one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spectrum: Option<Spectrum>,
-    /// Whether all sources asked for or counted were found. Methods that take no number of sources list the peaks there
-    /// are, of noise alone too, and always say so.
+    /// Whether all sources asked for or counted were found and each stands out of the noise: what it explains beside the
+    /// others is more than the strongest peak of noise would, with the false-alarm probability of `nomp`. Methods that
+    /// list what they find are resolved where one source stands out. False where the data cannot tell.
     pub resolved: bool,
+    /// Number of sources asked for or counted, of methods that have one.
+    #[serde(skip)]
+    pub expected: Option<usize>,
     /// Iterations done, 0 for closed forms.
     pub iterations: usize,
     /// What a reader should know.
@@ -189,6 +204,7 @@ impl Estimate {
             sources: Vec::new(),
             spectrum: None,
             resolved: false,
+            expected: None,
             iterations: 0,
             warnings: Vec::new(),
         }

@@ -8,6 +8,7 @@ use crate::method::Method;
 use crate::options::EstimatorOptions;
 use crate::plan::{Plan, plan};
 use crate::refinement::Refinement;
+use crate::significance::Significance;
 use boresight_core::limits::check_operations;
 use boresight_core::{Array, Complex64};
 use ndarray::{ArrayView3, Axis};
@@ -18,6 +19,7 @@ pub struct Estimator {
     array: Array,
     plan: Box<dyn Plan>,
     refinement: Option<Refinement>,
+    significance: Significance,
     cost: Cost,
     /// What cells of a batch are estimated into.
     pub(crate) scratch: Vec<Estimate>,
@@ -51,7 +53,9 @@ impl Estimator {
         options.check()?;
         let refinement = options.refine.then(|| Refinement::new(array, options)).transpose()?;
         let cost = Cost::new(method, array, options);
-        Ok(Self { method, array: array.clone(), plan, refinement, cost, scratch: Vec::new() })
+        let significance = Significance::new(array, options);
+        let (array, scratch) = (array.clone(), Vec::new());
+        Ok(Self { method, array, plan, refinement, significance, cost, scratch })
     }
 
     /// The method.
@@ -82,10 +86,16 @@ impl Estimator {
         data.check(self.array.len())?;
         check_operations("the estimate", self.cost.operations(data.snapshots()))?;
         self.plan.estimate_into(data, out)?;
-        match &mut self.refinement {
-            Some(refinement) => refinement.apply(out, data),
-            None => Ok(()),
+        self.conclude(data, out)
+    }
+
+    /// Refines what the plan found, and tests it.
+    fn conclude(&mut self, data: Data<'_>, out: &mut Estimate) -> Result<(), AoaError> {
+        if let Some(refinement) = &mut self.refinement {
+            refinement.apply(out, data)?;
         }
+        self.significance.apply(out, data);
+        Ok(())
     }
 
     /// Operations of each of so many cells, of so many snapshots.
@@ -106,10 +116,8 @@ impl Estimator {
         out: &mut [Estimate],
     ) -> Result<(), AoaError> {
         self.plan.estimate_cells(cells, out)?;
-        if let Some(refinement) = &mut self.refinement {
-            for (cell, estimate) in cells.axis_iter(Axis(0)).zip(out) {
-                refinement.apply(estimate, Data::Snapshots(cell))?;
-            }
+        for (cell, estimate) in cells.axis_iter(Axis(0)).zip(out) {
+            self.conclude(Data::Snapshots(cell), estimate)?;
         }
         Ok(())
     }

@@ -132,9 +132,15 @@ impl Shares {
         Self { volumes, false_alarm, elements, axes, snapshots: 0, shares: Vec::new() }
     }
 
+    /// Snapshots as they are counted: beyond a million the shares hardly change any more.
+    pub fn counted(snapshots: usize) -> usize {
+        snapshots.min(1_000_000)
+    }
+
     /// After `found` sources in `snapshots`; nothing where too few degrees of freedom are left,
     /// `snapshots (elements - found) - found / 2` for sources of one angle.
     pub fn after(&mut self, found: usize, snapshots: usize) -> Option<f64> {
+        let snapshots = Self::counted(snapshots);
         if self.snapshots != snapshots {
             self.snapshots = snapshots;
             self.shares.clear();

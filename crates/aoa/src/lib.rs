@@ -72,6 +72,7 @@ mod quadratic;
 pub mod refinement;
 mod residual_count;
 mod root_music;
+mod significance;
 mod single_snapshot_music;
 mod sparse_bayesian;
 mod subspace;

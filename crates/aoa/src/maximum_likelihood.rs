@@ -81,12 +81,19 @@ impl MaximumLikelihood {
         if let Some(known) = self.wanted.known() {
             return Ok(known);
         }
-        if self.wanted.is_auto()
-            && prepared.sizes.vectors == 1
-            && let Some(mut single) = self.single.take()
-        {
+        let single_vector = prepared.sizes.vectors == 1 && !prepared.sizes.forward_backward;
+        if single_vector && !self.wanted.is_auto() {
+            return Err(AoaError::Snapshots {
+                method: Method::MaximumLikelihood.name(),
+                expected:
+                    "a number of sources, 'auto', or at least 2 snapshots to count by eigenvalues"
+                        .into(),
+                given: 1,
+            });
+        }
+        if single_vector && let Some(mut single) = self.single.take() {
             let matrix = &prepared.matrix;
-            let count = single.count(|sources| match sources {
+            let count = single.count(1, usize::MAX, |sources| match sources {
                 0 => matrix.nrows() as f64,
                 _ => self.fit(matrix, sources).1.residual_power,
             });

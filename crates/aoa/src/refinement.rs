@@ -74,9 +74,10 @@ impl Refinement {
         self.keep_confidences(&estimate.sources, &mut refined);
         estimate.sources = refined;
         estimate.warnings.retain(|warning| *warning != Warning::NoSources);
-        let resolved = estimate.resolved;
+        let (resolved, expected) = (estimate.resolved, estimate.expected);
         settle(estimate, None);
         estimate.resolved &= resolved;
+        estimate.expected = expected;
         Ok(())
     }
 

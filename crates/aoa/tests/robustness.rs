@@ -111,7 +111,7 @@ fn a_field_of_view_between_grid_points_is_refused() {
 fn the_number_of_snapshots_is_checked() {
     let array = Array::ula(8).unwrap();
     let mut random = Random::new(61, 0);
-    let one = scene(&array, &azimuths(&[10.0]), &[1.0], 0.1, 1, &mut random);
+    let one = scene(&array, &azimuths(&[10.0]), &[1.0], 1e-3, 1, &mut random);
     let three = scene(&array, &azimuths(&[10.0]), &[1.0], 0.1, 3, &mut random);
     for method in [Method::Music, Method::RootMusic, Method::Esprit, Method::MinNorm] {
         let mut estimator = Estimator::new(method, &array, &known(1)).unwrap();
