@@ -61,7 +61,7 @@ test('a frame has about 300 cells, and their snapshots give what the chain gives
   const count = cells.rangeM.length;
   assert.ok(count > 200 && count < 500, String(count));
   assert.deepEqual(cells.snapshots.shape, [count, 48]);
-  assert.equal(cells.counts.cellsOverThreshold, count + cells.counts.outsideRegion);
+  assert.equal(cells.counts.cellsOverThreshold, count + cells.counts.outsideRegion + cells.counts.outsideUsableRange);
   for (const key of ['rateMps', 'powerDb', 'snrDb', 'rangeBin', 'dopplerBin']) assert.equal(cells[key].length, count);
   // Power of the snapshot is that of the cell, but for interpolation between bins (at most 1.5 dB each way of two).
   const peaks = frameCells(street.cube, options);

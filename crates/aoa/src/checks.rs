@@ -61,6 +61,18 @@ pub(crate) fn ambiguity(array: &Array, options: &EstimatorOptions) -> Option<War
         .then(|| Warning::Ambiguous { unambiguous_rad: sine.asin() })
 }
 
+/// Extent below which no array tells angles apart, half wavelengths.
+const LEAST_EXTENT: f64 = 0.4;
+
+/// A warning where the elements are so near each other that their positions seem to be in another unit.
+pub(crate) fn scale_of(array: &Array) -> Option<Warning> {
+    let origin = array.positions()[0];
+    let away =
+        |p: &[f64; 3]| p.iter().zip(origin).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    let extent = array.positions().iter().map(away).fold(0.0, f64::max);
+    (extent < LEAST_EXTENT).then_some(Warning::TinyArray { extent })
+}
+
 /// From phase turns between neighbouring points of a lattice to directions.
 #[derive(Debug, Clone)]
 pub(crate) struct LatticeAngles {

@@ -60,16 +60,50 @@ impl Data<'_> {
                     .map(|((i, k), z)| (z - matrix[[k, i]].conj()).norm())
                     .fold(0.0, f64::max);
                 let lowest = matrix.diag().iter().map(|z| z.re).fold(0.0, f64::min);
-                if skew > 1e-6 * scale || lowest < 0.0 {
-                    return Err(AoaError::Argument(CoreError::OutOfRange {
-                        what: "covariance".into(),
-                        expected: "a Hermitian matrix with a non-negative diagonal; largest \
-                                   deviation from it"
-                            .into(),
-                        given: skew.max(-lowest),
-                    }));
+                let refused = |what: &str, expected: &str, given: f64| {
+                    let (what, expected) = (what.into(), expected.into());
+                    Err(AoaError::Argument(CoreError::OutOfRange { what, expected, given }))
+                };
+                if skew > 1e-6 * scale {
+                    let expected = "at most 1e-6 of its largest entry, as of a Hermitian matrix";
+                    return refused("asymmetry of the covariance", expected, skew);
+                }
+                if lowest < 0.0 {
+                    return refused("diagonal of the covariance", "powers of at least 0", lowest);
                 }
             }
+        }
+        Ok(())
+    }
+}
+
+/// Data weaker than this is silence: its powers could not be told from zero.
+pub(crate) const SILENCE: f64 = 1e-150;
+
+impl Data<'_> {
+    /// Refuses data that is not zero and whose powers vanish in double precision.
+    ///
+    /// # Errors
+    /// [`CoreError::OutOfRange`].
+    pub(crate) fn check_not_vanishing(&self) -> Result<(), AoaError> {
+        let (what, largest, least) = match self {
+            Self::Snapshots(y) => {
+                let parts = y.iter().flat_map(|z| [z.re.abs(), z.im.abs()]);
+                ("largest part of the snapshots", parts.fold(0.0, f64::max), SILENCE)
+            }
+            Self::Covariance { matrix, .. } => {
+                let powers = matrix.diag().into_iter().map(|z| z.re);
+                ("largest power of the covariance", powers.fold(0.0, f64::max), f64::MIN_POSITIVE)
+            }
+        };
+        if largest > 0.0 && largest <= least {
+            return Err(AoaError::Argument(CoreError::OutOfRange {
+                what: what.into(),
+                expected: format!(
+                    "0 or more than {least:e}, below which powers cannot be computed"
+                ),
+                given: largest,
+            }));
         }
         Ok(())
     }

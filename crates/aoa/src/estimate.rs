@@ -111,6 +111,11 @@ pub enum Warning {
         /// Half width of the unambiguous sector, rad.
         unambiguous_rad: f64,
     },
+    /// The elements are nearer each other than any that tell angles apart.
+    TinyArray {
+        /// Largest distance from the first element, half wavelengths.
+        extent: f64,
+    },
     /// The array was cut down to the part the method can use.
     ElementsUnused {
         /// Elements left out.
@@ -133,6 +138,7 @@ impl Coded for Warning {
             Self::Insignificant { .. } => "insignificant",
             Self::Ambiguous { .. } => "ambiguous",
             Self::AmbiguousElevation { .. } => "ambiguous-elevation",
+            Self::TinyArray { .. } => "tiny-array",
             Self::ElementsUnused { .. } => "elements-unused",
             Self::OutsideTraining { .. } => "outside-training",
         }
@@ -164,6 +170,10 @@ impl std::fmt::Display for Warning {
                 f,
                 "the rows of the array tell elevations apart only within {:.1} deg of the horizon",
                 unambiguous_rad.to_degrees()
+            ),
+            Self::TinyArray { extent } => write!(
+                f,
+                "the array extends over {extent:.3} half wavelengths; positions are in half wavelengths, not in metres"
             ),
             Self::ElementsUnused { unused } => write!(f, "{unused} elements were not used"),
             Self::OutsideTraining { difference } => f.write_str(difference),

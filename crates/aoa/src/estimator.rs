@@ -1,9 +1,10 @@
 //! One interface for all estimators.
 
+use crate::checks::scale_of;
 use crate::cost::Cost;
 use crate::data::Data;
 use crate::error::AoaError;
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, Warning};
 use crate::method::Method;
 use crate::options::EstimatorOptions;
 use crate::plan::{Plan, plan};
@@ -20,6 +21,7 @@ pub struct Estimator {
     plan: Box<dyn Plan>,
     refinement: Option<Refinement>,
     significance: Significance,
+    scale: Option<Warning>,
     cost: Cost,
     /// What cells of a batch are estimated into.
     pub(crate) scratch: Vec<Estimate>,
@@ -54,8 +56,9 @@ impl Estimator {
         let refinement = options.refine.then(|| Refinement::new(array, options)).transpose()?;
         let cost = Cost::new(method, array, options);
         let significance = Significance::new(array, options);
+        let scale = scale_of(array);
         let (array, scratch) = (array.clone(), Vec::new());
-        Ok(Self { method, array, plan, refinement, significance, cost, scratch })
+        Ok(Self { method, array, plan, refinement, significance, scale, cost, scratch })
     }
 
     /// The method.
@@ -94,7 +97,11 @@ impl Estimator {
         if let Some(refinement) = &mut self.refinement {
             refinement.apply(out, data)?;
         }
+        if out.sources.is_empty() {
+            data.check_not_vanishing()?;
+        }
         self.significance.apply(out, data);
+        out.warnings.extend(self.scale.iter().cloned());
         Ok(())
     }
 

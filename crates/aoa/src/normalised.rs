@@ -1,11 +1,9 @@
 //! Data scaled to order one, so that powers neither overflow nor vanish.
 
+use crate::data::SILENCE;
 use crate::estimate::Source;
 use boresight_core::Complex64;
 use ndarray::{Array2, ArrayView2};
-
-/// Data weaker than this is silence: its powers could not be told from zero.
-const SILENCE: f64 = 1e-150;
 
 /// Snapshots whose largest part is 1, and what they were divided by.
 pub(crate) struct Normalised {

@@ -7,10 +7,10 @@ mod support;
 
 use boresight_aoa::counting::{CountOptions, count_sources_in};
 use boresight_aoa::options::{EspritForm, IaaForm, Thresholding};
-use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, SourceCount};
+use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, SourceCount, Warning};
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64, CoreError, Diagnose, Limits, Random};
-use ndarray::Array2;
+use ndarray::{Array1, Array2};
 use proptest::prelude::*;
 use support::{azimuths, known, scene};
 
@@ -304,4 +304,52 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn positions_in_metres_are_remarked_on() {
+    let metres: Vec<[f64; 3]> = (0..8).map(|k| [0.0, 0.001_95 * f64::from(k), 0.0]).collect();
+    let y = Array2::from_elem((8, 1), Complex64::new(1.0, 0.0));
+    for (array, expected) in [(Array::new(&metres).unwrap(), true), (Array::ula(2).unwrap(), false)]
+    {
+        let mut estimator = Estimator::new(Method::Bartlett, &array, &known(1)).unwrap();
+        let data = Data::Snapshots(y.slice(ndarray::s![..array.len(), ..]));
+        let warnings = estimator.estimate(data).unwrap().warnings;
+        let remarked = warnings.iter().any(|w| matches!(w, Warning::TinyArray { .. }));
+        assert_eq!(remarked, expected, "{warnings:?}");
+    }
+}
+
+#[test]
+fn data_whose_powers_vanish_is_refused_and_zeros_are_not() {
+    let array = Array::ula(8).unwrap();
+    for method in [Method::Nomp, Method::MaximumLikelihood, Method::Music, Method::Iaa] {
+        let mut estimator = Estimator::new(method, &array, &known(1)).unwrap();
+        let mut estimate = |value: f64| {
+            let y = Array2::from_shape_fn((8, 4), |(k, n)| {
+                Complex64::new(value, value * ((k + 1) as f64 * 0.1 - n as f64))
+            });
+            estimator.estimate(Data::Snapshots(y.view()))
+        };
+        let error = estimate(1e-200).unwrap_err();
+        assert_eq!(error.details().what, "largest part of the snapshots", "{}", method.name());
+        assert!(!estimate(0.0).unwrap().resolved);
+        assert!(!estimate(1e-100).unwrap().sources.is_empty(), "{}", method.name());
+    }
+}
+
+#[test]
+fn a_covariance_that_is_none_is_refused_with_what_is_wrong() {
+    let array = Array::ula(3).unwrap();
+    let mut estimator = Estimator::new(Method::Capon, &array, &known(1)).unwrap();
+    let mut refused = |entry: [usize; 2], value: f64| {
+        let mut matrix = Array2::from_diag(&Array1::from_elem(3, Complex64::new(1.0, 0.0)));
+        matrix[entry] = Complex64::new(value, 0.0);
+        let data = Data::Covariance { matrix: matrix.view(), snapshots: 10 };
+        estimator.estimate(data).unwrap_err().to_string()
+    };
+    let skewed = refused([0, 1], 0.5);
+    assert!(skewed.starts_with("asymmetry of the covariance is 0.5"), "{skewed}");
+    let negative = refused([2, 2], -0.25);
+    assert!(negative.starts_with("diagonal of the covariance is -0.25"), "{negative}");
 }

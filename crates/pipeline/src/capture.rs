@@ -33,7 +33,7 @@ impl Chain {
             proceed(report, Progress { done, total })?;
             let frame = source.frame(index)?;
             let mut result = self.process(frame.samples.view())?;
-            result.counts.clipped_samples = frame.clipped;
+            result.set_clipped(frame.clipped);
             result.frame = index;
             result.detections.iter_mut().for_each(|d| d.frame = index);
             take(result);

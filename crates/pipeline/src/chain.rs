@@ -5,7 +5,7 @@ use crate::decoding::signs_of;
 use crate::error::PipelineError;
 use crate::folds::Folds;
 use crate::options::{ChainOptions, usable_range_m};
-use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult};
+use crate::result::{Counts, DetectedCell, Detection, FrameCells, FrameResult, clipped};
 use boresight_aoa::{
     AoaError, CountSources, Data, Estimate, Estimator, EstimatorOptions, Estimators, Method,
 };
@@ -256,6 +256,11 @@ impl Chain {
             let at = cell.peak.detection;
             !self.is_ghost([at.range_bin, at.doppler_bin])
         });
+        if self.options.region.range_m.is_none() {
+            let [nearest, furthest] = usable_range_m(self.waveform());
+            counts.outside_usable_range =
+                Region::retain(&mut cells, |cell| (nearest..=furthest).contains(&cell.range_m));
+        }
         // The rate is not known before its fold.
         let rate_mps = if self.folds.is_some() { None } else { self.region.rate_mps };
         let region = Region { rate_mps, ..self.region };
@@ -317,17 +322,8 @@ impl Chain {
         detections.truncate(self.options.max_detections);
         let mut warnings: Vec<Remark> =
             estimates.warnings.iter().map(|w| Remark::new(w.first.code(), w.to_string())).collect();
-        if counts.without_angle > 0 {
-            let message = format!("{} cells have no angle", counts.without_angle);
-            warnings.push(Remark::new("cells-without-angle", message));
-        }
-        if counts.undecided_folds > 0 {
-            let message = format!(
-                "{} cells do not tell the fold of their range rate and keep that of their bin",
-                counts.undecided_folds
-            );
-            warnings.push(Remark::new("undecided-folds", message));
-        }
+        warnings.extend(counts.remarks(usable_range_m(self.waveform())));
+        warnings.extend(clipped(counts.clipped_samples));
         let told = self.folds.as_ref().map_or(1, Folds::told);
         let profile = self.transform.range_profile(&self.map)?;
         Ok(FrameResult {
@@ -398,7 +394,7 @@ fn cfar_options(options: &ChainOptions, transform: &RangeDoppler) -> CfarOptions
         guard_cells: padded(options.cfar.guard_cells),
         training_cells: padded(options.cfar.training_cells),
         looks: transform.channels(),
-        correlation: transform.cell_correlation(),
+        noise: transform.bin_noise(),
         ..options.cfar
     }
 }

@@ -91,6 +91,9 @@ pub struct Counts {
     pub other_bands: usize,
     /// Cells whose fold of the range rate is not certain; they keep that of their bin.
     pub undecided_folds: usize,
+    /// Cells nearer than 4 range resolutions, where antennas couple, or beyond 0.9 of the unambiguous range, where filters
+    /// attenuate; none where the region names a range.
+    pub outside_usable_range: usize,
     /// Cells and detections outside the region.
     pub outside_region: usize,
     /// Cells and detections beyond the most to report.
@@ -99,6 +102,55 @@ pub struct Counts {
     pub without_angle: usize,
     /// Samples at an end of the converter's range.
     pub clipped_samples: usize,
+}
+
+impl Counts {
+    /// What a reader should know of them.
+    pub(crate) fn remarks(&self, usable_range_m: [f64; 2]) -> Vec<Remark> {
+        let [nearest, furthest] = usable_range_m;
+        let mut remarks = vec![];
+        let mut remark = |count: usize, code: &'static str, text: String| {
+            if count > 0 {
+                remarks.push(Remark::new(code, text));
+            }
+        };
+        remark(
+            self.outside_usable_range,
+            "outside-usable-range",
+            format!(
+                "{} cells nearer than {nearest:.2} m or beyond {furthest:.1} m are left out; a region with a range keeps them",
+                self.outside_usable_range
+            ),
+        );
+        remark(
+            self.without_angle,
+            "cells-without-angle",
+            format!("{} cells have no angle", self.without_angle),
+        );
+        remark(
+            self.undecided_folds,
+            "undecided-folds",
+            format!(
+                "{} cells do not tell the fold of their range rate and keep that of their bin",
+                self.undecided_folds
+            ),
+        );
+        remarks
+    }
+}
+
+/// The remark on samples at an end of the converter's range.
+pub(crate) fn clipped(samples: usize) -> Option<Remark> {
+    let message = format!("{samples} samples are clipped: powers and angles may be wrong");
+    (samples > 0).then(|| Remark::new("clipped-samples", message))
+}
+
+impl FrameResult {
+    /// Counts clipped samples, and remarks on them.
+    pub(crate) fn set_clipped(&mut self, samples: usize) {
+        self.counts.clipped_samples = samples;
+        self.warnings.extend(clipped(samples));
+    }
 }
 
 /// Result of one frame, or of several combined.

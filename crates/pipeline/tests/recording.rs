@@ -69,14 +69,13 @@ fn frames_combined_have_both_targets() {
     let bins: Vec<usize> = result.detections.iter().map(|d| d.range_bin).collect();
     assert!([58, 97, 99].iter().all(|bin| bins.contains(bin)), "{bins:?}");
     // Two more there than by cell averaging.
-    assert_eq!(result.counts.outside_region, 4);
+    let left_out = result.counts.outside_usable_range;
+    assert_eq!((left_out, result.counts.outside_region), (4, 0));
+    assert!(result.warnings.iter().any(|w| w.code == "outside-usable-range"));
     let cells: HashSet<_> =
         result.detections.iter().map(|d| (d.range_bin, d.doppler_bin)).collect();
     assert!(cells.len() >= 8, "{cells:?}");
-    assert_eq!(
-        result.counts.cells_over_threshold,
-        result.counts.grouped + cells.len() + result.counts.outside_region
-    );
+    assert_eq!(result.counts.cells_over_threshold, result.counts.grouped + cells.len() + left_out);
     println!("{:?}", result.counts);
     for d in &result.detections {
         let (azimuth_deg, power_db) = (d.azimuth_rad.to_degrees(), 10.0 * d.power.log10());

@@ -31,8 +31,7 @@ fn chain(criterion: &mut Criterion) {
     let mut plan = RangeDoppler::new(&waveform, 4, &RangeDopplerOptions::default()).unwrap();
     let mut map = plan.output();
     plan.process(frame.view(), &mut map).unwrap();
-    let base =
-        CfarOptions { looks: 8, correlation: plan.cell_correlation(), ..CfarOptions::default() };
+    let base = CfarOptions { looks: 8, noise: plan.bin_noise(), ..CfarOptions::default() };
     let mut group = criterion.benchmark_group("256x128x8");
     group.bench_function("range-doppler", |b| {
         b.iter(|| plan.process(black_box(frame.view()), &mut map).unwrap());

@@ -1,7 +1,8 @@
 //! Range transform: samples of each chirp to range bins.
 
+use crate::cfar::BinNoise;
 use crate::error::SignalError;
-use crate::window::{Window, noise_bandwidth_bins, power_correlation};
+use crate::window::{Window, noise_bandwidth_bins};
 use boresight_core::error::check_range;
 use boresight_core::fft::Transforms;
 use boresight_core::units::SPEED_OF_LIGHT_MPS;
@@ -18,8 +19,8 @@ pub(crate) struct RowTransform {
     /// Window times scale.
     pub weights: Vec<f32>,
     pub noise_bandwidth_bins: f64,
-    /// Neighbouring bins that count as one independent bin.
-    pub correlation: f64,
+    /// What white noise becomes in its bins.
+    pub noise: BinNoise,
     fft: Arc<dyn Fft<f32>>,
     scratch: Vec<Complex32>,
 }
@@ -34,7 +35,7 @@ impl RowTransform {
         Ok(Self {
             weights: coefficients.iter().map(|w| (w * scale) as f32).collect(),
             noise_bandwidth_bins: noise_bandwidth_bins(&coefficients),
-            correlation: power_correlation(&coefficients, length * padding),
+            noise: BinNoise::new(window, length, padding),
             scratch: vec![Complex32::default(); fft.get_inplace_scratch_len()],
             fft,
         })
@@ -48,15 +49,6 @@ impl RowTransform {
     pub fn transform(&mut self, rows: &mut [Complex32]) {
         self.fft.process_with_scratch(rows, &mut self.scratch);
     }
-}
-
-/// Neighbouring range bins of noise that count as one independent bin under a window, without padding; see
-/// [`crate::RangeDoppler::cell_correlation`].
-///
-/// # Errors
-/// [`SignalError::Argument`] for a window out of range, or of no samples.
-pub fn bin_correlation(window: Window, samples: usize) -> Result<f64, SignalError> {
-    Ok(RowTransform::new(window, samples, 1)?.correlation)
 }
 
 /// Range of each bin of a range transform of `bins` bins, m, over the band of beat frequencies

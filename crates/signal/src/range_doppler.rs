@@ -1,5 +1,6 @@
 //! Range and Doppler transform of a frame.
 
+use crate::cfar::BinNoise;
 use crate::clutter::subtract_mean;
 use crate::doppler_division::Bands;
 use crate::error::SignalError;
@@ -111,10 +112,10 @@ impl RangeTransform {
         }
     }
 
-    fn correlation(&self) -> f64 {
+    fn noise(&self) -> BinNoise {
         match self {
-            Self::Complex(transform) => transform.correlation,
-            Self::Real(transform) => transform.correlation,
+            Self::Complex(transform) => transform.noise,
+            Self::Real(transform) => transform.noise,
         }
     }
 
@@ -237,11 +238,9 @@ impl RangeDoppler {
         samples * chirps / self.doppler.noise_bandwidth_bins
     }
 
-    /// Neighbouring cells of noise that count as one independent cell, along range and Doppler: the
-    /// sum over all lags of the squared magnitude of the correlation window and padding cause. 1
-    /// without either, 1.94 for the Hann window.
-    pub fn cell_correlation(&self) -> [f64; 2] {
-        [self.range.correlation(), self.doppler.correlation]
+    /// How noise in neighbouring bins is correlated, along range and Doppler: what [`crate::CfarOptions::noise`] takes.
+    pub fn bin_noise(&self) -> [Option<BinNoise>; 2] {
+        [Some(self.range.noise()), Some(self.doppler.noise)]
     }
 
     /// Space for a result of [`RangeDoppler::process`], to be used again and again.

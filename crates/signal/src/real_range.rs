@@ -1,8 +1,9 @@
 //! Range transform of real samples.
 
+use crate::cfar::BinNoise;
 use crate::error::SignalError;
 use crate::range::MAX_PADDING;
-use crate::window::{Window, noise_bandwidth_bins, power_correlation};
+use crate::window::{Window, noise_bandwidth_bins};
 use boresight_core::error::check_range;
 use boresight_core::fft::RealFft;
 use boresight_core::{Complex32, CoreError};
@@ -16,8 +17,8 @@ pub(crate) struct RealRangeTransform {
     /// Window times scale.
     weights: Vec<f32>,
     pub noise_bandwidth_bins: f64,
-    /// Neighbouring bins that count as one independent bin.
-    pub correlation: f64,
+    /// What white noise becomes in its bins.
+    pub noise: BinNoise,
     fft: RealFft<f32>,
     values: Vec<f32>,
     spectrum: Vec<Complex32>,
@@ -33,7 +34,7 @@ impl RealRangeTransform {
         Ok(Self {
             weights: coefficients.iter().map(|w| (w * scale) as f32).collect(),
             noise_bandwidth_bins: noise_bandwidth_bins(&coefficients),
-            correlation: power_correlation(&coefficients, length * padding),
+            noise: BinNoise::new(window, length, padding),
             values: vec![0.0; length * padding],
             spectrum: vec![Complex32::default(); fft.bins()],
             fft,

@@ -71,7 +71,7 @@ impl Scene {
             rank,
             false_alarm,
             looks: self.receivers,
-            correlation: self.plan.cell_correlation(),
+            noise: self.plan.bin_noise(),
             guard_cells: base.guard_cells.map(|cells| cells * self.padding),
             training_cells: base.training_cells.map(|cells| cells * self.padding),
             ..base

@@ -6,7 +6,7 @@ use boresight_core::describe::Named;
 use boresight_core::{Complex32, Complex64, Diagnose, Multiplexing, Sampling, Waveform};
 use boresight_signal::region::{crop_region, range_spectrum, region_covariance};
 use boresight_signal::{
-    Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,
+    BinNoise, Cfar, CfarAxes, CfarKind, CfarOptions, RangeDoppler, RangeDopplerOptions, Window,
     forward_backward, group_peaks, load_diagonal, sample_covariance, spatial_smoothing, tdm,
 };
 use ndarray::{Array2, Array4};
@@ -33,6 +33,13 @@ fn any_window() -> impl Strategy<Value = Window> {
     ]
 }
 
+fn any_noise() -> impl Strategy<Value = Option<BinNoise>> {
+    prop::option::of(
+        (any_window(), any_count(), any_count())
+            .prop_map(|(window, samples, padding)| BinNoise::new(window, samples, padding)),
+    )
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
@@ -47,10 +54,11 @@ proptest! {
         looks in prop_oneof![3 => 1..20_usize, 1 => any_count()],
         ranges in prop_oneof![3 => 1..40_usize, 1 => any_count()],
         dopplers in prop_oneof![3 => 1..40_usize, 1 => any_count()],
+        noise in prop::array::uniform2(any_noise()),
         cells in prop::collection::vec(prop_oneof![0.0_f32..9.0, any::<f32>()], 1..9),
     ) {
         let options = CfarOptions {
-            kind, axes, false_alarm, guard_cells, training_cells, rank, looks, correlation: [1.0, 2.0],
+            kind, axes, false_alarm, guard_cells, training_cells, rank, looks, noise,
         };
         // A map of a gigabyte is allowed, and not for a test to make.
         prop_assume!(ranges.saturating_mul(dopplers) < 1 << 20 || ranges.min(dopplers) > 1 << 14);

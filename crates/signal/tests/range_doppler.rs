@@ -149,7 +149,7 @@ fn correlation_is_that_of_the_windows() {
         ..RangeDopplerOptions::default()
     };
     let plan = RangeDoppler::new(&waveform(64, 1, 512), 1, &options).unwrap();
-    let [range, doppler] = plan.cell_correlation();
+    let [range, doppler] = plan.bin_noise().map(|noise| noise.unwrap().correlated_bins().unwrap());
     let hann = 1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0);
     assert!((range - 1.0).abs() < 1e-12);
     assert!((doppler / (2.0 * hann) - 1.0).abs() < 0.01, "{doppler}");

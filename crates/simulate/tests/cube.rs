@@ -49,11 +49,8 @@ fn strongest(
     let mut map = plan.output();
     plan.process(cube.index_axis(Axis(0), 0), &mut map).unwrap();
     let (ranges, dopplers) = map.power.dim();
-    let options = CfarOptions {
-        looks: plan.channels(),
-        correlation: plan.cell_correlation(),
-        ..CfarOptions::default()
-    };
+    let options =
+        CfarOptions { looks: plan.channels(), noise: plan.bin_noise(), ..CfarOptions::default() };
     let mut cfar = Cfar::new(ranges, dopplers, &options).unwrap();
     let detections = cfar.detect(map.power.view()).unwrap();
     let peaks = group_peaks(map.power.view(), &detections).peaks;

@@ -66,6 +66,7 @@ fn remarks(results: &[FrameResult]) -> Vec<String> {
     )];
     for (count, what) in [
         (sum(|r| r.counts.other_bands), "echoes in other Doppler bands"),
+        (sum(|r| r.counts.outside_usable_range), "outside the usable range"),
         (sum(|r| r.counts.outside_region), "outside the limits"),
         (sum(|r| r.counts.beyond_limit), "beyond the most to report"),
         (sum(|r| r.counts.clipped_samples), "samples clipped by the converter"),

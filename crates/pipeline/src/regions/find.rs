@@ -13,11 +13,11 @@ use boresight_core::response::Correction;
 use boresight_core::steering::{cis, steering_vector};
 use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Waveform};
 use boresight_signal::peaks::{Peak, group_peaks};
-use boresight_signal::range::{bin_correlation, range_doppler_coupling_m, range_of_bin_m};
+use boresight_signal::range::{range_doppler_coupling_m, range_of_bin_m};
 use boresight_signal::region::{
     crop_region, range_power, range_spectrum, region_covariance, region_snapshots,
 };
-use boresight_signal::{Cfar, CfarAxes, CfarOptions, Region, Window, load_diagonal};
+use boresight_signal::{BinNoise, Cfar, CfarAxes, CfarOptions, Region, Window, load_diagonal};
 use ndarray::{Array2, Array3, ArrayView3, ArrayView4, Axis, Zip};
 use std::f64::consts::PI;
 
@@ -117,7 +117,7 @@ impl RegionFinder {
         let cfar = CfarOptions {
             axes: CfarAxes::Range,
             looks: loops.saturating_mul(channels.len()).min(MOST_LOOKS),
-            correlation: [bin_correlation(options.range_window, samples)?, 1.0],
+            noise: [Some(BinNoise::new(options.range_window, samples, 1)), None],
             ..options.cfar
         };
         let single = EstimatorOptions { max_peaks: 1, ..EstimatorOptions::default() };

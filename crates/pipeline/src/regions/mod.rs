@@ -21,6 +21,7 @@ pub use result::{RegionCounts, RegionFrame, RegionTarget, TargetRegion};
 
 use crate::capture::{Report, proceed};
 use crate::error::PipelineError;
+use crate::result::clipped;
 use crate::source::{FrameSource, Progress};
 use boresight_aoa::{Counted, Data, Warning};
 use boresight_core::describe::decibels::finite_db;
@@ -155,6 +156,7 @@ impl RegionChain {
             let frame = source.frame(index)?;
             let mut result = self.process(frame.samples.view())?;
             result.counts.clipped_samples = frame.clipped;
+            result.warnings.extend(clipped(frame.clipped));
             result.frame = index;
             take(result);
         }

@@ -6,9 +6,10 @@
 //! noise cells with it, those of most power; what that takes off the mean is made good. The factor is then that of cell
 //! averaging over the cells that are left.
 
-use super::gamma::{integrate_log_concave, ln_incomplete};
-use super::ordered_statistic;
+use super::cell_averaging::Mean;
+use super::ordered_statistic::{self, OrderedStatistic};
 use super::threshold::{Factors, TrainingCells, factors, mean_factor};
+use super::training_noise::TrainingNoise;
 use super::{CfarKind, CfarOptions};
 use std::collections::BTreeMap;
 
@@ -36,17 +37,11 @@ pub fn screen_rank(cells: TrainingCells) -> usize {
 }
 
 /// The screen of cells with these training cells.
-pub fn screen(options: &CfarOptions, cells: TrainingCells, correlation: f64) -> Screen {
-    let ranked = by_rank(options, SCREENED);
-    let threshold = factors(&ranked, cells, correlation).threshold;
-    let total = ordered_statistic::independent(cells.total(), correlation);
-    let rank = ordered_statistic::effective_rank(RANK, cells.total(), correlation);
-    let shape = options.looks as f64;
-    // Power of the noise cells that the screen takes: of a gamma variable of shape L and mean 1 above c, Q(L + 1, L c).
-    let taken = integrate_log_concave(|t| {
-        ordered_statistic::ln_density(t, shape, total, rank)
-            + ln_incomplete(shape + 1.0, shape * threshold * t.exp()).1
-    });
+pub fn screen(options: &CfarOptions, noise: &TrainingNoise) -> Screen {
+    let threshold = factors(&by_rank(options, SCREENED), noise).threshold;
+    let (total, rank) = (noise.cells.total(), screen_rank(noise.cells));
+    let statistic = OrderedStatistic::new(options.looks, total, rank, noise.pairs());
+    let taken = statistic.power_above(threshold);
     Screen { threshold, bias: (1.0 - taken) / (1.0 - SCREENED) }
 }
 
@@ -57,44 +52,57 @@ fn by_rank(options: &CfarOptions, false_alarm: f64) -> CfarOptions {
 /// Factors by the number of training cells left, each found when it is first asked for.
 pub struct LeftFactors {
     options: CfarOptions,
-    correlation: f64,
+    /// Of the cells of the fullest rows, and their mean.
+    noise: TrainingNoise,
+    mean: Mean,
     means: BTreeMap<usize, f64>,
-    ranks: BTreeMap<usize, Factors>,
+    rank: Option<Factors>,
 }
 
 impl LeftFactors {
-    pub fn new(options: &CfarOptions, correlation: f64) -> Self {
+    pub fn new(options: &CfarOptions, noise: TrainingNoise) -> Self {
         let options = by_rank(options, options.false_alarm);
-        Self { options, correlation, means: BTreeMap::new(), ranks: BTreeMap::new() }
+        let mean = noise.mean(options.looks);
+        Self { options, noise, mean, means: BTreeMap::new(), rank: None }
     }
 
     /// Threshold over the mean of so many cells.
     pub fn of_mean(&mut self, cells: usize) -> f64 {
         let spare = (usize::BITS - cells.leading_zeros()).saturating_sub(BITS);
-        let (options, correlation) = (&self.options, self.correlation);
         let cells = (cells >> spare) << spare;
-        *self.means.entry(cells).or_insert_with(|| mean_factor(options, cells, correlation))
+        let share = cells as f64 / self.noise.cells.total().max(1) as f64;
+        let (options, mean) = (&self.options, &self.mean);
+        *self.means.entry(cells).or_insert_with(|| mean_factor(options, &mean.of_share(share)))
     }
 
-    /// Factors over the screen's statistic, for cells that no training cell is left of.
-    pub fn of_rank(&mut self, cells: TrainingCells) -> Factors {
-        let (options, correlation) = (&self.options, self.correlation);
-        *self.ranks.entry(cells.total()).or_insert_with(|| factors(options, cells, correlation))
+    /// Factors over the screen's statistic of the fullest rows, for cells that no training cell is left of.
+    pub fn of_rank(&mut self) -> Factors {
+        *self.rank.get_or_insert_with(|| factors(&self.options, &self.noise))
     }
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::cfar::stencil::Rectangle;
+    use crate::cfar::training_noise::CellCorrelations;
     use boresight_core::Random;
+
+    /// Eight independent cells on each side.
+    fn noise() -> TrainingNoise {
+        let side = |rows| vec![Rectangle { rows, offsets: 0..1 }];
+        let correlations = CellCorrelations::new([None; 2], [12, 0]).unwrap();
+        TrainingNoise::new(&[side(0..8), side(9..17)], &correlations)
+    }
 
     /// Of 200,000 noise cells, each beside 16 of its own.
     #[test]
     fn the_mean_left_by_the_screen_is_as_computed() {
         for looks in [1, 8] {
             let options = CfarOptions { looks, ..CfarOptions::default() };
-            let cells = TrainingCells { before: 8, after: 8 };
-            let screen = screen(&options, cells, 1.0);
+            let screen = screen(&options, &noise());
+            let cells = noise().cells;
             let mut random = Random::new(3, looks as u64);
             let mut power = || {
                 let product: f64 = (0..looks).map(|_| 1.0 - random.unit()).product();
@@ -119,7 +127,7 @@ mod tests {
 
     #[test]
     fn many_cells_share_their_factors() {
-        let mut factors = LeftFactors::new(&CfarOptions::default(), 1.0);
+        let mut factors = LeftFactors::new(&CfarOptions::default(), noise());
         let few: Vec<f64> = (1..=300).map(|cells| factors.of_mean(cells)).collect();
         assert!(few.windows(2).all(|pair| pair[1] <= pair[0]));
         (300..100_000).for_each(|cells| {

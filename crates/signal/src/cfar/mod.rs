@@ -7,6 +7,7 @@
 //! factor is exact, at the edges too: Doppler wraps, and where the window leaves the map along
 //! range the factor follows from the training cells that are left.
 
+mod bin_noise;
 mod cell_averaging;
 mod excision;
 mod gamma;
@@ -18,8 +19,10 @@ mod smallest_of;
 mod stencil;
 mod sums;
 mod threshold;
+mod training_noise;
 
 use crate::error::SignalError;
+pub use bin_noise::BinNoise;
 use boresight_core::CoreError;
 use boresight_core::describe::{self, Naming};
 use boresight_core::error::check_range;
@@ -32,6 +35,7 @@ use stencil::{Rectangle, Stencil};
 use sums::CumulativeSums;
 use threshold::factors;
 pub use threshold::{Factors, TrainingCells};
+use training_noise::{CellCorrelations, TrainingNoise};
 
 /// Most bins along an axis.
 const MAX_BINS: f64 = 67_108_864.0;
@@ -113,11 +117,6 @@ impl Cfar {
     pub fn new(ranges: usize, dopplers: usize, options: &CfarOptions) -> Result<Self, SignalError> {
         describe::check(options, Naming::Rust)?;
         check_range("looks", options.looks as f64, 1.0, 1024.0)?;
-        for (what, correlation) in
-            ["range correlation", "Doppler correlation"].into_iter().zip(options.correlation)
-        {
-            check_range(what, correlation, 1.0, 1e3)?;
-        }
         check_range("range bins", ranges as f64, 1.0, MAX_BINS)?;
         check_range("Doppler bins", dopplers as f64, 1.0, MAX_BINS)?;
         let excises = options.kind == CfarKind::Excision;
@@ -126,19 +125,20 @@ impl Cfar {
         let map = check_bytes("the range-Doppler map", &[ranges, dopplers], bytes)?;
         let stencil = Stencil::new(ranges, dopplers, options)?;
         let reach = stencil.doppler_reach();
-        let correlation = correlation(options);
+        let correlations = CellCorrelations::new(options.noise, stencil.reach())?;
+        let noise = |row| TrainingNoise::new(&stencil.halves(row), &correlations);
         let screens = if excises {
-            of_rows(ranges, &stencil, |cells| excision::screen(options, cells, correlation))
+            of_rows(ranges, &stencil, |row| excision::screen(options, &noise(row)))
         } else {
             vec![]
         };
-        let mut rows = of_rows(ranges, &stencil, |cells| factors(options, cells, correlation));
+        let mut rows = of_rows(ranges, &stencil, |row| factors(options, &noise(row)));
         for ((_, factors), (_, screen)) in rows.iter_mut().zip(&screens) {
             factors.bias = screen.bias;
             factors.threshold /= screen.bias;
         }
-        let training = rows.iter().map(|(cells, _)| cells.total()).max().unwrap_or(0) as f64;
-        let ranks = RANK_OPERATIONS * training;
+        let fullest = (0..ranges).max_by_key(|&row| rows[row].0.total()).unwrap_or(0);
+        let ranks = RANK_OPERATIONS * rows[fullest].0.total() as f64;
         let each = match options.kind {
             CfarKind::OrderedStatistic => ranks,
             CfarKind::Excision => ranks + 2.0 * MEAN_OPERATIONS,
@@ -150,7 +150,7 @@ impl Cfar {
             left: Array2::zeros((ranges, dopplers)),
             gone: Array2::zeros((ranges, dopplers)),
             gone_sums: CumulativeSums::new(ranges, dopplers, reach),
-            factors: LeftFactors::new(options, correlation),
+            factors: LeftFactors::new(options, noise(fullest)),
         });
         Ok(Self {
             kind: options.kind,
@@ -291,7 +291,7 @@ impl Cfar {
         let Some(screening) = &mut self.screening else { return (0.0, 0.0) };
         let left = cells.total().saturating_sub(gone);
         if left == 0 {
-            let factors = screening.factors.of_rank(cells);
+            let factors = screening.factors.of_rank();
             let statistic = self.ranks.nth(halves, doppler_bin, excision::screen_rank(cells));
             return (statistic / factors.bias, factors.threshold * statistic);
         }
@@ -362,20 +362,11 @@ impl Cfar {
     }
 }
 
-/// Training cells that count as one independent cell.
-fn correlation(options: &CfarOptions) -> f64 {
-    match options.axes {
-        CfarAxes::Range => options.correlation[0],
-        CfarAxes::Doppler => options.correlation[1],
-        CfarAxes::Both => options.correlation[0] * options.correlation[1],
-    }
-}
-
-/// Training cells of each row with what follows from them. Rows with equal training cells share that.
+/// Training cells of each row with what follows from the row. Rows with equal training cells share that.
 fn of_rows<T: Copy>(
     ranges: usize,
     stencil: &Stencil,
-    follows: impl Fn(TrainingCells) -> T,
+    follows: impl Fn(usize) -> T,
 ) -> Vec<(TrainingCells, T)> {
     let mut known: Vec<(TrainingCells, T)> = Vec::new();
     (0..ranges)
@@ -386,7 +377,7 @@ fn of_rows<T: Copy>(
             if let Some((_, same)) = known.iter().find(|(c, _)| *c == cells || *c == mirrored) {
                 return (cells, *same);
             }
-            let new = follows(cells);
+            let new = follows(row);
             known.push((cells, new));
             (cells, new)
         })

@@ -1,5 +1,6 @@
 //! Options of detection.
 
+use super::bin_noise::BinNoise;
 use boresight_core::describe::Described;
 use serde::{Deserialize, Serialize};
 
@@ -63,9 +64,8 @@ pub struct CfarOptions {
     #[option(default = 1)]
     #[serde(skip)]
     pub looks: usize,
-    /// Neighbouring cells that count as one independent cell, along range and Doppler: 1 without
-    /// window and padding, else [`crate::RangeDoppler::cell_correlation`].
-    #[option(default = [1.0; 2])]
+    /// How noise is correlated along range and Doppler, by window and padding: [`crate::RangeDoppler::bin_noise`]. None for
+    /// independent cells.
     #[serde(skip)]
-    pub correlation: [f64; 2],
+    pub noise: [Option<BinNoise>; 2],
 }

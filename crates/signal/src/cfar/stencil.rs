@@ -19,7 +19,7 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
-    fn cells(&self) -> usize {
+    pub fn cells(&self) -> usize {
         self.rows.len() * self.offsets.len()
     }
 }
@@ -65,6 +65,11 @@ impl Stencil {
             return Err(SignalError::Window { axis: "range", cells: ranges, given });
         }
         Ok(stencil)
+    }
+
+    /// Cells the window reaches to either side, along range and Doppler.
+    pub fn reach(&self) -> [usize; 2] {
+        self.reach
     }
 
     /// Doppler bins the window reaches to either side.
