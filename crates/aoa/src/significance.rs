@@ -252,7 +252,7 @@ mod tests {
         let array = Array::ula(2).unwrap();
         let mut random = Random::new(42, 0);
         let y = scene(&array, &[12.0], 1000.0, 1, &mut random);
-        let mut resolved = |noise_power| {
+        let resolved = |noise_power| {
             let mut options = options(1);
             options.nomp.noise_power = noise_power;
             let mut estimator = Estimator::new(Method::Bartlett, &array, &options).unwrap();

@@ -287,8 +287,8 @@ class EstimateOptions(TypedDict, total=False):
     """
     smoothing: int
     """Length of the subarrays of spatial smoothing (evenly spaced arrays); none if absent (2 to 1024)."""
-    sources: int | Literal["aic", "mdl", "network"]
-    """Number of sources, or how they are counted, for methods that need it (default "mdl")."""
+    sources: int | Literal["auto", "aic", "mdl", "network"]
+    """Number of sources, or how they are counted, for methods that need it (default "auto")."""
     tolerance: float
     """Change of angle (rad) or relative change of power at which iterations stop (1e-15 to 1; default 1e-8)."""
 

@@ -73,8 +73,8 @@ export interface NompOptions {
 
 /** Options of all estimators. Those a method has no use for are ignored. */
 export interface SharedEstimatorOptions {
-  /** Number of sources, or how they are counted, for methods that need it (1 to 1024; default 'mdl'). */
-  sources?: number | 'aic' | 'mdl' | 'network';
+  /** Number of sources, or how they are counted, for methods that need it (1 to 1024; default 'auto'). */
+  sources?: number | 'auto' | 'aic' | 'mdl' | 'network';
   /** Half width of the field of view in azimuth (0.1 to 90 deg; default 90). */
   fieldOfViewDeg?: number;
   /** Half width of the field of view in elevation (arrays that span an area) (0.1 to 90 deg; default 30). */
@@ -246,8 +246,8 @@ export type Method =
 export interface AngleOptions {
   /** Method of angle estimation (default 'bartlett'). */
   method?: Method;
-  /** Number of sources, or how they are counted, for methods that need it (1 to 1024; default 'mdl'). */
-  sources?: number | 'aic' | 'mdl' | 'network';
+  /** Number of sources, or how they are counted, for methods that need it (1 to 1024; default 'auto'). */
+  sources?: number | 'auto' | 'aic' | 'mdl' | 'network';
   /** Half width of the field of view in azimuth (0.1 to 90 deg; default 90). */
   fieldOfViewDeg?: number;
   /** Half width of the field of view in elevation (arrays that span an area) (0.1 to 90 deg; default 30). */
@@ -944,17 +944,22 @@ export interface ViewGrid {
 }
 
 /**
- * Penalty on the number of free parameters.
+ * How sources are counted by eigenvalues.
  *
- * - `aic`: Akaike's information criterion: `2 L(k) + 2 p(k)`. Tends to count too many.
- * - `mdl`: Rissanen's and Schwarz's minimum description length: `L(k) + p(k) ln(N) / 2`. Consistent.
+ * - `largest-root`: Test by test whether the largest eigenvalue left is more than noise makes, at a false-alarm
+ * probability. Valid from two vectors on.
+ * - `aic`: Akaike's information criterion: `2 L(k) + 2 p(k)`. Counts too many, with few vectors by far.
+ * - `mdl`: Rissanen's and Schwarz's minimum description length: `L(k) + p(k) ln(N) / 2`. Consistent, but counts far
+ * too many where there are about as many vectors as elements.
  */
-export type Criterion = 'aic' | 'mdl';
+export type Criterion = 'largest-root' | 'aic' | 'mdl';
 
 /** How sources are counted. */
 export interface CountOptions {
-  /** The penalty on the number of sources (default 'mdl'). */
+  /** How sources are counted (default 'largest-root'). */
   criterion?: Criterion;
+  /** Probability that the largest-root test takes noise for a source (1e-12 to 0.5; default 0.01). */
+  falseAlarm?: number;
   /** Average the covariance with its reversal, for evenly spaced arrays (default false). */
   forwardBackward?: boolean;
   /**

@@ -221,8 +221,9 @@ export interface Estimate {
   /** The spectrum, from methods that have one. */
   spectrum?: Spectrum;
   /**
-   * Whether all sources asked for or counted were found. Methods that take no number of sources list the peaks there
-   * are, of noise alone too, and always say so.
+   * Whether all sources asked for or counted were found and each stands out of the noise: what it explains beside the
+   * others is more than the strongest peak of noise would, with the false-alarm probability of `nomp`. Methods that
+   * list what they find are resolved where one source stands out. False where the data cannot tell.
    */
   resolved: boolean;
   /** Iterations done, 0 for closed forms. */
@@ -289,7 +290,10 @@ export interface CountResult {
   count: number;
   /** Eigenvalues of the covariance, largest first. */
   eigenvalues: Float64Array;
-  /** The criterion for 0, 1, 2, ... sources. */
+  /**
+   * For 0, 1, 2, ... sources: the information criterion, smallest at their number, or the largest eigenvalue left over
+   * the level of the largest-root test, above 1 for a source. Empty where nothing can be tested: of a single snapshot.
+   */
   criterion: Float64Array;
 }
 
@@ -596,6 +600,11 @@ export interface FrameCounts {
   otherBands: number;
   /** Cells whose fold of the range rate is not certain; they keep that of their bin. */
   undecidedFolds: number;
+  /**
+   * Cells nearer than 4 range resolutions, where antennas couple, or beyond 0.9 of the unambiguous range, where
+   * filters attenuate; none where the region names a range.
+   */
+  outsideUsableRange: number;
   /** Cells and detections outside the region. */
   outsideRegion: number;
   /** Cells and detections beyond the most to report. */
