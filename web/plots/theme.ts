@@ -72,6 +72,7 @@ const METHOD_STYLES: Record<string, SeriesStyle> = {
   'root-music': { color: { light: '#a3154e', dark: '#ff7fa8' }, marker: 'up' },
   esprit: { color: { light: '#1b6e3c', dark: '#8fd694' }, marker: 'down' },
   'min-norm': { color: { light: '#00896a', dark: '#2fcf9f' }, dash: [4, 3], marker: 'right' },
+  'coarray-music': { color: { light: '#b35900', dark: '#ffb366' }, dash: [2, 3], marker: 'diamond' },
   iaa: { color: { light: '#8a3ab9', dark: '#c99af2' }, marker: 'star' },
   nomp: { color: { light: '#3d4650', dark: '#e9edf0' }, marker: 'plus' },
   'atomic-norm': { color: { light: '#5b7f00', dark: '#b6d95c' }, dash: [6, 2], marker: 'right' },

@@ -3,6 +3,7 @@
 use crate::method::Method;
 use crate::options::{EstimatorOptions, IaaForm, SourceCount};
 use crate::quadratic::steps_in_plane;
+use boresight_core::array::MAX_ELEMENTS;
 use boresight_core::{Array, Extent};
 
 /// Operations of the eigendecomposition of a matrix, and of the inverse of one by tiles, in cubes of its size; of the roots
@@ -37,6 +38,10 @@ impl Cost {
             Method::Bartlett => covariance(grid + d * plane),
             Method::Capon => covariance(k.powi(3) + grid + d * plane),
             Method::Music | Method::MinNorm => covariance(EIGEN * k.powi(3) + grid + d * plane),
+            Method::CoarrayMusic => {
+                let lags = size.span.min(MAX_ELEMENTS as f64);
+                covariance(EIGEN * (lags.powi(3) + k.powi(3)) + grid)
+            }
             Method::SingleSnapshotMusic => covariance(EIGEN * (0.5 * k).powi(3) + grid + d * plane),
             Method::RootMusic => covariance(EIGEN * k.powi(3) + ROOTS * size.span.powi(2)),
             Method::Esprit => covariance(EIGEN * (k.powi(3) + d.powi(3))),

@@ -100,7 +100,9 @@ impl Estimator {
         if out.sources.is_empty() {
             data.check_not_vanishing()?;
         }
-        self.significance.apply(out, data);
+        if !self.plan.tests_sources() {
+            self.significance.apply(out, data);
+        }
         out.warnings.extend(self.scale.iter().cloned());
         Ok(())
     }

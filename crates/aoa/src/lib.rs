@@ -37,6 +37,7 @@ mod batch_columns;
 pub mod bounds;
 mod capon;
 mod checks;
+mod coarray_music;
 mod coincident;
 mod cosines;
 mod cost;

@@ -22,6 +22,8 @@ pub enum Method {
     Esprit,
     /// Minimum norm (Kumaresan and Tufts 1983).
     MinNorm,
+    /// MUSIC on the difference co-array (Pal and Vaidyanathan 2010): more sources than elements on sparse arrays.
+    CoarrayMusic,
     /// Iterative adaptive approach (Yardibi et al. 2010).
     Iaa,
     /// Newtonized orthogonal matching pursuit (Mamandipoor et al. 2016).
@@ -80,7 +82,7 @@ pub struct Requirements {
 
 impl Method {
     /// All methods that need no trained model, in the order they are listed to users.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Bartlett,
         Self::Capon,
         Self::Music,
@@ -88,6 +90,7 @@ impl Method {
         Self::RootMusic,
         Self::Esprit,
         Self::MinNorm,
+        Self::CoarrayMusic,
         Self::Iaa,
         Self::Nomp,
         Self::AtomicNorm,
@@ -197,6 +200,15 @@ impl Method {
                 min_snapshots: 2,
                 source_count: true,
                 cost: "K^3 + G log G",
+                ..base
+            },
+            Self::CoarrayMusic => Requirements {
+                title: "Co-array MUSIC",
+                reference: "Pal and Vaidyanathan 2010; Liu and Vaidyanathan 2015",
+                min_snapshots: 2,
+                lattice: true,
+                source_count: true,
+                cost: "K^2 + M^3 + G log G for M lags",
                 ..base
             },
             Self::Iaa => Requirements {

@@ -3,6 +3,7 @@
 use crate::atomic_norm::AtomicNorm;
 use crate::bartlett::Bartlett;
 use crate::capon::Capon;
+use crate::coarray_music::CoarrayMusic;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::esprit::Esprit;
@@ -46,6 +47,11 @@ pub trait Plan: Send {
         Ok(0.0)
     }
 
+    /// Whether it sets [`Estimate::resolved`] by a test of its own.
+    fn tests_sources(&self) -> bool {
+        false
+    }
+
     /// Number of cells it is best given at once; those of a batch come in such portions.
     fn cells_at_once(&self) -> usize {
         1
@@ -85,6 +91,7 @@ pub(crate) fn plan(
         Method::RootMusic => Box::new(RootMusic::new(array, options)?),
         Method::Esprit => Box::new(Esprit::new(array, options)?),
         Method::MinNorm => Box::new(MinNorm::new(array, options)?),
+        Method::CoarrayMusic => Box::new(CoarrayMusic::new(array, options)?),
         Method::Iaa => Box::new(Iaa::new(array, options)?),
         Method::Nomp => Box::new(Nomp::new(array, options)?),
         Method::AtomicNorm => Box::new(AtomicNorm::new(array, options)?),
