@@ -12,7 +12,11 @@
 
 use crate::cost::sum_operations;
 use crate::error::SimulateError;
+use crate::fluctuation::SwerlingModel;
+use crate::ground::{Ground, Leg};
+use crate::interference::{Interferer, Received};
 use crate::paths::{Paths, moved};
+use crate::phase_noise::PhaseNoise;
 use boresight_core::array::{Channel, MAX_ELEMENTS, Position};
 use boresight_core::describe::shaped::interleaved;
 use boresight_core::describe::{Described, columns};
@@ -29,6 +33,18 @@ use std::f64::consts::{PI, TAU};
 
 /// Most frames.
 const MAX_FRAMES: f64 = 134_217_728.0;
+
+/// Streams of the seed from which things are drawn frame by frame, beside phases and noise.
+const FLUCTUATIONS: u64 = 1 << 40;
+const PHASE_NOISE: u64 = 2 << 40;
+/// And of the first interferer; further ones are as far apart.
+const INTERFERENCE: u64 = 1 << 50;
+
+/// Operations of a sine and cosine.
+const TURN_OPERATIONS: f64 = 40.0;
+
+/// Most interferers.
+const MAX_INTERFERERS: f64 = 64.0;
 
 /// Most targets.
 pub const MAX_TARGETS: usize = 1024;
@@ -95,6 +111,16 @@ pub struct CubeOptions {
     /// Frames.
     #[option(default = 1, range = 1..)]
     pub frames: usize,
+    /// Fluctuation of the targets' reflections.
+    pub fluctuation: SwerlingModel,
+    /// Phase noise of the oscillator 1 MHz from the carrier, dBc/Hz, falling by 20 dB a decade; none if absent.
+    #[option(range = -200..=-40)]
+    pub phase_noise_dbc_hz: Option<f64>,
+    /// A road that reflects; none if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground: Option<Ground>,
+    /// Other radars that interfere.
+    pub interferers: Vec<Interferer>,
     /// Plane or spherical waves.
     #[serde(skip)]
     pub field: Field,
@@ -131,30 +157,54 @@ pub fn simulate_cube(
     let shape = [options.frames, waveform.loops, chirps, rx, waveform.samples];
     let values = check_bytes("the data cube", &shape, size_of::<Complex32>())?;
     let senders = if waveform.multiplexing.is_time_division() { 1 } else { tx };
-    let waves = targets.len().saturating_mul(senders);
-    check_operations("the data cube", values as f64 * sum_operations(waves))?;
+    let paths = if options.ground.is_some() { 4 } else { 1 };
+    let waves = targets.len().saturating_mul(senders * paths);
+    let noisy = if options.phase_noise_dbc_hz.is_some() { waves } else { 0 };
+    let turns = (noisy + options.interferers.len()) as f64 * TURN_OPERATIONS;
+    check_operations("the data cube", values as f64 * (sum_operations(waves) + turns))?;
     let model = Model::new(waveform, array, options);
     let mut phases = Random::new(options.seed, 0);
-    let echoes: Vec<Echo> = targets.iter().map(|t| model.echo(t, &mut phases)).collect();
+    let echoes: Vec<Vec<Echo>> = targets.iter().map(|t| model.echoes(t, &mut phases)).collect();
+    let mut interferers = model.interferers(&options.interferers, options.seed);
+    let mut phase_noise = options.phase_noise_dbc_hz.map(|level| PhaseNoise::new(waveform, level));
+    let mut factors = vec![1.0; targets.len()];
     let noise_power = db_to_power(-options.snr_db);
     let mut cube = Array5::zeros(shape);
     let mut block = Block::new(rx, waveform.samples);
     for (frame_index, mut frame) in cube.outer_iter_mut().enumerate() {
         let mut random = Random::new(options.seed, frame_index as u64 + 1);
+        let mut fluctuations = Random::new(options.seed, FLUCTUATIONS + frame_index as u64);
+        let mut oscillator = Random::new(options.seed, PHASE_NOISE + frame_index as u64);
+        let mut fluctuate = |factors: &mut [f64]| {
+            factors.fill_with(|| options.fluctuation.draw(&mut fluctuations));
+        };
+        fluctuate(&mut factors);
         for (l, mut loop_chirps) in frame.outer_iter_mut().enumerate() {
             for (c, mut chirp) in loop_chirps.outer_iter_mut().enumerate() {
                 let start_s = frame_index as f64 * waveform.frame_interval_s
                     + (l * chirps + c) as f64 * waveform.chirp_interval_s;
                 block.re.fill(0.0);
                 block.im.fill(0.0);
+                if options.fluctuation.is_fast() {
+                    fluctuate(&mut factors);
+                }
+                if let Some(noise) = &mut phase_noise {
+                    noise.redraw(&mut oscillator);
+                }
                 for t in 0..tx {
                     let code = waveform.code(t, l, c);
                     if code == Complex64::ZERO {
                         continue;
                     }
-                    for echo in &echoes {
-                        model.add(echo, t, code, start_s, &mut block);
+                    for (echoes, factor) in echoes.iter().zip(&factors) {
+                        for echo in echoes {
+                            let noise = phase_noise.as_ref();
+                            model.add(echo, t, code * factor, start_s, noise, &mut block);
+                        }
                     }
+                }
+                for interferer in &mut interferers {
+                    model.add_interferer(interferer, start_s, &mut block);
                 }
                 for ((out, &re), &im) in chirp.iter_mut().zip(&block.re).zip(&block.im) {
                     let noisy = Complex64::new(re, im) + random.complex_normal(noise_power);
@@ -192,6 +242,20 @@ fn check(
     check_range("snr_db", options.snr_db, -200.0, 300.0)?;
     check_range("frames", options.frames as f64, 1.0, MAX_FRAMES)?;
     check_range("targets", targets.len() as f64, 0.0, MAX_TARGETS as f64)?;
+    check_range("interferers", options.interferers.len() as f64, 0.0, MAX_INTERFERERS)?;
+    options.interferers.iter().try_for_each(Interferer::check)?;
+    check_range("phase_noise_dbc_hz", options.phase_noise_dbc_hz.unwrap_or(-100.0), -200.0, -40.0)?;
+    if let Some(ground) = &options.ground {
+        check_range("radar_height_m", ground.radar_height_m, 0.01, 100.0)?;
+        check_range("reflection", ground.reflection, 0.0, 1.0)?;
+        if options.field == Field::Near {
+            return Err(CoreError::Incompatible {
+                what: "ground".into(),
+                expected: "plane waves".into(),
+                given: "with a near field".into(),
+            });
+        }
+    }
     let end_s = options.frames as f64 * waveform.frame_interval_s;
     for target in targets {
         target.direction.check()?;
@@ -210,16 +274,20 @@ fn check(
 struct Model<'a> {
     waveform: &'a Waveform,
     field: Field,
+    ground: Option<Ground>,
     imperfections: Option<&'a Imperfections>,
     paths: Paths,
     /// Virtual elements as they really are, half wavelengths.
     elements: Vec<Position>,
     /// Sign of each virtual element's samples: that of antennas mounted turned.
     signs: Vec<f64>,
+    /// Places of transmitter and receiver of each virtual element.
+    ends: Vec<[Position; 2]>,
 }
 
 /// A target as the cube sees it.
 struct Echo {
+    /// Half of the path, and of its rate.
     range_m: f64,
     rate_mps: f64,
     unit: [f64; 3],
@@ -275,17 +343,37 @@ impl<'a> Model<'a> {
                 elements.push(moved(*tx, rx));
             }
         }
-        let paths = Paths::new(waveform.wavelength_m(), ends);
-        Self { waveform, field: options.field, imperfections, paths, elements, signs }
+        let paths = Paths::new(waveform.wavelength_m(), ends.clone());
+        let field = options.field;
+        let ground = options.ground;
+        Self { waveform, field, imperfections, paths, elements, signs, ends, ground }
     }
 
-    fn echo(&self, target: &CubeTarget, phases: &mut Random) -> Echo {
-        let unit = target.direction.unit();
+    /// The echoes of a target: one, or by way of the ground four.
+    fn echoes(&self, target: &CubeTarget, phases: &mut Random) -> Vec<Echo> {
         let phase = target.phase_rad.unwrap_or_else(|| phases.phase());
+        let direct = Leg::direct(target);
+        let mut legs = vec![direct];
+        legs.extend(self.ground.and_then(|ground| ground.leg(target)));
         let amplitude = cis(phase) * db_to_amplitude(target.power_db);
+        let pairs = legs.iter().flat_map(|&out| legs.iter().map(move |&back| [out, back]));
+        pairs.map(|legs| self.echo(legs, amplitude)).collect()
+    }
+
+    /// That which goes out by one leg and comes back by another.
+    fn echo(&self, [out, back]: [Leg; 2], amplitude: Complex64) -> Echo {
+        let amplitude = amplitude * (out.gain * back.gain);
+        let (unit, range_m) = (out.direction.unit(), 0.5 * (out.length_m + back.length_m));
         let ideal: Array1<Complex64> = match self.field {
-            Field::Far => self.elements.iter().map(|p| cis(PI * dot(p, &unit))).collect(),
-            Field::Near => self.paths.response(target.range_m, &unit),
+            Field::Far if out == back => {
+                self.elements.iter().map(|p| cis(PI * dot(p, &unit))).collect()
+            }
+            Field::Far => {
+                let arriving = back.direction.unit();
+                let turn = |[tx, rx]: &[Position; 2]| dot(tx, &unit) + dot(rx, &arriving);
+                self.ends.iter().map(|ends| cis(PI * turn(ends))).collect()
+            }
+            Field::Near => self.paths.response(range_m, &unit),
         };
         let mut gains = ideal.clone();
         if let Some(imperfections) = self.imperfections {
@@ -295,12 +383,47 @@ impl<'a> Model<'a> {
             gains.zip_mut_with(&ideal, |gain, ideal| *gain *= ideal.conj());
         }
         let gains = gains.iter().zip(&self.signs).map(|(g, sign)| g * amplitude * sign).collect();
-        Echo { range_m: target.range_m, rate_mps: target.rate_mps, unit, gains }
+        Echo { range_m, rate_mps: 0.5 * (out.rate_mps + back.rate_mps), unit, gains }
+    }
+
+    /// Interferers as the receivers see them.
+    fn interferers<'b>(&'b self, all: &'b [Interferer], seed: u64) -> Vec<Received<'b>> {
+        let receivers = self.ends.len() / self.waveform.transmitters;
+        let received = |(index, of): (usize, &'b Interferer)| {
+            let (unit, amplitude) = (of.direction.unit(), db_to_amplitude(of.power_db));
+            let first = self.ends[..receivers].iter().zip(&self.signs);
+            let gains = first.map(|([_, rx], sign)| cis(PI * dot(rx, &unit)) * amplitude * sign);
+            let stream = INTERFERENCE * (index as u64 + 1);
+            Received::new(of, self.waveform, gains.collect(), seed, stream)
+        };
+        all.iter().enumerate().map(received).collect()
+    }
+
+    /// Adds what an interferer leaves in the chirp that starts at `start_s`.
+    fn add_interferer(&self, interferer: &mut Received<'_>, start_s: f64, block: &mut Block) {
+        let Waveform { adc_start_s, sample_rate_hz, .. } = *self.waveform;
+        let mut sample = 0.0;
+        block.set_wave(std::iter::repeat_with(|| {
+            let time_s = adc_start_s + sample / sample_rate_hz;
+            sample += 1.0;
+            interferer.sample(start_s, time_s)
+        }));
+        for (r, gain) in interferer.gains.iter().enumerate() {
+            block.add_wave(r, *gain);
+        }
     }
 
     /// Adds the echo of what transmitter `tx` sends, times its code, in the chirp that starts at
     /// `start_s` to receivers x samples.
-    fn add(&self, echo: &Echo, tx: usize, code: Complex64, start_s: f64, block: &mut Block) {
+    fn add(
+        &self,
+        echo: &Echo,
+        tx: usize,
+        code: Complex64,
+        start_s: f64,
+        noise: Option<&PhaseNoise>,
+        block: &mut Block,
+    ) {
         let samples = self.waveform.samples;
         let receivers = block.re.len() / samples;
         let gains = &echo.gains[tx * receivers..(tx + 1) * receivers];
@@ -309,14 +432,29 @@ impl<'a> Model<'a> {
         let range_m = |time_s: f64| echo.range_m + echo.rate_mps * time_s;
         if self.field == Field::Far {
             block.set_wave(self.tone(2.0 * range_m(first_s), 2.0 * range_m(last_s)));
+            self.add_phase_noise(noise, 2.0 * range_m(first_s), block);
         }
         for (r, gain) in gains.iter().enumerate() {
             if self.field == Field::Near {
                 let element = tx * receivers + r;
                 let path = |time_s| self.paths.length_m(element, range_m(time_s), &echo.unit);
                 block.set_wave(self.tone(path(first_s), path(last_s)));
+                self.add_phase_noise(noise, path(first_s), block);
             }
             block.add_wave(r, gain * code);
+        }
+    }
+
+    /// Turns the wave of a path by the oscillator's phase noise.
+    fn add_phase_noise(&self, noise: Option<&PhaseNoise>, path_m: f64, block: &mut Block) {
+        let Some(noise) = noise else { return };
+        let Waveform { adc_start_s, sample_rate_hz, .. } = *self.waveform;
+        let delay_s = path_m / SPEED_OF_LIGHT_MPS;
+        let parts = block.wave_re.iter_mut().zip(&mut block.wave_im);
+        for (sample, (re, im)) in parts.enumerate() {
+            let time_s = adc_start_s + sample as f64 / sample_rate_hz;
+            let turned = Complex64::new(*re, *im) * cis(noise.error_rad(time_s, delay_s));
+            (*re, *im) = (turned.re, turned.im);
         }
     }
 

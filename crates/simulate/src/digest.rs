@@ -78,7 +78,8 @@ pub fn reference_cube() -> Result<u64, SimulateError> {
     let targets = [target(2.5, 1.5, 0.3), target(4.0, -3.0, -0.7)];
     let mut bits = Vec::new();
     for field in [Field::Far, Field::Near] {
-        let options = CubeOptions { snr_db: 10.0, frames: 2, field, imperfections: None, seed: 77 };
+        let options =
+            CubeOptions { snr_db: 10.0, frames: 2, field, seed: 77, ..CubeOptions::default() };
         let cube = simulate_cube(&waveform, &array, &targets, &options)?;
         bits.extend(cube.iter().flat_map(|z| [z.re, z.im].map(|x| u64::from(x.to_bits()))));
     }

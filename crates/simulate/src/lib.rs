@@ -32,7 +32,11 @@ pub mod cube;
 pub mod digest;
 pub mod drive;
 pub mod error;
+pub mod fluctuation;
+pub mod ground;
+pub mod interference;
 mod paths;
+mod phase_noise;
 pub mod request;
 pub mod snapshots;
 pub mod street;
@@ -41,6 +45,9 @@ pub mod waveforms;
 pub use cube::{CubeColumns, CubeOptions, CubeTarget, Field, simulate_cube};
 pub use drive::{DriveOptions, Scenario, SimulatedDrive, simulate_drive, simulate_drive_reporting};
 pub use error::SimulateError;
+pub use fluctuation::SwerlingModel;
+pub use ground::Ground;
+pub use interference::Interferer;
 pub use request::{CubeRequest, SnapshotRequest};
 pub use snapshots::{
     Fluctuation, Scene, SceneSampling, SnapshotOptions, SnapshotSimulator, Snapshots, Target,
