@@ -19,6 +19,7 @@ const WHY: Readonly<Record<Unsuited, string>> = {
   'uniform-array': 'needs a uniform linear array',
   grid: 'needs elements on an evenly spaced grid',
   elevation: 'tells no elevation, and the array spans an area',
+  'no-neighbours': 'needs elements on neighbouring places of its grid',
   'few-snapshots': 'needs more snapshots, averaging or smoothing',
   'many-snapshots': 'takes a single snapshot only',
 };

@@ -43,19 +43,15 @@ impl CoarrayMusic {
     /// At most as many sources as the longest lag are found.
     ///
     /// # Errors
-    /// [`AoaError::Array`] where neighbouring places of the grid are no lag; [`AoaError::TooManySources`].
+    /// [`AoaError::Array`] for an array that does not suit; [`AoaError::TooManySources`].
     pub fn new(array: &Array, options: &EstimatorOptions) -> Result<Self, AoaError> {
         check_array(METHOD, array, options)?;
-        let unsuited = |given: &str| AoaError::Array {
+        let lattice = array.lattice().ok_or_else(|| AoaError::Array {
             method: METHOD.name(),
-            expected: "elements on a grid along y, two of them neighbours".into(),
-            given: given.into(),
-        };
-        let lattice = array.lattice().ok_or_else(|| unsuited("stands on no such grid"))?;
+            expected: "elements on a grid along y".into(),
+            given: "stands on no such grid".into(),
+        })?;
         let longest = longest_lag(&lattice);
-        if longest < 1 {
-            return Err(unsuited("has no neighbours"));
-        }
         check_sources(METHOD, options.sources, longest)?;
         let places: Vec<_> =
             (0..=longest).map(|k| [0.0, lattice.spacing * k as f64, 0.0]).collect();
@@ -134,9 +130,6 @@ impl Plan for CoarrayMusic {
     fn estimate(&mut self, data: Data<'_>) -> Result<Estimate, AoaError> {
         let prepared = self.covariance.prepare(data)?;
         let warnings: Vec<Warning> = self.ambiguity.iter().cloned().collect();
-        if prepared.power <= 0.0 {
-            return Ok(conclude(METHOD, vec![], self.sources.known(), None, 0, warnings));
-        }
         let lags = self.lags(&prepared.matrix);
         let size = self.longest + 1;
         let toeplitz = Array2::from_shape_fn((size, size), |(i, k)| match i.checked_sub(k) {
@@ -145,6 +138,7 @@ impl Plan for CoarrayMusic {
         });
         let eigen = hermitian_eigen(toeplitz.view())?;
         let count = match self.sources.known() {
+            _ if prepared.power <= 0.0 => 0,
             Some(known) => known,
             None => {
                 // The eigenvalues of the elements' own covariance have a known distribution in noise.
@@ -172,7 +166,7 @@ impl Plan for CoarrayMusic {
 }
 
 /// The longest lag up to which all occur between elements, at most what an array may hold.
-fn longest_lag(lattice: &Lattice) -> usize {
+pub(crate) fn longest_lag(lattice: &Lattice) -> usize {
     let mut occurs = vec![false; lattice.span()];
     for (place, &i) in lattice.indices.iter().enumerate() {
         for &k in &lattice.indices[..place] {

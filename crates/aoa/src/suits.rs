@@ -1,5 +1,6 @@
 //! Whether a method suits an array and a number of snapshots.
 
+use crate::coarray_music::longest_lag;
 use crate::method::Method;
 use crate::options::EstimatorOptions;
 use boresight_core::describe::Described;
@@ -17,6 +18,8 @@ pub enum Unsuited {
     UniformArray,
     /// It needs elements on a grid along y.
     Grid,
+    /// It needs elements on neighbouring places of the grid.
+    NoNeighbours,
     /// It tells no elevation, and the array spans an area.
     Elevation,
     /// It needs more snapshots, averaging or smoothing.
@@ -36,6 +39,9 @@ impl Unsuited {
                 ("elements evenly spaced along y, in order", "is not evenly spaced")
             }
             Self::Grid => ("elements on a grid along y", "stands on no such grid"),
+            Self::NoNeighbours => {
+                ("elements on neighbouring places of a grid along y", "has no such neighbours")
+            }
             Self::Elevation => ("elements along y only", "spans an area"),
             Self::FewSnapshots => ("more snapshots, averaging or smoothing", "gave too few"),
             Self::ManySnapshots => ("fewer snapshots", "gave more"),
@@ -83,6 +89,10 @@ pub(crate) fn unsuited_array(method: Method, array: &Array) -> Option<Unsuited> 
         Some(Unsuited::UniformArray)
     } else if needs.lattice && array.lattice().is_none() {
         Some(Unsuited::Grid)
+    } else if method == Method::CoarrayMusic
+        && array.lattice().is_some_and(|lattice| longest_lag(&lattice) == 0)
+    {
+        Some(Unsuited::NoNeighbours)
     } else if extent == Extent::Area && !needs.elevation {
         Some(Unsuited::Elevation)
     } else {
@@ -98,6 +108,11 @@ pub(crate) fn too_few(
     subarrays: usize,
     forward_backward: bool,
 ) -> bool {
+    let least = method.requirements().min_snapshots;
+    if method == Method::CoarrayMusic {
+        // Neither adds to what it averages over equal distances.
+        return snapshots < least;
+    }
     let copies = if forward_backward { 2 } else { 1 };
-    snapshots.saturating_mul(subarrays).saturating_mul(copies) < method.requirements().min_snapshots
+    snapshots.saturating_mul(subarrays).saturating_mul(copies) < least
 }

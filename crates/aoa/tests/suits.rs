@@ -61,8 +61,15 @@ fn agrees_with_what_estimators_take() {
     }
     seen.sort_unstable();
     seen.dedup();
-    let all =
-        ["elevation", "few-snapshots", "grid", "many-snapshots", "one-place", "uniform-array"];
+    let all = [
+        "elevation",
+        "few-snapshots",
+        "grid",
+        "many-snapshots",
+        "no-neighbours",
+        "one-place",
+        "uniform-array",
+    ];
     assert_eq!(seen, all);
 }
 

@@ -113,9 +113,10 @@ pub struct CubeOptions {
     pub frames: usize,
     /// Fluctuation of the targets' reflections.
     pub fluctuation: SwerlingModel,
-    /// Phase noise of the oscillator 1 MHz from the carrier, dBc/Hz, falling by 20 dB a decade; none if absent.
+    /// Phase noise of the oscillator in 1 Hz, 1 MHz from the carrier, over the carrier; it falls by 20 dB a decade. None if
+    /// absent.
     #[option(range = -200..=-40)]
-    pub phase_noise_dbc_hz: Option<f64>,
+    pub phase_noise_db: Option<f64>,
     /// A road that reflects; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ground: Option<Ground>,
@@ -159,14 +160,14 @@ pub fn simulate_cube(
     let senders = if waveform.multiplexing.is_time_division() { 1 } else { tx };
     let paths = if options.ground.is_some() { 4 } else { 1 };
     let waves = targets.len().saturating_mul(senders * paths);
-    let noisy = if options.phase_noise_dbc_hz.is_some() { waves } else { 0 };
+    let noisy = if options.phase_noise_db.is_some() { waves } else { 0 };
     let turns = (noisy + options.interferers.len()) as f64 * TURN_OPERATIONS;
     check_operations("the data cube", values as f64 * (sum_operations(waves) + turns))?;
     let model = Model::new(waveform, array, options);
     let mut phases = Random::new(options.seed, 0);
     let echoes: Vec<Vec<Echo>> = targets.iter().map(|t| model.echoes(t, &mut phases)).collect();
     let mut interferers = model.interferers(&options.interferers, options.seed);
-    let mut phase_noise = options.phase_noise_dbc_hz.map(|level| PhaseNoise::new(waveform, level));
+    let mut phase_noise = options.phase_noise_db.map(|level| PhaseNoise::new(waveform, level));
     let mut factors = vec![1.0; targets.len()];
     let noise_power = db_to_power(-options.snr_db);
     let mut cube = Array5::zeros(shape);
@@ -244,7 +245,7 @@ fn check(
     check_range("targets", targets.len() as f64, 0.0, MAX_TARGETS as f64)?;
     check_range("interferers", options.interferers.len() as f64, 0.0, MAX_INTERFERERS)?;
     options.interferers.iter().try_for_each(Interferer::check)?;
-    check_range("phase_noise_dbc_hz", options.phase_noise_dbc_hz.unwrap_or(-100.0), -200.0, -40.0)?;
+    check_range("phase_noise_db", options.phase_noise_db.unwrap_or(-100.0), -200.0, -40.0)?;
     if let Some(ground) = &options.ground {
         check_range("radar_height_m", ground.radar_height_m, 0.01, 100.0)?;
         check_range("reflection", ground.reflection, 0.0, 1.0)?;

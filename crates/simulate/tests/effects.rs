@@ -90,7 +90,7 @@ fn phase_noise_grows_with_range_as_it_should() {
         let frames = 30;
         let steady = cube(&[target(range_m)], CubeOptions { frames, ..CubeOptions::default() });
         let noise = Some(level_dbc_hz);
-        let options = CubeOptions { frames, phase_noise_dbc_hz: noise, ..CubeOptions::default() };
+        let options = CubeOptions { frames, phase_noise_db: noise, ..CubeOptions::default() };
         let noisy = cube(&[target(range_m)], options);
         let (mut sum, mut count) = (0.0, 0.0);
         for frame in 0..frames {
@@ -181,7 +181,7 @@ fn what_is_not_asked_for_changes_no_sample() {
     let plain = cube(&[target(30.0)], CubeOptions::default());
     let none = CubeOptions {
         ground: Some(Ground { reflection: 0.0, ..Ground::default() }),
-        phase_noise_dbc_hz: Some(-200.0),
+        phase_noise_db: Some(-200.0),
         ..CubeOptions::default()
     };
     let same = cube(&[target(30.0)], none);

@@ -24,6 +24,7 @@ Method = Literal[
     "root-music",
     "esprit",
     "min-norm",
+    "coarray-music",
     "iaa",
     "nomp",
     "atomic-norm",

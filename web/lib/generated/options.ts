@@ -206,6 +206,8 @@ export interface Region {
  * - `root-music`: Root-MUSIC (Barabell 1983).
  * - `esprit`: Rotational invariance (Roy and Kailath 1989), least squares or total least squares.
  * - `min-norm`: Minimum norm (Kumaresan and Tufts 1983).
+ * - `coarray-music`: MUSIC on the difference co-array (Pal and Vaidyanathan 2010): more sources than elements on
+ * sparse arrays.
  * - `iaa`: Iterative adaptive approach (Yardibi et al. 2010).
  * - `nomp`: Newtonized orthogonal matching pursuit (Mamandipoor et al. 2016).
  * - `atomic-norm`: Atomic norm minimisation without a grid (Bhaskar et al. 2013).
@@ -229,6 +231,7 @@ export type Method =
   | 'root-music'
   | 'esprit'
   | 'min-norm'
+  | 'coarray-music'
   | 'iaa'
   | 'nomp'
   | 'atomic-norm'
@@ -860,12 +863,63 @@ export interface SceneSampling {
   powerDb?: readonly [number, number];
 }
 
+/**
+ * How the power of each reflection fluctuates about its mean. Phases stay as they are.
+ *
+ * - `steady`: Not at all.
+ * - `swerling1`: Exponential power, as of many scatterers alike, new in each frame.
+ * - `swerling2`: The same, new in each chirp.
+ * - `swerling3`: Power of a chi-squared distribution of four degrees of freedom, as of one large scatterer among many,
+ * new in each frame.
+ * - `swerling4`: The same, new in each chirp.
+ */
+export type SwerlingModel = 'steady' | 'swerling1' | 'swerling2' | 'swerling3' | 'swerling4';
+
+/** A flat road that reflects. */
+export interface Ground {
+  /** Height of the radar over it (0.01 to 100 m). */
+  radarHeightM?: number;
+  /** Amplitude of the reflection over that of the incident wave. Its phase is reversed (0 to 1). */
+  reflection?: number;
+}
+
+/** Another radar that transmits. */
+export interface Interferer {
+  /** Azimuth, counter-clockwise from boresight (positive to the left) (-90 to 90 deg). */
+  azimuthDeg?: number;
+  /** Elevation, positive upwards (-90 to 90 deg). */
+  elevationDeg?: number;
+  /** Power of one raw sample at one element, while it is in the band (-200 to 200 dB). */
+  powerDb?: number;
+  /** Frequency at which its ramps start (1000000 to 1000000000000 Hz). */
+  startFrequencyHz?: number;
+  /** Slope of its ramps (-1e+16 to 1e+16 Hz/s). */
+  slopeHzPerS?: number;
+  /** Length of a ramp (1e-9 to 1 s). */
+  rampS?: number;
+  /** Time from one ramp to the next (1e-9 to 1 s). */
+  intervalS?: number;
+  /** Time of its first ramp after the start of the first chirp (-1 to 1 s). */
+  delayS?: number;
+}
+
 /** A data cube, whose waveform, array and targets are given beside it. */
 export interface CubeRequest {
   /** Power of a 0 dB target over noise power, both of one raw sample (-200 to 300 dB; default 20). */
   snrDb?: number;
   /** Frames (at least 1; default 1). */
   frames?: number;
+  /** Fluctuation of the targets' reflections (default 'steady'). */
+  fluctuation?: SwerlingModel;
+  /**
+   * Phase noise of the oscillator in 1 Hz, 1 MHz from the carrier, over the carrier; it falls by 20 dB a decade. None
+   * if absent (-200 to -40 dB).
+   */
+  phaseNoiseDb?: number;
+  /** A road that reflects; none if absent. */
+  ground?: Ground;
+  /** Other radars that interfere (default []). */
+  interferers?: readonly Interferer[];
   /**
    * Seed; the same one gives the same numbers on every machine. Reflection phases come from stream 0 of it, the noise
    * of frame `i` from stream `i + 1`.

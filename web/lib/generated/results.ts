@@ -154,11 +154,19 @@ export interface MethodInfo {
  * - `one-place`: All elements are at one place along y, so no azimuth can be told.
  * - `uniform-array`: It needs elements evenly spaced along y, in order.
  * - `grid`: It needs elements on a grid along y.
+ * - `no-neighbours`: It needs elements on neighbouring places of the grid.
  * - `elevation`: It tells no elevation, and the array spans an area.
  * - `few-snapshots`: It needs more snapshots, averaging or smoothing.
  * - `many-snapshots`: It takes fewer snapshots.
  */
-export type Unsuited = 'one-place' | 'uniform-array' | 'grid' | 'elevation' | 'few-snapshots' | 'many-snapshots';
+export type Unsuited =
+  | 'one-place'
+  | 'uniform-array'
+  | 'grid'
+  | 'no-neighbours'
+  | 'elevation'
+  | 'few-snapshots'
+  | 'many-snapshots';
 
 /** Standard deviations of what is told of a source. */
 export interface SourceDeviation {
