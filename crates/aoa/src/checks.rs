@@ -6,6 +6,7 @@ use crate::method::Method;
 use crate::options::{EstimatorOptions, SourceCount};
 use crate::suits::unsuited_array;
 use boresight_core::limits::check_bytes;
+use boresight_core::order::sort_in_place;
 use boresight_core::steering::unambiguous_sine;
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
 
@@ -113,10 +114,10 @@ pub(crate) fn conclude(
 /// their number.
 pub fn settle(estimate: &mut Estimate, expected: Option<usize>) {
     let Estimate { sources, warnings, .. } = estimate;
-    // Unlike a stable sort this allocates nothing; equal powers go by angle.
-    sources.sort_unstable_by(|a, b| {
+    // Equal powers go by angle.
+    sort_in_place(sources, |a, b| {
         let angles = a.direction.azimuth_rad.total_cmp(&b.direction.azimuth_rad);
-        b.power.total_cmp(&a.power).then(angles)
+        b.power.total_cmp(&a.power).then(angles).is_lt()
     });
     let found = sources.len();
     match expected {

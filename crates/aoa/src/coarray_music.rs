@@ -18,10 +18,11 @@ use crate::options::EstimatorOptions;
 use crate::plan::Plan;
 use crate::subspace::noise_projector;
 use boresight_core::array::MAX_ELEMENTS;
-use boresight_core::linalg::{Cholesky, hermitian_eigen};
+use boresight_core::linalg::{hermitian_eigen, least_squares};
 use boresight_core::order::descending;
+use boresight_core::steering::cis;
 use boresight_core::{Array, Complex64, Direction, Lattice};
-use ndarray::{Array1, Array2, Axis};
+use ndarray::{Array2, Axis};
 use std::f64::consts::PI;
 
 const METHOD: Method = Method::CoarrayMusic;
@@ -86,43 +87,44 @@ impl CoarrayMusic {
 
     /// Sources of directions, with the powers that fit the lags but the first best, which noise is in; and how many of them
     /// stand out: whose power is more than so many deviations as noise seldom reaches in any of the beams.
-    fn fitted(&self, lags: &[Complex64], directions: &[Direction]) -> (Vec<Source>, usize) {
-        let count = directions.len();
-        let wave = |direction: &Direction, lag: usize| {
-            let turn = PI * self.lattice.spacing * direction.unit()[1] * lag as f64;
-            Complex64::from_polar(1.0, turn)
-        };
-        let rows = 1..lags.len();
-        let design = Array2::from_shape_fn((rows.len(), count), |(row, source)| {
-            wave(&directions[source], row + 1)
-        });
-        let real = |a: usize, b: usize| -> f64 {
-            design.column(a).iter().zip(design.column(b)).map(|(a, b)| (a.conj() * b).re).sum()
-        };
-        let normal =
-            Array2::from_shape_fn((count, count), |(a, b)| Complex64::new(real(a, b), 0.0));
-        let seen = Array1::from_shape_fn(count, |source| {
-            let pairs = design.column(source).into_iter().zip(&lags[1..]);
-            Complex64::new(pairs.map(|(a, r)| (a.conj() * r).re).sum(), 0.0)
-        });
-        let Ok(factor) = Cholesky::new(normal.view()) else {
-            return (directions.iter().map(|&at| Source::new(at, 0.0)).collect(), 0);
-        };
-        let powers = factor.solve(seen.view()).mapv(|power| power.re);
-        let inverse = factor.inverse();
-        let fit = design.dot(&powers.mapv(|power| Complex64::new(power, 0.0)));
-        let misfit: f64 = fit.iter().zip(&lags[1..]).map(|(f, r)| (f - r).norm_sqr()).sum();
-        let freedom = (2 * rows.len()).saturating_sub(2 * count).max(1) as f64;
+    ///
+    /// # Errors
+    /// Those of [`least_squares`].
+    fn fitted(
+        &self,
+        lags: &[Complex64],
+        directions: &[Direction],
+    ) -> Result<(Vec<Source>, usize), AoaError> {
+        if directions.is_empty() {
+            return Ok((vec![], 0));
+        }
+        let rows = self.longest;
+        let mut design = Array2::zeros((rows, directions.len()));
+        for ((row, source), wave) in design.indexed_iter_mut() {
+            let turn = PI * self.lattice.spacing * directions[source].unit()[1];
+            *wave = cis(turn * (row + 1) as f64);
+        }
+        let seen = Array2::from_shape_fn((rows, 1), |(row, _)| lags[row + 1]);
+        let fit = least_squares(design.view(), seen.view())?;
+        let power = |source: usize| fit.as_ref().map_or(0.0, |fit| fit[[source, 0]].re.max(0.0));
+        let mut misfit = 0.0;
+        for (row, lag) in lags[1..].iter().enumerate() {
+            let mut left = *lag;
+            for source in 0..directions.len() {
+                left -= design[[row, source]] * power(source);
+            }
+            misfit += left.norm_sqr();
+        }
+        // Each source has a power and an angle, each lag two parts.
+        let freedom = (2 * rows).saturating_sub(2 * directions.len()).max(1) as f64;
+        let deviation = (misfit / freedom / rows as f64).sqrt();
         let beams = (2 * lags.len()) as f64;
-        let deviations = (2.0 * (beams / self.false_alarm).ln()).sqrt();
-        let standing = (0..count).filter(|&source| {
-            let variance = misfit / freedom * inverse[[source, source]].re;
-            // What rounding leaves of exact data is no source either.
-            powers[source] > deviations * variance.sqrt() + 1e-12 * lags[0].re
-        });
-        let standing = standing.count();
-        let sources = directions.iter().zip(&powers);
-        (sources.map(|(&at, &power)| Source::new(at, power.max(0.0))).collect(), standing)
+        // What rounding leaves of exact data is no source either.
+        let least = deviation * (2.0 * (beams / self.false_alarm).ln()).sqrt() + 1e-12 * lags[0].re;
+        let sources: Vec<Source> =
+            directions.iter().enumerate().map(|(k, &at)| Source::new(at, power(k))).collect();
+        let standing = sources.iter().filter(|source| source.power > least).count();
+        Ok((sources, standing))
     }
 }
 
@@ -150,7 +152,7 @@ impl Plan for CoarrayMusic {
         let basis = eigen.vectors.select(Axis(1), &order[..count]);
         let projector = noise_projector(&basis);
         let (spectrum, directions) = self.nulls.search(projector.view(), count);
-        let (sources, standing) = self.fitted(&lags, &directions);
+        let (sources, standing) = self.fitted(&lags, &directions)?;
         let found = sources.len();
         let mut estimate = conclude(METHOD, sources, Some(count), Some(spectrum), 0, warnings);
         if estimate.resolved && standing < found {
@@ -185,6 +187,7 @@ mod tests {
     use boresight_core::Random;
     use boresight_core::linalg::adjoint;
     use boresight_core::steering::steering_matrix;
+    use ndarray::Array1;
 
     fn sparse(places: &[f64]) -> Array {
         Array::new(&places.iter().map(|&y| [0.0, y, 0.0]).collect::<Vec<_>>()).unwrap()

@@ -37,6 +37,35 @@ pub fn sort_numbers(numbers: &mut [f64]) {
     numbers.sort_unstable_by(f64::total_cmp);
 }
 
+/// Sorts items without further memory, equal ones in any order: by heap, whose code is small. `before` tells whether the
+/// first of two comes before the second.
+pub fn sort_in_place<T>(items: &mut [T], before: impl Fn(&T, &T) -> bool) {
+    let count = items.len();
+    // A heap whose root comes last: made from the middle down, then emptied from the end.
+    for step in (1..count + count / 2).rev() {
+        let (mut at, end) = if step < count {
+            items.swap(0, step);
+            (0, step)
+        } else {
+            (step - count, count)
+        };
+        loop {
+            let mut last = 2 * at + 1;
+            if last >= end {
+                break;
+            }
+            if last + 1 < end && before(&items[last], &items[last + 1]) {
+                last += 1;
+            }
+            if !before(&items[at], &items[last]) {
+                break;
+            }
+            items.swap(at, last);
+            at = last;
+        }
+    }
+}
+
 fn places(keys: &[f64], is_descending: bool) -> Vec<usize> {
     sorted(keys.len(), &mut |a, b| {
         let by = keys[a].total_cmp(&keys[b]);
@@ -94,6 +123,10 @@ mod tests {
             let mut expected = items.clone();
             expected.sort_by(|a, b| a.0.cmp(&b.0));
             sort_by(&mut items, |a, b| a.0.cmp(&b.0));
+            assert_eq!(items, expected);
+            items.reverse();
+            sort_in_place(&mut items, |a, b| a < b);
+            expected.sort_unstable();
             assert_eq!(items, expected);
         }
     }

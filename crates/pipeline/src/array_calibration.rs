@@ -10,6 +10,7 @@ use boresight_array_calibration::{
     CalibrationOptions, CalibrationResult, Cell, CellUse, calibrate, check, leave_one_out,
 };
 use boresight_core::describe::{Naming, check as check_ranges};
+use boresight_core::order::sort_numbers;
 use boresight_core::{Array, CoreError, Remark, Waveform};
 use ndarray::Axis;
 use std::ops::{ControlFlow, Range};
@@ -95,10 +96,10 @@ pub fn calibrate_array<S: FrameSource>(
 
 /// Cells as calibration takes them. Noise is the median of the map: that around a cell may hold other targets.
 fn cells(chain: &Chain, found: &FrameCells) -> Result<Vec<Cell>, PipelineError> {
-    let mut powers: Vec<f32> = chain.map.power.iter().copied().collect();
-    powers.sort_by(f32::total_cmp);
+    let mut powers: Vec<f64> = chain.map.power.iter().map(|&power| power.into()).collect();
+    sort_numbers(&mut powers);
     let median = powers.get(powers.len() / 2).copied().unwrap_or_default();
-    let noise = f64::from(median).max(f64::MIN_POSITIVE);
+    let noise = median.max(f64::MIN_POSITIVE);
     let cell = |(cell, snapshots): (&DetectedCell, _)| -> Result<Cell, PipelineError> {
         let DetectedCell { range_m, rate_mps, range_bin, doppler_bin, .. } = *cell;
         let mut made = Cell::of(snapshots, noise)?;

@@ -124,7 +124,7 @@ impl Spectrum {
             }
         }
         let mut sorted = power.clone();
-        sorted.sort_unstable_by(f64::total_cmp);
+        boresight_core::order::sort_numbers(&mut sorted);
         let noise = sorted[samples / 2];
         (noise > 0.0).then_some(Self { power, chirps, noise })
     }
