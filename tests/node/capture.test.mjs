@@ -256,6 +256,39 @@ describe('a simulated cube', () => {
     throwsTyped(() => processCube(cube, options), 'not-finite');
   });
 
+  test('may fluctuate, be noisy, be reflected by the road and be interfered with', () => {
+    const options = { waveform: waveform(), array: 'awr1642', frames: 2, snrDb: 60, seed: 1 };
+    const cube = (more) => simulateCube({ ...options, targets: [{ rangeM: 6, powerDb: -10 }], ...more }).data;
+    const plain = cube({});
+    const power = (data) => data.reduce((sum, value) => sum + value * value, 0) / plain.length;
+    for (const more of [
+      { fluctuation: 'swerling1' },
+      { fluctuation: 'swerling4' },
+      { phaseNoiseDb: -70 },
+      { ground: { radarHeightM: 0.5, reflection: 0.7 } },
+    ]) {
+      const changed = cube(more);
+      assert.deepEqual(changed, cube(more), 'the same seed gives the same samples');
+      const ratio = power(changed.map((value, k) => value - plain[k])) / power(plain);
+      assert.ok(ratio > 1e-4 && ratio < 20, `${JSON.stringify(more)}: ${ratio}`);
+    }
+    const interferer = {
+      azimuthDeg: -20,
+      powerDb: 30,
+      startFrequencyHz: 78e9,
+      slopeHzPerS: -40e12,
+      rampS: 50e-6,
+      intervalS: 55e-6,
+    };
+    const hit = cube({ interferers: [interferer] }).filter((value) => Math.abs(value) > 5).length;
+    assert.ok(hit > 100 && hit < plain.length / 4, `${hit} parts of samples are hit`);
+    const refused = (more, code, what) => throwsTyped(() => cube(more), code, what);
+    refused({ fluctuation: 'swerling5' }, 'unknown-name', 'fluctuation');
+    refused({ ground: { reflection: 2 } }, 'out-of-range', 'ground.reflection');
+    refused({ ground: {}, nearField: true }, 'incompatible', 'ground');
+    refused({ interferers: [{ ...interferer, rampS: 0 }] }, 'out-of-range', 'interferers[0].rampS');
+  });
+
   test('of transmitters that send at once gives its targets back, over the whole chirp rate in Doppler division', () => {
     for (const [multiplexing, loops, shape] of [
       ['binary-phase', 16, [1, 16, 2, 4, 256]],

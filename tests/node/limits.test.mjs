@@ -45,7 +45,7 @@ describe('limits of a call', () => {
       'too-large',
       'the estimates',
     );
-    const wide = { data: new Float64Array(2 * 40).fill(1), shape: [40, 1] };
+    const wide = { data: new Float64Array(4 * 40).fill(1), shape: [40, 2] };
     throwsTyped(() => countSources({ snapshots: wide }), 'too-large', 'the count of sources');
     setLimits({ operations: 1e7 });
     assert.equal(countSources({ snapshots: wide }).eigenvalues.length, 40);

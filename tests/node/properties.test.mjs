@@ -41,6 +41,7 @@ const methods = fc.constantFrom(
   'root-music',
   'esprit',
   'min-norm',
+  'coarray-music',
   'iaa',
   'nomp',
   'atomic-norm',

@@ -51,8 +51,7 @@ test('two plane waves count as two', () => {
     else assert.ok(criterion.length === 2 && criterion.every((ratio) => ratio > 1));
   }
   const single = { snapshots: planeWaves(8, 1, [-20]) };
-  const { count, criterion } = countSources(single);
-  assert.deepEqual([count, criterion.length], [0, 0]);
+  throwsTyped(() => countSources(single), 'snapshot-count', 'snapshots');
   throwsTyped(() => countSources(input, { criterion: 'bic' }), 'unknown-name', 'criterion');
   throwsTyped(() => countSources({}), 'wrong-type', 'input');
 });
