@@ -121,7 +121,7 @@ mod tests {
             let mut items: Vec<(u64, usize)> =
                 (0..length).map(|index| (random.bits() % 8, index)).collect();
             let mut expected = items.clone();
-            expected.sort_by(|a, b| a.0.cmp(&b.0));
+            expected.sort_by_key(|item| item.0);
             sort_by(&mut items, |a, b| a.0.cmp(&b.0));
             assert_eq!(items, expected);
             items.reverse();

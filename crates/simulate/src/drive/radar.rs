@@ -86,7 +86,7 @@ impl Radar<'_> {
             MAX_DETECTIONS
         };
         if detections.len() > limit {
-            boresight_core::order::sort_descending(&mut detections, |one| one.strength_db.into());
+            boresight_core::order::sort_descending(&mut detections, |one| one.strength_db);
             detections.truncate(limit);
         }
         detections
