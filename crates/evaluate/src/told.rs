@@ -83,7 +83,8 @@ pub fn candidates(
             };
             all.push(Candidate { name: method.name().into(), method, options });
         }
-        let eigenvectors = needs.min_snapshots > 1;
+        // The co-array is of the whole array, whose distances smoothing would give up.
+        let eigenvectors = needs.min_snapshots > 1 && method != Method::CoarrayMusic;
         if eigenvectors && (coherent || snapshots < needs.min_snapshots) {
             let name = format!("{}, smoothed", method.name());
             all.push(Candidate { name, method, options: smoothed });
