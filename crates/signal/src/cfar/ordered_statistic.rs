@@ -11,18 +11,29 @@ use super::gamma::{integrate_log_concave, ln_density_of_ln, ln_incomplete, ln_in
 const STEP: f64 = 0.1;
 
 /// The training cell of a rank, in noise of power 1.
-pub struct OrderedStatistic<'a> {
+pub struct OrderedStatistic {
     looks: f64,
     cells: f64,
     rank: f64,
-    /// Sums of powers of squared correlations ([`super::training_noise::TrainingNoise::pairs`]).
-    pairs: &'a [f64],
+    /// Weights of the squared polynomials of order 0, 1, ... in the covariance of all pairs of cells; see
+    /// [`OrderedStatistic::excess`].
+    weights: Vec<f64>,
 }
 
-impl<'a> OrderedStatistic<'a> {
-    /// The `rank`-th smallest of `cells` cells, each the mean of `looks` exponential powers.
-    pub fn new(looks: usize, cells: usize, rank: usize, pairs: &'a [f64]) -> Self {
-        Self { looks: looks as f64, cells: cells as f64, rank: rank as f64, pairs }
+impl OrderedStatistic {
+    /// The `rank`-th smallest of `cells` cells, each the mean of `looks` exponential powers, with the sums of powers of
+    /// squared correlations of the cells ([`super::training_noise::TrainingNoise::pairs`]).
+    pub fn new(looks: usize, cells: usize, rank: usize, pairs: &[f64]) -> Self {
+        let order = looks as f64;
+        // k! Gamma(L) / Gamma(k + L), by recurrence.
+        let mut ratio = 1.0;
+        let weight = |(index, pairs): (usize, &f64)| {
+            let k = (index + 1) as f64;
+            ratio *= k / (k - 1.0 + order);
+            pairs * ratio / (k * k)
+        };
+        let weights = pairs.iter().enumerate().map(weight).collect();
+        Self { looks: order, cells: cells as f64, rank: rank as f64, weights }
     }
 
     /// Logarithms of the probabilities that it is below and above `exp(ln_level)`.
@@ -40,22 +51,21 @@ impl<'a> OrderedStatistic<'a> {
     /// By what share correlation raises the variance of the number of cells below a level. The covariance of a pair is
     /// `sum_k r^2k (x^L e^-x L_(k-1)^(L)(x) / k)^2 k! / (Gamma(L) Gamma(k + L))`, with generalised Laguerre polynomials.
     fn excess(&self, x: f64, ln_variance: f64) -> f64 {
-        if self.pairs.is_empty() || x <= 0.0 {
+        if self.weights.is_empty() || x <= 0.0 {
             return 0.0;
         }
         let order = self.looks;
-        let ln_front = 2.0 * (order * x.ln() - x) - libm::lgamma(order) - ln_variance;
+        let ln_front = 2.0 * (order * x.ln() - x - libm::lgamma(order)) - ln_variance;
         let (mut before, mut polynomial) = (0.0, 1.0);
         let mut sum = 0.0;
-        for (index, pairs) in self.pairs.iter().enumerate() {
+        for (index, weight) in self.weights.iter().enumerate() {
             let k = (index + 1) as f64;
-            let ln_weight = libm::lgamma(k + 1.0) - libm::lgamma(k + order) - 2.0 * k.ln();
-            sum += pairs * polynomial * polynomial * (ln_front + ln_weight).exp();
+            sum += weight * polynomial * polynomial;
             // L_k from L_(k-1) and L_(k-2).
             let next = ((2.0 * k - 1.0 + order - x) * polynomial - (k - 1.0 + order) * before) / k;
             (before, polynomial) = (polynomial, next);
         }
-        let excess = sum / self.cells;
+        let excess = ln_front.exp() * sum / self.cells;
         // Far up the polynomials outgrow what doubles hold; nothing depends on the variance there.
         if excess.is_finite() { excess.min(self.cells) } else { 0.0 }
     }

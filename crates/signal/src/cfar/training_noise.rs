@@ -69,7 +69,9 @@ impl TrainingNoise {
             vec![]
         } else {
             let of_power = |power: i32| pair_sum(&all, correlations, power);
-            (1..=POWERS as i32).map(of_power).collect()
+            let first = of_power(1);
+            // Those of high powers are negligible where no cells are much alike.
+            (1..=POWERS as i32).map(of_power).take_while(|sum| *sum > 1e-4 * first).collect()
         };
         Self { cells, halves: made, pairs }
     }
