@@ -166,9 +166,8 @@ fn other_values(field: &Field, kind: &Kind) -> Vec<JsValue> {
             vec![angles.into()]
         }
         Kind::Special(_) => vec![3.0.into(), "aic".into()],
-        Kind::List(Kind::Record(record)) => {
+        Kind::List(Kind::Record(record)) if record.name == "PlacedRadar" => {
             let object = Object::new();
-            assert_eq!(record.name, "PlacedRadar");
             for (i, name) in ["id", "xM", "yM", "yawDeg"].into_iter().enumerate() {
                 Reflect::set(&object, &name.into(), &(i as f64 + 5.0).into()).unwrap();
             }
@@ -176,7 +175,12 @@ fn other_values(field: &Field, kind: &Kind) -> Vec<JsValue> {
         }
         Kind::Text => vec!["a name".into()],
         Kind::List(Kind::Text) => vec![Array::of1(&"a name".into()).into()],
-        Kind::List(_) | Kind::Numbers(_) | Kind::Record(_) => vec![],
+        // All their fields have defaults, or are set.
+        Kind::Record(record) => vec![with_required(record)],
+        Kind::List(inner @ Kind::Record(_)) => {
+            other_values(field, inner).iter().map(|one| Array::of1(one).into()).collect()
+        }
+        Kind::List(_) | Kind::Numbers(_) => vec![],
     }
 }
 
