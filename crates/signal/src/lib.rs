@@ -57,7 +57,9 @@ pub mod region;
 pub mod tdm;
 pub mod window;
 
-pub use cfar::{BinNoise, CellThreshold, Cfar, CfarAxes, CfarKind, CfarOptions, Detection};
+pub use cfar::{
+    BinNoise, CellThreshold, Cfar, CfarAxes, CfarKind, CfarOptions, Detection, ln_incomplete_gamma,
+};
 pub use clutter::remove_static_clutter;
 pub use covariance::{forward_backward, load_diagonal, sample_covariance, spatial_smoothing};
 pub use error::SignalError;

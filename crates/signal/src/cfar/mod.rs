@@ -28,6 +28,7 @@ use boresight_core::describe::{self, Naming};
 use boresight_core::error::check_range;
 use boresight_core::limits::{check_bytes, check_operations};
 use excision::LeftFactors;
+pub use gamma::ln_incomplete as ln_incomplete_gamma;
 use ndarray::{Array2, ArrayView2};
 pub use options::{CfarAxes, CfarKind, CfarOptions};
 use ranks::Ranks;

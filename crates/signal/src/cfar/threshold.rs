@@ -32,7 +32,7 @@ pub struct Factors {
 
 /// Factors that give `false_alarm` in noise whose cells are means of `looks` exponential powers, for each kind and any
 /// number of training cells of at least one; of excision those where all are left. Exact for independent cells. Of
-/// correlated ones the rate is between 0.8 and 1.1 of the one asked for, as long as the guard cells cover the main lobe.
+/// correlated ones the rate is between 0.78 and 1.1 of the one asked for, as long as the guard cells cover the main lobe.
 pub fn factors(options: &CfarOptions, noise: &TrainingNoise) -> Factors {
     let CfarOptions { kind, rank, looks, false_alarm, .. } = *options;
     let cells = noise.cells;
