@@ -37,12 +37,11 @@ test('places 0, 2 and 5 stand on a grid of one', () => {
   const positions = [0, 2, 5].map((y) => [0, y, 0]);
   const wanting = methods().filter(({ lattice, network }) => lattice && !network);
   assert.ok(wanting.length > 0);
-  for (const { name, uniformArray, minSnapshots } of wanting)
-    assert.equal(
-      unsuited({ method: name, array: { positions } }, minSnapshots),
-      uniformArray ? 'uniform-array' : null,
-      name,
-    );
+  for (const { name, uniformArray, minSnapshots } of wanting) {
+    // No two of them are one step apart, so the difference co-array begins with a gap.
+    const reason = uniformArray ? 'uniform-array' : name === 'coarray-music' ? 'no-neighbours' : null;
+    assert.equal(unsuited({ method: name, array: { positions } }, minSnapshots), reason, name);
+  }
   throwsTyped(() => unsuited({ method: 'capon' }, 1), 'missing', 'array');
   throwsTyped(() => unsuited({ method: 'capon', array: 'ula4' }, -1), 'out-of-range', 'snapshots');
 });

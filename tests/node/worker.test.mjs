@@ -39,7 +39,7 @@ describe('a pool of worker threads', () => {
       methods.filter(({ network }) => network).map(({ name }) => name),
       ['aaetr', 'learned-pursuit', 'dnn', 'cnn3d', 'unrolled-iaa', 'covariance-cnn', 'deep-music'],
     );
-    assert.equal(methods.length, 19);
+    assert.equal(methods.length, 20);
     assert.equal(geometry.positions.length, 8);
   });
 

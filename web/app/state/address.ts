@@ -3,7 +3,16 @@ import { signal, useSignalEffect } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { unreadable } from './comparison.ts';
 import { note, step } from './history.ts';
-import { lastParams, type Page, pageAddress, type Route, route, setParams, writeParams } from './route.ts';
+import {
+  lastParams,
+  type Page,
+  pageAddress,
+  type Route,
+  route,
+  setParams,
+  writeParams,
+  writePending,
+} from './route.ts';
 
 /** What of the address was not understood, as it stands there. */
 export const misread = signal<readonly string[]>([]);
@@ -27,8 +36,21 @@ let present: {
   page: Page;
   codec: AnyCodec;
   restore(params: URLSearchParams): void;
+  write(): URLSearchParams;
   caption(): Caption;
 } | null = null;
+
+// Effects run after the next frame. A link followed before that must still leave the last change in
+// the history.
+addEventListener(
+  'click',
+  ({ target }) => {
+    if (!(target instanceof Element && target.closest('a[href]'))) return;
+    if (present?.page === route.peek().page) writeParams(present.page, present.write());
+    writePending();
+  },
+  { capture: true },
+);
 
 export function caption(): Caption | null {
   return present?.caption() ?? null;
@@ -70,7 +92,7 @@ export function useAddress(page: Page, { codec, restore, start, write, caption }
   const ready = useRef(false);
   const read = (now: Route): void => {
     if (now.page !== page) return;
-    present = { page, codec, restore, caption };
+    present = { page, codec, restore, write, caption };
     misread.value = unreadable(codec, now.params);
     restore(now.params.size ? now.params : (lastParams(page) ?? now.params));
   };

@@ -37,15 +37,6 @@ addEventListener('hashchange', () => {
   route.value = parse(known);
 });
 
-// A link that is followed must not be overtaken by the state of what it leaves, which then is in the history instead.
-addEventListener(
-  'click',
-  ({ target }) => {
-    if (target instanceof Element && target.closest('a[href]')) write();
-  },
-  { capture: true },
-);
-
 /** The address of what is shown now, which the browser may be told of only later. */
 export function link(): string {
   return `${location.href.split('#')[0]}${pageAddress(route.peek().page, shownParams.peek())}`;
@@ -86,7 +77,7 @@ function flush(): void {
 }
 
 /** Puts what is pending into the address, unless that has changed and its event is still to come. */
-function write(): void {
+export function writePending(): void {
   const shown = pending;
   flush();
   if (!shown || location.hash !== known || parse(known).page !== shown.page) return;
@@ -99,5 +90,5 @@ export function writeParams(page: Page, params: URLSearchParams): void {
   last.set(page, params);
   if (page === route.peek().page) shownParams.value = params;
   pending = { page, params };
-  timer ??= setTimeout(write, 150);
+  timer ??= setTimeout(writePending, 150);
 }
