@@ -40,6 +40,12 @@ def parser() -> argparse.ArgumentParser:
         metavar=("DB", "DEG"),
         help="counting, cnn3d, dnn: deviations of the elements' gain and phase, for boards that are not calibrated",
     )
+    weaker = "cnn3d, dnn: in the second half, second targets are up to so much weaker than first"
+    train.add_argument("--weaker-db", type=float, default=0.0, metavar="DB", help=weaker)
+    moving = "counting, cnn3d, dnn: half of the targets move"
+    train.add_argument("--moving", action="store_true", help=moving)
+    second = "counting, cnn3d, dnn: data of the second half from the beginning, for --start-from"
+    train.add_argument("--second-stage-only", action="store_true", help=second)
     radars = "counting, cnn3d, dnn: radar of Table 3 or of Table 4"
     train.add_argument("--setup", choices=tuple(SETUPS), default="simulated", help=radars)
     train.add_argument("--arrays", choices=("lrr48", "any"), default="lrr48", help="aaetr: arrays to train on")
@@ -61,8 +67,8 @@ def parser() -> argparse.ArgumentParser:
         metavar="DIR",
         help="folder of checkpoint and log; goes on from its checkpoint (runs/NETWORK-CONFIG)",
     )
-    begin = "begin with the weights of another run, from its folder or from a file of export --weights"
-    train.add_argument("--start-from", type=Path, metavar="DIR|F.pt", help=begin)
+    begin = "begin with the weights of another run: its folder, a file of export --weights, or a model with its card"
+    train.add_argument("--start-from", type=Path, metavar="DIR|F.pt|F.onnx", help=begin)
     train.add_argument("--minutes", type=float, help="stop this run after so long")
     train.add_argument(
         "--total-minutes",
@@ -118,8 +124,9 @@ def train(arguments) -> list[dict]:
         identity["snr_db"] = a.snr_db
     if a.channel_error is not None:
         identity["channel_error"] = a.channel_error
-    if a.matched_last:
-        identity["matched_last"] = True
+    for name in ("weaker_db", "moving", "second_stage_only", "matched_last"):
+        if value := getattr(a, name):
+            identity[name] = value
     if a.data:
         identity["data"] = Dataset(a.data).told()
     if a.doppler_loss_only:

@@ -4,7 +4,7 @@ A sample at time `t` after the start of its ramp is `alpha exp(j 2 pi (2 R(t) / 
 range `R` at that very moment; element `k` adds the phase `pi p_k . d`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import radians
 
 import torch
@@ -53,12 +53,14 @@ class Reflectors:
     azimuth: torch.Tensor
     """rad"""
     phase: torch.Tensor
+    db: torch.Tensor
+    """Power over that of the first, dB."""
     valid: torch.Tensor
 
 
 @dataclass(frozen=True)
 class Cubes:
-    """How cubes are drawn (Tables 3 and 4); every quantity is uniform, targets have 0 dB and stand still."""
+    """How cubes are drawn (Tables 3 and 4); every quantity is uniform."""
 
     waveform: str = "3dcnn-simulated"
     targets: tuple[int, int] = (0, 2)
@@ -69,6 +71,10 @@ class Cubes:
     """Greatest shift in range by equation 10."""
     near: float = 0.0
     """Share of cubes whose targets all lie within a range bin of the first, the hard ones, in training alone."""
+    second_db: tuple[float, float] = (0.0, 0.0)
+    """Power of targets but the first over its power."""
+    rate_mps: float = 0.0
+    """Half of the targets approach or recede at up to this speed; the others stand still."""
     channel_db: float = 0.0
     """Deviation of an element's gain, in training alone; every cube has a board of its own."""
     channel_deg: float = 0.0
@@ -91,11 +97,20 @@ def draw_reflectors(cubes: Cubes, batch: int, generator: torch.Generator) -> Ref
         beside = (range_m[:, :1] + uniform((batch, most - 1), -bin_m, bin_m, generator)).clamp(*cubes.range_m)
         near = uniform((batch, 1), 0.0, 1.0, generator) < cubes.near
         range_m[:, 1:] = torch.where(near, beside, range_m[:, 1:])
+    phase = uniform((batch, most), 0.0, 2 * torch.pi, generator)
+    db = torch.zeros(batch, most, dtype=torch.float64, device=device)
+    rate_mps = torch.zeros_like(db)
+    if cubes.second_db != (0, 0):
+        db[:, 1:] = uniform((batch, most - 1), *cubes.second_db, generator)
+    if cubes.rate_mps > 0:
+        moves = uniform((batch, most), 0.0, 1.0, generator) < 0.5
+        rate_mps = torch.where(moves, uniform((batch, most), -cubes.rate_mps, cubes.rate_mps, generator), 0.0)
     return Reflectors(
         range_m=range_m,
-        rate_mps=torch.zeros(batch, most, dtype=torch.float64, device=device),
+        rate_mps=rate_mps,
         azimuth=degrees.double() * radians(1),
-        phase=uniform((batch, most), 0.0, 2 * torch.pi, generator),
+        phase=phase,
+        db=db,
         valid=torch.arange(most, device=device) < count,
     )
 
@@ -113,7 +128,12 @@ def tones(waveform: Waveform, reflectors: Reflectors) -> torch.Tensor:
     path = 2 * (spread(reflectors.range_m) + spread(reflectors.rate_mps) * time)
     turns = path / SPEED_OF_LIGHT * (w.start_frequency_hz + w.slope_hz_per_s * fast)
     phase = 2 * torch.pi * (turns - turns.floor()) + spread(reflectors.phase)
-    return torch.polar(spread(reflectors.valid.double()).expand_as(phase), phase)
+    return torch.polar(spread(amplitude(reflectors)).expand_as(phase), phase)
+
+
+def amplitude(reflectors: Reflectors) -> torch.Tensor:
+    """Of each target, 0 of what is none."""
+    return reflectors.valid * 10 ** (reflectors.db / 20)
 
 
 def shift(waveform: Waveform, shift_m: torch.Tensor) -> torch.Tensor:
@@ -131,18 +151,26 @@ def join(tones: torch.Tensor, waveform: Waveform, reflectors: Reflectors, positi
     return torch.einsum("bmlts,bmtr->bltrs", tones, response.to(tones.dtype))
 
 
-def spectrum_of_still(waveform: Waveform, range_m: torch.Tensor, bins: torch.Tensor) -> torch.Tensor:
-    """Range spectrum of targets at rest, of amplitude 1, at an element at the origin, [..., bins].
+def range_spectra(
+    waveform: Waveform, range_m: torch.Tensor, rate_mps: torch.Tensor, bins: torch.Tensor
+) -> torch.Tensor:
+    """Range spectra of targets of amplitude 1 at an element at the origin, [..., loops, transmitters, bins].
 
-    The transform of a tone is Dirichlet's kernel around its frequency; it is the same for every chirp.
+    The transform of a tone is Dirichlet's kernel around its frequency, which motion shifts by the Doppler frequency.
+    What motion bends the phase within a ramp is left out.
     """
-    w = waveform
-    delay = 2 * range_m.double() / SPEED_OF_LIGHT
-    turns = delay * (w.start_frequency_hz + w.slope_hz_per_s * w.adc_start_s)
-    distance = (delay * w.slope_hz_per_s * w.samples / w.sample_rate_hz).unsqueeze(-1) - bins
+    w, device = waveform, range_m.device
+    chirps = torch.arange(w.loops * w.transmitters, dtype=torch.float64, device=device)
+    start = (chirps * w.chirp_interval_s).view(w.loops, w.transmitters) + w.adc_start_s
+    range_m, rate_mps = range_m.double()[..., None, None], rate_mps.double()[..., None, None]
+    sampled_hz = w.start_frequency_hz + w.slope_hz_per_s * w.adc_start_s
+    range_m = range_m + rate_mps * start
+    turns = 2 * range_m / SPEED_OF_LIGHT * sampled_hz
+    beat_hz = 2 / SPEED_OF_LIGHT * (range_m * w.slope_hz_per_s + rate_mps * sampled_hz)
+    distance = (beat_hz * w.samples / w.sample_rate_hz).unsqueeze(-1) - bins
     turns = (turns - turns.floor()).unsqueeze(-1) + distance * (0.5 * (w.samples - 1) / w.samples)
     below = w.samples * (torch.pi / w.samples * distance).sin()
-    kernel = torch.where(below.abs() < 1e-6, 1.0, (torch.pi * distance).sin() / below)
+    kernel = torch.where(below.abs() < 1e-6, 1.0, (torch.pi * distance).sin() / below).expand_as(turns)
     return torch.polar(kernel.float().abs(), (2 * torch.pi * turns + torch.pi * (kernel < 0)).float())
 
 
@@ -164,11 +192,15 @@ def regions(cubes: Cubes, batch: int, generator: torch.Generator):
     # White noise stays white in the transform, at 1 / samples of its power.
     snr_db = uniform((batch, 1, 1, 1), *cubes.snr_db, generator, torch.float32)
     noise = (10 ** (-snr_db / 10) / waveform.samples).sqrt()
-    phase = torch.polar(reflectors.valid.float(), reflectors.phase.float()).unsqueeze(-1)
-    tone = phase * spectrum_of_still(waveform, range_m, bins)
-    response = steering(elements, reflectors.azimuth.sin()).to(tone.dtype)
+    response = steering(elements, reflectors.azimuth.sin()).to(torch.complex64)
+    response = response * torch.polar(amplitude(reflectors), reflectors.phase).to(torch.complex64).unsqueeze(-1)
     response = response * channel_errors(cubes, batch, len(elements), generator)
-    spectrum = (tone.mT @ response).unsqueeze(-1)
+    moves = cubes.rate_mps > 0
+    # Chirps of what stands still are alike.
+    timing = waveform if moves else replace(waveform, loops=1, transmitters=1)
+    tone = range_spectra(timing, range_m, reflectors.rate_mps, bins)
+    response = response.unflatten(-1, (timing.transmitters, -1))
+    spectrum = torch.einsum("bmltn,bmtr->bntrl", tone, response).flatten(2, 3)
     spectrum = spectrum + noise * complex_normal((*spectrum.shape[:-1], CHIRPS), generator)
     power = torch.view_as_real(spectrum).square().sum((2, 3, 4))
     strongest = power[:, margin:-margin].argmax(1) + margin

@@ -234,6 +234,11 @@ COVARIANCE = Port(
     "upper triangle of the region's covariance by rows, real and imaginary parts, over its largest diagonal entry",
 )
 
+POWER_DIFFERENCES_DB = (-3, -6, -9, -12, -15)
+"""Of the second target to the first, that networks of two targets are scored with."""
+MOVING_MPS = 20.0
+"""Largest speed, to either side, of half of the targets. The phase turns by up to half a turn from chirp to chirp."""
+
 
 @dataclass
 class ClassifierTask:
@@ -252,6 +257,10 @@ class ClassifierTask:
     on_covariance: bool
     batch: int
     learning_rate: float
+    weaker_db: float = 0.0
+    """Second targets are up to this much weaker in the second stage, and as strong as the first in the first stage."""
+    second_stage_only: bool = False
+    """Whether all of training is its second stage, for runs that start from another's weights."""
 
     def __post_init__(self):
         self.counts = self.cubes.targets[0] != self.cubes.targets[1]
@@ -267,8 +276,8 @@ class ClassifierTask:
 
     def draw(self, batch, progress, generator):
         cubes = self.cubes
-        if progress >= 0.5:
-            cubes = replace(cubes, snr_db=(self.lowest_db, cubes.snr_db[1]))
+        if progress >= 0.5 or self.second_stage_only:
+            cubes = replace(cubes, snr_db=(self.lowest_db, cubes.snr_db[1]), second_db=(-self.weaker_db, 0.0))
         return self._features(*regions(cubes, batch, generator))
 
     def _features(self, reflectors, region):
@@ -296,11 +305,18 @@ class ClassifierTask:
                 scores.append({"snr_db": snr_db, "accuracy": float(right.mean()), **by_class})
             else:
                 scores.append({"snr_db": snr_db, **self._directions(answer, label)})
+            if self.cubes.targets == (2, 2):
+                harder = {f"second_{-db}_db": {"second_db": (db, db)} for db in POWER_DIFFERENCES_DB}
+                harder["moving"] = {"rate_mps": MOVING_MPS}
+                for name, change in harder.items():
+                    answer, label = self._answers(model, (snr_db, snr_db), count, generator, **change)
+                    scores[-1][f"{name}_within_1_deg"] = self._directions(answer, label)["within_1_deg"]
         return scores
 
-    def _answers(self, model, snr_db, count, generator):
-        """Answers and labels where ranges are independent and elements exact."""
-        cubes = replace(self.cubes, snr_db=snr_db, near=0.0, channel_db=0.0, channel_deg=0.0)
+    def _answers(self, model, snr_db, count, generator, **change):
+        """Answers and labels where ranges are independent, powers equal, elements exact, and nothing moves."""
+        still = {"near": 0.0, "rate_mps": 0.0, "channel_db": 0.0, "channel_deg": 0.0}
+        cubes = replace(self.cubes, snr_db=snr_db, **(still | change))
         values, label = self._features(*regions(cubes, count, generator))
         return torch.cat([model(part) for part in values.split(250)]), label
 
@@ -338,6 +354,10 @@ class ClassifierTask:
 
     def describe(self):
         data = {**asdict(self.cubes), "second_stage_lowest_snr_db": self.lowest_db}
+        if self.weaker_db > 0:
+            data["second_stage_weaker_db"] = self.weaker_db
+        if self.second_stage_only:
+            data["second_stage_only"] = True
         targets = {} if self.counts else {"targets": self.cubes.targets[1]}
         return {**targets, "model": self.sizes, "data": data}
 
@@ -363,6 +383,9 @@ def classifier(
     snr_db: tuple[float, float] | None = None,
     near: float = NEAR,
     channel_error: tuple[float, float] = (0.0, 0.0),
+    weaker_db: float = 0.0,
+    moving: bool = False,
+    second_stage_only: bool = False,
 ) -> ClassifierTask:
     """The counting network, the 3D-CNN or the DNN, for one or two targets; `channel_error` in dB and degrees."""
     counts = name == "counting"
@@ -370,7 +393,12 @@ def classifier(
     of = "" if setup == "simulated" else ", radar of Table 4"
     gain_db, phase_deg = channel_error
     cubes = Cubes(snr_db=(max(0.0, low), high), channel_db=gain_db, channel_deg=phase_deg, **SETUPS[setup])
-    boards = words.channel_errors(gain_db, phase_deg)
+    if moving:
+        if setup != "simulated":
+            raise ValueError("moving targets: expected the radar of Table 3; ramps of Table 4 are too long for them")
+        cubes = replace(cubes, rate_mps=MOVING_MPS)
+    boards = words.channel_errors(gain_db, phase_deg) + words.unlike(weaker_db, cubes.rate_mps)
+    stages = {"lowest_db": low, "weaker_db": weaker_db, "second_stage_only": second_stage_only}
     if counts:
         hidden = {"small": 256, "paper": 1024}[config]
         return ClassifierTask(
@@ -381,7 +409,7 @@ def classifier(
             network=partial(counting, hidden),
             sizes={"hidden": hidden},
             cubes=cubes,
-            lowest_db=low,
+            **stages,
             on_covariance=True,
             batch=256,
             learning_rate=1e-3,
@@ -403,7 +431,7 @@ def classifier(
             network=partial(dnn, hidden),
             sizes={"hidden": hidden},
             cubes=cubes,
-            lowest_db=low,
+            **stages,
             on_covariance=True,
             batch=256,
             learning_rate=2e-3,
@@ -418,7 +446,7 @@ def classifier(
         network=partial(Cnn3d, sizes),
         sizes=asdict(sizes),
         cubes=cubes,
-        lowest_db=low,
+        **stages,
         on_covariance=False,
         batch=32,
         learning_rate=2e-3,
@@ -449,6 +477,9 @@ def task(
     snr_db: tuple[float, float] | None = None,
     near: float = NEAR,
     channel_error: tuple[float, float] = (0.0, 0.0),
+    weaker_db: float = 0.0,
+    moving: bool = False,
+    second_stage_only: bool = False,
     matched_last: bool = False,
     data: list[dict] | None = None,
     doppler_loss_only: bool = False,
@@ -476,4 +507,5 @@ def task(
         return UnrolledIaaTask(config, 16 if targets is None else targets)
     if name in ("covariance-cnn", "deep-music"):
         return CovarianceTask(name, config, 3 if targets is None else targets)
-    return classifier(name, config, 1 if targets is None else targets, setup, snr_db, near, channel_error)
+    harder = {"weaker_db": weaker_db, "moving": moving, "second_stage_only": second_stage_only}
+    return classifier(name, config, 1 if targets is None else targets, setup, snr_db, near, channel_error, **harder)

@@ -12,7 +12,7 @@ import torch
 from torch import nn
 from torch.nn.parallel import DistributedDataParallel
 
-from . import checkpoint, hardware
+from . import checkpoint, hardware, published
 from .processes import Processes
 from .tasks import Task
 
@@ -179,17 +179,18 @@ class Training:
         self.legs = saved["legs"]
 
     def _start_from(self, folder: Path) -> None:
-        """Takes the averaged weights of another run of the same network, from its folder or from a file of weights.
+        """Takes the averaged weights of another run of the same network: its folder, a file of weights or a model.
 
         Everything else begins anew.
         """
-        saved = checkpoint.load(folder)
+        is_published = folder.suffix == ".onnx"
+        saved = published.load(folder) if is_published else checkpoint.load(folder)
         if saved is None:
             raise FileNotFoundError(f"{folder} holds no {checkpoint.NAME}")
         same = ("name", "config")
         if any(saved["identity"][k] != self.identity[k] for k in same):
             raise ValueError(f"{folder} holds {saved['identity']}, not {self.identity}")
-        self.legs = [*saved["legs"], {name: saved[name] for name in self.leg()}]
+        self.legs = saved["legs"] if is_published else [*saved["legs"], {name: saved[name] for name in self.leg()}]
         if any(leg["settings"]["seed"] == self.settings.seed for leg in self.legs):
             raise ValueError(
                 f"seed {self.settings.seed}: {folder} was trained with it, and the same batches would come again; "

@@ -85,6 +85,18 @@ def channel_errors(gain_db: float, phase_deg: float) -> str:
     return f" Elements have errors of {gain_db:g} dB and {phase_deg:g} deg (deviations), new in every region."
 
 
+def unlike(weaker_db: float, rate_mps: float) -> str:
+    """How targets of the data differ from two of equal power that stand still; nothing where they do not."""
+    weaker = (
+        f" The second target is up to {weaker_db:g} dB weaker than the first in the second stage of training; the "
+        "publication's have equal power."
+        if weaker_db > 0
+        else ""
+    )
+    moving = f" Half of the targets move at up to {rate_mps:g} m/s, the publication's stand." if rate_mps > 0 else ""
+    return weaker + moving
+
+
 def unrolled_iaa(config: UnrolledIaaConfig) -> tuple[str, str]:
     """Of UAA."""
     return (

@@ -19,9 +19,9 @@ from boresight_training.regions import (
     draw_reflectors,
     join,
     labels,
+    range_spectra,
     regions,
     shift,
-    spectrum_of_still,
     tones,
 )
 from boresight_training.snapshots import Scenes, Targets, responses, snapshots
@@ -81,13 +81,14 @@ def test_cubes_are_those_of_the_command_line(boresight, waveform):
         "--target",
         f"range={far},azimuth=-7,phase=30",
         "--target",
-        f"range={far / 2},rate=3.5,azimuth=10,phase=-100",
+        f"range={far / 2},rate=3.5,azimuth=10,phase=-100,power=-6",
     )
     reflectors = Reflectors(
         range_m=row(far, far / 2),
         rate_mps=row(0, 3.5),
         azimuth=row(-7, 10).deg2rad(),
         phase=row(30, -100).deg2rad(),
+        db=row(0, -6),
         valid=torch.tensor([[True, True]]),
     )
     ours = join(tones(w, reflectors), w, reflectors, Cubes(waveform).elements())
@@ -100,21 +101,45 @@ def test_a_shift_by_equation_10_moves_the_target():
 
     def at(range_m):
         one = torch.tensor([[True]])
-        return tones(w, Reflectors(row(range_m), row(0), row(0), row(0.5), one))
+        return tones(w, Reflectors(row(range_m), row(0), row(0), row(0.5), row(0), one))
 
     moved = at(10.0) * shift(w, torch.tensor(0.23, dtype=torch.float64))
     assert (moved - at(10.23)).abs().max() < 1e-9
 
 
 @pytest.mark.parametrize("waveform", WAVEFORMS)
-def test_spectra_of_still_targets_are_those_of_their_samples(waveform):
+def test_range_spectra_are_those_of_the_samples(waveform):
     w = WAVEFORMS[waveform]
-    bin_m = SPEED_OF_LIGHT * w.sample_rate_hz / (2 * w.slope_hz_per_s * w.samples)
-    range_m = row(9.9, 10.3 * bin_m, 100 * bin_m, 200.5 * bin_m)
-    still = Reflectors(range_m, *[torch.zeros_like(range_m)] * 3, torch.ones_like(range_m, dtype=torch.bool))
-    expected = torch.fft.fft(tones(w, still)[:, :, 1, 0], norm="forward")
-    given = spectrum_of_still(w, range_m, torch.arange(w.samples))
-    assert (given - expected).abs().max() < SAME
+    range_m = row(9.9, 10.3 * w.bin_m, 100 * w.bin_m, 200.5 * w.bin_m)
+    still = torch.zeros_like(range_m)
+    rates = (still, row(20, -20, -7, 0.3)) if w.transmitters == 1 else (still,)
+    for rate_mps in rates:
+        reflectors = Reflectors(range_m, rate_mps, still, still, still, torch.ones_like(range_m, dtype=torch.bool))
+        expected = torch.fft.fft(tones(w, reflectors), norm="forward")
+        given = range_spectra(w, range_m, rate_mps, torch.arange(w.samples))
+        # Motion bends the phase within a ramp, by a thousandth of a turn at 20 m/s.
+        assert (given - expected).abs().max() < (SAME if rate_mps is still else 5e-3)
+
+
+def test_second_targets_have_the_stated_powers_and_half_of_the_targets_move():
+    cubes = Cubes(targets=(2, 2), second_db=(-15, 0), rate_mps=20)
+    drawn = draw_reflectors(cubes, 4000, torch.Generator().manual_seed(8))
+    assert (drawn.db[:, 0] == 0).all()
+    # Within five deviations of uniform means over 4,000 and of a share of 8,000.
+    assert -15 <= drawn.db[:, 1].min() and drawn.db[:, 1].max() <= 0
+    assert (drawn.db[:, 1].mean() + 7.5).abs() < 5 * 15 / 12**0.5 / 4000**0.5
+    moves = drawn.rate_mps != 0
+    assert abs(moves.double().mean() - 0.5) < 5 * 0.5 / 8000**0.5
+    assert drawn.rate_mps.abs().max() <= 20
+
+
+def test_a_moving_target_turns_from_chirp_to_chirp():
+    cubes = Cubes(targets=(1, 1), snr_db=(60, 60), rate_mps=10)
+    reflectors, region = regions(cubes, 200, torch.Generator().manual_seed(9))
+    w = WAVEFORMS[cubes.waveform]
+    turned = (region[:, 32, :, 1:] * region[:, 32, :, :-1].conj()).sum((1, 2)).angle()
+    expected = 4 * pi * w.start_frequency_hz / SPEED_OF_LIGHT * w.chirp_interval_s * reflectors.rate_mps[:, 0]
+    assert (torch.polar(torch.ones(200), turned - expected.float()).angle().abs() < 1e-2).all()
 
 
 def test_the_strongest_bin_of_two_is_in_the_middle():

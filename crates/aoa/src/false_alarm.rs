@@ -36,6 +36,11 @@ impl Volumes {
         Self { length, area: area * determinant.sqrt() }
     }
 
+    /// For a rectangle of these sides, in units of the field's slope along each.
+    pub fn of_rectangle(sides: [f64; 2]) -> Self {
+        Self { length: sides[0] + sides[1], area: sides[0] * sides[1] }
+    }
+
     /// Expected number of peaks of `sum_n |a^H y_n|^2 / K` above `level` noise powers, over
     /// `snapshots`.
     fn peaks_in_known_noise(&self, level: f64, snapshots: usize) -> f64 {
@@ -128,8 +133,20 @@ pub(crate) struct Shares {
 
 impl Shares {
     pub fn new(volumes: Volumes, geometry: &Geometry, false_alarm: f64) -> Self {
-        let (elements, axes) = (geometry.elements(), geometry.axes);
+        Self::of(volumes, geometry.elements(), geometry.axes, false_alarm)
+    }
+
+    /// For vectors of so many values and sources of so many real unknowns.
+    pub fn of(volumes: Volumes, elements: usize, axes: usize, false_alarm: f64) -> Self {
         Self { volumes, false_alarm, elements, axes, snapshots: 0, shares: Vec::new() }
+    }
+
+    /// Takes vectors of so many values from now on.
+    pub fn set_elements(&mut self, elements: usize) {
+        if self.elements != elements {
+            self.elements = elements;
+            self.shares.clear();
+        }
     }
 
     /// Snapshots as they are counted: beyond a million the shares hardly change any more.

@@ -1,0 +1,261 @@
+//! Joint maximum likelihood of range and azimuth in a region of the range spectrum.
+//!
+//! A target fills a few range bins, all elements and all chirps. Estimators of the region's
+//! covariance add up all bins, of which most hold noise alone, and cannot tell echoes apart that
+//! differ in range only. Here the region itself is fitted, by targets whose response is the product
+//! of the transform's along range and the steering vector, with an amplitude of its own in every
+//! chirp. Targets are placed by alternating projection (Ziskind and Wax 1988), then refined together
+//! by Gauss-Newton steps.
+
+mod atoms;
+mod refine;
+mod search;
+
+use crate::error::AoaError;
+use crate::false_alarm::{Shares, Volumes};
+use crate::options::{EstimatorOptions, SourceCount};
+use atoms::Atoms;
+use boresight_core::order::sort_descending;
+use boresight_core::{Array, Complex32, Complex64, CoreError, Extent};
+use ndarray::{Array3, ArrayView3};
+use refine::{Fit, Model, Refined};
+use search::{Search, Seen};
+
+/// Name in messages.
+const NAME: &str = "joint range-angle estimation";
+/// Most targets of a region.
+pub const MAX_TARGETS: usize = 8;
+/// Most places of the grid times chirps.
+const MAX_CELLS: usize = 4_000_000;
+/// Rounds in which targets are placed anew; it settles in a few.
+const MAX_ROUNDS: usize = 10;
+/// Share of the residual that a target placed anew has to gain.
+const SETTLED: f64 = 1e-9;
+/// Share of the power below which nothing but rounding is left.
+const EXHAUSTED: f64 = 1e-12;
+
+/// Range and sine of the azimuth of a target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Place {
+    /// Range bins from the first of the region.
+    bin: f64,
+    sine: f64,
+}
+
+/// A target of a region.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RangeAngleTarget {
+    /// Range bins from the first of the region.
+    pub bin: f64,
+    /// Azimuth, rad.
+    pub azimuth_rad: f64,
+    /// Power of one raw sample at one element, mean over the chirps.
+    pub power: f64,
+    /// Standard deviation of `bin` by the Cramer-Rao bound, with the noise power that the fit
+    /// leaves. None where the data do not determine it.
+    pub bin_deviation: Option<f64>,
+    /// The same of the azimuth, rad.
+    pub azimuth_deviation_rad: Option<f64>,
+}
+
+/// What was found in a region.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RangeAngleEstimate {
+    /// Targets, strongest first.
+    pub targets: Vec<RangeAngleTarget>,
+    /// Noise power in a bin of an element, from what the fit leaves.
+    pub noise_power: f64,
+    /// Whether the Gauss-Newton steps ended before the most allowed.
+    pub converged: bool,
+}
+
+/// Joint estimation for regions of one size seen by one array.
+pub struct RangeAngle {
+    atoms: Atoms,
+    search: Search,
+    shares: Shares,
+    options: EstimatorOptions,
+    most: usize,
+}
+
+impl RangeAngle {
+    /// Plans for regions of `bins` range bins, of a transform of `samples` samples without window and padding, on an
+    /// array along a line. Of the options, `sources` ([`SourceCount::Known`] or [`SourceCount::Auto`]),
+    /// `field_of_view_rad`, `max_iterations`, `tolerance` and `nomp.false_alarm` count.
+    ///
+    /// # Errors
+    /// [`AoaError::Array`] for an array with an extent in elevation, [`AoaError::TooManySources`] for more than
+    /// [`MAX_TARGETS`], [`CoreError::OutOfRange`] for other options out of range and for regions larger than the
+    /// transform, [`CoreError::Incompatible`] for another way to count.
+    pub fn new(
+        array: &Array,
+        samples: usize,
+        bins: usize,
+        options: &EstimatorOptions,
+    ) -> Result<Self, AoaError> {
+        options.check()?;
+        boresight_core::error::check_range("region bins", bins as f64, 1.0, samples as f64)?;
+        if array.extent() == Extent::Area {
+            return Err(AoaError::Array {
+                method: NAME,
+                expected: "elements along a line".into(),
+                given: "has elements above one another".into(),
+            });
+        }
+        let most = match options.sources {
+            SourceCount::Known(sources) if sources > MAX_TARGETS => {
+                return Err(AoaError::TooManySources {
+                    method: NAME,
+                    most: MAX_TARGETS,
+                    given: sources,
+                });
+            }
+            SourceCount::Known(sources) => sources,
+            SourceCount::Auto => MAX_TARGETS,
+            other => {
+                return Err(AoaError::Argument(CoreError::Incompatible {
+                    what: "sources of joint range-angle estimation".into(),
+                    expected: "a number or auto".into(),
+                    given: format!("{other:?}"),
+                }));
+            }
+        };
+        let along = array.positions().iter().map(|p| p[1]);
+        let mean = along.clone().sum::<f64>() / array.len() as f64;
+        let atoms = Atoms { samples, bins, positions: along.map(|y| y - mean).collect() };
+        let widest = options.field_of_view_rad.sin();
+        let search = Search::new(&atoms, widest);
+        let spread = atoms.positions.iter().map(|p| p * p).sum::<f64>() / array.len() as f64;
+        let sides = [
+            2.0 * widest * (spread * std::f64::consts::PI.powi(2)).sqrt(),
+            (bins - 1) as f64 * atoms::range_spread(samples).sqrt(),
+        ];
+        let volumes = Volumes::of_rectangle(sides);
+        let shares = Shares::of(volumes, bins * array.len(), 2, options.nomp.false_alarm);
+        Ok(Self { atoms, search, shares, options: options.clone(), most })
+    }
+
+    /// Finds the targets of a region of bins x elements x chirps, as
+    /// [`boresight_signal::region::crop_region`] gives it. Bins that are zero throughout count as not measured.
+    ///
+    /// # Errors
+    /// [`CoreError::Shape`] for another shape than planned or no chirps, [`CoreError::NotFinite`] for values that are
+    /// not finite, [`CoreError::OutOfRange`] for more chirps than fit in memory.
+    pub fn estimate(
+        &mut self,
+        region: ArrayView3<'_, Complex32>,
+    ) -> Result<RangeAngleEstimate, AoaError> {
+        let data = self.checked(region)?;
+        let (_, elements, chirps) = data.dim();
+        let held: Vec<bool> =
+            data.outer_iter().map(|bin| bin.iter().any(|z| z.norm_sqr() > 0.0)).collect();
+        let power: f64 = data.iter().map(|z| z.norm_sqr()).sum();
+        let values = held.iter().filter(|held| **held).count() * elements;
+        let mut found = Refined { fit: Fit::of_nothing(power), converged: true };
+        if power > f64::MIN_POSITIVE {
+            let view = data.view();
+            let seen = self.search.see(&view, &held);
+            let widest = self.options.field_of_view_rad.sin();
+            let model = Model { atoms: &self.atoms, data: view, held: &held, power, widest };
+            self.shares.set_elements(values);
+            while found.fit.places.len() < self.most && found.fit.residual > EXHAUSTED * power {
+                let Some(next) = self.add(&seen, &model, &found.fit.places) else { break };
+                if self.options.sources == SourceCount::Auto {
+                    let left = found.fit.residual;
+                    let share = self.shares.after(found.fit.places.len(), chirps);
+                    let gain = left - next.fit.residual;
+                    if share.is_none_or(|share| gain <= share * left) {
+                        break;
+                    }
+                }
+                found = next;
+            }
+        }
+        let targets = found.fit.places.len();
+        let freedom = (chirps * values.saturating_sub(targets)) as f64 - targets as f64;
+        let noise_power = found.fit.residual / freedom.max(1.0);
+        Ok(RangeAngleEstimate {
+            targets: told(&found.fit, noise_power),
+            noise_power,
+            converged: found.converged,
+        })
+    }
+
+    /// The best fit of one target more: the place where most power is left, then all refined together, each in turn
+    /// placed anew beside the others for as long as that is better.
+    fn add(&self, seen: &Seen<'_>, model: &Model<'_>, others: &[Place]) -> Option<Refined> {
+        let (iterations, tolerance) = (self.options.max_iterations, self.options.tolerance);
+        let refine = |places: &[Place]| model.refine(places, iterations, tolerance);
+        let mut places = others.to_vec();
+        places.push(seen.best(model, others)?);
+        let mut best = refine(&places)?;
+        let count = places.len();
+        let mut settled = 1;
+        for at in (0..count).cycle().take(MAX_ROUNDS * count) {
+            if settled >= count {
+                break;
+            }
+            settled += 1;
+            let mut places = best.fit.places.clone();
+            let moved = places.remove(at);
+            let Some(place) = seen.best(model, &places) else { continue };
+            if self.search.is_near(moved, place) {
+                continue;
+            }
+            places.insert(at, place);
+            if let Some(next) = refine(&places)
+                && next.fit.residual < best.fit.residual * (1.0 - SETTLED)
+            {
+                best = next;
+                settled = 1;
+            }
+        }
+        Some(best)
+    }
+
+    fn checked(&self, region: ArrayView3<'_, Complex32>) -> Result<Array3<Complex64>, AoaError> {
+        let (bins, elements, chirps) = region.dim();
+        let planned = (self.atoms.bins, self.atoms.positions.len());
+        if (bins, elements) != planned || chirps == 0 {
+            return Err(AoaError::Argument(CoreError::Shape {
+                what: "region".into(),
+                expected: format!("[{}, {}, chirps]", planned.0, planned.1),
+                given: vec![bins, elements, chirps],
+            }));
+        }
+        let most = MAX_CELLS as f64 / self.search.len().max(1) as f64;
+        boresight_core::error::check_range("region chirps", chirps as f64, 1.0, most)?;
+        let of_parts = |(index, z): (usize, &Complex32)| {
+            let given = if z.re.is_finite() { z.im } else { z.re };
+            (!given.is_finite()).then_some((index, f64::from(given)))
+        };
+        if let Some((index, given)) = region.iter().enumerate().find_map(of_parts) {
+            let what = "region".into();
+            return Err(AoaError::Argument(CoreError::NotFinite { what, index, given }));
+        }
+        Ok(region.mapv(|z| Complex64::new(z.re.into(), z.im.into())))
+    }
+}
+
+fn told(fit: &Fit, noise_power: f64) -> Vec<RangeAngleTarget> {
+    let deviations = fit.deviations(noise_power);
+    let places = fit.places.iter().enumerate().zip(fit.amplitudes.rows());
+    let mut targets: Vec<RangeAngleTarget> = places
+        .map(|((at, place), amplitudes)| {
+            let deviation = deviations.as_ref().map(|all| all[at]);
+            let cosine = (1.0 - place.sine * place.sine).sqrt();
+            RangeAngleTarget {
+                bin: place.bin,
+                azimuth_rad: place.sine.asin(),
+                power: amplitudes.iter().map(|z| z.norm_sqr()).sum::<f64>()
+                    / amplitudes.len() as f64,
+                bin_deviation: deviation.map(|[bin, _]| bin),
+                azimuth_deviation_rad: deviation
+                    .map(|[_, sine]| sine / cosine)
+                    .filter(|deviation| deviation.is_finite()),
+            }
+        })
+        .collect();
+    sort_descending(&mut targets, |target| target.power);
+    targets
+}
