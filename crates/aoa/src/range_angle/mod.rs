@@ -12,6 +12,7 @@ mod refine;
 mod search;
 
 use crate::error::AoaError;
+use crate::estimate::Warning;
 use crate::false_alarm::{Shares, Volumes};
 use crate::options::{EstimatorOptions, SourceCount};
 use atoms::Atoms;
@@ -65,8 +66,8 @@ pub struct RangeAngleEstimate {
     pub targets: Vec<RangeAngleTarget>,
     /// Noise power in a bin of an element, from what the fit leaves.
     pub noise_power: f64,
-    /// Whether the Gauss-Newton steps ended before the most allowed.
-    pub converged: bool,
+    /// [`Warning::NotConverged`] where the Gauss-Newton steps did not end.
+    pub warnings: Vec<Warning>,
 }
 
 /// Joint estimation for regions of one size seen by one array.
@@ -151,7 +152,7 @@ impl RangeAngle {
             data.outer_iter().map(|bin| bin.iter().any(|z| z.norm_sqr() > 0.0)).collect();
         let power: f64 = data.iter().map(|z| z.norm_sqr()).sum();
         let values = held.iter().filter(|held| **held).count() * elements;
-        let mut found = Refined { fit: Fit::of_nothing(power), converged: true };
+        let mut found = Refined { fit: Fit::of_nothing(power), iterations: 0, converged: true };
         if power > f64::MIN_POSITIVE {
             let view = data.view();
             let seen = self.search.see(&view, &held);
@@ -177,7 +178,10 @@ impl RangeAngle {
         Ok(RangeAngleEstimate {
             targets: told(&found.fit, noise_power),
             noise_power,
-            converged: found.converged,
+            warnings: (!found.converged)
+                .then_some(Warning::NotConverged { iterations: found.iterations })
+                .into_iter()
+                .collect(),
         })
     }
 

@@ -30,6 +30,7 @@ pub(super) struct Fit {
 /// What a fit has come to.
 pub(super) struct Refined {
     pub fit: Fit,
+    pub iterations: usize,
     pub converged: bool,
 }
 
@@ -111,9 +112,9 @@ impl Model<'_> {
     /// Steps from places to where they fit best.
     pub fn refine(&self, places: &[Place], iterations: usize, tolerance: f64) -> Option<Refined> {
         let mut fit = self.fit(places)?;
-        for _ in 0..iterations {
+        for iteration in 0..iterations {
             let Some(step) = fit.step() else {
-                return Some(Refined { fit, converged: false });
+                return Some(Refined { fit, iterations: iteration, converged: false });
             };
             let mut share = 1.0;
             let better = (0..MAX_HALVINGS).find_map(|_| {
@@ -123,16 +124,16 @@ impl Model<'_> {
             });
             let Some(better) = better else {
                 // No step is an improvement beyond rounding.
-                return Some(Refined { fit, converged: true });
+                return Some(Refined { fit, iterations: iteration, converged: true });
             };
             let gained = fit.residual - better.residual;
             let ended = gained <= tolerance * better.residual.max(f64::MIN_POSITIVE);
             fit = better;
             if ended {
-                return Some(Refined { fit, converged: true });
+                return Some(Refined { fit, iterations: iteration + 1, converged: true });
             }
         }
-        Some(Refined { fit, converged: false })
+        Some(Refined { fit, iterations, converged: false })
     }
 
     /// Places after a share of a step, of no more than half a bin and half a beam, within the region.

@@ -144,12 +144,15 @@ pub struct EvaluateDoaArguments {
     /// Shared arguments.
     #[command(flatten)]
     pub shared: EvaluateArguments,
-    /// Trials a condition: 0, 1 and 2 targets, these at two ranges or one, at -10 to 15 dB.
+    /// Trials a condition: 0, 1 and 2 targets, these at two ranges, at one, or at one with one of them moving.
     #[arg(long, value_name = "N", default_value_t = 2100)]
     pub trials: u64,
     /// The paper's simulated radar (Table 3) or that of its experiments (Table 4), simulated.
     #[arg(long, value_enum, default_value_t = DoaSetup::Simulation)]
     pub setup: DoaSetup,
+    /// What changes between conditions.
+    #[arg(long, value_enum, default_value_t = DoaAxis::Snr)]
+    pub axis: DoaAxis,
     /// What was answered.
     #[command(flatten)]
     pub answers: AnswersArguments,
@@ -165,6 +168,15 @@ pub struct EvaluateDoaArguments {
     /// From end to end: detection and regions.
     #[command(flatten)]
     pub chain: Flags<RegionChainOptions>,
+}
+
+/// What changes between conditions of `evaluate doa`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DoaAxis {
+    /// The signal-to-noise ratio, -10 to 15 dB; two targets have equal power.
+    Snr,
+    /// The power of the second target, 0 to 15 dB below the first, which has 15 dB.
+    PowerDifference,
 }
 
 /// Regions of `evaluate doa`.

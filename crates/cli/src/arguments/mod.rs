@@ -18,8 +18,9 @@ pub use bridge::BridgeArguments;
 pub use drives::{CalibrateArguments, LogArguments, LogPaths, OdometryArguments};
 pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
 pub use evaluate::{
-    AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCalibrationArguments,
-    EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
+    AnswersArguments, DoaAxis, DoaRegions, DoaSetup, EvaluateArguments,
+    EvaluateCalibrationArguments, EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments,
+    NetworkArguments,
 };
 pub use fleet::{
     FleetCommand, FleetMergeArguments, FleetPlanArguments, FleetRunArguments, FleetWorkerArguments,

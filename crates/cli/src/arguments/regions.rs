@@ -14,7 +14,9 @@ FILE is, by its ending:
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or --waveform
   .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
 
-Networks are ONNX files with their cards beside them. Those of models/ take 8 elements half a wavelength apart along y.
+Without networks, ranges and azimuths are fitted to each region together (maximum likelihood), on any array along a
+line. Networks are ONNX files with their cards beside them. Those of models/ take 8 elements half a wavelength apart
+along y.
 One line a target is printed; JSON has all regions, those without a target too.")]
 pub struct RegionsArguments {
     /// The capture or the data cube.
@@ -23,14 +25,14 @@ pub struct RegionsArguments {
     #[command(flatten)]
     pub radar: RadarArguments,
     /// Network that counts the targets of a region: models/counting.onnx.
-    #[arg(long, value_name = "FILE")]
-    pub counting: PathBuf,
+    #[arg(long, value_name = "FILE", requires = "one", requires = "two")]
+    pub counting: Option<PathBuf>,
     /// Network for one target, a 3D-CNN or a DNN: models/cnn3d-1.onnx.
-    #[arg(long, value_name = "FILE")]
-    pub one: PathBuf,
+    #[arg(long, value_name = "FILE", requires = "counting")]
+    pub one: Option<PathBuf>,
     /// Network of the same kind for two targets: models/cnn3d-2.onnx.
-    #[arg(long, value_name = "FILE")]
-    pub two: PathBuf,
+    #[arg(long, value_name = "FILE", requires = "counting")]
+    pub two: Option<PathBuf>,
     /// Only this frame, from 0; every frame by itself without it.
     #[arg(long, value_name = "I")]
     pub frame: Option<usize>,

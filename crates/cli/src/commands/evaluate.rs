@@ -1,8 +1,9 @@
 //! `boresight evaluate`.
 
 use crate::arguments::{
-    AnswersArguments, DoaRegions, DoaSetup, EvaluateArguments, EvaluateCalibrationArguments,
-    EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments, NetworkArguments,
+    AnswersArguments, DoaAxis, DoaRegions, DoaSetup, EvaluateArguments,
+    EvaluateCalibrationArguments, EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments,
+    NetworkArguments,
 };
 use crate::destination::Destination;
 use crate::drive;
@@ -85,7 +86,11 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                 None => doa::default_methods(setup)?,
             };
             let (trials, entrants) = (arguments.trials, Entrants::new(methods, networks));
-            let options = doa::DoaExperiment { setup, trials, seed, entrants, end_to_end };
+            let axis = match arguments.axis {
+                DoaAxis::Snr => doa::Axis::Snr,
+                DoaAxis::PowerDifference => doa::Axis::PowerDifference,
+            };
+            let options = doa::DoaExperiment { setup, axis, trials, seed, entrants, end_to_end };
             answered(&options, &arguments.shared, &arguments.answers, files)
         }
         EvaluateCommand::Images(arguments) => {

@@ -73,17 +73,21 @@ fn chain(
     radar: &Radar,
     files: &Files,
 ) -> Result<RegionChain, CliError> {
-    let load = |path| network::load(path, None, files);
-    let (counting, one, two) =
-        (load(&arguments.counting)?, load(&arguments.one)?, load(&arguments.two)?);
-    let networks = RegionNetworks { counting: &counting, one: &one, two: &two };
     let options = &arguments.chain.options;
+    let RegionsArguments { counting: Some(counting), one: Some(one), two: Some(two), .. } =
+        arguments
+    else {
+        return Ok(RegionChain::joint(&radar.waveform, radar.receivers, &radar.array, options)?);
+    };
+    let load = |path| network::load(path, None, files);
+    let models = [load(counting)?, load(one)?, load(two)?];
+    let networks = RegionNetworks { counting: &models[0], one: &models[1], two: &models[2] };
     let counted = networks.counted(&radar.array, options.refine).map_err(|error| {
         let path = match error {
-            NeuralError::WrongKind { expected: "counting", .. } => &arguments.counting,
+            NeuralError::WrongKind { expected: "counting", .. } => counting,
             NeuralError::WrongKind { expected: "dnn" | "cnn3d", .. }
-            | NeuralError::Targets { expected: 2, .. } => &arguments.two,
-            _ => &arguments.one,
+            | NeuralError::Targets { expected: 2, .. } => two,
+            _ => one,
         };
         network::wrong(path, error)
     })?;
@@ -141,6 +145,8 @@ fn table(results: &[RegionFrame]) -> Table {
                     target.confidence.unwrap_or(f64::NAN),
                     power_to_db(target.power),
                     power_to_db(region.snr),
+                    target.range_deviation_m.unwrap_or(f64::NAN),
+                    target.azimuth_deviation_rad.map_or(f64::NAN, f64::to_degrees),
                 ]
             }));
         }
@@ -158,6 +164,8 @@ fn table(results: &[RegionFrame]) -> Table {
             column("confidence", "confidence", 3),
             column("powerDb", "power_db", 1),
             column("snrDb", "snr_db", 1),
+            column("rangeDeviationM", "range_deviation_m", 3),
+            column("azimuthDeviationDeg", "azimuth_deviation_deg", 3),
         ],
         rows,
         empty: "no targets",

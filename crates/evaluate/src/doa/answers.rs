@@ -1,6 +1,6 @@
 //! What is answered in each trial, for scores to be counted again by other means.
 
-use super::condition;
+use super::Condition;
 use super::trial::Plan;
 use crate::experiment::Tell;
 use serde_json::{Map, Value, json};
@@ -24,7 +24,7 @@ impl Plan {
         answers: &Answers,
         tell: Tell,
     ) {
-        let (targets, snr_db) = condition(index);
+        let Condition { targets, snr_db, second_db } = self.conditions[index];
         let counted = answers.counted.iter().map(|&n| n.into());
         let counted: Map<_, _> = self.counters().into_iter().zip(counted).collect();
         let degrees = |found: &Option<Vec<f64>>| {
@@ -36,6 +36,7 @@ impl Plan {
         tell(json!({
             "targets": targets,
             "snrDb": snr_db,
+            "secondDb": second_db,
             "trial": trial,
             "truthDeg": truth_deg,
             "counted": counted,

@@ -1,9 +1,9 @@
 //! The whole flow of the paper's Figure 4 on the same scenes: detection along range, regions, the counting network,
 //! and the network for the number it gave.
 
+use super::REGION;
 use super::answers::Answers;
 use super::trial::{DoaRecord, Plan, Tally};
-use super::{REGION, condition};
 use crate::EvaluateError;
 use crate::entrants::Network;
 use crate::experiment::Tell;
@@ -71,8 +71,7 @@ impl Plan {
         trials: u64,
         mut tell: Option<Tell>,
     ) -> Result<DoaRecord, EvaluateError> {
-        let (targets, _) = condition(index);
-        let count = targets.count();
+        let count = self.conditions[index].targets.count();
         let receivers = self.array.rx().len();
         let mut finder = RegionFinder::new(&self.waveform, receivers, &self.array, &flow.regions)?;
         let counting: Vec<_> =

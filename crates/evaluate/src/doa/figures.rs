@@ -2,19 +2,23 @@
 
 use super::report::{BOUNDS, DoaReport, PAIRS};
 use super::trial::DEVIATIONS_DEG;
-use super::{SNRS_DB, Targets};
+use super::{Axis, SNRS_DB, Targets};
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
 
 const SNR: &str = "signal-to-noise ratio of a sample / dB";
 
-/// In the order of their names.
+/// All that there are for what changes.
 pub(super) fn all(report: &DoaReport) -> Result<Vec<String>, EvaluateError> {
-    Ok(vec![counting(report)?, rmse(report)?, success(report)?, deviation(report)?])
+    let success = success(report)?;
+    Ok(match report.axis {
+        Axis::Snr => vec![success, counting(report)?, rmse(report)?, deviation(report)?],
+        Axis::PowerDifference => vec![success],
+    })
 }
 
 /// Methods that are drawn beside the networks; the tables have all.
-const SHOWN: [&str; 7] = [
+const SHOWN: [&str; 8] = [
     "bartlett",
     "music",
     "music, smoothed",
@@ -22,6 +26,7 @@ const SHOWN: [&str; 7] = [
     "root-music, smoothed",
     "esprit",
     "maximum-likelihood",
+    "joint range-angle",
 ];
 
 /// A line for each of those drawn, the same ones in the same colours in every figure; without points where there are
@@ -55,7 +60,7 @@ fn counting(report: &DoaReport) -> Result<String, EvaluateError> {
 /// Figure 7: error of one target's angle. Where an angle in whole degrees is never wrong there is no point.
 fn rmse(report: &DoaReport) -> Result<String, EvaluateError> {
     let methods = lines(report, |k| {
-        report.over_snr(Targets::One, k, |m| m.rmse_deg).filter(|(_, rmse)| *rmse > 0.0).collect()
+        report.over(Targets::One, k, |m| m.rmse_deg).filter(|(_, rmse)| *rmse > 0.0).collect()
     });
     let bounds = BOUNDS.into_iter().enumerate().map(|(k, name)| {
         let bounds = SNRS_DB.iter().zip(&report.bounds_deg);
@@ -72,13 +77,17 @@ fn rmse(report: &DoaReport) -> Result<String, EvaluateError> {
 
 /// Figure 8: both angles within 1 deg.
 fn success(report: &DoaReport) -> Result<String, EvaluateError> {
+    let across = match report.axis {
+        Axis::Snr => SNR,
+        Axis::PowerDifference => "power of the second target over the first / dB",
+    };
     let panels = PAIRS.map(|(two, which)| Panel {
         title: format!("two targets {which}"),
         y_limits: Some([0.0, 1.02]),
         ..panel(
-            SNR,
+            across,
             "share within 1 deg",
-            lines(report, |k| report.over_snr(two, k, |m| m.success).collect()).into_iter(),
+            lines(report, |k| report.over(two, k, |m| m.success).collect()).into_iter(),
         )
     });
     draw(&panels, 2)

@@ -10,6 +10,7 @@
 mod answers;
 pub mod end_to_end;
 pub mod figures;
+mod region_methods;
 pub mod report;
 pub mod trial;
 
@@ -23,6 +24,7 @@ use boresight_core::error::check_range;
 use boresight_core::presets::preset;
 use boresight_core::{Array, Waveform};
 use boresight_simulate::{waveform_3dcnn_experiment, waveform_3dcnn_simulated};
+use region_methods::RegionMethod;
 use serde::{Deserialize, Serialize};
 use trial::{COUNTERS, DoaRecord, Plan};
 
@@ -55,7 +57,7 @@ impl Setup {
     }
 }
 
-/// What is in a scene; targets have equal powers and stand still.
+/// What is in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Targets {
@@ -67,19 +69,74 @@ pub enum Targets {
     Apart,
     /// Two at one range: their echoes are coherent.
     Together,
+    /// Two at one range, of which the second moves.
+    Moving,
 }
 
 impl Targets {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::None, Self::One, Self::Apart, Self::Together];
+    pub const ALL: [Self; 5] = [Self::None, Self::One, Self::Apart, Self::Together, Self::Moving];
 
     /// How many.
     pub fn count(self) -> usize {
         match self {
             Self::None => 0,
             Self::One => 1,
-            Self::Apart | Self::Together => 2,
+            Self::Apart | Self::Together | Self::Moving => 2,
         }
+    }
+}
+
+/// What changes from one condition to the next, for each kind of scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axis {
+    /// The signal-to-noise ratio; two targets have equal power.
+    #[default]
+    Snr,
+    /// The power of the second target over the first, whose signal-to-noise ratio is the largest of [`SNRS_DB`].
+    PowerDifference,
+}
+
+/// Powers of the second target over the first, dB.
+pub const DIFFERENCES_DB: [f64; 6] = [0.0, -3.0, -6.0, -9.0, -12.0, -15.0];
+
+/// A kind of scene with its powers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Condition {
+    pub targets: Targets,
+    pub snr_db: f64,
+    pub second_db: f64,
+}
+
+impl Axis {
+    /// Its values.
+    pub fn values(self) -> [f64; 6] {
+        match self {
+            Self::Snr => SNRS_DB,
+            Self::PowerDifference => DIFFERENCES_DB,
+        }
+    }
+
+    /// Conditions in order.
+    pub(crate) fn conditions(self) -> Vec<Condition> {
+        let targets = Targets::ALL.into_iter();
+        let targets = targets.filter(|targets| self == Self::Snr || targets.count() == 2);
+        let of = |targets| {
+            self.values().map(|value| match self {
+                Self::Snr => Condition { targets, snr_db: value, second_db: 0.0 },
+                Self::PowerDifference => {
+                    let snr_db = SNRS_DB[SNRS_DB.len() - 1];
+                    Condition { targets, snr_db, second_db: value }
+                }
+            })
+        };
+        targets.flat_map(of).collect()
+    }
+
+    /// Whether it has its usual value, which records and options do not mention.
+    fn is_usual(&self) -> bool {
+        *self == Self::Snr
     }
 }
 
@@ -89,6 +146,9 @@ impl Targets {
 pub struct DoaExperiment {
     /// The radar.
     pub setup: Setup,
+    /// What changes.
+    #[serde(default, skip_serializing_if = "Axis::is_usual")]
+    pub axis: Axis,
     /// Trials a condition. Angles go through all whole degrees within 10, or all pairs of them, in turn.
     pub trials: u64,
     /// Everything random comes from it.
@@ -109,7 +169,8 @@ pub fn default_methods(setup: Setup) -> Result<Vec<String>, EvaluateError> {
     let (_, array, _) = setup.radar()?;
     let counters = COUNTERS.iter().map(|counter| counter.0.to_owned());
     let methods = trial::candidates(&array, 1).into_iter().map(|candidate| candidate.name);
-    Ok(counters.chain(methods).collect())
+    let of_regions = RegionMethod::ALL.map(|method| method.name().to_owned());
+    Ok(counters.chain(methods).chain(of_regions).collect())
 }
 
 impl DoaExperiment {
@@ -120,7 +181,7 @@ impl DoaExperiment {
 
 impl Experiment for DoaExperiment {
     const NAME: &'static str = "doa";
-    const REVISION: u32 = 2;
+    const REVISION: u32 = 3;
     type Plan = Plan;
     type Record = DoaRecord;
     type Report = DoaReport;
@@ -144,7 +205,7 @@ impl Experiment for DoaExperiment {
     }
 
     fn scenes(&self) -> u64 {
-        self.split().scenes(Targets::ALL.len() * SNRS_DB.len())
+        self.split().scenes(self.axis.conditions().len())
     }
 
     fn scene(&self, plan: &Plan, number: u64) -> Result<DoaRecord, EvaluateError> {
@@ -166,9 +227,4 @@ impl Answered for DoaExperiment {
         let (condition, first, trials) = self.split().of(number);
         plan.run(condition, first, trials, tell)
     }
-}
-
-/// Targets and signal-to-noise ratio of a condition.
-fn condition(index: usize) -> (Targets, f64) {
-    (Targets::ALL[index / SNRS_DB.len()], SNRS_DB[index % SNRS_DB.len()])
 }

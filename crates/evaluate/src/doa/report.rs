@@ -1,7 +1,7 @@
 //! From records to tables.
 
-use super::trial::{CLOSE_DEG, DEVIATIONS_DEG, DoaRecord, Plan, Tally, conditions};
-use super::{DoaExperiment, SNRS_DB, Setup, Targets, figures};
+use super::trial::{CLOSE_DEG, DEVIATIONS_DEG, DoaRecord, Plan, Tally};
+use super::{Axis, Condition, DoaExperiment, SNRS_DB, Setup, Targets, figures};
 use crate::EvaluateError;
 use crate::entrants::Network;
 use crate::table::table;
@@ -13,6 +13,8 @@ use serde::Serialize;
 pub struct DoaReport {
     /// The radar.
     pub setup: Setup,
+    /// What changes between conditions.
+    pub axis: Axis,
     /// Trials a condition.
     pub trials: u64,
     /// Seed.
@@ -36,8 +38,10 @@ pub struct DoaReport {
 pub struct ConditionResult {
     /// What is in the scene.
     pub targets: Targets,
-    /// Signal-to-noise ratio, dB.
+    /// Signal-to-noise ratio, dB; of the first of two targets.
     pub snr_db: f64,
+    /// Power of the second of two targets over the first, dB.
+    pub second_db: f64,
     /// Trials.
     pub trials: u32,
     /// Trials with a close pair.
@@ -77,7 +81,8 @@ impl DoaReport {
     ) -> Self {
         let empty =
             DoaRecord { condition: 0, trials: 0, close: 0, counted: vec![], methods: vec![] };
-        let mut sums: Vec<DoaRecord> = conditions().map(|_| empty.clone()).collect();
+        let all = options.axis.conditions();
+        let mut sums: Vec<DoaRecord> = all.iter().map(|_| empty.clone()).collect();
         for record in records {
             let Some(sum) = sums.get_mut(record.condition) else { continue };
             sum.trials += record.trials;
@@ -95,11 +100,13 @@ impl DoaReport {
                 }
             }
         }
-        let conditions = conditions()
+        let conditions = all
+            .iter()
             .zip(&sums)
-            .map(|((_, targets, snr_db), sum)| ConditionResult {
+            .map(|(&Condition { targets, snr_db, second_db }, sum)| ConditionResult {
                 targets,
                 snr_db,
+                second_db,
                 trials: sum.trials,
                 close: sum.close,
                 counted: sum.counted.iter().map(|c| c.map(|c| share(c, sum.trials))).collect(),
@@ -113,6 +120,7 @@ impl DoaReport {
         let none = [f64::NAN; 2];
         Self {
             setup: options.setup,
+            axis: options.axis,
             trials: options.trials,
             seed: options.seed,
             counters: plan.counters(),
@@ -123,9 +131,13 @@ impl DoaReport {
         }
     }
 
-    /// The result of a condition.
-    pub fn at(&self, targets: Targets, snr_db: f64) -> Option<&ConditionResult> {
-        self.conditions.iter().find(|c| c.targets == targets && c.snr_db == snr_db)
+    /// The result of a condition, by its value of what changes.
+    pub fn at(&self, targets: Targets, value: f64) -> Option<&ConditionResult> {
+        let value_of = |c: &ConditionResult| match self.axis {
+            Axis::Snr => c.snr_db,
+            Axis::PowerDifference => c.second_db,
+        };
+        self.conditions.iter().find(|c| c.targets == targets && value_of(c) == value)
     }
 
     /// Share of scenes, a third each of no, one and two targets, that one of `counters` counted rightly.
@@ -147,7 +159,7 @@ impl DoaReport {
         self.counters.iter().enumerate().map(|(k, name)| (name.as_str(), cells(k))).collect()
     }
 
-    /// Rows of a table over the signal-to-noise ratio, of the methods that have been run on such targets.
+    /// Rows of a table over what changes, of the methods that have been run on such targets.
     fn rows(
         &self,
         targets: Targets,
@@ -155,21 +167,21 @@ impl DoaReport {
         shown: impl Fn(Vec<f64>) -> Vec<String>,
     ) -> Vec<(&str, Vec<String>)> {
         let rows = self.methods.iter().enumerate().map(|(k, name)| {
-            let values: Vec<f64> = self.over_snr(targets, k, value).map(|(_, v)| v).collect();
+            let values: Vec<f64> = self.over(targets, k, value).map(|(_, v)| v).collect();
             (name.as_str(), shown(values))
         });
         rows.filter(|(_, cells)| !cells.is_empty()).collect()
     }
 
-    /// A method's figure against the signal-to-noise ratio.
-    pub(super) fn over_snr(
+    /// A method's figure against what changes.
+    pub(super) fn over(
         &self,
         targets: Targets,
         method: usize,
         value: fn(&MethodResult) -> f64,
     ) -> impl Iterator<Item = (f64, f64)> {
-        SNRS_DB.into_iter().filter_map(move |snr_db| {
-            Some((snr_db, value(self.at(targets, snr_db)?.methods.get(method)?.as_ref()?)))
+        self.axis.values().into_iter().filter_map(move |at| {
+            Some((at, value(self.at(targets, at)?.methods.get(method)?.as_ref()?)))
         })
     }
 }
@@ -199,9 +211,21 @@ impl MethodResult {
 
 impl crate::experiment::Report for DoaReport {
     fn tables(&self) -> String {
-        let heads = SNRS_DB.map(|snr_db| format!("{snr_db} dB"));
+        let heads = self.axis.values().map(|value| format!("{value} dB"));
         let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
         let mut text = format!("{} trials a condition.\n", self.trials);
+        let percents = |shares: Vec<f64>| shares.into_iter().map(percent).collect();
+        if self.axis == Axis::PowerDifference {
+            for (two, which) in PAIRS {
+                text += &format!(
+                    "\nBoth angles of two targets {which} within 1 deg, %, by the second one's power over the first's, \
+                     which is {} dB.\n\n",
+                    SNRS_DB[SNRS_DB.len() - 1]
+                );
+                text += &table("method", &heads, &self.rows(two, |m| m.success, percents));
+            }
+            return text;
+        }
         for (two, which) in PAIRS {
             text += &format!(
                 "\nScenes counted rightly, %, a third each of 0, 1 and 2 targets, the two {which} (Figure 6).\n\n"
@@ -227,7 +251,6 @@ impl crate::experiment::Report for DoaReport {
         for (two, which) in PAIRS {
             text +=
                 &format!("\nBoth angles of two targets {which} within 1 deg, % (Figure 8).\n\n");
-            let percents = |shares: Vec<f64>| shares.into_iter().map(percent).collect();
             text += &table("method", &heads, &self.rows(two, |m| m.success, percents));
         }
         for (two, which) in PAIRS {
@@ -257,7 +280,7 @@ impl crate::experiment::Report for DoaReport {
     }
 
     fn csv(&self) -> String {
-        let mut text = "targets,snr_db,method,trials,found,rmse_deg,rounded_rmse_deg,within_1_deg,rounded_0_deg,rounded_2_deg,\
+        let mut text = "targets,snr_db,second_db,method,trials,found,rmse_deg,rounded_rmse_deg,within_1_deg,rounded_0_deg,rounded_2_deg,\
                         rounded_4_deg,close,close_within_1_deg,close_rounded_0_deg,close_rounded_2_deg,\
                         close_rounded_4_deg,counted_0,counted_1,counted_2,counted_more\n"
             .to_owned();
@@ -267,8 +290,9 @@ impl crate::experiment::Report for DoaReport {
             for (name, m) in named.filter_map(|(name, m)| Some((name, m.as_ref()?))) {
                 let ([a, b, d], [e, f, g]) = (m.within, m.close_within);
                 text += &format!(
-                    "{targets},{},\"{name}\",{},{},{},{},{},{a},{b},{d},{},{},{e},{f},{g},,,,\n",
+                    "{targets},{},{},\"{name}\",{},{},{},{},{},{a},{b},{d},{},{},{e},{f},{g},,,,\n",
                     c.snr_db,
+                    c.second_db,
                     c.trials,
                     m.found,
                     m.rmse_deg,
@@ -279,9 +303,9 @@ impl crate::experiment::Report for DoaReport {
                 );
             }
             for (name, [none, one, two, more]) in self.counters.iter().zip(&c.counted) {
-                let (snr_db, trials) = (c.snr_db, c.trials);
+                let (snr_db, second_db, trials) = (c.snr_db, c.second_db, c.trials);
                 text += &format!(
-                    "{targets},{snr_db},\"{name}\",{trials},,,,,,,,,,,,,{none},{one},{two},{more}\n"
+                    "{targets},{snr_db},{second_db},\"{name}\",{trials},,,,,,,,,,,,,{none},{one},{two},{more}\n"
                 );
             }
         }
@@ -289,7 +313,7 @@ impl crate::experiment::Report for DoaReport {
     }
 
     const FIGURES: &'static [&'static str] =
-        &["doa-counting.svg", "doa-rmse.svg", "doa-success.svg", "doa-deviation.svg"];
+        &["doa-success.svg", "doa-counting.svg", "doa-rmse.svg", "doa-deviation.svg"];
 
     fn figures(&self) -> Result<Vec<String>, EvaluateError> {
         figures::all(self)
@@ -303,19 +327,24 @@ impl Targets {
             Self::One => "one",
             Self::Apart => "apart",
             Self::Together => "together",
+            Self::Moving => "moving",
         }
     }
 }
 
-/// The two kinds of pairs, in words.
-pub(super) const PAIRS: [(Targets, &str); 2] =
-    [(Targets::Apart, "at ranges of their own"), (Targets::Together, "at one range")];
+/// The kinds of pairs, in words.
+pub(super) const PAIRS: [(Targets, &str); 3] = [
+    (Targets::Apart, "at ranges of their own"),
+    (Targets::Together, "at one range"),
+    (Targets::Moving, "at one range, one of them moving"),
+];
 /// What there is to count, in words.
-const CLASSES: [(Targets, &str); 4] = [
+const CLASSES: [(Targets, &str); 5] = [
     (Targets::None, "no target"),
     (Targets::One, "one target"),
     (Targets::Apart, "two targets at ranges of their own"),
     (Targets::Together, "two targets at one range"),
+    (Targets::Moving, "two targets at one range, one of them moving"),
 ];
 /// Names of the bounds.
 pub(super) const BOUNDS: [&str; 2] = ["Cramer-Rao bound", "MUSIC in theory"];

@@ -2,7 +2,8 @@
 
 use super::answers::Answers;
 use super::end_to_end::EndToEnd;
-use super::{REGION, SNRS_DB, Targets, condition};
+use super::region_methods::{RegionMethod, RegionPlan};
+use super::{Condition, REGION, Targets};
 use crate::EvaluateError;
 use crate::entrants::{Entrants, Network};
 use crate::experiment::Tell;
@@ -31,7 +32,10 @@ pub const CLOSE_DEG: i32 = 4;
 /// worth, deg.
 const ROUNDING_DEG: f64 = 1e-9;
 /// Methods are told that targets are within this of boresight, rad (15 deg).
-const FIELD_OF_VIEW_RAD: f64 = 0.261_799_387_799_149_4;
+pub(super) const FIELD_OF_VIEW_RAD: f64 = 0.261_799_387_799_149_4;
+
+/// Largest speed of a target that moves, either way, m/s. The phase turns by up to half a turn a chirp.
+const MOST_MPS: f64 = 20.0;
 
 /// A rule that counts: name, criterion, whether the covariance is averaged with its reversal.
 pub type Counter = (&'static str, Criterion, bool);
@@ -125,9 +129,11 @@ pub struct Plan {
     pub(super) array: Array,
     range_m: [f64; 2],
     seed: u64,
+    pub(super) conditions: Vec<Condition>,
     counters: Vec<Counter>,
     /// For one and for two targets.
     candidates: [Vec<Candidate>; 2],
+    region_methods: Vec<RegionMethod>,
     networks: Vec<Network>,
     end_to_end: Option<EndToEnd>,
 }
@@ -144,7 +150,8 @@ impl Plan {
         let Entrants { methods, networks } = &options.entrants;
         let all = candidates(&array, 1);
         let known = COUNTERS.iter().map(|counter| counter.0).chain(all.iter().map(|c| &*c.name));
-        let known: Vec<&str> = known.collect();
+        let of_regions = RegionMethod::ALL.iter().map(|method| method.name());
+        let known: Vec<&str> = known.chain(of_regions).collect();
         if let Some(name) = methods.iter().find(|name| !known.contains(&name.as_str())) {
             return Err(CoreError::Unknown {
                 what: "method".into(),
@@ -167,6 +174,9 @@ impl Plan {
         let mut candidates = [all, candidates(&array, 2)];
         candidates.iter_mut().for_each(|all| all.retain(|candidate| named(&candidate.name)));
         let counters = COUNTERS.into_iter().filter(|counter| named(counter.0)).collect();
+        let of_regions = RegionMethod::ALL.into_iter();
+        let region_methods = of_regions.filter(|method| named(method.name())).collect();
+        let conditions = options.axis.conditions();
         let networks = networks.clone();
         let end_to_end = options.end_to_end.clone();
         if let Some(flow) = &end_to_end {
@@ -177,7 +187,18 @@ impl Plan {
             }
         }
         let seed = options.seed;
-        Ok(Self { waveform, array, range_m, seed, counters, candidates, networks, end_to_end })
+        Ok(Self {
+            waveform,
+            array,
+            range_m,
+            seed,
+            conditions,
+            counters,
+            candidates,
+            region_methods,
+            networks,
+            end_to_end,
+        })
     }
 
     /// Names of what counts: rules, then networks.
@@ -189,7 +210,11 @@ impl Plan {
     /// Names of what estimates angles: methods, which are the same for one and two targets, then networks.
     pub fn names(&self) -> Vec<String> {
         let methods = self.candidates[0].iter().map(|candidate| candidate.name.clone());
-        methods.chain(self.networks_that(false).map(|network| network.name.clone())).collect()
+        let of_regions = self.region_methods.iter().map(|method| method.name().to_owned());
+        methods
+            .chain(of_regions)
+            .chain(self.networks_that(false).map(|network| network.name.clone()))
+            .collect()
     }
 
     /// Networks that count, or that estimate angles.
@@ -211,12 +236,15 @@ impl Plan {
         if let Some(flow) = &self.end_to_end {
             return self.run_end_to_end(flow, index, first, trials, tell);
         }
-        let (targets, _) = condition(index);
-        let count = targets.count();
+        let count = self.conditions[index].targets.count();
         let candidates: &[Candidate] = if count > 0 { &self.candidates[count - 1] } else { &[] };
         let mut estimators: Vec<(Estimator, bool)> = vec![];
         for candidate in candidates {
             estimators.push((candidate.estimator(&self.array)?, candidate.takes_covariance()));
+        }
+        let mut region_plans: Vec<RegionPlan> = vec![];
+        for method in self.region_methods.iter().filter(|_| count > 0) {
+            region_plans.push(method.plan(&self.array, self.waveform.samples, count)?);
         }
         let mut counting: Vec<&Model> = vec![];
         for network in self.networks_that(true) {
@@ -236,10 +264,14 @@ impl Plan {
             trials: trials as u32,
             close: 0,
             counted: vec![[0; 4]; self.counters.len() + counting.len()],
-            methods: candidates.iter().map(|_| Some(Tally::default())).chain(tallies).collect(),
+            methods: (0..candidates.len() + region_plans.len())
+                .map(|_| Some(Tally::default()))
+                .chain(tallies)
+                .collect(),
         };
         let vectors = REGION[0] * REGION[1];
         let mut cells = Array3::zeros((trials as usize, self.array.len(), vectors));
+        let mut regions = vec![];
         let mut truths: Vec<(Vec<f64>, bool)> = vec![];
         for (trial, mut cell) in (first..).zip(cells.outer_iter_mut()) {
             let (frame, truth_deg, close) = self.frame(index, trial)?;
@@ -248,11 +280,12 @@ impl Plan {
             let strongest = strongest_range(spectrum.view());
             let region = crop_region(spectrum.view(), strongest, REGION[0], REGION[1])?;
             cell.assign(&region_snapshots(region.view()));
+            regions.push(region);
             truths.push((truth_deg, close));
         }
         let mut answers = vec![Answers::default(); truths.len()];
-        for ((cell, (truth_deg, close)), told) in cells.outer_iter().zip(&truths).zip(&mut answers)
-        {
+        let trials = cells.outer_iter().zip(&regions).zip(&truths).zip(&mut answers);
+        for (((cell, region), (truth_deg, close)), told) in trials {
             let covariance = sample_covariance(cell);
             let snapshots = root(&covariance)?;
             let data = Data::Covariance { matrix: covariance.view(), snapshots: vectors };
@@ -272,7 +305,8 @@ impl Plan {
                 counts[counted.min(3)] += 1;
                 told.counted.push(counted);
             }
-            for ((estimator, covariance), tally) in estimators.iter_mut().zip(&mut record.methods) {
+            let mut tallies = record.methods.iter_mut();
+            for ((estimator, covariance), tally) in estimators.iter_mut().zip(&mut tallies) {
                 let data = if *covariance { data } else { Data::Snapshots(snapshots.view()) };
                 let found = told::azimuths(estimator, data, count)?;
                 if let (Some(tally), Some(found)) = (tally, &found) {
@@ -280,8 +314,15 @@ impl Plan {
                 }
                 told.azimuths_rad.push(found);
             }
+            for (plan, tally) in region_plans.iter_mut().zip(&mut tallies) {
+                let found = plan.azimuths(region.view(), &covariance, count)?;
+                if let (Some(tally), Some(found)) = (tally, &found) {
+                    tally.count(truth_deg, found, *close);
+                }
+                told.azimuths_rad.push(found);
+            }
         }
-        let tallies = record.methods.iter_mut().skip(estimators.len());
+        let tallies = record.methods.iter_mut().skip(estimators.len() + region_plans.len());
         for (network, tally) in networks.iter_mut().zip(tallies) {
             let (Some(network), Some(tally)) = (network, tally) else {
                 answers.iter_mut().for_each(|told| told.azimuths_rad.push(None));
@@ -311,7 +352,7 @@ impl Plan {
         index: usize,
         trial: u64,
     ) -> Result<(Array5<Complex32>, Vec<f64>, bool), EvaluateError> {
-        let (targets, snr_db) = condition(index);
+        let Condition { targets, snr_db, second_db } = self.conditions[index];
         let truth_deg = angles(targets, trial);
         let close = truth_deg.len() == 2 && truth_deg[1] - truth_deg[0] < CLOSE_DEG;
         let truth_deg: Vec<f64> = truth_deg.into_iter().map(f64::from).collect();
@@ -319,6 +360,9 @@ impl Plan {
         let [near, far] = self.range_m;
         let mut range_m = random.uniform(near, far);
         let mut echoes = vec![];
+        // Which of two is the weaker or the moving one.
+        let are_unlike = second_db != 0.0 || targets == Targets::Moving;
+        let second = if are_unlike && random.uniform(0.0, 1.0) < 0.5 { 0 } else { 1 };
         for (k, azimuth) in truth_deg.iter().enumerate() {
             if k > 0 && targets == Targets::Apart {
                 range_m = random.uniform(near, far);
@@ -326,7 +370,16 @@ impl Plan {
             let flow = self.end_to_end.as_ref();
             let azimuth_rad = flow.map_or(azimuth.to_radians(), |flow| flow.azimuth_rad(*azimuth));
             let direction = Direction::azimuth(azimuth_rad);
-            echoes.push(CubeTarget { range_m, direction, ..CubeTarget::default() });
+            let power_db = if k == second { second_db } else { 0.0 };
+            let moves = k == second && targets == Targets::Moving;
+            let rate_mps = if moves { random.uniform(-MOST_MPS, MOST_MPS) } else { 0.0 };
+            echoes.push(CubeTarget {
+                range_m,
+                direction,
+                power_db,
+                rate_mps,
+                ..CubeTarget::default()
+            });
         }
         let options = CubeOptions { snr_db, seed: random.bits(), ..CubeOptions::default() };
         let cube = simulate_cube(&self.waveform, &self.array, &echoes, &options)?;
@@ -398,14 +451,6 @@ fn root(covariance: &Array2<Complex64>) -> Result<Array2<Complex64>, EvaluateErr
         column.mapv_inplace(|z| z * (value.max(0.0) * elements).sqrt());
     }
     Ok(vectors)
-}
-
-/// Signal-to-noise ratios of conditions, for the report.
-pub(super) fn conditions() -> impl Iterator<Item = (usize, Targets, f64)> {
-    (0..Targets::ALL.len() * SNRS_DB.len()).map(|index| {
-        let (targets, snr_db) = condition(index);
-        (index, targets, snr_db)
-    })
 }
 
 #[cfg(test)]

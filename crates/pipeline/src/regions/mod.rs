@@ -3,7 +3,8 @@
 //! angles of one or of two.
 //!
 //! [`RegionFinder`] finds regions. [`RegionChain`] hands each to a [`Counted`]: a counting network with networks for
-//! one and for two targets, or any counter with estimators of a method.
+//! one and for two targets, or any counter with estimators of a method. Without networks ([`RegionChain::joint`]) ranges
+//! and azimuths are fitted together ([`RangeAngle`]), with as many targets as noise does not explain.
 //!
 //! What goes beyond the paper: the Doppler phase of the strongest peak is taken off a region, between transmitters
 //! and between chirps, so that what moves looks like what stands; and a region is turned to its coarse angle, so that
@@ -23,24 +24,41 @@ use crate::capture::{Report, proceed};
 use crate::error::PipelineError;
 use crate::result::clipped;
 use crate::source::{FrameSource, Progress};
-use boresight_aoa::{Counted, Data, Warning};
+use boresight_aoa::{
+    Counted, Data, EstimatorOptions, RangeAngle, RangeAngleTarget, SourceCount, Warning,
+};
 use boresight_core::describe::decibels::finite_db;
 use boresight_core::describe::remark::Coded;
 use boresight_core::linalg::least_squares;
 use boresight_core::order::sort_descending;
 use boresight_core::steering::steering_matrix;
-use boresight_core::{Array, Complex32, Complex64, Direction, Remark, Waveform};
+use boresight_core::{Array, Complex32, Complex64, CoreError, Direction, Remark, Waveform};
+use boresight_signal::Window;
 use boresight_signal::cfar::Detection;
 use boresight_signal::peaks::interpolate;
-use boresight_signal::range::range_axis_m;
+use boresight_signal::range::{range_axis_m, range_of_bin_m};
 use ndarray::{Array2, ArrayView4, Axis};
 use std::ops::Range;
 
 /// A plan for regions and their targets.
 pub struct RegionChain {
     finder: RegionFinder,
-    counted: Counted,
-    count_loading: f64,
+    targets: Targets,
+}
+
+/// What finds the targets of a region.
+enum Targets {
+    Counted { counted: Counted, loading: f64 },
+    Joint(Box<RangeAngle>),
+}
+
+/// The targets of a region.
+struct Found {
+    sources: usize,
+    probability: Vec<f64>,
+    targets: Vec<RegionTarget>,
+    beyond_horizon: usize,
+    warnings: Vec<Warning>,
 }
 
 impl RegionChain {
@@ -55,7 +73,35 @@ impl RegionChain {
         counted: Counted,
     ) -> Result<Self, PipelineError> {
         let finder = RegionFinder::new(waveform, receivers, counted.array(), options)?;
-        Ok(Self { finder, counted, count_loading: options.count_loading })
+        Ok(Self { finder, targets: Targets::Counted { counted, loading: options.count_loading } })
+    }
+
+    /// Plans for frames as [`RegionFinder::new`], whose targets are found without networks. `rotation`, `refine` and
+    /// `count_loading` of the options mean nothing here. Of transmitters in turn, targets have to move as the strongest
+    /// of their region does, or their azimuths are off.
+    ///
+    /// # Errors
+    /// As [`RegionFinder::new`] and [`RangeAngle::new`]; [`CoreError::Incompatible`] for a `region_window` other than
+    /// rectangular, which would correlate the noise of neighbouring bins.
+    pub fn joint(
+        waveform: &Waveform,
+        receivers: usize,
+        array: &Array,
+        options: &RegionChainOptions,
+    ) -> Result<Self, PipelineError> {
+        if options.region_window != Window::Rectangular {
+            return Err(PipelineError::from(CoreError::Incompatible {
+                what: "window of regions without networks".into(),
+                expected: Window::Rectangular.name().into(),
+                given: options.region_window.name().into(),
+            }));
+        }
+        let still = RegionChainOptions { rotation: Rotation::Never, ..*options };
+        let finder = RegionFinder::new(waveform, receivers, array, &still)?;
+        let mut angles = EstimatorOptions { sources: SourceCount::Auto, ..Default::default() };
+        angles.nomp.false_alarm = options.false_alarm;
+        let joint = RangeAngle::new(array, waveform.samples, options.size.bins, &angles)?;
+        Ok(Self { finder, targets: Targets::Joint(Box::new(joint)) })
     }
 
     /// The array.
@@ -80,26 +126,10 @@ impl RegionChain {
         let mut warnings: Vec<Warning> = vec![];
         let mut answered = Vec::with_capacity(regions.len());
         for found in &regions {
-            let snapshots = found.snapshots();
-            let data = Data::Snapshots(snapshots.view());
-            let covariance = found.covariance(self.count_loading);
-            let (matrix, vectors) = (covariance.view(), snapshots.ncols());
-            let count = self.counted.count(Data::Covariance { matrix, snapshots: vectors })?;
-            let estimate = self.counted.estimate_of(count.sources, data)?;
-            counts.without_target += usize::from(count.sources == 0);
-            let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
-            let ranges_m = self.ranges_m(found, &directions);
-            let mut targets = Vec::with_capacity(directions.len());
-            for (source, range_m) in estimate.sources.iter().zip(ranges_m) {
-                let sine = found.sine(source.direction);
-                if sine.abs() > 1.0 {
-                    counts.beyond_horizon += 1;
-                    continue;
-                }
-                let azimuth_rad = sine.asin();
-                let (power, confidence) = (source.power, source.confidence);
-                targets.push(RegionTarget { range_m, azimuth_rad, power, confidence });
-            }
+            let Found { sources, probability, mut targets, beyond_horizon, warnings: said } =
+                self.targets_of(found)?;
+            counts.without_target += usize::from(sources == 0);
+            counts.beyond_horizon += beyond_horizon;
             let before = targets.len();
             targets.retain(|target| {
                 let direction = Direction::azimuth(target.azimuth_rad);
@@ -117,11 +147,11 @@ impl RegionChain {
                 peaks: found.peaks,
                 coarse_azimuth_rad: found.coarse_azimuth_rad,
                 rotated: found.rotated,
-                sources: count.sources,
-                probability: count.probability.to_vec(),
+                sources,
+                probability,
                 targets,
             });
-            for warning in estimate.warnings {
+            for warning in said {
                 let is_new = warnings.iter().all(|known| known.code() != warning.code());
                 // A region without a target is counted.
                 if is_new && warning != Warning::NoSources {
@@ -162,6 +192,67 @@ impl RegionChain {
         }
         proceed(report, Progress { done: total, total })?;
         Ok(())
+    }
+
+    fn targets_of(&mut self, found: &FoundRegion) -> Result<Found, PipelineError> {
+        let (counted, loading) = match &mut self.targets {
+            Targets::Joint(joint) => {
+                let estimate = joint.estimate(found.region.view())?;
+                let middle = (found.region.len_of(Axis(0)) / 2) as f64;
+                let bin_m =
+                    range_of_bin_m(self.finder.waveform(), self.finder.waveform().samples, 1.0);
+                let target = |target: &RangeAngleTarget| RegionTarget {
+                    range_m: self
+                        .finder
+                        .range_m(target.bin - middle + found.range_bin as f64, found.rate_mps),
+                    azimuth_rad: target.azimuth_rad,
+                    power: target.power,
+                    confidence: None,
+                    range_deviation_m: target.bin_deviation.map(|bin| bin * bin_m),
+                    azimuth_deviation_rad: target.azimuth_deviation_rad,
+                };
+                return Ok(Found {
+                    sources: estimate.targets.len(),
+                    probability: vec![],
+                    targets: estimate.targets.iter().map(target).collect(),
+                    beyond_horizon: 0,
+                    warnings: estimate.warnings,
+                });
+            }
+            Targets::Counted { counted, loading } => (counted, *loading),
+        };
+        let snapshots = found.snapshots();
+        let data = Data::Snapshots(snapshots.view());
+        let covariance = found.covariance(loading);
+        let (matrix, vectors) = (covariance.view(), snapshots.ncols());
+        let count = counted.count(Data::Covariance { matrix, snapshots: vectors })?;
+        let estimate = counted.estimate_of(count.sources, data)?;
+        let directions: Vec<Direction> = estimate.sources.iter().map(|s| s.direction).collect();
+        let ranges_m = self.ranges_m(found, &directions);
+        let mut targets = Vec::with_capacity(directions.len());
+        let mut beyond_horizon = 0;
+        for (source, range_m) in estimate.sources.iter().zip(ranges_m) {
+            let sine = found.sine(source.direction);
+            if sine.abs() > 1.0 {
+                beyond_horizon += 1;
+                continue;
+            }
+            targets.push(RegionTarget {
+                range_m,
+                azimuth_rad: sine.asin(),
+                power: source.power,
+                confidence: source.confidence,
+                range_deviation_m: None,
+                azimuth_deviation_rad: None,
+            });
+        }
+        Ok(Found {
+            sources: count.sources,
+            probability: count.probability.to_vec(),
+            targets,
+            beyond_horizon,
+            warnings: estimate.warnings,
+        })
     }
 
     /// Range of each source, m: that of the bin in which the amplitude that fits best is largest.

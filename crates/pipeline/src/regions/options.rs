@@ -50,6 +50,9 @@ pub struct RegionChainOptions {
     pub sector_rad: f64,
     /// Refine the angles on the matched model, beyond whole degrees; those that noise explains are dropped.
     pub refine: bool,
+    /// Probability that noise alone adds a target to a region, where targets are found without networks.
+    #[option(default = 1e-2, range = 1e-12..=0.5)]
+    pub false_alarm: f64,
     /// Most regions a frame; those with the strongest peaks are kept.
     #[option(default = 32, range = 1..=1024)]
     pub max_regions: usize,

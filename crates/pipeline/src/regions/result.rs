@@ -17,6 +17,13 @@ pub struct RegionTarget {
     /// Probability of its direction, where a network gave it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub confidence: Option<f64>,
+    /// Standard deviation of the range by the Cramer-Rao bound. None where a network gave the direction, and where the
+    /// data do not determine it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range_deviation_m: Option<f64>,
+    /// The same of the azimuth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub azimuth_deviation_rad: Option<f64>,
 }
 
 /// A region of the range spectrum with what was found in it.
@@ -43,7 +50,7 @@ pub struct TargetRegion {
     pub rotated: bool,
     /// Targets counted.
     pub sources: usize,
-    /// Probability of 0, 1 and 2 targets, each by itself.
+    /// Probability of 0, 1 and 2 targets, each by itself; empty where no network counted them.
     #[serde(serialize_with = "columns::serialize")]
     pub probability: Vec<f64>,
     /// Targets, strongest first.
