@@ -17,6 +17,8 @@ export const Network: any;
 export type Network = any;
 export const cubeRegions: any;
 export const captureRegions: any;
+export const jointCubeRegions: any;
+export const jointCaptureRegions: any;
 export const initSync: any;
 export const lastPanic: any;
 export const setLimits: any;

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { estimate, init, simulateCube, waveformPreset } from 'boresight';
-import { initNeural, Network } from 'boresight/neural';
+import { captureRegions, cubeRegions, initNeural, Network } from 'boresight/neural';
 import { createPool } from 'boresight/worker';
 import { planeWaves, rejectsTyped, throwsTyped } from './lib/assert.mjs';
 import { assertShape } from './lib/interfaces.mjs';
@@ -70,6 +70,33 @@ test('a region of one target and one of two are told as they are, on a pool too'
     [2, -6, 5],
   ]);
   assert.deepEqual(await pool.cubeRegions(ids, cube, radar), frames);
+});
+
+test('without networks ranges and angles are fitted, with standard deviations', () => {
+  const [frame] = cubeRegions(cube, radar);
+  assertShape(frame, 'RegionFrame');
+  const found = frame.regions.flatMap(({ targets }) => targets).sort((a, b) => a.rangeM - b.rangeM);
+  const truth = [
+    [70, -4],
+    [160, -6],
+    [166, 5],
+  ];
+  assert.equal(found.length, truth.length);
+  for (const [k, [rangeM, azimuthDeg]] of truth.entries()) {
+    const target = found[k];
+    assertShape(target, 'RegionTarget');
+    assert.ok(Math.abs(target.rangeM - rangeM) < 4 * target.rangeDeviationM, JSON.stringify(target));
+    assert.ok(Math.abs(target.azimuthDeg - azimuthDeg) < 4 * target.azimuthDeviationDeg, JSON.stringify(target));
+  }
+  throwsTyped(() => cubeRegions(cube, { ...radar, regionWindow: 'hann' }), 'incompatible');
+  const [recorded] = captureRegions(bin, cfg, { reachBins: 0 }, 3);
+  for (const [rangeBin, classicalDeg] of [
+    [58, -11.1],
+    [97, -0.4],
+  ]) {
+    const region = recorded.regions.find((one) => Math.abs(one.rangeBin - rangeBin) <= 1);
+    assert.ok(Math.abs(region.targets[0].azimuthDeg - classicalDeg) < 1, JSON.stringify(region));
+  }
 });
 
 test('the recorded targets are one each, in every frame', async () => {

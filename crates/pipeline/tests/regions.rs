@@ -116,6 +116,34 @@ fn regions_far_apart_hold_what_is_near_each() {
 }
 
 #[test]
+fn without_networks_ranges_and_azimuths_are_fitted_together() {
+    let (waveform, array) = (waveform_3dcnn_simulated(), Array::ula(8).unwrap());
+    // Within a bin of each other, one 10 dB weaker; another far away and far from boresight.
+    let weaker = CubeTarget { power_db: -10.0, ..target(100.7, 3.1) };
+    let targets = [target(100.2, -4.0), weaker, target(160.0, 51.0)];
+    let cube = cube(&waveform, &array, &targets, 3);
+    let options = RegionChainOptions::default();
+    let mut chain = RegionChain::joint(&waveform, 8, &array, &options).unwrap();
+    let frame = chain.process(cube.index_axis(Axis(0), 0)).unwrap();
+    assert!(frame.warnings.is_empty(), "{:?}", frame.warnings);
+    let found: Vec<_> = frame.regions.iter().flat_map(|region| &region.targets).collect();
+    assert_eq!(found.len(), 3);
+    for truth in &targets {
+        let at = truth.direction.azimuth_rad;
+        let near = |found: &&&boresight_pipeline::regions::RegionTarget| {
+            (found.azimuth_rad - at).abs() <= 4.0 * found.azimuth_deviation_rad.unwrap()
+        };
+        let found = found.iter().find(near).unwrap();
+        let off_m = (found.range_m - truth.range_m).abs();
+        assert!(off_m <= 4.0 * found.range_deviation_m.unwrap(), "{found:?} {truth:?}");
+        assert!((10.0 * found.power.log10() - truth.power_db).abs() < 1.0, "{found:?}");
+    }
+    let windowed = RegionChainOptions { region_window: Window::Hann, ..options };
+    let refused = RegionChain::joint(&waveform, 8, &array, &windowed).err().unwrap();
+    assert_eq!(refused.code(), "incompatible");
+}
+
+#[test]
 fn nothing_there_makes_no_region() {
     for seed in 0..20 {
         let (waveform, array) = (waveform_3dcnn_simulated(), Array::ula(8).unwrap());

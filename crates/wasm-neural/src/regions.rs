@@ -1,4 +1,4 @@
-//! Regions of the range spectrum, their targets counted and told apart by three networks.
+//! Regions of the range spectrum, their targets counted and told apart by three networks, or fitted without any.
 
 use crate::network::Network;
 use boresight_core::{Array, Waveform};
@@ -24,17 +24,13 @@ pub fn cube_regions(
     cube: &JsValue,
     options: &JsValue,
 ) -> Fallible<js_sys::Array> {
-    let cube = Cube::read(cube, "cube")?;
-    let source = cube_frames(&cube)?;
-    let mut fields = Fields::new(options, "")?;
-    let waveform: Waveform = fields.required("waveform")?;
-    let array = ArrayChoice::read(&mut fields)?.required()?;
-    let options = fields.spread()?;
-    fields.finish()?;
-    let networks = [counting, one, two];
-    let receivers = source.0.len_of(ndarray::Axis(3));
-    let mut chain = chain(networks, &waveform, receivers, &array, &options)?;
-    written(&mut chain, &source, 0..source.frames())
+    of_cube(Some([counting, one, two]), cube, options)
+}
+
+/// As [`cube_regions`], without networks.
+#[wasm_bindgen(js_name = jointCubeRegions)]
+pub fn joint_cube_regions(cube: &JsValue, options: &JsValue) -> Fallible<js_sys::Array> {
+    of_cube(None, cube, options)
 }
 
 /// Regions and targets of each frame of a capture, or of one.
@@ -48,6 +44,44 @@ pub fn capture_regions(
     options: &JsValue,
     frame: &JsValue,
 ) -> Fallible<js_sys::Array> {
+    of_capture(Some([counting, one, two]), bytes, config, options, frame)
+}
+
+/// As [`capture_regions`], without networks.
+#[wasm_bindgen(js_name = jointCaptureRegions)]
+pub fn joint_capture_regions(
+    bytes: &JsValue,
+    config: &JsValue,
+    options: &JsValue,
+    frame: &JsValue,
+) -> Fallible<js_sys::Array> {
+    of_capture(None, bytes, config, options, frame)
+}
+
+fn of_cube(
+    networks: Option<[&Network; 3]>,
+    cube: &JsValue,
+    options: &JsValue,
+) -> Fallible<js_sys::Array> {
+    let cube = Cube::read(cube, "cube")?;
+    let source = cube_frames(&cube)?;
+    let mut fields = Fields::new(options, "")?;
+    let waveform: Waveform = fields.required("waveform")?;
+    let array = ArrayChoice::read(&mut fields)?.required()?;
+    let options = fields.spread()?;
+    fields.finish()?;
+    let receivers = source.0.len_of(ndarray::Axis(3));
+    let mut chain = chain(networks, &waveform, receivers, &array, &options)?;
+    written(&mut chain, &source, 0..source.frames())
+}
+
+fn of_capture(
+    networks: Option<[&Network; 3]>,
+    bytes: &JsValue,
+    config: &JsValue,
+    options: &JsValue,
+    frame: &JsValue,
+) -> Fallible<js_sys::Array> {
     let capture = Capture::new(bytes, config)?;
     let frames = capture.read_frames(frame)?;
     let mut fields = Fields::of_optional(options)?;
@@ -55,17 +89,20 @@ pub fn capture_regions(
     let options = fields.spread()?;
     fields.finish()?;
     let (waveform, receivers, source) = capture.recording()?;
-    let mut chain = chain([counting, one, two], &waveform, receivers, &array, &options)?;
+    let mut chain = chain(networks, &waveform, receivers, &array, &options)?;
     written(&mut chain, &source, frames)
 }
 
 fn chain(
-    [counting, one, two]: [&Network; 3],
+    networks: Option<[&Network; 3]>,
     waveform: &Waveform,
     receivers: usize,
     array: &Array,
     options: &RegionChainOptions,
 ) -> Fallible<RegionChain> {
+    let Some([counting, one, two]) = networks else {
+        return Ok(RegionChain::joint(waveform, receivers, array, options)?);
+    };
     let networks = RegionNetworks { counting: &counting.model, one: &one.model, two: &two.model };
     let counted = networks.counted(array, options.refine)?;
     Ok(RegionChain::new(waveform, receivers, options, counted)?)

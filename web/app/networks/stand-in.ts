@@ -10,6 +10,8 @@ interface Bindings {
   setLimits(limits: unknown): void;
   cubeRegions(...args: unknown[]): unknown;
   captureRegions(...args: unknown[]): unknown;
+  jointCubeRegions(...args: unknown[]): unknown;
+  jointCaptureRegions(...args: unknown[]): unknown;
   Network: unknown;
 }
 
@@ -22,6 +24,8 @@ export const lastPanic = (): string => bindings.lastPanic();
 export const setLimits = (limits: unknown): void => bindings.setLimits(limits);
 export const cubeRegions = (...args: unknown[]): unknown => bindings.cubeRegions(...args);
 export const captureRegions = (...args: unknown[]): unknown => bindings.captureRegions(...args);
+export const jointCubeRegions = (...args: unknown[]): unknown => bindings.jointCubeRegions(...args);
+export const jointCaptureRegions = (...args: unknown[]): unknown => bindings.jointCaptureRegions(...args);
 export let Network: unknown;
 
 async function load(): Promise<void> {

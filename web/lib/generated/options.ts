@@ -759,6 +759,11 @@ export interface RegionChainOptions {
    * false).
    */
   refine?: boolean;
+  /**
+   * Probability that noise alone adds a target to a region, where targets are found without networks (1e-12 to 0.5;
+   * default 0.01).
+   */
+  falseAlarm?: number;
   /** Most regions a frame; those with the strongest peaks are kept (1 to 1024; default 32). */
   maxRegions?: number;
 }

@@ -738,6 +738,13 @@ export interface RegionTarget {
   powerDb: number;
   /** Probability of its direction, where a network gave it. */
   confidence?: number;
+  /**
+   * Standard deviation of the range by the Cramer-Rao bound. None where a network gave the direction, and where the
+   * data do not determine it.
+   */
+  rangeDeviationM?: number;
+  /** The same of the azimuth. */
+  azimuthDeviationDeg?: number;
 }
 
 /** A region of the range spectrum with what was found in it. */
@@ -763,7 +770,7 @@ export interface TargetRegion {
   rotated: boolean;
   /** Targets counted. */
   sources: number;
-  /** Probability of 0, 1 and 2 targets, each by itself. */
+  /** Probability of 0, 1 and 2 targets, each by itself; empty where no network counted them. */
   probability: Float64Array;
   /** Targets, strongest first. */
   targets: RegionTarget[];

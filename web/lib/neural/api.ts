@@ -4,4 +4,4 @@ export { BoresightError, type ErrorDetails } from '../runtime/errors.js';
 export type { WasmSource } from '../runtime/module.js';
 export type { Report } from '../runtime/report.js';
 export type * from '../types.js';
-export { initNeuralSync, Network } from './network.js';
+export { captureRegions, cubeRegions, initNeuralSync, Network } from './network.js';

@@ -40,6 +40,24 @@ export function initNeuralSync(module: WebAssembly.Module | BufferSource): void 
 }
 
 /**
+ * Regions of each frame of a cube, found along range, with the ranges and azimuths of their targets: fitted to the region
+ * together by maximum likelihood, without networks, on any array along a line. Each target has standard deviations.
+ */
+export function cubeRegions(cube: ComplexData, options: CubeRegionOptions): RegionFrame[] {
+  return neural.call(() => glue.jointCubeRegions(cube, options) as RegionFrame[]);
+}
+
+/** The same of frames of a capture; all frames, or one. */
+export function captureRegions(
+  bytes: BytesInput,
+  config: ConfigInput,
+  options?: CaptureRegionOptions,
+  frame?: number,
+): RegionFrame[] {
+  return neural.call(() => glue.jointCaptureRegions(bytes, config, options, frame) as RegionFrame[]);
+}
+
+/**
  * A network from an ONNX file, ready to estimate.
  *
  * @example
