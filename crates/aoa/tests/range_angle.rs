@@ -189,6 +189,13 @@ fn bins_that_are_zero_are_not_measured() {
     assert!((found.targets[0].bin - 32.4).abs() < 0.01);
     let expected = 0.01 / SAMPLES as f64;
     assert!((found.noise_power / expected - 1.0).abs() < 0.15, "{}", found.noise_power);
+    // One bin tells the azimuth, and no range.
+    data.slice_mut(s![..32, .., ..]).fill(Complex32::default());
+    data.slice_mut(s![33.., .., ..]).fill(Complex32::default());
+    let found = plan(&array, SourceCount::Auto).estimate(data.view()).unwrap();
+    let [target] = found.targets[..] else { panic!("{found:?}") };
+    assert!((target.azimuth_rad.to_degrees() - 3.0).abs() < 0.1, "{target:?}");
+    assert!((target.bin - 32.0).abs() <= 0.5 && target.bin_deviation.is_none(), "{target:?}");
     data.fill(Complex32::default());
     let nothing = plan(&array, SourceCount::Known(2)).estimate(data.view()).unwrap();
     assert!(nothing.targets.is_empty() && nothing.noise_power == 0.0);

@@ -75,7 +75,14 @@ fn parts_make_the_whole() {
     });
     let setup = doa::Setup::Simulation;
     let entrants = Entrants::new(doa::default_methods(setup).unwrap(), vec![]);
-    check(&doa::DoaExperiment { setup, trials: 1, seed: 1, entrants, end_to_end: None });
+    check(&doa::DoaExperiment {
+        setup,
+        axis: doa::Axis::Snr,
+        trials: 1,
+        seed: 1,
+        entrants,
+        end_to_end: None,
+    });
     let entrants = Entrants::new(vec![images::CHAIN.into()], vec![]);
     check(&images::ImagesExperiment { streets: 2, seed: 1, entrants });
     let (array, snapshots) = ("ula4".into(), vec![1, 3]);

@@ -115,6 +115,7 @@ fn what_a_network_cannot_do_is_refused_before_anything_runs() {
     assert!(matches!(aoa("lrr48", vec![name_only]), EvaluateError::NoModel { .. }));
     let entrants = Entrants::new(vec![], vec![aaetr]);
     let doa = doa::DoaExperiment {
+        axis: doa::Axis::Snr,
         setup: Setup::Simulation,
         trials: 1,
         seed: 1,
@@ -131,6 +132,7 @@ fn networks_of_regions_count_and_estimate_beside_the_rules() {
     let methods = vec!["MDL".into(), "maximum-likelihood".into()];
     let entrants = Entrants::new(methods, networks);
     let options = doa::DoaExperiment {
+        axis: doa::Axis::Snr,
         setup: Setup::Simulation,
         trials: 21,
         seed: 2,
@@ -168,6 +170,7 @@ fn from_end_to_end_networks_do_as_well_as_told() {
     let go = |_| ControlFlow::Continue(());
     let networks = vec![network("counting"), network("dnn-small-2")];
     let told = doa::DoaExperiment {
+        axis: doa::Axis::Snr,
         setup: Setup::Simulation,
         trials: 21,
         seed: 2,
@@ -203,6 +206,7 @@ fn from_end_to_end_networks_do_as_well_as_told() {
     assert!(two.success > 0.8, "{two:?}");
     // Nothing that is told can take part, nor anything that does not count stand for what does.
     let with = |entrants, flow| doa::DoaExperiment {
+        axis: doa::Axis::Snr,
         entrants,
         end_to_end: Some(flow),
         ..end_to_end.clone()

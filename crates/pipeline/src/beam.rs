@@ -23,8 +23,7 @@ const LEAST_DB: f64 = -100.0;
 /// calibration leaves of the array's errors is the mismatch where none is asked for.
 pub fn suited(method: Method, array: &Array, options: &EstimatorOptions) -> EstimatorOptions {
     let mut options = *options;
-    let left_db = array.correction().and_then(Correction::residual_db);
-    options.mismatch_db = options.mismatch_db.or(left_db.map(|db| db.clamp(LEAST_DB, 0.0)));
+    options.mismatch_db = options.mismatch_db.or_else(|| mismatch_left_db(array));
     if method == Method::Capon && options.loading == 0.0 {
         options.loading = CAPON_LOADING;
     }
@@ -33,6 +32,12 @@ pub fn suited(method: Method, array: &Array, options: &EstimatorOptions) -> Esti
         options.dynamic_range_db = options.dynamic_range_db.min(limit_db);
     }
     options
+}
+
+/// What the array's calibration leaves of its errors, over the power of a target, dB.
+pub fn mismatch_left_db(array: &Array) -> Option<f64> {
+    let left_db = array.correction().and_then(Correction::residual_db);
+    left_db.map(|db| db.clamp(LEAST_DB, 0.0))
 }
 
 /// Depth of the highest sidelobe below the main lobe of a beam to boresight, dB (positive);

@@ -759,11 +759,14 @@ export interface RegionChainOptions {
    * false).
    */
   refine?: boolean;
-  /**
-   * Probability that noise alone adds a target to a region, where targets are found without networks (1e-12 to 0.5;
-   * default 0.01).
-   */
+  /** Probability that noise alone adds a target to a region (joint estimation) (1e-12 to 0.5; default 0.01). */
   falseAlarm?: number;
+  /**
+   * Power of unknown array errors relative to each target, which joint estimation does not report as further targets.
+   * Gain errors of 1 dB and phase errors of 10 deg give -13.6. Default: the residual of the array's calibration, or
+   * none (-100 to 0 dB).
+   */
+  mismatchDb?: number;
   /** Most regions a frame; those with the strongest peaks are kept (1 to 1024; default 32). */
   maxRegions?: number;
 }

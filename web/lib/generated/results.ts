@@ -738,12 +738,9 @@ export interface RegionTarget {
   powerDb: number;
   /** Probability of its direction, where a network gave it. */
   confidence?: number;
-  /**
-   * Standard deviation of the range by the Cramer-Rao bound. None where a network gave the direction, and where the
-   * data do not determine it.
-   */
+  /** Standard deviation of the range (Cramer-Rao bound), from joint estimation where the data determine it. */
   rangeDeviationM?: number;
-  /** The same of the azimuth. */
+  /** Standard deviation of the azimuth (Cramer-Rao bound), from joint estimation where the data determine it. */
   azimuthDeviationDeg?: number;
 }
 
@@ -770,7 +767,7 @@ export interface TargetRegion {
   rotated: boolean;
   /** Targets counted. */
   sources: number;
-  /** Probability of 0, 1 and 2 targets, each by itself; empty where no network counted them. */
+  /** Probability of 0, 1 and 2 targets, each by itself; empty for joint estimation. */
   probability: Float64Array;
   /** Targets, strongest first. */
   targets: RegionTarget[];

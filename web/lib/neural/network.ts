@@ -40,14 +40,14 @@ export function initNeuralSync(module: WebAssembly.Module | BufferSource): void 
 }
 
 /**
- * Regions of each frame of a cube, found along range, with the ranges and azimuths of their targets: fitted to the region
- * together by maximum likelihood, without networks, on any array along a line. Each target has standard deviations.
+ * Finds regions along range in each frame of a cube and estimates the ranges and azimuths of their targets jointly by
+ * maximum likelihood, without networks, for any linear array. Targets have standard deviations.
  */
 export function cubeRegions(cube: ComplexData, options: CubeRegionOptions): RegionFrame[] {
   return neural.call(() => glue.jointCubeRegions(cube, options) as RegionFrame[]);
 }
 
-/** The same of frames of a capture; all frames, or one. */
+/** Like {@link cubeRegions}, for all frames of a capture, or one. */
 export function captureRegions(
   bytes: BytesInput,
   config: ConfigInput,

@@ -1,19 +1,19 @@
-//! Responses of a region to a target: along range those of the transform's bins, along the array
-//! those of its elements. A target's response is the product of the two.
+//! Response of a region to a target: the product of a response along range (the bins of the
+//! transform) and one along the array (its elements).
 
 use boresight_core::Complex64;
 use boresight_core::steering::cis;
 use ndarray::{Array2, ArrayView3};
 use std::f64::consts::{PI, TAU};
 
-/// The bins and elements of a region.
+/// Geometry of a region.
 #[derive(Debug, Clone)]
 pub(super) struct Atoms {
     /// Samples of a chirp.
     pub samples: usize,
     /// Range bins of the region.
     pub bins: usize,
-    /// Positions along the array, from their mean, half wavelengths.
+    /// Element positions along the array relative to their mean, in half wavelengths.
     pub positions: Vec<f64>,
 }
 
@@ -24,8 +24,8 @@ pub(super) struct Response {
 }
 
 impl Atoms {
-    /// What the bins of the region have of a tone `bin` bins beyond its first, its phase that of the
-    /// middle of the chirp. The amplitude of a tone in the middle of a bin is 1 there.
+    /// Returns the response of the region's bins to a tone at `bin`, counted from the first bin. The
+    /// phase refers to the middle of the chirp. A tone centred on a bin has amplitude 1 there.
     ///
     /// Bin `n` has `exp(-j c n) sin(pi d) / (N sin(pi d / N))` with the distance `d = bin - n` and
     /// `c = pi (N - 1) / N`.
@@ -42,7 +42,7 @@ impl Atoms {
         Response { value, slope }
     }
 
-    /// What the elements receive from a sine of the azimuth.
+    /// Returns the response of the elements to a plane wave with the given sine of the azimuth.
     pub fn array(&self, sine: f64) -> Response {
         let value: Vec<Complex64> = self.positions.iter().map(|p| cis(PI * p * sine)).collect();
         let slopes = value.iter().zip(&self.positions);
@@ -56,7 +56,7 @@ fn dirichlet(distance: f64, n: f64) -> (f64, f64) {
     let (sine, cosine) = (PI * distance).sin_cos();
     let (below, below_slope) = (PI * distance / n).sin_cos();
     if below.abs() < 1e-6 {
-        // To second order, where the quotient is rounded away.
+        // Expansion to second order, since the quotient cancels here.
         let curvature = -PI * PI / 3.0 * (1.0 - 1.0 / (n * n));
         return (1.0, curvature * distance);
     }
@@ -64,7 +64,7 @@ fn dirichlet(distance: f64, n: f64) -> (f64, f64) {
     (value, PI / (n * below) * (cosine - value * below_slope))
 }
 
-/// The sum of `range^* x array^*` over bins and elements of each chirp.
+/// Correlates each chirp with a response: the sum of `range^* x array^*` over bins and elements.
 pub(super) fn correlate(
     x: &ArrayView3<'_, Complex64>,
     range: &[Complex64],
@@ -85,7 +85,7 @@ pub(super) fn inner(x: &[Complex64], y: &[Complex64]) -> Complex64 {
     x.iter().zip(y).map(|(x, y)| x.conj() * y).sum()
 }
 
-/// The responses on a grid, those of a place by row.
+/// Stacks responses on a grid as the rows of a matrix.
 pub(super) fn table(rows: impl ExactSizeIterator<Item = Vec<Complex64>>) -> Array2<Complex64> {
     let count = rows.len();
     let all: Vec<Complex64> = rows.flatten().collect();
@@ -93,7 +93,8 @@ pub(super) fn table(rows: impl ExactSizeIterator<Item = Vec<Complex64>>) -> Arra
     Array2::from_shape_vec((count, width), all).unwrap_or_default()
 }
 
-/// Slope, squared, of the response of the samples to noise: the variance of their phase a bin.
+/// Variance over the samples of the phase slope per bin, rad^2. It is the variance of the slope of a
+/// matched filter's response to white noise.
 pub(super) fn range_spread(samples: usize) -> f64 {
     let n = samples as f64;
     (TAU / n).powi(2) * (n * n - 1.0) / 12.0

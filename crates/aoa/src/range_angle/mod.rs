@@ -1,11 +1,11 @@
 //! Joint maximum likelihood of range and azimuth in a region of the range spectrum.
 //!
-//! A target fills a few range bins, all elements and all chirps. Estimators of the region's
-//! covariance add up all bins, of which most hold noise alone, and cannot tell echoes apart that
-//! differ in range only. Here the region itself is fitted, by targets whose response is the product
-//! of the transform's along range and the steering vector, with an amplitude of its own in every
-//! chirp. Targets are placed by alternating projection (Ziskind and Wax 1988), then refined together
-//! by Gauss-Newton steps.
+//! A target occupies a few range bins, all elements and all chirps. Estimators that use the region's
+//! covariance sum over all bins, most of which contain only noise, and discard range. This estimator
+//! fits the region itself: the response of a target is the product of the transform's response along
+//! range and the steering vector, with an independent complex amplitude in every chirp. A grid
+//! search (alternating projection, Ziskind and Wax 1988) places each target, and Gauss-Newton steps
+//! refine all targets jointly.
 
 mod atoms;
 mod refine;
@@ -28,11 +28,13 @@ const NAME: &str = "joint range-angle estimation";
 pub const MAX_TARGETS: usize = 8;
 /// Most places of the grid times chirps.
 const MAX_CELLS: usize = 4_000_000;
-/// Rounds in which targets are placed anew; it settles in a few.
+/// Maximum number of relocation rounds; a few suffice.
 const MAX_ROUNDS: usize = 10;
-/// Share of the residual that a target placed anew has to gain.
+/// Minimum relative decrease of the residual for a relocated target to be accepted.
 const SETTLED: f64 = 1e-9;
-/// Share of the power below which nothing but rounding is left.
+/// Minimum fraction of a response's power that must remain after projecting out the other targets.
+const LEAST_LEFT: f64 = 1e-3;
+/// Fraction of the power below which the residual is rounding error.
 const EXHAUSTED: f64 = 1e-12;
 
 /// Range and sine of the azimuth of a target.
@@ -52,37 +54,39 @@ pub struct RangeAngleTarget {
     pub azimuth_rad: f64,
     /// Power of one raw sample at one element, mean over the chirps.
     pub power: f64,
-    /// Standard deviation of `bin` by the Cramer-Rao bound, with the noise power that the fit
-    /// leaves. None where the data do not determine it.
+    /// Standard deviation of `bin` (Cramer-Rao bound at the estimated noise power), or `None` if the
+    /// data do not determine the range.
     pub bin_deviation: Option<f64>,
-    /// The same of the azimuth, rad.
+    /// Standard deviation of the azimuth, rad, or `None` if undetermined.
     pub azimuth_deviation_rad: Option<f64>,
 }
 
-/// What was found in a region.
+/// Result for one region.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RangeAngleEstimate {
     /// Targets, strongest first.
     pub targets: Vec<RangeAngleTarget>,
-    /// Noise power in a bin of an element, from what the fit leaves.
+    /// Noise power per range bin and element, estimated from the residual.
     pub noise_power: f64,
-    /// [`Warning::NotConverged`] where the Gauss-Newton steps did not end.
+    /// [`Warning::NotConverged`] if the Gauss-Newton iteration reached its limit.
     pub warnings: Vec<Warning>,
 }
 
-/// Joint estimation for regions of one size seen by one array.
+/// Joint range-angle estimator for one array and region size.
 pub struct RangeAngle {
     atoms: Atoms,
     search: Search,
     shares: Shares,
+    /// Threshold for gains caused by unknown array errors, as a fraction of the explained power.
+    mismatch: f64,
     options: EstimatorOptions,
     most: usize,
 }
 
 impl RangeAngle {
-    /// Plans for regions of `bins` range bins, of a transform of `samples` samples without window and padding, on an
-    /// array along a line. Of the options, `sources` ([`SourceCount::Known`] or [`SourceCount::Auto`]),
-    /// `field_of_view_rad`, `max_iterations`, `tolerance` and `nomp.false_alarm` count.
+    /// Prepares for regions of `bins` range bins from a `samples`-point transform without window or zero padding, on a
+    /// linear array. Uses the options `sources` ([`SourceCount::Known`] or [`SourceCount::Auto`]), `field_of_view_rad`,
+    /// `max_iterations`, `tolerance`, `mismatch_db` and `nomp.false_alarm`.
     ///
     /// # Errors
     /// [`AoaError::Array`] for an array with an extent in elevation, [`AoaError::TooManySources`] for more than
@@ -132,12 +136,16 @@ impl RangeAngle {
             (bins - 1) as f64 * atoms::range_spread(samples).sqrt(),
         ];
         let volumes = Volumes::of_rectangle(sides);
+        // Element errors are equal in all bins and chirps: a single noise vector along the array.
+        let mismatch = options.mismatch()
+            * Volumes::of_rectangle([sides[0], 0.0]).level(options.nomp.false_alarm, 1)
+            / array.len() as f64;
         let shares = Shares::of(volumes, bins * array.len(), 2, options.nomp.false_alarm);
-        Ok(Self { atoms, search, shares, options: options.clone(), most })
+        Ok(Self { atoms, search, shares, mismatch, options: *options, most })
     }
 
-    /// Finds the targets of a region of bins x elements x chirps, as
-    /// [`boresight_signal::region::crop_region`] gives it. Bins that are zero throughout count as not measured.
+    /// Estimates the targets of a region of bins x elements x chirps, as returned by
+    /// [`boresight_signal::region::crop_region`]. Bins that are entirely zero are treated as missing.
     ///
     /// # Errors
     /// [`CoreError::Shape`] for another shape than planned or no chirps, [`CoreError::NotFinite`] for values that are
@@ -165,16 +173,17 @@ impl RangeAngle {
                     let left = found.fit.residual;
                     let share = self.shares.after(found.fit.places.len(), chirps);
                     let gain = left - next.fit.residual;
-                    if share.is_none_or(|share| gain <= share * left) {
+                    let by_mismatch = self.mismatch * (power - left);
+                    let is_noise = share.is_none_or(|share| gain <= share * left + by_mismatch);
+                    let noise_power = self.noise_power(&next.fit, values, chirps);
+                    if is_noise || !next.fit.is_determined(noise_power, model.limits()) {
                         break;
                     }
                 }
                 found = next;
             }
         }
-        let targets = found.fit.places.len();
-        let freedom = (chirps * values.saturating_sub(targets)) as f64 - targets as f64;
-        let noise_power = found.fit.residual / freedom.max(1.0);
+        let noise_power = self.noise_power(&found.fit, values, chirps);
         Ok(RangeAngleEstimate {
             targets: told(&found.fit, noise_power),
             noise_power,
@@ -185,8 +194,16 @@ impl RangeAngle {
         })
     }
 
-    /// The best fit of one target more: the place where most power is left, then all refined together, each in turn
-    /// placed anew beside the others for as long as that is better.
+    /// Residual noise power of a fit to `values` bins and elements. Each target has one complex amplitude per chirp and
+    /// two real parameters.
+    fn noise_power(&self, fit: &Fit, values: usize, chirps: usize) -> f64 {
+        let targets = fit.places.len();
+        let freedom = (chirps * values.saturating_sub(targets)) as f64 - targets as f64;
+        fit.residual / freedom.max(1.0)
+    }
+
+    /// Adds one target at the strongest residual and refines all targets jointly. Then relocates each target in turn
+    /// while that decreases the residual.
     fn add(&self, seen: &Seen<'_>, model: &Model<'_>, others: &[Place]) -> Option<Refined> {
         let (iterations, tolerance) = (self.options.max_iterations, self.options.tolerance);
         let refine = |places: &[Place]| model.refine(places, iterations, tolerance);
@@ -253,9 +270,9 @@ fn told(fit: &Fit, noise_power: f64) -> Vec<RangeAngleTarget> {
                 azimuth_rad: place.sine.asin(),
                 power: amplitudes.iter().map(|z| z.norm_sqr()).sum::<f64>()
                     / amplitudes.len() as f64,
-                bin_deviation: deviation.map(|[bin, _]| bin),
+                bin_deviation: deviation.and_then(|(bin, _)| bin),
                 azimuth_deviation_rad: deviation
-                    .map(|[_, sine]| sine / cosine)
+                    .map(|(_, sine)| sine / cosine)
                     .filter(|deviation| deviation.is_finite()),
             }
         })

@@ -1,4 +1,4 @@
-//! Gauss-Newton steps on ranges and sines of all targets together, amplitudes eliminated.
+//! Gauss-Newton refinement of the ranges and sines of all targets, with amplitudes eliminated.
 //!
 //! With responses `A`, derivatives `D` (two a target, along range and along sine) and amplitudes
 //! `S = A^+ X`, the gradient of `|X - A S|^2` with respect to place `p` of target `i` is
@@ -6,35 +6,40 @@
 //! `2 Re (D^H P D)_pq sum_l s_il^* s_kl`, `P` being the projection away from `A`. Half the noise
 //! power over half that Hessian is the Cramer-Rao bound.
 
+use super::LEAST_LEFT;
 use super::Place;
 use super::atoms::{Atoms, Response, correlate, inner};
 use boresight_core::Complex64;
 use boresight_core::linalg::Cholesky;
 use ndarray::{Array1, Array2, ArrayView3};
 
-/// Halvings of a step before it is given up.
+/// Minimum fraction of a response's power in the bins that are present.
+const LEAST_HELD: f64 = 0.3;
+/// Maximum number of step halvings.
 const MAX_HALVINGS: usize = 12;
 
-/// A fit of targets at given places.
+/// Least-squares fit of targets at given places.
 pub(super) struct Fit {
     pub places: Vec<Place>,
     /// Targets x chirps.
     pub amplitudes: Array2<Complex64>,
-    /// Power that is not explained.
+    /// Power not explained by the targets.
     pub residual: f64,
     /// Gradient and Hessian with respect to bin and sine of each target in turn.
     gradient: Array1<f64>,
     hessian: Array2<f64>,
+    /// Whether the data determine ranges.
+    has_range: bool,
 }
 
-/// What a fit has come to.
+/// Result of a refinement.
 pub(super) struct Refined {
     pub fit: Fit,
     pub iterations: usize,
     pub converged: bool,
 }
 
-/// The data of a region and how places show in them.
+/// Data of a region with its response model.
 pub(super) struct Model<'a> {
     pub atoms: &'a Atoms,
     /// Bins x elements x chirps, zero where not `held`.
@@ -47,7 +52,7 @@ pub(super) struct Model<'a> {
 }
 
 impl Model<'_> {
-    /// Responses along range, zero where bins are not held, and along the array.
+    /// Returns the responses along range, zero in missing bins, and along the array.
     pub fn responses(&self, place: Place) -> [Response; 2] {
         let mut range = self.atoms.range(place.bin);
         for (at, _) in self.held.iter().enumerate().filter(|(_, held)| !**held) {
@@ -57,11 +62,12 @@ impl Model<'_> {
         [range, self.atoms.array(place.sine)]
     }
 
-    /// Fits amplitudes to places; nothing where two of them cannot be told apart.
+    /// Fits amplitudes at the given places. Returns `None` if two places cannot be distinguished or one lies in missing
+    /// bins.
     pub fn fit(&self, places: &[Place]) -> Option<Fit> {
         let count = places.len();
         let responses: Vec<_> = places.iter().map(|place| self.responses(*place)).collect();
-        // First the responses, then for each target its derivatives along range and along sine.
+        // Responses of all targets, then the two derivatives of each target.
         let mut columns: Vec<[&[Complex64]; 2]> = vec![];
         columns.extend(responses.iter().map(|[range, array]| [&range.value[..], &array.value]));
         for [range, array] in &responses {
@@ -73,6 +79,13 @@ impl Model<'_> {
         };
         let gram = Array2::from_shape_fn((count, count), |(i, k)| product(i, k));
         let factor = Cholesky::new(gram.view()).ok()?;
+        let elements = self.atoms.positions.len() as f64;
+        for (i, pivot) in factor.diagonal().enumerate() {
+            let own = gram[[i, i]].re;
+            if own < LEAST_HELD * elements || pivot * pivot < LEAST_LEFT * own {
+                return None;
+            }
+        }
         let chirps = self.data.dim().2;
         let mut received = Array2::zeros((columns.len(), chirps));
         for (column, mut to) in columns.iter().zip(received.rows_mut()) {
@@ -86,7 +99,7 @@ impl Model<'_> {
             explained += inner(&by_response.column(chirp).to_vec(), &solved.to_vec()).re;
             amplitudes.column_mut(chirp).assign(&solved);
         }
-        // Derivatives against responses, and what of a derivative responses make up for.
+        // Products of derivatives with responses, and their projection on the responses.
         let crossed = Array2::from_shape_fn((2 * count, count), |(p, k)| product(count + p, k));
         let left = &by_slope - &crossed.dot(&amplitudes);
         let made_up: Vec<Array1<Complex64>> = crossed
@@ -94,11 +107,20 @@ impl Model<'_> {
             .into_iter()
             .map(|row| factor.solve(row.mapv(|z| z.conj()).view()))
             .collect();
+        // A single bin does not determine the range within it, so ranges are kept.
+        let has_range = self.held.iter().filter(|held| **held).count() > 1;
+        let is_free = |p: usize| has_range || p % 2 == 1;
         let gradient = Array1::from_shape_fn(2 * count, |p| {
+            if !is_free(p) {
+                return 0.0;
+            }
             let along = amplitudes.row(p / 2);
             -2.0 * along.iter().zip(left.row(p)).map(|(s, z)| (s.conj() * z).re).sum::<f64>()
         });
         let hessian = Array2::from_shape_fn((2 * count, 2 * count), |(p, q)| {
+            if !(is_free(p) && is_free(q)) {
+                return if p == q { 1.0 } else { 0.0 };
+            }
             let seen: Complex64 = crossed.row(p).iter().zip(&made_up[q]).map(|(c, m)| c * m).sum();
             let apart = product(count + p, count + q) - seen;
             let (one, other) = (amplitudes.row(p / 2), amplitudes.row(q / 2));
@@ -106,10 +128,11 @@ impl Model<'_> {
             2.0 * (apart * together).re
         });
         let residual = (self.power - explained).max(0.0);
-        Some(Fit { places: places.to_vec(), amplitudes, residual, gradient, hessian })
+        let places = places.to_vec();
+        Some(Fit { places, amplitudes, residual, gradient, hessian, has_range })
     }
 
-    /// Steps from places to where they fit best.
+    /// Refines places by Gauss-Newton steps until the relative decrease of the residual is at most `tolerance`.
     pub fn refine(&self, places: &[Place], iterations: usize, tolerance: f64) -> Option<Refined> {
         let mut fit = self.fit(places)?;
         for iteration in 0..iterations {
@@ -123,7 +146,7 @@ impl Model<'_> {
                 self.fit(&moved).filter(|next| next.residual < fit.residual)
             });
             let Some(better) = better else {
-                // No step is an improvement beyond rounding.
+                // No step improves the fit beyond rounding.
                 return Some(Refined { fit, iterations: iteration, converged: true });
             };
             let gained = fit.residual - better.residual;
@@ -136,10 +159,15 @@ impl Model<'_> {
         Some(Refined { fit, iterations, converged: false })
     }
 
-    /// Places after a share of a step, of no more than half a bin and half a beam, within the region.
-    fn moved(&self, places: &[Place], step: &Array1<f64>, share: f64) -> Vec<Place> {
+    /// Returns half a range bin and half a beamwidth: the largest step.
+    pub fn limits(&self) -> [f64; 2] {
         let reach = self.atoms.positions.iter().fold(0.0, |most: f64, p| most.max(p.abs()));
-        let limits = [0.5, 0.5 / (reach + 0.5)];
+        [0.5, 0.5 / (reach + 0.5)]
+    }
+
+    /// Moves places by a fraction of a step, limited to half a bin and half a beamwidth and to the region.
+    fn moved(&self, places: &[Place], step: &Array1<f64>, share: f64) -> Vec<Place> {
+        let limits = self.limits();
         let longest = (0..step.len()).map(|p| step[p].abs() / limits[p % 2]).fold(1.0, f64::max);
         let share = share / longest;
         let last = self.atoms.bins as f64 - 1.0;
@@ -152,7 +180,7 @@ impl Model<'_> {
 }
 
 impl Fit {
-    /// No targets.
+    /// Fit without targets.
     pub fn of_nothing(power: f64) -> Self {
         Self {
             places: vec![],
@@ -160,6 +188,7 @@ impl Fit {
             residual: power,
             gradient: Array1::zeros(0),
             hessian: Array2::zeros((0, 0)),
+            has_range: false,
         }
     }
 
@@ -171,7 +200,7 @@ impl Fit {
 
     fn factor(&self) -> Option<Cholesky> {
         let size = self.hessian.nrows();
-        // Keeps a place whose amplitude is nothing where it is.
+        // Keeps a target of zero amplitude in place.
         let loaded = Array2::from_shape_fn((size, size), |(p, q)| {
             let load = if p == q { 1.0 + 1e-12 } else { 1.0 };
             Complex64::new(self.hessian[[p, q]] * load, 0.0)
@@ -179,10 +208,22 @@ impl Fit {
         Cholesky::new(loaded.view()).ok()
     }
 
-    /// Standard deviations of bin and sine of each target, by the Cramer-Rao bound for a noise power.
-    pub fn deviations(&self, noise_power: f64) -> Option<Vec<[f64; 2]>> {
+    /// Whether the standard deviations of all places are at most half of the limits. They are larger for two targets
+    /// that noise does not resolve, whose amplitudes would cancel each other.
+    pub fn is_determined(&self, noise_power: f64, limits: [f64; 2]) -> bool {
+        self.deviations(noise_power).is_some_and(|all| {
+            all.iter().all(|(bin, sine)| {
+                bin.unwrap_or_default() <= 0.5 * limits[0] && *sine <= 0.5 * limits[1]
+            })
+        })
+    }
+
+    /// Returns the standard deviations of bin and sine of each target (Cramer-Rao bound). The first is `None` if the data
+    /// do not determine ranges.
+    pub fn deviations(&self, noise_power: f64) -> Option<Vec<(Option<f64>, f64)>> {
         let inverse = self.factor()?.inverse();
         let deviation = |p: usize| (noise_power * inverse[[p, p]].re).max(0.0).sqrt();
-        Some((0..self.places.len()).map(|i| [deviation(2 * i), deviation(2 * i + 1)]).collect())
+        let bin = |i: usize| self.has_range.then(|| deviation(2 * i));
+        Some((0..self.places.len()).map(|i| (bin(i), deviation(2 * i + 1))).collect())
     }
 }

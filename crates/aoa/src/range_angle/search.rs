@@ -1,36 +1,36 @@
-//! The best place for one more target, on a grid of range and sine of the azimuth.
+//! Grid search for one more target over range and sine of the azimuth.
 //!
-//! Given all targets but one, the best place for that one has the largest share of the power that
-//! the others leave. Its correlations with others are products of one along range and one along
-//! the array, so that a pass over the grid costs a few multiplications a place.
+//! The best grid point explains most of the power that the other targets leave. Correlations between
+//! responses are products of one along range and one along the array, so that one pass over the grid
+//! takes a few multiplications per point.
 
-use super::Place;
 use super::atoms::{Atoms, correlate, inner, table};
 use super::refine::Model;
+use super::{LEAST_LEFT, Place};
 use boresight_core::Complex64;
 use boresight_core::linalg::Cholesky;
 use ndarray::{Array1, Array2, Array3, ArrayView1, ArrayView3, Axis};
 
-/// Grid points an independent bin, and an independent beam.
+/// Grid points per range bin and per beamwidth.
 const POINTS: usize = 4;
-/// Share of a response's power that others have to leave of it.
-const LEAST_LEFT: f64 = 1e-3;
 
 /// The grid.
 pub(super) struct Search {
     bins: Vec<f64>,
     sines: Vec<f64>,
-    /// Responses of norm 1, places x bins.
+    /// Responses of unit norm, grid points x bins.
     range: Array2<Complex64>,
-    /// Responses of norm 1, places x elements.
+    /// Responses of unit norm, grid points x elements.
     array: Array2<Complex64>,
 }
 
-/// The data as seen from each place: range x sine x chirps.
+/// Data correlated with the response of each grid point: range x sine x chirps.
 pub(super) struct Seen<'a> {
     search: &'a Search,
     matched: Array3<Complex64>,
     range: Array2<Complex64>,
+    /// Whether a grid point along range may hold a target.
+    is_open: Vec<bool>,
 }
 
 impl Search {
@@ -50,19 +50,19 @@ impl Search {
         Self { bins, sines, range, array }
     }
 
-    /// Places of the grid.
+    /// Number of grid points.
     pub fn len(&self) -> usize {
         self.bins.len() * self.sines.len()
     }
 
-    /// Whether two places are on neighbouring points, between which a refinement finds the same.
+    /// Whether two places are at most one grid step apart. Refinement converges to the same optimum from both.
     pub fn is_near(&self, one: Place, other: Place) -> bool {
         let step = |all: &[f64]| if let [first, second, ..] = all { second - first } else { 1.0 };
         (one.bin - other.bin).abs() <= step(&self.bins)
             && (one.sine - other.sine).abs() <= step(&self.sines)
     }
 
-    /// Looks at data of bins x elements x chirps, of which bins without `held` count for nothing.
+    /// Correlates data of bins x elements x chirps with the grid. Bins not `held` are missing.
     pub fn see(&self, x: &ArrayView3<'_, Complex64>, held: &[bool]) -> Seen<'_> {
         let mut range = self.range.clone();
         for mut row in range.rows_mut() {
@@ -80,16 +80,22 @@ impl Search {
             }
             to.assign(&conjugate.dot(&at));
         }
-        Seen { search: self, matched, range }
+        // Targets lie in bins that are present. A single bin does not determine the range within it.
+        let has_range = held.iter().filter(|held| **held).count() > 1;
+        let is_open = self.bins.iter().map(|bin| {
+            let nearest = bin.round();
+            let holds = held.get(nearest as usize).is_some_and(|held| *held);
+            holds && (has_range || nearest == *bin)
+        });
+        let is_open = is_open.collect();
+        Seen { search: self, matched, range, is_open }
     }
 }
 
 impl Seen<'_> {
-    /// Where other targets leave most power; nothing where they explain all.
+    /// Returns the grid point that explains most of the power left by the other targets, if any.
     pub fn best(&self, model: &Model<'_>, others: &[Place]) -> Option<Place> {
         let count = others.len();
-        // Of each other its correlations along range and along the array with places of the grid, with its fellows, and
-        // with the data.
         let of_others = others.iter().map(|place| {
             let [range, array] = model.responses(*place);
             [unit(range.value), unit(array.value)]
@@ -114,12 +120,13 @@ impl Seen<'_> {
         for ([range, array], mut to) in of_others.iter().zip(received.rows_mut()) {
             to.assign(&Array1::from_vec(correlate(&model.data, range, array)));
         }
-        // What an orthonormal basis of the others receives, chirp by chirp.
+        // Coordinates of the data in an orthonormal basis of the other responses, by chirp.
         let received: Vec<_> =
             received.columns().into_iter().map(|column| factor.forward(column)).collect();
         let mut best: Option<([usize; 2], f64)> = None;
         let mut towards = Array1::zeros(count);
-        for (f, plane) in self.matched.outer_iter().enumerate() {
+        let planes = self.matched.outer_iter().enumerate();
+        for (f, plane) in planes.filter(|(f, _)| self.is_open[*f]) {
             for (g, cell) in plane.outer_iter().enumerate() {
                 for (i, to) in towards.iter_mut().enumerate() {
                     *to = by_range[i][f] * by_sine[i][g];

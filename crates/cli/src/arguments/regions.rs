@@ -14,8 +14,8 @@ FILE is, by its ending:
   .npy  a data cube (frames x loops x transmitters x receivers x samples), with --config or --waveform
   .mat, .h5  the same in a file of MATLAB (-v7.3) or HDF5, --dataset naming one of several arrays
 
-Without networks, ranges and azimuths are fitted to each region together (maximum likelihood), on any array along a
-line. Networks are ONNX files with their cards beside them. Those of models/ take 8 elements half a wavelength apart
+Without networks, ranges and azimuths of each region are estimated jointly by maximum likelihood, for any linear
+array. Networks are ONNX files with their cards beside them. Those of models/ take 8 elements half a wavelength apart
 along y.
 One line a target is printed; JSON has all regions, those without a target too.")]
 pub struct RegionsArguments {

@@ -1,4 +1,5 @@
-//! Methods that take the region itself, or that know what networks were taught: that angles are whole degrees.
+//! Maximum likelihood with more information than other methods: the region itself, or the knowledge (which the networks
+//! have) that targets lie at whole degrees.
 
 use super::REGION;
 use super::trial::{FIELD_OF_VIEW_RAD, LARGEST_DEG};
@@ -10,7 +11,7 @@ use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex32, Complex64, Direction};
 use ndarray::{Array2, ArrayView3};
 
-/// Names and kinds.
+/// Kind of method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RegionMethod {
     /// Maximum likelihood of range and azimuth together.
@@ -29,7 +30,7 @@ impl RegionMethod {
         }
     }
 
-    /// Prepares it for so many targets.
+    /// Prepares the method for a known number of targets.
     pub fn plan(
         self,
         array: &Array,
@@ -50,15 +51,18 @@ impl RegionMethod {
     }
 }
 
-/// What a method has prepared.
+/// Prepared method.
 pub(super) enum RegionPlan {
     Joint(Box<RangeAngle>),
-    /// Azimuths, rad, and the projection on their steering vectors, of all sets of whole degrees.
-    WholeDegrees(Vec<(Vec<f64>, Array2<Complex64>)>),
+    /// All sets of whole degrees.
+    WholeDegrees(Vec<Hypothesis>),
 }
 
+/// Azimuths, rad, and the projection on the span of their steering vectors.
+type Hypothesis = (Vec<f64>, Array2<Complex64>);
+
 impl RegionPlan {
-    /// Azimuths of so many targets, rad, ascending; nothing where fewer were found.
+    /// Returns the azimuths of the targets in ascending order, rad, or `None` if fewer were found.
     pub fn azimuths(
         &mut self,
         region: ArrayView3<'_, Complex32>,
@@ -83,11 +87,8 @@ impl RegionPlan {
     }
 }
 
-/// Sets of one or two whole degrees with their projections.
-fn projections(
-    array: &Array,
-    targets: usize,
-) -> Result<Vec<(Vec<f64>, Array2<Complex64>)>, EvaluateError> {
+/// Returns the hypotheses of one or two targets at whole degrees.
+fn projections(array: &Array, targets: usize) -> Result<Vec<Hypothesis>, EvaluateError> {
     let degrees = || -LARGEST_DEG..=LARGEST_DEG;
     let sets: Vec<Vec<i32>> = match targets {
         1 => degrees().map(|one| vec![one]).collect(),

@@ -3,8 +3,8 @@
 //! angles of one or of two.
 //!
 //! [`RegionFinder`] finds regions. [`RegionChain`] hands each to a [`Counted`]: a counting network with networks for
-//! one and for two targets, or any counter with estimators of a method. Without networks ([`RegionChain::joint`]) ranges
-//! and azimuths are fitted together ([`RangeAngle`]), with as many targets as noise does not explain.
+//! one and for two targets, or any counter with estimators of a method. [`RegionChain::joint`] needs no networks: it
+//! estimates ranges and azimuths jointly ([`RangeAngle`]) and adds targets while they are significant.
 //!
 //! What goes beyond the paper: the Doppler phase of the strongest peak is taken off a region, between transmitters
 //! and between chirps, so that what moves looks like what stands; and a region is turned to its coarse angle, so that
@@ -20,6 +20,7 @@ pub use find::{FoundRegion, FoundRegions, RegionFinder};
 pub use options::{RegionChainOptions, Rotation};
 pub use result::{RegionCounts, RegionFrame, RegionTarget, TargetRegion};
 
+use crate::beam::mismatch_left_db;
 use crate::capture::{Report, proceed};
 use crate::error::PipelineError;
 use crate::result::clipped;
@@ -46,9 +47,9 @@ pub struct RegionChain {
     targets: Targets,
 }
 
-/// What finds the targets of a region.
+/// Estimator of the targets of a region.
 enum Targets {
-    Counted { counted: Counted, loading: f64 },
+    Counted { counted: Box<Counted>, loading: f64 },
     Joint(Box<RangeAngle>),
 }
 
@@ -73,16 +74,22 @@ impl RegionChain {
         counted: Counted,
     ) -> Result<Self, PipelineError> {
         let finder = RegionFinder::new(waveform, receivers, counted.array(), options)?;
-        Ok(Self { finder, targets: Targets::Counted { counted, loading: options.count_loading } })
+        Ok(Self {
+            finder,
+            targets: Targets::Counted {
+                counted: Box::new(counted),
+                loading: options.count_loading,
+            },
+        })
     }
 
-    /// Plans for frames as [`RegionFinder::new`], whose targets are found without networks. `rotation`, `refine` and
-    /// `count_loading` of the options mean nothing here. Of transmitters in turn, targets have to move as the strongest
-    /// of their region does, or their azimuths are off.
+    /// Prepares for frames as [`RegionFinder::new`], with joint range-angle estimation instead of networks. Ignores the
+    /// options `rotation`, `refine` and `count_loading`. With time-division multiplexing, the azimuth of a target is
+    /// biased if its range rate differs from that of the strongest target of its region.
     ///
     /// # Errors
-    /// As [`RegionFinder::new`] and [`RangeAngle::new`]; [`CoreError::Incompatible`] for a `region_window` other than
-    /// rectangular, which would correlate the noise of neighbouring bins.
+    /// Those of [`RegionFinder::new`] and [`RangeAngle::new`]; [`CoreError::Incompatible`] if `region_window` is not
+    /// rectangular, since other windows correlate the noise of neighbouring bins.
     pub fn joint(
         waveform: &Waveform,
         receivers: usize,
@@ -100,6 +107,7 @@ impl RegionChain {
         let finder = RegionFinder::new(waveform, receivers, array, &still)?;
         let mut angles = EstimatorOptions { sources: SourceCount::Auto, ..Default::default() };
         angles.nomp.false_alarm = options.false_alarm;
+        angles.mismatch_db = options.mismatch_db.or_else(|| mismatch_left_db(array));
         let joint = RangeAngle::new(array, waveform.samples, options.size.bins, &angles)?;
         Ok(Self { finder, targets: Targets::Joint(Box::new(joint)) })
     }

@@ -50,9 +50,13 @@ pub struct RegionChainOptions {
     pub sector_rad: f64,
     /// Refine the angles on the matched model, beyond whole degrees; those that noise explains are dropped.
     pub refine: bool,
-    /// Probability that noise alone adds a target to a region, where targets are found without networks.
+    /// Probability that noise alone adds a target to a region (joint estimation).
     #[option(default = 1e-2, range = 1e-12..=0.5)]
     pub false_alarm: f64,
+    /// Power of unknown array errors relative to each target, which joint estimation does not report as further targets.
+    /// Gain errors of 1 dB and phase errors of 10 deg give -13.6. Default: the residual of the array's calibration, or none.
+    #[option(range = -100..=0)]
+    pub mismatch_db: Option<f64>,
     /// Most regions a frame; those with the strongest peaks are kept.
     #[option(default = 32, range = 1..=1024)]
     pub max_regions: usize,

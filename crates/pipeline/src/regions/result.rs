@@ -17,11 +17,10 @@ pub struct RegionTarget {
     /// Probability of its direction, where a network gave it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub confidence: Option<f64>,
-    /// Standard deviation of the range by the Cramer-Rao bound. None where a network gave the direction, and where the
-    /// data do not determine it.
+    /// Standard deviation of the range (Cramer-Rao bound), from joint estimation where the data determine it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range_deviation_m: Option<f64>,
-    /// The same of the azimuth.
+    /// Standard deviation of the azimuth (Cramer-Rao bound), from joint estimation where the data determine it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub azimuth_deviation_rad: Option<f64>,
 }
@@ -50,7 +49,7 @@ pub struct TargetRegion {
     pub rotated: bool,
     /// Targets counted.
     pub sources: usize,
-    /// Probability of 0, 1 and 2 targets, each by itself; empty where no network counted them.
+    /// Probability of 0, 1 and 2 targets, each by itself; empty for joint estimation.
     #[serde(serialize_with = "columns::serialize")]
     pub probability: Vec<f64>,
     /// Targets, strongest first.

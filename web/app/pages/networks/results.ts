@@ -54,7 +54,7 @@ export interface DoaReport {
   /** By SNR in ascending order: of the frame, and of MUSIC on the region. */
   boundsDeg: [number, number][];
   conditions: {
-    targets: 'none' | 'one' | 'apart' | 'together';
+    targets: 'none' | 'one' | 'apart' | 'together' | 'moving';
     snrDb: number;
     trials: number;
     close: number;
