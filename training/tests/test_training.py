@@ -10,10 +10,12 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import onnx
 import pytest
 import torch
+from onnx import numpy_helper
 
-from boresight_training import checkpoint, train
+from boresight_training import checkpoint, export, train
 from boresight_training.learning import learning_curve
 from boresight_training.processes import Processes
 from boresight_training.tasks import task
@@ -124,6 +126,21 @@ def test_a_run_starts_from_the_weights_of_another(tmp_path):
     assert [(leg["step"], leg["samples"], leg["settings"]["seed"]) for leg in saved["legs"]] == [(3, 48, 0)]
     with pytest.raises(ValueError, match="dnn"):
         training(tmp_path / "third", 2, network=("counting", "small"), start_from=tmp_path / "first")
+
+
+def test_a_run_starts_from_a_published_model(tmp_path):
+    path = PACKAGE.parent / "models" / "cnn3d-2.onnx"
+    told = json.loads(path.with_suffix(".json").read_text())["legs"]
+    seen = [leg["samplesSeen"] for leg in told]
+    run = training(tmp_path, 1, network=("cnn3d", "small"), start_from=path, seed=70, batch=4)
+    (bias,) = (w for w in onnx.load(path).graph.initializer if w.name == "0.classify.6.bias")
+    assert torch.equal(run.ema.classify[6].bias, torch.from_numpy(numpy_helper.to_array(bias).copy()))
+    assert [leg["samples"] for leg in run.legs] == seen
+    run.run()
+    legs = checkpoint.load(tmp_path)["legs"]
+    assert [export._leg(leg) for leg in legs] == told
+    with pytest.raises(ValueError, match="seed 0"):
+        training(tmp_path / "again", 1, network=("cnn3d", "small"), start_from=path)
 
 
 def test_a_file_of_weights_is_enough_to_start_from(tmp_path):

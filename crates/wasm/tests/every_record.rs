@@ -208,8 +208,14 @@ fn records_of_captures_and_images() {
     whole(&chain.process(frame).unwrap());
     whole(&chain.cells(frame).unwrap());
     whole(&RegionOfInterest::of(frame, RegionOptions { bins: 5, chirps: 2 }).unwrap());
-    let target =
-        RegionTarget { range_m: 4.0, azimuth_rad: 0.1, power: 0.5, confidence: Some(0.75) };
+    let target = RegionTarget {
+        range_m: 4.0,
+        azimuth_rad: 0.1,
+        power: 0.5,
+        confidence: Some(0.75),
+        range_deviation_m: Some(0.01),
+        azimuth_deviation_rad: Some(0.002),
+    };
     whole(&RegionFrame {
         frame: 2,
         range_m: vec![0.5, 1.0],

@@ -117,9 +117,10 @@ pub struct EvaluateAoaArguments {
     /// Array, by name.
     #[arg(long, value_name = "NAME", default_value = "lrr48")]
     pub array: String,
-    /// Methods, separated by commas; NAME+refined for one refined on the matched model, iaa+hard and iaa+soft
-    /// for IAA with thresholding. Those that need the number of targets are told it. Without it bartlett, capon,
-    /// iaa, iaa+hard, iaa+soft, iaa+refined, nomp and, on evenly spaced arrays, single-snapshot-music.
+    /// Methods, separated by commas; plain-iaa for IAA on whole degrees without interpolation; NAME+refined for one
+    /// refined on the matched model; iaa+hard and iaa+soft for IAA with thresholding. Those that need the number of
+    /// targets are given it. Default: bartlett, capon, iaa, iaa+hard, iaa+soft, iaa+refined, nomp and, on uniform
+    /// arrays, single-snapshot-music.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub methods: Vec<String>,
     /// Networks, each run plain and refined.

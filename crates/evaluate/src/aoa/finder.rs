@@ -1,6 +1,7 @@
 //! What finds targets in snapshots: methods and networks as they are named, plain and refined.
 
 use super::cell::TARGETS_WITHIN_RAD;
+use super::plain_iaa::PlainIaa;
 use super::score::{Threshold, WITHIN_RAD};
 use crate::EvaluateError;
 use crate::entrants::{Entrants, Network, REFINED};
@@ -28,8 +29,13 @@ const THRESHOLD_DB: f64 = 30.0;
 pub(crate) enum Finder {
     /// With the thresholding of IAA.
     Method(Method, Thresholding),
+    /// IAA on whole degrees, see [`PlainIaa`].
+    PlainIaa,
     Network(Network),
 }
+
+/// Name of [`Finder::PlainIaa`].
+const PLAIN_IAA: &str = "plain-iaa";
 
 impl Finder {
     pub(super) fn name(&self) -> String {
@@ -38,6 +44,7 @@ impl Finder {
             Self::Method(method, thresholding) => {
                 format!("{}+{}", method.name(), thresholding.name())
             }
+            Self::PlainIaa => PLAIN_IAA.into(),
             Self::Network(network) => network.name.clone(),
         }
     }
@@ -67,7 +74,7 @@ impl Finder {
     ) -> impl Iterator<Item = &'a Source> + use<'a> {
         let least = match self {
             Self::Network(network) => network.confidence(),
-            Self::Method(..) => 0.0,
+            Self::Method(..) | Self::PlainIaa => 0.0,
         };
         sources.iter().filter(move |s| s.confidence.is_none_or(|of| of >= least))
     }
@@ -102,6 +109,10 @@ impl Finder {
                     ..options
                 };
                 network.model()?.estimator(array, &options)?
+            }
+            Self::PlainIaa => {
+                let plan = Box::new(PlainIaa::new(array));
+                Estimator::with_plan(Method::Iaa, array, plan, &options)?
             }
             Self::Method(method, thresholding) => {
                 let mut options = options;
@@ -145,6 +156,7 @@ impl Candidate {
             Some((of, how)) if of == Method::Iaa.name() => {
                 Finder::Method(Method::Iaa, Thresholding::from_name("thresholding", how)?)
             }
+            _ if plain.unwrap_or(name) == PLAIN_IAA => Finder::PlainIaa,
             _ => Finder::Method(Method::from_name(plain.unwrap_or(name))?, Thresholding::None),
         };
         Ok(Self { finder, refined })

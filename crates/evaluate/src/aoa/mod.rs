@@ -4,6 +4,7 @@
 pub mod cell;
 pub mod figures;
 pub(crate) mod finder;
+pub(crate) mod plain_iaa;
 pub mod report;
 pub mod score;
 pub mod stated;
@@ -58,7 +59,7 @@ pub struct AoaExperiment {
     pub seed: u64,
     /// Errors of the array that no method knows of.
     pub imperfections: ImperfectionSpread,
-    /// Methods by name, `iaa` with `+hard` or `+soft` for its thresholding, any with `+refined` for sources refined on
+    /// Methods by name, `plain-iaa` for IAA on whole degrees, `iaa` with `+hard` or `+soft` for its thresholding, any with `+refined` for sources refined on
     /// the snapshot, and networks, which are run plain and refined. Methods that need the number of sources are told it.
     #[serde(flatten)]
     pub entrants: Entrants,

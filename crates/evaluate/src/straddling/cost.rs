@@ -8,6 +8,7 @@
 use super::trial::Line;
 use crate::EvaluateError;
 use crate::aoa::finder::Finder;
+use crate::aoa::plain_iaa;
 use boresight_aoa::{EstimatorOptions, Method};
 use boresight_core::Array;
 
@@ -32,6 +33,7 @@ pub(super) fn operations(
             let count = |model: &boresight_neural::Model| model.operations(array);
             network.model.as_ref().map(count).transpose()?
         }
+        Finder::PlainIaa => of_method(Method::Iaa, Form::Dense, array, Some(plain_iaa::POINTS)),
         Finder::Method(method, _) => of_method(*method, form, array, grid),
     };
     let refined = if line.is_refined() { pursuit(form, array) } else { 0.0 };
