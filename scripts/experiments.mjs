@@ -47,6 +47,12 @@ const EXPERIMENTS = [
     settings: ['--trials', '500', '--seed', '1', '--methods', 'iaa,iaa+refined,nomp,atomic-norm'],
   },
   {
+    name: 'aoa-plain-iaa',
+    experiment: 'aoa',
+    document: 'experiments-aoa',
+    settings: ['--trials', '400', '--seed', '1', '--methods', 'plain-iaa,iaa'],
+  },
+  {
     name: 'arrays',
     experiment: 'arrays',
     document: 'experiments-arrays',
