@@ -75,6 +75,13 @@ const EXPERIMENTS = [
     figures: '',
     shown: true,
   },
+  {
+    name: 'doa-power',
+    experiment: 'doa',
+    document: 'experiments-doa',
+    networks: { names: ['cnn3d-2', 'cnn3d-paper-2', 'dnn-large-2', 'dnn-small-2'] },
+    settings: ['--axis', 'power-difference', '--trials', '420', '--seed', '0'],
+  },
   ...[[], ['--centre', '35']].map((centre) => ({
     name: ['doa-end-to-end', ...centre.slice(1)].join('-'),
     experiment: 'doa',
