@@ -44,9 +44,9 @@ test('what another command prints stays, and a title that none has is an error',
 
 test('the documents of the experiments mark places', () => {
   for (const [document, count] of [
-    ['experiments-aoa', 3],
+    ['experiments-aoa', 4],
     ['experiments-arrays', 1],
-    ['experiments-doa', 3],
+    ['experiments-doa', 4],
     ['experiments-low-snr', 1],
     ['experiments-straddling', 1],
     ['experiments-near-field', 2],
