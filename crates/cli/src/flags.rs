@@ -362,8 +362,13 @@ mod tests {
                     let path: Vec<&str> =
                         flag.path.iter().map(|name| name.trim_start_matches("..")).collect();
                     let own = path.join(".");
-                    // The first flag of an optional record brings the record.
-                    let is_its_own = |field: &String| lies_in(field, &own) || lies_in(&own, field);
+                    // A flag of a record that is absent by default adds the record.
+                    let above = &flag.path[..flag.path.len() - 1];
+                    let added = above.iter().try_fold(&defaults, |value, name| value.get(*name));
+                    let is_added = !above.is_empty() && added.is_none_or(Value::is_null);
+                    let record = path[..path.len() - 1].join(".");
+                    let is_its_own =
+                        |field: &String| lies_in(field, &own) || (is_added && *field == record);
                     assert!(differing.iter().all(is_its_own), "{line:?}: {differing:?}");
                     has_changed = true;
                 }
