@@ -5,6 +5,7 @@
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
+import { cardsOf, cards as shippedCards } from './lib/cards.mjs';
 import { endToEndTables } from './lib/end-to-end.mjs';
 import { root } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
@@ -51,6 +52,16 @@ const EXPERIMENTS = [
     experiment: 'aoa',
     document: 'experiments-aoa',
     settings: ['--trials', '400', '--seed', '1', '--methods', 'plain-iaa,iaa'],
+  },
+  {
+    name: 'aoa-outside',
+    experiment: 'aoa',
+    document: 'experiments-aoa',
+    networks: SNAPSHOTS,
+    settings: [
+      ...['--trials', '500', '--seed', '1', '--targets', '10,15,20', '--snr', '5,15', '--spread', '25'],
+      ...['--methods', 'plain-iaa,iaa,iaa+refined,nomp'],
+    ],
   },
   {
     name: 'arrays',
@@ -120,13 +131,7 @@ const EXPERIMENTS = [
 /** Experiments whose brief records make the tables of `doa-flow` together. */
 const FLOW = ['doa', 'doa-end-to-end', 'doa-end-to-end-35'];
 
-const shipped = join(root, 'models');
-const cards = readdirSync(shipped)
-  .filter((file) => file.endsWith('.json'))
-  .map((file) => ({
-    ...JSON.parse(readFileSync(join(shipped, file), 'utf8')),
-    onnx: join('models', file.replace(/json$/, 'onnx')),
-  }));
+const cards = shippedCards();
 
 /** Removes records of networks, or of regions they counted, that are no longer those shipped. */
 function forgetOld(folder, name) {
@@ -145,13 +150,7 @@ function limited(settings, most) {
   return settings.map((value, i) => (settings[i - 1] === '--trials' && most < Number(value) ? String(most) : value));
 }
 
-/** What `--model` says of the networks that take part, by name or by kind and data. */
-function models({ names, kinds = [], ...data } = {}) {
-  const fits = (card) => kinds.includes(card.network) && Object.keys(data).every((key) => card.data[key] === data[key]);
-  return cards.filter((card) => names?.includes(card.name) ?? fits(card)).flatMap(({ onnx }) => ['--model', onnx]);
-}
-
-/** Tables of whole frames beside told regions, once there are records of all. */
+/** Tables of whole frames next to given regions, once there are records of all. */
 function flowTables(folder) {
   const records = FLOW.map((name) => join(folder(name), 'doa.brief.json'));
   if (!records.every((file) => existsSync(file))) return {};
@@ -175,7 +174,7 @@ await main(async () => {
   for (const { name, experiment, document, networks, settings, figures, shown } of wanted) {
     const folder = folderOf(name);
     forgetOld(folder, experiment);
-    const options = [...limited(settings, most), ...models(networks)];
+    const options = [...limited(settings, most), ...cardsOf(networks, cards).flatMap(({ onnx }) => ['--model', onnx])];
     await run(command, [...before, 'evaluate', experiment, ...options, '--out', folder]);
     const page = join(root, 'docs', `${document}.md`);
     const tables = { [name]: readFileSync(join(folder, `${experiment}.md`), 'utf8') };

@@ -8,10 +8,21 @@
 
 const PLACE = /(<!-- tables: ([\w-]+)(?: \| ([^>]*?))? -->)[\s\S]*?(<!-- end of tables -->)/g;
 
-/** Title and rows of each table of a text: paragraphs that begin with `|`, and the one before each. */
+/** How the paragraph after a table begins that states its standard errors. */
+const ERRORS = 'Standard errors: ';
+
+/**
+ * Title and rows of each table of a text: paragraphs that begin with `|`, the one before each, and the one after it where
+ * that states standard errors.
+ */
 export function tablesOf(text) {
   const paragraphs = text.trim().split(/\n{2,}/);
-  return paragraphs.flatMap((rows, i) => (rows.startsWith('|') ? [{ title: paragraphs[i - 1] ?? '', rows }] : []));
+  return paragraphs.flatMap((table, i) => {
+    if (!table.startsWith('|')) return [];
+    const next = paragraphs[i + 1] ?? '';
+    const rows = next.startsWith(ERRORS) ? `${table}\n\n${next}` : table;
+    return [{ title: paragraphs[i - 1] ?? '', rows }];
+  });
 }
 
 /** The document with the tables of `printed`, a text by name, in their places; other names keep what they have. */

@@ -3,7 +3,9 @@
 
 use crate::EvaluateError;
 use crate::entrants::Entrants;
+use crate::merge::Outcome;
 use crate::sweep::{self, Part, Sweep};
+use crate::table::Tables;
 use boresight_pipeline::Progress;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -22,7 +24,7 @@ pub trait Experiment: Serialize + DeserializeOwned + Clone + PartialEq + Sync {
     /// What scenes share.
     type Plan: Sync;
     /// What is kept of a scene.
-    type Record: Serialize + DeserializeOwned + Send;
+    type Record: Serialize + DeserializeOwned + Clone + Send;
     /// What comes of the records.
     type Report: Report;
 
@@ -45,6 +47,12 @@ pub trait Experiment: Serialize + DeserializeOwned + Clone + PartialEq + Sync {
 
     /// Number of scenes.
     fn scenes(&self) -> u64;
+
+    /// Independent trials of each condition, spread over consecutive scenes, from which standard errors are estimated; 0
+    /// where tables state none.
+    fn repeats(&self) -> u64 {
+        0
+    }
 
     /// Runs a scene; the record depends on the options and the number only.
     ///
@@ -79,8 +87,8 @@ pub trait Answered: Experiment {
 
 /// The result of an experiment.
 pub trait Report: Serialize {
-    /// As Markdown.
-    fn tables(&self) -> String;
+    /// Its tables.
+    fn tables(&self) -> Tables;
 
     /// As comma-separated values with a line of heads.
     fn csv(&self) -> String;
@@ -132,6 +140,9 @@ fn shorten(value: &mut Value) {
     }
 }
 
+/// Groups of scenes whose differences give the standard errors of tables.
+const GROUPS: u64 = 16;
+
 /// Trials of numbered conditions, a scene of a sweep holding some trials of one condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Trials {
@@ -142,6 +153,12 @@ pub(crate) struct Trials {
 }
 
 impl Trials {
+    /// Scenes of at most `most` trials, and of fewer where there would not be one for each of the groups of which
+    /// standard errors are estimated.
+    pub fn new(each: u64, most: u64) -> Self {
+        Self { each, chunk: each.div_ceil(GROUPS).clamp(1, most) }
+    }
+
     /// Number of scenes of `conditions` conditions.
     pub fn scenes(self, conditions: usize) -> u64 {
         self.each.div_ceil(self.chunk) * conditions as u64
@@ -176,8 +193,37 @@ pub fn run<E: Experiment>(
     // Whether everything goes together, before anything is run.
     let plan = options.plan()?;
     let legs = records(options, how, Part::WHOLE, E::scene, progress)?;
-    let scenes = side_by_side::<E>(legs);
-    Ok(options.report(&plan, scenes.into_values()))
+    Ok(options.report(&plan, side_by_side::<E>(legs).into_values()))
+}
+
+/// Runs all scenes, and returns what it writes and prints.
+///
+/// # Errors
+/// As [`run`]; [`EvaluateError::Figure`].
+pub fn run_outcome<E: Experiment>(
+    options: &E,
+    how: How,
+    progress: impl FnMut(Progress) -> ControlFlow<()>,
+) -> Result<Outcome, EvaluateError> {
+    let plan = options.plan()?;
+    let legs = records(options, how, Part::WHOLE, E::scene, progress)?;
+    outcome(options, &plan, side_by_side::<E>(legs))
+}
+
+/// What an experiment writes and prints of the records of all its scenes. Standard errors are from the results without
+/// each of [`GROUPS`] groups of scenes.
+pub(crate) fn outcome<E: Experiment>(
+    options: &E,
+    plan: &E::Plan,
+    scenes: Records<E>,
+) -> Result<Outcome, EvaluateError> {
+    let groups = if options.repeats() >= GROUPS { 0..GROUPS } else { 0..0 };
+    let without = groups.map(|group| {
+        let others = scenes.iter().filter(|(number, _)| *number % GROUPS != group);
+        options.report(plan, others.map(|(_, record)| record.clone())).tables()
+    });
+    let without: Vec<Tables> = without.collect();
+    Outcome::new::<E>(&options.report(plan, scenes.into_values()), &without)
 }
 
 /// Runs all scenes and hands `write` lines with every answer: what heads the records first, then an object a trial and
@@ -191,7 +237,7 @@ pub fn run_answered<E: Answered, X: From<EvaluateError>>(
     threads: usize,
     mut write: impl FnMut(&str) -> Result<(), X>,
     mut progress: impl FnMut(Progress) -> ControlFlow<()>,
-) -> Result<E::Report, X> {
+) -> Result<Outcome, X> {
     let plan = options.plan()?;
     write(&format!("{}\n", setup(options, &plan)))?;
     let (sender, lines) = mpsc::channel();
@@ -210,7 +256,7 @@ pub fn run_answered<E: Answered, X: From<EvaluateError>>(
     };
     let legs = records(options, How { threads, folder: None }, Part::WHOLE, scene, &mut go_on);
     written?;
-    Ok(options.report(&plan, side_by_side::<E>(legs?).into_values()))
+    Ok(outcome(options, &plan, side_by_side::<E>(legs?))?)
 }
 
 /// Whether a folder has records of an experiment's whole run, by any of its entrants, from which it would go on.
@@ -338,8 +384,8 @@ mod tests {
             conditions: [Value; 2],
         }
         impl Report for Two {
-            fn tables(&self) -> String {
-                String::new()
+            fn tables(&self) -> Tables {
+                Tables::default()
             }
             fn csv(&self) -> String {
                 String::new()

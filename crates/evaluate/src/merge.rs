@@ -5,7 +5,9 @@ use crate::aoa;
 use crate::arrays;
 use crate::calibration;
 use crate::doa;
-use crate::experiment::{Experiment, Records, Report, file_name, legs, setup, side_by_side, whole};
+use crate::experiment::{
+    Experiment, Records, Report, file_name, legs, outcome, setup, side_by_side, whole,
+};
 use crate::images;
 use crate::imperfections;
 use crate::low_snr;
@@ -13,6 +15,7 @@ use crate::near_field;
 use crate::resolution;
 use crate::straddling;
 use crate::sweep::{self, Line, Part};
+use crate::table::Tables;
 use boresight_core::CoreError;
 use boresight_core::lines::whole_lines;
 use serde_json::Value;
@@ -40,14 +43,17 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Of a report.
+    /// Of a report, with standard errors from its tables without each of some groups of scenes.
     ///
     /// # Errors
     /// [`EvaluateError::Figure`].
-    pub fn new<E: Experiment>(report: &E::Report) -> Result<Self, EvaluateError> {
+    pub fn new<E: Experiment>(
+        report: &E::Report,
+        without: &[Tables],
+    ) -> Result<Self, EvaluateError> {
         Ok(Self {
             name: E::NAME,
-            tables: report.tables(),
+            tables: report.tables().render(without),
             json: report.json(),
             brief: report.brief(),
             csv: report.csv(),
@@ -252,6 +258,5 @@ fn merge_as<E: Experiment>(
         typed.push(of_leg);
     }
     let plan = options.plan()?;
-    let report = options.report(&plan, side_by_side::<E>(typed).into_values());
-    Ok(Merged { outcome: Outcome::new::<E>(&report)?, records, sources })
+    Ok(Merged { outcome: outcome(&options, &plan, side_by_side::<E>(typed))?, records, sources })
 }

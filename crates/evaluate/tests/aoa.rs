@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::Diagnose;
-use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::presets::preset;
 use boresight_evaluate::aoa::{AoaExperiment, AoaReport, SNRS_DB, TARGETS, default_methods};
 use boresight_evaluate::experiment::{self, How, Report as _};
@@ -20,8 +19,8 @@ fn options(array: &str) -> AoaExperiment {
         trials: 8,
         validation: 4,
         seed: 1,
-        imperfections: ImperfectionSpread::default(),
         entrants: Entrants::new(default_methods(&preset(array).unwrap()), vec![]),
+        ..AoaExperiment::default()
     }
 }
 
@@ -63,7 +62,7 @@ fn methods_score_in_the_known_order_whatever_the_threads() {
     let figures = report.figures().unwrap();
     assert!(figures[0].contains("recall") && figures[1].contains("targets"));
     assert_eq!(report.csv().lines().count(), 1 + 45 * report.methods.len());
-    let tables = report.tables();
+    let tables = report.tables().to_string();
     assert!(
         tables.contains("\nLargest F1, 15 dB") && tables.contains("\nF1 at one threshold, 15 dB")
     );
@@ -107,4 +106,38 @@ fn uniform_arrays_add_what_needs_one_and_unknown_ones_are_refused() {
     }
     let none = AoaExperiment { trials: 0, ..options("lrr48") };
     assert_eq!(run(&none, 1).unwrap_err().details().what, "trials");
+    let none = AoaExperiment { snrs_db: vec![], ..options("lrr48") };
+    assert_eq!(run(&none, 1).unwrap_err().code(), "empty");
+    for (what, wrong) in [
+        ("targets", AoaExperiment { targets: vec![65], ..options("lrr48") }),
+        ("snrsDb", AoaExperiment { snrs_db: vec![f64::NAN], ..options("lrr48") }),
+        ("spreadDb", AoaExperiment { spread_db: -1.0, ..options("lrr48") }),
+    ] {
+        assert_eq!(run(&wrong, 1).unwrap_err().details().what, what);
+    }
+}
+
+#[test]
+fn conditions_can_be_chosen_and_tables_state_errors() {
+    let chosen = AoaExperiment {
+        trials: 32,
+        validation: 16,
+        targets: vec![3, 12],
+        snrs_db: vec![20.0],
+        spread_db: 25.0,
+        entrants: Entrants::new(vec!["iaa".into(), "plain-iaa".into()], vec![]),
+        ..options("lrr48")
+    };
+    let report = run(&chosen, 2).unwrap();
+    let conditions: Vec<_> = report.conditions.iter().map(|c| (c.targets, c.snr_db)).collect();
+    assert_eq!(conditions, [(3, 20.0), (12, 20.0)]);
+    let how = How { threads: 1, folder: None };
+    let outcome = experiment::run_outcome(&chosen, how, |_| ControlFlow::Continue(())).unwrap();
+    let largest = outcome.tables.split("\nLargest F1, 20 dB\n").nth(1).unwrap();
+    let (table, errors) = largest.split_once("Standard errors: ").unwrap();
+    assert!(table.contains("| 3 targets | 12 targets |"), "{table}");
+    // The paired difference of the two is larger than its error where targets are many.
+    assert!(errors.contains("Bold") && table.contains("| iaa |"), "{errors}");
+    let plain = table.lines().find(|line| line.starts_with("| plain-iaa |")).unwrap();
+    assert!(!plain.ends_with("** |"), "{plain}");
 }

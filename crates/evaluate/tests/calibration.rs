@@ -59,7 +59,7 @@ fn a_short_run_holds_every_method_whatever_the_threads_and_its_figures_are_drawn
         }
     }
     assert_eq!(report.csv().lines().count(), 1 + 4 * CANDIDATES.len() * 4);
-    let tables = report.tables();
+    let tables = report.tables().to_string();
     for candidate in &CANDIDATES {
         assert!(tables.contains(&format!("| {} |", candidate.name)), "{}", candidate.name);
     }

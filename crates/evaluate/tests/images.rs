@@ -98,7 +98,7 @@ fn spectra_stand_beside_spectra_and_targets_beside_targets() {
         assert!(points.hidden_points <= points.false_points && points.false_points < points.points);
         assert!(points.hidden_share <= points.false_share && points.false_share < 0.5);
     }
-    let tables = report.tables();
+    let tables = report.tables().to_string();
     assert_eq!(tables.matches("\n| iaa |").count(), 3, "{tables}");
     assert_eq!(report.csv().lines().count(), 7);
 }

@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used)]
 
 use boresight_core::Diagnose;
-use boresight_core::imperfections::ImperfectionSpread;
 use boresight_evaluate::experiment::{How, Report as _, run};
 use boresight_evaluate::imperfections::{ImperfectionsExperiment, Kind, NUMBERS};
 use boresight_evaluate::{Entrants, aoa};
@@ -27,8 +26,8 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
         trials: 10,
         validation: 1,
         seed: 3,
-        imperfections: ImperfectionSpread::default(),
         entrants,
+        ..aoa::AoaExperiment::default()
     };
     let plain = run(&plain, HOW, |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(report.methods, plain.methods);
@@ -57,7 +56,7 @@ fn without_errors_scores_are_those_of_the_plain_experiment_and_errors_lower_them
         let greatest = tolerance.kind.strengths().last().copied().unwrap();
         assert!(strength <= greatest && (!all || strength == greatest), "{tolerance:?}");
     }
-    assert!(report.tables().contains("keeps 95 %"));
+    assert!(report.tables().to_string().contains("keeps 95 %"));
     assert_eq!(report.csv().lines().count(), 1 + 25 * report.methods.len());
     assert!(report.figures().unwrap()[0].contains("deviation of phase"));
     let between = ImperfectionsExperiment { snr_db: 26.0, ..options };

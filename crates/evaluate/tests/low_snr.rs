@@ -37,7 +37,7 @@ fn subspace_methods_reach_the_bound_above_the_threshold_and_fail_below() {
             }
         }
     }
-    let tables = report.tables();
+    let tables = report.tables().to_string();
     for snapshots in SNAPSHOTS {
         assert!(tables.contains(&format!("%, {snapshots} snapshots")), "{tables}");
     }

@@ -5,11 +5,11 @@
 mod support;
 
 use boresight_core::imperfections::ImperfectionSpread;
-use boresight_evaluate::experiment::{Experiment, How, run, run_part};
+use boresight_evaluate::experiment::{Experiment, How, run_outcome, run_part};
 use boresight_evaluate::sweep::Part;
 use boresight_evaluate::{
-    Entrants, EvaluateError, Outcome, aoa, calibration, doa, images, imperfections, merge,
-    near_field, resolution, straddling,
+    Entrants, EvaluateError, aoa, calibration, doa, images, imperfections, merge, near_field,
+    resolution, straddling,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -31,8 +31,7 @@ fn part<E: Experiment>(options: &E, number: u64, of: u64, folder: &Path) -> usiz
 fn check<E: Experiment>(options: &E) {
     let root = folder(E::NAME);
     let how = How { threads: 1, folder: Some(&root) };
-    let at_once = run(options, how, |_| ControlFlow::Continue(())).unwrap();
-    let at_once = Outcome::new::<E>(&at_once).unwrap();
+    let at_once = run_outcome(options, how, |_| ControlFlow::Continue(())).unwrap();
     let [a, b, out] = ["a", "b", "out"].map(|name| root.join(name));
     let records = part(options, 1, 3, &a) + part(options, 3, 3, &a) + part(options, 2, 3, &b);
     assert_eq!(records as u64, options.scenes());
@@ -61,6 +60,7 @@ fn aoa_options(seed: u64) -> aoa::AoaExperiment {
         seed,
         imperfections,
         entrants,
+        ..aoa::AoaExperiment::default()
     }
 }
 
@@ -124,7 +124,7 @@ fn parts_that_do_not_go_together_are_refused() {
     let copy = c.join("copy.jsonl");
     std::fs::write(&copy, &text).unwrap();
     merge(&[a.clone(), c.clone()]).unwrap();
-    std::fs::write(&copy, text.replacen("\"targets\":", "\"targets\":1", 1)).unwrap();
+    std::fs::write(&copy, text.replacen("\"score\":{\"targets\":", "\"score\":{\"targets\":1", 1)).unwrap();
     let conflict = merge(&[a.clone(), c.clone()]);
     assert!(matches!(conflict, Err(EvaluateError::Conflict { .. })), "{conflict:?}");
     std::fs::remove_file(copy).unwrap();

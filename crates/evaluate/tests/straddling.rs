@@ -72,7 +72,7 @@ fn losses_on_grids_are_those_of_the_beam_and_vanish_between_points() {
     assert_eq!(report.points_a_beam[0], 4.0 / 31.0 * 32.0);
     let rows = 5 * GRIDS.len() + 1;
     assert_eq!(report.csv().lines().count(), 1 + CONDITIONS.len() * rows);
-    assert!(report.tables().contains("iaa, dense form"));
+    assert!(report.tables().to_string().contains("iaa, dense form"));
     assert!(report.figures().unwrap()[0].contains("points of the grid"));
 }
 

@@ -2,8 +2,8 @@
 
 use crate::flags::{Flags, OnCommandLine};
 use boresight_core::imperfections::ImperfectionSpread;
-use boresight_evaluate::images;
 use boresight_evaluate::sweep::Part;
+use boresight_evaluate::{aoa, images};
 use boresight_pipeline::regions::RegionChainOptions;
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -105,12 +105,21 @@ pub struct EvaluateAoaArguments {
     /// Shared arguments.
     #[command(flatten)]
     pub shared: EvaluateArguments,
-    /// Snapshots a condition: 2 to 10 targets at 15 to 35 dB.
+    /// Snapshots a condition, which is a number of targets at a signal-to-noise ratio.
     #[arg(long, value_name = "N", default_value_t = 4000)]
     pub trials: u64,
     /// Further snapshots a condition, on which one threshold for all conditions is found.
     #[arg(long, value_name = "N", default_value_t = 200)]
     pub validation: u64,
+    /// Numbers of targets, separated by commas.
+    #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = aoa::TARGETS)]
+    pub targets: Vec<usize>,
+    /// Signal-to-noise ratios, dB, separated by commas: the power of a target of 0 dB at one element over the noise.
+    #[arg(long, value_name = "DB", value_delimiter = ',', allow_negative_numbers = true, default_values_t = aoa::SNRS_DB)]
+    pub snr: Vec<f64>,
+    /// Difference between the strongest and the weakest target, dB.
+    #[arg(long, value_name = "DB", default_value_t = aoa::SPREAD_DB)]
+    pub spread: f64,
     /// What was answered.
     #[command(flatten)]
     pub answers: AnswersArguments,

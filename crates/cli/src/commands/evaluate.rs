@@ -34,6 +34,9 @@ pub fn run(what: &EvaluateCommand, files: &Files) -> Result<String, CliError> {
                 trials: arguments.trials,
                 validation: arguments.validation,
                 seed: arguments.shared.seed,
+                targets: arguments.targets.clone(),
+                snrs_db: arguments.snr.clone(),
+                spread_db: arguments.spread,
                 imperfections: arguments.imperfections.options,
                 entrants: entrants(
                     &arguments.methods,
@@ -238,7 +241,7 @@ fn answered<E: Answered>(
     let Some(path) = &answers.answers else { return evaluate(options, shared, files) };
     let destination = files.destination(path)?;
     let run = Run::start("scenes")?;
-    let report = files.write_with(destination, |out| {
+    let outcome = files.write_with(destination, |out| {
         let write = |line: &str| {
             out.write_all(line.as_bytes()).map_err(|error| CliError::File {
                 action: "write",
@@ -249,7 +252,7 @@ fn answered<E: Answered>(
         experiment::run_answered(options, threads(shared), write, |p| run.report(p))
     })?;
     run.finish();
-    Ok(printed(Outcome::new::<E>(&report)?, shared.format.json, shared.format.csv))
+    Ok(printed(outcome, shared.format.json, shared.format.csv))
 }
 
 fn evaluate<E: Experiment>(
@@ -292,10 +295,9 @@ fn evaluate<E: Experiment>(
         let own = experiment::is_recorded(options, folder);
         results = places(Outcome::names::<E>(), folder, own, files)?;
     }
-    let report = experiment::run(options, how, progress)?;
+    let outcome = experiment::run_outcome(options, how, progress)?;
     run.finish();
     took(new);
-    let outcome = Outcome::new::<E>(&report)?;
     if let Some(folder) = folder {
         keep(&outcome.files(), results, folder, files)?;
     }

@@ -3,7 +3,7 @@
 use super::finder::{Candidate, Finder, Idle, angle_options};
 use super::score::{Point, Prediction, Score, Threshold, WITHIN_RAD, odds_db};
 use super::stated::Stated;
-use super::{AoaExperiment, Condition, TARGETS};
+use super::{AoaExperiment, Condition, SPREAD_DB};
 use crate::EvaluateError;
 use crate::apart::half_beam;
 use crate::entrants::Entrants;
@@ -91,6 +91,7 @@ pub struct Plan {
     idle: Idle,
     /// Largest error of a right prediction, rad.
     within_rad: f64,
+    spread_db: f64,
 }
 
 impl Plan {
@@ -99,28 +100,32 @@ impl Plan {
     /// # Errors
     /// An array that is not known; as [`Plan::of`].
     pub fn new(options: &AoaExperiment) -> Result<Self, EvaluateError> {
-        let plan = Self::of(preset(&options.array)?, options.seed, &options.entrants)?;
-        Ok(Self { imperfections: options.imperfections, ..plan })
+        let most = options.targets.iter().copied().max().unwrap_or(1);
+        let plan = Self::of(preset(&options.array)?, most, options.seed, &options.entrants)?;
+        Ok(Self { imperfections: options.imperfections, spread_db: options.spread_db, ..plan })
     }
 
-    /// For an array of any elements.
+    /// For an array of any elements and at most so many targets.
     ///
     /// # Errors
     /// Those of methods and networks that do not take it.
-    pub fn of(array: Array, seed: u64, entrants: &Entrants) -> Result<Self, EvaluateError> {
+    pub fn of(
+        array: Array,
+        most: usize,
+        seed: u64,
+        entrants: &Entrants,
+    ) -> Result<Self, EvaluateError> {
         entrants.check()?;
         let candidates = Candidate::all(entrants)?;
         // Whether they take the array, one snapshot and the most targets, before anything is run.
         let silence = Array2::zeros((array.len(), 1));
         for candidate in candidates.iter().filter(|c| c.finder.can_run()) {
-            candidate
-                .finder
-                .estimator(&array, TARGETS[TARGETS.len() - 1])?
-                .estimate(Data::Snapshots(silence.view()))?;
+            candidate.finder.estimator(&array, most)?.estimate(Data::Snapshots(silence.view()))?;
         }
         let beam = half_beam(&array);
         let (imperfections, idle) = (ImperfectionSpread::default(), Idle::default());
-        Ok(Self { array, seed, imperfections, candidates, beam, idle, within_rad: WITHIN_RAD })
+        let (within_rad, spread_db) = (WITHIN_RAD, SPREAD_DB);
+        Ok(Self { array, seed, imperfections, candidates, beam, idle, within_rad, spread_db })
     }
 
     /// With another error of what is right, rad.
@@ -261,6 +266,7 @@ impl Plan {
         let sampling = SceneSampling {
             count: [condition.targets; 2],
             field_of_view_rad: TARGETS_WITHIN_RAD,
+            power_db: [-self.spread_db, 0.0],
             ..SceneSampling::default()
         };
         let simulator = SnapshotSimulator::new(

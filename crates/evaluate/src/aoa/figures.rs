@@ -1,7 +1,7 @@
 //! Figures 4 and 5 of the AAETR paper, as SVG.
 
+use super::TARGETS;
 use super::report::{AoaReport, MethodResult};
-use super::{SNRS_DB, TARGETS};
 use crate::EvaluateError;
 use crate::plot::{Axes, Panel, Series, draw};
 
@@ -10,9 +10,13 @@ use crate::plot::{Axes, Panel, Series, draw};
 /// # Errors
 /// [`EvaluateError::Figure`].
 pub fn precision_recall(report: &AoaReport) -> Result<String, EvaluateError> {
-    let snr_db = SNRS_DB[SNRS_DB.len() - 1];
-    let panels: Vec<Panel> = [2, 4, 6, 8, 9, 10]
-        .into_iter()
+    let snr_db = report.snrs_db().last().copied().unwrap_or(f64::NAN);
+    let targets = report.targets();
+    // The paper's six panels of its nine numbers of targets, or all.
+    let panels: Vec<Panel> = targets
+        .iter()
+        .copied()
+        .filter(|n| targets != TARGETS || [2, 4, 6, 8, 9, 10].contains(n))
         .map(|targets| Panel {
             title: format!("{targets} targets, {snr_db} dB"),
             x: "recall".into(),
@@ -42,8 +46,11 @@ pub fn scores(report: &AoaReport) -> Result<String, EvaluateError> {
         ("mean error of power / dB", |m| m.best.map(|best| best.power_error_db)),
     ];
     let mut panels = vec![];
+    let (targets, snrs_db) = (report.targets(), report.snrs_db());
+    let mut ends: Vec<f64> = snrs_db.first().into_iter().chain(snrs_db.last()).copied().collect();
+    ends.dedup();
     for (label, value) in rows {
-        for snr_db in [SNRS_DB[0], SNRS_DB[4]] {
+        for &snr_db in &ends {
             panels.push(Panel {
                 title: format!("{snr_db} dB"),
                 x: "targets".into(),
@@ -55,7 +62,7 @@ pub fn scores(report: &AoaReport) -> Result<String, EvaluateError> {
                         let value = report.at(n, snr_db, k).and_then(value)?;
                         (value > 0.0).then_some((n as f64, value))
                     };
-                    TARGETS.iter().filter_map(point).collect()
+                    targets.iter().filter_map(point).collect()
                 }),
             });
         }

@@ -22,10 +22,17 @@ use boresight_core::imperfections::ImperfectionSpread;
 use boresight_core::{Array, CoreError};
 use serde::{Deserialize, Serialize};
 
-/// Numbers of targets of the conditions.
+/// Numbers of targets of the paper's conditions.
 pub const TARGETS: [usize; 9] = [2, 3, 4, 5, 6, 7, 8, 9, 10];
-/// Signal-to-noise ratios of the conditions, dB.
+/// Signal-to-noise ratios of the paper's conditions, dB.
 pub const SNRS_DB: [f64; 5] = [15.0, 20.0, 25.0, 30.0, 35.0];
+/// Difference between the strongest and the weakest target in the paper, dB.
+pub const SPREAD_DB: f64 = 13.0;
+/// Most targets of a scene.
+const MOST_TARGETS: f64 = 64.0;
+/// Most snapshots of one record.
+const CHUNK: u64 = 250;
+
 /// Checks that a signal-to-noise ratio is one of [`SNRS_DB`].
 pub(crate) fn check_snr(snr_db: f64) -> Result<(), CoreError> {
     if SNRS_DB.contains(&snr_db) {
@@ -37,12 +44,6 @@ pub(crate) fn check_snr(snr_db: f64) -> Result<(), CoreError> {
         given: snr_db,
     })
 }
-
-/// Number of conditions. A record's condition counts those of scored snapshots, then those of snapshots for the
-/// threshold.
-const CONDITIONS: usize = TARGETS.len() * SNRS_DB.len();
-/// Snapshots of one record.
-const CHUNK: u64 = 250;
 
 /// What to run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -57,10 +58,17 @@ pub struct AoaExperiment {
     pub validation: u64,
     /// Everything random comes from it.
     pub seed: u64,
+    /// Numbers of targets; a condition is one of them at one signal-to-noise ratio.
+    pub targets: Vec<usize>,
+    /// Signal-to-noise ratios, dB: the power of a target of 0 dB at one element over that of the noise there.
+    pub snrs_db: Vec<f64>,
+    /// Powers are uniform from 0 dB down to this much, dB.
+    pub spread_db: f64,
     /// Errors of the array that no method knows of.
     pub imperfections: ImperfectionSpread,
-    /// Methods by name, `plain-iaa` for IAA on whole degrees, `iaa` with `+hard` or `+soft` for its thresholding, any with `+refined` for sources refined on
-    /// the snapshot, and networks, which are run plain and refined. Methods that need the number of sources are told it.
+    /// Methods by name, `plain-iaa` for IAA on whole degrees, `iaa` with `+hard` or `+soft` for its thresholding, any with
+    /// `+refined` for sources refined on the snapshot, and networks, which are run plain and refined. Methods that need
+    /// the number of sources are given it.
     #[serde(flatten)]
     pub entrants: Entrants,
 }
@@ -74,6 +82,23 @@ pub fn default_methods(array: &Array) -> Vec<String> {
     names.into_iter().map(String::from).collect()
 }
 
+/// The paper's conditions without entrants.
+impl Default for AoaExperiment {
+    fn default() -> Self {
+        Self {
+            array: "lrr48".into(),
+            trials: 4000,
+            validation: 200,
+            seed: 0,
+            targets: TARGETS.to_vec(),
+            snrs_db: SNRS_DB.to_vec(),
+            spread_db: SPREAD_DB,
+            imperfections: ImperfectionSpread::default(),
+            entrants: Entrants::default(),
+        }
+    }
+}
+
 /// Number of targets and signal-to-noise ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
@@ -83,17 +108,9 @@ pub struct Condition {
     pub snr_db: f64,
 }
 
-impl Condition {
-    /// All conditions.
-    pub fn all() -> Vec<Self> {
-        let of = |&targets: &usize| SNRS_DB.map(|snr_db| Self { targets, snr_db });
-        TARGETS.iter().flat_map(of).collect()
-    }
-}
-
 impl Experiment for AoaExperiment {
     const NAME: &'static str = "aoa";
-    const REVISION: u32 = 2;
+    const REVISION: u32 = 3;
     type Plan = cell::Plan;
     type Record = cell::AoaRecord;
     type Report = AoaReport;
@@ -101,6 +118,20 @@ impl Experiment for AoaExperiment {
     fn plan(&self) -> Result<cell::Plan, EvaluateError> {
         check_range("trials", self.trials as f64, 1.0, 1e7)?;
         check_range("validation", self.validation as f64, 1.0, 1e7)?;
+        if self.targets.is_empty() || self.snrs_db.is_empty() {
+            return Err(CoreError::Empty {
+                what: "conditions".into(),
+                expected: "at least one number of targets and one signal-to-noise ratio".into(),
+            }
+            .into());
+        }
+        for &targets in &self.targets {
+            check_range("targets", targets as f64, 1.0, MOST_TARGETS)?;
+        }
+        for &snr_db in &self.snrs_db {
+            check_range("snrsDb", snr_db, -60.0, 100.0)?;
+        }
+        check_range("spreadDb", self.spread_db, 0.0, 100.0)?;
         cell::Plan::new(self)
     }
 
@@ -119,7 +150,12 @@ impl Experiment for AoaExperiment {
     /// Those that are scored, then those for the threshold.
     fn scenes(&self) -> u64 {
         let [scored, validation] = self.splits();
-        scored.scenes(CONDITIONS) + validation.scenes(CONDITIONS)
+        let conditions = self.conditions().len();
+        scored.scenes(conditions) + validation.scenes(conditions)
+    }
+
+    fn repeats(&self) -> u64 {
+        self.trials
     }
 
     fn scene(&self, plan: &cell::Plan, number: u64) -> Result<cell::AoaRecord, EvaluateError> {
@@ -143,20 +179,29 @@ impl Answered for AoaExperiment {
         tell: Option<Tell>,
     ) -> Result<cell::AoaRecord, EvaluateError> {
         let [scored, validation] = self.splits();
-        let (index, first, trials) = match number.checked_sub(scored.scenes(CONDITIONS)) {
+        let conditions = self.conditions();
+        let (index, first, trials) = match number.checked_sub(scored.scenes(conditions.len())) {
             None => scored.of(number),
             Some(number) => {
                 let (condition, first, trials) = validation.of(number);
-                (CONDITIONS + condition, first, trials)
+                (conditions.len() + condition, first, trials)
             }
         };
-        plan.run(index, Condition::all()[index % CONDITIONS], [first, trials], tell)
+        plan.run(index, conditions[index % conditions.len()], [first, trials], tell)
     }
 }
 
 impl AoaExperiment {
+    /// All conditions. A record's condition counts those of scored snapshots, then those of snapshots for the threshold.
+    pub fn conditions(&self) -> Vec<Condition> {
+        let of = |&targets: &usize| {
+            self.snrs_db.iter().map(move |&snr_db| Condition { targets, snr_db })
+        };
+        self.targets.iter().flat_map(of).collect()
+    }
+
     /// Of scored snapshots, and of those for the threshold.
     fn splits(&self) -> [Trials; 2] {
-        [self.trials, self.validation].map(|each| Trials { each, chunk: CHUNK })
+        [self.trials, self.validation].map(|each| Trials::new(each, CHUNK))
     }
 }

@@ -3,17 +3,14 @@
 use super::cell::{AoaRecord, MethodRecord};
 use super::score::{Operating, Score, one_threshold_db, point_at};
 use super::stated::Stated;
-use super::{AoaExperiment, CONDITIONS, Condition, SNRS_DB, TARGETS, figures};
+use super::{AoaExperiment, figures};
 use crate::EvaluateError;
 use crate::entrants::Network;
 use crate::experiment::brief;
 use crate::statistics::Summary;
-use crate::table::table;
+use crate::table::{Best, Cell, Table, Tables};
 use serde::Serialize;
 use serde_json::{Value, json};
-
-/// Signal-to-noise ratios of tables and drawn curves, dB.
-const DRAWN_DB: [f64; 3] = [SNRS_DB[0], SNRS_DB[2], SNRS_DB[4]];
 
 /// The experiment's result.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,6 +24,8 @@ pub struct AoaReport {
     pub validation: u64,
     /// Seed.
     pub seed: u64,
+    /// Difference between the strongest and the weakest target, dB.
+    pub spread_db: f64,
     /// Methods, then each network plain and refined.
     pub methods: Vec<String>,
     /// The threshold of each method, the same in all conditions: where the mean over conditions of its F1 is largest on
@@ -91,14 +90,14 @@ impl AoaReport {
         methods: &[String],
         records: impl Iterator<Item = AoaRecord>,
     ) -> Self {
-        let conditions = Condition::all();
-        let mut sums: Vec<Vec<MethodRecord>> = vec![vec![]; 2 * CONDITIONS];
+        let conditions = options.conditions();
+        let mut sums: Vec<Vec<MethodRecord>> = vec![vec![]; 2 * conditions.len()];
         for AoaRecord { condition, methods } in records {
             if let Some(sum) = sums.get_mut(condition) {
                 MethodRecord::merge_all(sum, methods);
             }
         }
-        let (scored, validation) = sums.split_at(CONDITIONS);
+        let (scored, validation) = sums.split_at(conditions.len());
         let thresholds_db: Vec<Option<f64>> = (0..methods.len())
             .map(|k| {
                 let of_method = validation.iter().filter_map(|sums| sums.get(k));
@@ -124,6 +123,7 @@ impl AoaReport {
             trials: options.trials,
             validation: options.validation,
             seed: options.seed,
+            spread_db: options.spread_db,
             methods: methods.to_vec(),
             thresholds_db,
             networks: options.entrants.networks.clone(),
@@ -132,18 +132,42 @@ impl AoaReport {
     }
 
     /// Of a method its one threshold and means over conditions: the largest F1, F1 and strict F1 at that threshold.
-    fn means(&self, method: usize) -> Vec<String> {
+    fn means(&self, method: usize) -> [f64; 4] {
         let mean = |value: fn(&MethodResult) -> Option<f64>| {
             let of_method = self.conditions.iter().filter_map(|c| c.methods.get(method));
             let all: Vec<f64> = of_method.map(|m| value(m).unwrap_or(0.0)).collect();
-            shown(Some(Summary::of(&all).mean), 4)
+            Summary::of(&all).mean
         };
-        vec![
-            shown(self.thresholds_db.get(method).copied().flatten(), 2),
+        [
+            self.thresholds_db.get(method).copied().flatten().unwrap_or(f64::NAN),
             mean(|m| Some(m.best?.f1)),
             mean(|m| Some(m.at_one_threshold?.f1)),
             mean(|m| Some(m.at_one_threshold?.strict_f1)),
         ]
+    }
+
+    /// The table of it, with how far each method is behind the one of the largest mean.
+    fn means_table(&self) -> Table {
+        let means: Vec<[f64; 4]> = (0..self.methods.len()).map(|k| self.means(k)).collect();
+        let most = means.iter().map(|[_, largest, ..]| *largest).fold(0.0, f64::max);
+        let rows = self.methods.iter().zip(means).map(|(name, [threshold_db, f1, one, strict])| {
+            let threshold = match threshold_db.is_finite() {
+                true => format!("{threshold_db:.2}"),
+                false => "-".into(),
+            };
+            let shares = [f1, most - f1, one, strict].map(|share| Cell::fixed(share, 4));
+            (name, [Cell::text(threshold)].into_iter().chain(shares).collect())
+        });
+        let title = "One threshold a method, dB, and the mean over all conditions of its F1";
+        let heads = [
+            "threshold",
+            "largest F1",
+            "behind",
+            "F1 at the threshold",
+            "strict F1 at the threshold",
+        ];
+        let table = Table::new(title, Best::None, "method", heads, rows);
+        Table { errors_in_cells: true, ..table }
     }
 
     /// What became of the deviations that a method stated, over all conditions or those of one ratio.
@@ -160,37 +184,54 @@ impl AoaReport {
     }
 
     /// The table of it; nothing where no method states deviations.
-    fn stated_table(&self) -> String {
+    fn stated_table(&self) -> Option<Table> {
         let levels: Vec<Option<f64>> =
-            std::iter::once(None).chain(DRAWN_DB.into_iter().map(Some)).collect();
-        let heads: Vec<String> = ["azimuth", "power"]
-            .iter()
-            .flat_map(|what| {
-                levels.iter().map(move |level| match level {
-                    Some(snr_db) => format!("{what}, {snr_db} dB"),
-                    None => format!("{what}, all"),
-                })
+            std::iter::once(None).chain(self.drawn_db().into_iter().map(Some)).collect();
+        let heads = ["azimuth", "power"].iter().flat_map(|what| {
+            levels.iter().map(move |level| match level {
+                Some(snr_db) => format!("{what}, {snr_db} dB"),
+                None => format!("{what}, all"),
             })
-            .collect();
-        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let rows: Vec<(&str, Vec<String>)> = self
+        });
+        let rows: Vec<(&str, Vec<Cell>)> = self
             .methods
             .iter()
             .enumerate()
             .filter(|(k, _)| !self.stated(*k, None).is_empty())
             .map(|(k, name)| {
-                let stated: Vec<Stated> =
-                    levels.iter().map(|&level| self.stated(k, level)).collect();
-                let shown: Vec<[String; 2]> = stated.iter().map(Stated::shown).collect();
-                let of = |what: usize| shown.iter().map(move |both| both[what].clone());
-                (name.as_str(), of(0).chain(of(1)).collect())
+                let shown = levels.iter().map(|&level| self.stated(k, level).shown());
+                let (azimuths, powers): (Vec<_>, Vec<_>) =
+                    shown.map(|[azimuth, power]| (Cell::text(azimuth), Cell::text(power))).unzip();
+                (name.as_str(), [azimuths, powers].concat())
             })
             .collect();
-        if rows.is_empty() {
-            return String::new();
-        }
         let title = "Right predictions within one / two of the deviations they state, %";
-        format!("\n{title}\n\n{}", table("method", &heads, &rows))
+        (!rows.is_empty()).then(|| Table::new(title, Best::None, "method", heads, rows))
+    }
+
+    /// Numbers of targets.
+    pub fn targets(&self) -> Vec<usize> {
+        let mut targets: Vec<usize> = self.conditions.iter().map(|c| c.targets).collect();
+        targets.dedup();
+        targets
+    }
+
+    /// Signal-to-noise ratios, dB.
+    pub fn snrs_db(&self) -> Vec<f64> {
+        let first = self.conditions.first().map(|c| c.targets);
+        let of_first = self.conditions.iter().filter(|c| Some(c.targets) == first);
+        of_first.map(|c| c.snr_db).collect()
+    }
+
+    /// Those of tables and curves: the first one, the one in the middle and the last one.
+    fn drawn_db(&self) -> Vec<f64> {
+        let all = self.snrs_db();
+        let mut drawn: Vec<f64> = match all.len().checked_sub(1) {
+            Some(last) => [0, last / 2, last].map(|at| all[at]).into(),
+            None => vec![],
+        };
+        drawn.dedup();
+        drawn
     }
 
     /// The result of a method in a condition.
@@ -203,61 +244,50 @@ impl AoaReport {
 }
 
 impl crate::experiment::Report for AoaReport {
-    fn tables(&self) -> String {
-        let mut text = format!(
-            "Array {}, {} snapshots a condition; thresholds from {} others.\n",
-            self.array, self.trials, self.validation
+    fn tables(&self) -> Tables {
+        let remark = format!(
+            "Array {}, powers within {} dB, {} snapshots a condition; thresholds from {} others.\n",
+            self.array, self.spread_db, self.trials, self.validation
         );
-        text += "\nOne threshold a method, dB, and the mean over all conditions of its F1\n\n";
-        let rows: Vec<(&str, Vec<String>)> = self
-            .methods
-            .iter()
-            .enumerate()
-            .map(|(k, name)| (name.as_str(), self.means(k)))
-            .collect();
-        text += &table(
-            "method",
-            &["threshold", "largest F1", "F1 at the threshold", "strict F1 at the threshold"],
-            &rows,
-        );
-        text += &self.stated_table();
+        let mut tables = vec![self.means_table()];
+        tables.extend(self.stated_table());
         type Value = fn(&MethodResult) -> Option<f64>;
-        let kinds: [(&str, usize, Value); 8] = [
-            ("Largest F1", 4, |m| Some(m.best?.f1)),
-            ("F1 at one threshold", 4, |m| Some(m.at_one_threshold?.f1)),
-            ("Strict F1 at one threshold", 4, |m| Some(m.at_one_threshold?.strict_f1)),
-            ("Precision at one threshold", 4, |m| Some(m.at_one_threshold?.precision)),
-            ("Recall at one threshold", 4, |m| Some(m.at_one_threshold?.recall)),
-            ("Mean error of angle at one threshold, deg", 4, |m| {
+        let kinds: [(&str, Best, usize, Value); 8] = [
+            ("Largest F1", Best::Largest, 4, |m| Some(m.best?.f1)),
+            ("F1 at one threshold", Best::Largest, 4, |m| Some(m.at_one_threshold?.f1)),
+            ("Strict F1 at one threshold", Best::Largest, 4, |m| {
+                Some(m.at_one_threshold?.strict_f1)
+            }),
+            ("Precision at one threshold", Best::None, 4, |m| Some(m.at_one_threshold?.precision)),
+            ("Recall at one threshold", Best::None, 4, |m| Some(m.at_one_threshold?.recall)),
+            ("Mean error of angle at one threshold, deg", Best::Smallest, 4, |m| {
                 Some(m.at_one_threshold?.angle_error_deg)
             }),
-            ("Mean error of power at one threshold, dB", 2, |m| {
+            ("Mean error of power at one threshold, dB", Best::Smallest, 2, |m| {
                 Some(m.at_one_threshold?.power_error_db)
             }),
-            ("Error over the Cramer-Rao bound, separated targets", 2, |m| {
+            ("Error over the Cramer-Rao bound, separated targets", Best::None, 2, |m| {
                 Some(m.separated.rmse_deg / m.separated.bound_deg)
             }),
         ];
-        let heads: Vec<String> = TARGETS.iter().map(|n| format!("{n} targets")).collect();
-        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        for (title, digits, value) in kinds {
-            for snr_db in DRAWN_DB {
-                text += &format!("\n{title}, {snr_db} dB\n\n");
-                let rows: Vec<(&str, Vec<String>)> = self
-                    .methods
-                    .iter()
-                    .enumerate()
-                    .map(|(k, name)| {
-                        let cells = TARGETS.iter().map(|&targets| {
-                            shown(self.at(targets, snr_db, k).and_then(value), digits)
+        for (title, best, digits, value) in kinds {
+            for snr_db in self.drawn_db() {
+                tables.push(Table::new(
+                    format!("{title}, {snr_db} dB"),
+                    best,
+                    "method",
+                    self.targets().iter().map(|n| format!("{n} targets")),
+                    self.methods.iter().enumerate().map(|(k, name)| {
+                        let cells = self.targets().into_iter().map(|targets| {
+                            let value = self.at(targets, snr_db, k).and_then(value);
+                            Cell::fixed(value.unwrap_or(f64::NAN), digits)
                         });
-                        (name.as_str(), cells.collect())
-                    })
-                    .collect();
-                text += &table("method", &heads, &rows);
+                        (name, cells.collect())
+                    }),
+                ));
             }
         }
-        text
+        Tables { remark, tables }
     }
 
     fn csv(&self) -> String {
@@ -304,7 +334,7 @@ impl crate::experiment::Report for AoaReport {
     fn brief(&self) -> String {
         let mut all = json!(self);
         for (condition, result) in self.conditions.iter().zip(items(&mut all["conditions"])) {
-            let drawn = DRAWN_DB.contains(&condition.snr_db);
+            let drawn = self.drawn_db().contains(&condition.snr_db);
             for (method, result) in condition.methods.iter().zip(items(&mut result["methods"])) {
                 let points = if drawn { thinned(&method.curve) } else { vec![] };
                 let point = |p: &Operating| json!({ "precision": p.precision, "recall": p.recall, "f1": p.f1 });
@@ -320,10 +350,6 @@ impl crate::experiment::Report for AoaReport {
     fn figures(&self) -> Result<Vec<String>, EvaluateError> {
         Ok(vec![figures::precision_recall(self)?, figures::scores(self)?])
     }
-}
-
-fn shown(value: Option<f64>, digits: usize) -> String {
-    value.filter(|v| v.is_finite()).map_or_else(|| "-".into(), |v| format!("{v:.digits$}"))
 }
 
 fn items(value: &mut Value) -> impl Iterator<Item = &mut Value> {

@@ -1,5 +1,6 @@
 //! Detection and accuracy on several arrays, for methods and for networks that take any: the scores of [`crate::aoa`] on
-//! single snapshots of known boards, an even line, a thinned one, and elements scattered at random.
+//! single snapshots of known boards, an even line, a thinned one, elements scattered at random, and
+//! transmitters whose virtual elements overlap.
 //!
 //! What is right is as many beams on each array: half a degree on `lrr48`, and as large a part of half the main beam on
 //! others.
@@ -42,17 +43,23 @@ pub enum Tried {
     Thinned24,
     /// Twenty elements at distances drawn once.
     Scattered20,
+    /// Two transmitters by eight receivers whose virtual elements share four places.
+    Overlap16,
+    /// Six transmitters by eight receivers on 36 places.
+    Overlap48,
 }
 
 impl Tried {
     /// All of them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Lrr48,
         Self::Cascade86,
         Self::Thinned24,
         Self::Scattered20,
         Self::Ula16,
         Self::Awr1843,
+        Self::Overlap16,
+        Self::Overlap48,
     ];
 
     /// Its name.
@@ -64,6 +71,8 @@ impl Tried {
             Self::Ula16 => "ula16",
             Self::Thinned24 => "thinned24",
             Self::Scattered20 => "scattered20",
+            Self::Overlap16 => "overlap16",
+            Self::Overlap48 => "overlap48",
         }
     }
 
@@ -73,6 +82,8 @@ impl Tried {
             Self::Lrr48 | Self::Cascade86 => [4, 10],
             Self::Thinned24 => [3, 6],
             Self::Scattered20 | Self::Ula16 => [2, 4],
+            Self::Overlap16 => [2, 3],
+            Self::Overlap48 => [3, 6],
             Self::Awr1843 => [1, 2],
         }
     }
@@ -84,8 +95,9 @@ impl Tried {
     pub fn array(self) -> Result<Array, EvaluateError> {
         // Which arrays these are is not of the seed.
         let random = &mut Random::new(0, 1);
-        let row =
-            |places: &[f64]| Array::new(&places.iter().map(|&y| [0.0, y, 0.0]).collect::<Vec<_>>());
+        let at = |places: &[f64]| places.iter().map(|&y| [0.0, y, 0.0]).collect::<Vec<_>>();
+        let row = |places: &[f64]| Array::new(&at(places));
+        let eight: Vec<f64> = (0..8).map(f64::from).collect();
         Ok(match self {
             Self::Thinned24 => {
                 let [places, elements] = THINNED;
@@ -105,6 +117,8 @@ impl Tried {
                     .collect();
                 row(&places)?
             }
+            Self::Overlap16 => Array::mimo(&at(&[0.0, 4.0]), &at(&eight))?,
+            Self::Overlap48 => Array::mimo(&at(&[0.0, 4.0, 8.0, 16.0, 24.0, 28.0]), &at(&eight))?,
             _ => preset(self.name())?,
         })
     }
@@ -127,7 +141,7 @@ pub struct ArraysExperiment {
 
 /// Methods that are run if none are named.
 pub fn default_methods() -> Vec<String> {
-    ["bartlett", "iaa", "iaa+refined", "nomp"].map(String::from).to_vec()
+    ["bartlett", "plain-iaa", "iaa", "iaa+refined", "nomp"].map(String::from).to_vec()
 }
 
 /// Arrays with a number of targets.
@@ -138,13 +152,13 @@ fn conditions() -> Vec<(Tried, usize)> {
 
 impl ArraysExperiment {
     fn split(&self) -> Trials {
-        Trials { each: self.trials, chunk: CHUNK }
+        Trials::new(self.trials, CHUNK)
     }
 }
 
 impl Experiment for ArraysExperiment {
     const NAME: &'static str = "arrays";
-    const REVISION: u32 = 1;
+    const REVISION: u32 = 2;
     /// One an array.
     type Plan = Vec<cell::Plan>;
     type Record = cell::AoaRecord;
@@ -159,7 +173,8 @@ impl Experiment for ArraysExperiment {
             .map(|tried| {
                 let array = tried.array()?;
                 let within_rad = WITHIN_RAD * half_beam(&array) / usual;
-                Ok(cell::Plan::of(array, self.seed, &self.entrants)?.within(within_rad))
+                let [_, most] = tried.numbers();
+                Ok(cell::Plan::of(array, most, self.seed, &self.entrants)?.within(within_rad))
             })
             .collect()
     }
@@ -178,6 +193,10 @@ impl Experiment for ArraysExperiment {
 
     fn scenes(&self) -> u64 {
         self.split().scenes(conditions().len())
+    }
+
+    fn repeats(&self) -> u64 {
+        self.trials
     }
 
     /// The condition of a record counts arrays, then numbers of targets.
@@ -203,11 +222,14 @@ mod tests {
 
     #[test]
     fn arrays_are_what_their_names_say() {
-        let elements = [48, 86, 24, 20, 16, 12];
-        for (tried, elements) in Tried::ALL.into_iter().zip(elements) {
+        let elements = [48, 86, 24, 20, 16, 12, 16, 48];
+        let places = [48, 86, 24, 20, 16, 12, 12, 36];
+        for (tried, (elements, places)) in
+            Tried::ALL.into_iter().zip(elements.into_iter().zip(places))
+        {
             let array = tried.array().expect("an array");
             assert_eq!(array.len(), elements, "{tried:?}");
-            assert_eq!(array.without_duplicates().len(), elements, "{tried:?}");
+            assert_eq!(array.without_duplicates().len(), places, "{tried:?}");
             assert_eq!(array, tried.array().expect("the same"), "{tried:?}");
         }
     }

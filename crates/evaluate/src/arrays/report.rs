@@ -6,7 +6,7 @@ use crate::aoa::cell::{AoaRecord, MethodRecord};
 use crate::aoa::report::MethodResult;
 use crate::aoa::stated::Stated;
 use crate::entrants::Network;
-use crate::table::table;
+use crate::table::{Best, Cell, Table, Tables};
 use serde::Serialize;
 
 /// The experiment's result.
@@ -84,28 +84,26 @@ impl ArraysReport {
         sum
     }
 
-    fn stated_tables(&self) -> String {
+    fn stated_tables(&self) -> Vec<Table> {
         let states = |method: usize| Tried::ALL.iter().any(|&a| !self.stated(method, a).is_empty());
         let named: Vec<(usize, &String)> =
             self.methods.iter().enumerate().filter(|(k, _)| states(*k)).collect();
-        let heads = Tried::ALL.map(Tried::name);
-        let mut text = String::new();
-        for (what, title) in ["azimuths", "powers"].into_iter().enumerate() {
-            if named.is_empty() {
-                break;
-            }
-            text += &format!("\nRight {title} within one / two of the deviations stated, %\n\n");
-            let rows: Vec<(&str, Vec<String>)> = named
-                .iter()
-                .map(|(k, name)| {
-                    let cells =
-                        Tried::ALL.map(|array| self.stated(*k, array).shown()[what].clone());
-                    (name.as_str(), cells.to_vec())
-                })
-                .collect();
-            text += &table("method", &heads, &rows);
+        if named.is_empty() {
+            return vec![];
         }
-        text
+        let of = |(what, title): (usize, &str)| {
+            Table::new(
+                format!("Right {title} within one / two of the deviations stated, %"),
+                Best::None,
+                "method",
+                Tried::ALL.map(Tried::name),
+                named.iter().map(|(k, name)| {
+                    let cell = |array| Cell::text(self.stated(*k, array).shown()[what].clone());
+                    (name, Tried::ALL.map(cell).to_vec())
+                }),
+            )
+        };
+        ["azimuths", "powers"].into_iter().enumerate().map(of).collect()
     }
 }
 
@@ -116,37 +114,33 @@ fn numbers(result: &MethodResult) -> [f64; 2] {
 }
 
 impl crate::experiment::Report for ArraysReport {
-    fn tables(&self) -> String {
-        let mut text = format!(
+    fn tables(&self) -> Tables {
+        let remark = format!(
             "{} dB, {} snapshots a condition; right is 0.4 of half a beam.\n",
             self.snr_db, self.trials
         );
-        let heads: Vec<String> = self
-            .conditions
-            .iter()
-            .map(|condition| format!("{}, {}", condition.array.name(), condition.targets))
-            .collect();
-        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let titles =
-            ["Largest F1", "Error over the Cramer-Rao bound, separated targets that were found"];
-        for (what, (title, digits)) in titles.into_iter().zip([3, 2]).enumerate() {
-            text += &format!("\n{title}, by array and number of targets\n\n");
-            let rows: Vec<(&str, Vec<String>)> = self
-                .methods
-                .iter()
-                .enumerate()
-                .map(|(k, name)| {
+        let kinds = [
+            ("Largest F1", Best::Largest, 3),
+            ("Error over the Cramer-Rao bound, separated targets that were found", Best::None, 2),
+        ];
+        let of = |(what, (title, best, digits)): (usize, (&str, Best, usize))| {
+            Table::new(
+                format!("{title}, by array and number of targets"),
+                best,
+                "method",
+                self.conditions.iter().map(|c| format!("{}, {}", c.array.name(), c.targets)),
+                self.methods.iter().enumerate().map(|(k, name)| {
                     let cells = self.conditions.iter().map(|condition| {
                         let value = condition.methods.get(k).map(|m| numbers(m)[what]);
-                        let value = value.filter(|value| value.is_finite());
-                        value.map_or("-".into(), |value| format!("{value:.digits$}"))
+                        Cell::fixed(value.unwrap_or(f64::NAN), digits)
                     });
-                    (name.as_str(), cells.collect())
-                })
-                .collect();
-            text += &table("method", &heads, &rows);
-        }
-        text + &self.stated_tables()
+                    (name, cells.collect())
+                }),
+            )
+        };
+        let mut tables: Vec<Table> = kinds.into_iter().enumerate().map(of).collect();
+        tables.extend(self.stated_tables());
+        Tables { remark, tables }
     }
 
     fn csv(&self) -> String {

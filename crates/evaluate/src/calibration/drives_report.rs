@@ -9,7 +9,7 @@ use super::{CANDIDATES, Candidate, figures};
 use crate::EvaluateError;
 use crate::experiment::Report;
 use crate::statistics::Summary;
-use crate::table::table;
+use crate::table::{Best, Cell, Table, Tables};
 use boresight_calibrate::Method;
 use serde::Serialize;
 
@@ -159,42 +159,43 @@ impl PieceResult {
 }
 
 impl Report for DrivesReport {
-    fn tables(&self) -> String {
-        let mut text = format!(
-            "# {} drives from files, {:.2} h\n\nTrue angles are those that the logs state.\n\n",
+    fn tables(&self) -> Tables {
+        let remark = format!(
+            "# {} drives from files, {:.2} h\n\nTrue angles are those that the logs state.\n",
             self.drives, self.duration_h
         );
-        text += &self.whole.tables();
-        for pieces in &self.lengths {
-            text += &format!(
-                "\n## Pieces of {} s\n\nErrors of the angle: mean in deg and variance in deg^2 by radar, mean absolute error in deg of all \
-                 (pieces without an angle), the share within one and two stated standard deviations, how many pieces are called \
-                 converged and how many of these are more than three deviations off, and precision and recall: of those called converged the share \
-                 within {PRECISION_DEG} deg of what all whole drives give (recursive, four radars), and their share of all.\n\n",
-                pieces.length_s
-            );
-            let mut heads: Vec<String> = pieces
+        let recursive = CANDIDATES
+            .iter()
+            .find(|c| c.method == Method::Recursive && c.speed && !c.joint)
+            .map_or("recursive", |c| c.name);
+        let of_length = |pieces: &Pieces| {
+            let radars = pieces
                 .radars
                 .iter()
-                .map(|(sensor, true_deg)| format!("radar {sensor} ({true_deg:.2} deg)"))
-                .collect();
-            heads.extend(
-                ["all", "within 1, 2 sigma", "converged, 3 sigma off", "precision, recall"]
-                    .map(String::from),
-            );
-            let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-            let rows: Vec<_> = pieces.methods.iter().map(|m| (m.name, m.cells())).collect();
-            text += &table("method", &heads, &rows);
-            let recursive = CANDIDATES
-                .iter()
-                .find(|c| c.method == Method::Recursive && c.speed && !c.joint)
-                .map_or("recursive", |c| c.name);
-            text += &format!(
-                "\nBegun 2, 5 and 8 deg off, the method \"{recursive}\" changes by at most {:.2} of its standard deviations.\n",
-                pieces.start_sigmas
-            );
-        }
-        text
+                .map(|(sensor, true_deg)| format!("radar {sensor} ({true_deg:.2} deg)"));
+            let further =
+                ["all", "within 1, 2 sigma", "converged, 3 sigma off", "precision, recall"];
+            Table::new(
+                format!(
+                    "## Pieces of {} s\n\nBegun 2, 5 and 8 deg off, the method \"{recursive}\" changes by at most {:.2} of its \
+                     standard deviations.\n\nErrors of the angle: mean in deg and variance in deg^2 by radar, mean absolute error in deg of all \
+                     (pieces without an angle), the share within one and two stated standard deviations, how many pieces are called \
+                     converged and how many of these are more than three deviations off, and precision and recall: of those called converged the share \
+                     within {PRECISION_DEG} deg of what all whole drives give (recursive, four radars), and their share of all.",
+                    pieces.length_s, pieces.start_sigmas
+                ),
+                Best::None,
+                "method",
+                radars.chain(further.map(String::from)),
+                pieces
+                    .methods
+                    .iter()
+                    .map(|m| (m.name, m.cells().into_iter().map(Cell::text).collect())),
+            )
+        };
+        let mut tables = self.whole.tables();
+        tables.extend(self.lengths.iter().map(of_length));
+        Tables { remark, tables }
     }
 
     fn csv(&self) -> String {

@@ -5,6 +5,7 @@ use super::scene::SceneRecord;
 use super::tables::csv_heads;
 use super::{CalibrationExperiment, figures};
 use crate::EvaluateError;
+use crate::table::Tables;
 use boresight_simulate::drive::DriveProfile;
 use serde::Serialize;
 
@@ -48,8 +49,11 @@ impl CalibrationReport {
 }
 
 impl crate::experiment::Report for CalibrationReport {
-    fn tables(&self) -> String {
-        self.conditions.iter().map(Condition::tables).collect::<Vec<_>>().join("\n")
+    fn tables(&self) -> Tables {
+        Tables {
+            remark: String::new(),
+            tables: self.conditions.iter().flat_map(Condition::tables).collect(),
+        }
     }
 
     fn csv(&self) -> String {
@@ -159,6 +163,8 @@ mod tests {
         assert_eq!(curve.accepted[0], Accepted { precision: Some(0.0), recall: Some(2.0 / 3.0) });
         assert_eq!(mixed.states[0][7], 8);
         assert_eq!(dense.methods[0].radars[0].without, 4);
-        assert!(report.tables().contains("| +0.1000, 0.1600 (1) | 33 %, 67 % | 3, 0 |"));
+        assert!(
+            report.tables().to_string().contains("| +0.1000, 0.1600 (1) | 33 %, 67 % | 3, 0 |")
+        );
     }
 }

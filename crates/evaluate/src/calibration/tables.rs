@@ -4,12 +4,12 @@ use super::accepted::{PRECISION_DEG, percent};
 use super::condition::{BySegment, Condition, Convergence, MethodResult, RadarResult};
 use super::whole::FIGURE_RADAR;
 use super::{DRIVING_TIMES_S, SEGMENTS_M};
-use crate::table::table;
+use crate::table::{Best, Cell, Table};
 
 impl Condition {
-    /// As Markdown.
-    pub(super) fn tables(&self) -> String {
-        let mut text = format!(
+    /// Its tables; the title of the first one begins with a heading.
+    pub(super) fn tables(&self) -> Vec<Table> {
+        let heading = format!(
             "## {}: {} drives, {:.0} km, {:.1} h of driving, {:.0} % of detections moving (at most {:.0} %)\n\n",
             self.name,
             self.scenes,
@@ -23,34 +23,34 @@ impl Condition {
             .iter()
             .map(|r| format!("radar {} ({:.2} deg)", r.sensor, r.true_deg))
             .collect();
-        let radars: Vec<&str> = radars.iter().map(String::as_str).collect();
-        text += &self.errors(&radars);
-        for at in 0..SEGMENTS_M.len() {
-            text += &self.trajectories(&radars, at);
-        }
-        text += &self.against_time(
-            &format!(
+        let mut errors = self.errors(&radars);
+        errors.title.insert_str(0, &heading);
+        let mut tables = vec![errors];
+        tables.extend((0..SEGMENTS_M.len()).map(|at| self.trajectories(&radars, at)));
+        tables.push(self.against_time(
+            format!(
                 "Mean absolute error in deg and variance in deg^2 against driving time, radar {FIGURE_RADAR} (Figure 6; parts without an angle)."
             ),
             |c, i| {
                 let (error, without) = (c.error_deg[i], or_none(c.without[i]));
                 format!("{:.3}, {:.4}{without}", error.mean_absolute, error.variance)
             },
-        );
-        text += &self.against_time(
-            "The share of these errors within one and two stated standard deviations.",
+        ));
+        tables.push(self.against_time(
+            "The share of these errors within one and two stated standard deviations.".into(),
             |c, i| percent(c.within[i]),
-        );
-        text += &self.against_time(
-            &format!(
+        ));
+        tables.push(self.against_time(
+            format!(
                 "Precision and recall: of the answers called converged the share within {PRECISION_DEG} deg, and their share of all parts."
             ),
             |c, i| c.accepted[i].cell(),
-        );
-        text + &self.scales()
+        ));
+        tables.extend(self.scales());
+        tables
     }
 
-    fn errors(&self, radars: &[&str]) -> String {
+    fn errors(&self, radars: &[String]) -> Table {
         let cells = |method: &MethodResult| {
             let mut cells: Vec<String> = method
                 .radars
@@ -63,66 +63,66 @@ impl Condition {
             cells.push(percent(method.within));
             let sum = |of: fn(&RadarResult) -> usize| method.radars.iter().map(of).sum::<usize>();
             cells.push(format!("{}, {}", sum(|r| r.converged), sum(|r| r.confidently_wrong)));
-            cells
+            cells.into_iter().map(Cell::text).collect()
         };
-        let mut heads = radars.to_vec();
-        heads.extend(["within 1, 2 sigma", "converged, 3 sigma off"]);
-        let rows: Vec<_> = self.methods.iter().map(|m| (m.name, cells(m))).collect();
-        "Errors of the angle: mean in deg and variance in deg^2 (drives without an angle), the share of errors \
-         within one and two stated standard deviations (Tables II and IV), and how many answers are called converged and \
-         how many of these are more than three deviations off.\n\n"
-            .to_owned()
-            + &table("method", &heads, &rows)
-    }
-
-    fn trajectories(&self, radars: &[&str], at: usize) -> String {
-        let length = SEGMENTS_M[at];
-        let metres = |errors: &BySegment| errors[at].map_or("-".into(), |e| format!("{e:.3}"));
-        let cell = |own: &BySegment, mean: &BySegment| format!("{}, {}", metres(own), metres(mean));
-        let mut rows: Vec<(&str, Vec<String>)> = self
-            .methods
-            .iter()
-            .map(|m| {
-                (m.name, m.radars.iter().map(|r| cell(&r.rte_m, &r.rte_mean_angle_m)).collect())
-            })
-            .collect();
-        let baseline = self.radars.iter().map(|r| metres(&r.rte_m)).collect();
-        rows.push(("true angle", baseline));
-        format!(
-            "\nRelative trajectory error over {length} m, m, with each drive's own angle and with the true ones turned by the drives' mean \
-             error; the radar's motion is the tracked one throughout (Table III).\n\n{}",
-            table("angle from", radars, &rows)
+        let further = ["within 1, 2 sigma", "converged, 3 sigma off"].map(String::from);
+        Table::new(
+            "Errors of the angle: mean in deg and variance in deg^2 (drives without an angle), the share of errors \
+             within one and two stated standard deviations (Tables II and IV), and how many answers are called converged and \
+             how many of these are more than three deviations off.",
+            Best::None,
+            "method",
+            radars.iter().chain(&further),
+            self.methods.iter().map(|m| (m.name, cells(m))),
         )
     }
 
-    fn against_time(&self, what: &str, cell: impl Fn(&Convergence, usize) -> String) -> String {
-        let times: Vec<String> = DRIVING_TIMES_S.iter().map(|time| format!("{time} s")).collect();
-        let heads: Vec<&str> = times.iter().map(String::as_str).collect();
-        let rows: Vec<_> = self
-            .convergence
-            .iter()
-            .map(|c| (c.name, (0..heads.len()).map(|i| cell(c, i)).collect()))
-            .collect();
-        format!("\n{what}\n\n{}", table("method", &heads, &rows))
+    fn trajectories(&self, radars: &[String], at: usize) -> Table {
+        let length = SEGMENTS_M[at];
+        let metres = |errors: &BySegment| errors[at].map_or("-".into(), |e| format!("{e:.3}"));
+        let cell = |own: &BySegment, mean: &BySegment| {
+            Cell::text(format!("{}, {}", metres(own), metres(mean)))
+        };
+        let rows = self.methods.iter().map(|m| {
+            (m.name, m.radars.iter().map(|r| cell(&r.rte_m, &r.rte_mean_angle_m)).collect())
+        });
+        let baseline = self.radars.iter().map(|r| Cell::text(metres(&r.rte_m))).collect();
+        Table::new(
+            format!(
+                "Relative trajectory error over {length} m, m, with each drive's own angle and with the true ones turned by the drives' mean \
+                 error; the radar's motion is the tracked one throughout (Table III)."
+            ),
+            Best::None,
+            "angle from",
+            radars,
+            rows.chain([("true angle", baseline)]),
+        )
+    }
+
+    fn against_time(&self, title: String, cell: impl Fn(&Convergence, usize) -> String) -> Table {
+        let row = |c: &Convergence| -> Vec<Cell> {
+            (0..DRIVING_TIMES_S.len()).map(|i| Cell::text(cell(c, i))).collect()
+        };
+        let heads = DRIVING_TIMES_S.map(|time| format!("{time} s"));
+        let rows = self.convergence.iter().map(|c| (c.name, row(c)));
+        Table::new(title, Best::None, "method", heads, rows)
     }
 
     /// Nothing where no scale is known.
-    fn scales(&self) -> String {
+    fn scales(&self) -> Option<Table> {
         let rows: Vec<_> = self
             .methods
             .iter()
             .filter_map(|m| {
                 let [mean, sigma] = m.scale?;
-                Some((m.name, vec![format!("{mean:+.4} +- {sigma:.4}"), percent(m.scale_within?)]))
+                let cells = [format!("{mean:+.4} +- {sigma:.4}"), percent(m.scale_within?)];
+                Some((m.name, cells.map(Cell::text).to_vec()))
             })
             .collect();
-        if rows.is_empty() {
-            return String::new();
-        }
-        "\nScale of the yaw rate: mean error and standard deviation, and the share within one and two stated standard \
-         deviations.\n\n"
-            .to_owned()
-            + &table("method", &["error", "within 1, 2 sigma"], &rows)
+        let title = "Scale of the yaw rate: mean error and standard deviation, and the share within one and two stated standard \
+                     deviations.";
+        let heads = ["error", "within 1, 2 sigma"];
+        (!rows.is_empty()).then(|| Table::new(title, Best::None, "method", heads, rows))
     }
 
     /// Lines of comma-separated values after [`CSV_HEADS`].

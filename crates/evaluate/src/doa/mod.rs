@@ -175,7 +175,7 @@ pub fn default_methods(setup: Setup) -> Result<Vec<String>, EvaluateError> {
 
 impl DoaExperiment {
     fn split(&self) -> Trials {
-        Trials { each: self.trials, chunk: CHUNK }
+        Trials::new(self.trials, CHUNK)
     }
 }
 
@@ -206,6 +206,10 @@ impl Experiment for DoaExperiment {
 
     fn scenes(&self) -> u64 {
         self.split().scenes(self.axis.conditions().len())
+    }
+
+    fn repeats(&self) -> u64 {
+        self.trials
     }
 
     fn scene(&self, plan: &Plan, number: u64) -> Result<DoaRecord, EvaluateError> {

@@ -4,7 +4,7 @@ use super::trial::{CLOSE_DEG, DEVIATIONS_DEG, DoaRecord, Plan, Tally};
 use super::{Axis, Condition, DoaExperiment, SNRS_DB, Setup, Targets, figures};
 use crate::EvaluateError;
 use crate::entrants::Network;
-use crate::table::table;
+use crate::table::{Best, Cell, Table, Tables};
 use serde::Serialize;
 
 /// The experiment's result.
@@ -153,24 +153,31 @@ impl DoaReport {
         counted.map_or(f64::NAN, |counted| counted[targets.count()])
     }
 
-    /// Rows of a table over the signal-to-noise ratio, of all `counters`.
-    fn counting(&self, share: impl Fn(usize, f64) -> f64) -> Vec<(&str, Vec<String>)> {
-        let cells = |k| SNRS_DB.map(|snr_db| percent(share(k, snr_db))).to_vec();
-        self.counters.iter().enumerate().map(|(k, name)| (name.as_str(), cells(k))).collect()
+    /// A table over the signal-to-noise ratio, of all `counters`.
+    fn counting(&self, title: String, share: impl Fn(usize, f64) -> f64) -> Table {
+        let cells = |k| SNRS_DB.map(|snr_db| Cell::percent(share(k, snr_db))).to_vec();
+        let rows = self.counters.iter().enumerate().map(|(k, name)| (name, cells(k)));
+        Table::new(title, Best::Largest, "rule", self.heads(), rows)
     }
 
-    /// Rows of a table over what changes, of the methods that have been run on such targets.
-    fn rows(
+    /// A table over what changes, of the methods that have been run on such targets.
+    fn table(
         &self,
+        title: String,
+        best: Best,
         targets: Targets,
         value: fn(&MethodResult) -> f64,
-        shown: impl Fn(Vec<f64>) -> Vec<String>,
-    ) -> Vec<(&str, Vec<String>)> {
+        cell: fn(f64) -> Cell,
+    ) -> Table {
         let rows = self.methods.iter().enumerate().map(|(k, name)| {
-            let values: Vec<f64> = self.over(targets, k, value).map(|(_, v)| v).collect();
-            (name.as_str(), shown(values))
+            (name, self.over(targets, k, value).map(|(_, v)| cell(v)).collect::<Vec<_>>())
         });
-        rows.filter(|(_, cells)| !cells.is_empty()).collect()
+        let rows = rows.filter(|(_, cells)| !cells.is_empty());
+        Table::new(title, best, "method", self.heads(), rows)
+    }
+
+    fn heads(&self) -> Vec<String> {
+        self.axis.values().map(|value| format!("{value} dB")).to_vec()
     }
 
     /// A method's figure against what changes.
@@ -184,10 +191,6 @@ impl DoaReport {
             Some((at, value(self.at(targets, at)?.methods.get(method)?.as_ref()?)))
         })
     }
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.1}", 100.0 * share)
 }
 
 fn share(count: u32, of: u32) -> f64 {
@@ -210,73 +213,75 @@ impl MethodResult {
 }
 
 impl crate::experiment::Report for DoaReport {
-    fn tables(&self) -> String {
-        let heads = self.axis.values().map(|value| format!("{value} dB"));
-        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let mut text = format!("{} trials a condition.\n", self.trials);
-        let percents = |shares: Vec<f64>| shares.into_iter().map(percent).collect();
+    fn tables(&self) -> Tables {
+        let remark = format!("{} trials a condition.\n", self.trials);
+        let success = |two: Targets, title: String| {
+            self.table(title, Best::Largest, two, |m| m.success, Cell::percent)
+        };
         if self.axis == Axis::PowerDifference {
-            for (two, which) in PAIRS {
-                text += &format!(
-                    "\nBoth angles of two targets {which} within 1 deg, %, by the second one's power over the first's, \
-                     which is {} dB.\n\n",
-                    SNRS_DB[SNRS_DB.len() - 1]
-                );
-                text += &table("method", &heads, &self.rows(two, |m| m.success, percents));
-            }
-            return text;
+            let of = |(two, which)| {
+                success(
+                    two,
+                    format!(
+                        "Both angles of two targets {which} within 1 deg, %, by the second one's power over the first's, \
+                         which is {} dB.",
+                        SNRS_DB[SNRS_DB.len() - 1]
+                    ),
+                )
+            };
+            return Tables { remark, tables: PAIRS.map(of).to_vec() };
         }
+        let mut tables = vec![];
         for (two, which) in PAIRS {
-            text += &format!(
-                "\nScenes counted rightly, %, a third each of 0, 1 and 2 targets, the two {which} (Figure 6).\n\n"
+            let title = format!(
+                "Scenes counted rightly, %, a third each of 0, 1 and 2 targets, the two {which} (Figure 6)."
             );
-            let rows = self.counting(|k, snr_db| self.counted_rightly(k, two, snr_db));
-            text += &table("rule", &heads, &rows);
+            tables.push(self.counting(title, |k, snr_db| self.counted_rightly(k, two, snr_db)));
         }
         for (targets, which) in CLASSES {
-            text += &format!("\nScenes with {which} counted rightly, %.\n\n");
-            let rows = self.counting(|k, snr_db| self.counted_as_it_is(k, targets, snr_db));
-            text += &table("rule", &heads, &rows);
+            let title = format!("Scenes with {which} counted rightly, %.");
+            tables
+                .push(self.counting(title, |k, snr_db| self.counted_as_it_is(k, targets, snr_db)));
         }
-        text += "\nRoot mean square error of one target's angle, deg (Figure 7).\n\n";
-        let digits = |errors: Vec<f64>| errors.iter().map(|e| format!("{e:.4}")).collect();
-        let mut rows = self.rows(Targets::One, |m| m.rmse_deg, digits);
+        let digits = |error| Cell::fixed(error, 4);
+        let title = "Root mean square error of one target's angle, deg (Figure 7).";
+        let mut errors =
+            self.table(title.into(), Best::Smallest, Targets::One, |m| m.rmse_deg, digits);
         for (k, name) in BOUNDS.into_iter().enumerate() {
-            rows.push((name, digits(self.bounds_deg.iter().map(|bounds| bounds[k]).collect())));
+            let cells = self.bounds_deg.iter().map(|bounds| digits(bounds[k]).reference());
+            errors.rows.push((name.into(), cells.collect()));
         }
-        text += &table("method", &heads, &rows);
-        text += "\nThe same of angles rounded to whole degrees, which all targets stand at.\n\n";
-        let rows = self.rows(Targets::One, |m| m.rounded_rmse_deg, digits);
-        text += &table("method", &heads, &rows);
+        tables.push(errors);
+        let title = "The same of angles rounded to whole degrees, which all targets stand at.";
+        let value = |m: &MethodResult| m.rounded_rmse_deg;
+        tables.push(self.table(title.into(), Best::Smallest, Targets::One, value, digits));
         for (two, which) in PAIRS {
-            text +=
-                &format!("\nBoth angles of two targets {which} within 1 deg, % (Figure 8).\n\n");
-            text += &table("method", &heads, &self.rows(two, |m| m.success, percents));
+            let title = format!("Both angles of two targets {which} within 1 deg, % (Figure 8).");
+            tables.push(success(two, title));
         }
         for (two, which) in PAIRS {
             for snr_db in [SNRS_DB[2], SNRS_DB[5]] {
                 let Some(condition) = self.at(two, snr_db) else { continue };
-                text += &format!(
-                    "\nBoth angles of two targets {which}, rounded to whole degrees, within 0, 2 and 4 deg at {snr_db} dB, \
-                     %, and the same of pairs closer than {CLOSE_DEG} deg (Figure 9).\n\n"
-                );
-                let all = DEVIATIONS_DEG.map(|deviation| format!("{deviation} deg"));
-                let close = DEVIATIONS_DEG.map(|deviation| format!("close, {deviation} deg"));
-                let heads: Vec<&str> = all.iter().chain(&close).map(String::as_str).collect();
-                let rows: Vec<(&str, Vec<String>)> = self
-                    .methods
-                    .iter()
-                    .zip(&condition.methods)
-                    .filter_map(|(name, m)| {
-                        let m = m.as_ref()?;
-                        let shares = m.within.iter().chain(&m.close_within);
-                        Some((name.as_str(), shares.map(|share| percent(*share)).collect()))
-                    })
-                    .collect();
-                text += &table("method", &heads, &rows);
+                let rows = self.methods.iter().zip(&condition.methods).filter_map(|(name, m)| {
+                    let m = m.as_ref()?;
+                    let shares = m.within.iter().chain(&m.close_within);
+                    Some((name, shares.map(|&share| Cell::percent(share)).collect()))
+                });
+                tables.push(Table::new(
+                    format!(
+                        "Both angles of two targets {which}, rounded to whole degrees, within 0, 2 and 4 deg at {snr_db} dB, \
+                         %, and the same of pairs closer than {CLOSE_DEG} deg (Figure 9)."
+                    ),
+                    Best::Largest,
+                    "method",
+                    ["", "close, "].iter().flat_map(|kind| {
+                        DEVIATIONS_DEG.map(|deviation| format!("{kind}{deviation} deg"))
+                    }),
+                    rows,
+                ));
             }
         }
-        text
+        Tables { remark, tables }
     }
 
     fn csv(&self) -> String {

@@ -2,7 +2,7 @@
 
 use super::{ImageRecord, ImagesExperiment, ImagesRecord};
 use crate::EvaluateError;
-use crate::table::table;
+use crate::table::{Best, Cell, Table, Tables};
 use boresight_core::describe::Named;
 use boresight_core::units::power_to_db;
 use boresight_image::PointMeasure;
@@ -139,23 +139,21 @@ const OF_POINTS: [Column<PointMeasure>; 8] = [
 
 /// A table of some records of each result.
 fn table_of<Record>(
+    title: &str,
     columns: &[Column<Record>],
     results: &[ImagesResult],
     record: fn(&ImageRecord) -> Option<&Record>,
-) -> String {
-    let heads: Vec<&str> = columns.iter().map(|(head, ..)| *head).collect();
-    let rows: Vec<(&str, Vec<String>)> = results
-        .iter()
-        .map(|result| {
-            let records: Vec<&Record> = result.images.iter().filter_map(record).collect();
-            let cells = columns.iter().map(|(_, shown, number)| {
-                let numbers: Vec<f64> = records.iter().map(|record| number(record)).collect();
-                shown.all(&numbers)
-            });
-            (&*result.name, cells.collect())
-        })
-        .collect();
-    table("method", &heads, &rows)
+) -> Table {
+    let row = |result: &ImagesResult| {
+        let records: Vec<&Record> = result.images.iter().filter_map(record).collect();
+        let cells = columns.iter().map(|(_, shown, number)| {
+            let numbers: Vec<f64> = records.iter().map(|record| number(record)).collect();
+            Cell::text(shown.all(&numbers))
+        });
+        (result.name.clone(), cells.collect())
+    };
+    let heads = columns.iter().map(|(head, ..)| head);
+    Table::new(title, Best::None, "method", heads, results.iter().map(row))
 }
 
 /// What tables of images show of a record.
@@ -164,21 +162,23 @@ fn whole(image: &ImageRecord) -> Option<&ImageRecord> {
 }
 
 impl crate::experiment::Report for ImagesReport {
-    fn tables(&self) -> String {
+    fn tables(&self) -> Tables {
         let last = self.seed.wrapping_add(self.streets - 1);
         let (least, most) = (self.cells.iter().min(), self.cells.iter().max());
         let cells = [least, most].map(|count| count.copied().unwrap_or_default());
-        format!(
+        let remark = format!(
             "Streets of seeds {} to {last}, one frame of all radars each, {} to {} detected cells a frame: mean (least \
-             to most).\n\nImages of spectra.\n\n{}\nImages of targets.\n\n{}\nPoints of the images of targets, a \
-             frame; at half: of the strongest points that find half of the targets.\n\n{}",
-            self.seed,
-            cells[0],
-            cells[1],
-            table_of(&OF_VIEWS, &self.spectra, whole),
-            table_of(&OF_VIEWS, &self.targets, whole),
-            table_of(&OF_POINTS, &self.targets, |image| image.points.as_ref()),
-        )
+             to most).\n",
+            self.seed, cells[0], cells[1],
+        );
+        let points = "Points of the images of targets, a frame; at half: of the strongest points that find half of the \
+                      targets.";
+        let tables = vec![
+            table_of("Images of spectra.", &OF_VIEWS, &self.spectra, whole),
+            table_of("Images of targets.", &OF_VIEWS, &self.targets, whole),
+            table_of(points, &OF_POINTS, &self.targets, |image| image.points.as_ref()),
+        ];
+        Tables { remark, tables }
     }
 
     fn csv(&self) -> String {

@@ -98,7 +98,7 @@ pub struct ImperfectionsExperiment {
 
 impl ImperfectionsExperiment {
     fn split(&self) -> Trials {
-        Trials { each: self.trials, chunk: CHUNK }
+        Trials::new(self.trials, CHUNK)
     }
 }
 
@@ -125,6 +125,7 @@ impl Experiment for ImperfectionsExperiment {
                     entrants: self.entrants.clone(),
                     imperfections: setting
                         .map_or(ImperfectionSpread::default(), |(kind, s)| kind.spread(s)),
+                    ..aoa::AoaExperiment::default()
                 })
             })
             .collect()
@@ -146,11 +147,19 @@ impl Experiment for ImperfectionsExperiment {
         self.split().scenes(settings().len() * NUMBERS.len())
     }
 
+    fn repeats(&self) -> u64 {
+        self.trials
+    }
+
     /// The condition of a record counts settings, then numbers of targets.
     fn scene(&self, plan: &Self::Plan, number: u64) -> Result<cell::AoaRecord, EvaluateError> {
         let (index, first, trials) = self.split().of(number);
         let condition = Condition { targets: NUMBERS[index % NUMBERS.len()], snr_db: self.snr_db };
-        let there = Condition::all().iter().position(|c| *c == condition).unwrap_or(0);
+        let there = aoa::AoaExperiment::default()
+            .conditions()
+            .iter()
+            .position(|c| *c == condition)
+            .unwrap_or(0);
         let record = plan[index / NUMBERS.len()].run(there, condition, [first, trials], None)?;
         Ok(cell::AoaRecord { condition: index, ..record })
     }

@@ -6,7 +6,7 @@ use crate::aoa::Score;
 use crate::aoa::cell::AoaRecord;
 use crate::plot::{Axes, Panel, Series, draw};
 use crate::statistics::Summary;
-use crate::table::table;
+use crate::table::{Best, Cell, Table, Tables};
 use serde::Serialize;
 
 /// Share of its F1 without errors that a method must keep to survive.
@@ -151,65 +151,59 @@ impl ImperfectionsReport {
 }
 
 impl crate::experiment::Report for ImperfectionsReport {
-    fn tables(&self) -> String {
-        let mut text = format!(
+    fn tables(&self) -> Tables {
+        let remark = format!(
             "Array {}, {} dB, {} snapshots a condition; means over {NUMBERS:?} targets.\n",
             self.array, self.snr_db, self.trials
         );
-        text += &format!(
-            "\nGreatest error with which a method keeps {:.0} % of the F1 it has without errors.\n\n",
-            100.0 * SURVIVES
+        let rows = self.methods.iter().enumerate().map(|(k, name)| {
+            let mut cells = vec![Cell::fixed(self.settings[0].methods[k].f1, 3)];
+            for tolerance in &self.tolerances {
+                let (strength, all) = tolerance.methods[k];
+                let digits = if tolerance.kind == Kind::Position { 3 } else { 1 };
+                let shown = format!("{strength:.digits$}");
+                cells.push(Cell::text(match (all, strength.is_finite()) {
+                    (true, _) => format!("{shown} and more"),
+                    (_, true) => shown,
+                    _ => format!("less than {}", tolerance.kind.strengths()[0]),
+                }));
+            }
+            (name, cells)
+        });
+        let greatest = Table::new(
+            format!(
+                "Greatest error with which a method keeps {:.0} % of the F1 it has without errors.",
+                100.0 * SURVIVES
+            ),
+            Best::Largest,
+            "method",
+            ["F1 without errors"].into_iter().chain(Kind::ALL.map(Kind::label)),
+            rows,
         );
-        let heads = ["F1 without errors"].into_iter().chain(Kind::ALL.map(Kind::label));
-        let heads: Vec<&str> = heads.collect();
-        let rows: Vec<(&str, Vec<String>)> = self
-            .methods
-            .iter()
-            .enumerate()
-            .map(|(k, name)| {
-                let mut cells = vec![format!("{:.3}", self.settings[0].methods[k].f1)];
-                for tolerance in &self.tolerances {
-                    let (strength, all) = tolerance.methods[k];
-                    let digits = if tolerance.kind == Kind::Position { 3 } else { 1 };
-                    let shown = format!("{strength:.digits$}");
-                    cells.push(match (all, strength.is_finite()) {
-                        (true, _) => format!("{shown} and more"),
-                        (_, true) => shown,
-                        _ => format!("less than {}", tolerance.kind.strengths()[0]),
-                    });
-                }
-                (name.as_str(), cells)
-            })
-            .collect();
-        text += &table("method", &heads, &rows);
+        let mut tables = vec![greatest];
         type Value = fn(&MethodResult) -> f64;
-        let kinds: [(&str, usize, Value); 2] = [
-            ("Largest F1", 3, |m| m.f1),
-            ("Mean error of angle at the largest F1, deg", 3, |m| m.angle_error_deg),
+        let kinds: [(&str, Best, Value); 2] = [
+            ("Largest F1", Best::Largest, |m| m.f1),
+            ("Mean error of angle at the largest F1, deg", Best::Smallest, |m| m.angle_error_deg),
         ];
-        for (title, digits, value) in kinds {
+        for (title, best, value) in kinds {
             for kind in Kind::ALL {
-                text += &format!("\n{title}, by {}.\n\n", kind.label());
                 let columns: Vec<_> = self.of_kind(kind).collect();
-                let heads: Vec<String> = columns
-                    .iter()
-                    .map(|(strength, _)| strength.map_or("none".into(), |s| s.to_string()))
-                    .collect();
-                let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-                let rows: Vec<(&str, Vec<String>)> = self
-                    .methods
-                    .iter()
-                    .enumerate()
-                    .map(|(k, name)| {
-                        let cells =
-                            columns.iter().map(|(_, m)| format!("{:.digits$}", value(&m[k])));
-                        (name.as_str(), cells.collect())
-                    })
-                    .collect();
-                text += &table("method", &heads, &rows);
+                tables.push(Table::new(
+                    format!("{title}, by {}.", kind.label()),
+                    best,
+                    "method",
+                    columns
+                        .iter()
+                        .map(|(strength, _)| strength.map_or("none".into(), |s| s.to_string())),
+                    self.methods.iter().enumerate().map(|(k, name)| {
+                        let cells = columns.iter().map(|(_, m)| Cell::fixed(value(&m[k]), 3));
+                        (name, cells.collect())
+                    }),
+                ));
             }
         }
-        text
+        Tables { remark, tables }
     }
 
     fn csv(&self) -> String {

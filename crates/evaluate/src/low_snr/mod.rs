@@ -52,7 +52,7 @@ fn conditions() -> Vec<(usize, f64)> {
 
 impl LowSnrExperiment {
     fn split(&self) -> Trials {
-        Trials { each: self.trials, chunk: CHUNK }
+        Trials::new(self.trials, CHUNK)
     }
 }
 
@@ -81,6 +81,10 @@ impl Experiment for LowSnrExperiment {
 
     fn scenes(&self) -> u64 {
         self.split().scenes(conditions().len())
+    }
+
+    fn repeats(&self) -> u64 {
+        self.trials
     }
 
     fn scene(&self, plan: &Plan, number: u64) -> Result<LowSnrRecord, EvaluateError> {

@@ -4,7 +4,7 @@ use super::trial::{Found, LowSnrRecord};
 use super::{LowSnrExperiment, SNAPSHOTS, SNRS_DB, conditions};
 use crate::EvaluateError;
 use crate::entrants::Network;
-use crate::table::{short, table};
+use crate::table::{Best, Cell, Table, Tables};
 use serde::Serialize;
 
 /// The experiment's result.
@@ -88,36 +88,37 @@ impl LowSnrReport {
     }
 
     /// A table of one number of snapshots.
-    fn table_of(&self, snapshots: usize, shown: impl Fn(MethodResult) -> Option<String>) -> String {
-        let heads = SNRS_DB.map(|snr_db| format!("{snr_db} dB"));
-        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let row = |(k, name): (usize, &'_ String)| {
+    fn table(
+        &self,
+        title: String,
+        best: Best,
+        snapshots: usize,
+        shown: impl Fn(MethodResult) -> Option<Cell>,
+    ) -> Table {
+        let row = |(k, name)| {
             let of = self.conditions.iter().filter(|condition| condition.snapshots == snapshots);
             let cell = |c: &ConditionResult| c.methods.get(k).and_then(|&method| shown(method));
-            let cells = of.map(|c| cell(c).unwrap_or_else(|| "-".into())).collect();
-            (name.clone(), cells)
+            (name, of.map(|c| cell(c).unwrap_or(Cell::text("-"))).collect())
         };
-        let rows: Vec<(String, Vec<String>)> = self.methods.iter().enumerate().map(row).collect();
-        let rows: Vec<_> = rows.iter().map(|(name, cells)| (&**name, cells.clone())).collect();
-        table("method", &heads, &rows)
+        let heads = SNRS_DB.map(|snr_db| format!("{snr_db} dB"));
+        Table::new(title, best, "method", heads, self.methods.iter().enumerate().map(row))
     }
 }
 
 impl crate::experiment::Report for LowSnrReport {
-    fn tables(&self) -> String {
-        let mut text = format!("Array {}, {} trials a condition.\n", self.array, self.trials);
-        for snapshots in SNAPSHOTS {
-            let share = |m: MethodResult| Some(format!("{:.1}", 100.0 * m.found));
-            text += &format!("\nBoth sources within 2 deg, %, {snapshots} snapshots\n\n");
-            text += &self.table_of(snapshots, share);
-        }
-        for snapshots in SNAPSHOTS {
-            text += &format!(
-                "\nError over the Cramer-Rao bound where both were found, {snapshots} snapshots\n\n"
+    fn tables(&self) -> Tables {
+        let remark = format!("Array {}, {} trials a condition.\n", self.array, self.trials);
+        let found = SNAPSHOTS.map(|snapshots| {
+            let title = format!("Both sources within 2 deg, %, {snapshots} snapshots");
+            self.table(title, Best::Largest, snapshots, |m| Some(Cell::percent(m.found)))
+        });
+        let errors = SNAPSHOTS.map(|snapshots| {
+            let title = format!(
+                "Error over the Cramer-Rao bound where both were found, {snapshots} snapshots"
             );
-            text += &self.table_of(snapshots, |m| m.over_bound.map(short));
-        }
-        text
+            self.table(title, Best::None, snapshots, |m| m.over_bound.map(Cell::short))
+        });
+        Tables { remark, tables: found.into_iter().chain(errors).collect() }
     }
 
     fn csv(&self) -> String {

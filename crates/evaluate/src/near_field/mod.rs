@@ -60,7 +60,7 @@ pub fn default_methods() -> Vec<String> {
 
 impl NearFieldExperiment {
     fn split(&self) -> Trials {
-        Trials { each: self.trials, chunk: CHUNK }
+        Trials::new(self.trials, CHUNK)
     }
 }
 
@@ -90,6 +90,10 @@ impl Experiment for NearFieldExperiment {
 
     fn scenes(&self) -> u64 {
         self.split().scenes(POWERS_DB.len() * RANGES.len())
+    }
+
+    fn repeats(&self) -> u64 {
+        self.trials
     }
 
     /// Conditions count numbers of targets, then ranges.

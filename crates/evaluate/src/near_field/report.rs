@@ -5,7 +5,7 @@ use super::{NearFieldExperiment, POWERS_DB, RANGES};
 use crate::EvaluateError;
 use crate::deviation::Deviation;
 use crate::plot::{Axes, Panel, Series, draw};
-use crate::table::{short, table};
+use crate::table::{Best, Cell, Table, Tables, short};
 use serde::Serialize;
 
 /// Error of azimuth within which a method counts as right, deg.
@@ -127,13 +127,13 @@ fn right_from(conditions: &[ConditionResult], method: usize) -> Option<f64> {
 }
 
 /// What is shown of a method, with its name and whether its ordinate is logarithmic.
-type Shown = (&'static str, Axes, fn(&MethodResult) -> f64);
+type Shown = (&'static str, Axes, Best, fn(&MethodResult) -> f64);
 
 const SHOWN: [Shown; 4] = [
-    ("rms error of azimuth / deg", Axes::Logarithmic, |m| m.error_deg),
-    ("share of targets found", Axes::LogAbscissa, |m| m.found),
-    ("false targets a snapshot", Axes::LogAbscissa, |m| m.false_targets),
-    ("mean loss of estimated power / dB", Axes::LogAbscissa, |m| m.power_loss_db),
+    ("rms error of azimuth / deg", Axes::Logarithmic, Best::None, |m| m.error_deg),
+    ("share of targets found", Axes::LogAbscissa, Best::Largest, |m| m.found),
+    ("false targets a snapshot", Axes::LogAbscissa, Best::Smallest, |m| m.false_targets),
+    ("mean loss of estimated power / dB", Axes::LogAbscissa, Best::None, |m| m.power_loss_db),
 ];
 
 /// A number of targets in words.
@@ -142,56 +142,50 @@ fn counted(targets: usize) -> String {
 }
 
 impl crate::experiment::Report for NearFieldReport {
-    fn tables(&self) -> String {
-        let mut text = format!(
+    fn tables(&self) -> Tables {
+        let remark = format!(
             "Array {}, Fraunhofer distance {:.2} m, {} dB, {} snapshots a condition. Estimates count down to \
              {DYNAMIC_RANGE_DB} dB below the strongest.\n",
             self.array, self.fraunhofer_m, self.snr_db, self.trials
         );
-        text += &format!(
-            "\nRange in Fraunhofer distances (m) from which on the rms error is at most {RIGHT_DEG} deg and {:.0} % of \
-             targets are found.\n\n",
-            100.0 * RIGHT_SHARE
-        );
-        let heads: Vec<String> = POWERS_DB.iter().map(|powers| counted(powers.len())).collect();
-        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let range = |range: Option<f64>| {
-            range.map_or("-".into(), |r| format!("{r} ({})", short(r * self.fraunhofer_m)))
+        let range = |range: &Option<f64>| {
+            Cell::text(
+                range.map_or("-".into(), |r| format!("{r} ({})", short(r * self.fraunhofer_m))),
+            )
         };
-        let rows: Vec<(&str, Vec<String>)> = self
-            .methods
-            .iter()
-            .enumerate()
-            .map(|(k, name)| {
-                let cells = self.right_from.iter().map(|of_number| range(of_number[k]));
-                (name.as_str(), cells.collect())
-            })
-            .collect();
-        text += &table("method", &heads, &rows);
+        let right_from = Table::new(
+            format!(
+                "Range in Fraunhofer distances (m) from which on the rms error is at most {RIGHT_DEG} deg and {:.0} % of \
+                 targets are found.",
+                100.0 * RIGHT_SHARE
+            ),
+            Best::None,
+            "method",
+            POWERS_DB.map(|powers| counted(powers.len())),
+            self.methods.iter().enumerate().map(|(k, name)| {
+                (name, self.right_from.iter().map(|of_number| range(&of_number[k])).collect())
+            }),
+        );
+        let mut tables = vec![right_from];
         for (number, powers) in POWERS_DB.iter().enumerate() {
             let conditions = self.of_number(number);
-            for (label, _, value) in SHOWN {
-                text += &format!(
-                    "\n{}: {label}, by range over the Fraunhofer distance.\n\n",
-                    counted(powers.len())
-                );
-                let heads = conditions.iter().map(|c| c.range);
-                let heads: Vec<String> =
-                    heads.map(|r| r.map_or("plane".into(), |r| r.to_string())).collect();
-                let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-                let rows: Vec<(&str, Vec<String>)> = self
-                    .methods
-                    .iter()
-                    .enumerate()
-                    .map(|(k, name)| {
-                        let cells = conditions.iter().map(|c| short(value(&c.methods[k])));
-                        (name.as_str(), cells.collect())
-                    })
-                    .collect();
-                text += &table("method", &heads, &rows);
+            for (label, best, value) in SHOWN.map(|(label, _, best, value)| (label, best, value)) {
+                tables.push(Table::new(
+                    format!(
+                        "{}: {label}, by range over the Fraunhofer distance.",
+                        counted(powers.len())
+                    ),
+                    best,
+                    "method",
+                    conditions.iter().map(|c| c.range.map_or("plane".into(), |r| r.to_string())),
+                    self.methods.iter().enumerate().map(|(k, name)| {
+                        let cells = conditions.iter().map(|c| Cell::short(value(&c.methods[k])));
+                        (name, cells.collect())
+                    }),
+                ));
             }
         }
-        text
+        Tables { remark, tables }
     }
 
     fn csv(&self) -> String {
@@ -218,7 +212,7 @@ impl crate::experiment::Report for NearFieldReport {
 
     fn figures(&self) -> Result<Vec<String>, EvaluateError> {
         let mut panels = vec![];
-        for (label, axes, value) in SHOWN {
+        for (label, axes, _, value) in SHOWN {
             for (number, powers) in POWERS_DB.iter().enumerate() {
                 let line = |(k, name): (usize, &String)| {
                     let point = |c: &ConditionResult| {

@@ -41,7 +41,7 @@ pub struct ResolutionExperiment {
 
 impl ResolutionExperiment {
     fn split(&self) -> Trials {
-        Trials { each: self.trials, chunk: CHUNK }
+        Trials::new(self.trials, CHUNK)
     }
 
     /// Numbers of conditions: snapshots, signal-to-noise ratios, separations.
@@ -87,6 +87,10 @@ impl Experiment for ResolutionExperiment {
 
     fn scenes(&self) -> u64 {
         self.split().scenes(self.conditions().count())
+    }
+
+    fn repeats(&self) -> u64 {
+        self.trials
     }
 
     fn scene(&self, plan: &Plan, number: u64) -> Result<ResolutionRecord, EvaluateError> {

@@ -4,7 +4,7 @@ use super::limit::{resolution_limit, separation_sigma};
 use super::trial::{Plan, ResolutionRecord};
 use super::{ResolutionExperiment, SEPARATIONS, SNRS_DB, figures};
 use crate::EvaluateError;
-use crate::table::table;
+use crate::table::{Best, Cell, Table, Tables};
 use serde::Serialize;
 
 /// The experiment's result.
@@ -139,35 +139,36 @@ fn crossing(shares: &[f64]) -> Option<f64> {
 }
 
 impl crate::experiment::Report for ResolutionReport {
-    fn tables(&self) -> String {
-        let mut text = format!(
+    fn tables(&self) -> Tables {
+        let remark = format!(
             "Array {}, beam of {:.2} deg at half power on boresight, {} trials a condition.\n",
             self.array, self.beam_deg, self.trials
         );
-        for group in self.conditions.chunk_by(|a, b| a.snapshots == b.snapshots) {
-            let Some(first) = group.first() else { continue };
-            text += &format!(
-                "\nSeparation from which on half of the trials are resolved, beam widths (deg), {}.\n\n",
-                counted(first.snapshots)
+        let beams = |beams: Option<f64>| {
+            beams.map_or(Cell::text("-"), |b| {
+                Cell::shown(b, format!("{b:.2} ({:.2})", b * self.beam_deg))
+            })
+        };
+        let of_group = |group: &[ConditionResult]| {
+            let first = group.first()?;
+            let mut table = Table::new(
+                format!(
+                    "Separation from which on half of the trials are resolved, beam widths (deg), {}.",
+                    counted(first.snapshots)
+                ),
+                Best::Smallest,
+                "method",
+                group.iter().map(|c| format!("{} dB", c.snr_db)),
+                first.methods.iter().enumerate().map(|(k, m)| {
+                    (&m.name, group.iter().map(|c| beams(c.methods[k].half)).collect())
+                }),
             );
-            let heads: Vec<String> = group.iter().map(|c| format!("{} dB", c.snr_db)).collect();
-            let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-            let beams = |beams: Option<f64>| {
-                beams.map_or("-".into(), |b| format!("{b:.2} ({:.2})", b * self.beam_deg))
-            };
-            let mut rows: Vec<(&str, Vec<String>)> = first
-                .methods
-                .iter()
-                .enumerate()
-                .map(|(k, m)| {
-                    (m.name.as_str(), group.iter().map(|c| beams(c.methods[k].half)).collect())
-                })
-                .collect();
-            let limits = group.iter().map(|c| beams(c.limit)).collect();
-            rows.push(("limit (Smith 2005)", limits));
-            text += &table("method", &heads, &rows);
-        }
-        text
+            let limits = group.iter().map(|c| beams(c.limit).reference()).collect();
+            table.rows.push(("limit (Smith 2005)".into(), limits));
+            Some(table)
+        };
+        let groups = self.conditions.chunk_by(|a, b| a.snapshots == b.snapshots);
+        Tables { remark, tables: groups.filter_map(of_group).collect() }
     }
 
     fn csv(&self) -> String {

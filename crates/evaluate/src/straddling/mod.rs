@@ -65,7 +65,7 @@ pub fn default_methods() -> Vec<String> {
 
 impl StraddlingExperiment {
     fn split(&self) -> Trials {
-        Trials { each: self.trials, chunk: CHUNK }
+        Trials::new(self.trials, CHUNK)
     }
 }
 
@@ -94,6 +94,10 @@ impl Experiment for StraddlingExperiment {
 
     fn scenes(&self) -> u64 {
         self.split().scenes(CONDITIONS.len())
+    }
+
+    fn repeats(&self) -> u64 {
+        self.trials
     }
 
     fn scene(&self, plan: &Plan, number: u64) -> Result<StraddlingRecord, EvaluateError> {

@@ -5,7 +5,7 @@ use super::trial::{Plan, StraddlingRecord, VariantRecord};
 use super::{CONDITIONS, Condition, GRIDS, StraddlingExperiment, figures};
 use crate::EvaluateError;
 use crate::apart::half_beam;
-use crate::table::{short, table};
+use crate::table::{Best, Cell, Table, Tables, short};
 use boresight_aoa::Method;
 use serde::Serialize;
 
@@ -131,67 +131,79 @@ impl StraddlingReport {
     }
 
     /// A table of one number of each method on each grid.
-    fn table(&self, condition: &ConditionResult, value: impl Fn(&GridResult) -> String) -> String {
-        let heads: Vec<String> =
-            ["any".to_owned()].into_iter().chain(GRIDS.map(|grid| grid.to_string())).collect();
-        let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
-        let row = |method: &MethodResult| -> Vec<String> {
+    fn table(
+        &self,
+        title: String,
+        best: Best,
+        condition: &ConditionResult,
+        value: impl Fn(&GridResult) -> Cell,
+    ) -> Table {
+        let row = |method: &MethodResult| {
             let of = |grid: Option<usize>| {
                 let found = method.results.iter().find(|result| result.grid == grid);
-                found.map_or(String::new(), &value)
+                found.map_or(Cell::text(""), &value)
             };
             [None].into_iter().chain(GRIDS.map(Some)).map(of).collect()
         };
-        let rows: Vec<(&str, Vec<String>)> =
-            condition.methods.iter().map(|m| (m.name.as_str(), row(m))).collect();
-        table("points of the grid", &heads, &rows)
+        Table::new(
+            title,
+            best,
+            "points of the grid",
+            ["any".to_owned()].into_iter().chain(GRIDS.map(|grid| grid.to_string())),
+            condition.methods.iter().map(|m| (&m.name, row(m))),
+        )
     }
 }
 
 impl crate::experiment::Report for StraddlingReport {
-    fn tables(&self) -> String {
-        let mut text = format!(
-            "Array {}, {} snapshots a condition. Without a grid: under \"any\".\n",
-            self.array, self.trials
-        );
+    fn tables(&self) -> Tables {
         let per: Vec<String> = self.points_a_beam.iter().map(|x| format!("{x:.1}")).collect();
-        text += &format!(
-            "\nPoints of the grids on the main beam, between its first zeros: {}.\n",
+        let remark = format!(
+            "Array {}, {} snapshots a condition. Without a grid: under \"any\".\n\nPoints of the grids on the main beam, \
+             between its first zeros: {}.\n",
+            self.array,
+            self.trials,
             per.join(", ")
         );
-        let both = |[mean, most]: [f64; 2]| format!("{} ({})", short(mean), short(most));
+        let both = |[mean, most]: [f64; 2]| {
+            Cell::shown(mean, format!("{} ({})", short(mean), short(most)))
+        };
+        let mut tables = vec![];
         for condition in &self.conditions {
             let Condition { snr_db, weak_db } = condition.condition;
             if let Some(weak_db) = weak_db {
-                text += &format!(
-                    "\nShare of targets of {weak_db} dB found beside one of 0 dB, at {snr_db} dB.\n\n"
+                let title = format!(
+                    "Share of targets of {weak_db} dB found beside one of 0 dB, at {snr_db} dB."
                 );
-                text += &self.table(condition, |r| format!("{:.3}", r.found));
+                let found = |r: &GridResult| Cell::fixed(r.found, 3);
+                tables.push(self.table(title, Best::Largest, condition, found));
                 continue;
             }
-            text += &format!(
-                "\nStraddling loss, dB, in the mean (at most), one target at {snr_db} dB.\n\n"
+            let title =
+                format!("Straddling loss, dB, in the mean (at most), one target at {snr_db} dB.");
+            tables.push(self.table(title, Best::None, condition, |r| both(r.straddling_db)));
+            let title = format!(
+                "Loss of the estimated power, dB, in the mean (at most), one target at {snr_db} dB."
             );
-            text += &self.table(condition, |r| both(r.straddling_db));
-            text += &format!(
-                "\nLoss of the estimated power, dB, in the mean (at most), one target at {snr_db} dB.\n\n"
-            );
-            text += &self.table(condition, |r| both(r.power_loss_db));
-            text += &format!(
-                "\nError of azimuth, deg, root mean square (largest), one target at {snr_db} dB; at the bound {}.\n\n",
+            tables.push(self.table(title, Best::None, condition, |r| both(r.power_loss_db)));
+            let title = format!(
+                "Error of azimuth, deg, root mean square (largest), one target at {snr_db} dB; at the bound {}.",
                 short(condition.bound_deg)
             );
-            text += &self.table(condition, |r| both(r.error_deg));
+            tables.push(self.table(title, Best::Smallest, condition, |r| both(r.error_deg)));
         }
         if let Some(first) = self.conditions.first() {
-            text += "\nOperations a snapshot by formula, millions.\n\n";
-            let millions = |x: f64| short(1e-6 * x);
-            text += &self.table(first, |r| r.operations.map_or("-".into(), millions));
-            let dense: Vec<String> =
-                self.iaa_dense_operations.iter().map(|&x| millions(x)).collect();
-            text += &format!("| iaa, dense form |  | {} |\n", dense.join(" | "));
+            let millions = |x: f64| Cell::text(short(1e-6 * x));
+            let title = "Operations a snapshot by formula, millions.".to_owned();
+            let mut table = self.table(title, Best::None, first, |r| {
+                r.operations.map_or(Cell::text("-"), millions)
+            });
+            let dense = self.iaa_dense_operations.iter().map(|&x| millions(x));
+            let cells = [Cell::text("")].into_iter().chain(dense).collect();
+            table.rows.push(("iaa, dense form".into(), cells));
+            tables.push(table);
         }
-        text
+        Tables { remark, tables }
     }
 
     fn csv(&self) -> String {

@@ -5,7 +5,7 @@ use super::{CONDITIONS, GRIDS, StraddlingExperiment};
 use crate::EvaluateError;
 use crate::aoa::finder::Finder;
 use crate::aoa::times::time_of;
-use crate::table::table;
+use crate::table::markdown;
 use boresight_aoa::options::{IaaForm, IaaOptions, Thresholding};
 use boresight_aoa::refinement::Refinement;
 use boresight_aoa::{EstimatorOptions, Method};
@@ -83,5 +83,5 @@ fn shown(title: &str, rows: &[(String, Vec<f64>)], scale: f64, digits: usize) ->
     };
     let rows: Vec<(&str, Vec<String>)> =
         rows.iter().map(|(name, times)| (name.as_str(), cells(times))).collect();
-    format!("{title}\n\n{}", table("method", &heads, &rows))
+    format!("{title}\n\n{}", markdown("method", &heads, &rows))
 }
