@@ -80,7 +80,7 @@ fn allocations_of_the_others_are_known() {
         (Method::RootMusic, 100),
         (Method::Esprit, 125),
         (Method::MinNorm, 105),
-        (Method::Nomp, 320),
+        (Method::Nomp, 660),
         (Method::AtomicNorm, 4000),
         (Method::MaximumLikelihood, 750),
         (Method::SparseBayesian, 40000),

@@ -124,7 +124,8 @@ fn parts_that_do_not_go_together_are_refused() {
     let copy = c.join("copy.jsonl");
     std::fs::write(&copy, &text).unwrap();
     merge(&[a.clone(), c.clone()]).unwrap();
-    std::fs::write(&copy, text.replacen("\"score\":{\"targets\":", "\"score\":{\"targets\":1", 1)).unwrap();
+    std::fs::write(&copy, text.replacen("\"score\":{\"targets\":", "\"score\":{\"targets\":1", 1))
+        .unwrap();
     let conflict = merge(&[a.clone(), c.clone()]);
     assert!(matches!(conflict, Err(EvaluateError::Conflict { .. })), "{conflict:?}");
     std::fs::remove_file(copy).unwrap();

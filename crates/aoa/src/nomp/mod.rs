@@ -12,8 +12,10 @@
 //! with what a share of noise of unknown power can be with the residual's degrees of freedom,
 //! `N (K - D) - D/2` for `N` snapshots, `K` elements and `D` sources so far (`D` in place of `D/2`
 //! with elevation). Sources not yet found are in that residual, too, and may hide each other: ten of
-//! equal power hold a tenth of it each. So a beam that fails the test is still taken off as long as
-//! the beams after it could pass, and counts as a source once one of them has passed.
+//! equal power hold a tenth of it each. So a beam that fails the test is still taken off while a plain
+//! pursuit ahead ([`look_ahead`]) finds a beam that passes, or while one of the next [`AHEAD`] could. It
+//! becomes a source once a later beam passes, or once the joint fit with it explains more of the residual
+//! than noise: beams that interfere are weaker than what their sources explain together.
 //!
 //! An array that is off its plan leaves a part of every source in the residual, which would be taken for further sources.
 //! With [`EstimatorOptions::mismatch_db`] a beam has to exceed noise by what such an error seldom gains.
@@ -44,6 +46,10 @@ use std::f64::consts::FRAC_PI_2;
 const MAX_POINTS: usize = 1 << 14;
 const MAX_ELEVATIONS: usize = 1 << 7;
 
+/// Sources beyond the last certain one that are fitted without one that a plain pursuit ahead finds.
+const AHEAD: usize = 4;
+/// Share of the false-alarm probability that the tests of joint fits with these have together.
+const AHEAD_SHARE: f64 = 0.1;
 /// Share of the power below which the residual is nothing but rounding.
 const EXHAUSTED: f64 = 1e-24;
 
@@ -57,6 +63,8 @@ pub(crate) struct Nomp {
     /// Number of snapshots and the threshold in noise powers that holds for it.
     level: Option<(usize, f64)>,
     shares: Shares,
+    /// The same for joint fits with sources that did not pass.
+    shares_ahead: Shares,
     /// What an error of the array adds to the strongest beam with the false-alarm probability, over the power that the
     /// sources explain.
     mismatch: f64,
@@ -114,6 +122,11 @@ impl Nomp {
         Ok(Self {
             array: array.clone(),
             shares: Shares::new(volumes, &geometry, options.nomp.false_alarm),
+            shares_ahead: Shares::new(
+                volumes,
+                &geometry,
+                AHEAD_SHARE * options.nomp.false_alarm / AHEAD as f64,
+            ),
             mismatch: match options.mismatch_db {
                 Some(_) => {
                     let level = volumes.level(options.nomp.false_alarm, 1);
@@ -209,16 +222,24 @@ impl Nomp {
         if noise_power.is_some() || self.is_mismatch(gain, left, total) {
             return Verdict::Noise;
         }
-        let share = gain / left;
-        // Beams hardly grow as sources are taken off, so that `more` of them leave at least this.
-        for more in 1..self.options.max_sources.saturating_sub(found) {
+        let most = self.options.max_sources.saturating_sub(found);
+        match self.may_hide(gain / left, found, snapshots, most) {
+            true => Verdict::Hidden,
+            false => Verdict::Noise,
+        }
+    }
+
+    /// Whether a beam that holds `share` of the residual after `found` sources, or one of the next beams, up to `most` in
+    /// all, could be a source: beams hardly grow as sources are taken off.
+    fn may_hide(&mut self, share: f64, found: usize, snapshots: usize, most: usize) -> bool {
+        for more in 0..most {
             let left = 1.0 - more as f64 * share;
-            let Some(least) = self.shares.after(found + more, snapshots) else { break };
+            let Some(least) = self.shares.after(found + more, snapshots) else { return false };
             if left <= 0.0 || share > least * left {
-                return Verdict::Hidden;
+                return true;
             }
         }
-        Verdict::Noise
+        false
     }
 
     /// Whether noise and the array's error seldom gain that much of an energy `left` of `total`, summed over elements and
@@ -319,9 +340,15 @@ impl Nomp {
                 return (sure, true);
             }
             let (point, power) = self.strongest(&fitted.residual, 1.0);
-            let verdict = self.stands_out(power, &fitted.residual, total, found, noise_power);
+            let mut verdict = self.stands_out(power, &fitted.residual, total, found, noise_power);
+            let left = energy(&fitted.residual);
             if verdict == Verdict::Hidden && found >= expected {
                 expected = self.look_ahead(&fitted, total);
+                let share = power / y.nrows() as f64 / left;
+                let most = (sure.points.len() + AHEAD).saturating_sub(found);
+                if expected == 0 && self.may_hide(share, found, y.ncols(), most) {
+                    expected = found + 1;
+                }
             }
             if verdict == Verdict::Noise || (verdict == Verdict::Hidden && found >= expected) {
                 return (sure, true);
@@ -343,8 +370,17 @@ impl Nomp {
             }
             // Two sources that have run into each other are one.
             match self.fit(y, next.points) {
-                Some(next) if energy(&next.residual) < energy(&fitted.residual) => fitted = next,
+                Some(next) if energy(&next.residual) < left => fitted = next,
                 _ => return (sure, true),
+            }
+            if verdict == Verdict::Hidden {
+                let gain = left - energy(&fitted.residual);
+                let least = self.shares_ahead.after(found, y.ncols());
+                if least.is_some_and(|least| gain > least * left)
+                    && !self.is_mismatch(gain, left, total)
+                {
+                    verdict = Verdict::Source;
+                }
             }
             if verdict == Verdict::Source {
                 sure = fitted.clone();

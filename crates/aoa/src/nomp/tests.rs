@@ -102,6 +102,35 @@ fn sources_that_hide_each_other_are_found() {
     assert!(right >= 55, "{right} of {trials}");
 }
 
+/// The beams of three sources interfere on few elements: none of them passes, their joint fit does.
+#[test]
+fn few_elements_resolve_three_equal_sources() {
+    let array = preset("ula8").unwrap();
+    let mut plan = Nomp::new(&array, &EstimatorOptions::default()).unwrap();
+    let (mut right, trials) = (0, 400);
+    for trial in 0..trials {
+        let mut random = Random::new(74, trial);
+        let sines = loop {
+            let sines = [(); 3].map(|()| random.uniform(-0.82, 0.82));
+            let apart = |a: usize, b: usize| (sines[a] - sines[b]).abs() > 0.3;
+            if apart(0, 1) && apart(0, 2) && apart(1, 2) {
+                break sines;
+            }
+        };
+        let at = sines.map(|sine| Direction::azimuth(sine.asin()));
+        let s = Array2::from_shape_fn((3, 1), |_| cis(random.phase()));
+        let y = steering_matrix(&array, &at).dot(&s) + noise(8, 1, 1e-3, &mut random);
+        let sources = plan.estimate(Data::Snapshots(y.view())).unwrap().sources;
+        let near = |sine: f64| {
+            let error = |s: &crate::Source| (s.direction.azimuth_rad.sin() - sine).abs();
+            sources.iter().any(|source| error(source) < 0.12)
+        };
+        right += usize::from(sources.len() == 3 && sines.into_iter().all(near));
+    }
+    // 98.5 % of other scenes; the standard deviation of 400 is 0.6 %.
+    assert!(right >= 386, "{right} of {trials}");
+}
+
 #[test]
 fn silence_limits_and_wrong_data() {
     let array = preset("ula8").unwrap();
