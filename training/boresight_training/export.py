@@ -194,6 +194,7 @@ def export(
         "reference": what.reference,
         "architecture": what.architecture,
         "differences": what.differences,
+        **({"limits": limits} if (limits := getattr(what, "limits", "")) else {}),
         "network": identity["name"],
         "form": identity["config"],
         **({} if confidence is None else {"confidence": round(confidence, 3)}),

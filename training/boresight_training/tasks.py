@@ -271,6 +271,12 @@ class ClassifierTask:
             meaning = "of a target at each whole degree of azimuth from -10 to 10"
             self.outputs = (Port("probability", ("batch", CLASSES), meaning),)
 
+    @property
+    def limits(self) -> str:
+        """What the network cannot be used for."""
+        targets = 0 if self.counts else self.cubes.targets[1]
+        return words.equal_still_pairs(targets, self.weaker_db, self.cubes.rate_mps)
+
     def model(self):
         return self.network()
 

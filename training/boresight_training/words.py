@@ -97,6 +97,21 @@ def unlike(weaker_db: float, rate_mps: float) -> str:
     return weaker + moving
 
 
+def equal_still_pairs(targets: int, weaker_db: float, rate_mps: float) -> str:
+    """What a network for two targets of the publication's data cannot be used for; empty for other networks."""
+    if targets != 2:
+        return ""
+    untrained = [] if weaker_db > 0 else ["whose powers differ by 3 dB or more"]
+    if rate_mps == 0:
+        untrained.append("that move")
+    if not untrained:
+        return ""
+    return (
+        f"Not for two targets {' or '.join(untrained)}: its training has none. The measured shares are in the "
+        "documentation, experiments-doa, under Unequal powers and motion."
+    )
+
+
 def unrolled_iaa(config: UnrolledIaaConfig) -> tuple[str, str]:
     """Of UAA."""
     return (

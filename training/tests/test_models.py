@@ -49,6 +49,7 @@ def test_a_card_describes_its_file(path):
     what = task_of(card)
     for told in ("title", "reference", "architecture", "differences"):
         assert card[told] == getattr(what, told)
+    assert card.get("limits", "") == getattr(what, "limits", "")
     for sum_of, digits in (("samplesSeen", 0), ("hours", 2)):
         assert card[sum_of] == pytest.approx(sum(leg[sum_of] for leg in card["legs"]), abs=10**-digits)
     without = ("counting", "unrolled-iaa", "deep-music")

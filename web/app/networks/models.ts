@@ -26,6 +26,8 @@ export type Card = ModelCard & {
   architecture?: string;
   /** How it and its training differ from the publication. */
   differences?: string;
+  /** Data that it was not trained for, and that it fails on. */
+  limits?: string;
   model?: Record<string, unknown>;
   data?: Record<string, unknown>;
   loss?: Record<string, unknown>;

@@ -54,6 +54,11 @@ export function CardPanel({ model }: { model: Model }) {
           <b>What it is.</b> {card.architecture} {card.differences}
         </p>
       )}
+      {card.limits && (
+        <p class="remark" data-field="limits">
+          <b>Limits.</b> {card.limits}
+        </p>
+      )}
       <dl class="facts flat" data-facts="card">
         {facts.map(([term, value, help]) => (
           <div key={term} title={help}>
