@@ -120,6 +120,13 @@ const EXPERIMENTS = [
     figures: '',
   })),
   {
+    name: 'resolution',
+    experiment: 'resolution',
+    document: 'experiments-resolution',
+    settings: ['--trials', '160', '--seed', '0'],
+    figures: '',
+  },
+  {
     name: 'images',
     experiment: 'images',
     document: 'images',

@@ -50,6 +50,7 @@ test('the documents of the experiments mark places', () => {
     ['experiments-arrays', 2],
     ['experiments-doa', 5],
     ['experiments-low-snr', 1],
+    ['experiments-resolution', 1],
     ['experiments-straddling', 1],
     ['experiments-near-field', 2],
     ['experiments-imperfections', 2],
