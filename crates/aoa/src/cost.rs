@@ -2,7 +2,7 @@
 
 use crate::method::Method;
 use crate::options::{EstimatorOptions, IaaForm, SourceCount};
-use crate::quadratic::steps_in_plane;
+use crate::spectra::quadratic::steps_in_plane;
 use boresight_core::array::MAX_ELEMENTS;
 use boresight_core::{Array, Extent};
 

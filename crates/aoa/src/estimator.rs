@@ -5,11 +5,12 @@ use crate::cost::Cost;
 use crate::data::Data;
 use crate::error::AoaError;
 use crate::estimate::{Estimate, Warning};
+use crate::estimators;
 use crate::method::Method;
 use crate::options::EstimatorOptions;
-use crate::plan::{Plan, plan};
+use crate::order::significance::Significance;
+use crate::plan::Plan;
 use crate::refinement::Refinement;
-use crate::significance::Significance;
 use boresight_core::limits::check_operations;
 use boresight_core::{Array, Complex64};
 use ndarray::{ArrayView3, Axis};
@@ -39,7 +40,7 @@ impl Estimator {
         options: &EstimatorOptions,
     ) -> Result<Self, AoaError> {
         options.check()?;
-        Self::with_plan(method, array, plan(method, array, options)?, options)
+        Self::with_plan(method, array, estimators::prepare(method, array, options)?, options)
     }
 
     /// An estimator on a plan made elsewhere: that of a network.

@@ -1,24 +1,9 @@
-//! What each method of angle estimation implements, and the plans of those that need no network.
+//! What each method of angle estimation implements.
 
-use crate::atomic_norm::AtomicNorm;
-use crate::bartlett::Bartlett;
-use crate::capon::Capon;
-use crate::coarray_music::CoarrayMusic;
 use crate::data::Data;
 use crate::error::AoaError;
-use crate::esprit::Esprit;
 use crate::estimate::Estimate;
-use crate::iaa::Iaa;
-use crate::maximum_likelihood::MaximumLikelihood;
-use crate::method::Method;
-use crate::min_norm::MinNorm;
-use crate::music::Music;
-use crate::nomp::Nomp;
-use crate::options::{EstimatorOptions, SourceCount};
-use crate::root_music::RootMusic;
-use crate::single_snapshot_music::SingleSnapshotMusic;
-use crate::sparse_bayesian::SparseBayesian;
-use boresight_core::{Array, Complex64};
+use boresight_core::Complex64;
 use ndarray::ArrayView3;
 
 /// What each method implements: everything that depends on array and options alone (grids, FFT
@@ -72,31 +57,4 @@ pub trait Plan: Send {
         }
         Ok(())
     }
-}
-
-/// The plan of a method; of a network there is none without its model.
-pub(crate) fn plan(
-    method: Method,
-    array: &Array,
-    options: &EstimatorOptions,
-) -> Result<Box<dyn Plan>, AoaError> {
-    if options.sources == SourceCount::Network && method.requirements().source_count {
-        return Err(AoaError::NeedsCounter { method: method.name() });
-    }
-    Ok(match method {
-        Method::Bartlett => Box::new(Bartlett::new(array, options)?),
-        Method::Capon => Box::new(Capon::new(array, options)?),
-        Method::Music => Box::new(Music::new(array, options)?),
-        Method::SingleSnapshotMusic => Box::new(SingleSnapshotMusic::new(array, options)?),
-        Method::RootMusic => Box::new(RootMusic::new(array, options)?),
-        Method::Esprit => Box::new(Esprit::new(array, options)?),
-        Method::MinNorm => Box::new(MinNorm::new(array, options)?),
-        Method::CoarrayMusic => Box::new(CoarrayMusic::new(array, options)?),
-        Method::Iaa => Box::new(Iaa::new(array, options)?),
-        Method::Nomp => Box::new(Nomp::new(array, options)?),
-        Method::AtomicNorm => Box::new(AtomicNorm::new(array, options)?),
-        Method::MaximumLikelihood => Box::new(MaximumLikelihood::new(array, options)?),
-        Method::SparseBayesian => Box::new(SparseBayesian::new(array, options)?),
-        _ => return Err(AoaError::NeedsModel { method: method.name() }),
-    })
 }

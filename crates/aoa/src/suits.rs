@@ -1,6 +1,6 @@
 //! Whether a method suits an array and a number of snapshots.
 
-use crate::coarray_music::longest_lag;
+use crate::estimators::coarray_music::longest_lag;
 use crate::method::Method;
 use crate::options::EstimatorOptions;
 use boresight_core::describe::Described;

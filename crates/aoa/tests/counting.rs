@@ -4,7 +4,7 @@
 
 mod support;
 
-use boresight_aoa::counting::{CountOptions, count_sources_in};
+use boresight_aoa::order::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method};
 use boresight_core::steering::steering_matrix;
 use boresight_core::{Array, Complex64, Random};

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_aoa::counting::{CountOptions, Criterion, count_sources_in};
+use boresight_aoa::order::counting::{CountOptions, Criterion, count_sources_in};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, Method, SourceCount};
 use boresight_core::presets::preset;
 use boresight_core::steering::{cis, steering_vector};

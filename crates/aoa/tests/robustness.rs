@@ -5,8 +5,8 @@
 
 mod support;
 
-use boresight_aoa::counting::{CountOptions, count_sources_in};
 use boresight_aoa::options::{EspritForm, IaaForm, Thresholding};
+use boresight_aoa::order::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method, SourceCount, Warning};
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex64, CoreError, Diagnose, Limits, Random};

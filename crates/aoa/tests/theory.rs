@@ -4,12 +4,12 @@
 
 mod support;
 
+use boresight_aoa::bounds::esprit_error::esprit_error;
 use boresight_aoa::bounds::{
     Signals, deterministic_bound, single_snapshot, stochastic_bound, uncorrelated,
 };
-use boresight_aoa::counting::{CountSizes, Criterion, count_sources};
-use boresight_aoa::esprit_error::esprit_error;
 use boresight_aoa::options::EspritForm;
+use boresight_aoa::order::counting::{CountSizes, Criterion, count_sources};
 use boresight_aoa::{AoaError, Data, Estimator, EstimatorOptions, Method};
 use boresight_core::linalg::hermitian_eigen;
 use boresight_core::presets::preset;

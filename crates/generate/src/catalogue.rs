@@ -57,7 +57,7 @@ pub fn entries() -> Result<Vec<Entry>, serde_json::Error> {
         plain("BoundTarget", "Targets of bounds", boresight_aoa::bounds::BoundTarget::KIND),
         plain("MapGrid", "Range-azimuth maps", boresight_image::GridOptions::KIND),
         entry::<boresight_image::ViewGridOptions>("ViewGrid", "Bird's-eye views")?,
-        entry::<boresight_aoa::counting::CountOptions>("CountOptions", "Counting sources")?,
+        entry::<boresight_aoa::order::counting::CountOptions>("CountOptions", "Counting sources")?,
         entry::<boresight_wasm::drive::ReadDriveOptions>("ReadDriveOptions", "Reading drives")?,
         entry::<boresight_wasm::hdf5::ReadArrayOptions>("ReadArrayOptions", "Reading arrays")?,
         entry::<boresight_core::Limits>("Limits", "What one call may take")?,

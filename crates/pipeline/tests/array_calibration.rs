@@ -4,7 +4,7 @@
 
 mod recorded;
 
-use boresight_aoa::counting::{CountOptions, count_sources_in};
+use boresight_aoa::order::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{Data, Method};
 use boresight_array_calibration::{CalibrationOptions, CalibrationResult, CellUse, Reflector};
 use boresight_core::response::Correction;

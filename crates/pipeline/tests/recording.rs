@@ -7,7 +7,7 @@
 
 mod recorded;
 
-use boresight_aoa::counting::{CountOptions, count_sources_in};
+use boresight_aoa::order::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{AoaError, Data, EstimatorOptions, Method, SourceCount};
 use boresight_core::{Array, Diagnose};
 use boresight_pipeline::{Chain, ChainOptions, Detection, FrameResult, FrameSource, PipelineError};

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use boresight_aoa::counting::{CountOptions, count_sources_in};
+use boresight_aoa::order::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{
     AoaError, CountSources, Counted, Data, Estimator, EstimatorOptions, Method, SourceCount,
     SourceProbabilities,

@@ -4,7 +4,7 @@ use crate::carry;
 use crate::error::Fallible;
 use crate::estimate::Input;
 use crate::read::Read;
-use boresight_aoa::counting::{CountOptions, count_sources_in};
+use boresight_aoa::order::counting::{CountOptions, count_sources_in};
 use boresight_core::describe::{Described, columns};
 use serde::Serialize;
 use wasm_bindgen::JsValue;

@@ -39,7 +39,7 @@ fn options_of_streets() {
 #[wasm_bindgen_test]
 fn options_of_scenes_counts_and_readers() {
     every_field::<boresight_simulate::SceneSampling>(4);
-    every_field::<boresight_aoa::counting::CountOptions>(2);
+    every_field::<boresight_aoa::order::counting::CountOptions>(2);
     every_field::<boresight_wasm::drive::ReadDriveOptions>(4);
 }
 

@@ -13,8 +13,8 @@ mod search;
 
 use crate::error::AoaError;
 use crate::estimate::Warning;
-use crate::false_alarm::{Shares, Volumes};
 use crate::options::{EstimatorOptions, SourceCount};
+use crate::order::false_alarm::{Shares, Volumes};
 use atoms::Atoms;
 use boresight_core::order::sort_descending;
 use boresight_core::{Array, Complex32, Complex64, CoreError, Extent};

@@ -9,7 +9,7 @@ use crate::entrants::{Entrants, Network};
 use crate::experiment::Tell;
 use crate::told::{self, Candidate};
 use boresight_aoa::bounds::{Signals, deterministic_bound, stochastic_bound, uncorrelated};
-use boresight_aoa::counting::{CountOptions, Criterion, count_sources_in};
+use boresight_aoa::order::counting::{CountOptions, Criterion, count_sources_in};
 use boresight_aoa::{Data, Estimator, EstimatorOptions, SourceCount};
 use boresight_core::describe::Named;
 use boresight_core::linalg::hermitian_eigen;
