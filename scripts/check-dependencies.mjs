@@ -1,13 +1,23 @@
-// Dependencies between the crates point one way; bindings and tract stay where they belong.
-
+// Dependencies between the crates point one way; bindings and tract stay where they belong. Within a crate, modules import
+// from the file that defines an item, and at most two of them from each other.
+import { existsSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
 import { problems, workspaceGraph } from './lib/dependency-rules.mjs';
+import { moduleProblems, sourcesOf } from './lib/module-imports.mjs';
+import { root } from './lib/paths.mjs';
 import { main, output } from './lib/run.mjs';
+
+/** The papers' experiments, which nothing depends on. */
+const RESEARCH = ['evaluate'];
 
 await main(async () => {
   const text = output('cargo', ['metadata', '--format-version', '1', '--no-deps']);
   if (text === null) throw new Error('cargo metadata failed');
   const graph = workspaceGraph(JSON.parse(text));
-  const found = problems(graph);
-  console.log(`${graph.size} crates, ${found.length} forbidden dependencies`);
+  const folders = readdirSync(join(root, 'crates')).filter((crate) => !RESEARCH.includes(crate));
+  const sources = folders.map((crate) => [crate, join(root, 'crates', crate, 'src')]);
+  const modules = sources.filter(([, folder]) => existsSync(folder));
+  const found = [...problems(graph), ...modules.flatMap(([crate, folder]) => moduleProblems(crate, sourcesOf(folder)))];
+  console.log(`${graph.size} crates, ${found.length} forbidden dependencies and imports`);
   if (found.length > 0) throw new Error(found.join('\n'));
 });

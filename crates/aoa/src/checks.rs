@@ -7,7 +7,6 @@ use crate::options::{EstimatorOptions, SourceCount};
 use crate::suits::unsuited_array;
 use boresight_core::limits::check_bytes;
 use boresight_core::order::sort_in_place;
-use boresight_core::steering::unambiguous_sine;
 use boresight_core::{Array, Complex64, Direction, Extent, Lattice};
 
 /// Memory of a grid point: its direction, its value, and what transforms make on the way.
@@ -57,7 +56,7 @@ pub(crate) fn ambiguity(array: &Array, options: &EstimatorOptions) -> Option<War
         return (sine < options.elevation_field_of_view_rad.sin() - 1e-9)
             .then(|| Warning::AmbiguousElevation { unambiguous_rad: sine.asin() });
     }
-    let sine = unambiguous_sine(&array.lattice()?);
+    let sine = array.lattice()?.unambiguous_sine();
     (sine < options.field_of_view_rad.sin() - 1e-9)
         .then(|| Warning::Ambiguous { unambiguous_rad: sine.asin() })
 }

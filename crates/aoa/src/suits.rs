@@ -1,9 +1,10 @@
 //! Whether a method suits an array and a number of snapshots.
 
-use crate::estimators::coarray_music::longest_lag;
 use crate::method::Method;
 use crate::options::EstimatorOptions;
+use boresight_core::array::MAX_ELEMENTS;
 use boresight_core::describe::Described;
+use boresight_core::lattice::Lattice;
 use boresight_core::{Array, Extent};
 use serde::Serialize;
 
@@ -115,4 +116,16 @@ pub(crate) fn too_few(
     }
     let copies = if forward_backward { 2 } else { 1 };
     snapshots.saturating_mul(subarrays).saturating_mul(copies) < least
+}
+
+/// The longest lag up to which all occur between elements, at most what an array may hold.
+pub(crate) fn longest_lag(lattice: &Lattice) -> usize {
+    let mut occurs = vec![false; lattice.span()];
+    for (place, &i) in lattice.indices.iter().enumerate() {
+        for &k in &lattice.indices[..place] {
+            occurs[i.abs_diff(k)] = true;
+        }
+    }
+    let gap = (1..occurs.len()).find(|&lag| !occurs[lag]).unwrap_or(occurs.len());
+    (gap - 1).min(MAX_ELEMENTS - 1)
 }

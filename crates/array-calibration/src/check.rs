@@ -5,11 +5,10 @@ use crate::error::ArrayCalibrationError;
 use crate::fit::{Fit, Fitted};
 use crate::options::CalibrationOptions;
 use crate::plane_wave::{Cosines, PlaneWaves};
+use crate::result::{CalibrationCheck, CheckFigures, CheckedCell};
 use crate::self_calibration::{calibrate, decibels};
-use boresight_core::describe::Described;
 use boresight_core::{Array, ArrayCalibration, Complex64, Direction};
 use ndarray::Array2;
-use serde::Serialize;
 
 /// Points of a beam's pattern a beam width.
 const OVERSAMPLING: f64 = 16.0;
@@ -19,53 +18,6 @@ const MOST_POINTS: f64 = 4096.0;
 
 /// Most cells that are left out in turn.
 const MOST_FOLDS: usize = 16;
-
-/// Cells of data not used, as the plan has them and once calibrated.
-#[derive(Debug, Clone, PartialEq, Described, Serialize)]
-pub struct CalibrationCheck {
-    /// Frames it was made from.
-    pub frames: usize,
-    /// Over all cells, as the plan has them.
-    pub before: CheckFigures,
-    /// Once calibrated.
-    pub after: CheckFigures,
-    /// The cells.
-    pub cells: Vec<CheckedCell>,
-}
-
-/// How far cells are from one plane wave each.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
-pub struct CheckFigures {
-    /// Root mean square of the phase that is left.
-    pub residual_phase_rad: f64,
-    /// Root mean square of the gain that is left.
-    pub residual_gain_db: f64,
-    /// Power that is left over that of the cells.
-    pub residual_db: f64,
-    /// Highest sidelobe of the conventional beam over its peak, in the cell where it is highest.
-    pub sidelobe_db: f64,
-}
-
-/// One cell.
-#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
-pub struct CheckedCell {
-    /// Its range.
-    pub range_m: f64,
-    /// Range bin.
-    pub range_bin: usize,
-    /// Doppler bin.
-    pub doppler_bin: usize,
-    /// Azimuth as the plan has it.
-    pub azimuth_before_rad: f64,
-    /// Azimuth once calibrated.
-    pub azimuth_rad: f64,
-    /// Elevation once calibrated; 0 where the array does not see it.
-    pub elevation_rad: f64,
-    /// As the plan has it.
-    pub before: CheckFigures,
-    /// Once calibrated.
-    pub after: CheckFigures,
-}
 
 /// Checks a calibration on cells seen by all channels of an array.
 ///

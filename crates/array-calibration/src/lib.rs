@@ -51,9 +51,11 @@ mod self_calibration;
 mod steering_table;
 
 pub use cells::Cell;
-pub use check::{CalibrationCheck, CheckFigures, CheckedCell, check, leave_one_out};
+pub use check::{check, leave_one_out};
 pub use error::ArrayCalibrationError;
 pub use options::{CalibrationModel, CalibrationOptions, Reflector};
-pub use result::{CalibrationResult, CellUse, UsedCell};
+pub use result::{
+    CalibrationCheck, CalibrationResult, CellUse, CheckFigures, CheckedCell, UsedCell,
+};
 pub use self_calibration::calibrate;
 pub use steering_table::SteeringTable;

@@ -1,9 +1,55 @@
 //! What calibration gives.
 
-use crate::check::{CalibrationCheck, CheckFigures};
 use boresight_core::describe::{Described, decibels};
 use boresight_core::{ArrayCalibration, Direction, Remark};
 use serde::Serialize;
+
+/// Cells of data not used, as the plan has them and once calibrated.
+#[derive(Debug, Clone, PartialEq, Described, Serialize)]
+pub struct CalibrationCheck {
+    /// Frames it was made from.
+    pub frames: usize,
+    /// Over all cells, as the plan has them.
+    pub before: CheckFigures,
+    /// Once calibrated.
+    pub after: CheckFigures,
+    /// The cells.
+    pub cells: Vec<CheckedCell>,
+}
+
+/// How far cells are from one plane wave each.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Described, Serialize)]
+pub struct CheckFigures {
+    /// Root mean square of the phase that is left.
+    pub residual_phase_rad: f64,
+    /// Root mean square of the gain that is left.
+    pub residual_gain_db: f64,
+    /// Power that is left over that of the cells.
+    pub residual_db: f64,
+    /// Highest sidelobe of the conventional beam over its peak, in the cell where it is highest.
+    pub sidelobe_db: f64,
+}
+
+/// One cell.
+#[derive(Debug, Clone, Copy, PartialEq, Described, Serialize)]
+pub struct CheckedCell {
+    /// Its range.
+    pub range_m: f64,
+    /// Range bin.
+    pub range_bin: usize,
+    /// Doppler bin.
+    pub doppler_bin: usize,
+    /// Azimuth as the plan has it.
+    pub azimuth_before_rad: f64,
+    /// Azimuth once calibrated.
+    pub azimuth_rad: f64,
+    /// Elevation once calibrated; 0 where the array does not see it.
+    pub elevation_rad: f64,
+    /// As the plan has it.
+    pub before: CheckFigures,
+    /// Once calibrated.
+    pub after: CheckFigures,
+}
 
 /// A calibration, and what it was made of.
 #[derive(Debug, Clone, PartialEq, Described, Serialize)]

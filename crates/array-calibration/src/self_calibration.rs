@@ -290,7 +290,7 @@ impl Calibrated {
         options: &CalibrationOptions,
     ) -> (Option<f64>, Option<f64>) {
         let nearest = |range_m: f64| {
-            let from = |reflector: &crate::Reflector| (range_m - reflector.range_m).abs();
+            let from = |reflector: &crate::options::Reflector| (range_m - reflector.range_m).abs();
             options.reflectors.iter().min_by(|a, b| from(a).total_cmp(&from(b)))
         };
         let errors: Vec<f64> = used

@@ -4,12 +4,13 @@ use crate::angle::bias::Bias;
 use crate::angle::{
     Sample, Setting, Solution, kabsch, least_squares, orthogonal_distance, weighted_mean, wrap,
 };
+use crate::error::CalibrateError;
 use crate::estimate::{Alignment, CHANCE};
+use crate::estimate::{AngleEstimate, FrameCounts, Remark};
+use crate::frame::{CarMotion, FrameInput, FrameOutcome, Motion, Verdict};
 use crate::intake::{Admission, Intake};
-use crate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, CarMotion, FrameCounts, FrameInput,
-    FrameMotion, FrameOutcome, Method, Motion, MotionPlan, Remark, Verdict,
-};
+use crate::motion::{FrameMotion, MotionPlan};
+use crate::options::{CalibrationOptions, Method};
 
 /// A radar slower than this stands, m/s, if its detections allow for that.
 const STANDSTILL_MPS: f64 = 0.05;

@@ -1,12 +1,16 @@
 //! The calibration: frames in, mounting angle out, whichever method.
 
 use crate::batch::Batch;
-use crate::motion::plan::plan;
+use crate::equations::NormalEquations;
+use crate::error::{CalibrateError, tracked_only};
+use crate::estimate::AngleEstimate;
+use crate::frame::{FrameInput, FrameOutcome};
+use crate::motion::MotionPlan;
+use crate::motion::prepare::prepare;
 use crate::network::MotionNetwork;
-use crate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, Method,
-    MotionPlan, NormalEquations, Outlook, Recursive,
-};
+use crate::options::{CalibrationOptions, Method};
+use crate::recursive::Recursive;
+use crate::recursive::outlook::Outlook;
 use boresight_core::CoreError;
 use std::sync::Arc;
 
@@ -46,7 +50,7 @@ impl Calibrator {
             let recursive = Box::new(Recursive::with_network(&options, network)?);
             return Ok(Self { inner: Inner::Recursive(recursive) });
         }
-        Self::with_motion(options, plan(options.motion_method(), &options, network)?)
+        Self::with_motion(options, prepare(options.motion_method(), &options, network)?)
     }
 
     /// A calibration on motions that come from elsewhere, such as a network. What the options say of the motion is then
@@ -144,13 +148,4 @@ impl Calibrator {
             Inner::Recursive(recursive) => recursive.estimate(),
         }
     }
-}
-
-pub(crate) fn tracked_only(given: &str) -> CalibrateError {
-    CoreError::Incompatible {
-        what: "motion".into(),
-        expected: "tracked or deepego, with the recursive method".into(),
-        given: given.into(),
-    }
-    .into()
 }

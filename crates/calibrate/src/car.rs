@@ -1,11 +1,15 @@
 //! The radars of a car, each by itself or all together.
 
+use crate::calibrator::Calibrator;
+use crate::equations::NormalEquations;
+use crate::error::CalibrateError;
+use crate::estimate::AngleEstimate;
+use crate::frame::{FrameInput, FrameOutcome};
+use crate::joint::Joint;
 use crate::network::MotionNetwork;
+use crate::options::{CalibrationOptions, Method};
 use crate::radars;
-use crate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, Calibrator, FrameInput, FrameOutcome, Joint,
-    Method, NormalEquations, Outlook,
-};
+use crate::recursive::outlook::Outlook;
 #[cfg(doc)]
 use boresight_core::CoreError;
 use std::sync::Arc;

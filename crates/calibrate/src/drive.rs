@@ -1,6 +1,6 @@
 //! A drive, frame by frame.
 
-use crate::FrameInput;
+use crate::frame::FrameInput;
 use boresight_core::{DriveLog, Scan};
 
 /// The scans that some radars of a log took, in the order of the log, each as a frame with the car's motion looked up at

@@ -1,6 +1,6 @@
 //! What a drive says of the unknowns that drives share, to put together with other drives.
 
-use crate::Recursive;
+use crate::recursive::Recursive;
 use crate::recursive::information::UNKNOWNS;
 use serde::{Deserialize, Serialize};
 

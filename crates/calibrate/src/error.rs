@@ -126,3 +126,13 @@ impl Diagnose for CalibrateError {
         }
     }
 }
+
+/// What a motion is answered that the recursive method does not take.
+pub(crate) fn tracked_only(given: &str) -> CalibrateError {
+    CoreError::Incompatible {
+        what: "motion".into(),
+        expected: "tracked or deepego, with the recursive method".into(),
+        given: given.into(),
+    }
+    .into()
+}

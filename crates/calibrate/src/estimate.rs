@@ -1,7 +1,8 @@
 //! The estimate of a mounting angle, with all that is needed to judge it.
 
 use crate::angle::wrap;
-use crate::{CalibrationOptions, Verdict};
+use crate::frame::Verdict;
+use crate::options::CalibrationOptions;
 use boresight_core::describe::remark::Coded;
 use boresight_core::describe::{Described, remark};
 use serde::{Deserialize, Serialize};

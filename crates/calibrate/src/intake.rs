@@ -1,6 +1,6 @@
 //! What is accepted of the frames given: times that do not run backwards, detections that a sensor can have measured.
 
-use crate::CalibrateError;
+use crate::error::CalibrateError;
 use boresight_core::{CoreError, Detection};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

@@ -1,13 +1,15 @@
 //! Several radars of one car: an angle each, one yaw-rate sensor.
 
+use crate::equations::NormalEquations;
+use crate::error::CalibrateError;
+use crate::estimate::AngleEstimate;
+use crate::frame::{FrameInput, FrameOutcome, Verdict};
 use crate::network::MotionNetwork;
+use crate::options::CalibrationOptions;
 use crate::radars;
+use crate::recursive::Recursive;
 use crate::recursive::information::{Information, Matrix, UNKNOWNS, Vector};
 use crate::small::{dot, inverse, times};
-use crate::{
-    AngleEstimate, CalibrateError, CalibrationOptions, FrameInput, FrameOutcome, NormalEquations,
-    Recursive, Verdict,
-};
 #[cfg(doc)]
 use boresight_core::CoreError;
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Options of the calibration, in SI units and radians.
 
-use crate::CalibrateError;
+use crate::error::CalibrateError;
 use boresight_core::CoreError;
 use boresight_core::describe::{self, Described, Named, Naming};
 use serde::{Deserialize, Serialize};

@@ -1,10 +1,9 @@
 //! Antenna arrays: element positions, real or virtual.
 
+use crate::correction::Correction;
 use crate::describe::Described;
 use crate::error::{CoreError, check_finite};
 use crate::lattice::Lattice;
-use crate::response::Correction;
-use crate::steering::unambiguous_sine;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -282,7 +281,7 @@ impl Array {
             return None;
         }
         let heights: Vec<Position> = self.positions.iter().map(|p| [0.0, p[2], 0.0]).collect();
-        Some(unambiguous_sine(&Lattice::of(&heights)?))
+        Some(Lattice::of(&heights)?.unambiguous_sine())
     }
 
     /// The integer grid the elements stand on, if they all lie on one line along y.

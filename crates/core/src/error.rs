@@ -1,6 +1,5 @@
 //! Errors: what was wrong, what was expected and what was given.
 
-use crate::limits;
 use thiserror::Error;
 
 /// The parts of an error a program can act on or a page can lay out.
@@ -77,7 +76,7 @@ pub enum CoreError {
         given: f64,
     },
     /// More than one call may take ([`crate::limits`]).
-    #[error("{what} would take {given:.3e} {measure}; expected {}", limits::most(measure, *most))]
+    #[error("{what} would take {given:.3e} {measure}; expected {}", at_most(measure, *most))]
     TooLarge {
         /// What would be done or allocated.
         what: String,
@@ -176,7 +175,7 @@ impl Diagnose for CoreError {
                 Details::new(what, expected, number(*given))
             }
             Self::TooLarge { what, measure, most, given } => {
-                Details::new(what, limits::most(measure, *most), format!("{given:.3e} {measure}"))
+                Details::new(what, at_most(measure, *most), format!("{given:.3e} {measure}"))
             }
             Self::Unknown { what, expected, given }
             | Self::Malformed { what, expected, given }
@@ -276,6 +275,11 @@ pub fn check_single(what: &dyn Fn() -> String, numbers: &[f64]) -> Result<(), Co
         return Ok(());
     }
     check_finite(&what(), kept().map(f64::from))
+}
+
+/// The most of a measure, in words.
+fn at_most(measure: &str, most: f64) -> String {
+    format!("at most {most:.3e}, limits.{measure}: ask for less, or raise it")
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use crate::array::{Array, Channel, Extent, Position};
 use crate::describe::Described;
 use crate::resolution::resolution_rad;
-use crate::steering::unambiguous_sine;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
 
@@ -44,7 +43,7 @@ impl From<&Array> for Geometry {
             uniform: array.is_uniform(),
             unambiguous_rad: array
                 .lattice()
-                .map_or(FRAC_PI_2, |lattice| unambiguous_sine(&lattice).asin()),
+                .map_or(FRAC_PI_2, |lattice| lattice.unambiguous_sine().asin()),
             resolution_rad: resolution_rad(array),
         }
     }

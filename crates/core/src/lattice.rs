@@ -17,6 +17,12 @@ pub struct Lattice {
 const MAX_SPAN: usize = 1 << 14;
 
 impl Lattice {
+    /// Largest `|sin(azimuth)|` that an array on the lattice sees without ambiguity: a wave at `s` cannot be told from one
+    /// at `s + 2 / spacing`.
+    pub fn unambiguous_sine(&self) -> f64 {
+        (1.0 / self.spacing).min(1.0)
+    }
+
     /// Finds the coarsest grid that holds all positions to 1e-6 half wavelengths, or nothing if
     /// they do not lie on one line along y or on no grid of reasonable length.
     pub fn of(positions: &[Position]) -> Option<Self> {

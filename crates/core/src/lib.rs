@@ -25,6 +25,7 @@ extern crate self as boresight_core;
 
 pub mod array;
 pub mod calibration;
+pub mod correction;
 pub mod describe;
 pub mod direction;
 pub mod drive;

@@ -50,11 +50,6 @@ impl Limits {
     }
 }
 
-/// The most of a measure, in words.
-pub(crate) fn most(measure: &str, most: f64) -> String {
-    format!("at most {most:.3e}, limits.{measure}: ask for less, or raise it")
-}
-
 fn check(what: &str, measure: &'static str, given: f64, most: f64) -> Result<(), CoreError> {
     if given <= most {
         return Ok(());

@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn items_are_sorted_as_the_standard_library_does() {
-        let mut random = crate::Random::new(7, 1);
+        let mut random = crate::random::Random::new(7, 1);
         for length in 0..60 {
             let mut items: Vec<(u64, usize)> =
                 (0..length).map(|index| (random.bits() % 8, index)).collect();

@@ -1,6 +1,6 @@
 //! One of several parts that work is split into.
 
-use crate::CoreError;
+use crate::error::CoreError;
 use crate::error::check_range;
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
@@ -67,7 +67,7 @@ impl FromStr for Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Diagnose;
+    use crate::error::Diagnose;
 
     #[test]
     fn parts_hold_every_piece_once() {

@@ -2,7 +2,6 @@
 
 use crate::array::Array;
 use crate::direction::Direction;
-use crate::lattice::Lattice;
 use ndarray::{Array1, Array2};
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -44,12 +43,6 @@ pub fn steering_derivatives(
             .collect()
     };
     (slope(&by_azimuth), slope(&by_elevation))
-}
-
-/// Largest `|sin(azimuth)|` an array on a lattice sees without ambiguity: a wave at `s` cannot be
-/// told from one at `s + 2 / spacing`.
-pub fn unambiguous_sine(lattice: &Lattice) -> f64 {
-    (1.0 / lattice.spacing).min(1.0)
 }
 
 fn dot(p: &[f64; 3], q: &[f64; 3]) -> f64 {

@@ -3,7 +3,7 @@
 
 use crate::EvaluateError;
 use crate::entrants::Entrants;
-use crate::merge::Outcome;
+use crate::outcome::Outcome;
 use crate::sweep::{self, Part, Sweep};
 use crate::table::Tables;
 use boresight_pipeline::Progress;

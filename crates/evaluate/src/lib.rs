@@ -38,6 +38,7 @@ pub mod imperfections;
 pub mod low_snr;
 mod merge;
 pub mod near_field;
+mod outcome;
 mod plot;
 pub mod resolution;
 pub mod statistics;
@@ -48,4 +49,5 @@ mod told;
 
 pub use entrants::{Entrants, Network};
 pub use error::EvaluateError;
-pub use merge::{Merged, Outcome, merge};
+pub use merge::{Merged, merge};
+pub use outcome::Outcome;

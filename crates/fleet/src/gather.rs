@@ -1,10 +1,12 @@
 //! The records of a fleet, each log's once.
 
+use crate::error::FleetError;
 use crate::fleet::LogCounts;
+use crate::job::Job;
 use crate::pattern::natural_order;
 use crate::record::{RadarResult, Record};
 use crate::schema::{self, SCHEMA};
-use crate::{FleetError, Job, store};
+use crate::store;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 

@@ -1,11 +1,13 @@
 //! From the records of a fleet to what they come to.
 
+use crate::error::FleetError;
 use crate::fleet::{FailureCount, Fleet, FleetRadar, Vehicle};
 use crate::gather::Gathered;
+use crate::options::FleetOptions;
 use crate::outlying::{Outlying, VehicleAngle};
 use crate::pattern::natural_order;
 use crate::record::{RadarResult, Record};
-use crate::{FleetError, FleetOptions, parallel, vehicle};
+use crate::{parallel, vehicle};
 use boresight_calibrate::wrap;
 use boresight_core::describe::{self, Naming};
 use std::collections::{BTreeMap, HashMap};

@@ -1,6 +1,6 @@
 //! Vehicle, drive and time of a log from its path.
 
-use crate::FleetError;
+use crate::error::FleetError;
 use jiff::civil::{Date, DateTime};
 use jiff::tz::TimeZone;
 use std::collections::HashSet;

@@ -1,6 +1,8 @@
 //! Plans: files of jobs, a line each.
 
-use crate::{FleetError, Job, schema};
+use crate::error::FleetError;
+use crate::job::Job;
+use crate::schema;
 use std::collections::BTreeMap;
 use std::io::BufRead;
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! What a drive log came to, as a line of JSON.
 
-use crate::{Job, schema};
+use crate::job::Job;
+use crate::schema;
 use boresight_calibrate::NormalEquations;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;

@@ -1,7 +1,9 @@
 //! Running the jobs of a plan over worker processes.
 
+use crate::error::FleetError;
+use crate::job::Job;
+use crate::record::Record;
 use crate::worker::{Place, Workers};
-use crate::{FleetError, Job, Record};
 use boresight_core::error::check_range;
 use std::ops::ControlFlow;
 use std::process::Command;

@@ -1,6 +1,8 @@
 //! Files of records, which only grow.
 
-use crate::{FleetError, Record, schema};
+use crate::error::FleetError;
+use crate::record::Record;
+use crate::schema;
 use boresight_core::lines::{LineFile, LineStorage};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};

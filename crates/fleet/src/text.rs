@@ -1,7 +1,7 @@
 //! What a fleet's records come to, in a few lines for a terminal.
 
-use crate::FleetOptions;
 use crate::fleet::Fleet;
+use crate::options::FleetOptions;
 use crate::report::{attention, words};
 use std::fmt::Write as _;
 use words::shown;

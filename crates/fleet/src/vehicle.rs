@@ -1,10 +1,11 @@
 //! A vehicle's radars over its drives.
 
+use crate::error::FleetError;
 use crate::fleet::{AngleSource, CarValues, Drive, DriveAngle, Vehicle, VehicleRadar};
 use crate::history::{History, HistoryPoint};
+use crate::options::FleetOptions;
 use crate::pattern::natural_order;
 use crate::record::{Done, RadarRecord, RadarResult, Record};
-use crate::{FleetError, FleetOptions};
 use boresight_calibrate::merge::{
     CarUnknowns, DrivePart, MergedAngle, MergedVehicle, merge_drives,
 };

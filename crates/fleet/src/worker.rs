@@ -4,8 +4,10 @@
 //! its own, one line at a time, and reads the records from it. A log whose process dies or takes too long gets a record that
 //! says so, and the next log gets a new process.
 
+use crate::error::FleetError;
+use crate::job::Job;
 use crate::record::Failure;
-use crate::{FleetError, Job, Record};
+use crate::record::Record;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};

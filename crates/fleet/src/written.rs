@@ -1,6 +1,6 @@
 //! A fleet as a file of JSON, vehicle by vehicle: the whole as one value would take as much memory again as all records.
 
-use crate::Fleet;
+use crate::fleet::Fleet;
 use boresight_formats::json;
 use serde_json::Value;
 use std::io::{Result, Write};

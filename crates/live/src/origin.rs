@@ -1,6 +1,6 @@
 //! Which pages may connect. A browser lets any page open a socket to this machine, and says which page it is.
 
-use crate::LiveError;
+use crate::error::LiveError;
 
 /// Viewers that run as pages of their makers, and desktop viewers, whose pages are files.
 const VIEWERS: [&str; 3] = ["https://app.foxglove.dev", "https://studio.foxglove.dev", "file://"];

@@ -34,6 +34,7 @@ mod convolution;
 mod dense;
 mod engine;
 pub mod error;
+mod estimators;
 mod features;
 mod function;
 mod fused;

@@ -1,7 +1,7 @@
 //! Sidelobes of the conventional beam.
 
 use boresight_aoa::{EstimatorOptions, Grid, Method};
-use boresight_core::response::Correction;
+use boresight_core::correction::Correction;
 use boresight_core::steering::steering_vector;
 use boresight_core::{Array, Direction};
 

@@ -1,6 +1,9 @@
 //! From the cells of a frame to a range-azimuth map.
 
-use crate::{ChainOptions, Detection, FrameCells, PipelineError, suited};
+use crate::beam::suited;
+use crate::error::PipelineError;
+use crate::options::ChainOptions;
+use crate::result::{Detection, FrameCells};
 use boresight_aoa::{
     BatchEstimate, Estimator, EstimatorOptions, Method, Source, SpectrumKind, WarningCount,
 };

@@ -7,7 +7,7 @@ mod recorded;
 use boresight_aoa::order::counting::{CountOptions, count_sources_in};
 use boresight_aoa::{Data, Method};
 use boresight_array_calibration::{CalibrationOptions, CalibrationResult, CellUse, Reflector};
-use boresight_core::response::Correction;
+use boresight_core::correction::Correction;
 use boresight_core::{Array, ArrayCalibration, Diagnose};
 use boresight_pipeline::array_calibration::{CalibrationFrames, calibrate_array, unwatched};
 use boresight_pipeline::{AngleOptions, Chain, ChainOptions};

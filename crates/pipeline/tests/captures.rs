@@ -7,7 +7,7 @@ use boresight_aoa::bounds::{BoundRequest, BoundTarget, target_bound};
 use boresight_aoa::{Method, SourceCount};
 use boresight_core::presets::preset;
 use boresight_core::{Array, Complex32, Direction, Random, Sampling, Waveform};
-use boresight_formats::dca1000::{IqOrder, cascade, write};
+use boresight_formats::dca1000::{CASCADE_RECEIVERS, IqOrder, write};
 use boresight_formats::{Capture, Layout, RadarConfig, ReadingOptions, Settled};
 use boresight_pipeline::{Chain, ChainOptions};
 use boresight_signal::{RangeDoppler, RangeDopplerOptions};
@@ -22,7 +22,7 @@ fn board(layout: Layout, sampling: Sampling) -> (RadarConfig, Array) {
     config.adc.layout = layout;
     config.waveform = Waveform { samples: 64, loops: 8, sampling, ..config.waveform };
     if layout == Layout::Cascade {
-        config.receivers = cascade::RECEIVERS.to_vec();
+        config.receivers = CASCADE_RECEIVERS.to_vec();
         config.transmitters = (3..12).rev().collect();
         config.waveform = Waveform { transmitters: 9, loops: 2, ..config.waveform };
         return (config, preset("cascade86").unwrap());

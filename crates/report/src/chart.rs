@@ -1,7 +1,7 @@
 //! Lines over a pair of axes, as SVG without text that has to be measured: plotters measures it by a page's document, which workers
 //! do not have.
 
-use crate::html::escaped;
+use crate::escape::escaped;
 use std::fmt::Write as _;
 
 /// Size of the picture and of its margins (left, right, top, bottom), in its own units.

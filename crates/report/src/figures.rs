@@ -1,7 +1,7 @@
 //! The plots of a report.
 
-use crate::Recorder;
 use crate::chart::{Chart, Mark};
+use crate::recorder::Recorder;
 use boresight_calibrate::{AngleEstimate, CalibrationOptions};
 
 /// The angle against time with its standard deviation, the nominal angle and the limits of the alarm.

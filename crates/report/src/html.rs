@@ -1,7 +1,8 @@
 //! What every page is made of: one document with its style, for light and dark screens and for paper, that asks for nothing from
 //! elsewhere and runs no scripts: its policy (CSP) allows its own style alone.
 
-use crate::About;
+use crate::escape::escaped;
+use crate::page::About;
 use std::fmt::Write as _;
 
 const STYLE: &str = "\
@@ -74,20 +75,4 @@ pub fn table(html: &mut String, rows: impl Iterator<Item = (String, String)>) {
 /// A phrase as HTML shows it, with the sign for its deviations.
 pub fn phrase(text: &str) -> String {
     escaped(text).replace("+- ", "\u{b1} ")
-}
-
-/// Text as HTML shows it.
-pub fn escaped(text: &str) -> String {
-    let mut result = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '&' => result += "&amp;",
-            '<' => result += "&lt;",
-            '>' => result += "&gt;",
-            '"' => result += "&quot;",
-            '\'' => result += "&#39;",
-            letter => result.push(letter),
-        }
-    }
-    result
 }

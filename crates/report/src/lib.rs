@@ -2,6 +2,7 @@
 //! verdict, plots, conditions and where it all came from. The page asks for nothing from elsewhere; other reports are made of the same parts.
 
 pub mod chart;
+pub mod escape;
 mod facts;
 mod figures;
 pub mod html;

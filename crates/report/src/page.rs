@@ -1,7 +1,10 @@
 //! The page.
 
-use crate::html::{document, escaped, origin, table};
-use crate::{Fact, Recorder, facts, figures, sentence};
+use crate::escape::escaped;
+use crate::facts::{Fact, sentence};
+use crate::html::{document, origin, table};
+use crate::recorder::Recorder;
+use crate::{facts, figures};
 use boresight_calibrate::{Alignment, AngleEstimate, CalibrationOptions, Outlook};
 use std::fmt::Write as _;
 

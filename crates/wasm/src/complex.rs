@@ -142,17 +142,6 @@ pub fn float_array(fields: &mut Fields, name: &'static str) -> Fallible<(Vec<f64
     numbers.map(|numbers| (numbers, true)).ok_or_else(|| wrong_type(&path(), expected, &value))
 }
 
-/// `len` copies of `zero`, or an error where memory does not hold them.
-pub fn zeros<T: Clone>(what: &dyn Fn() -> String, len: usize, zero: T) -> Fallible<Vec<T>> {
-    let mut numbers = Vec::new();
-    numbers.try_reserve_exact(len).map_err(|_| BindingError::TooLarge {
-        what: what(),
-        given: len.saturating_mul(size_of::<T>()),
-    })?;
-    numbers.resize(len, zero);
-    Ok(numbers)
-}
-
 /// Checks that `given` numbers fill `shape` with `each` of them an entry.
 fn check_length(
     what: String,

@@ -1,7 +1,6 @@
 //! Errors that cross into JavaScript.
 
 use crate::carry;
-use crate::given::MOST_KEYS;
 use boresight_aoa::AoaError;
 use boresight_array_calibration::ArrayCalibrationError;
 #[cfg(feature = "drives")]
@@ -19,6 +18,9 @@ use boresight_simulate::SimulateError;
 use serde::Serialize;
 use thiserror::Error;
 use wasm_bindgen::JsValue;
+
+/// Maximum number of properties of one object. No function takes an object with nearly as many.
+pub const MOST_KEYS: u32 = 65_536;
 
 /// Result of a binding function.
 pub type Fallible<T> = Result<T, BindingError>;

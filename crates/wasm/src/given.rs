@@ -4,8 +4,7 @@
 //! trusted from then on. Proxies, getters and objects with a foreign prototype can throw anywhere, and answer
 //! otherwise when asked again: what is here asks once, and lengths of typed arrays are the engine's, not a property's.
 
-use crate::complex::zeros;
-use crate::error::{BindingError, Fallible};
+use crate::error::{BindingError, Fallible, MOST_KEYS};
 use js_sys::{Array, Function, Reflect, Uint8Array};
 use std::thread::LocalKey;
 use wasm_bindgen::prelude::*;
@@ -63,9 +62,6 @@ pub fn length(array: &JsValue) -> Option<u32> {
 pub fn item(array: &JsValue, index: u32, path: &dyn Fn() -> String) -> Fallible<JsValue> {
     Reflect::get_u32(array, index).map_err(|_| throws(path()))
 }
-
-/// Maximum number of properties of one object. No function takes an object with nearly as many.
-pub const MOST_KEYS: u32 = 65_536;
 
 /// The names of an object's own properties; `path` names the object in errors.
 ///
@@ -150,4 +146,15 @@ pub fn buffer(value: &JsValue, what: &dyn Fn() -> String) -> Fallible<Option<Vec
 fn engine_length(getter: &'static LocalKey<Function>, value: &JsValue) -> Option<usize> {
     let length = getter.with(|getter| getter.call0(value)).ok()?;
     length.as_f64().map(|length| length as usize)
+}
+
+/// `len` copies of `zero`, or an error where memory does not hold them.
+pub fn zeros<T: Clone>(what: &dyn Fn() -> String, len: usize, zero: T) -> Fallible<Vec<T>> {
+    let mut numbers = Vec::new();
+    numbers.try_reserve_exact(len).map_err(|_| BindingError::TooLarge {
+        what: what(),
+        given: len.saturating_mul(size_of::<T>()),
+    })?;
+    numbers.resize(len, zero);
+    Ok(numbers)
 }

@@ -17,7 +17,7 @@ use crate::options::EstimatorOptions;
 use crate::order::counting::Counting;
 use crate::plan::Plan;
 use crate::spectra::null_spectrum::NullSpectrum;
-use boresight_core::array::MAX_ELEMENTS;
+use crate::suits::longest_lag;
 use boresight_core::linalg::{hermitian_eigen, least_squares};
 use boresight_core::order::descending;
 use boresight_core::steering::cis;
@@ -167,23 +167,12 @@ impl Plan for CoarrayMusic {
     }
 }
 
-/// The longest lag up to which all occur between elements, at most what an array may hold.
-pub(crate) fn longest_lag(lattice: &Lattice) -> usize {
-    let mut occurs = vec![false; lattice.span()];
-    for (place, &i) in lattice.indices.iter().enumerate() {
-        for &k in &lattice.indices[..place] {
-            occurs[i.abs_diff(k)] = true;
-        }
-    }
-    let gap = (1..occurs.len()).find(|&lag| !occurs[lag]).unwrap_or(occurs.len());
-    (gap - 1).min(MAX_ELEMENTS - 1)
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{Estimator, SourceCount};
+    use crate::estimator::Estimator;
+    use crate::options::SourceCount;
     use boresight_core::Random;
     use boresight_core::linalg::adjoint;
     use boresight_core::steering::steering_matrix;

@@ -129,7 +129,9 @@ impl Beams {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::{Estimator, Method, SourceCount};
+    use crate::estimator::Estimator;
+    use crate::method::Method;
+    use crate::options::SourceCount;
     use boresight_core::linalg::adjoint;
     use boresight_core::presets::preset;
     use boresight_core::steering::steering_matrix;

@@ -49,7 +49,7 @@ pub fn refine(
     directions: &[Direction],
     data: Data<'_>,
     limits: Limits,
-) -> Result<Refined, crate::AoaError> {
+) -> Result<Refined, crate::error::AoaError> {
     data.check(array.len())?;
     if directions.is_empty() {
         return Err(CoreError::Empty {

@@ -5,7 +5,7 @@
 //! whole drive (bias and, where the method has none, scale of the yaw rate, side slip, delay, and the radar's own azimuths).
 
 use super::Sample;
-use crate::CalibrationOptions;
+use crate::options::CalibrationOptions;
 use crate::recursive::block::Extent;
 use crate::recursive::information::{MAX_CORRELATION, PRIOR_BLOCKS};
 use crate::symmetric::Symmetric;

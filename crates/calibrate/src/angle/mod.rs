@@ -10,7 +10,7 @@ pub(crate) mod least_squares;
 pub(crate) mod orthogonal_distance;
 pub(crate) mod weighted_mean;
 
-use crate::CalibrationOptions;
+use crate::options::CalibrationOptions;
 use crate::symmetric::Symmetric;
 use account::Untold;
 use std::f64::consts::{PI, TAU};

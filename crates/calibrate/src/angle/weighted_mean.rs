@@ -2,7 +2,7 @@
 
 use super::account::{Influence, covariance};
 use super::{Row, Sample, Setting, Solution, rows, wrap};
-use crate::FrameWeights;
+use crate::options::FrameWeights;
 use crate::symmetric::Symmetric;
 
 /// The mean with the weights that the options name; `None` without a frame.

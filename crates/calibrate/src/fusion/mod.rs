@@ -7,12 +7,14 @@
 
 mod filter;
 
+use crate::error::CalibrateError;
+use crate::frame::{FrameInput, Motion};
 use crate::intake::{Admission, Intake};
 use crate::motion::weighed::{inliers, told};
 use crate::network::{MotionNetwork, Near};
+use crate::options::CalibrationOptions;
 use crate::plane::{turned, turned_covariance};
 use crate::radars;
-use crate::{CalibrateError, CalibrationOptions, FrameInput, Motion};
 use boresight_core::CoreError;
 use filter::{Filter, Seen, Told};
 use std::sync::Arc;

@@ -4,8 +4,8 @@ use super::elimination::{Drive, Layout};
 use super::part::Part;
 use super::vehicle::{Vehicle, unsound};
 use super::{CAR, CarVector, DrivePart, MergeOptions};
-use crate::CalibrateError;
 use crate::angle::wrap;
+use crate::error::CalibrateError;
 use crate::recursive::information::Vector;
 use boresight_core::CoreError;
 

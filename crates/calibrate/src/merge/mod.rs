@@ -21,9 +21,10 @@ pub use one::merge;
 pub use options::{MergeOptions, Sharing};
 
 use crate::angle::wrap;
+use crate::equations::NormalEquations;
+use crate::error::CalibrateError;
 use crate::recursive::conclude::told;
 use crate::recursive::information::UNKNOWNS;
-use crate::{CalibrateError, NormalEquations};
 #[cfg(doc)]
 use boresight_core::CoreError;
 use boresight_core::describe::{self, Naming};

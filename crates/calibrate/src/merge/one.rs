@@ -1,8 +1,10 @@
 //! One radar's angle from several drives.
 
 use super::{DrivePart, MergeOptions, settle};
+use crate::error::CalibrateError;
+use crate::estimate::AngleEstimate;
+use crate::recursive::Recursive;
 use crate::recursive::information::{Matrix, UNKNOWNS, Vector};
-use crate::{AngleEstimate, CalibrateError, Recursive};
 use boresight_core::CoreError;
 
 /// The angle from several drives with one radar of one car, each as its calibration left it: [`super::merge_drives`] with the options' defaults,

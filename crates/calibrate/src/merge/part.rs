@@ -1,7 +1,7 @@
 //! One radar's equations of one drive, parted into what they say of the angle and the rest.
 
 use super::{CAR, CarMatrix, CarVector};
-use crate::NormalEquations;
+use crate::equations::NormalEquations;
 use crate::recursive::information::Vector;
 use crate::small::{inverse, times};
 

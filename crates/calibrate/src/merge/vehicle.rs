@@ -2,7 +2,7 @@
 
 use super::elimination::{About, Drive, Effects, Eliminated, Layout, Residual, Solution};
 use super::{CAR, CarVector};
-use crate::CalibrateError;
+use crate::error::CalibrateError;
 use crate::recursive::block::student;
 use crate::small::invert;
 use boresight_core::CoreError;

@@ -3,8 +3,9 @@
 
 use super::Columns;
 use super::least_squares::{Fit, select};
-use super::ransac::Search;
-use crate::{CalibrationOptions, Motion};
+use super::search::Search;
+use crate::frame::Motion;
+use crate::options::CalibrationOptions;
 use boresight_core::{Detection, Random};
 
 /// How often inliers are selected anew by the noise model.

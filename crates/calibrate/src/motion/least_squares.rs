@@ -1,32 +1,7 @@
 //! Least squares for the velocity, plain and weighted by each detection's noise.
 
-use super::consensus::Consensus;
-use super::{Columns, FrameMotion, MotionPlan};
+use super::Columns;
 use crate::symmetric::Symmetric;
-use crate::{CalibrateError, CalibrationOptions, FrameInput};
-
-/// RANSAC, then least squares weighted by each detection's noise.
-#[derive(Debug)]
-pub(crate) struct WeightedLeastSquares {
-    consensus: Consensus,
-}
-
-impl WeightedLeastSquares {
-    pub fn new(options: &CalibrationOptions) -> Self {
-        Self { consensus: Consensus::new(options) }
-    }
-}
-
-impl MotionPlan for WeightedLeastSquares {
-    fn estimate(
-        &mut self,
-        frame: FrameInput<'_>,
-        weights: &mut Vec<f32>,
-    ) -> Result<FrameMotion, CalibrateError> {
-        let motion = self.consensus.estimate_reselecting(frame.detections, weights, weighted);
-        Ok(FrameMotion::to_judge(motion))
-    }
-}
 
 /// A velocity (m/s) and its covariance.
 pub(crate) type Fit = ([f64; 2], Symmetric);

@@ -9,15 +9,20 @@ mod consensus;
 pub(crate) mod least_squares;
 pub(crate) mod orthogonal_distance;
 pub(crate) mod plan;
+pub(crate) mod prepare;
 pub(crate) mod ransac;
+mod search;
 pub(crate) mod weighed;
+mod weighted_least_squares;
 
 pub use plan::{FrameMotion, MotionPlan};
 
+use crate::error::CalibrateError;
+use crate::frame::{FrameInput, Motion};
 use crate::intake::{self, Screened};
-use crate::{CalibrateError, CalibrationOptions, FrameInput, Motion, MotionMethod};
+use crate::options::{CalibrationOptions, MotionMethod};
 use boresight_core::{CoreError, Detection};
-use plan::plan;
+use prepare::prepare;
 use wide::f32x4;
 
 /// Detections as columns, filled up to whole lanes: what the sums and counts run over.
@@ -92,7 +97,7 @@ impl MotionEstimator {
             }
             .into());
         }
-        Ok(Self { plan: plan(method, options, None)?, weights: Vec::new() })
+        Ok(Self { plan: prepare(method, options, None)?, weights: Vec::new() })
     }
 
     /// The motion, with covariance (equation 3 for least squares; the noise model's, inflated by the

@@ -9,8 +9,10 @@
 use super::consensus::Consensus;
 use super::least_squares::{Fit, ITERATIONS, SETTLED_MPS, inflation};
 use super::{Columns, FrameMotion, MotionPlan};
+use crate::error::CalibrateError;
+use crate::frame::FrameInput;
+use crate::options::CalibrationOptions;
 use crate::symmetric::Symmetric;
-use crate::{CalibrateError, CalibrationOptions, FrameInput};
 
 /// RANSAC, then orthogonal distance regression.
 #[derive(Debug)]

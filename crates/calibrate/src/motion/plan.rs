@@ -1,16 +1,8 @@
 //! One interface for all that gives a radar's motion.
 
-use super::least_squares::WeightedLeastSquares;
-use super::orthogonal_distance::OrthogonalDistance;
-use super::ransac::Ransac;
-use super::weighed::Weighed;
-use crate::network::MotionNetwork;
-use crate::{
-    CalibrateError, CalibrationOptions, CarMotion, FrameInput, Motion, MotionMethod, Recursive,
-    Verdict,
-};
+use crate::error::CalibrateError;
+use crate::frame::{CarMotion, FrameInput, Motion, Verdict};
 use std::fmt::Debug;
-use std::sync::Arc;
 
 /// What each method of motion implements: everything that depends on the options alone is made once, in the method's
 /// own constructor. Whoever has a method of their own brings it to [`crate::Calibrator::with_motion`].
@@ -46,22 +38,4 @@ impl FrameMotion {
     pub fn to_judge(motion: Option<Motion>) -> Self {
         Self { motion, verdict: Verdict::Used, earlier: None }
     }
-}
-
-/// The plan of a method, networks among them where one is given.
-pub(crate) fn plan(
-    method: MotionMethod,
-    options: &CalibrationOptions,
-    network: Option<&Arc<MotionNetwork>>,
-) -> Result<Box<dyn MotionPlan>, CalibrateError> {
-    options.validate()?;
-    Ok(match method {
-        MotionMethod::Ransac => Box::new(Ransac::new(options)),
-        MotionMethod::WeightedLeastSquares => Box::new(WeightedLeastSquares::new(options)),
-        MotionMethod::OrthogonalDistance => Box::new(OrthogonalDistance::new(options)),
-        MotionMethod::Tracked => Box::new(Recursive::new(options)?),
-        MotionMethod::Deepego | MotionMethod::DeepegoPlus => {
-            Box::new(Weighed::new(method, network, options)?)
-        }
-    })
 }

@@ -1,8 +1,10 @@
 //! Motion by a network that weighs detections, and by one that smooths what the first makes of several frames.
 
 use super::{FrameMotion, MotionPlan};
+use crate::error::CalibrateError;
+use crate::frame::{CarMotion, FrameInput, Motion};
 use crate::network::{MotionNetwork, WeighedMotion, WindowFrame};
-use crate::{CalibrateError, CalibrationOptions, CarMotion, FrameInput, Motion, MotionMethod};
+use crate::options::{CalibrationOptions, MotionMethod};
 use std::collections::VecDeque;
 use std::sync::Arc;
 

@@ -3,9 +3,10 @@
 use super::block::FreeScale;
 use super::information::Information;
 use crate::angle::wrap;
+use crate::estimate::Remark;
 use crate::frame::FrameInput;
+use crate::frame::Verdict;
 use crate::intake::azimuths_beyond;
-use crate::{Remark, Verdict};
 use boresight_core::Detection;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;

@@ -30,8 +30,8 @@ mod standstill;
 mod tracked;
 mod vote;
 
-use crate::calibrator::tracked_only;
 use crate::error::CalibrateError;
+use crate::error::tracked_only;
 use crate::estimate::{AngleEstimate, FrameCounts};
 use crate::frame::{FrameInput, FrameOutcome, Verdict};
 use crate::intake::{Admission, Intake};

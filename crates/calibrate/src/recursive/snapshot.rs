@@ -7,9 +7,10 @@
 //! to read it, convert them here, and write fixtures of the new version (`tests/snapshot_versions.rs`).
 
 use super::{Recursive, State};
+use crate::error::CalibrateError;
 use crate::intake::Intake;
 use crate::network::MotionNetwork;
-use crate::{CalibrateError, CalibrationOptions};
+use crate::options::CalibrationOptions;
 use std::sync::Arc;
 
 const MAGIC: &[u8; 4] = b"BSCA";

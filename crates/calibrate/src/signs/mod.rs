@@ -19,7 +19,7 @@ mod tally;
 
 pub use finding::{Evidence, SignFinding, SignFindings, Untold};
 
-use crate::CalibrateError;
+use crate::error::CalibrateError;
 use crate::statistics::frames::frames;
 use boresight_core::describe::Described;
 use boresight_core::{DriveLog, Remark, Scan};

@@ -1,7 +1,10 @@
 //! The motion of a radar in each of its scans, and what is left of its detections.
 
+use crate::error::CalibrateError;
+use crate::frame::Motion;
 use crate::intake;
-use crate::{CalibrateError, CalibrationOptions, Motion, MotionEstimator, MotionMethod};
+use crate::motion::MotionEstimator;
+use crate::options::{CalibrationOptions, MotionMethod};
 use boresight_core::{Detection, Scan};
 
 use boresight_core::drive::STATIC_LABEL;

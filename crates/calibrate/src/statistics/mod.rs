@@ -8,7 +8,7 @@ mod noise;
 pub(crate) mod robust;
 mod speed;
 
-use crate::CalibrateError;
+use crate::error::CalibrateError;
 use boresight_core::error::check_range;
 use boresight_core::{DriveLog, Scan};
 use serde::Serialize;

@@ -4,7 +4,6 @@ use crate::error::CliError;
 use boresight_aoa::Method;
 use boresight_core::array::Extent;
 use boresight_core::presets::{PRESETS, preset};
-use boresight_core::steering::unambiguous_sine;
 use serde_json::{Value, json};
 
 /// The methods and what each needs.
@@ -67,7 +66,7 @@ pub fn arrays(as_json: bool) -> Result<String, CliError> {
             Extent::Line => "the angle to its line",
             Extent::Point => "no angle",
         };
-        let sector_deg = array.lattice().map_or(90.0, |l| unambiguous_sine(&l).asin().to_degrees());
+        let sector_deg = array.lattice().map_or(90.0, |l| l.unambiguous_sine().asin().to_degrees());
         list.push(json!({
             "name": name,
             "transmitters": tx,

@@ -46,7 +46,7 @@ fn small<T: Transforms>(direction: FftDirection) -> [(usize, Arc<dyn Fft<T>>); 3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Random;
+    use crate::random::Random;
     use num_complex::{Complex32, Complex64};
     use rustfft::FftPlanner;
     use std::f64::consts::TAU;

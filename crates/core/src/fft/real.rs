@@ -124,7 +124,7 @@ fn number<T: FftNum>(x: f64) -> T {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Random;
+    use crate::random::Random;
     use num_complex::Complex64;
 
     const LENGTHS: [usize; 10] = [1, 2, 3, 4, 6, 7, 12, 30, 33, 64];

@@ -53,7 +53,7 @@ impl<T: Transforms> SideBySide<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Random;
+    use crate::random::Random;
     use num_complex::Complex64;
 
     #[test]

@@ -47,8 +47,8 @@ pub(super) fn add_scaled(y: PartsMut<'_>, (re, im): (f64, f64), x: Parts<'_>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Complex64;
     use crate::random::Random;
+    use num_complex::Complex64;
 
     #[test]
     fn agree_with_complex_arithmetic_at_every_length() {

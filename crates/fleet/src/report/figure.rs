@@ -1,8 +1,8 @@
 //! A radar's angle over the drives of its vehicle, drawn.
 
 use super::words::{count, degrees, sane};
-use crate::FleetOptions;
 use crate::fleet::{DriveAngle, Vehicle, VehicleRadar};
+use crate::options::FleetOptions;
 use boresight_calibrate::wrap;
 use boresight_report::chart::{Chart, Mark};
 

@@ -6,9 +6,11 @@ mod vehicle;
 pub(crate) mod words;
 
 use crate::fleet::Fleet;
-use crate::{FleetOptions, report::attention::Attention};
+use crate::options::FleetOptions;
+use crate::report::attention::Attention;
 use boresight_report::About;
-use boresight_report::html::{document, escaped, origin, phrase};
+use boresight_report::escape::escaped;
+use boresight_report::html::{document, origin, phrase};
 use std::fmt::Write as _;
 use vehicle::cell;
 use words::{count, degrees, shown};

@@ -3,10 +3,11 @@
 use super::attention::unit;
 use super::words::{angle, count, degrees, sane, shown, span, trimmed};
 use super::{LIST, figure};
-use crate::FleetOptions;
 use crate::fleet::{AngleSource, CarValues, Vehicle, VehicleRadar};
+use crate::options::FleetOptions;
 use boresight_calibrate::wrap;
-use boresight_report::html::{escaped, phrase, table};
+use boresight_report::escape::escaped;
+use boresight_report::html::{phrase, table};
 use boresight_report::{Place, verdict, within};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

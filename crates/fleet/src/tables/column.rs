@@ -1,6 +1,6 @@
 //! Columns of a table, and rows into a file, a group at a time.
 
-use crate::FleetError;
+use crate::error::FleetError;
 use parquet::basic::{Compression, LogicalType, Repetition, TimeUnit, Type as Physical};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;

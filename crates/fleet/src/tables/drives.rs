@@ -1,7 +1,7 @@
 //! The table of drives.
 
 use super::column::{Column, Of, write};
-use crate::FleetError;
+use crate::error::FleetError;
 use crate::fleet::{Drive, DriveAngle, Fleet, Vehicle, VehicleRadar};
 use std::io::Write;
 

@@ -2,7 +2,7 @@
 
 use super::column::{Column, Of, write};
 use super::drives::{columns, degrees, finite};
-use crate::FleetError;
+use crate::error::FleetError;
 use crate::fleet::{Fleet, Vehicle, VehicleRadar};
 use boresight_core::describe::Named;
 use std::io::Write;

@@ -5,7 +5,7 @@
 //! An index has a header of 24 bytes (four 32-bit words, the last being the number of frames; the data's bytes as a
 //! 64-bit number) and 48 bytes a frame (the frame's bytes at 28, its time at 32, its place in the data at 40).
 
-use super::layout::{CHIP_RECEIVERS, CHIPS, Layout};
+use super::layout::{CHIPS, Layout};
 use crate::error::FormatError;
 use crate::mmwave_cfg::RadarConfig;
 use boresight_core::Remark;
@@ -13,11 +13,6 @@ use std::collections::BTreeMap;
 
 /// The chips in the order of their receivers' numbers.
 pub const CHIP_NAMES: [&str; CHIPS] = ["master", "slave1", "slave2", "slave3"];
-
-/// The receivers from the left to the right of the board, by their numbers: those of the third slave, the master, the
-/// second slave and the first. Frames have them in this order.
-pub const RECEIVERS: [usize; CHIPS * CHIP_RECEIVERS] =
-    [12, 13, 14, 15, 0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7];
 
 const HEADER_BYTES: usize = 24;
 const ENTRY_BYTES: usize = 48;

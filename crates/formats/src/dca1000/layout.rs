@@ -13,6 +13,11 @@ pub(crate) const CHIP_RECEIVERS: usize = 4;
 /// Chips of a cascade: master, slave 1, slave 2, slave 3.
 pub(crate) const CHIPS: usize = 4;
 
+/// The receivers from the left to the right of the board, by their numbers: those of the third slave, the master, the
+/// second slave and the first. Frames have them in this order.
+pub const CASCADE_RECEIVERS: [usize; CHIPS * CHIP_RECEIVERS] =
+    [12, 13, 14, 15, 0, 1, 2, 3, 8, 9, 10, 11, 4, 5, 6, 7];
+
 /// How samples lie in the bytes of a capture, as little-endian 16-bit numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Described, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -5,14 +5,14 @@
 
 pub mod cascade;
 mod evidence;
-mod layout;
+pub(crate) mod layout;
 mod reading;
 mod settled;
 mod write;
 
 pub use evidence::{BeatSides, Evidence};
-pub use layout::Layout;
-pub(crate) use layout::Plan;
+use layout::Plan;
+pub use layout::{CASCADE_RECEIVERS, Layout};
 pub use reading::{IqOrder, Lanes, ReadingOptions};
 pub use settled::Settled;
 pub use write::write;

@@ -88,7 +88,7 @@ fn small(layout: Layout, sampling: Sampling) -> RadarConfig {
     config.waveform = Waveform { samples: 6, loops: 2, sampling, ..config.waveform };
     config.adc.layout = layout;
     match layout {
-        Layout::Cascade => config.receivers = cascade::RECEIVERS.to_vec(),
+        Layout::Cascade => config.receivers = CASCADE_RECEIVERS.to_vec(),
         _ => config.receivers = vec![0, 2, 3],
     }
     config

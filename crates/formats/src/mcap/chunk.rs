@@ -2,8 +2,8 @@
 
 use super::names::Names;
 use super::record::{MessageHead, opcode};
+use super::sink::McapSink;
 use super::split::{Splitter, Step};
-use super::stream::McapSink;
 use super::unpack::Compression;
 use std::collections::BTreeMap;
 

@@ -12,6 +12,7 @@ mod counts;
 pub(crate) mod made;
 mod names;
 mod record;
+mod sink;
 mod split;
 mod stream;
 #[cfg(test)]
@@ -22,4 +23,5 @@ pub mod write;
 
 pub use counts::McapCounts;
 pub use record::{Channel, MAGIC, Message, Schema};
-pub use stream::{McapSink, McapStream};
+pub use sink::McapSink;
+pub use stream::McapStream;

@@ -1,7 +1,7 @@
 //! The schemas and channels of a file.
 
 use super::record::{Channel, Schema, opcode};
-use super::stream::McapSink;
+use super::sink::McapSink;
 use std::collections::BTreeMap;
 
 /// Most that is held of definitions, bytes.

@@ -4,6 +4,7 @@ use super::chunk::{Chunk, Inside};
 use super::counts::McapCounts;
 use super::names::Names;
 use super::record::{Channel, ChunkHead, Fields, MAGIC, Message, MessageHead, Schema, opcode};
+use super::sink::McapSink;
 use super::split::{Splitter, Step};
 use super::unpack::Compression;
 use crate::error::FormatError;
@@ -14,15 +15,6 @@ const ALLOWANCE: u64 = 64 << 20;
 const GROWTH: u64 = 1024;
 /// Most that is held of a packed chunk, bytes.
 const MAX_PACKED_BYTES: u64 = 512 << 20;
-
-/// What takes the messages of a file.
-pub trait McapSink {
-    /// A channel that the file names, with its schema if there is one; whether its messages are wanted.
-    fn channel(&mut self, channel: &Channel, schema: Option<&Schema>) -> bool;
-
-    /// A message of a wanted channel; whether more of them are wanted.
-    fn message(&mut self, message: Message<'_>) -> bool;
-}
 
 /// Reads a file of which the bytes come in pieces. Holds one chunk at most as it is stored, and of
 /// its messages the wanted ones.

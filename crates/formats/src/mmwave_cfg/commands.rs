@@ -6,7 +6,7 @@ use super::frames::{Advanced, BinaryPhase, Frame};
 use super::line::{Line, clipped};
 use super::sequence::{Chirps, sequence};
 use super::{AdcFormat, RadarConfig, SubFrame, platform_layout};
-use crate::dca1000::{Layout, cascade};
+use crate::dca1000::layout::{CASCADE_RECEIVERS, Layout};
 use crate::error::FormatError;
 use boresight_core::Remark;
 use boresight_core::{CoreError, Sampling, Waveform, presets};
@@ -308,7 +308,7 @@ impl Commands {
             self.remarks.push(Remark::new("remarks-left-out", text));
         }
         let receivers = match self.cascaded {
-            true => cascade::RECEIVERS.to_vec(),
+            true => CASCADE_RECEIVERS.to_vec(),
             false => (0..16).filter(|rx| rx_mask >> rx & 1 == 1).collect(),
         };
         let mut config = RadarConfig {

@@ -11,9 +11,7 @@ mod frames;
 mod line;
 mod sequence;
 
-#[cfg(doc)]
-use crate::dca1000::cascade;
-use crate::dca1000::{Layout, Plan};
+use crate::dca1000::layout::{Layout, Plan};
 use crate::error::FormatError;
 use antennas::preset_of;
 use boresight_core::error::check_range;
@@ -55,7 +53,7 @@ pub struct RadarConfig {
     /// Timing and frequency plan of a frame, or of the chosen sub-frame of an advanced one.
     pub waveform: Waveform,
     /// Receivers in use, as their numbers on the chip (from 0), ascending; of a cascade, 4 to a chip, from left to
-    /// right on the board ([`cascade::RECEIVERS`]).
+    /// right on the board ([`crate::dca1000::CASCADE_RECEIVERS`]).
     pub receivers: Vec<usize>,
     /// Transmitters in use, as their numbers on the chip (from 0; of a cascade 3 to a chip), in order of transmission.
     pub transmitters: Vec<usize>,

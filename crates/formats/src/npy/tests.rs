@@ -1,5 +1,5 @@
 use super::*;
-use crate::FormatError;
+use crate::error::FormatError;
 use boresight_core::CoreError;
 
 fn file(header: &str, body: &[u8]) -> Vec<u8> {

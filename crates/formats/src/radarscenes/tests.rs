@@ -1,7 +1,7 @@
 use super::Companions;
-use crate::FormatError;
 use crate::drive_log::mcap::TopicOptions;
 use crate::drive_log::{DriveFormat, DropReason, MountingSource, ReadReport, open, open_owned};
+use crate::error::FormatError;
 use boresight_core::Diagnose;
 use boresight_core::drive::RADARSCENES_SENSORS;
 use boresight_core::drive::{Detection, DriveLog};

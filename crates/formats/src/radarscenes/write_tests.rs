@@ -1,6 +1,6 @@
 use super::write::{Packing, write};
 use super::{Companions, read, sequence_names};
-use crate::{DropReason, ReadReport};
+use crate::drive_log::{DropReason, ReadReport};
 use boresight_core::Diagnose;
 use boresight_core::drive::{
     Detection, DriveLog, MotionSample, Pose, RADARSCENES_SENSORS, Scan, Sensor,

@@ -1,7 +1,7 @@
 //! Frames out of packets that are lost, come twice or in another order.
 
 use super::packet::Packet;
-use crate::LiveError;
+use crate::error::LiveError;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 

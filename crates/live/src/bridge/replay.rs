@@ -1,7 +1,7 @@
 //! A recording sent as the card would send it.
 
 use super::packet::write_header;
-use crate::LiveError;
+use crate::error::LiveError;
 use boresight_formats::{Capture, RadarConfig};
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicBool, Ordering};

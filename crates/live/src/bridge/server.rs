@@ -3,8 +3,8 @@
 use super::clients::{Mailbox, message, serve};
 use super::frames::{Counts, FrameAssembler};
 use super::messages::{Hello, text};
-use crate::LiveError;
 use crate::admission::{Admission, Ticket, isolated};
+use crate::error::LiveError;
 use crate::handshake::{Terms, handshake};
 use crate::origin::Origins;
 use boresight_formats::RadarConfig;

@@ -1,7 +1,7 @@
 //! A drive played and calibrated, scan after scan.
 
 use super::results::ResultTopics;
-use crate::LiveError;
+use crate::error::LiveError;
 use boresight_calibrate::network::MotionNetwork;
 use boresight_calibrate::{CalibrationOptions, Car, Frames};
 use boresight_core::Remark;

@@ -3,7 +3,7 @@
 use super::play::Play;
 use super::protocol::Playing;
 use super::shared::{Seek, Shared, State};
-use crate::LiveError;
+use crate::error::LiveError;
 use boresight_formats::foxglove::Message;
 use std::ops::ControlFlow;
 use std::sync::PoisonError;

@@ -8,7 +8,8 @@
 
 use super::cell_averaging::Mean;
 use super::ordered_statistic::{self, OrderedStatistic};
-use super::threshold::{Factors, TrainingCells, factors, mean_factor};
+use super::threshold::{Factors, factors, mean_factor};
+use super::training_cells::TrainingCells;
 use super::training_noise::TrainingNoise;
 use super::{CfarKind, CfarOptions};
 use std::collections::BTreeMap;

@@ -19,6 +19,7 @@ mod smallest_of;
 mod stencil;
 mod sums;
 mod threshold;
+mod training_cells;
 mod training_noise;
 
 use crate::error::SignalError;
@@ -34,8 +35,9 @@ pub use options::{CfarAxes, CfarKind, CfarOptions};
 use ranks::Ranks;
 use stencil::{Rectangle, Stencil};
 use sums::CumulativeSums;
+pub use threshold::Factors;
 use threshold::factors;
-pub use threshold::{Factors, TrainingCells};
+pub use training_cells::TrainingCells;
 use training_noise::{CellCorrelations, TrainingNoise};
 
 /// Most bins along an axis.

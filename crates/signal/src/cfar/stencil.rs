@@ -1,7 +1,7 @@
 //! Which cells train the threshold of a cell: a cross section, a ring, and what is left of them at
 //! the edges of the map.
 
-use super::threshold::TrainingCells;
+use super::training_cells::TrainingCells;
 use super::{CfarAxes, CfarOptions};
 use crate::error::SignalError;
 use boresight_core::error::check_range;

@@ -5,22 +5,6 @@ use super::ordered_statistic::{self, OrderedStatistic};
 use super::training_noise::TrainingNoise;
 use super::{CfarKind, CfarOptions, greatest_of, smallest_of};
 
-/// Training cells around a cell under test: in the half before it and in the half after it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TrainingCells {
-    /// Cells of smaller range, or of the same range and smaller rate.
-    pub before: usize,
-    /// Cells of greater range, or of the same range and greater rate.
-    pub after: usize,
-}
-
-impl TrainingCells {
-    /// Both halves.
-    pub fn total(self) -> usize {
-        self.before + self.after
-    }
-}
-
 /// What turns the noise statistic of a kind of CFAR into threshold and noise power.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factors {

@@ -3,7 +3,7 @@
 use super::bin_noise::BinNoise;
 use super::cell_averaging::Mean;
 use super::stencil::Rectangle;
-use super::threshold::TrainingCells;
+use super::training_cells::TrainingCells;
 use crate::error::SignalError;
 use boresight_core::Complex64;
 use boresight_core::linalg::hermitian_eigen;

@@ -30,10 +30,10 @@ pub use options::{
     RadarNoise,
 };
 pub use profile::{DriveProfile, YawRateSensor};
-pub use radar::{CYCLE_S, FIELD_OF_VIEW_RAD, MAX_DETECTIONS, STATIC_CLASS};
+pub use radar::{CYCLE_S, MAX_DETECTIONS, STATIC_CLASS};
 pub use realistic::CarErrors;
 pub use scenario::Scenario;
-pub use view::RANGE_M;
+pub use view::{FIELD_OF_VIEW_RAD, RANGE_M};
 pub use wire::PlacedRadar;
 
 use crate::error::SimulateError;

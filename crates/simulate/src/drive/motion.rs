@@ -1,6 +1,6 @@
 //! How the car moves along its route.
 
-use super::realistic::CarErrors;
+use super::realistic::car::CarErrors;
 use super::scenario::{Route, Scenario};
 use boresight_core::Random;
 use boresight_core::drive::{Mounting, Pose};

@@ -4,15 +4,11 @@ use super::motion::{TrueMotion, motion_at};
 use super::options::{DriveOptions, RadarNoise};
 use super::realistic::{self, Realism};
 use super::traffic::{Mover, Traffic};
-use super::view::{BINS, Echo, RANGE_M, View, received, strength_db, within};
+use super::view::{BINS, Echo, FIELD_OF_VIEW_RAD, RANGE_M, View, received, strength_db, within};
 use super::world::World;
 use boresight_core::Random;
 pub use boresight_core::drive::STATIC_LABEL as STATIC_CLASS;
 use boresight_core::drive::{Detection, Mounting};
-use std::f64::consts::FRAC_PI_3;
-
-/// Detections lie within plus and minus this azimuth, rad.
-pub const FIELD_OF_VIEW_RAD: f64 = FRAC_PI_3;
 
 /// Most detections a scan; the weakest beyond are left out, as a radar with a full list does.
 pub const MAX_DETECTIONS: usize = 200;

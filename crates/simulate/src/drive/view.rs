@@ -1,8 +1,11 @@
 //! What a radar sees from where it is: ranges, azimuths, shadows, and the strength of echoes.
 
-use super::radar::FIELD_OF_VIEW_RAD;
 use boresight_core::Random;
+use std::f64::consts::FRAC_PI_3;
 use std::f64::consts::PI;
+
+/// Detections lie within plus and minus this azimuth, rad.
+pub const FIELD_OF_VIEW_RAD: f64 = FRAC_PI_3;
 
 /// Nearest and farthest detections, m.
 pub const RANGE_M: [f64; 2] = [0.5, 100.0];

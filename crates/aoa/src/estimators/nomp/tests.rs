@@ -122,7 +122,7 @@ fn few_elements_resolve_three_equal_sources() {
         let y = steering_matrix(&array, &at).dot(&s) + noise(8, 1, 1e-3, &mut random);
         let sources = plan.estimate(Data::Snapshots(y.view())).unwrap().sources;
         let near = |sine: f64| {
-            let error = |s: &crate::Source| (s.direction.azimuth_rad.sin() - sine).abs();
+            let error = |s: &crate::estimate::Source| (s.direction.azimuth_rad.sin() - sine).abs();
             sources.iter().any(|source| error(source) < 0.12)
         };
         right += usize::from(sources.len() == 3 && sines.into_iter().all(near));
