@@ -167,7 +167,7 @@ async function measureEdit() {
   const before = start(cwd, 'cargo', tests);
   const problem = await before.done;
   if (problem) throw new Error(`the tests of crates/aoa ${problem} before anything was changed\n${before.said()}`);
-  const file = join(cwd, 'crates', 'aoa', 'src', 'capon.rs');
+  const file = join(cwd, 'crates', 'aoa', 'src', 'estimators', 'capon.rs');
   const source = readFileSync(file, 'utf8');
   writeFileSync(file, edited(source, Date.now()));
   await measureCommand(EDIT, cwd, 'cargo', tests);

@@ -47,7 +47,7 @@ test('the table has what was measured beside its target', () => {
 });
 
 test('the edit is in the body of a function, one line, and another each time', () => {
-  const source = readFileSync(join(root, 'crates', 'aoa', 'src', 'capon.rs'), 'utf8');
+  const source = readFileSync(join(root, 'crates', 'aoa', 'src', 'estimators', 'capon.rs'), 'utf8');
   const lines = edited(source, 7).split('\n');
   const at = lines.findIndex((line) => line.includes('black_box(7_u64);'));
   assert.match(lines[at - 1], /pub fn .*\{$/);
