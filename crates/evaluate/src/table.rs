@@ -5,6 +5,9 @@ use std::fmt;
 /// Differences below so many of their standard errors do not rank two rows.
 const DISTINCT: f64 = 2.0;
 
+/// Relative error of a mean of equal numbers.
+const ROUNDING: f64 = 1e-12;
+
 /// A number with the text that shows it, or text alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
@@ -193,6 +196,8 @@ fn jackknife(without: &[f64]) -> Option<f64> {
     let mean = without.iter().sum::<f64>() / n;
     let squares: f64 = without.iter().map(|value| (value - mean).powi(2)).sum();
     let error = ((n - 1.0) / n * squares).sqrt();
+    // Equal values differ from their mean by rounding.
+    let error = if error <= ROUNDING * mean.abs() { 0.0 } else { error };
     (without.len() > 1 && error.is_finite()).then_some(error)
 }
 
