@@ -93,7 +93,9 @@ def unlike(weaker_db: float, rate_mps: float) -> str:
         if weaker_db > 0
         else ""
     )
-    moving = f" Half of the targets move at up to {rate_mps:g} m/s, the publication's do not move." if rate_mps > 0 else ""
+    moving = (
+        f" Half of the targets move at up to {rate_mps:g} m/s, the publication's do not move." if rate_mps > 0 else ""
+    )
     return weaker + moving
 
 

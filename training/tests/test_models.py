@@ -33,6 +33,8 @@ def task_of(card):
         more["setup"] = "experiment" if data["waveform"] == "3dcnn-experiment" else "simulated"
         more["channel_error"] = (data.get("channelDb", 0.0), data.get("channelDeg", 0.0))
         more["snr_db"] = (data["secondStageLowestSnrDb"], data["snrDb"][1])
+        more["weaker_db"] = data.get("secondStageWeakerDb", 0.0)
+        more["moving"] = data.get("rateMps", 0.0) > 0
     return task(card["network"], card["form"], card.get("targets"), **more)
 
 
