@@ -99,7 +99,7 @@ def test_remarks_are_warnings_where_the_function_was_called(tmp_path):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         boresight.estimate(snapshots, array="ula8", **options)
-    # Noise holds no targets, so one remark is about the iteration and one about targets that are not told apart.
+    # Noise holds no targets, so one remark is about the iteration and one about sources that are not significant.
     assert len(caught) == 2
     assert {(one.category, one.filename) for one in caught} == {(boresight.BoresightWarning, __file__)}
     np.save(tmp_path / "x.npy", snapshots)

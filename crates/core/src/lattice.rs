@@ -17,7 +17,7 @@ pub struct Lattice {
 const MAX_SPAN: usize = 1 << 14;
 
 impl Lattice {
-    /// Largest `|sin(azimuth)|` that an array on the lattice sees without ambiguity: a wave at `s` cannot be told from one
+    /// Largest `|sin(azimuth)|` that an array on the lattice sees without ambiguity: a wave at `s` looks like one
     /// at `s + 2 / spacing`.
     pub fn unambiguous_sine(&self) -> f64 {
         (1.0 / self.spacing).min(1.0)

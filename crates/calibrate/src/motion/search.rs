@@ -83,7 +83,7 @@ impl Search {
         self.refine(columns, velocity.map(f64::from), inliers)
     }
 
-    /// Least squares on the inliers, selected anew until they stay the same.
+    /// Least squares on the inliers, selected again until they stay the same.
     fn refine(
         &self,
         columns: &Columns,
