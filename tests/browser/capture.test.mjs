@@ -424,3 +424,19 @@ browserTest('capture: plots and tables are saved as PNG and CSV', { path }, asyn
     /^range_bin,doppler_bin,range_m,rate_mps,azimuth_deg,.*board_azimuth_deg,range_difference_m,azimuth_difference_deg$/,
   );
 });
+
+browserTest(
+  'capture: a source that was left while it was being opened does not come back',
+  { path },
+  async ({ page }) => {
+    await ready(page);
+    const example = (name) => page.getByRole('list', { name: 'Examples' }).getByRole('link', { name });
+    await example('Azimuth and elevation').click();
+    await parametersWith(page, (params) => params.get('source') === 'simulated');
+    await example('Regions by networks').click();
+    // Networks run on the same workers, after the simulation.
+    await page.waitForSelector('[data-table="regions"] [data-region]', { timeout: 60_000 });
+    assert.equal((await parameters(page)).get('source'), null);
+    assert.equal(await example('Regions by networks').getAttribute('aria-current'), 'true');
+  },
+);

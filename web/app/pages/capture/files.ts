@@ -179,10 +179,16 @@ export function startFiles(): () => void {
     void reading.value;
     void reread();
   });
+  // The opening that the latest change of source started.
+  let started = -1;
   const stopOpening = effect(() => {
     const wanted = source.value;
     const open = loaded.peek();
-    if (sourceOf(open) === wanted) return;
+    if (sourceOf(open) === wanted) {
+      // Switched back before the other source was open: its result must not replace this one.
+      if (opening === started) opening += 1;
+      return;
+    }
     if (wanted === 'bundled') void openBundled();
     else if (wanted === 'simulated') void openSimulated();
     else {
@@ -191,6 +197,7 @@ export function startFiles(): () => void {
       boardLog.value = null;
       open?.kept.free();
     }
+    started = opening;
   });
   return () => {
     stop();
