@@ -1,7 +1,7 @@
 //! Where output goes: through links, into devices and pipes, and never by halves onto a file.
 
 use crate::error::CliError;
-use boresight_core::lines::sync_folder;
+use boresight_fleet::lines::sync_folder;
 use std::fs::{Metadata, OpenOptions, Permissions};
 use std::io::{Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};

@@ -6,7 +6,6 @@ use boresight_array_calibration::ArrayCalibrationError;
 use boresight_calibrate::CalibrateError;
 use boresight_calibrate::network::NetworkError;
 use boresight_core::{CoreError, Details, Diagnose};
-use boresight_evaluate::EvaluateError;
 use boresight_fleet::FleetError;
 use boresight_formats::FormatError;
 use boresight_image::ImageError;
@@ -15,6 +14,7 @@ use boresight_neural::NeuralError;
 use boresight_pipeline::PipelineError;
 use boresight_signal::SignalError;
 use boresight_simulate::SimulateError;
+use boresight_validate::ValidateError;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use thiserror::Error;
@@ -67,9 +67,12 @@ pub enum CliError {
     /// Simulation refused.
     #[error(transparent)]
     Simulate(#[from] SimulateError),
-    /// An experiment refused, or was stopped.
+    /// Validation or an experiment refused, or was stopped.
     #[error(transparent)]
-    Evaluate(#[from] EvaluateError),
+    Validate(#[from] ValidateError),
+    /// A network refused.
+    #[error(transparent)]
+    Neural(#[from] NeuralError),
     /// A model cannot be loaded, or not for this use.
     #[error("{}: {error}", path.display())]
     Model {
@@ -145,7 +148,7 @@ impl CliError {
     pub fn exit_code(&self) -> ExitCode {
         match self {
             Self::Pipeline(PipelineError::Cancelled { .. })
-            | Self::Evaluate(EvaluateError::Cancelled { .. })
+            | Self::Validate(ValidateError::Cancelled { .. })
             | Self::Fleet(FleetError::Cancelled { .. })
             | Self::Simulate(SimulateError::Cancelled { .. }) => ExitCode::from(INTERRUPTED),
             Self::Option { .. } | Self::OwnInput { .. } | Self::SameOutput { .. } => {
@@ -181,7 +184,8 @@ impl CliError {
             Self::Image(error) => error,
             Self::Pipeline(error) => error,
             Self::Simulate(error) => error,
-            Self::Evaluate(error) => error,
+            Self::Validate(error) => error,
+            Self::Neural(error) => error,
             Self::Model { error, .. } => error.as_ref(),
             Self::Network { error, .. } => error,
             _ => return None,

@@ -3,7 +3,7 @@
 use crate::destination::{Destination, file_behind};
 use crate::error::CliError;
 use boresight_core::Waveform;
-use boresight_core::lines::sync_folder;
+use boresight_fleet::lines::sync_folder;
 use boresight_formats::RadarConfig;
 use boresight_report::Source;
 use boresight_simulate::{waveform_preset, waveform_presets};

@@ -1,7 +1,7 @@
 //! Progress on the standard error, and Ctrl-C.
 
 use crate::error::CliError;
-use boresight_pipeline::Progress;
+use boresight_core::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::ops::ControlFlow;
 use std::sync::Arc;

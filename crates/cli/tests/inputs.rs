@@ -68,7 +68,7 @@ fn devices_named_pipes_and_sockets_are_refused() {
             &["bridge", "--config", &config],
             &["bridge", "--config", cfg, "--replay", &bin],
             &["network", &onnx],
-            &["evaluate", "merge", &json, "--out", out],
+            &["validate", "--merge", &json, "--out", out],
             &["array", "show", &json],
         ] {
             let output = boresight(arguments);

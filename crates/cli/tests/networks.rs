@@ -121,36 +121,6 @@ fn an_image_of_a_street_is_made_by_a_network() {
 }
 
 #[test]
-fn an_experiment_takes_networks_and_keeps_their_records_apart() {
-    let folder = folder("network-evaluates");
-    let out = folder.join("run");
-    let path = model("learned-pursuit");
-    let short = ["--trials", "2", "--validation", "1", "--seed", "3", "--methods", "iaa"];
-    let run = [&["evaluate", "aoa"], &short[..]].concat();
-    let at = ["--out", out.to_str().unwrap()];
-    let text = stdout(&[&run[..], &["--model", &path], &at].concat());
-    for row in ["| iaa |", "| learned-pursuit |", "| learned-pursuit+refined |"] {
-        assert!(text.contains(row), "{row} in {text}");
-    }
-    let records = std::fs::read_to_string(out.join("aoa-learned-pursuit.jsonl")).unwrap();
-    let card: Value =
-        serde_json::from_slice(&std::fs::read(path.replace(".onnx", ".json")).unwrap()).unwrap();
-    assert!(records.lines().next().unwrap().contains(card["sha256"].as_str().unwrap()));
-    // Nothing is run again, with another network added neither.
-    let methods = std::fs::read(out.join("aoa.jsonl")).unwrap();
-    let other = model("learned-pursuit-displaced");
-    let both = stdout(&[&run[..], &["--model", &path, "--model", &other], &at].concat());
-    assert!(both.contains("| learned-pursuit-displaced+refined |"), "{both}");
-    assert_eq!(std::fs::read(out.join("aoa.jsonl")).unwrap(), methods);
-    assert_eq!(std::fs::read_to_string(out.join("aoa-learned-pursuit.jsonl")).unwrap(), records);
-
-    let wrong = boresight(&[&run[..], &["--model", &model("counting")], &at].concat());
-    assert!(!wrong.status.success());
-    let error = String::from_utf8(wrong.stderr).unwrap();
-    assert!(error.contains("counting") && !error.contains("panicked"), "{error}");
-}
-
-#[test]
 fn regions_are_found_counted_and_told_apart() {
     let folder = folder("network-regions");
     let cube = folder.join("three.npy");

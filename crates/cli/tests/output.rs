@@ -131,35 +131,6 @@ fn what_a_command_reads_it_never_writes() {
     assert!(!npy.exists());
 }
 
-#[test]
-fn merged_records_are_not_written_onto_those_read() {
-    let folder = folder("own-records");
-    let out = text(&folder);
-    let run = ["evaluate", "resolution", "--trials", "1", "--snapshots", "1", "--array", "ula4"];
-    stdout(&[&run[..], &["--part", "1/1", "--out", out]].concat());
-    let before = files(&folder);
-    refused(&["evaluate", "merge", out, "--out", out, "--force"], "own-input", 2);
-    assert!(files(&folder) == before);
-}
-
-#[test]
-fn results_of_another_making_are_not_replaced_and_own_ones_are() {
-    let folder = folder("results");
-    let run = ["evaluate", "resolution", "--trials", "1", "--snapshots", "1", "--array", "ula4"];
-    let figure = folder.join("resolution.svg");
-    std::fs::write(&figure, MINE).unwrap();
-    let run = [&run[..], &["--out", text(&folder)]].concat();
-    refused(&run, "exists", 1);
-    assert_eq!(files(&folder), [(figure.clone(), MINE.to_vec())]);
-    stdout(&[&run[..], &["--force"]].concat());
-    let first = files(&folder);
-    assert!(first.len() > 4);
-    // It goes on from its records, and its results are its own.
-    std::fs::write(&figure, MINE).unwrap();
-    stdout(&run);
-    assert!(files(&folder) == first);
-}
-
 #[cfg(unix)]
 mod unix {
     use super::*;

@@ -1,9 +1,9 @@
 //! Files of records, which only grow.
 
 use crate::error::FleetError;
+use crate::lines::{LineFile, LineStorage};
 use crate::record::Record;
 use crate::schema;
-use boresight_core::lines::{LineFile, LineStorage};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -161,7 +161,7 @@ fn is_damaged(line: &[u8]) -> bool {
     }
 }
 
-/// The files of records among paths: files as they are, of folders those that [`boresight_core::Part::file_name`] calls so, `records*.jsonl`: a plan may lie
+/// The files of records among paths: files as they are, of folders those that [`crate::part::Part::file_name`] calls so, `records*.jsonl`: a plan may lie
 /// beside them. In order, each once.
 ///
 /// # Errors

@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use boresight_core::lines::{LineFile, LineStorage};
 use boresight_fleet::job::{LogFile, Settings};
+use boresight_fleet::lines::{LineFile, LineStorage};
 use boresight_fleet::record::Failure;
 use boresight_fleet::schema::SCHEMA;
 use boresight_fleet::store::{Store, each_line, keys_of, line};

@@ -5,10 +5,11 @@ use crate::chain::Chain;
 use crate::error::PipelineError;
 use crate::options::ChainOptions;
 use crate::result::{DetectedCell, FrameCells};
-use crate::source::{FrameSource, Progress};
+use crate::source::FrameSource;
 use boresight_array_calibration::{
     CalibrationOptions, CalibrationResult, Cell, CellUse, calibrate, check, leave_one_out,
 };
+use boresight_core::Progress;
 use boresight_core::describe::{Naming, check as check_ranges};
 use boresight_core::order::sort_numbers;
 use boresight_core::{Array, CoreError, Remark, Waveform};

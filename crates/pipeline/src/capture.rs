@@ -3,7 +3,8 @@
 use crate::chain::{Chain, Found, frame_cells};
 use crate::error::PipelineError;
 use crate::result::{Detection, FrameCells, FrameResult};
-use crate::source::{FrameSource, Progress};
+use crate::source::FrameSource;
+use boresight_core::Progress;
 use boresight_core::{Complex64, CoreError, Remark};
 use ndarray::{Array2, Array3, Axis};
 use std::ops::{ControlFlow, Range};

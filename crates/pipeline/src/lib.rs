@@ -56,4 +56,4 @@ pub use explain::{CellExplanation, Verdict};
 pub use options::{AngleOptions, ChainOptions, usable_range_m};
 pub use regions::RegionChain;
 pub use result::{Counts, DetectedCell, Detection, FrameCells, FrameResult};
-pub use source::{CubeFrames, Frame, FrameSource, Progress};
+pub use source::{CubeFrames, Frame, FrameSource};

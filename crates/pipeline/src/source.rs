@@ -49,12 +49,3 @@ impl FrameSource for CubeFrames<'_> {
         Ok(Frame { samples: self.0.index_axis(Axis(0), index).to_owned(), clipped: 0 })
     }
 }
-
-/// How far a run over several frames is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
-    /// Steps done.
-    pub done: usize,
-    /// Steps in all.
-    pub total: usize,
-}

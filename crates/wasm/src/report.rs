@@ -1,6 +1,6 @@
 //! Progress told to JavaScript, which may answer that it is enough.
 
-use boresight_pipeline::Progress;
+use boresight_core::Progress;
 use js_sys::Function;
 use std::ops::ControlFlow;
 use wasm_bindgen::JsValue;

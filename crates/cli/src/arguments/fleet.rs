@@ -3,8 +3,8 @@
 use super::drives::formats;
 use crate::flags::{Flags, OnCommandLine};
 use boresight_calibrate::{CalibrationOptions, SignOptions};
-use boresight_core::Part;
 use boresight_fleet::FleetOptions;
+use boresight_fleet::Part;
 use boresight_formats::TopicOptions;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;

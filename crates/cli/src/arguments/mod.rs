@@ -5,23 +5,18 @@ mod augment;
 mod bridge;
 mod drives;
 mod estimate;
-mod evaluate;
 mod fleet;
 mod image;
 mod regions;
 mod serve;
 mod simulate;
+mod validate;
 
 pub use array::{ArrayCommand, CalibrateArrayArguments, ShowCalibrationArguments};
 pub use augment::AugmentArguments;
 pub use bridge::BridgeArguments;
 pub use drives::{CalibrateArguments, LogArguments, LogPaths, OdometryArguments};
 pub use estimate::{EstimateArguments, ModelArguments, RadarArguments};
-pub use evaluate::{
-    AnswersArguments, DoaAxis, DoaRegions, DoaSetup, EvaluateArguments,
-    EvaluateCalibrationArguments, EvaluateCommand, EvaluateDoaArguments, EvaluateMergeArguments,
-    NetworkArguments,
-};
 pub use fleet::{
     FleetCommand, FleetMergeArguments, FleetPlanArguments, FleetRunArguments, FleetWorkerArguments,
     WhichPart,
@@ -32,6 +27,7 @@ pub use serve::ServeArguments;
 pub use simulate::{
     CubeArguments, DriveArguments, SimulateArguments, SimulateCommand, SnapshotArguments,
 };
+pub use validate::ValidateArguments;
 
 use clap::{ArgGroup, Args, Parser, Subcommand};
 use std::path::PathBuf;
@@ -94,12 +90,8 @@ pub enum Command {
     Log(LogArguments),
     /// Play a drive and its calibration to viewers such as Foxglove and Lichtblick, over a socket of this machine.
     Serve(Box<ServeArguments>),
-    /// Run an experiment on simulated scenes: tables, figures, records.
-    Evaluate {
-        /// What to run.
-        #[command(subcommand)]
-        what: EvaluateCommand,
-    },
+    /// Compare the mounting angles of every method with the true ones on your own drives, whole and in pieces.
+    Validate(ValidateArguments),
     /// Make a bird's-eye image of a simulated street or of a capture, as a PNG file.
     Image {
         /// What to make it of.

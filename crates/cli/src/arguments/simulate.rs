@@ -1,6 +1,7 @@
 //! What `simulate` takes.
 
 use crate::flags::{Flags, OnCommandLine};
+use boresight_core::imperfections::ImperfectionSpread;
 use boresight_simulate::drive::dataset::DatasetOptions;
 use boresight_simulate::{CubeRequest, DriveOptions, SceneSampling, SnapshotRequest};
 use clap::{Args, Subcommand};
@@ -138,4 +139,9 @@ pub struct CubeArguments {
     /// What is simulated.
     #[command(flatten)]
     pub flags: Flags<CubeRequest>,
+}
+
+impl OnCommandLine for ImperfectionSpread {
+    const HEADING: &'static str = "What is wrong with the array";
+    const PREFIX: &'static str = "imperfections";
 }

@@ -7,10 +7,11 @@ use crate::files::{self, Files};
 use crate::numbers;
 use crate::run::Run;
 use crate::terminal::name;
+use boresight_core::Progress;
 use boresight_core::{Complex32, Waveform};
 use boresight_formats::npy::{Element, preamble};
 use boresight_formats::{RadarConfig, json};
-use boresight_pipeline::{CubeFrames, FrameSource, PipelineError, Progress};
+use boresight_pipeline::{CubeFrames, FrameSource, PipelineError};
 use boresight_signal::{ShiftedFrame, shift_range};
 use serde_json::json;
 

@@ -72,7 +72,7 @@ pub fn run(arguments: &OdometryArguments, files: &Files) -> Result<String, CliEr
     let trajectory =
         arguments.trajectory.as_deref().map(|path| files.destination(path)).transpose()?;
     let network = arguments.network.as_deref().map(|path| read_network(path, files)).transpose()?;
-    let network = network.unwrap_or_else(boresight_evaluate::calibration::network);
+    let network = network.unwrap_or_else(boresight_validate::candidates::network);
     let radars = chosen(log, &arguments.sensors)?
         .into_iter()
         .map(|sensor| {

@@ -9,10 +9,10 @@ use crate::output::remark;
 use crate::run::Run;
 use crate::terminal::report;
 use boresight_calibrate::CalibrationOptions;
+use boresight_core::Progress;
 use boresight_formats::json;
 use boresight_live::foxglove::play::Setup;
 use boresight_live::foxglove::{Counts, Play, Server};
-use boresight_pipeline::Progress;
 
 /// Serves until Ctrl-C; what became of connections and messages, as text or JSON.
 pub fn run(arguments: &ServeArguments, files: &Files) -> Result<String, CliError> {
@@ -38,7 +38,7 @@ pub fn run(arguments: &ServeArguments, files: &Files) -> Result<String, CliError
         });
     }
     let network = arguments.network.as_deref().map(|path| read_network(path, files)).transpose()?;
-    let network = network.unwrap_or_else(boresight_evaluate::calibration::network);
+    let network = network.unwrap_or_else(boresight_validate::candidates::network);
     let setup = Setup { radars, joint: arguments.joint, network: Some(network) };
     let mut play = Play::new(&read.log, &read.report.remarks, setup)?;
     let server = Server::bind(arguments.serve.options.clone())?;

@@ -24,10 +24,11 @@ use crate::beam::mismatch_left_db;
 use crate::capture::{Report, proceed};
 use crate::error::PipelineError;
 use crate::result::clipped;
-use crate::source::{FrameSource, Progress};
+use crate::source::FrameSource;
 use boresight_aoa::{
     Counted, Data, EstimatorOptions, RangeAngle, RangeAngleTarget, SourceCount, Warning,
 };
+use boresight_core::Progress;
 use boresight_core::describe::decibels::finite_db;
 use boresight_core::describe::remark::Coded;
 use boresight_core::linalg::least_squares;

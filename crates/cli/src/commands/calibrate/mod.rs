@@ -14,10 +14,11 @@ use boresight_calibrate::network::MotionNetwork;
 use boresight_calibrate::{
     AngleEstimate, CalibrationOptions, Car, FrameInput, Frames, NormalEquations, Outlook,
 };
+use boresight_core::Progress;
 use boresight_core::drive::{DriveLog, Sensor};
 use boresight_formats::DriveFormat;
 use boresight_live::foxglove::ResultTopics;
-use boresight_pipeline::{PipelineError, Progress};
+use boresight_pipeline::PipelineError;
 use boresight_report::Recorder;
 use serde_json::Value;
 use std::ops::ControlFlow;
@@ -73,7 +74,7 @@ pub fn run(arguments: &CalibrateArguments, files: &Files) -> Result<String, CliE
     let mcap = arguments.mcap.as_deref().map(|path| files.destination(path)).transpose()?;
     let report = arguments.report.as_deref().map(|path| files.destination(path)).transpose()?;
     let network = arguments.network.as_deref().map(|path| read_network(path, files)).transpose()?;
-    let network = network.unwrap_or_else(boresight_evaluate::calibration::network);
+    let network = network.unwrap_or_else(boresight_validate::candidates::network);
     let run = Run::start("frames")?;
     let flags = &arguments.flags;
     let asked = Asked {

@@ -1,7 +1,7 @@
 //! Which part of a plan this process runs, by a scheduler's variables.
 
 use crate::error::CliError;
-use boresight_core::Part;
+use boresight_fleet::Part;
 
 /// What tells a part: number, smallest number, step between numbers, how many there are.
 struct Source {

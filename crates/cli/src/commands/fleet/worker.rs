@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &FleetWorkerArguments) -> Result<String, CliError> 
             given: format!("{bytes} bytes: {error}"),
         })?;
     }
-    let network = boresight_evaluate::calibration::network();
+    let network = boresight_validate::candidates::network();
     let (sender, jobs) = mpsc::sync_channel(1);
     std::thread::spawn(move || {
         for job in Jobs::new(std::io::stdin().lock(), Path::new("the standard input")) {
