@@ -57,10 +57,12 @@ const workerPools = await import(pathToFileURL(join(root, 'dist', 'worker', 'nod
 const neural = await import(pathToFileURL(join(root, 'dist', 'lib', 'neural', 'node.js')).href);
 await Promise.all([boresight.init(), boresight.initDrives()]);
 await neural.initNeural();
-const shipped = readdirSync(join(root, 'models'))
-  .filter((name) => name.endsWith('.onnx'))
+const shipped = ['models', 'research/models']
+  .map((folder) => join(root, folder))
+  .flatMap((folder) => readdirSync(folder).map((name) => join(folder, name)))
+  .filter((path) => path.endsWith('.onnx'))
   .sort();
-const networks = [...shipped.map((name) => join(root, 'models', name)), ...(options.model?.split(',') ?? [])];
+const networks = [...shipped, ...(options.model?.split(',') ?? [])];
 
 let numpy;
 let withoutNumPy;

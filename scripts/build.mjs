@@ -320,7 +320,7 @@ export async function buildDemo(variables = {}) {
     'web',
     'recordings',
     'models',
-    'docs/experiments',
+    ...['research/models', 'research/results'].filter((folder) => existsSync(join(root, folder))),
     'dist/wasm',
     'dist/lib',
     'dist/worker',

@@ -7,14 +7,11 @@ import { moduleProblems, sourcesOf } from './lib/module-imports.mjs';
 import { root } from './lib/paths.mjs';
 import { main, output } from './lib/run.mjs';
 
-/** The papers' experiments, which nothing depends on. */
-const RESEARCH = ['evaluate'];
-
 await main(async () => {
   const text = output('cargo', ['metadata', '--format-version', '1', '--no-deps']);
   if (text === null) throw new Error('cargo metadata failed');
   const graph = workspaceGraph(JSON.parse(text));
-  const folders = readdirSync(join(root, 'crates')).filter((crate) => !RESEARCH.includes(crate));
+  const folders = readdirSync(join(root, 'crates'));
   const sources = folders.map((crate) => [crate, join(root, 'crates', crate, 'src')]);
   const modules = sources.filter(([, folder]) => existsSync(folder));
   const found = [...problems(graph), ...modules.flatMap(([crate, folder]) => moduleProblems(crate, sourcesOf(folder)))];

@@ -1,4 +1,4 @@
-// Runs the tests of all crates: what Cargo makes of them, as many programs at a time as there are cores, since many end with
+// Runs the tests of all crates of the product: what Cargo makes of them, as many programs at a time as there are cores, since many end with
 // one long test, and then the examples of the documentation.
 import { availableParallelism } from 'node:os';
 import { delimiter, dirname, relative } from 'node:path';
@@ -10,7 +10,7 @@ const libraryPath = { win32: 'PATH', darwin: 'DYLD_FALLBACK_LIBRARY_PATH' }[proc
 
 /** Test programs: path, folder of their package, and what to call them. */
 async function programs() {
-  const build = ['test', '--workspace', '--no-run', '--quiet', '--message-format=json-render-diagnostics'];
+  const build = ['test', '--no-run', '--quiet', '--message-format=json-render-diagnostics'];
   const { ok, text } = await runKeeping('cargo', build, { stdio: ['ignore', 'pipe', 'inherit'] });
   if (!ok) throw new Error('the tests do not compile');
   return text
@@ -41,7 +41,7 @@ await main(async () => {
     }
   };
   await Promise.all(Array.from({ length: availableParallelism() }, worker));
-  const examples = run('cargo', ['test', '--workspace', '--doc', '--no-fail-fast', '--quiet']);
+  const examples = run('cargo', ['test', '--doc', '--no-fail-fast', '--quiet']);
   await examples.catch(() => failed.push('examples of the documentation'));
   if (failed.length > 0) throw new Error(`failed: ${failed.join(', ')}`);
 });

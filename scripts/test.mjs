@@ -62,7 +62,7 @@ const browserTests = [
 const steps = [
   { name: 'format', command: ['cargo', 'fmt', '--all', '--check'], counts: checkCounts },
   { name: 'lint', command: ['biome', 'check', '--error-on-warnings'], counts: checkCounts },
-  { name: 'clippy', command: clippy('--workspace', '--all-targets'), counts: checkCounts },
+  { name: 'clippy', command: clippy('--all-targets'), counts: checkCounts },
   // The modules with their features. Core and drives are checked as they are built, for WebAssembly and with their profile, so
   // that all share what is compiled for the host. That of networks is checked natively, where most of what it depends on has
   // been: nothing of it differs for WebAssembly.
@@ -74,7 +74,7 @@ const steps = [
   { name: 'clippy-neural', command: clippy(...crateArguments(neural)), counts: checkCounts },
   {
     name: 'doc',
-    command: ['cargo', 'doc', '--workspace', '--no-deps', '--quiet'],
+    command: ['cargo', 'doc', '--no-deps', '--quiet'],
     variables: { RUSTDOCFLAGS: '-D warnings' },
     counts: checkCounts,
   },

@@ -14,7 +14,7 @@ const allowed = {
   fleet: ['core', 'calibrate', 'formats', 'report'],
   neural: ['core', 'signal', 'aoa'],
   pipeline: ['core', 'signal', 'aoa', 'array-calibration', 'image'],
-  evaluate: ['core', 'signal', 'aoa', 'calibrate', 'simulate', 'image', 'neural', 'pipeline'],
+  validate: ['core', 'calibrate', 'fleet'],
   generate: [
     'core',
     'aoa',
@@ -31,9 +31,11 @@ const allowed = {
   ],
   'fuzz-targets': ['core', 'aoa', 'calibrate', 'fleet', 'formats', 'neural', 'pipeline'],
   cli: null,
+  experiments: null,
   wasm: null,
   'wasm-neural': null,
 };
+const research = 'experiments';
 const bindings = ['wasm', 'wasm-neural'];
 /** The module of networks holds part of the other bindings; what the bindings describe is written out too. */
 const buildsOn = { 'wasm-neural': ['wasm'], generate: bindings };
@@ -76,6 +78,7 @@ export function problems(graph) {
           .map(({ to }) => `${crate} names ${name}, which only ${to.join(' and ')} may`);
       }
       const target = short(name);
+      if (target === research) return [`${crate} depends on ${research}, which is research`];
       if (bindings.includes(target) && !buildsOn[crate]?.includes(target))
         return [`${crate} depends on the binding crate ${target}`];
       const list = allowed[crate];

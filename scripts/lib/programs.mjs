@@ -2,9 +2,9 @@ import { resolve } from 'node:path';
 import { root } from './paths.mjs';
 import { run } from './run.mjs';
 
-/** Builds a program as tests in Rust do, for the whole workspace, so that what they have compiled serves; its path. */
+/** Builds a program as tests in Rust do, for all crates of the product, so that what they have compiled serves; its path. */
 export async function program(name) {
-  await run('cargo', ['build', '--quiet', '--workspace', '--bin', name, '--profile', 'test']);
+  await run('cargo', ['build', '--quiet', '--bin', name, '--profile', 'test']);
   const exe = process.platform === 'win32' ? '.exe' : '';
   return resolve(root, process.env.CARGO_TARGET_DIR ?? 'target', 'debug', name + exe);
 }

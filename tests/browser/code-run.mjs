@@ -18,7 +18,7 @@ async function inFolder(files, work) {
     // A scope of its own: one above may be a package of the same name.
     await writeFile(join(folder, 'package.json'), '{ "private": true }\n');
     await symlink(root, join(folder, 'node_modules', 'boresight'), 'dir');
-    for (const name of ['recordings', 'models']) await symlink(join(root, name), join(folder, name), 'dir');
+    for (const name of ['recordings', 'models', 'research']) await symlink(join(root, name), join(folder, name), 'dir');
     for (const [name, content] of Object.entries(files)) {
       await mkdir(dirname(join(folder, name)), { recursive: true });
       await writeFile(join(folder, name), content);

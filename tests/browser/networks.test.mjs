@@ -7,7 +7,7 @@ import { browserTest } from './harness.mjs';
 import { card, cell, file, models, patient, tried } from './trial.mjs';
 
 const path = '#/networks?model=learned-pursuit';
-const experiment = (name) => join(root, 'docs', 'experiments', `${name}.json`);
+const experiment = (name) => join(root, 'research', 'results', `${name}.json`);
 
 browserTest(
   'networks: no page fetches a network or their module before one is used',

@@ -1,13 +1,19 @@
 /** Shipped networks, and what the page Networks shows of a network that it tried. */
-import { readdirSync, readFileSync } from 'node:fs';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { root } from '../../scripts/lib/paths.mjs';
 import { values } from './demo.mjs';
 
-export const models = readdirSync(join(root, 'models'))
+const folders = ['models', 'research/models']
+  .map((folder) => join(root, folder))
+  .filter((folder) => existsSync(folder));
+export const models = folders
+  .flatMap((folder) => readdirSync(folder))
   .filter((name) => name.endsWith('.json'))
-  .map((name) => name.replace('.json', ''));
-export const file = (name) => readFileSync(join(root, 'models', name));
+  .map((name) => name.replace('.json', ''))
+  .sort();
+export const file = (name) =>
+  readFileSync(folders.map((folder) => join(folder, name)).find((path) => existsSync(path)));
 export const card = (name) => JSON.parse(file(`${name}.json`));
 
 /** A network is fetched, its module compiled in each worker: on a busy machine that takes its time. */

@@ -10,7 +10,7 @@ import { assertShape } from './lib/interfaces.mjs';
 import { model } from './lib/networks.mjs';
 import { bin, cfg } from './lib/recording.mjs';
 
-const named = { counting: 'counting', one: 'dnn-small-1', two: 'dnn-small-2' };
+const named = { counting: 'counting-small', one: 'dnn-small-1', two: 'dnn-small-2' };
 let radar;
 let cube;
 let networks;

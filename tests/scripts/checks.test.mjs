@@ -41,6 +41,7 @@ test('each dependency rule fails when broken', () => {
     'aoa names tract-onnx': { aoa: [['tract-onnx']] },
     'cli depends on the binding crate wasm': { cli: [['boresight-wasm']] },
     'wasm depends on the binding crate wasm-neural': { wasm: [['boresight-wasm-neural']] },
+    'cli depends on experiments': { cli: [['boresight-experiments']] },
     'extra: no rule': { extra: [] },
   };
   for (const [expected, crates] of Object.entries(breaches)) {

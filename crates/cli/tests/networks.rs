@@ -83,7 +83,7 @@ fn errors_name_the_file() {
         String::from_utf8(output.stderr).unwrap()
     };
     assert!(refused(&[]).contains("--model"));
-    let other = refused(&["--model", &model("counting")]);
+    let other = refused(&["--model", &model("counting-small")]);
     assert!(other.contains("counting.onnx") && other.contains("wrong-network"), "{other}");
     let whole = std::fs::read(model("learned-pursuit")).unwrap();
     let cut = folder.join("cut.onnx");
@@ -130,7 +130,7 @@ fn regions_are_found_counted_and_told_apart() {
     let targets: Vec<&str> = targets.iter().flat_map(|target| ["--target", target]).collect();
     let simulate = ["simulate", "cube", "--snr", "10", "--seed", "2", "--out", cube];
     stdout(&[&simulate[..], &radar, &targets].concat());
-    let [counting, one, two] = ["counting", "dnn-small-1", "dnn-small-2"].map(model);
+    let [counting, one, two] = ["counting-small", "dnn-small-1", "dnn-small-2"].map(model);
     let networks = ["--counting", &counting, "--one", &one, "--two", &two];
     let base = [&["regions", cube][..], &radar, &networks].concat();
     let frames: Vec<Value> =
@@ -170,7 +170,7 @@ fn sources_are_counted_by_a_network_where_one_is_given() {
     let refused = boresight(&base);
     let error = String::from_utf8(refused.stderr).unwrap();
     assert!(!refused.status.success() && error.contains("--counting-model"), "{error}");
-    let counting = model("counting");
+    let counting = model("counting-small");
     let text = stdout(&[&base[..], &["--counting-model", &counting, "--json"]].concat());
     let sources: Vec<Value> = serde_json::from_str(&text).unwrap();
     assert_eq!(sources.len(), 1, "{sources:?}");

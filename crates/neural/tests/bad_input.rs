@@ -289,7 +289,7 @@ fn inputs_of_a_run_and_arrays_are_checked() {
         network.count(Data::Snapshots(Array2::zeros((8, 1)).view())).err().unwrap().code(),
         "wrong-network"
     );
-    let counting = model("counting");
+    let counting = model("counting-small");
     assert_eq!(counting.estimator(&lrr48, &options).err().unwrap().code(), "wrong-network");
     assert_eq!(
         counting.count(Data::Snapshots(Array2::zeros((7, 1)).view())).err().unwrap().code(),

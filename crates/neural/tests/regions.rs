@@ -30,8 +30,8 @@ fn chain(
     Ok(RegionChain::new(waveform, receivers, options, counted).unwrap())
 }
 
-const CNN: [&str; 3] = ["counting", "cnn3d-1", "cnn3d-2"];
-const DNN: [&str; 3] = ["counting", "dnn-small-1", "dnn-small-2"];
+const CNN: [&str; 3] = ["counting-small", "cnn3d-experiment-1", "cnn3d-experiment-2"];
+const DNN: [&str; 3] = ["counting-small", "dnn-small-1", "dnn-small-2"];
 
 fn run(names: [&str; 3], targets: &[(f64, f64)], seed: u64) -> RegionFrame {
     let (waveform, array) = (waveform_3dcnn_simulated(), Array::ula(8).unwrap());
@@ -136,11 +136,11 @@ fn networks_of_other_kinds_and_arrays_are_refused() {
         (error.code(), error.to_string())
     };
     for (names, expected) in [
-        (["cnn3d-1", "cnn3d-1", "cnn3d-2"], "kind counting"),
-        (["counting", "counting", "cnn3d-2"], "kind dnn or cnn3d"),
-        (["counting", "cnn3d-1", "dnn-small-2"], "kind cnn3d"),
-        (["counting", "cnn3d-2", "cnn3d-2"], "for 1 targets"),
-        (["counting", "cnn3d-1", "cnn3d-1"], "for 2 targets"),
+        (["cnn3d-experiment-1", "cnn3d-experiment-1", "cnn3d-experiment-2"], "kind counting"),
+        (["counting-small", "counting-small", "cnn3d-experiment-2"], "kind dnn or cnn3d"),
+        (["counting-small", "cnn3d-experiment-1", "dnn-small-2"], "kind cnn3d"),
+        (["counting-small", "cnn3d-experiment-2", "cnn3d-experiment-2"], "for 1 targets"),
+        (["counting-small", "cnn3d-experiment-1", "cnn3d-experiment-1"], "for 2 targets"),
     ] {
         let (code, text) = refused(names, &array);
         assert_eq!(code, "wrong-network", "{names:?}");
@@ -154,7 +154,7 @@ fn networks_of_other_kinds_and_arrays_are_refused() {
 #[test]
 fn a_network_counts_the_sources_of_other_methods() {
     let array = Array::ula(8).unwrap();
-    let counter = model("counting").counter().unwrap();
+    let counter = model("counting-small").counter().unwrap();
     let options = EstimatorOptions { sources: SourceCount::Network, ..EstimatorOptions::default() };
     // A region of 260 vectors at 10 dB, of two targets whose echoes are independent, of one, and of none.
     for degrees in [&[-6.0, 5.0][..], &[3.0], &[]] {
@@ -187,5 +187,5 @@ fn a_network_counts_the_sources_of_other_methods() {
     let other = Array::ula(9).unwrap();
     let refused = Estimator::counted(Method::Music, &other, &options, &counter).err().unwrap();
     assert_eq!(refused.code(), "unsuitable-array");
-    assert!(matches!(model("cnn3d-1").counter(), Err(NeuralError::WrongKind { .. })));
+    assert!(matches!(model("cnn3d-experiment-1").counter(), Err(NeuralError::WrongKind { .. })));
 }

@@ -9,12 +9,12 @@ import { fileWord } from './shell.ts';
 type Place = 'package' | 'repository' | 'own';
 
 /** The package has some of the models; the repository has all. */
-const isPackaged = (file: string): boolean =>
-  files.some((pattern) => pattern.endsWith('*') && `models/${file}`.startsWith(pattern.slice(0, -1)));
+const isPackaged = (path: string): boolean =>
+  files.some((pattern) => pattern.endsWith('*') && path.startsWith(pattern.slice(0, -1)));
 
-function placeOf({ name, address }: Model): Place {
-  if (!address) return 'own';
-  return isPackaged(`${name}.onnx`) ? 'package' : 'repository';
+function placeOf({ name, folder }: Model): Place {
+  if (!folder) return 'own';
+  return isPackaged(`${folder}${name}.onnx`) ? 'package' : 'repository';
 }
 
 /** Names of a network's files. A user's own card is called as its network. */
@@ -26,14 +26,14 @@ function filesOf({ name, address, hasCard, card }: Model): { onnx: string; card:
 /** Words of the command line for the network of a method. */
 export function modelWords(model: Model, flag = 'model'): string[] {
   const { onnx } = filesOf(model);
-  return [`--${flag}`, model.address ? `models/${onnx}` : fileWord(onnx)];
+  return [`--${flag}`, model.folder ? `${model.folder}${onnx}` : fileWord(onnx)];
 }
 
 /** What networks need on the command line. */
 export function modelNeeds(models: readonly Model[]): string {
   const own = models.filter(({ address }) => !address).map((model) => filesOf(model).onnx);
   return sentences(
-    own.length < models.length ? inRepository('networks', 'models/') : '',
+    ...[...new Set(models.flatMap(({ folder }) => folder ?? []))].map((folder) => inRepository('networks', folder)),
     own.length ? NEEDS.own(own) : '',
   );
 }
@@ -64,7 +64,7 @@ export class NetworkCode {
     const read = (file: string): string =>
       place === 'package'
         ? `await packaged(${quoted(file)})`
-        : `await readFile(${quoted(place === 'own' ? file : `models/${file}`)})`;
+        : `await readFile(${quoted(`${model.folder ?? ''}${file}`)})`;
     this.#script.call(`const ${name} = new Network`, expression(read(onnx)), {
       ...(card && { card: expression(`String(${read(card)})`) }),
       ...options,

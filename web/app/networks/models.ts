@@ -50,20 +50,30 @@ export interface Model {
   card: Card;
   /** Whether the card came with it; else it was told from the file alone. */
   hasCard: boolean;
-  /** Absent for a user's own. */
+  /** Where its files are in the repository, with a slash at the end; absent for a user's own, as the addresses are. */
+  folder?: string;
   address?: string;
   cardAddress?: string;
 }
 
+const folderOf = (path: string): string => path.replace(/^(\.\.\/)*/, '').replace(/[^/]*$/, '');
 const stem = (path: string): string => path.replace(/^.*\//, '').replace(/\.\w+$/, '');
 
-const cards = import.meta.glob<Card>('../../../models/*.json', { eager: true, import: 'default' });
-const cardAddresses = import.meta.glob<string>('../../../models/*.json', {
+// Those of comparisons are in a folder of their own, which a checkout of the product alone lacks.
+const cards = import.meta.glob<Card>(['../../../models/*.json', '../../../research/models/*.json'], {
+  eager: true,
+  import: 'default',
+});
+const cardAddresses = import.meta.glob<string>(['../../../models/*.json', '../../../research/models/*.json'], {
   eager: true,
   query: '?url',
   import: 'default',
 });
-const addresses = import.meta.glob<string>('../../../models/*.onnx', { eager: true, query: '?url', import: 'default' });
+const addresses = import.meta.glob<string>(['../../../models/*.onnx', '../../../research/models/*.onnx'], {
+  eager: true,
+  query: '?url',
+  import: 'default',
+});
 
 /** What one example of a network is of. */
 export type Sight = 'snapshot' | 'covariance' | 'region';
@@ -104,7 +114,7 @@ const shipped = Object.entries(cards)
     const address = addresses[path.replace(/json$/, 'onnx')];
     const cardAddress = cardAddresses[path];
     return address && cardAddress && KINDS.includes(card.network)
-      ? [{ name: stem(path), title: titleOf(card), card, hasCard: true, address, cardAddress }]
+      ? [{ name: stem(path), folder: folderOf(path), title: titleOf(card), card, hasCard: true, address, cardAddress }]
       : [];
   })
   .sort(

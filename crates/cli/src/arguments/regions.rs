@@ -24,13 +24,13 @@ pub struct RegionsArguments {
     /// The radar.
     #[command(flatten)]
     pub radar: RadarArguments,
-    /// Network that counts the targets of a region: models/counting.onnx.
+    /// Network that counts the targets of a region: models/counting-small.onnx.
     #[arg(long, value_name = "FILE", requires = "one", requires = "two")]
     pub counting: Option<PathBuf>,
-    /// Network for one target, a 3D-CNN or a DNN: models/cnn3d-1.onnx.
+    /// Network for one target, a 3D-CNN or a DNN: models/dnn-small-1.onnx.
     #[arg(long, value_name = "FILE", requires = "counting")]
     pub one: Option<PathBuf>,
-    /// Network of the same kind for two targets: models/cnn3d-2.onnx.
+    /// Network of the same kind for two targets: models/dnn-small-2.onnx.
     #[arg(long, value_name = "FILE", requires = "counting")]
     pub two: Option<PathBuf>,
     /// Only this frame, from 0; every frame by itself without it.

@@ -1,4 +1,4 @@
-/** Results of the experiments, as `boresight evaluate` writes them; fetched when they are looked at. */
+/** Results of the experiments in research/, fetched when they are looked at; none where the site was built without them. */
 import { signal } from '@preact/signals';
 import { describeError, FileProblem, type Problem } from '../../data.ts';
 
@@ -72,7 +72,7 @@ export interface Results {
 export const results = signal<Results | null>(null);
 export const resultsProblem = signal<Problem | null>(null);
 
-const addresses = import.meta.glob<string>('../../../../docs/experiments/*.json', {
+const addresses = import.meta.glob<string>('../../../../research/results/*.json', {
   eager: true,
   query: '?url',
   import: 'default',
@@ -86,7 +86,7 @@ export async function loadResults(): Promise<void> {
   try {
     const found = await Promise.all(
       ['aoa', 'doa'].map(async (name) => {
-        const address = addresses[`../../../../docs/experiments/${name}.json`];
+        const address = addresses[`../../../../research/results/${name}.json`];
         return address ? [name, await report(address)] : null;
       }),
     );

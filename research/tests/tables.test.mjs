@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { root } from '../../scripts/lib/paths.mjs';
-import { tablesOf, withTables } from '../../scripts/lib/tables.mjs';
+import { tablesOf, withTables } from '../scripts/tables.mjs';
 
 const printed = `Array lrr48.
 
@@ -46,17 +46,17 @@ test('what another command prints stays, and a title that none has is an error',
 
 test('the documents of the experiments mark places', () => {
   for (const [document, count] of [
-    ['experiments-aoa', 6],
-    ['experiments-arrays', 2],
-    ['experiments-doa', 5],
-    ['experiments-low-snr', 1],
-    ['experiments-resolution', 1],
-    ['experiments-straddling', 1],
-    ['experiments-near-field', 2],
-    ['experiments-imperfections', 2],
+    ['aoa', 6],
+    ['arrays', 2],
+    ['doa', 5],
+    ['low-snr', 1],
+    ['resolution', 1],
+    ['straddling', 1],
+    ['near-field', 2],
+    ['imperfections', 2],
     ['images', 2],
   ]) {
-    const text = readFileSync(join(root, 'docs', `${document}.md`), 'utf8');
+    const text = readFileSync(join(root, 'research', 'results', `${document}.md`), 'utf8');
     assert.equal(text.match(/<!-- tables: /g).length, count);
     assert.equal(text.match(/<!-- end of tables -->/g).length, count);
   }

@@ -1,18 +1,19 @@
-// Tables of networks from the cards in models/, for the documents.
+// Tables of networks from the cards of all networks, for the pages of results.
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { root } from './paths.mjs';
+import { root } from '../../scripts/lib/paths.mjs';
 import { withTables } from './tables.mjs';
 
-const folder = join(root, 'models');
 
 /** All cards, each with the path of its network. */
 export function cards() {
-  const files = readdirSync(folder).filter((file) => file.endsWith('.json'));
-  return files.map((file) => ({
-    ...JSON.parse(readFileSync(join(folder, file), 'utf8')),
-    onnx: join('models', file.replace(/json$/, 'onnx')),
-  }));
+  const paths = ['models', 'research/models'].flatMap((folder) =>
+    readdirSync(join(root, folder)).map((file) => join(folder, file)),
+  );
+  const found = paths.filter((path) => path.endsWith('.json'));
+  return found
+    .map((path) => ({ ...JSON.parse(readFileSync(join(root, path), 'utf8')), onnx: path.replace(/json$/, 'onnx') }))
+    .sort((a, b) => a.name.localeCompare(b.name));
 }
 
 const grouped = (number) => number.toLocaleString('en-US');
@@ -54,7 +55,7 @@ const PLACES = {
 /** Documents with tables of networks, each a path and its text with the tables of the cards. */
 export function networkDocuments() {
   return Object.entries(PLACES).map(([name, networks]) => {
-    const path = `docs/experiments-${name}.md`;
+    const path = `research/results/${name}.md`;
     const printed = { [`${name}-networks`]: networkTable(cardsOf(networks)) };
     return [path, withTables(readFileSync(join(root, path), 'utf8'), printed)];
   });

@@ -14,8 +14,8 @@ from boresight_training.score import best_f1
 from boresight_training.snapshots import Scenes, snapshots
 from boresight_training.tasks import task
 
-ROOT = Path(__file__).parents[2]
-MODELS = sorted((ROOT / "models").glob("*.onnx"))
+ROOT = Path(__file__).parents[3]
+MODELS = sorted([*(ROOT / "models").glob("*.onnx"), *(ROOT / "research" / "models").glob("*.onnx")])
 GOLDEN = ROOT / "tests" / "golden" / "networks"
 
 

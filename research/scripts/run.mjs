@@ -2,14 +2,14 @@
 // page have them. Records stay in target/experiments, by the trials asked for: only networks trained since are run again.
 // `npm run experiments -- aoa images` runs these alone. `--binary FILE` takes a command line that is built already;
 // `--trials N` runs at most so many trials a condition, which the tables say.
-import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { parseArgs } from 'node:util';
-import { cardsOf, cards as shippedCards } from './lib/cards.mjs';
-import { endToEndTables } from './lib/end-to-end.mjs';
-import { root } from './lib/paths.mjs';
-import { main, run } from './lib/run.mjs';
-import { withTables } from './lib/tables.mjs';
+import { cardsOf, cards as shippedCards } from './cards.mjs';
+import { endToEndTables } from './end-to-end.mjs';
+import { root } from '../../scripts/lib/paths.mjs';
+import { main, run } from '../../scripts/lib/run.mjs';
+import { withTables } from './tables.mjs';
 
 /** Networks that answer a snapshot of the array lrr48. */
 const SNAPSHOTS = { kinds: ['aaetr', 'learned-pursuit'] };
@@ -19,14 +19,14 @@ const EXACT = { ...SNAPSHOTS, positionError: 0 };
 const REGIONS = { kinds: ['counting', 'cnn3d', 'dnn'], waveform: '3dcnn-simulated' };
 
 /**
- * `networks` says which take part, `document` which page of docs has the tables, `shown` that the demo shows the numbers.
- * `figures` begins the names that figures have in docs/images; without it they stay.
+ * `networks` says which take part, `document` which page of research/results has the tables, `shown` that the demo shows the numbers.
+ * `figures` begins the names that figures have in research/results/figures; without it they stay.
  */
 const EXPERIMENTS = [
   {
     name: 'aoa',
     experiment: 'aoa',
-    document: 'experiments-aoa',
+    document: 'aoa',
     networks: { kinds: [...SNAPSHOTS.kinds, 'unrolled-iaa'] },
     settings: ['--trials', '4000', '--seed', '1'],
     figures: 'aoa-',
@@ -35,7 +35,7 @@ const EXPERIMENTS = [
   {
     name: 'aoa-ula48',
     experiment: 'aoa',
-    document: 'experiments-aoa',
+    document: 'aoa',
     settings: [
       ...['--array', 'ula48', '--trials', '500', '--seed', '1'],
       ...['--methods', 'bartlett,iaa,iaa+refined,nomp,single-snapshot-music,maximum-likelihood'],
@@ -44,19 +44,19 @@ const EXPERIMENTS = [
   {
     name: 'aoa-atomic-norm',
     experiment: 'aoa',
-    document: 'experiments-aoa',
+    document: 'aoa',
     settings: ['--trials', '500', '--seed', '1', '--methods', 'iaa,iaa+refined,nomp,atomic-norm'],
   },
   {
     name: 'aoa-plain-iaa',
     experiment: 'aoa',
-    document: 'experiments-aoa',
+    document: 'aoa',
     settings: ['--trials', '400', '--seed', '1', '--methods', 'plain-iaa,iaa'],
   },
   {
     name: 'aoa-outside',
     experiment: 'aoa',
-    document: 'experiments-aoa',
+    document: 'aoa',
     networks: SNAPSHOTS,
     settings: [
       ...['--trials', '500', '--seed', '1', '--targets', '10,15,20', '--snr', '5,15', '--spread', '25'],
@@ -66,21 +66,21 @@ const EXPERIMENTS = [
   {
     name: 'arrays',
     experiment: 'arrays',
-    document: 'experiments-arrays',
+    document: 'arrays',
     networks: { kinds: ['aaetr'], array: 'any' },
     settings: ['--trials', '500', '--seed', '0'],
   },
   {
     name: 'low-snr',
     experiment: 'low-snr',
-    document: 'experiments-low-snr',
+    document: 'low-snr',
     networks: { kinds: ['covariance-cnn', 'deep-music'] },
     settings: ['--trials', '500', '--seed', '0'],
   },
   {
     name: 'doa',
     experiment: 'doa',
-    document: 'experiments-doa',
+    document: 'doa',
     networks: REGIONS,
     settings: ['--trials', '2100', '--seed', '0'],
     figures: '',
@@ -89,21 +89,21 @@ const EXPERIMENTS = [
   {
     name: 'doa-power',
     experiment: 'doa',
-    document: 'experiments-doa',
+    document: 'doa',
     networks: { names: ['cnn3d-2', 'cnn3d-paper-2', 'dnn-large-2', 'dnn-small-2'] },
     settings: ['--axis', 'power-difference', '--trials', '420', '--seed', '0'],
   },
   ...[[], ['--centre', '35']].map((centre) => ({
     name: ['doa-end-to-end', ...centre.slice(1)].join('-'),
     experiment: 'doa',
-    document: 'experiments-doa',
+    document: 'doa',
     networks: { names: ['counting', 'cnn3d-1', 'cnn3d-2', 'cnn3d-paper-2', 'dnn-small-1', 'dnn-small-2'] },
     settings: ['--regions', 'end-to-end', '--trials', '2100', '--seed', '0', ...centre],
   })),
   {
     name: 'doa-experiment',
     experiment: 'doa',
-    document: 'experiments-doa',
+    document: 'doa',
     networks: { ...REGIONS, waveform: '3dcnn-experiment' },
     settings: ['--setup', 'experiment', '--trials', '2100', '--seed', '0'],
   },
@@ -114,7 +114,7 @@ const EXPERIMENTS = [
   ].map(([name, trials, networks]) => ({
     name,
     experiment: name,
-    document: `experiments-${name}`,
+    document: name,
     networks,
     settings: ['--trials', String(trials), '--seed', '0'],
     figures: '',
@@ -122,7 +122,7 @@ const EXPERIMENTS = [
   {
     name: 'resolution',
     experiment: 'resolution',
-    document: 'experiments-resolution',
+    document: 'resolution',
     settings: ['--trials', '160', '--seed', '0'],
     figures: '',
   },
@@ -174,23 +174,23 @@ await main(async () => {
   const wanted = EXPERIMENTS.filter(({ name }) => !positionals.length || positionals.includes(name));
   const [command, ...before] = values.binary
     ? [values.binary]
-    : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-cli', '--'];
+    : ['cargo', 'run', '--profile', 'dist', '-p', 'boresight-experiments', '--'];
   const most = Number(values.trials ?? Number.POSITIVE_INFINITY);
   const folderOf = (name) => join(root, 'target', 'experiments', values.trials ? `${name}-${values.trials}` : name);
-  mkdirSync(join(root, 'docs', 'experiments'), { recursive: true });
+  const results = join(root, 'research', 'results');
   for (const { name, experiment, document, networks, settings, figures, shown } of wanted) {
     const folder = folderOf(name);
     forgetOld(folder, experiment);
     const options = [...limited(settings, most), ...cardsOf(networks, cards).flatMap(({ onnx }) => ['--model', onnx])];
-    await run(command, [...before, 'evaluate', experiment, ...options, '--out', folder]);
-    const page = join(root, 'docs', `${document}.md`);
+    await run(command, [...before, experiment, ...options, '--out', folder]);
+    const page = join(results, `${document}.md`);
     const tables = { [name]: readFileSync(join(folder, `${experiment}.md`), 'utf8') };
     if (FLOW.includes(name)) Object.assign(tables, flowTables(folderOf));
     writeFileSync(page, withTables(readFileSync(page, 'utf8'), tables));
     if (shown)
-      cpSync(join(folder, `${experiment}.brief.json`), join(root, 'docs', 'experiments', `${experiment}.json`));
+      cpSync(join(folder, `${experiment}.brief.json`), join(results, `${experiment}.json`));
     if (figures === undefined) continue;
     for (const file of readdirSync(folder).filter((entry) => entry.endsWith('.svg')))
-      cpSync(join(folder, file), join(root, 'docs', 'images', figures + file));
+      cpSync(join(folder, file), join(results, 'figures', figures + file));
   }
 });

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { endToEndTables } from '../../scripts/lib/end-to-end.mjs';
-import { tablesOf } from '../../scripts/lib/tables.mjs';
+import { endToEndTables } from '../scripts/end-to-end.mjs';
+import { tablesOf } from '../scripts/tables.mjs';
 
 /** A brief record of one level, with these shares counted and right. */
 function record(counted, success) {

@@ -1,0 +1,15 @@
+// Runs the tests of the experiments and of what writes the pages of results. Training has a command of its own.
+import { readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { root } from '../../scripts/lib/paths.mjs';
+import { main, run } from '../../scripts/lib/run.mjs';
+
+const crate = ['-p', 'boresight-experiments'];
+
+await main(async () => {
+  const files = readdirSync(join(root, 'research', 'tests')).filter((name) => name.endsWith('.test.mjs'));
+  await run('cargo', ['clippy', '--quiet', ...crate, '--all-targets', '--', '-D', 'warnings']);
+  await run('cargo', ['test', '--quiet', '--no-fail-fast', ...crate]);
+  await run(process.execPath, ['--test', ...files.map((name) => join('research', 'tests', name))]);
+  await run(process.execPath, ['research/scripts/tables-of-networks.mjs', '--check']);
+});
