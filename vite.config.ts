@@ -5,7 +5,6 @@ import { defineConfig, type Plugin } from 'vite';
 import { bundledDrive } from './scripts/lib/bundled-drive.mjs';
 import { compressed } from './scripts/lib/compressed.mjs';
 import { elementsModule } from './scripts/lib/manifest.mjs';
-import { networksLater } from './web/networks-later.ts';
 import { offline } from './web/offline.ts';
 
 const path = (name: string) => fileURLToPath(new URL(name, import.meta.url));
@@ -31,8 +30,8 @@ const withReference: Plugin = {
   },
 };
 
-/** Set by `npm start` where the module of networks is built while the demo is up: the folder it comes to. */
-const later = process.env.BORESIGHT_NETWORKS;
+/** Set by `npm start` where the module of networks is built while the demo is up. */
+const withoutNetworks = process.env.BORESIGHT_WITHOUT_NETWORKS !== undefined;
 
 /** The demo. It imports the built package by its name, as a user's page would. */
 export default defineConfig(({ command }) => ({
@@ -41,19 +40,11 @@ export default defineConfig(({ command }) => ({
   // The demo is one page: another address is no part of it.
   appType: 'mpa',
   define: {
-    NETWORKS_LATER: JSON.stringify(later !== undefined),
+    WITHOUT_NETWORKS: JSON.stringify(withoutNetworks),
     REFERENCE: JSON.stringify(command === 'build' && existsSync(reference)),
   },
   // A site without its module of networks is not yet what is to be kept.
-  plugins: [
-    styles,
-    withReference,
-    bundledDrive(),
-    elementsModule(),
-    ...(later === undefined ? [] : [networksLater(later)]),
-    offline(later === undefined),
-    compressed(),
-  ],
+  plugins: [styles, withReference, bundledDrive(), elementsModule(), offline(!withoutNetworks), compressed()],
   resolve: {
     alias: [
       { find: /^boresight$/, replacement: path('dist/lib/browser.js') },

@@ -212,7 +212,6 @@ export async function buildInline() {
     'package-lock.json',
     ...['base', 'lib', 'inline'].map((name) => `tsconfig.${name}.json`),
     'scripts/lib/inline.mjs',
-    'scripts/lib/lzma.mjs',
     'web/inline',
     'web/lib',
     'web/worker',
@@ -223,7 +222,7 @@ export async function buildInline() {
     outputs: [...files.map((name) => `dist/inline/${name}.js`), 'dist/inline/boresight.d.ts'],
   };
   const done = await whenChanged('inline', stamped, async () => {
-    say('web/inline, dist -> dist/inline (tsc, vite; packing the module of networks takes a minute)');
+    say('web/inline, dist -> dist/inline (tsc, vite)');
     rmSync(join(dist, 'inline'), { recursive: true, force: true });
     await run('tsc', ['-p', 'tsconfig.inline.json']);
     await makeInline();

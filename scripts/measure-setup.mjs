@@ -17,7 +17,7 @@ const { only, cold, keep } = settings(process.argv.slice(2));
 const commit = output('git', ['rev-parse', 'HEAD'])?.trim();
 const folder = mkdtempSync(join(tmpdir(), 'boresight-setup-'));
 const environment = { ...process.env, NO_COLOR: '1' };
-for (const name of ['CI', 'CARGO_TARGET_DIR', 'CARGO_BUILD_TARGET_DIR', 'RUSTFLAGS', 'BORESIGHT_NETWORKS'])
+for (const name of ['CI', 'CARGO_TARGET_DIR', 'CARGO_BUILD_TARGET_DIR', 'RUSTFLAGS', 'BORESIGHT_WITHOUT_NETWORKS'])
   delete environment[name];
 // npm puts the programs of this checkout first.
 environment.PATH = process.env.PATH.split(delimiter)

@@ -1,7 +1,7 @@
-// Sets up, builds and serves the demo, and then builds the module of networks, which the page takes when it is there.
+// Sets up, builds and serves the demo, and then builds the module of networks, with which the page reloads.
 // `--dev` serves the demo's sources with reloading; other arguments go to Vite (`npm start -- --port 8000 --open`).
-import { buildDemo, buildLibrary, buildQuickly, isBuilt, neural } from './build.mjs';
-import { buildNetworks, expectNetworks, networksLater } from './lib/networks-behind.mjs';
+import { buildDemo, buildLibrary, buildQuickly } from './build.mjs';
+import { buildNetworks, networksMissing, withoutNetworks } from './lib/networks-later.mjs';
 import { environment } from './lib/paths.mjs';
 import { main, run } from './lib/run.mjs';
 import { javascriptPackages, rust, wasmBindgen } from './setup.mjs';
@@ -14,13 +14,12 @@ await main(async () => {
   // Packages come over the network while crates are compiled.
   const tools = Promise.all([javascriptPackages(), wasmBindgen()]);
   await Promise.all([tools, buildQuickly(tools)]);
-  const later = !isBuilt(neural);
-  const variables = later ? networksLater : {};
-  if (later) expectNetworks();
+  const missing = networksMissing();
+  const variables = missing ? withoutNetworks : {};
   await buildLibrary();
   if (!dev) await buildDemo(variables);
   console.log('start: serving the demo; press Ctrl+C to stop');
   const serving = run('vite', dev ? passed : ['preview', ...passed], { env: { ...environment, ...variables } });
-  if (later) void buildNetworks();
+  if (missing) void buildNetworks(dev);
   await serving;
 });

@@ -1,7 +1,7 @@
 """Counts the scores of the angle experiments again, from the answers alone, and compares them with a report.
 
     boresight-experiments doa --trials 210 --answers answers.jsonl --json > report.json
-    python3 scripts/recount.py answers.jsonl report.json
+    python3 research/experiments/recount.py answers.jsonl report.json
 
 The answers are lines of JSON: a head, then an object a trial with the truth and what was answered. The script shares
 nothing with the Rust code that wrote the report, and needs the standard library only. It ends with 1 where a number

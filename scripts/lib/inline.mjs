@@ -1,8 +1,7 @@
 // The package in single files: scripts bundled with what dist/ holds, modules and worker packed inside as text.
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
-import { pathToFileURL } from 'node:url';
-import { Worker } from 'node:worker_threads';
+import { gzip } from './compressed.mjs';
 import { dist, root } from './paths.mjs';
 
 const sources = join(root, 'web', 'inline');
@@ -51,23 +50,10 @@ async function bundled(entry, { format, archive = '', name = 'inline', footer = 
   return { code: chunks[0].code, licences: output.find(({ fileName }) => fileName === licences)?.source ?? '' };
 }
 
-/** Packs bytes on a thread of its own, as the layout of the library opens them. */
-function pack(bytes) {
-  const layout = pathToFileURL(join(dist, 'lib', 'runtime', 'lzma.js')).href;
-  return new Promise((resolve, reject) => {
-    const worker = new Worker(new URL('./lzma-worker.mjs', import.meta.url), { workerData: { bytes, layout } });
-    worker.once('message', resolve);
-    worker.once('error', reject);
-  });
-}
-
-/** Parts as a module that holds them: packed one after another, the first opened first. */
+/** Parts as a module that holds them: each by gzip, which every browser and runtime opens, in base64. */
 async function packedOf(parts) {
-  const { compressedBefore, once } = await import('./compressed.mjs');
-  const bytes = Buffer.concat(Object.values(parts));
-  const packed = await once(compressedBefore, bytes, 'lzma', () => pack(bytes));
-  const sizes = Object.fromEntries(Object.entries(parts).map(([name, { length }]) => [name, length]));
-  return `export const text = '${Buffer.from(packed).toString('base64')}';\nexport const parts = ${JSON.stringify(sizes)};\n`;
+  const packed = Object.entries(parts).map(async ([name, bytes]) => [name, (await gzip(bytes)).toString('base64')]);
+  return `export const parts = ${JSON.stringify(Object.fromEntries(await Promise.all(packed)))};\n`;
 }
 
 const wasm = (name) => readFileSync(join(dist, 'wasm', `${name}_bg.wasm`));

@@ -1,8 +1,9 @@
 // Recordings in MCAP as ROS 2 makes them, by @mcap/core: a car that swings left and right past standing things, its radar
 // and its motion, and images between. For tests and benchmarks; what is in them is made up.
+import { parse } from '@foxglove/rosmsg';
+import { MessageWriter } from '@foxglove/rosmsg2-serialization';
 import { McapWriter } from '@mcap/core';
-import { Cdr } from './cdr.mjs';
-import { lz4 } from './lz4.mjs';
+import { compress } from 'lz4js';
 
 const LINE = '='.repeat(80);
 const TIME = 'MSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec';
@@ -51,6 +52,12 @@ function numbers(seed) {
   };
 }
 
+/** A `std_msgs/Header` of a time in ns. */
+const headerOf = (timeNs, frame_id) => ({
+  stamp: { sec: Number(timeNs / 1_000_000_000n), nanosec: Number(timeNs % 1_000_000_000n) },
+  frame_id,
+});
+
 /** Pixels that pack to about a half. */
 function pixels(length, random) {
   const bytes = new Uint8Array(length);
@@ -76,12 +83,14 @@ export async function writeRecording(write, options = {}) {
       },
     },
     ...(chunkSize && { chunkSize }),
-    ...(compression && { compressChunk: (bytes) => ({ compression, compressedData: lz4(bytes) }) }),
+    ...(compression && { compressChunk: (bytes) => ({ compression, compressedData: compress(bytes) }) }),
   });
   await writer.start({ profile: 'ros2', library: 'made' });
   const channels = {};
+  const writers = {};
   const counts = {};
   const add = async (topic, kind) => {
+    writers[topic] = new MessageWriter(parse(definitions[kind], { ros2: true }));
     const data = new TextEncoder().encode(definitions[kind]);
     const schemaId = await writer.registerSchema({ name: kind, encoding: 'ros2msg', data });
     channels[topic] = await writer.registerChannel({ topic, schemaId, messageEncoding: 'cdr', metadata: new Map() });
@@ -92,21 +101,14 @@ export async function writeRecording(write, options = {}) {
   await add('/vehicle/twist', 'geometry_msgs/msg/TwistStamped');
   if (imageBytes) await add('/camera/image', 'sensor_msgs/msg/Image');
   let sequence = 0;
-  const message = async (topic, time, cdr) => {
+  const message = async (topic, time, content) => {
     counts[topic] += 1;
     const head = { channelId: channels[topic], sequence: sequence++, logTime: time, publishTime: time };
-    await writer.addMessage({ ...head, data: cdr.done() });
+    await writer.addMessage({ ...head, data: writers[topic].writeMessage(content) });
   };
-  const turned = [0, 0, 0, 1];
-  await message(
-    '/tf_static',
-    START_NS,
-    new Cdr()
-      .u32(1)
-      .header(START_NS, 'base_link')
-      .text('radar')
-      .f64(RADAR.xM, 0, 0.5, ...turned),
-  );
+  const transform = { translation: { x: RADAR.xM, y: 0, z: 0.5 }, rotation: { x: 0, y: 0, z: 0, w: 1 } };
+  const header = headerOf(START_NS, 'base_link');
+  await message('/tf_static', START_NS, { transforms: [{ header, child_frame_id: 'radar', transform }] });
   const random = numbers(7);
   const image = imageBytes ? pixels(imageBytes, random) : null;
   for (let i = 0; i < seconds * 20 && position < mostBytes; i++) {
@@ -114,18 +116,20 @@ export async function writeRecording(write, options = {}) {
     const time = START_NS + BigInt(i) * 50_000_000n;
     const yawRate = 0.2 * Math.sin(t / 2);
     const speed = 10 + 3 * Math.sin(t / 5);
-    await message('/vehicle/twist', time, new Cdr().header(time, 'base_link').f64(speed, 0, 0, 0, 0, yawRate));
-    const scan = new Cdr().header(time, 'radar').u32(RETURNS);
+    const twist = { linear: { x: speed, y: 0, z: 0 }, angular: { x: 0, y: 0, z: yawRate } };
+    await message('/vehicle/twist', time, { header: headerOf(time, 'base_link'), twist });
+    const returns = [];
     for (let k = 0; k < RETURNS; k++) {
       const azimuth = ((-55 + 4.7 * k) * Math.PI) / 180;
       const direction = azimuth + (RADAR.offDeg * Math.PI) / 180;
       const rate = -(speed * Math.cos(direction) + yawRate * RADAR.xM * Math.sin(direction));
-      scan.f32(10 + k, azimuth, 0, rate + (random() - 0.5) * 0.1, 20);
+      const doppler_velocity = rate + (random() - 0.5) * 0.1;
+      returns.push({ range: 10 + k, azimuth, elevation: 0, doppler_velocity, amplitude: 20 });
     }
-    await message(RADAR.topic, time, scan);
+    await message(RADAR.topic, time, { header: headerOf(time, 'radar'), returns });
     if (image && i % 2 === 0) {
-      const picture = new Cdr().header(time, 'camera').u32(1, imageBytes).text('mono8').u8(0).u32(imageBytes);
-      await message('/camera/image', time, picture.bytes(image));
+      const layout = { height: 1, width: imageBytes, encoding: 'mono8', is_bigendian: 0, step: imageBytes };
+      await message('/camera/image', time, { header: headerOf(time, 'camera'), ...layout, data: image });
     }
   }
   await writer.end();

@@ -1,4 +1,4 @@
-"""Fleets and sweeps on the workers of Dask and Ray, some of which are killed."""
+"""Fleets and validations on the workers of Dask and Ray, some of which are killed."""
 
 import json
 import os
@@ -21,7 +21,7 @@ case "$*" in "fleet run - "*|"evaluate "*" --part "*)
 esac
 exec "{binary}" "$@"
 """
-SWEEP = {"seed": 3, "trials": 2, "snapshots": [1, 4]}
+PIECES = [4, 8]
 
 
 @pytest.fixture(scope="module")
@@ -151,42 +151,38 @@ def test_what_stops_a_run_leaves_whole_records(engine, wishes, records_of_one_pr
 
 
 @pytest.fixture(scope="module")
-def sweep_of_one_process(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("sweep")
-    command(
-        "evaluate",
-        "resolution",
-        "--seed",
-        "3",
-        "--trials",
-        "2",
-        "--snapshots",
-        "1,4",
-        "--threads",
-        "1",
-        "--out",
-        folder,
-    )
+def drives(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("drives")
+    for seed in range(4):
+        place = folder / f"drive-{seed}"
+        command("simulate", "drive", "--scenario", "city", "--duration", "9", "--seed", str(seed), "--out", place)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def validation_of_one_process(drives, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("validation")
+    command("validate", drives, "--pieces", "4,8", "--threads", "1", "--out", folder)
     return {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
-def test_a_sweep_in_parts_is_that_of_one_process(engine, wishes, sweep_of_one_process, tmp_path):
-    sweep = boresight.Sweep("resolution", parts=4, **SWEEP)
+def test_a_validation_in_parts_is_that_of_one_process(engine, wishes, drives, validation_of_one_process, tmp_path):
+    validation = boresight.Validation(drives, parts=4, pieces=PIECES)
     (wishes / "kill").touch()
     told = Told()
-    found = engine(sweep, out=tmp_path, progress=told)
+    found = engine(validation, out=tmp_path, progress=told)
     assert not (wishes / "kill").exists(), "no worker was killed"
     assert [done for done, _ in told.calls] == [0, 1, 2, 3, 4]
     files = {path.name: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
-    assert files == sweep_of_one_process
-    assert found == json.loads(files["resolution.json"])
+    assert files == validation_of_one_process
+    assert found == json.loads(files["calibration-drives.json"])
     # A part that is missing is run again, and no other.
-    (tmp_path / "parts" / "2-of-4" / "resolution-2-of-4.jsonl").unlink()
+    (tmp_path / "parts" / "2-of-4" / "calibration-drives-2-of-4.jsonl").unlink()
     (tmp_path / "parts" / "2-of-4").rmdir()
     told = Told()
-    assert engine(sweep, out=tmp_path, progress=told) == found and told.calls == [(3, 4), (4, 4)]
+    assert engine(validation, out=tmp_path, progress=told) == found and told.calls == [(3, 4), (4, 4)]
     with pytest.raises(boresight.BoresightError) as caught:
-        engine(boresight.Sweep("resolution", parts=4, **SWEEP | {"seed": 4}), out=tmp_path)
+        engine(boresight.Validation(drives, parts=4, pieces=[5]), out=tmp_path)
     assert caught.value.code == "other-run"
 
 
@@ -194,27 +190,28 @@ def test_arguments_that_do_not_go_together_are_refused(engine, records_of_one_pr
     plan, _, _ = records_of_one_process
     with pytest.raises(TypeError, match="a plan has its settings; it takes no joint"):
         engine(plan, out=tmp_path, joint=True)
-    with pytest.raises(TypeError, match="a sweep takes no vehicle, batch"):
-        engine(boresight.Sweep("resolution", parts=2), out=tmp_path, vehicle="a", batch=3)
+    with pytest.raises(TypeError, match="a validation takes no vehicle, batch"):
+        engine(boresight.Validation("drives", parts=2), out=tmp_path, vehicle="a", batch=3)
     with pytest.raises(boresight.BoresightError) as caught:
-        boresight.Sweep("resolution", parts=0)
+        boresight.Validation("drives", parts=0)
     assert caught.value.what == "parts"
     with pytest.raises(boresight.BoresightError) as caught:
-        engine(boresight.Sweep("none", parts=1), out=tmp_path, retries=0)
-    assert caught.value.code == "usage" and "none" in caught.value.message
+        engine(boresight.Validation("none", parts=1, unknown=1), out=tmp_path, retries=0)
+    assert caught.value.code == "usage" and "unknown" in caught.value.message
 
 
-def test_options_of_a_sweep_are_flags():
+def test_options_of_a_validation_are_flags():
     from pathlib import Path
 
     options = {
-        "methods": ["iaa", "nomp"],
-        "standing": True,
-        "times": False,
-        "snr": None,
-        "models": (),
-        "drives": Path("a"),
+        "pieces": [25, 60],
+        "json": True,
+        "csv": False,
+        "threads": None,
+        "merge": (),
+        "out": Path("a"),
     }
-    sweep = boresight.Sweep("aoa", parts=1, **options)
-    expected = ["aoa", "--methods", "iaa", "--methods", "nomp", "--standing", "--drives", str(Path.cwd() / "a")]
-    assert sweep.arguments == expected
+    validation = boresight.Validation("drives", parts=1, **options)
+    here = Path.cwd()
+    expected = [str(here / "drives"), "--pieces", "25", "--pieces", "60", "--json", "--out", str(here / "a")]
+    assert validation.arguments == expected

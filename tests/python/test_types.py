@@ -23,7 +23,7 @@ keys: list[str] = [job["key"] for job in plan]
 now: float = fleet.merge("records", plan=plan, alarm_deg=2)["vehicles"][0]["radars"][0]["angleDeg"]
 fleet.dask(Client(), plan, out="out", progress=lambda done, total: print(done / total))
 fleet.ray(["a"], out="out", vehicle="{vehicle}/*", min_speed_mps=3, batch=4)
-fleet.ray(boresight.Sweep("aoa", parts=4, trials=100), out="out")
+fleet.ray(boresight.Validation("drives", parts=4, pieces=[25]), out="out")
 code: str = boresight.BoresightError("a", "b", "c", "d").code
 """
 #: Lines that are wrong, each with a word of what mypy says of it.
@@ -35,7 +35,7 @@ WRONG = {
     'boresight.estimate([1j], array="ula8", method="musik")': "arg-type",
     'boresight.estimate([1j], array="ula8", sources="many")': "arg-type",
     'boresight.fleet.plan([{"path": "a", "car": "b"}])': "list-item",
-    'boresight.fleet.ray(boresight.Sweep("aoa", parts=2), out="a", batch=2)': "call-overload",
+    'boresight.fleet.ray(boresight.Validation("drives", parts=2), out="a", batch=2)': "call-overload",
 }
 
 

@@ -3,7 +3,6 @@ import { spawnSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { reasonOf } from '../../scripts/lib/networks-behind.mjs';
 import { root } from '../../scripts/lib/paths.mjs';
 import { runBehind } from '../../scripts/lib/run.mjs';
 import {
@@ -73,7 +72,6 @@ test('a command behind gives its lines, and its last ones with its failure', asy
   assert.deepEqual(lines.toSorted(), ['error: two', 'one']);
   const error = await runBehind(process.execPath, program(3), () => {}).catch((thrown) => thrown);
   assert.match(error.message, /ended with status 3:\n.*error: two/s);
-  assert.equal(reasonOf(error), 'error: two');
 });
 
 test('what runs beside a script that failed ends with it, and is not blamed', () => {
@@ -90,15 +88,4 @@ test('what runs beside a script that failed ends with it, and is not blamed', ()
   });
   assert.equal(ended.status, 1, 'it ended by itself');
   assert.equal(ended.stderr.trim(), 'broken');
-});
-
-test('the reason of a failure is its first error, or else its first line', () => {
-  assert.equal(
-    reasonOf(new Error('cargo build ended:\n  Compiling a\nerror[E0308]: mismatched types\nerror: b')),
-    'error[E0308]: mismatched types',
-  );
-  assert.equal(
-    reasonOf(new Error('wasm-bindgen could not be started: ENOENT')),
-    'wasm-bindgen could not be started: ENOENT',
-  );
 });

@@ -84,7 +84,7 @@ fn errors_name_the_file() {
     };
     assert!(refused(&[]).contains("--model"));
     let other = refused(&["--model", &model("counting-small")]);
-    assert!(other.contains("counting.onnx") && other.contains("wrong-network"), "{other}");
+    assert!(other.contains("counting-small.onnx") && other.contains("wrong-network"), "{other}");
     let whole = std::fs::read(model("learned-pursuit")).unwrap();
     let cut = folder.join("cut.onnx");
     std::fs::write(&cut, &whole[..whole.len() / 2]).unwrap();

@@ -10,14 +10,14 @@ from .errors import BoresightError, BoresightWarning
 from .estimation import estimate
 from .options import VERSION as __version__
 from .results import Source
-from .sweep import Sweep
+from .validation import Validation
 
 __all__ = [
     "BoresightError",
     "BoresightWarning",
     "Calibration",
     "Source",
-    "Sweep",
+    "Validation",
     "__version__",
     "calibrate",
     "estimate",

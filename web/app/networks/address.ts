@@ -1,2 +1,2 @@
-/** Where the module that runs networks is; `npm start` serves it elsewhere (web/networks-later.ts). */
+/** Where the module that runs networks is. */
 export const networksModule = new URL('../../../dist/wasm/boresight_neural_bg.wasm', import.meta.url);

@@ -5,7 +5,7 @@ import { aborted, describeError, FileProblem, type Problem, pool } from '../data
 import { NETWORKS } from '../kinds.ts';
 import type { NamedFile } from '../ui/entries.ts';
 import { MODELS, type Model } from './models.ts';
-import { moduleBuild, moduleReady } from './module.ts';
+import { hasModule, moduleReady } from './module.ts';
 
 export interface Loading {
   status: 'fetching' | 'waiting' | 'starting' | 'ready' | 'failed' | 'cancelled';
@@ -90,7 +90,7 @@ async function start(name: string, signal: AbortSignal): Promise<NetworkInfo> {
     bytes.set(name, onnx);
   }
   const total = onnx.byteLength;
-  if (moduleBuild.peek().state !== 'ready') {
+  if (!hasModule) {
     say(name, { status: 'waiting', done: total, total });
     await unless(signal, moduleReady());
   }

@@ -3,7 +3,7 @@
 import { byteSize } from '../../plots/format.ts';
 import { cancelLoading, load, loadings } from '../networks/load.ts';
 import { arrayOf, type Model } from '../networks/models.ts';
-import { moduleBuild } from '../networks/module.ts';
+import { hasModule } from '../networks/module.ts';
 import { ModuleNote } from './module-note.tsx';
 
 export function NetworkNote({
@@ -46,7 +46,7 @@ export function NetworkNote({
       ) : (
         <span>
           for {arrayOf(model.card)}
-          {size}; loads when chosen{moduleBuild.value.state !== 'ready' && '. '}
+          {size}; loads when chosen{!hasModule && '. '}
           <ModuleNote />
         </span>
       )}

@@ -1,5 +1,5 @@
 //! Networks that weigh detections and smooth motion: DeepEgo (Zhu, Yarovoy and Fioranelli 2023) and DeepEgo+ (Zhu et
-//! al. 2025), as far as they are published; sizes and features are ours. `training/boresight_training/drives` trains
+//! al. 2025), as far as they are published; sizes and features are ours. `research/training/boresight_training/drives` trains
 //! them.
 
 mod deepego;

@@ -1,4 +1,4 @@
-//! Files of weights, version 1: `training/boresight_training/drives/weights_file.py` has the format.
+//! Files of weights, version 1: `research/training/boresight_training/drives/weights_file.py` has the format.
 
 use super::NetworkError;
 use std::collections::BTreeMap;

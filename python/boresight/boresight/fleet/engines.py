@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Unpack, overload
 from ..command import Place
 from ..options import CalibrateOptions, DriveFormat
 from ..results import Fleet
-from ..sweep import Sweep, SweepWork
+from ..validation import Validation, ValidationWork
 from .plan import Logs, Plan, absolute, plan
 from .work import FleetWork, Work
 
@@ -20,7 +20,7 @@ Progress = Callable[[int, int], object]
 @overload
 def dask(
     client: "Client",
-    logs: Sweep,
+    logs: Validation,
     *,
     out: Place,
     retries: int = 3,
@@ -48,7 +48,7 @@ def dask(
 
 def dask(
     client: "Client",
-    logs: Logs | Plan | Sweep,
+    logs: Logs | Plan | Validation,
     *,
     out: Place,
     retries: int = 3,
@@ -57,12 +57,12 @@ def dask(
     retry: bool = False,
     **settings: Any,
 ) -> Fleet | dict[str, Any]:
-    """Calibrates a fleet's drives on the workers of Dask, or runs a sweep there.
+    """Calibrates a fleet's drives on the workers of Dask, or runs a validation there.
 
     Arguments:
 
         client: A client of the cluster. Its workers need this package, and the logs by the same paths.
-        logs: Logs as for `plan`, a plan, or a `Sweep`.
+        logs: Logs as for `plan`, a plan, or a `Validation`.
         out: Folder on this machine for records and results. What was done there before is not done again.
         retries: How often a batch may end in an exception, such as a process that ran out of memory, and is tried
             again. How many workers may die over one batch is the scheduler's `allowed-failures`.
@@ -71,7 +71,7 @@ def dask(
         retry: Run logs again that failed.
         settings: Of `plan`: vehicle, sensor, joint, format and options.
 
-    What the fleet comes to, as `merge` tells it, or the sweep. A log that cannot be calibrated is a record that says
+    What the fleet comes to, as `merge` tells it, or the validation. A log that cannot be calibrated is a record that says
     so. An exception is what stops the run: `BoresightError`, or one of Dask. Records that came before are kept.
     """
     from distributed import as_completed
@@ -92,7 +92,7 @@ def dask(
 
 @overload
 def ray(
-    logs: Sweep,
+    logs: Validation,
     *,
     out: Place,
     retries: int = 3,
@@ -118,7 +118,7 @@ def ray(
 
 
 def ray(
-    logs: Logs | Plan | Sweep,
+    logs: Logs | Plan | Validation,
     *,
     out: Place,
     retries: int = 3,
@@ -127,7 +127,7 @@ def ray(
     retry: bool = False,
     **settings: Any,
 ) -> Fleet | dict[str, Any]:
-    """Calibrates a fleet's drives on Ray, or runs a sweep there; a core a task.
+    """Calibrates a fleet's drives on Ray, or runs a validation there; a core a task.
 
     Arguments and results are those of `dask`. `ray.init` says which cluster; without it Ray begins one on this machine.
     `retries` counts both workers that died over a batch and exceptions.
@@ -154,12 +154,12 @@ def ray(
         return work.finish()  # type: ignore[no-any-return]
 
 
-def _work(logs: Logs | Plan | Sweep, out: Place, batch: int | None, retry: bool, settings: dict[str, Any]) -> Work:
-    if isinstance(logs, Sweep):
+def _work(logs: Logs | Plan | Validation, out: Place, batch: int | None, retry: bool, settings: dict[str, Any]) -> Work:
+    if isinstance(logs, Validation):
         if settings or retry or batch is not None:
             given = [*settings, *(["retry"] if retry else []), *(["batch"] if batch is not None else [])]
-            raise TypeError(f"a sweep takes no {', '.join(given)}")
-        return SweepWork(logs, out)
+            raise TypeError(f"a validation takes no {', '.join(given)}")
+        return ValidationWork(logs, out)
     if isinstance(logs, Plan):
         if settings:
             raise TypeError(f"a plan has its settings; it takes no {', '.join(settings)}")

@@ -1,4 +1,4 @@
-"""What is handed to workers: batches of a fleet's jobs, or parts of a sweep."""
+"""What is handed to workers: batches of a fleet's jobs, or parts of a validation."""
 
 import json
 import math

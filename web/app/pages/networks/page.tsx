@@ -1,5 +1,5 @@
 import { useSignalEffect } from '@preact/signals';
-import { moduleBuild } from '../../networks/module.ts';
+import { hasModule } from '../../networks/module.ts';
 import { useAddress } from '../../state/address.ts';
 import { announce } from '../../state/announce.ts';
 import { MainColumn } from '../../ui/main-column.tsx';
@@ -50,7 +50,7 @@ export function NetworksPage() {
             {problem.message} <code>{problem.code}</code>
           </p>
         )}
-        {moduleBuild.value.state !== 'ready' && (
+        {!hasModule && (
           <p class="notice">
             <ModuleNote />
           </p>

@@ -25,7 +25,7 @@
 //! | 7 | `u8` | 1 where it comes from a moving road user |
 //!
 //! `dataset.json` has `format`, `version`, counts and how it was made. Numbers out of range are the largest or smallest there are.
-//! `training/boresight_training/drives/dataset.py` reads it.
+//! `research/training/boresight_training/drives/dataset.py` reads it.
 
 use super::{Frame, Window};
 use crate::drive::Scenario;

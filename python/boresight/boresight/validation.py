@@ -1,4 +1,4 @@
-"""Sweeps of experiments, in parts that run anywhere."""
+"""Validation of mounting angles on many drives, in parts that run anywhere."""
 
 import json
 import os
@@ -13,26 +13,26 @@ from .errors import BoresightError
 from .options import VERSION
 
 Task = tuple[list[str], int, int]
-"""Arguments of `boresight evaluate`, which part, of how many."""
+"""Arguments of `boresight validate`, which part, of how many."""
 
 
-class Sweep:
-    """An experiment of `boresight evaluate`, to run in parts by `boresight.fleet.dask` or `boresight.fleet.ray`.
+class Validation:
+    """`boresight validate` on a folder of drives, to run in parts by `boresight.fleet.dask` or `boresight.fleet.ray`.
 
-    Options are the flags of the experiment, with underscores for dashes: `Sweep("aoa", parts=8, seed=1, trials=100,
-    methods=["iaa", "nomp"])`. Files that options name are read by the workers, by the same paths.
+    Options are its flags, with underscores for dashes: `Validation("drives", parts=8, pieces=[25, 60])`. The workers read
+    the drives, by the same path.
     """
 
-    def __init__(self, experiment: str, *, parts: int, **options: object) -> None:
+    def __init__(self, drives: Place, *, parts: int, **options: object) -> None:
         if parts < 1:
             raise BoresightError("out-of-range", "parts", "a number from 1", str(parts))
-        self.experiment, self.parts = experiment, parts
-        self.arguments = [experiment, *_flags(options)]
-        """What stands behind `boresight evaluate`."""
+        self.parts = parts
+        self.arguments = [os.path.abspath(drives), *_flags(options)]
+        """Arguments of `boresight validate`."""
 
 
 def _flags(options: dict[str, object]) -> list[str]:
-    """Flags of an experiment: each item of a list is given by itself."""
+    """Flags: each item of a list is given by itself."""
     given = []
     for name, value in options.items():
         flag = f"--{name.replace('_', '-')}"
@@ -49,31 +49,31 @@ def run_part(task: Task) -> dict[str, str]:
     arguments, part, parts = task
     with tempfile.TemporaryDirectory(prefix="boresight-") as folder:
         place = ["--part", f"{part}/{parts}", "--threads", "1", "--out", folder]
-        run(["evaluate", *arguments, *place], stacklevel=None)
+        run(["validate", *arguments, *place], stacklevel=None)
         found = {path.name: path.read_text(encoding="utf-8") for path in sorted(Path(folder).glob("*.jsonl"))}
     if not found:
         raise BoresightError("malformed-record", f"part {part}", "files of records", "none")
     return found
 
 
-class SweepWork:
-    """The parts of a sweep that have no records in a folder."""
+class ValidationWork:
+    """The parts of a validation that have no records in a folder."""
 
-    def __init__(self, sweep: Sweep, out: Place) -> None:
-        self.sweep, self.out = sweep, Path(out)
+    def __init__(self, validation: Validation, out: Place) -> None:
+        self.validation, self.out = validation, Path(out)
         self.parts = self.out / "parts"
         self.parts.mkdir(parents=True, exist_ok=True)
         self._hold()
-        numbers = range(1, sweep.parts + 1)
+        numbers = range(1, validation.parts + 1)
         self.left = [number for number in numbers if not self._folder(number).is_dir()]
-        self.total = sweep.parts
+        self.total = validation.parts
         self.done = self.total - len(self.left)
 
     call = staticmethod(run_part)
 
     def tasks(self, places: int) -> list[Task]:
         """The parts left."""
-        return [(self.sweep.arguments, number, self.sweep.parts) for number in self.left]
+        return [(self.validation.arguments, number, self.validation.parts) for number in self.left]
 
     def take(self, task: Task, result: dict[str, str]) -> None:
         """Keeps the records of a part, all or none."""
@@ -87,20 +87,20 @@ class SweepWork:
         self.done += 1
 
     def finish(self) -> dict[str, Any]:
-        """Puts the parts together, by `boresight evaluate merge`."""
-        folders = [str(self._folder(number)) for number in range(1, self.sweep.parts + 1)]
+        """Puts the parts together, by `boresight validate --merge`."""
+        folders = [f"--merge={self._folder(number)}" for number in range(1, self.validation.parts + 1)]
         merged: dict[str, Any] = json.loads(
-            run(["evaluate", "merge", *folders, "--out", str(self.out), "--json", "--force"], stacklevel=3)
+            run(["validate", *folders, "--out", str(self.out), "--json", "--force"], stacklevel=3)
         )
         return merged
 
     def _folder(self, part: int) -> Path:
-        return self.parts / f"{part}-of-{self.sweep.parts}"
+        return self.parts / f"{part}-of-{self.validation.parts}"
 
     def _hold(self) -> None:
-        """Sees that the folder is of this sweep: parts of another would be taken for its own."""
-        wanted = json.dumps({"version": VERSION, "arguments": self.sweep.arguments, "parts": self.sweep.parts})
-        file = self.parts / "sweep.json"
+        """Sees that the folder is of this validation: parts of another would be taken for its own."""
+        wanted = json.dumps({"version": VERSION, "arguments": self.validation.arguments, "parts": self.validation.parts})
+        file = self.parts / "validation.json"
         if file.exists():
             given = file.read_text(encoding="utf-8").strip()
             if given != wanted:
@@ -108,7 +108,7 @@ class SweepWork:
         else:
             file.write_text(f"{wanted}\n", encoding="utf-8")
 
-    def __enter__(self) -> "SweepWork":
+    def __enter__(self) -> "ValidationWork":
         return self
 
     def __exit__(
